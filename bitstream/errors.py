@@ -1,0 +1,78 @@
+"""Every failure this project reports: one base class, and under it one class per thing a caller may want to do about it."""
+
+from __future__ import annotations
+
+
+class BsmError(Exception):
+    """Base of all errors of this project.
+
+    Parameters
+    ----------
+    message : str
+        What is wrong and what to do about it.
+    offset : int, optional
+        Byte offset in the stream (or file) where it was noticed.
+    frame : int, optional
+        Number of the stream frame, counted from 0.
+    block : int, optional
+        Number of the block concerned.
+    """
+
+    def __init__(
+        self, message: str, *, offset: int | None = None, frame: int | None = None, block: int | None = None
+    ) -> None:
+        self.message = message
+        self.offset = offset
+        self.frame = frame
+        self.block = block
+        super().__init__(message)
+
+    def located(
+        self, *, offset: int | None = None, frame: int | None = None, block: int | None = None
+    ) -> BsmError:
+        """Fill in the places that are not known yet, and return the same error."""
+        self.offset = offset if self.offset is None else self.offset
+        self.frame = frame if self.frame is None else self.frame
+        self.block = block if self.block is None else self.block
+        return self
+
+    def __str__(self) -> str:
+        places = [("byte", self.offset), ("frame", self.frame), ("block", self.block)]
+        where = ", ".join(f"{name} {value}" for name, value in places if value is not None)
+        return f"{self.message} [{where}]" if where else self.message
+
+
+class FormatError(BsmError, ValueError):
+    """The data is not a BSM stream at all (or not the kind of file its name promises)."""
+
+
+class UnsupportedError(BsmError, NotImplementedError):
+    """Well formed as far as it can be read, but of a version or method that this decoder does not know."""
+
+
+class CorruptError(BsmError, ValueError):
+    """A BSM stream that contradicts itself or its checksums."""
+
+
+class TruncatedError(BsmError, EOFError):
+    """The data ends before the stream does."""
+
+
+class LimitError(BsmError, OverflowError):
+    """The stream asks for more memory or work than the caller's `Limits` allow."""
+
+
+class NumericError(BsmError, ArithmeticError):
+    """The mathematics broke down: a singular system or a value that is not finite."""
+
+
+class MeshError(BsmError, ValueError):
+    """Positions and faces that do not make a triangle mesh."""
+
+
+class OptionError(BsmError, ValueError):
+    """An option outside its legal range, or options that exclude each other."""
+
+
+class DependencyError(BsmError, ImportError):
+    """An optional package is needed for this and is not installed."""

@@ -1,0 +1,82 @@
+"""A triangle mesh: validated once, immutable afterwards."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from bitstream.errors import MeshError
+
+Positions = npt.NDArray[np.float64]
+Faces = npt.NDArray[np.int32]
+
+
+@dataclass(frozen=True, eq=False)
+class TriangleMesh:
+    """Positions and faces of a triangle mesh; both arrays are read-only copies.
+
+    Parameters
+    ----------
+    positions : array_like, shape (n, 3)
+        Finite coordinates; stored as float64.
+    faces : array_like, shape (m, 3)
+        Indices into `positions`, counter-clockwise seen from outside; stored as int32. Any set of triangles is
+        allowed: degenerate, repeated, non-manifold and inconsistently oriented ones too.
+
+    Raises
+    ------
+    MeshError
+        If a shape is wrong, a coordinate is not finite, an index is out of range, or there is no face.
+    """
+
+    positions: Positions
+    faces: Faces
+
+    def __post_init__(self) -> None:
+        positions = _as_array(self.positions, "positions").astype(np.float64)
+        faces = _as_array(self.faces, "faces")
+        if positions.ndim != 2 or positions.shape[1] != 3:
+            raise MeshError(f"positions must have shape (n, 3), not {positions.shape}")
+        if not np.isfinite(positions).all():
+            row = int(np.argmin(np.isfinite(positions).all(axis=1)))
+            raise MeshError(f"vertex {row} has a coordinate that is not finite; remove or repair it")
+        if faces.size == 0:
+            raise MeshError("the mesh has no faces; point clouds are not supported")
+        if faces.ndim != 2 or faces.shape[1] != 3:
+            raise MeshError(f"faces must have shape (m, 3), not {faces.shape}; triangulate polygons first")
+        if faces.dtype.kind not in "iu":
+            raise MeshError(f"faces must be integers, not {faces.dtype}")
+        bad = (faces < 0) | (faces >= len(positions))
+        if bad.any():
+            row = int(np.argmax(bad.any(axis=1)))
+            raise MeshError(f"face {row} refers to vertex {faces[row].tolist()}, outside 0..{len(positions) - 1}")
+        faces = faces.astype(np.int32)
+        positions.setflags(write=False)
+        faces.setflags(write=False)
+        object.__setattr__(self, "positions", positions)
+        object.__setattr__(self, "faces", faces)
+
+    @property
+    def diagonal(self) -> float:
+        """Length of the bounding box's diagonal."""
+        return float(np.linalg.norm(np.ptp(self.positions, axis=0)))
+
+    def without_isolated_vertices(self) -> tuple[TriangleMesh, npt.NDArray[np.int64]]:
+        """The mesh of the vertices that some face uses, and their indices here, ascending."""
+        used = np.zeros(len(self.positions), dtype=bool)
+        used[self.faces] = True
+        kept = np.flatnonzero(used)
+        if len(kept) == len(used):
+            return self, kept
+        renumber = np.cumsum(used) - 1
+        return TriangleMesh(self.positions[kept], renumber[self.faces]), kept
+
+
+def _as_array(values: Any, name: str) -> npt.NDArray[Any]:
+    try:
+        return np.array(values)
+    except (TypeError, ValueError) as error:
+        raise MeshError(f"{name} is not an array: {error}") from error
