@@ -39,7 +39,7 @@ mixing); the byte-wise range coder follows G. N. N. Martin, "Range encoding", 19
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -49,6 +49,10 @@ from bitstream.errors import CorruptError, OptionError, TruncatedError
 
 ONE = 1 << 16
 """Probabilities that are coded are integers in 1 .. ONE - 1."""
+
+_LEAF_OPTIONS: dict[str, Any] = {"cache": True, "nogil": True, "_nrt": False}
+leaf: Any = njit(**_LEAF_OPTIONS)
+"""Compiles a function that allocates nothing, without reference counts: five times faster to call with a `Bank`."""
 
 _LOW, _RANGE, _POSITION, _READING, _FULL = range(5)
 _TOP = 1 << 24
@@ -162,7 +166,7 @@ def reset_bank(bank: Bank) -> None:
 
 def copy_bank(bank: Bank) -> Bank:
     """Return an independent snapshot of `bank`."""
-    return Bank(*(array.copy() for array in bank))
+    return Bank(bank.slots.copy(), bank.weights.copy(), bank.inputs.copy(), bank.settings.copy())
 
 
 def start_writing(capacity: int) -> Coder:
@@ -215,13 +219,13 @@ def finish_reading(coder: Coder) -> None:
         raise CorruptError(f"{size - position} bytes are left over after the last symbol of a payload")
 
 
-@njit(cache=True, nogil=True)
+@leaf
 def overran(coder: Coder) -> bool:
     """Whether more was read than any complete payload of this length can hold."""
     return coder.state[_READING] != 0 and coder.state[_POSITION] > coder.data.size + 4
 
 
-@njit(cache=True, nogil=True)
+@leaf
 def _renormalise(coder: Coder) -> None:
     """Shift bytes out of (or into) the range until it is at least _TOP: at most two of them after one decision."""
     state, data = coder
@@ -243,7 +247,7 @@ def _renormalise(coder: Coder) -> None:
     state[_LOW], state[_RANGE], state[_POSITION] = low, width, position
 
 
-@njit(cache=True, nogil=True)
+@leaf
 def _carry(coder: Coder) -> None:
     """Add the carry of the low end to the bytes already written."""
     state, data = coder
@@ -255,7 +259,7 @@ def _carry(coder: Coder) -> None:
     data[k] += 1
 
 
-@njit(cache=True, nogil=True)
+@leaf
 def code_bit(coder: Coder, probability: int, bit: int) -> int:
     """Code one decision.
 
@@ -292,7 +296,7 @@ def code_bit(coder: Coder, probability: int, bit: int) -> int:
     return bit
 
 
-@njit(cache=True, nogil=True)
+@leaf
 def code_uniform(coder: Coder, value: int, count: int) -> int:
     """Code an integer in 0 .. count - 1, all equally likely; `count` at most 2**32.
 
@@ -300,14 +304,14 @@ def code_uniform(coder: Coder, value: int, count: int) -> int:
     """
     high = 0
     if count > ONE:
-        high = code_uniform_small(coder, value >> 16, ((count - 1) >> 16) + 1)
+        high = _code_uniform_16(coder, value >> 16, ((count - 1) >> 16) + 1)
         value &= ONE - 1
         count = ONE
-    return (high << 16) | code_uniform_small(coder, value, count)
+    return (high << 16) | _code_uniform_16(coder, value, count)
 
 
-@njit(cache=True, nogil=True)
-def code_uniform_small(coder: Coder, value: int, count: int) -> int:
+@leaf
+def _code_uniform_16(coder: Coder, value: int, count: int) -> int:
     """Code an integer in 0 .. count - 1, all equally likely; `count` at most 65536."""
     state = coder.state
     unit = state[_RANGE] // count
@@ -325,7 +329,7 @@ def code_uniform_small(coder: Coder, value: int, count: int) -> int:
     return value
 
 
-@njit(cache=True, nogil=True)
+@leaf
 def code_mixed_bit(
     coder: Coder, bank: Bank, contexts: npt.NDArray[np.int64], node: int, selector: int, bit: int
 ) -> int:
@@ -350,8 +354,7 @@ def code_mixed_bit(
         stretched = np.int64(_STRETCH[slots[contexts[i] + node] >> (32 - _STRETCH_BITS)])
         inputs[i] = stretched
         total += stretched * np.int64(weights[row, i])
-    odds = min(max(total >> 16, -_REACH), _REACH - 1)
-    probability = np.int64(_SQUASH[odds + _REACH])
+    probability = _squash(total >> 16)
     bit = code_bit(coder, probability, bit)
 
     error = ((bit << 16) - probability) * settings[1]
@@ -367,6 +370,11 @@ def code_mixed_bit(
     return bit
 
 
+@leaf
+def _squash(odds: Any) -> Any:
+    return np.int64(_SQUASH[min(max(odds, -_REACH), _REACH - 1) + _REACH])
+
+
 def unsigned_span(unary: int) -> int:
     """Number of nodes (slots per context, and selectors) that `code_unsigned` uses."""
     return unary + _SUFFIX_NODES + 2
@@ -377,7 +385,7 @@ def signed_span(unary: int) -> int:
     return unsigned_span(unary) + 2
 
 
-@njit(cache=True, nogil=True)
+@leaf
 def code_unsigned(
     coder: Coder, bank: Bank, contexts: npt.NDArray[np.int64], selector: int, unary: int, value: int, node: int = 0
 ) -> int:
@@ -386,7 +394,7 @@ def code_unsigned(
     Parameters
     ----------
     coder, bank, contexts, selector
-        As for `code_mixed_bit`; each context owns `unsigned_span(unary)` slots from `node` on, and so does the selector.
+        As for `code_mixed_bit`; each context, and the selector, owns `unsigned_span(unary)` slots from `node` on.
     unary : int
         Values below are coded by value + 1 mixed decisions.
     value : int
@@ -415,11 +423,11 @@ def code_unsigned(
     return unary + result - 1
 
 
-@njit(cache=True, nogil=True)
+@leaf
 def code_signed(
     coder: Coder, bank: Bank, contexts: npt.NDArray[np.int64], selector: int, unary: int, value: int
 ) -> int:
-    """Code a signed integer of magnitude below 2**24: zero or not, sign, magnitude; spans `signed_span(unary)` nodes."""
+    """Code a signed integer of magnitude below 2**24, zero, sign, then the rest; takes `signed_span(unary)` nodes."""
     if code_mixed_bit(coder, bank, contexts, 0, selector, 1 if value != 0 else 0) == 0:
         return 0
     negative = code_mixed_bit(coder, bank, contexts, 1, selector, 1 if value < 0 else 0)
