@@ -1,0 +1,93 @@
+"""Which packet may follow which, and what a packet must have to agree with the header; one table for both sides."""
+
+from __future__ import annotations
+
+from bitstream.layout import FRAME_TYPES
+from bitstream.packets import Block, Gop, Header, Packet
+from bitstream.wire import FrameType
+
+_BODY = frozenset({FrameType.BLOCK, FrameType.GOP, FrameType.END})
+
+FOLLOWERS: dict[FrameType | None, frozenset[FrameType]] = {
+    None: frozenset({FrameType.HEADER}),
+    FrameType.HEADER: frozenset({FrameType.CONNECTIVITY}),
+    FrameType.CONNECTIVITY: _BODY | {FrameType.PARTITION, FrameType.ORDER},
+    FrameType.PARTITION: _BODY | {FrameType.ORDER},
+    FrameType.ORDER: _BODY,
+    FrameType.BLOCK: frozenset({FrameType.BLOCK, FrameType.END}),
+    FrameType.GOP: frozenset({FrameType.GOP, FrameType.END}),
+    FrameType.END: frozenset(),
+}
+"""What may follow a frame of each type (None: the preamble), METADATA and skippable frames left aside."""
+
+METADATA_FOLLOWS = frozenset({FrameType.HEADER, FrameType.CONNECTIVITY, FrameType.PARTITION, FrameType.ORDER})
+
+
+def _reachable(start: FrameType | None) -> frozenset[FrameType]:
+    """Everything that may come at any distance behind a frame of type `start`."""
+    found: set[FrameType] = set()
+    pending = list(FOLLOWERS[start])
+    while pending:
+        current = pending.pop()
+        if current not in found:
+            found.add(current)
+            pending.extend(FOLLOWERS[current])
+    return frozenset(found)
+
+
+class Grammar:
+    """Follows a stream packet by packet; the writer and the reader both ask it."""
+
+    def __init__(self) -> None:
+        self.header: Header | None = None
+        self._last: FrameType | None = None
+        self._allowed = FOLLOWERS[None]
+        self._metadata_seen = False
+        self._next_index = 0
+
+    @property
+    def ended(self) -> bool:
+        """Whether END was there."""
+        return self._last is FrameType.END
+
+    def problem(self, packet: Packet) -> str | None:
+        """Why `packet` may not come here, or None if it may."""
+        frame_type = FRAME_TYPES[type(packet)]
+        if frame_type is FrameType.METADATA:
+            if self._last not in METADATA_FOLLOWS:
+                return "METADATA must come behind the HEADER and before the first BLOCK or GOP"
+            return "a stream has at most one METADATA" if self._metadata_seen else None
+        if frame_type not in self._allowed:
+            expected = ", ".join(item.name for item in sorted(self._allowed)) or "nothing"
+            return f"{frame_type.name} may not come here, only {expected}"
+        return self._disagreement(packet)
+
+    def advance(self, packet: Packet) -> None:
+        """Take note of a packet that has no problem."""
+        frame_type = FRAME_TYPES[type(packet)]
+        if isinstance(packet, Header):
+            self.header = packet
+        if isinstance(packet, Block | Gop):
+            self._next_index = packet.index + 1
+        if frame_type is FrameType.METADATA:
+            self._metadata_seen = True
+        else:
+            self._last = frame_type
+            self._allowed = FOLLOWERS[frame_type]
+
+    def lose(self) -> None:
+        """Take note that an unknown number of frames is missing here: everything that can come later may come now."""
+        self._allowed = _reachable(self._last)
+
+    def _disagreement(self, packet: Packet) -> str | None:
+        if self.header is None or not isinstance(packet, Block | Gop):
+            return None
+        if packet.index < self._next_index:
+            return f"index {packet.index} comes behind index {self._next_index - 1}; they must ascend"
+        if isinstance(packet, Gop):
+            return None if packet.index < self.header.frames else f"GOP {packet.index} of {self.header.frames} frames"
+        if packet.index >= self.header.blocks:
+            return f"block {packet.index} of {self.header.blocks}"
+        if packet.coefficients > self.header.coefficients:
+            return f"{packet.coefficients} coefficients where the header allows {self.header.coefficients}"
+        return None

@@ -1,0 +1,205 @@
+"""The stream header: every field is declared once, with its key, its legal range and its default."""
+
+from __future__ import annotations
+
+import operator
+from dataclasses import MISSING, dataclass, field, fields
+from typing import Any
+
+from bitstream.errors import CorruptError, OptionError, UnsupportedError
+
+FIRST_IGNORABLE_KEY = 64
+COUNT = 2**31 - 1
+METHODS = 255
+
+
+@dataclass(frozen=True)
+class Field:
+    """How one header field is stored: its msgpack key, its type and the closed range of its legal values.
+
+    `reserved` is the largest value that a later version may give a meaning to: above `high`, and up to there, a
+    value is unsupported and not corrupt. `lengths` bounds the number of entries of a list of floats.
+    """
+
+    key: int
+    type: type
+    low: float
+    high: float
+    reserved: float = 0
+    lengths: tuple[int, int] = (0, 0)
+
+    def normalise(self, value: Any) -> Any:
+        """`value` as a plain int, float or tuple of floats; `TypeError` or `ValueError` if it is none."""
+        if self.type is int:
+            return operator.index(value)
+        if self.type is float:
+            return float(value)
+        return tuple(float(item) for item in value)
+
+    def problem(self, value: Any) -> str | None:
+        """What is wrong with a normalised value, or None."""
+        items = value if self.type is tuple else (value,)
+        least, most = self.lengths
+        if self.type is tuple and not least <= len(items) <= most:
+            return f"has {len(items)} entries, legal are {least} to {most}"
+        if not all(self.low <= item <= self.high for item in items):
+            return f"= {value} is outside its legal range {self.low:g}..{self.high:g}"
+        return None
+
+    def accepts(self, value: Any) -> bool:
+        """Whether a value read from msgpack has the right type."""
+        if self.type is tuple:
+            return type(value) is list and all(type(item) is float for item in value)
+        return type(value) is self.type
+
+
+def integer(key: int, low: int, high: int, default: Any = MISSING) -> Any:
+    """Declare an integer field."""
+    return field(default=default, metadata={"wire": Field(key, int, low, high)})
+
+
+def method(key: int, known: int, default: int = 0) -> Any:
+    """Declare a choice among `known` methods, numbered from 0."""
+    return field(default=default, metadata={"wire": Field(key, int, 0, known - 1, reserved=METHODS)})
+
+
+def real(key: int, low: float, high: float, default: Any = MISSING) -> Any:
+    """Declare a float field."""
+    return field(default=default, metadata={"wire": Field(key, float, low, high)})
+
+
+def reals(key: int, low: float, high: float, lengths: tuple[int, int], default: tuple[float, ...]) -> Any:
+    """Declare a field that is a list of floats."""
+    return field(default=default, metadata={"wire": Field(key, tuple, low, high, lengths=lengths)})
+
+
+@dataclass(frozen=True, kw_only=True)
+class Header:
+    """What a decoder must know before anything else; a header with illegal or contradictory values cannot be made.
+
+    Lengths are in BSM units: the mesh moved by `-center` and divided by `scale`.
+
+    Raises
+    ------
+    OptionError
+        If a field has the wrong type, is outside its legal range, or contradicts another.
+    """
+
+    vertices: int = integer(1, 1, COUNT)
+    faces: int = integer(2, 1, COUNT)
+    blocks: int = integer(3, 1, COUNT)
+    block_size: int = integer(4, 1, COUNT)
+    """Vertices of the largest block, n_d."""
+    coefficients: int = integer(5, 1, COUNT)
+    """Columns of the largest dictionary: the largest c_i."""
+    basis: int = method(6, known=2)
+    """0: orthogonal iterations; 1: exact eigenbasis."""
+    seeding: int = method(7, known=2)
+    """0: a block starts from the block before it; 1: every block starts on its own."""
+    key_interval: int = integer(8, 0, COUNT, default=0)
+    """Every so many blocks one does not depend on others; 0: only the first."""
+    power: int = integer(9, 1, 64, default=2)
+    """The exponent z of one orthogonal iteration."""
+    iterations: int = integer(10, 1, 1024, default=1)
+    """Orthogonal iterations per block, t."""
+    key_iterations: int = integer(11, 1, 1024, default=8)
+    """Orthogonal iterations of a key block."""
+    shift: float = real(12, 2.0**-30, 2.0**30, default=0.125)
+    """What is added to the Laplacian's diagonal, delta."""
+    blend: int = method(13, known=2)
+    """Weights of a vertex's copies: 0: its degree in the block; 1: all equal."""
+    coding: int = method(14, known=2, default=1)
+    """Coefficients: 0: packed and zstd; 1: adaptive."""
+    bits: int = integer(15, 1, 32, default=12)
+    """Bits of a packed coefficient, q_c."""
+    step: float = real(16, 2.0**-40, 2.0**20, default=2.0**-8)
+    """Quantisation step of a coefficient, in BSM units."""
+    center: tuple[float, ...] = reals(17, -1e300, 1e300, (3, 3), default=(0.0, 0.0, 0.0))
+    """The origin of BSM units, in the mesh's unit."""
+    scale: float = real(18, 1e-300, 1e300, default=1.0)
+    """One BSM unit in the mesh's unit: the diagonal of the bounding box."""
+    prediction: tuple[float, ...] = reals(19, -1e30, 1e30, (0, 16), default=())
+    """Parameters of the prediction between blocks; empty: none."""
+    smoothing: float = real(20, 0.0, 1e6, default=0.0)
+    """Amount of smoothing after reconstruction, alpha."""
+    frames: int = integer(21, 0, COUNT, default=0)
+    """Frames of a sequence; 0: a static mesh."""
+    frame_rate: float = real(22, 0.0, 1e6, default=0.0)
+    """Frames per second; 0: unknown."""
+
+    def __post_init__(self) -> None:
+        for name, declared in HEADER_FIELDS.items():
+            given = getattr(self, name)
+            try:
+                value = declared.normalise(given)
+            except (TypeError, ValueError, OverflowError) as error:
+                raise OptionError(f"header field {name} cannot be {given!r}: {error}") from error
+            problem = declared.problem(value)
+            if problem:
+                raise OptionError(f"header field {name} {problem}")
+            object.__setattr__(self, name, value)
+        problem = contradiction(self)
+        if problem:
+            raise OptionError(f"header contradicts itself: {problem}")
+
+
+HEADER_FIELDS: dict[str, Field] = {item.name: item.metadata["wire"] for item in fields(Header)}
+HEADER_DEFAULTS: dict[str, Any] = {item.name: item.default for item in fields(Header) if item.default is not MISSING}
+
+
+def contradiction(header: Header) -> str | None:
+    """Which two fields of a header exclude each other, or None."""
+    rules = {
+        "more vertices than the corners of its faces": header.vertices > 3 * header.faces,
+        "more blocks than vertices": header.blocks > header.vertices,
+        "blocks larger than the mesh": header.block_size > header.vertices,
+        "blocks too small to cover the mesh": header.blocks * header.block_size < header.vertices,
+        "more coefficients than a block has vertices": header.coefficients > header.block_size,
+    }
+    return next((problem for problem, broken in rules.items() if broken), None)
+
+
+def header_to_entries(header: Header) -> list[tuple[int, Any]]:
+    """(key, value) of every field that is not at its default, keys ascending."""
+    entries = [
+        (declared.key, getattr(header, name))
+        for name, declared in HEADER_FIELDS.items()
+        if name not in HEADER_DEFAULTS or getattr(header, name) != HEADER_DEFAULTS[name]
+    ]
+    return sorted(entries)
+
+
+def header_from_entries(entries: list[tuple[Any, Any]]) -> Header:
+    """The header that `header_to_entries` came from; keys from 64 on are ignored.
+
+    Raises
+    ------
+    UnsupportedError
+        For an unknown key below 64 and for an unknown method.
+    CorruptError
+        For everything else that no encoder writes.
+    """
+    names = {declared.key: name for name, declared in HEADER_FIELDS.items()}
+    values: dict[str, Any] = {}
+    for key, value in entries:
+        if type(key) is not int or key < 0:
+            raise CorruptError(f"header key {key!r} is not an unsigned integer")
+        if key >= FIRST_IGNORABLE_KEY:
+            continue
+        if key not in names:
+            raise UnsupportedError(f"header key {key} is unknown to this decoder, and the stream cannot do without it")
+        name, declared = names[key], HEADER_FIELDS[names[key]]
+        if not declared.accepts(value):
+            raise CorruptError(f"header field {name} has type {type(value).__name__}")
+        if declared.type is int and declared.high < value <= declared.reserved:
+            raise UnsupportedError(f"header field {name} names method {value}, unknown to this decoder")
+        values[name] = declared.normalise(value)
+        if name in HEADER_DEFAULTS and values[name] == HEADER_DEFAULTS[name]:
+            raise CorruptError(f"header field {name} is stored although it has its default value")
+    missing = [name for name in HEADER_FIELDS if name not in HEADER_DEFAULTS and name not in values]
+    if missing:
+        raise CorruptError(f"header lacks {', '.join(missing)}")
+    try:
+        return Header(**values)
+    except OptionError as error:
+        raise CorruptError(error.message) from error
