@@ -20,7 +20,9 @@ FOLLOWERS: dict[FrameType | None, frozenset[FrameType]] = {
 }
 """What may follow a frame of each type (None: the preamble), METADATA and skippable frames left aside."""
 
-METADATA_FOLLOWS = frozenset({FrameType.HEADER, FrameType.CONNECTIVITY, FrameType.PARTITION, FrameType.ORDER})
+METADATA_FOLLOWS: frozenset[FrameType | None] = frozenset(
+    {FrameType.HEADER, FrameType.CONNECTIVITY, FrameType.PARTITION, FrameType.ORDER}
+)
 
 
 def _reachable(start: FrameType | None) -> frozenset[FrameType]:
@@ -50,15 +52,17 @@ class Grammar:
         """Whether END was there."""
         return self._last is FrameType.END
 
+    @property
+    def expected(self) -> frozenset[FrameType]:
+        """The types of frame that may come next."""
+        metadata = self._last in METADATA_FOLLOWS and not self._metadata_seen
+        return self._allowed | {FrameType.METADATA} if metadata else self._allowed
+
     def problem(self, packet: Packet) -> str | None:
         """Why `packet` may not come here, or None if it may."""
         frame_type = FRAME_TYPES[type(packet)]
-        if frame_type is FrameType.METADATA:
-            if self._last not in METADATA_FOLLOWS:
-                return "METADATA must come behind the HEADER and before the first BLOCK or GOP"
-            return "a stream has at most one METADATA" if self._metadata_seen else None
-        if frame_type not in self._allowed:
-            expected = ", ".join(item.name for item in sorted(self._allowed)) or "nothing"
+        if frame_type not in self.expected:
+            expected = ", ".join(item.name for item in sorted(self.expected)) or "nothing"
             return f"{frame_type.name} may not come here, only {expected}"
         return self._disagreement(packet)
 

@@ -120,6 +120,31 @@ def write_frame(frame_type: int, payload: bytes) -> bytes:
     return body + checksum(frame_type, body)
 
 
+@dataclass(frozen=True, slots=True)
+class Tag:
+    """What a frame says about itself; `payload` and `end` are offsets into the data it was parsed from."""
+
+    type: int
+    length: int
+    payload: int
+
+    @property
+    def checksum(self) -> int:
+        """Offset of the checksum."""
+        return self.payload + self.length
+
+    @property
+    def end(self) -> int:
+        """Offset behind the frame."""
+        return self.checksum + checksum_size(self.type)
+
+
+def parse_tag(data: bytes | bytearray, start: int) -> Tag | None:
+    """The tag of the frame at `start` of `data`; None if `data` ends inside it."""
+    parsed = parse_varint(data, start)
+    return None if parsed is None else Tag(parsed[0] & 15, parsed[0] >> 4, parsed[1])
+
+
 def parse_frame(data: bytes | bytearray, start: int, limits: Limits) -> Frame | None:
     """The frame at `start` of `data`; None if `data` ends inside it.
 
@@ -130,20 +155,16 @@ def parse_frame(data: bytes | bytearray, start: int, limits: Limits) -> Frame | 
     CorruptError
         If its tag is malformed or its checksum is wrong.
     """
-    tag = parse_varint(data, start)
+    tag = parse_tag(data, start)
     if tag is None:
         return None
-    value, payload_start = tag
-    frame_type, length = value & 15, value >> 4
-    limits.check("frame_bytes", length)
-    payload_end = payload_start + length
-    end = payload_end + checksum_size(frame_type)
-    if end > len(data):
+    limits.check("frame_bytes", tag.length)
+    if tag.end > len(data):
         return None
     with memoryview(data) as view:
-        if checksum(frame_type, view[start:payload_end]) != view[payload_end:end]:
-            raise CorruptError(f"checksum of a frame of type {frame_type} and {length} bytes is wrong")
-        return Frame(frame_type, bytes(view[payload_start:payload_end]), end - start)
+        if checksum(tag.type, view[start : tag.checksum]) != view[tag.checksum : tag.end]:
+            raise CorruptError(f"checksum of a frame of type {tag.type} and {tag.length} bytes is wrong")
+        return Frame(tag.type, bytes(view[tag.payload : tag.checksum]), tag.end - start)
 
 
 class Cursor:
