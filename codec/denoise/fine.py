@@ -1,0 +1,44 @@
+"""Fine steps by name: each takes noisy or coarsely denoised positions and returns denoised ones."""
+
+from __future__ import annotations
+
+from typing import Protocol
+
+from bitstream.errors import OptionError
+from codec.denoise.bilateral_normal import bilateral_normal_filtering
+from codec.denoise.fast_effective import fast_effective_denoising
+from codec.denoise.guided import guided_normal_filtering
+from codec.denoise.l0 import l0_minimisation
+from codec.denoise.non_iterative import non_iterative_smoothing
+from codec.denoise.vertex_bilateral import bilateral_mesh_denoising
+from codec.mesh import Faces, Positions
+
+
+class FineStep(Protocol):
+    """Positions (n, 3), faces (m, 3) and a number of iterations, whose default is the method's own, to positions."""
+
+    def __call__(self, positions: Positions, faces: Faces, iterations: int = ...) -> Positions: ...
+
+
+FINE_STEPS: dict[str, FineStep] = {
+    "guided": guided_normal_filtering,
+    "bilateral": bilateral_mesh_denoising,
+    "non-iterative": non_iterative_smoothing,
+    "fast-effective": fast_effective_denoising,
+    "bilateral-normal": bilateral_normal_filtering,
+    "l0": l0_minimisation,
+}
+
+
+def fine_step(name: str) -> FineStep:
+    """The fine step called `name`.
+
+    Raises
+    ------
+    OptionError
+        If there is none of that name.
+    """
+    try:
+        return FINE_STEPS[name]
+    except KeyError:
+        raise OptionError(f"there is no fine step {name!r}; choose one of {', '.join(FINE_STEPS)}") from None

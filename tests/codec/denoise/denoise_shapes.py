@@ -1,0 +1,40 @@
+"""Small meshes with known normals, and noise for them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+
+from codec.mesh import Faces, Positions, TriangleMesh
+
+Partners = Callable[[str, str], tuple[TriangleMesh, TriangleMesh]]
+
+
+def grid(size: int) -> tuple[Positions, Faces]:
+    """A flat square of size x size quads in the plane z = 0, with its boundary."""
+    y, x = np.mgrid[: size + 1, : size + 1]
+    positions = np.stack([x.ravel(), y.ravel(), np.zeros(x.size)], axis=1).astype(float)
+    corner = (np.arange(size)[:, None] * (size + 1) + np.arange(size)).ravel()
+    quads = np.stack([corner, corner + 1, corner + size + 2, corner + size + 1], axis=1)
+    faces = np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]]).astype(np.int32)
+    return positions, faces
+
+
+def cube(size: int) -> tuple[Positions, Faces]:
+    """A closed cube of edge `size`, its sides split into size x size quads; normals point outwards."""
+    flat, faces = grid(size)
+    x, y = flat[:, 0], flat[:, 1]
+    low, high = np.zeros_like(x), np.full_like(x, size)
+    sides = [(y, x, low), (x, y, high), (low, y, x), (high, x, y), (x, low, y), (y, high, x)]
+    points = np.concatenate([np.stack(side, axis=1) for side in sides])
+    joined = np.concatenate([faces + k * len(flat) for k in range(6)])
+    positions, number = np.unique(points, axis=0, return_inverse=True)
+    return positions, number.ravel()[joined].astype(np.int32)
+
+
+def sphere(size: int) -> tuple[Positions, Faces]:
+    """The cube blown up to a unit sphere."""
+    positions, faces = cube(size)
+    centred = positions - size / 2
+    return centred / np.linalg.norm(centred, axis=1, keepdims=True), faces

@@ -1,0 +1,116 @@
+"""Neighbourhoods and vertex updates against definitions written out."""
+
+import numpy as np
+import pytest
+from denoise_shapes import cube, grid, sphere
+
+from codec.denoise.reach import reach, themselves
+from codec.denoise.surface import (
+    boundary_vertices,
+    face_geometry,
+    follow_normals,
+    mean_centroid_distance,
+    topology_of,
+    vertex_normals,
+    without_first,
+)
+from codec.incidence import Rows, vertex_neighbours
+
+
+def row(rows: Rows, i: int) -> list[int]:
+    return rows.members[rows.starts[i] : rows.starts[i + 1]].tolist()
+
+
+def test_shapes_are_what_they_say() -> None:
+    positions, faces = cube(3)
+    geometry = face_geometry(positions, faces)
+    outward = geometry.centroids - positions.mean(axis=0)
+    assert (np.einsum("ij,ij->i", outward, geometry.normals) > 0).all()
+    assert geometry.areas == pytest.approx(0.5)
+    assert len(positions) - 3 * len(faces) / 2 + len(faces) == 2
+    assert not boundary_vertices(faces, len(positions)).any()
+
+
+def test_patches_hold_the_faces_that_share_a_vertex() -> None:
+    positions, faces = cube(3)
+    topology = topology_of(faces, len(positions))
+    sets = [set(face) for face in faces.tolist()]
+    for f in range(0, len(faces), 7):
+        members = row(topology.patches, f)
+        assert members[0] == f
+        assert sorted(members) == [g for g in range(len(faces)) if sets[f] & sets[g]]
+        assert row(without_first(topology.patches), f) == members[1:]
+    expected = [(f, g) for f in range(len(faces)) for g in range(f + 1, len(faces)) if len(sets[f] & sets[g]) == 2]
+    assert sorted(map(tuple, topology.pairs.tolist())) == expected
+
+
+def test_a_fin_of_three_faces_makes_a_chain_of_pairs() -> None:
+    faces = np.array([[0, 1, 2], [1, 0, 3], [0, 1, 4], [5, 5, 1]], dtype=np.int32)
+    assert topology_of(faces, 6).pairs.tolist() == [[0, 1], [1, 2]]
+
+
+def test_only_the_rim_of_a_grid_is_boundary() -> None:
+    positions, faces = grid(4)
+    rim = (positions[:, :2] == 0).any(axis=1) | (positions[:, :2] == 4).any(axis=1)
+    assert (boundary_vertices(faces, len(positions)) == rim).all()
+
+
+def test_reach_stays_in_the_ball_and_on_the_surface() -> None:
+    # Two parallel sheets: the other one is inside the ball, but not connected.
+    flat, faces = grid(6)
+    positions = np.concatenate([flat, flat + np.array([0, 0, 0.1])])
+    both = np.concatenate([faces, faces + len(flat)])
+    near = reach(positions, themselves(len(positions)), positions, vertex_neighbours(both, len(positions)), 2.0)
+    centre = 24
+    expected = np.flatnonzero(np.linalg.norm(flat - flat[centre], axis=1) <= 2.0)
+    assert sorted(row(near, centre)) == expected.tolist()
+
+
+def test_reach_takes_a_radius_for_each_centre() -> None:
+    positions, faces = grid(4)
+    neighbours = vertex_neighbours(faces, len(positions))
+    radii = np.zeros(len(positions))
+    radii[12] = 1.0
+    near = reach(positions, themselves(len(positions)), positions, neighbours, radii)
+    assert row(near, 0) == [0]
+    assert len(row(near, 12)) == 5
+
+
+def test_vertex_normals_of_a_sphere_point_outwards() -> None:
+    positions, faces = sphere(8)
+    topology = topology_of(faces, len(positions))
+    normals = vertex_normals(face_geometry(positions, faces).normals, topology.around)
+    assert np.einsum("ij,ij->i", normals, positions).min() > 0.98
+
+
+def test_centroid_distance_of_unit_squares() -> None:
+    positions, faces = grid(1)
+    topology = topology_of(faces, 4)
+    assert mean_centroid_distance(face_geometry(positions, faces).centroids, topology.pairs) == pytest.approx(
+        np.sqrt(2) / 3
+    )
+    assert mean_centroid_distance(np.zeros((2, 3)), topology.pairs) == 1.0
+
+
+def test_vertices_follow_the_true_normals_to_the_plane() -> None:
+    flat, faces = grid(10)
+    noisy = flat + np.random.default_rng(0).normal(0, 0.2, flat.shape) * [0, 0, 1]
+    topology = topology_of(faces, len(flat))
+    up = np.tile([0.0, 0.0, 1.0], (len(faces), 1))
+    moved = follow_normals(noisy, topology, up, 200)
+    assert np.ptp(moved[:, 2]) < 0.02 * np.ptp(noisy[:, 2])
+    assert (moved[:, :2] == flat[:, :2]).all()
+    # One update by hand: the mean height of the centroids around.
+    once = follow_normals(noisy, topology, up, 1)
+    heights = face_geometry(noisy, faces).centroids[row(topology.around, 60), 2]
+    assert once[60, 2] == pytest.approx(heights.mean())
+
+
+def test_vertices_that_are_not_free_stay() -> None:
+    flat, faces = grid(4)
+    noisy = flat + np.random.default_rng(0).normal(0, 0.2, flat.shape)
+    topology = topology_of(faces, len(flat))
+    free = ~boundary_vertices(faces, len(flat))
+    moved = follow_normals(noisy, topology, face_geometry(flat, faces).normals, 3, free)
+    assert (moved[~free] == noisy[~free]).all()
+    assert (moved[free] != noisy[free]).any(axis=1).all()
