@@ -12,7 +12,7 @@ from bitstream.errors import CorruptError
 
 _MAGIC = zstandard.FRAME_HEADER
 _LEVEL = 19
-_MAX_WINDOW = 1 << 23
+MAX_WINDOW = 1 << 23
 
 
 def compress(data: bytes) -> bytes:
@@ -36,11 +36,12 @@ def decompress(data: bytes, exact_size: int) -> bytes:
         raise CorruptError(f"{len(data)} compressed bytes for {exact_size} bytes of content")
     frame = _MAGIC + data
     try:
-        claimed = zstandard.get_frame_parameters(frame).content_size
-        if claimed != exact_size:
-            raise CorruptError(f"zstd frame claims {claimed} bytes where {exact_size} belong")
-        decompressor = zstandard.ZstdDecompressor(max_window_size=_MAX_WINDOW)
-        content = decompressor.decompress(frame, max_output_size=exact_size, allow_extra_data=False)
+        parameters = zstandard.get_frame_parameters(frame)
+        if parameters.content_size != exact_size:
+            raise CorruptError(f"zstd frame claims {parameters.content_size} bytes where {exact_size} belong")
+        if parameters.window_size > MAX_WINDOW:
+            raise CorruptError(f"zstd frame has a window of {parameters.window_size} bytes, legal are {MAX_WINDOW}")
+        content = zstandard.ZstdDecompressor().decompress(frame, max_output_size=exact_size, allow_extra_data=False)
     except zstandard.ZstdError as error:
         raise CorruptError(f"zstd frame is damaged: {error}") from error
     if len(content) != exact_size:

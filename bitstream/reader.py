@@ -125,7 +125,9 @@ class Reader:
 
     def _parse(self, frame: Frame) -> Packet | None:
         """The packet in a frame, checked against everything before it; None for a frame to be skipped."""
-        if frame.type in SKIPPABLE_TYPES and self._grammar.header is not None:
+        if frame.type in SKIPPABLE_TYPES:
+            if self._grammar.header is None:
+                raise CorruptError("the first frame must be HEADER")
             return None
         if frame.type not in PARSERS:
             raise UnsupportedError(f"frame type {frame.type} is unknown to this decoder")

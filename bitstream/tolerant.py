@@ -32,8 +32,9 @@ class TolerantReader(Reader):
     Damage to the preamble or to the HEADER is still raised. Behind any other, the length in the damaged frame's tag is
     trusted if a whole frame, or the end of the data, lies there; otherwise the next offset at which a whole and fitting
     frame begins is searched byte by byte. The checksums computed in such searches cover at most `SCAN_BYTES` plus
-    `SCAN_FACTOR` times the bytes received: a candidate beyond that is passed over. A missing END is reported too. Once
-    something was lost, the count and the checksum in END are not compared any more.
+    `SCAN_FACTOR` times the bytes received: a candidate beyond that is passed over. A missing END is reported too,
+    unless reported damage reaches the end of the data. Once something was lost, the count and the checksum in END are
+    not compared any more.
 
     A tag that was damaged so that it claims too much is found out only when that many bytes, or the end of the data,
     have come.
@@ -44,14 +45,16 @@ class TolerantReader(Reader):
         self._damage: _Damage | None = None
         self._scan_work = 0
         self._lossy = False
-        self._closed = False
+        self._behind_damage = False
 
     def _next(self) -> Event:
-        if self._closed:
+        if self._behind_damage and self._eof and not self._buffer:
             return END_OF_STREAM
         if self._damage is None:
             try:
-                return super()._next()
+                event = super()._next()
+                self._behind_damage = self._behind_damage and event is NEED_DATA
+                return event
             except BsmError as error:
                 if self._grammar.header is None:
                     raise
@@ -77,8 +80,8 @@ class TolerantReader(Reader):
         length = self._reach(damage)
         if length is None:
             return NEED_DATA
-        self._closed = self._eof and length == len(self._buffer)
         self._damage = None
+        self._behind_damage = True
         self.last_frame = FrameSpan(self._frames, self._offset, length)
         seems = _frame_type(damage.tag) if length else FrameType.END
         event = Damaged(seems, self._offset, length, damage.reason)

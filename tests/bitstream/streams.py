@@ -1,0 +1,50 @@
+"""Streams that the tests of the framing share."""
+
+from __future__ import annotations
+
+from bitstream.packets import Block, Connectivity, Gop, Header, Metadata, Order, Packet, Partition
+from bitstream.reader import Reader, read_packets
+from bitstream.writer import write_stream
+
+SMALL_HEADER = Header(vertices=100, faces=190, blocks=3, block_size=60, coefficients=10)
+
+STATIC: list[Packet] = [
+    Header(vertices=100, faces=190, blocks=3, block_size=60, coefficients=10, center=(0.1, -2.0, 3.0), shift=0.01),
+    Metadata({"creator": "test", "count": -3, "ratio": 0.5, "thumbnail": b"\x00\xff"}),
+    Connectivity(1, b"faces" * 7),
+    Partition(0, b""),
+    Order(2, b"order"),
+    Block(0, 10, bytes(range(70))),
+    Block(1, 0, b""),
+    Block(2, 7, b"coefficients"),
+]
+BARE: list[Packet] = [SMALL_HEADER, Connectivity(0, b"\x01")]
+ANIMATED: list[Packet] = [
+    Header(vertices=4, faces=4, blocks=1, block_size=4, coefficients=2, frames=50, frame_rate=25.0),
+    Connectivity(0, b"x"),
+    Gop(0, b"first"),
+    Gop(1, b"second"),
+]
+STREAMS = {"static": STATIC, "bare": BARE, "animated": ANIMATED}
+
+
+def encoded(name: str) -> bytes:
+    return write_stream(STREAMS[name])
+
+
+def read_all(data: bytes, step: int | None = None, reader: Reader | None = None) -> list:
+    """All packets of `data`, given in pieces of `step` bytes (None: whole)."""
+    step = step or max(len(data), 1)
+    chunks = [data[start : start + step] for start in range(0, len(data), step)]
+    return list(read_packets(chunks, reader or Reader()))
+
+
+def frame_ends(data: bytes) -> list[int]:
+    """Offsets behind the preamble and behind every frame."""
+    reader = Reader()
+    reader.receive_data(data)
+    ends = [5]
+    while ends[-1] < len(data):
+        reader.next_packet()
+        ends.append(reader.last_frame.offset + reader.last_frame.length)
+    return ends
