@@ -1,0 +1,1 @@
+"""Mesh files: one module per format, each with the twins that read and write it."""

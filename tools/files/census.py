@@ -1,0 +1,130 @@
+"""What a mesh file says, read from its own bytes before any library sees it."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from itertools import chain
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from bitstream.errors import MeshError, TruncatedError
+
+Ints = npt.NDArray[np.int64]
+Doubles = npt.NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Census:
+    """The coordinates of a file in full precision, and how many faces with how many corners it has.
+
+    Parameters
+    ----------
+    positions : ndarray of float64, shape (n, 3)
+    sizes : ndarray of int64, shape (m,)
+        Number of corners of each face.
+    corners : callable
+        Reads the vertex indices of all faces, one after the other: int64, shape (sum(sizes),). Called only where
+        they are needed.
+    plain : bool
+        Every byte of the file has been understood, so it is safe to hand it to a library.
+    notes : tuple of str
+        What was changed or left out.
+    """
+
+    positions: Doubles
+    sizes: Ints
+    corners: Callable[[], Ints]
+    plain: bool
+    notes: tuple[str, ...] = ()
+
+
+class Rows:
+    """Lines of numbers: all values in one array, and where each line's begin.
+
+    Raises
+    ------
+    MeshError
+        If a line holds something that is not a number.
+    """
+
+    def __init__(self, lines: Sequence[bytes], what: str) -> None:
+        fields = [line.split() for line in lines]
+        if any(b"_" in line for line in lines):  # which Python allows inside numbers
+            raise MeshError(f"a {what} is not made of numbers: it has an underscore")
+        self.what = what
+        self.counts: Ints = np.fromiter(map(len, fields), np.int64, len(fields))
+        self.starts: Ints = np.cumsum(self.counts) - self.counts
+        try:
+            self.values: Doubles = np.array(list(chain.from_iterable(fields)), dtype=np.float64)
+        except ValueError as error:
+            raise MeshError(f"a {what} is not made of numbers: {error}") from error
+
+    def require(self, needed: int | Ints) -> None:
+        """Raise `MeshError` unless every line has at least `needed` numbers."""
+        short = self.counts < needed
+        if short.any():
+            row = int(np.argmax(short))
+            raise MeshError(f"{self.what} {row} has {self.counts[row]} numbers, too few")
+
+    def columns(self, first: int, count: int) -> Doubles:
+        """The numbers `first` to `first + count` of every line, shape (lines, count)."""
+        self.require(first + count)
+        return self.values[self.starts[:, None] + np.arange(first, first + count)]
+
+    def lists(self, before: int) -> tuple[Ints, Callable[[], Ints]]:
+        """The lists that follow `before` numbers of each line: their lengths, and a function that gives their items."""
+        sizes = as_integers(self.columns(before, 1)[:, 0], f"the number of corners of a {self.what}")
+        if (sizes < 0).any():
+            raise MeshError(f"{self.what} {int(np.argmax(sizes < 0))} has a negative number of corners")
+        self.require(before + 1 + sizes)
+        first = self.starts + before + 1
+        return sizes, lambda: as_integers(self.values[ranges(first, sizes)], "a vertex index")
+
+
+def ranges(starts: Ints, sizes: Ints) -> Ints:
+    """The indices start, start + 1, ..., start + size - 1 of each pair, one pair after the other."""
+    ends = np.cumsum(sizes)
+    return np.arange(ends[-1] if len(ends) else 0) + np.repeat(starts - (ends - sizes), sizes)
+
+
+def as_integers(values: npt.NDArray[Any], what: str) -> Ints:
+    """`values` as int64; `MeshError` where one is not a whole number of ordinary size."""
+    whole = np.abs(values) < 2**53
+    if values.dtype.kind == "f":
+        whole &= values == np.rint(values)
+    if not whole.all():
+        raise MeshError(f"{what} is {values[np.argmin(whole)]}, not a whole number")
+    return values.astype(np.int64)
+
+
+def without_comments(data: bytes) -> bytes:
+    """`data` with everything from a # to the end of its line taken out."""
+    return re.sub(rb"#[^\n\r]*", b"", data) if b"#" in data else data
+
+
+def require_lines(present: int, claimed: int) -> None:
+    """Raise `TruncatedError` if fewer lines are present than the header of a file claims."""
+    if present < claimed:
+        raise TruncatedError(f"the file is cut short: its header claims {claimed} vertices and faces, {present} follow")
+
+
+def single_suffices(positions: Doubles) -> bool:
+    """Whether float32 moves no coordinate by more than a millionth of the bounding box's diagonal."""
+    with np.errstate(over="ignore", invalid="ignore"):
+        error = np.abs(positions.astype(np.float32) - positions).max()
+    return bool(error <= 1e-6 * np.linalg.norm(np.ptp(positions, axis=0)))
+
+
+def text_table(row: str, columns: npt.NDArray[Any]) -> bytes:
+    """The rows of a table, each written by the format string `row`."""
+    return "".join(map(row.format, *columns.T.tolist())).encode()
+
+
+def point_row(keyword: str, positions: Doubles) -> str:
+    """The format of a line with a point: nine digits where float32 suffices, else as many as float64 needs."""
+    number = "{:.9g}" if single_suffices(positions) else "{!r}"
+    return f"{keyword}{number} {number} {number}\n"

@@ -1,0 +1,107 @@
+"""Files that appear as a whole or not at all."""
+
+from __future__ import annotations
+
+import errno
+import os
+import signal
+import sys
+import tempfile
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from pathlib import Path
+from types import FrameType
+from typing import BinaryIO
+
+
+@contextmanager
+def open_output(path: str | os.PathLike[str], *, overwrite: bool = False) -> Iterator[BinaryIO]:
+    """Open a file for writing whose name appears only when the `with` block has ended well.
+
+    The bytes go to a temporary file in the same folder, which is flushed to the disk and then renamed; any error,
+    Ctrl-C and SIGTERM remove it. "-" is standard output, where nothing can be taken back; neither can it in a device
+    or a named pipe.
+
+    Raises
+    ------
+    FileExistsError
+        If the file exists and `overwrite` is false.
+    OSError
+        If the folder does not exist or is read-only, or the disk is full.
+    """
+    if os.fspath(path) == "-":
+        yield sys.stdout.buffer
+        sys.stdout.buffer.flush()
+        return
+    # Through a symbolic link the file behind it is replaced, not the link.
+    target = Path(os.path.realpath(path))
+    if target.exists() and not target.is_file():
+        if target.is_dir():
+            raise IsADirectoryError(errno.EISDIR, "the output is a folder", os.fspath(path))
+        with open(target, "wb") as device:
+            yield device
+        return
+    refuse_to_overwrite(path, overwrite)
+    with _termination_as_exception():
+        handle, name = tempfile.mkstemp(prefix=f".{target.name[:200]}.", suffix=".part", dir=target.parent)
+        try:
+            with os.fdopen(handle, "wb") as file:
+                yield file
+                file.flush()
+                os.fsync(file.fileno())
+            os.chmod(name, _permissions(target))
+            if overwrite:
+                os.replace(name, target)
+            else:
+                _rename_unless_present(name, target)
+        except BaseException:
+            with suppress(FileNotFoundError):
+                os.unlink(name)
+            raise
+
+
+def refuse_to_overwrite(path: str | os.PathLike[str], overwrite: bool) -> None:
+    """Raise `FileExistsError` if `path` is a file and `overwrite` is false; ask before long work."""
+    if not overwrite and os.fspath(path) != "-" and Path(path).is_file():
+        raise FileExistsError(errno.EEXIST, "the output exists already; -f overwrites it", os.fspath(path))
+
+
+def _permissions(target: Path) -> int:
+    """Those of the file that is replaced, or those that any new file gets (a temporary file is private)."""
+    if target.exists():
+        return target.stat().st_mode & 0o777
+    mask = os.umask(0)
+    os.umask(mask)
+    return 0o666 & ~mask
+
+
+def _rename_unless_present(name: str, target: Path) -> None:
+    """Rename, but never over a file that has appeared meanwhile (a link, unlike a rename, refuses)."""
+    try:
+        os.link(name, target)
+    except FileExistsError:
+        refuse_to_overwrite(target, False)
+        raise
+    except OSError:  # a file system without links
+        refuse_to_overwrite(target, False)
+        os.replace(name, target)
+    else:
+        os.unlink(name)
+
+
+@contextmanager
+def _termination_as_exception() -> Iterator[None]:
+    """Let SIGTERM unwind the stack, as Ctrl-C does; signals reach the main thread only."""
+
+    def stop(number: int, frame: FrameType | None) -> None:
+        raise SystemExit(128 + number)
+
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    before = signal.signal(signal.SIGTERM, stop)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGTERM, before)
