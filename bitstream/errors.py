@@ -1,4 +1,4 @@
-"""Every failure this project reports: one base class, and under it one class per thing a caller may want to do about it."""
+"""Every failure this project reports: one base class, and a class for each thing a caller may want to do about it."""
 
 from __future__ import annotations
 
@@ -27,9 +27,7 @@ class BsmError(Exception):
         self.block = block
         super().__init__(message)
 
-    def located(
-        self, *, offset: int | None = None, frame: int | None = None, block: int | None = None
-    ) -> BsmError:
+    def located(self, *, offset: int | None = None, frame: int | None = None, block: int | None = None) -> BsmError:
         """Fill in the places that are not known yet, and return the same error."""
         self.offset = offset if self.offset is None else self.offset
         self.frame = frame if self.frame is None else self.frame

@@ -106,8 +106,8 @@ class Header:
     """Orthogonal iterations of a key block."""
     shift: float = real(12, 2.0**-30, 2.0**30, default=0.125)
     """What is added to the Laplacian's diagonal, delta."""
-    blend: int = method(13, known=2)
-    """Weights of a vertex's copies: 0: its degree in the block; 1: all equal."""
+    blend: int = method(13, known=3)
+    """Weights of a vertex's copies: 0: its degree in the block; 1: all equal; 2: only the copy in its own part."""
     coding: int = method(14, known=2, default=1)
     """Coefficients: 0: packed and zstd; 1: adaptive."""
     bits: int = integer(15, 1, 32, default=12)

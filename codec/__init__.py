@@ -1,0 +1,27 @@
+"""A streaming spectral codec for triangle meshes: encoder, decoder, and the mathematics they share."""
+
+from codec.decoder import (
+    BlockEvent,
+    ConnectivityEvent,
+    Decoder,
+    EndEvent,
+    HeaderEvent,
+    decode,
+)
+from codec.encoder import Encoder, encode, encode_chunks
+from codec.mesh import TriangleMesh
+from codec.options import EncodeOptions
+
+__all__ = [
+    "BlockEvent",
+    "ConnectivityEvent",
+    "Decoder",
+    "EncodeOptions",
+    "Encoder",
+    "EndEvent",
+    "HeaderEvent",
+    "TriangleMesh",
+    "decode",
+    "encode",
+    "encode_chunks",
+]

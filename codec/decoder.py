@@ -1,0 +1,397 @@
+"""A stream to a mesh, block by block, while it arrives."""
+
+from __future__ import annotations
+
+from collections import deque
+from dataclasses import dataclass
+from types import TracebackType
+from typing import TypeAlias
+
+import numpy as np
+import numpy.typing as npt
+
+from bitstream import packets
+from bitstream.adaptive import CoefficientModel, decode_coefficients
+from bitstream.coefficients import unpack_coefficients
+from bitstream.errors import BsmError, CorruptError, NumericError, UnsupportedError
+from bitstream.header import Header
+from bitstream.labels import decode_labels
+from bitstream.limits import DEFAULT_LIMITS, Limits
+from bitstream.plain_faces import decode_plain_faces
+from bitstream.reader import END_OF_STREAM, NEED_DATA, Reader, Signal
+from codec.blend import Blend, degree_weights
+from codec.blocks import Block, Blocks, grow_blocks
+from codec.chain import Chain, ChainRules
+from codec.graph import Graph, graph_of_faces
+from codec.mesh import Faces, Positions, TriangleMesh
+from codec.parallel import Lanes, Pending
+from codec.partition import Partition, derive_partition, partition_of_labels
+from codec.predict import PriorModel
+from codec.quantize import dequantize, unsigned_to_levels
+from codec.smooth import DEGREE, rings_around, smooth, smooth_some
+from codec.structure import check_work
+
+Matrix = npt.NDArray[np.float64]
+Indices = npt.NDArray[np.int32]
+
+
+@dataclass(frozen=True)
+class HeaderEvent:
+    """The header has arrived."""
+
+    header: Header
+
+
+@dataclass(frozen=True, eq=False)
+class ConnectivityEvent:
+    """The faces have arrived, shape (m, 3), in the decoder's order."""
+
+    faces: Faces
+
+
+@dataclass(frozen=True, eq=False)
+class BlockEvent:
+    """A block has been decoded.
+
+    Parameters
+    ----------
+    index : int
+        Of the block.
+    vertices : int32 array, shape (v,)
+        Vertices that this block moved or finished.
+    positions : float64 array, shape (v, 3)
+        Where they are now, in the mesh's unit.
+    final : bool array, shape (v,)
+        Which of them no later block will move.
+    """
+
+    index: int
+    vertices: Indices
+    positions: Positions
+    final: npt.NDArray[np.bool_]
+
+
+@dataclass(frozen=True)
+class EndEvent:
+    """The stream is complete and its checksum right."""
+
+
+Event: TypeAlias = HeaderEvent | ConnectivityEvent | BlockEvent | EndEvent | Signal
+
+
+def chain_rules(header: Header) -> ChainRules:
+    """What a header says about chains and dictionaries."""
+    return ChainRules(
+        exact=header.basis == 1,
+        independent=header.seeding == 1,
+        key_interval=header.key_interval,
+        power=header.power,
+        iterations=header.iterations,
+        key_iterations=header.key_iterations,
+        shift=header.shift,
+        prior=PriorModel(*header.prediction) if header.prediction else None,
+    )
+
+
+def copy_weights(header: Header, blocks: Blocks, index: int, block: Block) -> Matrix:
+    """Weight of each row of a block in the blend."""
+    if header.blend == 0:
+        return degree_weights(block.degrees)
+    if header.blend == 1:
+        return np.ones(block.size)
+    return np.isin(block.vertices, blocks.core(index)).astype(np.float64)
+
+
+@dataclass(frozen=True, eq=False)
+class DecodedBlock:
+    """A block's own reconstruction, before it is blended with others; positions in BSM units."""
+
+    index: int
+    vertices: Indices
+    positions: Matrix
+    weights: Matrix
+
+
+class ChainDecoder:
+    """Decodes the blocks of one chain, in their order."""
+
+    def __init__(self, header: Header, rules: ChainRules, blocks: Blocks) -> None:
+        self._header = header
+        self._blocks = blocks
+        self._chain = Chain(rules, header.vertices)
+        self._model = CoefficientModel(header.coefficients)
+
+    def decode(self, packet: packets.Block) -> DecodedBlock:
+        """Decode the chain's next block."""
+        header, blocks = self._header, self._blocks
+        block = blocks.block(packet.index)
+        try:
+            levels = self._levels(packet, block)
+            subspace = self._chain.dictionary(block, len(levels))
+            prediction = self._chain.prediction(block, subspace)
+            positions = self._chain.commit(block, subspace, prediction + dequantize(levels, header.step))
+            if not np.isfinite(positions).all():
+                raise NumericError("the coefficients reconstruct to positions that are not finite")
+        except BsmError as error:
+            raise error.located(block=packet.index) from None
+        return DecodedBlock(packet.index, block.vertices, positions, copy_weights(header, blocks, packet.index, block))
+
+    def _levels(self, packet: packets.Block, block: Block) -> npt.NDArray[np.int32]:
+        width = packet.coefficients
+        if not 1 <= width <= block.size:
+            raise CorruptError(f"{width} coefficients for a block of {block.size} vertices")
+        if self._header.coding == 0:
+            values = unpack_coefficients(packet.data, 3 * width, self._header.bits)
+            return unsigned_to_levels(values, self._header.bits)
+        return decode_coefficients(self._model, packet.data, width)
+
+
+class Decoder:
+    """Takes the bytes of a stream as they come, and gives events as soon as they can be known.
+
+    The events do not depend on how the bytes are cut up. An error is raised by `next_event` after the events before
+    it, and by every later call.
+
+    Parameters
+    ----------
+    limits : Limits
+        What the stream may ask for.
+    threads : int, optional
+        For decoding chains whose bytes are there at the same time; None: one per core.
+    """
+
+    def __init__(self, limits: Limits = DEFAULT_LIMITS, threads: int | None = None) -> None:
+        self._limits = limits
+        self._reader = Reader(limits)
+        self._lanes = Lanes(threads)
+        self._queue: deque[Event | Pending[DecodedBlock]] = deque()
+        self._error: BsmError | None = None
+        self._ended = False
+        self._next_index = 0
+        self._header: Header | None = None
+        self._faces: Faces | None = None
+        self._graph: Graph | None = None
+        self._partition: Partition | None = None
+        self._blocks: Blocks | None = None
+        self._chains: dict[int, ChainDecoder] = {}
+        self._assembly: Assembly | None = None
+
+    def __enter__(self) -> Decoder:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.close()
+
+    def close(self) -> None:
+        """Stop the threads; blocks that were not asked for are given up."""
+        self._lanes.close()
+
+    def receive_data(self, data: bytes | bytearray | memoryview) -> None:
+        """Take more bytes of the stream."""
+        self._reader.receive_data(data)
+
+    def receive_eof(self) -> None:
+        """Take note that no more bytes will come."""
+        self._reader.receive_eof()
+
+    def next_event(self) -> Event:
+        """The next event, or `NEED_DATA`; `END_OF_STREAM` after `EndEvent` and `receive_eof`.
+
+        Raises
+        ------
+        BsmError
+            One of the stream's errors, with its place.
+        """
+        item = self._next_item()
+        if isinstance(item, Pending):
+            decoded = self._result(item)
+            assert self._assembly is not None
+            return self._assembly.event(decoded)
+        return item
+
+    def finish(self) -> TriangleMesh:
+        """Decode the rest of a complete stream and return the mesh; faster than asking for events.
+
+        Raises
+        ------
+        BsmError
+            Also `TruncatedError`, if bytes are missing.
+        """
+        self._reader.receive_eof()
+        while (item := self._next_item()) is not END_OF_STREAM:
+            if isinstance(item, Pending):
+                decoded = self._result(item)
+                assert self._assembly is not None
+                self._assembly.add(decoded)
+        assert self._assembly is not None and self._faces is not None
+        return TriangleMesh(self._assembly.positions(), self._faces)
+
+    def _result(self, pending: Pending[DecodedBlock]) -> DecodedBlock:
+        try:
+            return pending.result()
+        except BsmError as error:
+            self._queue.clear()
+            self._error = error
+            raise
+
+    def _next_item(self) -> Event | Pending[DecodedBlock]:
+        self._look_ahead()
+        if self._queue:
+            return self._queue.popleft()
+        if self._error is not None:
+            raise self._error
+        return END_OF_STREAM if self._ended else NEED_DATA
+
+    def _look_ahead(self) -> None:
+        """Read every packet whose bytes are there, so that chains can be decoded side by side."""
+        while self._error is None and not self._ended:
+            try:
+                packet = self._reader.next_packet()
+                if packet is NEED_DATA:
+                    return
+                if packet is END_OF_STREAM:
+                    self._ended = True
+                else:
+                    self._accept(packet)
+            except BsmError as error:
+                span = self._reader.last_frame
+                self._error = error.located(offset=span.offset, frame=span.number) if span else error
+
+    def _accept(self, packet: object) -> None:
+        match packet:
+            case Header():
+                self._accept_header(packet)
+            case packets.Connectivity():
+                self._accept_connectivity(packet)
+            case packets.Partition():
+                self._accept_partition(packet)
+            case packets.Block():
+                self._accept_block(packet)
+            case packets.End():
+                self._accept_end()
+
+    def _accept_header(self, header: Header) -> None:
+        if header.frames:
+            raise UnsupportedError("this is a sequence; decode it with codec.SequenceDecoder")
+        solves = header.power * max(header.iterations, header.key_iterations)
+        check_work(self._limits, header.blocks, header.block_size, header.coefficients, solves, exact=header.basis == 1)
+        if len(header.prediction) not in (0, 3) or not all(value > 0 for value in header.prediction):
+            raise CorruptError(f"the prediction has the parameters {header.prediction}, three above zero are legal")
+        self._header = header
+        self._queue.append(HeaderEvent(header))
+
+    def _accept_connectivity(self, packet: packets.Connectivity) -> None:
+        assert self._header is not None
+        if packet.method != 0:
+            raise UnsupportedError(f"connectivity method {packet.method} is unknown to this decoder")
+        self._faces = decode_plain_faces(packet.data, self._header.vertices, self._header.faces)
+        self._graph = graph_of_faces(self._faces, self._header.vertices)
+        self._queue.append(ConnectivityEvent(self._faces))
+
+    def _accept_partition(self, packet: packets.Partition) -> None:
+        assert self._header is not None and self._graph is not None
+        if packet.method != 0:
+            raise UnsupportedError(f"partition method {packet.method} is unknown to this decoder")
+        labels = decode_labels(packet.data, self._graph.offsets, self._graph.neighbours, self._header.blocks)
+        self._partition = partition_of_labels(labels)
+
+    def _accept_block(self, packet: packets.Block) -> None:
+        blocks = self._built()
+        assert self._header is not None
+        if packet.index != self._next_index:
+            raise CorruptError(f"block {packet.index} where block {self._next_index} belongs")
+        self._next_index += 1
+        rules = chain_rules(self._header)
+        number = packet.index // rules.chain_length(blocks.count)
+        if number not in self._chains:
+            self._chains.clear()
+            self._chains[number] = ChainDecoder(self._header, rules, blocks)
+        chain = self._chains[number]
+        self._queue.append(self._lanes.submit(number, lambda: chain.decode(packet)))
+
+    def _accept_end(self) -> None:
+        assert self._header is not None
+        self._built()
+        if self._next_index != self._header.blocks:
+            raise CorruptError(f"the stream ends after {self._next_index} of {self._header.blocks} blocks")
+        self._queue.append(EndEvent())
+
+    def _built(self) -> Blocks:
+        """The blocks, built when the first of them is needed."""
+        if self._blocks is None:
+            assert self._header is not None and self._graph is not None
+            partition = self._partition or derive_partition(self._graph, self._header.blocks)
+            largest = int(np.diff(partition.bounds).max())
+            if not largest <= self._header.block_size:
+                raise CorruptError(f"a part of {largest} vertices in blocks of {self._header.block_size}")
+            self._blocks = grow_blocks(self._graph, partition, self._header.block_size)
+            self._assembly = Assembly(self._header, self._graph, self._blocks)
+        return self._blocks
+
+
+class Assembly:
+    """Puts decoded blocks together, and knows which vertices are final."""
+
+    def __init__(self, header: Header, graph: Graph, blocks: Blocks) -> None:
+        self._header = header
+        self._graph = graph
+        self._blend = Blend(header.vertices)
+        self._center = np.array(header.center)
+        self._missing = np.bincount(blocks.members, minlength=header.vertices)
+        self._blended = np.zeros((header.vertices, 3))
+        self._final = np.zeros(header.vertices, np.bool_)
+
+    def add(self, block: DecodedBlock) -> None:
+        """Blend one block in."""
+        self._blend.add(block.vertices, block.positions, block.weights)
+
+    def positions(self) -> Positions:
+        """All positions, in the mesh's unit, once every block is in."""
+        everything = np.arange(self._header.vertices, dtype=np.int32)
+        return self._in_mesh_units(smooth(self._graph, self._blend.positions(everything), self._header.smoothing))
+
+    def event(self, block: DecodedBlock) -> BlockEvent:
+        """Blend one block in and say what it changed."""
+        self.add(block)
+        seen = block.vertices[self._blend.known(block.vertices)]
+        self._blended[seen] = self._blend.positions(seen)
+        self._missing[block.vertices] -= 1
+        finished = self._finished(block.vertices[self._missing[block.vertices] == 0])
+        self._final[finished] = True
+        moved = seen[~self._final[seen]]
+        done = smooth_some(self._graph, self._blended, self._header.smoothing, finished)
+        return BlockEvent(
+            block.index,
+            np.concatenate([moved, finished]),
+            self._in_mesh_units(np.concatenate([self._blended[moved], done])),
+            np.arange(len(moved) + len(finished)) >= len(moved),
+        )
+
+    def _finished(self, complete: Indices) -> Indices:
+        """Vertices that become final when all copies of `complete` have come: none that the filter sees is missing."""
+        if self._header.smoothing == 0.0:
+            return complete
+        around = rings_around(self._graph, complete, 2 * DEGREE)
+        waiting = rings_around(self._graph, around[self._missing[around] > 0], DEGREE)
+        blocked = np.zeros(self._header.vertices, np.bool_)
+        blocked[waiting] = True
+        candidates = rings_around(self._graph, complete, DEGREE)
+        return candidates[~blocked[candidates] & ~self._final[candidates]]
+
+    def _in_mesh_units(self, positions: Matrix) -> Positions:
+        return positions * self._header.scale + self._center
+
+
+def decode(data: bytes, limits: Limits = DEFAULT_LIMITS, threads: int | None = None) -> TriangleMesh:
+    """Decode a complete stream.
+
+    Raises
+    ------
+    BsmError
+        `FormatError`, `UnsupportedError`, `CorruptError`, `TruncatedError`, `LimitError` or `NumericError`.
+    """
+    with Decoder(limits, threads) as decoder:
+        decoder.receive_data(data)
+        return decoder.finish()

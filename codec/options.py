@@ -1,0 +1,110 @@
+"""What a user may choose when encoding; the defaults are the product."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+
+from bitstream.errors import OptionError
+
+CHOICES = {
+    "basis": ("oi", "svd"),
+    "seed": ("previous", "independent"),
+    "blend": ("degree", "uniform", "own"),
+    "partition": ("derived", "metis"),
+}
+RANGES: dict[str, tuple[float, float]] = {
+    "keep": (1e-6, 1.0),
+    "coefficients": (1, 1 << 20),
+    "block_size": (8, 1 << 20),
+    "overlap": (1.0, 8.0),
+    "key_interval": (0, 1 << 30),
+    "key_iterations": (1, 64),
+    "power": (1, 16),
+    "iterations": (1, 64),
+    "shift": (1e-6, 1e3),
+    "bits": (2, 16),
+    "step": (1e-9, 1.0),
+    "rounding": (0.0, 0.5),
+    "smoothing": (0.0, 64.0),
+    "threads": (1, 256),
+}
+
+
+@dataclass(frozen=True, kw_only=True)
+class EncodeOptions:
+    """How to encode a static mesh.
+
+    Parameters
+    ----------
+    keep : float
+        Size of the subspace, c, as a fraction of the block size n_d.
+    coefficients : int, optional
+        c itself; overrides `keep`.
+    block_size : int
+        Vertices of a part before overlap, about.
+    overlap : float
+        n_d as a multiple of the largest part.
+    partition : str
+        "derived": both sides compute it; "metis": the paper's, its labels are sent.
+    basis, seed : str
+        "oi" (orthogonal iterations) or "svd" (exact eigenbasis); "previous" (start from the block before, predict
+        from the vertices shared with it) or "independent" (every block on its own).
+    key_interval : int
+        Every so many blocks one depends on nothing before it; 0: only the first.
+    power, iterations, key_iterations, shift
+        z, t_max, t_max of a key block, and delta of Algorithm 1.
+    bits : int, optional
+        q_c: store every coefficient in so many bits, as in the paper, without prediction and smoothing. None: adaptive.
+    step : float
+        Quantization step of the adaptive coder, relative to the bounding box's diagonal.
+    rounding : float
+        Fraction added before a magnitude is cut to an integer; below 0.5 it widens the dead zone.
+    predict : bool
+        Predict coefficients from overlapping vertices that are known already ("previous" only).
+    smoothing : float, optional
+        Amount alpha of smoothing in the decoder; None: chosen by trying.
+    blend : str
+        Weights of a vertex's copies: "degree" (the paper's), "uniform", or "own" (only the copy in its part counts).
+    keep_order : bool
+        Store the order of vertices and faces, and the first corner of each face.
+    threads : int, optional
+        None: one per core.
+
+    Raises
+    ------
+    OptionError
+        If a value is outside its legal range, or options exclude each other.
+    """
+
+    keep: float = 0.10
+    coefficients: int | None = None
+    block_size: int = 500
+    overlap: float = 1.15
+    partition: str = "derived"
+    basis: str = "oi"
+    seed: str = "previous"
+    key_interval: int = 16
+    power: int = 3
+    iterations: int = 1
+    key_iterations: int = 4
+    shift: float = 0.125
+    bits: int | None = None
+    step: float = 0.004
+    rounding: float = 0.42
+    predict: bool = True
+    smoothing: float | None = None
+    blend: str = "degree"
+    keep_order: bool = False
+    threads: int | None = None
+
+    def __post_init__(self) -> None:
+        for item in fields(self):
+            value = getattr(self, item.name)
+            if value is None:
+                continue
+            if item.name in CHOICES and value not in CHOICES[item.name]:
+                raise OptionError(f"{item.name} must be one of {', '.join(CHOICES[item.name])}, not {value!r}")
+            if item.name in RANGES:
+                low, high = RANGES[item.name]
+                if not low <= value <= high:
+                    raise OptionError(f"{item.name} = {value:g} is outside {low:g}..{high:g}")
