@@ -11,6 +11,7 @@ import numpy.typing as npt
 from bitstream import packets
 from bitstream.adaptive import CoefficientModel, encode_coefficients
 from bitstream.coefficients import pack_coefficients
+from bitstream.errors import OptionError
 from bitstream.header import Header
 from bitstream.labels import encode_labels
 from bitstream.plain_faces import encode_plain_faces
@@ -26,7 +27,7 @@ from codec.options import EncodeOptions
 from codec.parallel import ordered_map
 from codec.partition import Partition, derive_partition, metis_partition
 from codec.predict import PriorModel
-from codec.quantize import dequantize, levels_to_unsigned, packed_step, quantize
+from codec.quantize import dequantize, levels_to_unsigned, packed_step, quantize, smallest_step
 from codec.smooth import smooth
 
 Matrix = npt.NDArray[np.float64]
@@ -119,6 +120,10 @@ class Encoder:
         size = block_size(partition, options.overlap)
         width = options.coefficients or max(1, round(options.keep * size))
         packed = options.bits is not None
+        if not packed and options.step < smallest_step(size):
+            raise OptionError(
+                f"step = {options.step:g} is too fine for blocks of {size}, try {smallest_step(size):.1e}"
+            )
         predicted = options.predict and options.seed == "previous" and not packed
         return Header(
             vertices=len(self.mesh.positions),
@@ -226,11 +231,13 @@ def _single(value: float) -> float:
 def _frame_of_reference(mesh: TriangleMesh) -> tuple[Matrix, float]:
     """Centre and diagonal of the bounding box, in single precision where that is exact enough."""
     low, high = mesh.positions.min(axis=0), mesh.positions.max(axis=0)
-    center, diagonal = (low + high) / 2, float(np.linalg.norm(high - low))
+    center, diagonal = low / 2 + high / 2, mesh.diagonal
     if not diagonal > 0.0:
         return center, 1.0
-    coarse = center.astype(np.float32).astype(np.float64)
+    with np.errstate(over="ignore"):
+        coarse = center.astype(np.float32).astype(np.float64)
+        # Rounded up, so that positions stay within half a unit of the centre.
+        scale = float(np.nextafter(np.float32(diagonal * (1 + 4e-6)), np.float32(np.inf)))
     if np.abs(coarse - center).max() < 1e-6 * diagonal:
         center = coarse
-    scale = float(np.nextafter(np.float32(diagonal * (1 + 4e-6)), np.float32(np.inf)))
-    return center, scale if np.isfinite(scale) and scale > 1e-30 else diagonal
+    return center, scale if 1e-30 < scale < np.inf else diagonal

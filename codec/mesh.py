@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Any
 
@@ -62,7 +63,7 @@ class TriangleMesh:
     @property
     def diagonal(self) -> float:
         """Length of the bounding box's diagonal."""
-        return float(np.linalg.norm(np.ptp(self.positions, axis=0)))
+        return math.hypot(*np.ptp(self.positions, axis=0))
 
     def without_isolated_vertices(self) -> tuple[TriangleMesh, npt.NDArray[np.int64]]:
         """The mesh of the vertices that some face uses, and their indices here, ascending."""

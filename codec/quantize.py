@@ -20,13 +20,18 @@ def quantize(coefficients: Matrix, step: float, rounding: float) -> Levels:
     scaled = coefficients / step
     offset = np.full((len(scaled), 1), rounding)
     offset[:1] = 0.5
-    magnitude = np.minimum(np.floor(np.abs(scaled) + offset), LARGEST_LEVEL)
+    magnitude = np.floor(np.abs(scaled) + offset)
     return np.copysign(magnitude, scaled).astype(np.int32)
 
 
 def dequantize(levels: Levels, step: float) -> Matrix:
     """Coefficients of `levels`."""
     return np.asarray(levels * step, dtype=np.float64)
+
+
+def smallest_step(block_size: int) -> float:
+    """Finest step whose levels hold every coefficient, and every difference of two, of a block of n_d vertices."""
+    return float(np.sqrt(block_size) / LARGEST_LEVEL)
 
 
 def packed_step(block_size: int, bits: int) -> float:

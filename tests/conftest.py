@@ -1,0 +1,25 @@
+"""Where the tests find real meshes, and which of them they skip without."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+import pytest
+
+HERE = Path(__file__).resolve().parent
+
+
+def mesh_folder() -> Path | None:
+    """The folder of real meshes: BSM_MESHES, or shared/meshes beside the checkout."""
+    candidates = [os.environ.get("BSM_MESHES"), HERE.parent.parent / "shared" / "meshes"]
+    return next((Path(path) for path in candidates if path and Path(path).is_dir()), None)
+
+
+@pytest.fixture(scope="session")
+def meshes() -> Path:
+    """The folder of real meshes; the test is skipped where there is none."""
+    folder = mesh_folder()
+    if folder is None:
+        pytest.skip("no folder of real meshes: set BSM_MESHES")
+    return folder

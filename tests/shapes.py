@@ -1,0 +1,58 @@
+"""Small meshes with known properties."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from codec.mesh import TriangleMesh
+
+Faces = NDArray[np.int32]
+
+
+def grid_faces(rows: int, columns: int, *, close_rows: bool = False, close_columns: bool = False) -> Faces:
+    """Triangles of a rectangular grid of vertices; closing both directions makes a torus."""
+    i, j = np.meshgrid(
+        np.arange(rows if close_rows else rows - 1), np.arange(columns if close_columns else columns - 1), indexing="ij"
+    )
+    a = i * columns + j
+    b = (i + 1) % rows * columns + j
+    c = (i + 1) % rows * columns + (j + 1) % columns
+    d = i * columns + (j + 1) % columns
+    return np.concatenate([np.stack([a, b, c], -1).reshape(-1, 3), np.stack([a, c, d], -1).reshape(-1, 3)]).astype(
+        np.int32
+    )
+
+
+def patch(rows: int, columns: int) -> TriangleMesh:
+    """A wavy rectangle, open."""
+    x, y = np.meshgrid(np.linspace(0, 1, rows), np.linspace(0, 1.3, columns), indexing="ij")
+    z = 0.1 * np.sin(5 * x) * np.cos(4 * y) + 0.02 * np.sin(17 * x + 9 * y)
+    return TriangleMesh(np.stack([x, y, z], -1).reshape(-1, 3), grid_faces(rows, columns))
+
+
+def torus(rows: int = 40, columns: int = 24, bumps: float = 0.05) -> TriangleMesh:
+    """A bumpy torus, closed, genus one."""
+    u, v = np.meshgrid(
+        np.linspace(0, 2 * np.pi, rows, endpoint=False),
+        np.linspace(0, 2 * np.pi, columns, endpoint=False),
+        indexing="ij",
+    )
+    r = 0.35 * (1 + bumps * np.sin(6 * u) * np.sin(4 * v))
+    x, y, z = (1 + r * np.cos(v)) * np.cos(u), (1 + r * np.cos(v)) * np.sin(u), r * np.sin(v)
+    faces = grid_faces(rows, columns, close_rows=True, close_columns=True)
+    return TriangleMesh(np.stack([x, y, z], -1).reshape(-1, 3), faces)
+
+
+def tetrahedron() -> TriangleMesh:
+    """Four vertices, four faces."""
+    positions = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]
+    return TriangleMesh(np.array(positions, float), np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]]))
+
+
+def together(*meshes: TriangleMesh) -> TriangleMesh:
+    """Several meshes as one, side by side."""
+    starts = np.cumsum([0, *(len(mesh.positions) for mesh in meshes)])
+    positions = [mesh.positions + [3.0 * k, 0, 0] for k, mesh in enumerate(meshes)]
+    faces = [mesh.faces + start for mesh, start in zip(meshes, starts, strict=False)]
+    return TriangleMesh(np.concatenate(positions), np.concatenate(faces))
