@@ -1,0 +1,119 @@
+"""The coarse step: keep the low graph frequencies of every block, and blend the blocks (paper, sections 6 and 7.2).
+
+``v^ = U_c U_c^T v`` in each overlapping block; the copies of a vertex are averaged with the vertex's degree in each
+block as weight.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+import numpy.typing as npt
+
+from bitstream.errors import OptionError
+from codec.blend import degree_weights
+from codec.blocks import Blocks, block_size, grow_blocks
+from codec.chain import Chain, ChainRules
+from codec.graph import Indices, graph_of_faces
+from codec.mesh import Faces
+from codec.parallel import ordered_map
+from codec.partition import metis_partition
+
+Floats = npt.NDArray[np.float64]
+
+BLOCK_SIZE = 500
+OVERLAP = 1.15
+KEEP = 0.10
+RULES = ChainRules(
+    exact=False,
+    independent=False,
+    key_interval=16,
+    power=3,
+    iterations=2,
+    key_iterations=4,
+    shift=0.125,
+    prior=None,
+)
+
+
+class CoarseFilter:
+    """A low-pass filter of everything that lives on the vertices of one connectivity.
+
+    Q of a QR factorisation is nested, so one dictionary serves every fraction up to the largest.
+
+    Parameters
+    ----------
+    faces : ndarray of int32, shape (m, 3)
+    n : int
+        Number of vertices.
+    keep : float
+        Largest fraction of a block's frequencies that will be asked for, c over n_d.
+    block : int
+        Vertices of a part before overlap, about.
+    rules : ChainRules
+        How the dictionaries are found.
+
+    Raises
+    ------
+    OptionError
+        If `keep` is not between 0 and 1, or `block` not positive.
+    """
+
+    def __init__(
+        self, faces: Faces, n: int, keep: float = KEEP, block: int = BLOCK_SIZE, rules: ChainRules = RULES
+    ) -> None:
+        if not 0.0 < keep <= 1.0 or block < 1:
+            raise OptionError(f"keep must be above 0 and at most 1, and the block positive; not {keep} and {block}")
+        graph = graph_of_faces(np.ascontiguousarray(faces, dtype=np.int32), n)
+        partition = metis_partition(graph, max(1, round(n / block)))
+        self._size = block_size(partition, OVERLAP)
+        self._keep = keep
+        self._blocks = list(_dictionaries(grow_blocks(graph, partition, self._size), self._width(keep), rules))
+        self._weights = np.zeros((n, 1))
+        for vertices, weights, _ in self._blocks:
+            self._weights[vertices] += weights
+
+    def __call__(self, values: Floats, keep: float = KEEP) -> Floats:
+        """Filter every column of `values`.
+
+        Parameters
+        ----------
+        values : ndarray of float64, shape (n, d)
+            Positions, or the positions of many frames side by side: all of them meet one dictionary.
+        keep : float
+            Fraction of the frequencies kept; a block keeps one at least.
+
+        Raises
+        ------
+        OptionError
+            If `keep` is not positive or exceeds that of the constructor.
+        """
+        if not 0.0 < keep <= self._keep:
+            raise OptionError(f"keep must be above 0 and at most {self._keep}, not {keep}")
+        width = self._width(keep)
+        sums = np.zeros_like(values)
+        for vertices, weights, dictionary in self._blocks:
+            subspace = dictionary[:, :width]
+            sums[vertices] += weights * (subspace @ (subspace.T @ values[vertices]))
+        return sums / self._weights
+
+    def _width(self, keep: float) -> int:
+        return max(1, round(keep * self._size))
+
+
+def _dictionaries(blocks: Blocks, width: int, rules: ChainRules) -> Iterator[tuple[Indices, Floats, Floats]]:
+    """Vertices, blending weights (a column) and dictionary of every block; chains run in parallel."""
+
+    def chain_from(first: int) -> list[tuple[Indices, Floats, Floats]]:
+        chain = Chain(rules, 0)
+        found = []
+        for index in range(first, min(first + rules.chain_length(blocks.count), blocks.count)):
+            block = blocks.block(index)
+            dictionary = chain.dictionary(block, width)
+            chain.commit(block, dictionary, np.zeros((dictionary.shape[1], 3)))
+            found.append((block.vertices, degree_weights(block.degrees)[:, None], dictionary))
+        return found
+
+    for found in ordered_map(chain_from, rules.chain_starts(blocks.count), None):
+        yield from found

@@ -1,0 +1,109 @@
+"""The coarse step is a projection on low graph frequencies, blended; and what is handed over."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from denoise_shapes import Partners, cube, sphere
+
+from bitstream.errors import OptionError
+from codec.chain import ChainRules
+from codec.denoise.coarse import RULES, CoarseFilter
+from codec.denoise.handover import HAND_OVERS, hand_over
+from codec.denoise.noise import gaussian_along_normals
+from codec.graph import graph_of_faces
+from codec.metrics import theta
+
+
+def dense_laplacian(faces: np.ndarray, n: int) -> np.ndarray:
+    graph = graph_of_faces(faces, n)
+    laplacian = np.diag(np.diff(graph.offsets).astype(float))
+    laplacian[np.repeat(np.arange(n), np.diff(graph.offsets)), graph.neighbours] = -1
+    return laplacian
+
+
+def test_one_block_with_exact_basis_is_the_spectral_projection() -> None:
+    positions, faces = sphere(5)
+    n = len(positions)
+    noisy = gaussian_along_normals(positions, faces, 0.3, seed=1)
+    values, vectors = np.linalg.eigh(dense_laplacian(faces, n))
+    # Cut inside a gap of the spectrum, where the subspace is unique.
+    width = 10 + int(np.argmax(np.diff(values[9:40])))
+    coarse = CoarseFilter(faces, n, keep=width / n, block=n, rules=replace(RULES, exact=True))
+    low = vectors[:, :width]
+    assert coarse(noisy, width / n) == pytest.approx(low @ (low.T @ noisy))
+
+
+def test_orthogonal_iterations_approach_the_exact_basis() -> None:
+    positions, faces = sphere(12)
+    noisy = gaussian_along_normals(positions, faces, 0.3, seed=1)
+
+    def filtered(rules: ChainRules) -> np.ndarray:
+        return CoarseFilter(faces, len(positions), 0.1, 200, rules)(noisy, 0.1)
+
+    exact = filtered(replace(RULES, exact=True))
+    apart = [np.linalg.norm(filtered(replace(RULES, iterations=t, key_iterations=t)) - exact) for t in (1, 2, 8, 32)]
+    assert apart[0] > apart[1] > apart[2] > apart[3]
+    assert apart[1] < 0.3 * np.linalg.norm(noisy - exact)
+    assert apart[3] < 0.05 * np.linalg.norm(noisy - exact)
+
+
+def test_place_is_kept_and_frames_are_filtered_together() -> None:
+    positions, faces = cube(10)
+    coarse = CoarseFilter(faces, len(positions), 0.2, 150)
+    moved = coarse(positions + 5.0, 0.1)
+    assert moved == pytest.approx(coarse(positions, 0.1) + 5.0)
+    frames = np.concatenate([positions, positions**2], axis=1)
+    together = coarse(frames, 0.2)
+    assert together[:, 3:] == pytest.approx(coarse(positions**2, 0.2))
+
+
+def test_a_smaller_fraction_is_the_same_as_a_smaller_dictionary() -> None:
+    positions, faces = sphere(12)
+    large, small = CoarseFilter(faces, len(positions), 0.3, 200), CoarseFilter(faces, len(positions), 0.1, 200)
+    assert large(positions, 0.1) == pytest.approx(small(positions, 0.1), abs=1e-8)
+
+
+def test_everything_kept_is_everything() -> None:
+    positions, faces = cube(4)
+    assert CoarseFilter(faces, len(positions), 1.0, 50)(positions, 1.0) == pytest.approx(positions, abs=1e-9)
+
+
+@pytest.mark.parametrize("keep", [0.0, -0.1, 1.5, np.nan])
+def test_illegal_fractions_are_refused(keep: float) -> None:
+    positions, faces = cube(2)
+    with pytest.raises(OptionError):
+        CoarseFilter(faces, len(positions), keep)
+    with pytest.raises(OptionError):
+        CoarseFilter(faces, len(positions), 0.5)(positions, keep)
+
+
+@pytest.mark.parametrize("name", ["positions", "normals"])
+def test_each_hand_over_takes_noise_away_before_the_fine_step(name: str) -> None:
+    clean, faces = sphere(16)
+    noisy = gaussian_along_normals(clean, faces, 0.3, seed=2)
+    coarse = CoarseFilter(faces, len(clean))(noisy)
+    assert theta(clean, hand_over(name)(noisy, coarse, faces), faces) < 0.6 * theta(clean, noisy, faces)
+
+
+def test_hand_overs_copy_what_they_hand_over() -> None:
+    clean, faces = cube(3)
+    for step in HAND_OVERS.values():
+        assert not np.shares_memory(step(clean, clean, faces), clean)
+    assert (hand_over("none")(clean, clean + 1, faces) == clean).all()
+    with pytest.raises(OptionError, match="normals"):
+        hand_over("best")
+
+
+@pytest.mark.real
+@pytest.mark.parametrize(
+    ("clean", "noisy", "expected"),
+    [("twelve_dodecahedron", "twelve_dodecahedron_noisy", 9.83), ("fandisk_6475", "fandisk_0.7_noisy", 14.56)],
+)
+def test_the_coarse_step_is_as_good_as_the_published_one(
+    partners: Partners, clean: str, noisy: str, expected: float
+) -> None:
+    original, mesh = partners(clean, noisy)
+    n = len(mesh.positions)
+    coarse = CoarseFilter(mesh.faces, n, block=n // 10)(mesh.positions)
+    assert theta(original.positions, coarse, mesh.faces) < 1.02 * expected
