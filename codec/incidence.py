@@ -11,9 +11,8 @@ import numpy as np
 import numpy.typing as npt
 from numba import njit
 
+from codec.graph import Indices, graph_of_faces
 from codec.mesh import Faces
-
-Indices = npt.NDArray[np.int32]
 
 
 class Rows(NamedTuple):
@@ -50,7 +49,8 @@ def vertex_neighbours(faces: Faces, n: int) -> Rows:
     n : int
         Number of vertices.
     """
-    return Rows(*_vertex_neighbours(faces, n, *vertex_faces(faces, n)))
+    graph = graph_of_faces(faces, n)
+    return Rows(graph.offsets.astype(np.int64), graph.neighbours)
 
 
 def mesh_edges(faces: Faces, n: int) -> Indices:
@@ -86,24 +86,3 @@ def _vertex_faces(faces, n):  # type: ignore[no-untyped-def]
             members[fill[c]] = f
             fill[c] += 1
     return starts, members
-
-
-@njit(cache=True, nogil=True)
-def _vertex_neighbours(faces, n, around_starts, around):  # type: ignore[no-untyped-def]
-    starts = np.zeros(n + 1, dtype=np.int64)
-    members = np.empty(2 * around_starts[n], dtype=np.int32)
-    seen = np.full(n, -1, dtype=np.int32)
-    end = 0
-    for v in range(n):
-        seen[v] = v
-        first = end
-        for k in range(around_starts[v], around_starts[v + 1]):
-            for corner in range(3):
-                w = faces[around[k], corner]
-                if seen[w] != v:
-                    seen[w] = v
-                    members[end] = w
-                    end += 1
-        members[first:end].sort()
-        starts[v + 1] = end
-    return starts, members[:end].copy()
