@@ -120,7 +120,7 @@ class Bank(NamedTuple):
     inputs : int64 array
         Scratch.
     settings : int64 array
-        Largest count, learning rate of the mixer, initial weight.
+        Largest count, learning rate of the mixer, initial weight, initial slot.
     """
 
     slots: npt.NDArray[np.uint32]
@@ -129,7 +129,15 @@ class Bank(NamedTuple):
     settings: npt.NDArray[np.int64]
 
 
-def make_bank(slots: int, selectors: int, inputs: int, limit: int = 255, rate: int = 6) -> Bank:
+def make_bank(
+    slots: int,
+    selectors: int,
+    inputs: int,
+    limit: int = 255,
+    rate: int = 14,
+    probability: int = ONE // 2,
+    trust: int = 0,
+) -> Bank:
     """Make a neutral bank.
 
     Parameters
@@ -144,15 +152,19 @@ def make_bank(slots: int, selectors: int, inputs: int, limit: int = 255, rate: i
         A slot adapts with rate 1/(n + 1.5) until it was used `limit` times (at most 1023), then with a constant rate.
     rate : int
         Learning rate of the mixing weights, 2 (slow) to 20 (fast).
+    probability, trust : int
+        What a slot predicts before it was used, out of `ONE`, and after how many uses it would have learnt that.
     """
     if not (slots > 0 and selectors > 0 and inputs > 0 and 0 < limit <= _MAX_COUNT and rate > 0):
         raise OptionError("a bank needs slots, selectors, inputs and rate > 0, and limit in 1..1023")
+    if not (0 < probability < ONE and 0 <= trust <= limit):
+        raise OptionError(f"the first probability must be in 1..{ONE - 1}, and trust in 0..limit")
     initial = ONE * 2 // (2 * inputs) if inputs < 3 else ONE * 5 // (4 * inputs)
     bank = Bank(
         np.empty(slots, np.uint32),
         np.empty((selectors, inputs), np.int32),
         np.zeros(inputs, np.int64),
-        np.array([limit, rate, initial], np.int64),
+        np.array([limit, rate, initial, probability << 16 | trust], np.int64),
     )
     reset_bank(bank)
     return bank
@@ -160,7 +172,7 @@ def make_bank(slots: int, selectors: int, inputs: int, limit: int = 255, rate: i
 
 def reset_bank(bank: Bank) -> None:
     """Forget everything that `bank` has learnt, in place."""
-    bank.slots[:] = 1 << 31
+    bank.slots[:] = bank.settings[3]
     bank.weights[:] = bank.settings[2]
 
 
@@ -172,6 +184,22 @@ def copy_bank(bank: Bank) -> Bank:
 def start_writing(capacity: int) -> Coder:
     """Make a coder that writes at most `capacity` bytes; one coded bit takes two bytes at the very most."""
     return Coder(np.array([0, (1 << 32) - 1, 0, 0, 0], np.int64), np.empty(capacity + 8, np.uint8))
+
+
+def make_room(coder: Coder, capacity: int) -> Coder:
+    """Return a coder that continues `coder` and reads, or can write at least `capacity` bytes more."""
+    if has_room(coder, capacity):
+        return coder
+    written = int(coder.state[_POSITION])
+    data = np.empty(written + capacity + 8, np.uint8)
+    data[:written] = coder.data[:written]
+    return Coder(coder.state, data)
+
+
+@leaf
+def has_room(coder: Coder, capacity: int) -> bool:
+    """Whether the coder reads, or can write at least `capacity` bytes more."""
+    return coder.state[_READING] != 0 or coder.state[_POSITION] + capacity < coder.data.size
 
 
 def start_reading(payload: bytes) -> Coder:
