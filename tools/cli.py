@@ -1,0 +1,86 @@
+"""The command line `bsm`."""
+
+from __future__ import annotations
+
+import argparse
+import importlib
+import os
+import sys
+from collections.abc import Sequence
+from typing import NoReturn
+
+from bitstream.errors import BsmError
+from tools.console import Console
+from tools.exits import exit_of, exit_table, is_expected
+
+COMMANDS = {
+    "encode": "compress a mesh",
+    "decode": "restore a mesh",
+    "info": "show what a stream holds",
+    "compare": "measure the error of a mesh",
+    "verify": "check a stream",
+    "demo": "compress a sample and show what became of it",
+}
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run a command; the return value is the exit code of the table in `tools.exits`."""
+    words = sys.argv[1:] if arguments is None else arguments
+    args = _parser(words).parse_args(words)
+    console = Console(quiet=args.quiet)
+    try:
+        args.run(args, console)
+        sys.stdout.flush()
+    except (Exception, KeyboardInterrupt) as error:
+        if not is_expected(error):
+            raise
+        return _report(error, args, console)
+    return 0
+
+
+def _report(error: BaseException, args: argparse.Namespace, console: Console) -> int:
+    """Say what went wrong, without a traceback, and give the exit code."""
+    if isinstance(error, BrokenPipeError):
+        # Nobody reads what is left in the buffer; flushing it at exit would fail once more.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    elif isinstance(error, KeyboardInterrupt):
+        console.error("interrupted")
+    elif isinstance(error, BsmError):
+        about = getattr(args, "input", None)
+        console.error(f"{about}: {error}" if about else str(error))
+    elif isinstance(error, OSError):
+        place = f"{error.filename}: " if error.filename else ""
+        console.error(f"{place}{error.strerror or error}")
+    else:
+        console.error(f"not enough memory: {error}")
+    return exit_of(error).code
+
+
+def _parser(words: Sequence[str]) -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        prog="bsm",
+        description="Compress triangle meshes to a stream that is decoded block by block.",
+        epilog=f"exit codes:\n{exit_table()}",
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    common = argparse.ArgumentParser(add_help=False)
+    common.add_argument("-f", "--force", action="store_true", help="overwrite files")
+    common.add_argument("-q", "--quiet", action="store_true", help="say nothing but results and errors")
+    commands = parser.add_subparsers(metavar="COMMAND", required=True)
+    for name, about in COMMANDS.items():
+        command = commands.add_parser(name, parents=[common], help=about, description=f"{about.capitalize()}.")
+        if name in words:
+            # The others are not imported: most of the time to start goes into that.
+            module = importlib.import_module(f"tools.commands.{name}")
+            module.add_arguments(command)
+            command.set_defaults(run=module.run)
+    return parser
+
+
+def run() -> NoReturn:
+    """Run as a program."""
+    sys.exit(main())
+
+
+if __name__ == "__main__":
+    run()

@@ -1,0 +1,45 @@
+"""bsm compare: how far one mesh is from another of the same faces."""
+
+from __future__ import annotations
+
+import argparse
+import math
+from dataclasses import asdict
+
+from codec.mesh import TriangleMesh
+from tools.console import Console, print_json
+from tools.meshfiles import read_mesh
+from tools.permutation import in_order_of, read_permutation
+from tools.streams import decode_whole, is_stream, read_chunks
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare what the command takes."""
+    parser.add_argument("original", metavar="A", help="original: mesh file or stream")
+    parser.add_argument("decoded", metavar="B", help="what became of it: mesh file or stream")
+    parser.add_argument("--permutation", metavar="FILE.npy", help="what encode wrote: vertex p[j] of A is j of B")
+    parser.add_argument("--json", action="store_true", help="print it as JSON")
+
+
+def run(args: argparse.Namespace, console: Console) -> None:
+    """Compare two meshes."""
+    from codec.metrics import compare
+
+    original, decoded = (_load(path, console) for path in (args.original, args.decoded))
+    order = read_permutation(args.permutation) if args.permutation else None
+    result = asdict(compare(original.positions, in_order_of(original, decoded, order), original.faces))
+    if args.json:
+        # JSON has no infinity; equal meshes have no decibels.
+        print_json({name: value if math.isfinite(value) else None for name, value in result.items()})
+    else:
+        print("\n".join(f"{name:<19}{value:.6g}" for name, value in result.items()))
+
+
+def _load(path: str, console: Console) -> TriangleMesh:
+    """A mesh file or a stream, without the vertices that no face uses."""
+    if is_stream(path):
+        return decode_whole(read_chunks(path))
+    source = read_mesh(path)
+    for note in source.notes:
+        console.note(f"{path}: {note}")
+    return source.mesh.without_isolated_vertices()[0]

@@ -1,0 +1,30 @@
+"""Names of outputs that the user did not name."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+from bitstream.errors import OptionError
+
+
+def default_output(path: str, suffix: str) -> str:
+    """`path` with another suffix; "-" (a pipe) stays.
+
+    Raises
+    ------
+    OptionError
+        If the name would be the input's own.
+    """
+    if path == "-":
+        return "-"
+    output = Path(path).with_suffix(suffix)
+    if output == Path(path):
+        raise OptionError(f"the output would replace the input {path}; name another with -o")
+    return str(output)
+
+
+def refuse_terminal(path: str) -> None:
+    """Raise `OptionError` if "-" is a terminal: binary data would only garble it."""
+    if path == "-" and sys.stdout.isatty():
+        raise OptionError("binary data is not written to a terminal; redirect it, or name a file with -o")
