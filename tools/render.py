@@ -23,6 +23,9 @@ def view_matrix(azimuth: float, elevation: float) -> npt.NDArray[np.float64]:
     return np.array([right, up, towards])
 
 
+DEFAULT_VIEW = view_matrix(-90.0, 60.0)
+
+
 def render(
     positions: Positions,
     faces: Faces,
@@ -41,9 +44,9 @@ def render(
     size : int
         Pixels of a side.
     view : ndarray, shape (3, 3), optional
-        From `view_matrix`; by default from above at an angle.
+        From `view_matrix`; by default from the front and above.
     bounds : (ndarray of shape (3,), float), optional
-        Centre and radius of what the picture shows, so that several show the same; by default the mesh.
+        From `bounds_of`: what the picture shows, so that several show the same; by default the mesh.
     colors : ndarray, shape (m, 3), optional
         Colour of each face, 0..1.
 
@@ -52,8 +55,8 @@ def render(
     ndarray of float64, shape (size, size, 3)
         In 0..1, first row on top.
     """
-    view = view_matrix(-60.0, 55.0) if view is None else view
-    center, radius = bounds_of(positions) if bounds is None else bounds
+    view = DEFAULT_VIEW if view is None else view
+    center, radius = bounds_of(positions, view) if bounds is None else bounds
     fine = size * _SUPERSAMPLING
     placed = (positions - center) @ view.T / radius
     pixels = (placed * (1.0, -1.0, 1.0) + (1.0, 1.0, 0.0)) * (fine / 2, fine / 2, 1.0)
@@ -69,10 +72,13 @@ def render(
     return np.asarray(blocks.mean(axis=(1, 3)).clip(0.0, 1.0))
 
 
-def bounds_of(positions: Positions) -> tuple[npt.NDArray[np.float64], float]:
-    """Centre of the bounding box, and a radius around it that holds all vertices with a little air."""
-    center = (positions.min(axis=0) + positions.max(axis=0)) / 2
-    return center, 1.03 * float(np.linalg.norm(positions - center, axis=1).max()) or 1.0
+def bounds_of(
+    positions: Positions, view: npt.NDArray[np.float64] = DEFAULT_VIEW
+) -> tuple[npt.NDArray[np.float64], float]:
+    """The middle of a mesh as the camera sees it, and half the side of a square that holds it with a little air."""
+    seen = positions @ view.T
+    low, high = seen.min(axis=0), seen.max(axis=0)
+    return (low + high) / 2 @ view, 0.515 * float((high - low)[:2].max()) or 1.0
 
 
 @njit(cache=True, nogil=True)

@@ -10,8 +10,8 @@ from codec.mesh import TriangleMesh
 
 Doubles = npt.NDArray[np.float64]
 
-_TUBE = 0.55
-_ASPECT = 9.0
+_TUBE = 0.5
+_ASPECT = 10.0
 """Length of the knot over the circumference of its tube, about."""
 
 
@@ -30,11 +30,12 @@ def knot(vertices: int = 20_000, seed: int = 1) -> TriangleMesh:
 
 
 def _scattered(count: int, random: np.random.Generator) -> Doubles:
-    """Points in the unit square, one in each cell of a grid whose cells are square on the tube."""
+    """Points in the unit square, one in each cell of a brick wall whose bricks are square on the tube."""
     across = max(4, round((count / _ASPECT) ** 0.5))
     along = max(12, round(count / across))
     cells = np.stack(np.meshgrid(np.arange(along), np.arange(across), indexing="ij"), axis=-1).reshape(-1, 2)
-    return np.asarray((cells + random.uniform(0.15, 0.85, cells.shape)) / (along, across))
+    bricks = cells + (0.0, 0.5) * (cells[:, :1] % 2)
+    return np.asarray((bricks + random.uniform(0.25, 0.75, cells.shape)) / (along, across) % 1.0)
 
 
 def _periodic_triangles(places: Doubles) -> npt.NDArray[np.int32]:
@@ -43,7 +44,8 @@ def _periodic_triangles(places: Doubles) -> npt.NDArray[np.int32]:
     copies = (places + shifts[:, None]).reshape(-1, 2)
     # Nothing beyond a margin of a few cells can matter.
     near = np.flatnonzero((np.abs(copies - 0.5) < 0.7).all(axis=1))
-    triangles = near[Delaunay(copies[near] * (_ASPECT, 1.0)).simplices]
+    # The corners are turned so that the faces look outwards on the tube.
+    triangles = near[Delaunay(copies[near] * (_ASPECT, 1.0)).simplices[:, ::-1]]
     center = copies[triangles].mean(axis=1)
     inside = ((center >= 0.0) & (center < 1.0)).all(axis=1)
     return (triangles[inside] % len(places)).astype(np.int32)
@@ -58,15 +60,15 @@ def _tube(along: Doubles, around: Doubles) -> Doubles:
     tangent = _unit(after - before)
     binormal = _unit(np.cross(tangent, after - 2 * center + before))
     normal = np.cross(binormal, tangent)
-    rope = 0.16 * np.cos(5 * v + 24 * t)
-    dents = 0.05 * np.sin(40 * t) * np.sin(4 * v)
-    grain = 0.012 * np.sin(170 * t + 3 * np.sin(9 * v)) * np.sin(23 * v)
+    rope = 0.13 * np.cos(4 * v + 20 * t)
+    dents = 0.05 * np.cos(36 * t) * np.cos(3 * v)
+    grain = 0.008 * np.sin(90 * t) * np.sin(16 * v)
     radius = (_TUBE * (1 + rope + dents + grain))[:, None]
     return np.asarray(center + radius * (np.cos(v)[:, None] * normal + np.sin(v)[:, None] * binormal))
 
 
 def _trefoil(t: Doubles) -> Doubles:
-    ring = 2 + np.cos(3 * t)
+    ring = 2.2 + np.cos(3 * t)
     return np.column_stack([ring * np.cos(2 * t), ring * np.sin(2 * t), np.sin(3 * t)])
 
 
