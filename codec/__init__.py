@@ -10,9 +10,11 @@ from codec.decoder import (
 )
 from codec.encoder import Encoder, encode, encode_chunks
 from codec.mesh import TriangleMesh
-from codec.options import EncodeOptions
+from codec.options import PRESETS, EncodeOptions
+from codec.targets import Target
 
 __all__ = [
+    "PRESETS",
     "BlockEvent",
     "ConnectivityEvent",
     "Decoder",
@@ -20,6 +22,7 @@ __all__ = [
     "Encoder",
     "EndEvent",
     "HeaderEvent",
+    "Target",
     "TriangleMesh",
     "decode",
     "encode",

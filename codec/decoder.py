@@ -13,11 +13,11 @@ import numpy.typing as npt
 from bitstream import packets
 from bitstream.adaptive import CoefficientModel, decode_coefficients
 from bitstream.coefficients import unpack_coefficients
+from bitstream.connectivity import decode_connectivity
 from bitstream.errors import BsmError, CorruptError, NumericError, UnsupportedError
 from bitstream.header import Header
 from bitstream.labels import decode_labels
 from bitstream.limits import DEFAULT_LIMITS, Limits
-from bitstream.plain_faces import decode_plain_faces
 from bitstream.reader import END_OF_STREAM, NEED_DATA, Reader, Signal
 from codec.blend import Blend, degree_weights
 from codec.blocks import Block, Blocks, grow_blocks
@@ -33,6 +33,9 @@ from codec.structure import check_work
 
 Matrix = npt.NDArray[np.float64]
 Indices = npt.NDArray[np.int32]
+
+CONNECTIVITY_METHOD = 1
+"""The valence-driven coder of `bitstream.connectivity`."""
 
 
 @dataclass(frozen=True)
@@ -284,9 +287,9 @@ class Decoder:
 
     def _accept_connectivity(self, packet: packets.Connectivity) -> None:
         assert self._header is not None
-        if packet.method != 0:
+        if packet.method != CONNECTIVITY_METHOD:
             raise UnsupportedError(f"connectivity method {packet.method} is unknown to this decoder")
-        self._faces = decode_plain_faces(packet.data, self._header.vertices, self._header.faces)
+        self._faces = decode_connectivity(packet.data, self._header.vertices, self._header.faces, self._limits)
         self._graph = graph_of_faces(self._faces, self._header.vertices)
         self._queue.append(ConnectivityEvent(self._faces))
 

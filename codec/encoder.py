@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import numpy.typing as npt
@@ -11,24 +11,26 @@ import numpy.typing as npt
 from bitstream import packets
 from bitstream.adaptive import CoefficientModel, encode_coefficients
 from bitstream.coefficients import pack_coefficients
+from bitstream.connectivity import encode_connectivity
 from bitstream.errors import OptionError
 from bitstream.header import Header
 from bitstream.labels import encode_labels
-from bitstream.plain_faces import encode_plain_faces
 from bitstream.writer import Writer
 from codec.blend import Blend
 from codec.blocks import Blocks, block_size, grow_blocks
 from codec.chain import Chain, ChainRules
-from codec.decoder import chain_rules, copy_weights
-from codec.graph import Graph, graph_of_faces
+from codec.decoder import CONNECTIVITY_METHOD, chain_rules, copy_weights
+from codec.dynamic import dynamic_size
+from codec.graph import graph_of_faces
 from codec.mesh import TriangleMesh
-from codec.metrics import Reference
+from codec.metrics import Comparison, Reference
 from codec.options import EncodeOptions
 from codec.parallel import ordered_map
 from codec.partition import Partition, derive_partition, metis_partition
 from codec.predict import PriorModel
 from codec.quantize import dequantize, levels_to_unsigned, packed_step, quantize, smallest_step
 from codec.smooth import smooth
+from codec.targets import search_step
 
 Matrix = npt.NDArray[np.float64]
 Progress = Callable[[int, int], None]
@@ -47,6 +49,84 @@ class CodedBlock:
     weights: Matrix
 
 
+@dataclass(frozen=True, eq=False)
+class Attempt:
+    """A whole stream, and what its decoder will make of it.
+
+    Parameters
+    ----------
+    frames : tuple of bytes
+        The stream, frame by frame.
+    header : Header
+    coefficients : tuple of int
+        c_i of each block.
+    comparison : Comparison
+        The decoded mesh against the original.
+    """
+
+    frames: tuple[bytes, ...]
+    header: Header
+    coefficients: tuple[int, ...]
+    comparison: Comparison
+
+    @property
+    def size(self) -> int:
+        """Bytes of the whole stream."""
+        return sum(map(len, self.frames))
+
+    @property
+    def vertices(self) -> int:
+        """Number of vertices."""
+        return self.header.vertices
+
+
+class ChainEncoder:
+    """Encodes the blocks of one chain, in their order; the twin of `ChainDecoder`."""
+
+    def __init__(self, header: Header, rules: ChainRules, blocks: Blocks, options: EncodeOptions) -> None:
+        self._header = header
+        self._blocks = blocks
+        self._options = options
+        self._chain = Chain(rules, header.vertices)
+        self._model = CoefficientModel(header.coefficients)
+        self._width = header.coefficients
+
+    def encode(self, index: int, positions: Matrix) -> CodedBlock:
+        """Encode the chain's next block; `positions`, shape (n, 3), are the whole mesh's, in BSM units."""
+        header, blocks, chain = self._header, self._blocks, self._chain
+        block = blocks.block(index)
+        subspace = chain.dictionary(block, header.coefficients)
+        coefficients = subspace.T @ positions[block.vertices]
+        prediction = chain.prediction(block, subspace)
+        width = self._subspace_size(positions[block.vertices], coefficients, prediction)
+        if width < subspace.shape[1]:
+            subspace = np.ascontiguousarray(subspace[:, :width])
+            coefficients = coefficients[:width]
+            prediction = chain.prediction(block, subspace)
+        levels = quantize(coefficients - prediction, header.step, self._rounding)
+        if header.coding == 0:
+            payload = pack_coefficients(levels_to_unsigned(levels, header.bits), header.bits)
+        else:
+            payload = encode_coefficients(self._model, levels)
+        decoded = chain.commit(block, subspace, prediction + dequantize(levels, header.step))
+        weights = copy_weights(header, blocks, index, block)
+        return CodedBlock(packets.Block(index, width, payload), block.vertices, decoded, weights)
+
+    @property
+    def _rounding(self) -> float:
+        return 0.5 if self._header.coding == 0 else self._options.rounding
+
+    def _subspace_size(self, positions: Matrix, coefficients: Matrix, prediction: Matrix) -> int:
+        """c_i: as dynamic orthogonal iterations have it, or up to the last coefficient that is worth a level."""
+        if self._options.doi is not None:
+            self._width = dynamic_size(positions, coefficients, self._width, *self._options.doi)
+            return self._width
+        if self._header.coding == 0:
+            return len(coefficients)
+        rows = np.flatnonzero(quantize(coefficients - prediction, self._header.step, self._rounding).any(axis=1))
+        return int(rows[-1]) + 1 if len(rows) else 1
+
+
 class Encoder:
     """Encodes one mesh.
 
@@ -59,7 +139,7 @@ class Encoder:
     Attributes
     ----------
     notes : tuple of str
-        What was changed on the way in.
+        What was changed on the way in, or could not be met.
     vertex_order : int64 array, shape (n,)
         The decoder's vertex j is vertex `vertex_order[j]` of `mesh`.
     face_order : int64 array, shape (m,)
@@ -70,13 +150,18 @@ class Encoder:
         self.options = options or EncodeOptions()
         used, kept = mesh.without_isolated_vertices()
         dropped = len(mesh.positions) - len(kept)
-        self.notes = (f"{dropped} vertices that no face uses were left out",) if dropped else ()
-        self._connectivity = packets.Connectivity(0, encode_plain_faces(used.faces))
-        self.vertex_order: npt.NDArray[np.int64] = kept
-        self.face_order: npt.NDArray[np.int64] = np.arange(len(used.faces))
-        self.mesh = used
-        self._center, self._scale = _frame_of_reference(used)
-        self._positions = (used.positions - self._center) / self._scale
+        self.notes: tuple[str, ...] = (f"{dropped} vertices that no face uses were left out",) if dropped else ()
+        connectivity = encode_connectivity(used.faces, len(kept))
+        self._connectivity = packets.Connectivity(CONNECTIVITY_METHOD, connectivity.payload)
+        self.vertex_order: npt.NDArray[np.int64] = kept[connectivity.vertex_order]
+        self.face_order: npt.NDArray[np.int64] = connectivity.face_order.astype(np.int64)
+        self.mesh = TriangleMesh(mesh.positions[self.vertex_order], connectivity.faces)
+        self._center, self._scale = _frame_of_reference(self.mesh)
+        self._positions = (self.mesh.positions - self._center) / self._scale
+        self._graph = graph_of_faces(self.mesh.faces, len(kept))
+        self._partition = self._cut(max(1, round(len(kept) / self.options.block_size)))
+        self._blocks = grow_blocks(self._graph, self._partition, block_size(self._partition, self.options.overlap))
+        self._reference: Reference | None = None
 
     def encode(self) -> bytes:
         """The whole stream."""
@@ -88,49 +173,65 @@ class Encoder:
         Parameters
         ----------
         progress : callable, optional
-            Called with the number of blocks done and of all blocks.
+            Called with the number of blocks done and of all blocks, once for every attempt at a target.
         """
-        graph = graph_of_faces(self.mesh.faces, len(self.mesh.positions))
-        partition = self._partition(graph)
-        header = self._header(partition)
-        blocks = grow_blocks(graph, partition, header.block_size)
-        coded: list[CodedBlock] = []
-        for chain in self._chains(blocks, header):
-            coded.extend(chain)
-            if progress:
-                progress(len(coded), blocks.count)
-        header = self._smoothed(header, graph, coded)
+        if self.options.target is None:
+            yield from self._frames(*self._coded(self.options.step, progress))
+        else:
+            yield from self.search(progress).frames
+
+    def search(self, progress: Progress | None = None) -> Attempt:
+        """Look for the step that meets the options' target; what cannot be met is noted."""
+        target = self.options.target
+        if target is None:
+            raise OptionError("there is no target to search for")
+        finest = smallest_step(self._size)
+        attempt, met = search_step(lambda step: self.attempt(step, progress), target, self.options.step, finest)
+        if not met:
+            self.notes += (f"{target.kind} {target.value:g} was not met: the best is {target.reached(attempt):g}",)
+        return attempt
+
+    def attempt(self, step: float, progress: Progress | None = None) -> Attempt:
+        """Encode with a given quantization step, and see what the decoder will."""
+        header, coded = self._coded(step, progress)
+        decoded = smooth(self._graph, self._blended(coded), header.smoothing)
+        frames = tuple(self._frames(header, coded))
+        return Attempt(frames, header, tuple(b.packet.coefficients for b in coded), self._compared().compare(decoded))
+
+    @property
+    def _size(self) -> int:
+        return block_size(self._partition, self.options.overlap)
+
+    def _cut(self, parts: int) -> Partition:
+        if self.options.partition == "metis":
+            return metis_partition(self._graph, parts)
+        return derive_partition(self._graph, parts)
+
+    def _frames(self, header: Header, coded: list[CodedBlock]) -> Iterator[bytes]:
         writer = Writer()
         yield writer.start()
         yield writer.write(header)
         yield writer.write(self._connectivity)
         if self.options.partition == "metis":
+            graph, partition = self._graph, self._partition
             labels = encode_labels(graph.offsets, graph.neighbours, partition.labels, partition.parts)
             yield writer.write(packets.Partition(0, labels))
         for block in coded:
             yield writer.write(block.packet)
         yield writer.end()
 
-    def _partition(self, graph: Graph) -> Partition:
-        parts = max(1, round(graph.size / self.options.block_size))
-        return metis_partition(graph, parts) if self.options.partition == "metis" else derive_partition(graph, parts)
-
-    def _header(self, partition: Partition) -> Header:
-        options = self.options
-        size = block_size(partition, options.overlap)
-        width = options.coefficients or max(1, round(options.keep * size))
+    def _header(self, step: float) -> Header:
+        options, size = self.options, self._size
         packed = options.bits is not None
-        if not packed and options.step < smallest_step(size):
-            raise OptionError(
-                f"step = {options.step:g} is too fine for blocks of {size}, try {smallest_step(size):.1e}"
-            )
+        if not packed and step < smallest_step(size):
+            raise OptionError(f"step = {step:g} is too fine for blocks of {size}, try {smallest_step(size):.1e}")
         predicted = options.predict and options.seed == "previous" and not packed
         return Header(
             vertices=len(self.mesh.positions),
             faces=len(self.mesh.faces),
-            blocks=partition.parts,
+            blocks=self._partition.parts,
             block_size=size,
-            coefficients=min(width, size),
+            coefficients=options.width(size, step),
             basis=("oi", "svd").index(options.basis),
             seeding=("previous", "independent").index(options.seed),
             key_interval=options.key_interval,
@@ -141,69 +242,55 @@ class Encoder:
             blend=("degree", "uniform", "own").index(options.blend),
             coding=0 if packed else 1,
             bits=options.bits or 12,
-            step=_single(packed_step(size, options.bits) if options.bits else options.step),
+            step=_single(packed_step(size, options.bits) if options.bits else step),
             center=tuple(self._center),
             scale=self._scale,
             prediction=tuple(map(_single, PRIOR.as_floats())) if predicted else (),
         )
 
-    def _chains(self, blocks: Blocks, header: Header) -> Iterator[list[CodedBlock]]:
+    def _coded(self, step: float, progress: Progress | None) -> tuple[Header, list[CodedBlock]]:
+        header, blocks = self._header(step), self._blocks
         rules = chain_rules(header)
         length = rules.chain_length(blocks.count)
 
         def encode_chain(first: int) -> list[CodedBlock]:
+            chain = ChainEncoder(header, rules, blocks, self.options)
             indices = range(first, min(first + length, blocks.count))
-            return list(self._encode_chain(blocks, header, rules, indices))
+            return [chain.encode(index, self._positions) for index in indices]
 
-        return ordered_map(encode_chain, rules.chain_starts(blocks.count), self.options.threads)
+        coded: list[CodedBlock] = []
+        for chain in ordered_map(encode_chain, rules.chain_starts(blocks.count), self.options.threads):
+            coded.extend(chain)
+            if progress:
+                progress(len(coded), blocks.count)
+        header = replace(header, coefficients=max(block.packet.coefficients for block in coded))
+        return replace(header, smoothing=self._smoothing(header, coded)), coded
 
-    def _encode_chain(self, blocks: Blocks, header: Header, rules: ChainRules, indices: range) -> Iterator[CodedBlock]:
-        chain = Chain(rules, header.vertices)
-        model = CoefficientModel(header.coefficients)
-        for index in indices:
-            block = blocks.block(index)
-            subspace = chain.dictionary(block, header.coefficients)
-            coefficients = subspace.T @ self._positions[block.vertices]
-            prediction = chain.prediction(block, subspace)
-            levels = quantize(coefficients - prediction, header.step, self._rounding(header))
-            if header.coding == 0:
-                payload = pack_coefficients(levels_to_unsigned(levels, header.bits), header.bits)
-            else:
-                width = _significant(levels)
-                if width < len(levels):
-                    subspace = np.ascontiguousarray(subspace[:, :width])
-                    prediction = chain.prediction(block, subspace)
-                    levels = quantize(coefficients[:width] - prediction, header.step, self._rounding(header))
-                payload = encode_coefficients(model, levels)
-            positions = chain.commit(block, subspace, prediction + dequantize(levels, header.step))
-            weights = copy_weights(header, blocks, index, block)
-            yield CodedBlock(packets.Block(index, len(levels), payload), block.vertices, positions, weights)
-
-    def _rounding(self, header: Header) -> float:
-        return 0.5 if header.coding == 0 else self.options.rounding
-
-    def _smoothed(self, header: Header, graph: Graph, coded: list[CodedBlock]) -> Header:
-        """The header with the amount of smoothing that the options ask for, or that brings theta lowest."""
-        from dataclasses import replace
-
-        if header.coding == 0 or self.options.smoothing == 0.0:
-            return header
-        if self.options.smoothing is not None:
-            return replace(header, smoothing=_single(self.options.smoothing))
-        blend = Blend(header.vertices)
+    def _blended(self, coded: list[CodedBlock]) -> Matrix:
+        blend = Blend(len(self._positions))
         for block in coded:
             blend.add(block.vertices, block.positions, block.weights)
-        decoded = blend.positions(np.arange(header.vertices, dtype=np.int32))
-        reference = Reference(self._positions, self.mesh.faces)
-        best, least = 0.0, reference.theta(decoded)
-        visual = reference.nmsve(decoded)
+        return blend.positions(np.arange(len(self._positions), dtype=np.int32))
+
+    def _compared(self) -> Reference:
+        """The original, in BSM units, prepared for comparing."""
+        if self._reference is None:
+            self._reference = Reference(self._positions, self.mesh.faces)
+        return self._reference
+
+    def _smoothing(self, header: Header, coded: list[CodedBlock]) -> float:
+        """The amount of smoothing that the options ask for, or that brings theta lowest without visual error."""
+        if header.coding == 0 or self.options.smoothing is not None:
+            return _single(self.options.smoothing or 0.0)
+        decoded, reference = self._blended(coded), self._compared()
+        best, least, visual = 0.0, reference.theta(decoded), reference.nmsve(decoded)
         for amount in SMOOTHING_STEPS:
-            candidate = smooth(graph, decoded, amount)
+            candidate = smooth(self._graph, decoded, amount)
             angle = reference.theta(candidate)
             if angle >= least or reference.nmsve(candidate) > visual:
                 break
             best, least = amount, angle
-        return replace(header, smoothing=best)
+        return best
 
 
 def encode(mesh: TriangleMesh, options: EncodeOptions | None = None) -> bytes:
@@ -216,12 +303,6 @@ def encode_chunks(
 ) -> Iterator[bytes]:
     """Encode a mesh frame by frame."""
     return Encoder(mesh, options).chunks(progress)
-
-
-def _significant(levels: npt.NDArray[np.int32]) -> int:
-    """c_i: rows up to the last one with a level that is not zero, at least one."""
-    rows = np.flatnonzero(levels.any(axis=1))
-    return int(rows[-1]) + 1 if len(rows) else 1
 
 
 def _single(value: float) -> float:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, fields
 
 from bitstream.errors import OptionError
+from codec.targets import Target
 
 CHOICES = {
     "basis": ("oi", "svd"),
@@ -36,8 +37,8 @@ class EncodeOptions:
 
     Parameters
     ----------
-    keep : float
-        Size of the subspace, c, as a fraction of the block size n_d.
+    keep : float, optional
+        Largest size of the subspace, c, as a fraction of the block size n_d; None: by the step, see `fraction_for`.
     coefficients : int, optional
         c itself; overrides `keep`.
     block_size : int
@@ -67,6 +68,11 @@ class EncodeOptions:
         Weights of a vertex's copies: "degree" (the paper's), "uniform", or "own" (only the copy in its part counts).
     keep_order : bool
         Store the order of vertices and faces, and the first corner of each face.
+    doi : (float, float), optional
+        eps_l and eps_h of dynamic orthogonal iterations, in units of the bounding box's diagonal: c_i follows the
+        error of each block.
+    target : Target, optional
+        Quality or size to reach; the step is searched for.
     threads : int, optional
         None: one per core.
 
@@ -76,7 +82,7 @@ class EncodeOptions:
         If a value is outside its legal range, or options exclude each other.
     """
 
-    keep: float = 0.10
+    keep: float | None = None
     coefficients: int | None = None
     block_size: int = 500
     overlap: float = 1.15
@@ -95,6 +101,8 @@ class EncodeOptions:
     smoothing: float | None = None
     blend: str = "degree"
     keep_order: bool = False
+    doi: tuple[float, float] | None = None
+    target: Target | None = None
     threads: int | None = None
 
     def __post_init__(self) -> None:
@@ -108,3 +116,31 @@ class EncodeOptions:
                 low, high = RANGES[item.name]
                 if not low <= value <= high:
                     raise OptionError(f"{item.name} = {value:g} is outside {low:g}..{high:g}")
+        if self.doi is not None and not 0.0 < self.doi[0] < self.doi[1]:
+            raise OptionError(f"doi = {self.doi} must be two thresholds, 0 < eps_l < eps_h")
+        if self.bits is not None and self.target is not None:
+            raise OptionError("a target is reached by the step; it excludes a fixed number of bits")
+
+    def width(self, size: int, step: float) -> int:
+        """c for blocks of `size` vertices (n_d) and a quantization step."""
+        keep = self.keep or (PAPER_FRACTION if self.bits else fraction_for(step))
+        return min(self.coefficients or max(1, round(keep * size)), size)
+
+
+PAPER_FRACTION = 0.10
+
+
+def fraction_for(step: float) -> float:
+    """Subspace size over block size that pays at a step: what is finer than this drowns in the quantization.
+
+    Read off rate-distortion curves of scanned meshes; too large a value costs time, not bits.
+    """
+    return min(1.0, max(0.09, 0.12 * (0.005 / step) ** 0.75))
+
+
+PRESETS: dict[str, EncodeOptions] = {
+    "small": EncodeOptions(block_size=1000, key_interval=0, step=0.006),
+    "balanced": EncodeOptions(),
+    "fine": EncodeOptions(step=0.0015),
+}
+"""Names for what most users want; "balanced" is the default."""

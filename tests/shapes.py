@@ -53,6 +53,6 @@ def tetrahedron() -> TriangleMesh:
 def together(*meshes: TriangleMesh) -> TriangleMesh:
     """Several meshes as one, side by side."""
     starts = np.cumsum([0, *(len(mesh.positions) for mesh in meshes)])
-    positions = [mesh.positions + [3.0 * k, 0, 0] for k, mesh in enumerate(meshes)]
+    positions = [mesh.positions + np.array([3.0 * k, 0.0, 0.0]) for k, mesh in enumerate(meshes)]
     faces = [mesh.faces + start for mesh, start in zip(meshes, starts, strict=False)]
     return TriangleMesh(np.concatenate(positions), np.concatenate(faces))
