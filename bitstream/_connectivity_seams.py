@@ -83,7 +83,7 @@ def _code_fans(coder: Coder, bank: Bank, contexts: npt.NDArray[np.int64], known:
     for fan in range(len(vertex)):
         if overran(coder):
             return -1
-        u: int = np.int64(known[fan])
+        u = int(known[fan])
         # 0 inside, else 1 to 9: each neighbour along the boundary is not known yet, or new, or a repetition.
         contexts[0] = _REPEAT
         if after[fan] >= 0:
