@@ -1,0 +1,1 @@
+"""Evaluation as data: codecs are run and written down as JSON, and everything shown is drawn from the JSON alone."""
