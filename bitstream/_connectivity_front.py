@@ -2,7 +2,8 @@
 
 A node stands for a vertex on the border of what is conquered; its *free degree* is the number of the vertex's edges
 that lie in the unconquered wedge at that place. The polygon edge from a node to its next node is a *gate*: on its other
-side lies an unconquered triangle. The node with the least free degree goes first, and among equals the latest.
+side lies an unconquered triangle. The node with the least free degree goes first, and among equals the earliest:
+breadth first, so that the front seldom meets itself.
 """
 
 from __future__ import annotations
@@ -21,8 +22,8 @@ VERTEX, FREE, NEXT, PREVIOUS, GATE, APEX, UP, DOWN = range(8)
 only), vertex behind the gate, and links within the bucket."""
 
 DEAD = -1
-BUCKETS = 16
-MADE, ALIVE = BUCKETS, BUCKETS + 1
+BUCKETS = 8
+MADE, ALIVE, _TAILS = BUCKETS, BUCKETS + 1, BUCKETS + 2
 
 
 class Front(NamedTuple):
@@ -32,8 +33,8 @@ class Front(NamedTuple):
     ----------
     nodes : int32 array, shape (capacity, 8)
         One row per node, columns as above; FREE is DEAD for a node that was closed.
-    heads : int32 array, shape (BUCKETS + 2,)
-        Latest node of each bucket or -1, then MADE, the number of nodes made, and ALIVE, of those not closed.
+    heads : int32 array, shape (2 * BUCKETS + 2,)
+        First node of each bucket or -1; MADE, the number of nodes made; ALIVE, of those not closed; last nodes.
     """
 
     nodes: Ints
@@ -42,8 +43,8 @@ class Front(NamedTuple):
 
 def make_front(capacity: int) -> Front:
     """An empty front for at most `capacity` nodes."""
-    heads = np.full(BUCKETS + 2, -1, np.int32)
-    heads[BUCKETS:] = 0
+    heads = np.full(_TAILS + BUCKETS, -1, np.int32)
+    heads[MADE] = heads[ALIVE] = 0
     return Front(np.empty((capacity, 8), np.int32), heads)
 
 
@@ -95,24 +96,33 @@ def first_node(front: Front) -> int:
 
 
 @leaf
+def _bucket(free: int) -> int:
+    return min(free, BUCKETS - 1)
+
+
+@leaf
 def _enter_bucket(front: Front, node: int) -> None:
     nodes, heads = front
-    bucket = min(nodes[node, FREE], BUCKETS - 1)
-    head = heads[bucket]
-    nodes[node, UP] = -1
-    nodes[node, DOWN] = head
-    if head >= 0:
-        nodes[head, UP] = node
-    heads[bucket] = node
+    bucket = _bucket(nodes[node, FREE])
+    last = heads[_TAILS + bucket]
+    nodes[node, UP] = last
+    nodes[node, DOWN] = -1
+    if last >= 0:
+        nodes[last, DOWN] = node
+    else:
+        heads[bucket] = node
+    heads[_TAILS + bucket] = node
 
 
 @leaf
 def _leave_bucket(front: Front, node: int) -> None:
     nodes, heads = front
-    up, down = nodes[node, UP], nodes[node, DOWN]
+    bucket, up, down = _bucket(nodes[node, FREE]), nodes[node, UP], nodes[node, DOWN]
     if up >= 0:
         nodes[up, DOWN] = down
     else:
-        heads[min(nodes[node, FREE], BUCKETS - 1)] = down
+        heads[bucket] = down
     if down >= 0:
         nodes[down, UP] = up
+    else:
+        heads[_TAILS + bucket] = up
