@@ -26,34 +26,37 @@ COMMANDS = {
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run a command; the return value is the exit code of the table in `tools.exits`."""
     words = sys.argv[1:] if arguments is None else arguments
-    args = _parser(words).parse_args(words)
-    console = Console(quiet=args.quiet)
+    subject = None
     try:
-        args.run(args, console)
+        args = _parser(words).parse_args(words)
+        subject = getattr(args, "input", None)
+        args.run(args, Console(quiet=args.quiet))
         sys.stdout.flush()
     except (Exception, KeyboardInterrupt) as error:
         if not is_expected(error):
             raise
-        return _report(error, args, console)
+        _report(error, subject)
+        return exit_of(error).code
     return 0
 
 
-def _report(error: BaseException, args: argparse.Namespace, console: Console) -> int:
-    """Say what went wrong, without a traceback, and give the exit code."""
+def _report(error: BaseException, subject: str | None) -> None:
+    """Say what went wrong, without a traceback."""
     if isinstance(error, BrokenPipeError):
         # Nobody reads what is left in the buffer; flushing it at exit would fail once more.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
     elif isinstance(error, KeyboardInterrupt):
-        console.error("interrupted")
+        _say("interrupted")
     elif isinstance(error, BsmError):
-        about = getattr(args, "input", None)
-        console.error(f"{about}: {error}" if about else str(error))
+        _say(f"{subject}: {error}" if subject else str(error))
     elif isinstance(error, OSError):
-        place = f"{error.filename}: " if error.filename else ""
-        console.error(f"{place}{error.strerror or error}")
+        _say(f"{error.filename}: {error.strerror}" if error.filename else str(error.strerror or error))
     else:
-        console.error(f"not enough memory: {error}")
-    return exit_of(error).code
+        _say(f"not enough memory: {error}")
+
+
+def _say(text: str) -> None:
+    print(f"bsm: {text}", file=sys.stderr)
 
 
 def _parser(words: Sequence[str]) -> argparse.ArgumentParser:

@@ -30,10 +30,6 @@ class Console:
         if not self.quiet:
             print(text, file=sys.stderr)
 
-    def error(self, text: str) -> None:
-        """Say what went wrong."""
-        print(f"bsm: {text}", file=sys.stderr)
-
     def progress(self, what: str) -> Progress:
         """A bar for work that may take long."""
         return Progress(what, shown=not self.quiet and sys.stderr.isatty())

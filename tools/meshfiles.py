@@ -24,6 +24,7 @@ import numpy as np
 
 from bitstream.errors import DependencyError, FormatError, LimitError, MeshError, OptionError
 from bitstream.limits import DEFAULT_LIMITS, Limits
+from bitstream.wire import MAGIC
 from codec.mesh import TriangleMesh
 from tools.files.census import Census, Ints
 from tools.files.npz import read_arrays, write_npz
@@ -33,6 +34,7 @@ from tools.files.ply import census_ply, write_ply
 from tools.files.stl import census_stl, write_stl
 from tools.files.triangles import triangulate
 from tools.output import open_output
+from tools.pipes import read_chunks
 
 _CENSUSES: dict[str, Callable[[bytes], Census]] = {
     "obj": census_obj,
@@ -100,13 +102,15 @@ def read_mesh(
     data = read_bytes(path)
     if not data:
         raise FormatError("the file is empty")
+    if data.startswith(MAGIC):
+        raise FormatError("this is a BSM stream, not a mesh file; decode it first")
     kind = file_format or format_of_name(path) or format_of_bytes(data)
     if kind == "npz":
         positions, faces = read_arrays(data, "positions", "faces")
         if positions.ndim == 3:
             raise MeshError(f"this npz file holds a sequence of {len(positions)} frames, not one mesh")
-        limits.check("vertices", len(positions))
-        limits.check("faces", len(faces))
+        limits.check("vertices", positions.size // 3)
+        limits.check("faces", faces.size // 3)
         return MeshFile(TriangleMesh(positions, faces))
     if kind not in _CENSUSES:
         raise FormatError(f"this is not a mesh file that can be read; the formats are {', '.join(MESH_FORMATS)}")
@@ -143,14 +147,14 @@ def write_mesh(path: str | os.PathLike[str], mesh: TriangleMesh, *, overwrite: b
 
 def read_bytes(path: str | os.PathLike[str]) -> bytes:
     """The content of a file, or of standard input for "-"; `LimitError` beyond 4 GiB."""
-    if os.fspath(path) == "-":
-        data = sys.stdin.buffer.read(_MAX_BYTES + 1)
-    else:
-        with open(path, "rb") as file:
-            data = file.read(_MAX_BYTES + 1)
-    if len(data) > _MAX_BYTES:
-        raise LimitError(f"the file is larger than {_MAX_BYTES} bytes")
-    return data
+    pieces: list[bytes] = []
+    size = 0
+    for piece in read_chunks(path):
+        pieces.append(piece)
+        size += len(piece)
+        if size > _MAX_BYTES:
+            raise LimitError(f"the file is larger than {_MAX_BYTES} bytes")
+    return b"".join(pieces)
 
 
 def format_of_name(path: str | os.PathLike[str]) -> str | None:

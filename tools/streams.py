@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-import io
 import os
-import sys
 from collections import Counter
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING
 
 import numpy as np
 import numpy.typing as npt
@@ -22,19 +20,7 @@ from bitstream.wire import MAGIC
 if TYPE_CHECKING:
     from codec import TriangleMesh
 
-_CHUNK = 1 << 16
 Progress = Callable[[int, int], None]
-
-
-def read_chunks(path: str | os.PathLike[str]) -> Iterator[bytes]:
-    """The bytes of a file, or of standard input for "-", as they come."""
-    if os.fspath(path) == "-":
-        while chunk := cast(io.BufferedReader, sys.stdin.buffer).read1(_CHUNK):
-            yield chunk
-        return
-    with open(path, "rb") as file:
-        while chunk := file.read(_CHUNK):
-            yield chunk
 
 
 def is_stream(path: str | os.PathLike[str]) -> bool:

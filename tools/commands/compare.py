@@ -10,7 +10,8 @@ from codec.mesh import TriangleMesh
 from tools.console import Console, print_json
 from tools.meshfiles import read_mesh
 from tools.permutation import in_order_of, read_permutation
-from tools.streams import decode_whole, is_stream, read_chunks
+from tools.pipes import read_chunks
+from tools.streams import decode_whole, is_stream
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

@@ -11,7 +11,8 @@ from tools.meshfiles import MESH_FORMATS, format_mesh, format_of_name
 from tools.naming import default_output, refuse_terminal
 from tools.output import open_output, refuse_to_overwrite
 from tools.permutation import read_permutation, reorder
-from tools.streams import decode_blocks, decode_whole, read_chunks
+from tools.pipes import read_chunks
+from tools.streams import decode_blocks, decode_whole
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

@@ -7,7 +7,8 @@ from typing import Any
 
 from bitstream.wire import VERSION
 from tools.console import Console, print_json
-from tools.streams import StreamInfo, inspect_stream, read_chunks
+from tools.pipes import read_chunks
+from tools.streams import StreamInfo, inspect_stream
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

@@ -5,7 +5,8 @@ from __future__ import annotations
 import argparse
 
 from tools.console import Console, print_json
-from tools.streams import decode_whole, inspect_stream, read_chunks
+from tools.pipes import read_chunks
+from tools.streams import decode_whole, inspect_stream
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

@@ -9,21 +9,22 @@ from codec.mesh import TriangleMesh
 from tools.files.census import Census, Rows, point_row, require_lines, text_table, without_comments
 
 _OFF_HEADER = re.compile(
-    rb"\s*(ST)?(C)?(N)?(4)?(n)?OFF([ \t]+BINARY)?\s*(\d{1,18})\s+(\d{1,18})([ \t]+-?\d+)?[ \t]*[\r\n]"
+    rb"\s*(?:ST|C|N)*(?P<dimension>4?n?)OFF(?P<binary>[ \t]+BINARY)?"
+    rb"\s*(?P<vertices>\d{1,18})\s+(?P<faces>\d{1,18})(?:[ \t]+-?\d+)?[ \t]*(?:[\r\n]|\Z)"
 )
 
 
 def census_off(data: bytes) -> Census:
     """Read a text OFF, with normals and colours (left out) or without."""
     text = without_comments(data)
-    header = _OFF_HEADER.match(text + b"\n")
+    header = _OFF_HEADER.match(text)
     if header is None:
         raise FormatError("this is not an OFF file: it does not begin with OFF and the numbers of vertices and faces")
-    if header[4] or header[5]:
+    if header["dimension"]:
         raise MeshError("the vertices of this OFF file are not three-dimensional")
-    if header[6]:
+    if header["binary"]:
         raise MeshError("binary OFF files are not supported; save it as text, or as PLY")
-    vertices, faces = int(header[7]), int(header[8])
+    vertices, faces = int(header["vertices"]), int(header["faces"])
     lines = [line for line in text[header.end() :].splitlines() if line.strip()]
     require_lines(len(lines), vertices + faces)
     points = Rows(lines[:vertices], "vertex")

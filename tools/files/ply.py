@@ -174,7 +174,8 @@ def _census_binary(header: Header, body: bytes) -> Census:
         elif element.name == "vertex":
             _coordinates(element)
         else:
-            place = _corner_list(element) if element.name == "face" else 0
+            first = next(i for i, column in enumerate(element.properties) if column.length)
+            place = _corner_list(element) if element.name == "face" else first
             lists = _uniform_lists(element, header.order, body, offset, place)
             if lists is None:
                 lists = _ragged_lists(element, header.order, body, offset, place)
