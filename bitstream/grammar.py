@@ -14,7 +14,7 @@ FOLLOWERS: dict[FrameType | None, frozenset[FrameType]] = {
     FrameType.CONNECTIVITY: _BODY | {FrameType.PARTITION, FrameType.ORDER},
     FrameType.PARTITION: _BODY | {FrameType.ORDER},
     FrameType.ORDER: _BODY,
-    FrameType.BLOCK: frozenset({FrameType.BLOCK, FrameType.END}),
+    FrameType.BLOCK: frozenset({FrameType.BLOCK, FrameType.GOP, FrameType.END}),
     FrameType.GOP: frozenset({FrameType.GOP, FrameType.END}),
     FrameType.END: frozenset(),
 }
@@ -45,7 +45,8 @@ class Grammar:
         self._last: FrameType | None = None
         self._allowed = FOLLOWERS[None]
         self._metadata_seen = False
-        self._next_index = 0
+        self._next_block = 0
+        self._next_frame = 0
 
     @property
     def ended(self) -> bool:
@@ -71,8 +72,10 @@ class Grammar:
         frame_type = FRAME_TYPES[type(packet)]
         if isinstance(packet, Header):
             self.header = packet
-        if isinstance(packet, Block | Gop):
-            self._next_index = packet.index + 1
+        if isinstance(packet, Block):
+            self._next_block = packet.index + 1
+        if isinstance(packet, Gop):
+            self._next_frame = packet.index + 1
         if frame_type is FrameType.METADATA:
             self._metadata_seen = True
         else:
@@ -86,12 +89,20 @@ class Grammar:
     def _disagreement(self, packet: Packet) -> str | None:
         if self.header is None or not isinstance(packet, Block | Gop):
             return None
-        if packet.index < self._next_index:
-            return f"index {packet.index} comes behind index {self._next_index - 1}; they must ascend"
+        following = self._next_frame if isinstance(packet, Gop) else self._next_block
+        if packet.index < following:
+            return f"index {packet.index} comes behind index {following - 1}; they must ascend"
         if isinstance(packet, Gop):
-            return None if packet.index < self.header.frames else f"GOP {packet.index} of {self.header.frames} frames"
+            return self._gop_disagreement(self.header, packet)
         if packet.index >= self.header.blocks:
             return f"block {packet.index} of {self.header.blocks}"
         if packet.coefficients > self.header.coefficients:
             return f"{packet.coefficients} coefficients where the header allows {self.header.coefficients}"
+        return None
+
+    def _gop_disagreement(self, header: Header, gop: Gop) -> str | None:
+        if header.gop_frames == 0:
+            return "a GOP in the stream of a static mesh"
+        if 0 < header.frames <= gop.index:
+            return f"a GOP from frame {gop.index} on, of {header.frames} frames"
         return None

@@ -123,9 +123,13 @@ class Header:
     smoothing: float = real(20, 0.0, 1e6, default=0.0)
     """Amount of smoothing after reconstruction, alpha."""
     frames: int = integer(21, 0, COUNT, default=0)
-    """Frames of a sequence; 0: a static mesh."""
+    """Frames of a sequence; 0: a static mesh, or a sequence whose end was not known when it began."""
     frame_rate: float = real(22, 0.0, 1e6, default=0.0)
     """Frames per second; 0: unknown."""
+    gop_frames: int = integer(23, 0, COUNT, default=0)
+    """Frames of the longest GOP; 0: a static mesh."""
+    weights: int = method(24, known=2)
+    """Edge weights in the dictionary of a sequence: 0: all one; 1: cotangents of the decoded first frame."""
 
     def __post_init__(self) -> None:
         for name, declared in HEADER_FIELDS.items():
@@ -155,6 +159,7 @@ def contradiction(header: Header) -> str | None:
         "blocks larger than the mesh": header.block_size > header.vertices,
         "blocks too small to cover the mesh": header.blocks * header.block_size < header.vertices,
         "more coefficients than a block has vertices": header.coefficients > header.block_size,
+        "frames without a length for GOPs": header.frames > 0 and header.gop_frames == 0,
     }
     return next((problem for problem, broken in rules.items() if broken), None)
 

@@ -16,7 +16,7 @@ from bitstream.maps import parse_map, write_map
 from bitstream.packets import Block, Connectivity, End, Gop, Header, Metadata, Order, Packet, Partition
 from bitstream.wire import Cursor, FrameType, write_varint
 
-LIMITED_FIELDS = ("vertices", "faces", "blocks", "block_size", "coefficients", "frames")
+LIMITED_FIELDS = ("vertices", "faces", "blocks", "block_size", "coefficients", "frames", "gop_frames")
 
 Coded = TypeVar("Coded", Connectivity, Partition, Order)
 

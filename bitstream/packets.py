@@ -61,7 +61,7 @@ class Block:
 
 @dataclass(frozen=True)
 class Gop:
-    """The coded coefficients of one group of a sequence's frames."""
+    """The coded coefficients of a group of a sequence's frames; `index` is the number of the first of them."""
 
     index: int
     data: bytes

@@ -276,7 +276,7 @@ class Decoder:
                 self._accept_end()
 
     def _accept_header(self, header: Header) -> None:
-        if header.frames:
+        if header.gop_frames:
             raise UnsupportedError("this is a sequence; decode it with codec.SequenceDecoder")
         solves = header.power * max(header.iterations, header.key_iterations)
         check_work(self._limits, header.blocks, header.block_size, header.coefficients, solves, exact=header.basis == 1)

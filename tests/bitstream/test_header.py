@@ -52,8 +52,10 @@ def legal_value(name):
 
 @given(st.fixed_dictionaries({}, optional={name: legal_value(name) for name in HEADER_DEFAULTS}))
 def test_round_trip(changes):
+    if changes.get("frames"):
+        changes["gop_frames"] = changes.get("gop_frames") or 1
     header = replace(SMALL_HEADER, **changes)
-    assert parse(write_header(header), Limits(frames=2**31)) == header
+    assert parse(write_header(header), Limits(frames=2**31, gop_frames=2**31)) == header
 
 
 @given(st.binary(max_size=60))
@@ -62,12 +64,12 @@ def test_noise_is_a_typed_error_or_a_header(noise):
         header = parse(noise)
     except BsmError:
         return
-    assert parse(write_header(header), Limits(frames=2**31)) == header
+    assert parse(write_header(header), Limits(frames=2**31, gop_frames=2**31)) == header
 
 
 @given(st.data())
 def test_a_changed_byte_is_a_typed_error_or_another_header(data):
-    payload = bytearray(write_header(replace(SMALL_HEADER, center=(0.1, 0.2, 0.3), prediction=(1.0, 2.0), frames=7)))
+    payload = bytearray(write_header(replace(SMALL_HEADER, center=(0.1, 0.2, 0.3), prediction=(1.0, 2.0), frames=7, gop_frames=7)))
     index = data.draw(st.integers(0, len(payload) - 1))
     payload[index] ^= data.draw(st.integers(1, 255))
     with contextlib.suppress(BsmError):
@@ -96,6 +98,7 @@ def test_a_changed_byte_is_a_typed_error_or_another_header(data):
         {4: 101},
         {4: 33},  # blocks that do not cover the mesh
         {5: 61},  # more coefficients than vertices in a block
+        {21: 7},  # frames of a static mesh
         {FIRST_IGNORABLE_KEY: [[1]]},
         {FIRST_IGNORABLE_KEY: math.inf},
     ],
@@ -179,4 +182,4 @@ def test_a_header_takes_any_number_type():
     header = replace(SMALL_HEADER, center=[1, 2, 3], step=1)
     assert header.center == (1.0, 2.0, 3.0)
     assert type(header.step) is float
-    assert parse(write_header(header), Limits(frames=2**31)) == header
+    assert parse(write_header(header), Limits(frames=2**31, gop_frames=2**31)) == header

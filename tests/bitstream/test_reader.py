@@ -220,6 +220,7 @@ ILLEGAL = [
     [HEADER, CONNECTIVITY, Gop(0, b"")],
     [ANIMATED[0], CONNECTIVITY, Gop(0, b""), B0],
     [ANIMATED[0], CONNECTIVITY, Gop(50, b"")],
+    [ANIMATED[0], CONNECTIVITY, Gop(3, b""), Gop(3, b"")],
 ]
 
 
