@@ -196,6 +196,11 @@ def make_room(coder: Coder, capacity: int) -> Coder:
     return Coder(coder.state, data)
 
 
+def is_reading(coder: Coder) -> bool:
+    """Whether the coder reads."""
+    return bool(coder.state[_READING])
+
+
 @leaf
 def has_room(coder: Coder, capacity: int) -> bool:
     """Whether the coder reads, or can write at least `capacity` bytes more."""
