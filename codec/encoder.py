@@ -30,13 +30,15 @@ from codec.partition import Partition, derive_partition, metis_partition
 from codec.predict import PriorModel
 from codec.quantize import dequantize, levels_to_unsigned, packed_step, quantize, smallest_step
 from codec.smooth import smooth
+from codec.spectrum import measure_spectrum, worthwhile_size
 from codec.targets import search_step
 
 Matrix = npt.NDArray[np.float64]
 Progress = Callable[[int, int], None]
 
 PRIOR = PriorModel(amplitude=1.0, decay=3.0, noise=1e-3)
-SMOOTHING_STEPS = (0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0)
+PAPER_FRACTION = 0.10
+SMOOTHING_STEPS = tuple(2.0**k for k in range(-3, 7))
 
 
 @dataclass(frozen=True, eq=False)
@@ -162,6 +164,7 @@ class Encoder:
         self._partition = self._cut(max(1, round(len(kept) / self.options.block_size)))
         self._blocks = grow_blocks(self._graph, self._partition, block_size(self._partition, self.options.overlap))
         self._reference: Reference | None = None
+        self._spectrum: Matrix | None = None
 
     def encode(self) -> bytes:
         """The whole stream."""
@@ -231,7 +234,7 @@ class Encoder:
             faces=len(self.mesh.faces),
             blocks=self._partition.parts,
             block_size=size,
-            coefficients=options.width(size, step),
+            coefficients=self._subspace_size(size, step),
             basis=("oi", "svd").index(options.basis),
             seeding=("previous", "independent").index(options.seed),
             key_interval=options.key_interval,
@@ -247,6 +250,17 @@ class Encoder:
             scale=self._scale,
             prediction=tuple(map(_single, PRIOR.as_floats())) if predicted else (),
         )
+
+    def _subspace_size(self, size: int, step: float) -> int:
+        """c: what the options say, or as many coefficients as are worth coding at this step."""
+        options = self.options
+        if options.coefficients is not None:
+            return min(options.coefficients, size)
+        if options.keep is not None or options.bits is not None:
+            return min(max(1, round((options.keep or PAPER_FRACTION) * size)), size)
+        if self._spectrum is None:
+            self._spectrum = measure_spectrum(self._blocks, self._positions, shift=options.shift)
+        return min(worthwhile_size(self._spectrum, step), size)
 
     def _coded(self, step: float, progress: Progress | None) -> tuple[Header, list[CodedBlock]]:
         header, blocks = self._header(step), self._blocks

@@ -38,7 +38,8 @@ class EncodeOptions:
     Parameters
     ----------
     keep : float, optional
-        Largest size of the subspace, c, as a fraction of the block size n_d; None: by the step, see `fraction_for`.
+        Largest size of the subspace, c, as a fraction of the block size n_d; None: as many
+        as are worth coding at the step, measured on a few blocks (a tenth with `bits`, as in the paper).
     coefficients : int, optional
         c itself; overrides `keep`.
     block_size : int
@@ -120,22 +121,6 @@ class EncodeOptions:
             raise OptionError(f"doi = {self.doi} must be two thresholds, 0 < eps_l < eps_h")
         if self.bits is not None and self.target is not None:
             raise OptionError("a target is reached by the step; it excludes a fixed number of bits")
-
-    def width(self, size: int, step: float) -> int:
-        """c for blocks of `size` vertices (n_d) and a quantization step."""
-        keep = self.keep or (PAPER_FRACTION if self.bits else fraction_for(step))
-        return min(self.coefficients or max(1, round(keep * size)), size)
-
-
-PAPER_FRACTION = 0.10
-
-
-def fraction_for(step: float) -> float:
-    """Subspace size over block size that pays at a step: what is finer than this drowns in the quantization.
-
-    Read off rate-distortion curves of scanned meshes; too large a value costs time, not bits.
-    """
-    return min(1.0, max(0.09, 0.12 * (0.005 / step) ** 0.75))
 
 
 PRESETS: dict[str, EncodeOptions] = {
