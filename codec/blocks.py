@@ -17,6 +17,8 @@ from codec.bisection import bisect_csr
 from codec.graph import Graph, Indices
 from codec.partition import Partition
 
+_FREE = np.uint32(0xFFFFFFFF)
+
 
 @dataclass(frozen=True, eq=False)
 class Block:
@@ -116,11 +118,11 @@ def _ordered(offsets, neighbours, rows):  # type: ignore[no-untyped-def]
 
 @njit(cache=True, nogil=True)
 def _hash_slot(table, key):  # type: ignore[no-untyped-def]
-    """Slot of `key` in an open-addressed table of keys (a power of two long, -1 where free)."""
-    mask = len(table) - 1
-    slot = ((np.int64(key) * 2654435761) >> 7) & mask
-    while table[slot] != key and table[slot] != -1:
-        slot = (slot + 1) & mask
+    """Slot of `key` in an open-addressed table of keys (a power of two long, `_FREE` where free)."""
+    mask = np.uint64(len(table) - 1)
+    slot = ((np.uint64(key) * np.uint64(2654435761)) >> np.uint64(7)) & mask
+    while table[slot] != key and table[slot] != _FREE:
+        slot = (slot + np.uint64(1)) & mask
     return slot
 
 
@@ -156,28 +158,29 @@ def _grow_all(offsets, neighbours, order, bounds, chain, size):  # type: ignore[
 @njit(cache=True, nogil=True)
 def _induced(offsets, neighbours, rows):  # type: ignore[no-untyped-def]
     """Graph among the vertices `rows`, in row numbers; rows of the result are in the mesh's neighbour order."""
+    offsets, neighbours, rows = offsets.view(np.uint32), neighbours.view(np.uint32), rows.view(np.uint32)
     n = len(rows)
     capacity = 16
     while capacity < 2 * n:
         capacity *= 2
-    table = np.full(capacity, -1, np.int32)
+    table = np.full(capacity, _FREE, np.uint32)
     number = np.empty(capacity, np.int32)
     total = 0
     for r in range(n):
         slot = _hash_slot(table, rows[r])
         table[slot] = rows[r]
         number[slot] = r
-        total += offsets[rows[r] + 1] - offsets[rows[r]]
+        total += offsets[rows[r] + np.uint64(1)] - offsets[rows[r]]
     local_offsets = np.empty(n + 1, np.int32)
-    local_neighbours = np.empty(total, np.int32)
-    filled = 0
+    local_neighbours = np.empty(total + 1, np.int32)
+    filled = np.uint64(0)
     local_offsets[0] = 0
     for r in range(n):
-        for i in range(offsets[rows[r]], offsets[rows[r] + 1]):
+        for i in range(offsets[rows[r]], offsets[rows[r] + np.uint64(1)]):
+            # Without a branch, which the processor could not predict: what is not in `rows` is overwritten.
             slot = _hash_slot(table, neighbours[i])
-            if table[slot] != -1:
-                local_neighbours[filled] = number[slot]
-                filled += 1
+            local_neighbours[filled] = number[slot]
+            filled += np.uint64(table[slot] != _FREE)
         local_offsets[r + 1] = filled
     return local_offsets, local_neighbours[:filled].copy()
 
