@@ -5,14 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from codec.denoise.bilateral import filter_normals
-from codec.denoise.surface import (
-    boundary_vertices,
-    face_geometry,
-    follow_normals,
-    mean_centroid_distance,
-    topology_of,
-    without_first,
-)
+from codec.denoise.surface import face_geometry, follow_normals, mean_centroid_distance
+from codec.denoise.topology import Topology, without_first
 from codec.mesh import Faces, Positions
 
 SIGMA_R = 0.35
@@ -30,12 +24,11 @@ def bilateral_normal_filtering(positions: Positions, faces: Faces, iterations: i
         Of the normal filter, whose centroids and areas stay those of the input; ten vertex updates follow.
     """
     positions = np.ascontiguousarray(positions, dtype=np.float64)
-    topology = topology_of(faces, len(positions))
+    topology = Topology(faces, len(positions))
     others = without_first(topology.patches)
     geometry = face_geometry(positions, topology.faces)
     sigma_s = mean_centroid_distance(geometry.centroids, topology.pairs)
     for _ in range(iterations):
         normals = filter_normals(geometry, geometry.normals, others, sigma_s, SIGMA_R)
         geometry = geometry._replace(normals=normals)
-    free = ~boundary_vertices(faces, len(positions))
-    return follow_normals(positions, topology, geometry.normals, VERTEX_ITERATIONS, free)
+    return follow_normals(positions, topology, geometry.normals, VERTEX_ITERATIONS, ~topology.boundary)

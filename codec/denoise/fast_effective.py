@@ -7,7 +7,8 @@ import math
 import numpy as np
 from numba import njit
 
-from codec.denoise.surface import boundary_vertices, face_geometry, follow_normals, topology_of
+from codec.denoise.surface import face_geometry, follow_normals
+from codec.denoise.topology import Topology
 from codec.mesh import Faces, Positions
 
 THRESHOLD = 0.5
@@ -27,12 +28,11 @@ def fast_effective_denoising(positions: Positions, faces: Faces, iterations: int
         Of the normal filter; fifty vertex updates follow.
     """
     positions = np.ascontiguousarray(positions, dtype=np.float64)
-    topology = topology_of(faces, len(positions))
+    topology = Topology(faces, len(positions))
     normals = face_geometry(positions, topology.faces).normals
     for _ in range(iterations):
         normals = _average_alike(normals, topology.patches.starts, topology.patches.members, THRESHOLD)
-    free = ~boundary_vertices(faces, len(positions))
-    return follow_normals(positions, topology, normals, VERTEX_ITERATIONS, free)
+    return follow_normals(positions, topology, normals, VERTEX_ITERATIONS, ~topology.boundary)
 
 
 @njit(cache=True, nogil=True)

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from typing import Protocol
 
-from bitstream.errors import OptionError
 from codec.denoise.bilateral_normal import bilateral_normal_filtering
 from codec.denoise.fast_effective import fast_effective_denoising
 from codec.denoise.guided import guided_normal_filtering
 from codec.denoise.l0 import l0_minimisation
 from codec.denoise.non_iterative import non_iterative_smoothing
+from codec.denoise.registry import named
 from codec.denoise.vertex_bilateral import bilateral_mesh_denoising
 from codec.mesh import Faces, Positions
 
@@ -31,14 +31,5 @@ FINE_STEPS: dict[str, FineStep] = {
 
 
 def fine_step(name: str) -> FineStep:
-    """The fine step called `name`.
-
-    Raises
-    ------
-    OptionError
-        If there is none of that name.
-    """
-    try:
-        return FINE_STEPS[name]
-    except KeyError:
-        raise OptionError(f"there is no fine step {name!r}; choose one of {', '.join(FINE_STEPS)}") from None
+    """The fine step called `name`; `OptionError` if there is none."""
+    return named("fine step", FINE_STEPS, name)

@@ -12,73 +12,29 @@ import math
 import numpy as np
 from numba import njit
 
-from codec.denoise.surface import FaceGeometry, Floats, Topology
-from codec.incidence import Rows
+from codec.denoise.surface import FaceGeometry, Floats
+from codec.denoise.topology import Topology
 
 
-def inner_pairs(topology: Topology) -> Rows:
-    """For each patch, the rows of `topology.pairs` of which both faces lie in it."""
-    patches = topology.patches
-    return Rows(*_inner_pairs(patches.starts, patches.members, topology.pairs))
-
-
-def patch_guidance(geometry: FaceGeometry, topology: Topology, inner: Rows) -> Floats:
+def patch_guidance(geometry: FaceGeometry, topology: Topology) -> Floats:
     """Guidance normal of each face: the mean normal of the most consistent patch that holds the face.
 
     Parameters
     ----------
     geometry : FaceGeometry
     topology : Topology
-    inner : Rows
-        From `inner_pairs`.
 
     Returns
     -------
     ndarray of float64, shape (m, 3)
         Unit normals, zero only where a patch's normals cancel.
     """
-    patches, pairs = topology.patches, topology.pairs
+    patches, inner = topology.patches, topology.inner
     score, mean = _patch_scores(
-        geometry.normals, geometry.areas, patches.starts, patches.members, pairs, inner.starts, inner.members
+        geometry.normals, geometry.areas, patches.starts, patches.members, topology.pairs, inner.starts, inner.members
     )
     guide: Floats = _most_consistent(score, mean, patches.starts, patches.members)
     return guide
-
-
-@njit(cache=True, nogil=True)
-def _inner_pairs(starts, members, pairs):  # type: ignore[no-untyped-def]
-    m = len(starts) - 1
-    first = np.zeros(m + 1, dtype=np.int64)
-    for p in range(len(pairs)):
-        first[pairs[p, 0] + 1] += 1
-    for f in range(m):
-        first[f + 1] += first[f]
-    fill = first[:-1].copy()
-    own = np.empty(len(pairs), dtype=np.int32)
-    for p in range(len(pairs)):
-        own[fill[pairs[p, 0]]] = p
-        fill[pairs[p, 0]] += 1
-
-    inner_starts = np.zeros(m + 1, dtype=np.int64)
-    inside = np.full(m, -1, dtype=np.int32)
-    inner = np.empty(0, dtype=np.int32)
-    for filling in range(2):
-        end = 0
-        inside[:] = -1
-        for f in range(m):
-            for k in range(starts[f], starts[f + 1]):
-                inside[members[k]] = f
-            for k in range(starts[f], starts[f + 1]):
-                g = members[k]
-                for q in range(first[g], first[g + 1]):
-                    if inside[pairs[own[q], 1]] == f:
-                        if filling == 1:
-                            inner[end] = own[q]
-                        end += 1
-            inner_starts[f + 1] = end
-        if filling == 0:
-            inner = np.empty(end, dtype=np.int32)
-    return inner_starts, inner
 
 
 @njit(cache=True, nogil=True)

@@ -6,39 +6,35 @@ from typing import Protocol
 
 import numpy as np
 
-from bitstream.errors import OptionError
 from codec.denoise.guided import GuidedFilter
+from codec.denoise.registry import named
 from codec.denoise.surface import face_geometry
-from codec.mesh import Faces, Positions
+from codec.denoise.topology import Topology
+from codec.mesh import Positions
 
 SIGMA_R = 0.2
 
 
 class HandOver(Protocol):
-    """Noisy and coarse positions (n, 3) and faces (m, 3) to the positions from which the fine step starts."""
+    """Noisy and coarse positions, both (n, 3), to those from which the fine step starts (a new array)."""
 
-    def __call__(self, noisy: Positions, coarse: Positions, faces: Faces) -> Positions: ...
+    def __call__(self, noisy: Positions, coarse: Positions, topology: Topology) -> Positions: ...
 
 
-def coarse_positions(noisy: Positions, coarse: Positions, faces: Faces) -> Positions:
+def coarse_positions(noisy: Positions, coarse: Positions, topology: Topology) -> Positions:
     """The paper's: the fine step sees the coarse mesh alone. Good under heavy noise; elsewhere detail is lost."""
-    return coarse.copy()
+    return np.array(coarse)
 
 
-def coarse_normals(noisy: Positions, coarse: Positions, faces: Faces) -> Positions:
+def coarse_normals(noisy: Positions, coarse: Positions, topology: Topology) -> Positions:
     """Keep the noisy positions, after one joint bilateral pass that the normals of the coarse mesh guide."""
-    return guided_by_coarse(GuidedFilter(noisy, faces), noisy, coarse, SIGMA_R)
+    guide = face_geometry(np.ascontiguousarray(coarse), topology.faces).normals
+    return GuidedFilter(noisy, topology).step(noisy, lambda *_: guide, SIGMA_R)
 
 
-def noisy_positions(noisy: Positions, coarse: Positions, faces: Faces) -> Positions:
+def noisy_positions(noisy: Positions, coarse: Positions, topology: Topology) -> Positions:
     """No coarse step: the fine step sees the noisy mesh."""
-    return noisy.copy()
-
-
-def guided_by_coarse(filter_: GuidedFilter, noisy: Positions, coarse: Positions, sigma_r: float) -> Positions:
-    """The joint bilateral pass of `coarse_normals` with the neighbourhoods of a filter that is there already."""
-    guide = face_geometry(np.ascontiguousarray(coarse), filter_.topology.faces).normals
-    return filter_.follow(noisy, filter_.guided_normals(noisy, guide, sigma_r))
+    return np.array(noisy)
 
 
 HAND_OVERS: dict[str, HandOver] = {
@@ -49,14 +45,5 @@ HAND_OVERS: dict[str, HandOver] = {
 
 
 def hand_over(name: str) -> HandOver:
-    """The hand-over called `name`.
-
-    Raises
-    ------
-    OptionError
-        If there is none of that name.
-    """
-    try:
-        return HAND_OVERS[name]
-    except KeyError:
-        raise OptionError(f"there is no hand-over {name!r}; choose one of {', '.join(HAND_OVERS)}") from None
+    """The hand-over called `name`; `OptionError` if there is none."""
+    return named("hand-over", HAND_OVERS, name)

@@ -7,8 +7,9 @@ from numba import njit
 from scipy import sparse
 from scipy.sparse.linalg import splu
 
-from codec.denoise.surface import Floats, face_geometry, topology_of
-from codec.incidence import Indices
+from codec.denoise.surface import Floats, face_geometry
+from codec.denoise.topology import Topology
+from codec.graph import Indices
 from codec.mesh import Faces, Positions
 from codec.metrics import mean_edge_length
 
@@ -37,7 +38,7 @@ def l0_minimisation(positions: Positions, faces: Faces, iterations: int = 40) ->
     original = np.ascontiguousarray(positions, dtype=np.float64)
     if iterations == 0:
         return original.copy()
-    topology = topology_of(faces, len(original))
+    topology = Topology(faces, len(original))
     stencils = edge_stencils(topology.faces, topology.pairs)
     bend = _mean_dihedral(face_geometry(original, topology.faces).normals, topology.pairs)
     fairness = _as_matrix(stencils, np.tile([1.0, -1.0, 1.0, -1.0], (len(stencils), 1)), len(original))

@@ -8,7 +8,8 @@ import numpy as np
 from numba import njit
 
 from codec.denoise.reach import reach
-from codec.denoise.surface import face_geometry, topology_of
+from codec.denoise.surface import face_geometry
+from codec.denoise.topology import Topology
 from codec.mesh import Faces, Positions
 from codec.metrics import mean_edge_length
 
@@ -30,7 +31,7 @@ def non_iterative_smoothing(positions: Positions, faces: Faces, iterations: int 
         The method needs one pass; more repeat it.
     """
     positions = np.ascontiguousarray(positions, dtype=np.float64)
-    topology = topology_of(faces, len(positions))
+    topology = Topology(faces, len(positions))
     for _ in range(iterations):
         edge = mean_edge_length(positions, faces)
         spatial, influence = SPATIAL * edge, INFLUENCE * edge

@@ -1,4 +1,4 @@
-"""What every filter on faces needs: centroids, areas and normals, neighbouring faces, vertices that follow normals."""
+"""Centroids, areas and normals of faces, and vertices that follow given normals."""
 
 from __future__ import annotations
 
@@ -9,7 +9,9 @@ import numpy as np
 import numpy.typing as npt
 from numba import njit
 
-from codec.incidence import Indices, Rows, vertex_faces
+from codec.denoise.topology import Mask, Topology
+from codec.graph import Indices
+from codec.incidence import Rows
 from codec.mesh import Faces, Positions
 
 Floats = npt.NDArray[np.float64]
@@ -21,41 +23,6 @@ class FaceGeometry(NamedTuple):
     centroids: Floats
     areas: Floats
     normals: Floats
-
-
-class Topology(NamedTuple):
-    """What the faces alone say about who is near whom.
-
-    Attributes
-    ----------
-    faces : ndarray of int32, shape (m, 3)
-    around : Rows
-        Faces around each vertex.
-    patches : Rows
-        Faces that share a vertex with each face; itself comes first.
-    pairs : ndarray of int32, shape (p, 2)
-        Two faces that share an edge; where more than two meet at one, each with the next in ascending order.
-    """
-
-    faces: Faces
-    around: Rows
-    patches: Rows
-    pairs: Indices
-
-
-def topology_of(faces: Faces, n: int) -> Topology:
-    """Neighbourhoods of `faces`, shape (m, 3), on n vertices."""
-    faces = np.ascontiguousarray(faces, dtype=np.int32)
-    around = vertex_faces(faces, n)
-    patches = Rows(*_patches(faces, around.starts, around.members))
-    return Topology(faces, around, patches, _face_pairs(faces))
-
-
-def without_first(rows: Rows) -> Rows:
-    """Rows without their first members; every row must have one."""
-    kept = np.ones(len(rows.members), dtype=np.bool_)
-    kept[rows.starts[:-1]] = False
-    return Rows(rows.starts - np.arange(len(rows.starts)), rows.members[kept])
 
 
 def face_geometry(positions: Positions, faces: Faces) -> FaceGeometry:
@@ -79,7 +46,7 @@ def follow_normals(
     topology: Topology,
     normals: Floats,
     iterations: int,
-    free: npt.NDArray[np.bool_] | None = None,
+    free: Mask | None = None,
 ) -> Positions:
     """Move the vertices until the faces agree with given normals (Sun et al. 2007; equation `iter1` of the paper).
 
@@ -102,75 +69,6 @@ def follow_normals(
         positions, topology.faces, topology.around.starts, topology.around.members, normals, iterations, free
     )
     return moved
-
-
-def boundary_vertices(faces: Faces, n: int) -> npt.NDArray[np.bool_]:
-    """True for the vertices of edges that only one face has."""
-    key, _owner = _sorted_edges(faces)
-    alone = np.ones(len(key), dtype=np.bool_)
-    same = key[1:] == key[:-1]
-    alone[1:] &= ~same
-    alone[:-1] &= ~same
-    boundary = np.zeros(n, dtype=np.bool_)
-    boundary[key[alone] >> 32] = True
-    boundary[key[alone] & 0xFFFFFFFF] = True
-    return boundary
-
-
-def _face_pairs(faces: Faces) -> Indices:
-    pairs: Indices = _equal_runs(*_sorted_edges(faces))
-    return pairs
-
-
-def _sorted_edges(faces: Faces) -> tuple[npt.NDArray[np.int64], Indices]:
-    """The edges of all faces as ``smaller << 32 | larger``, ascending, and the face of each; loops left out."""
-    owner = np.repeat(np.arange(len(faces), dtype=np.int32), 3)
-    ends = faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2).astype(np.int64)
-    key = ends.min(axis=1) << 32 | ends.max(axis=1)
-    proper = ends[:, 0] != ends[:, 1]
-    key, owner = key[proper], owner[proper]
-    order = np.argsort(key, kind="stable")
-    return key[order], owner[order]
-
-
-@njit(cache=True, nogil=True)
-def _equal_runs(key, owner):  # type: ignore[no-untyped-def]
-    """Neighbouring owners of equal keys."""
-    pairs = np.empty((len(key), 2), dtype=np.int32)
-    count = 0
-    for k in range(1, len(key)):
-        if key[k] == key[k - 1] and owner[k] != owner[k - 1]:
-            pairs[count, 0], pairs[count, 1] = owner[k - 1], owner[k]
-            count += 1
-    return pairs[:count].copy()
-
-
-@njit(cache=True, nogil=True)
-def _patches(faces, around_starts, around):  # type: ignore[no-untyped-def]
-    m = len(faces)
-    starts = np.zeros(m + 1, dtype=np.int64)
-    bound = 0
-    for f in range(m):
-        for corner in range(3):
-            v = faces[f, corner]
-            bound += around_starts[v + 1] - around_starts[v]
-    members = np.empty(bound, dtype=np.int32)
-    seen = np.full(m, -1, dtype=np.int32)
-    end = 0
-    for f in range(m):
-        seen[f] = f
-        members[end] = f
-        end += 1
-        for corner in range(3):
-            v = faces[f, corner]
-            for k in range(around_starts[v], around_starts[v + 1]):
-                g = around[k]
-                if seen[g] != f:
-                    seen[g] = f
-                    members[end] = g
-                    end += 1
-        starts[f + 1] = end
-    return starts, members[:end].copy()
 
 
 @njit(cache=True, nogil=True)

@@ -9,7 +9,8 @@ from numba import njit
 
 from codec.denoise.reach import reach, themselves
 from codec.denoise.surface import Floats, face_geometry, vertex_normals
-from codec.incidence import Rows, vertex_faces, vertex_neighbours
+from codec.denoise.topology import Topology
+from codec.incidence import Rows
 from codec.mesh import Faces, Positions
 
 
@@ -26,12 +27,12 @@ def bilateral_mesh_denoising(positions: Positions, faces: Faces, iterations: int
     iterations : int
     """
     positions = np.ascontiguousarray(positions, dtype=np.float64)
-    around, neighbours = vertex_faces(faces, len(positions)), vertex_neighbours(faces, len(positions))
+    topology = Topology(faces, len(positions))
     own = themselves(len(positions))
     for _ in range(iterations):
-        normals = vertex_normals(face_geometry(positions, faces).normals, around)
-        width = shortest_edges(positions, neighbours)
-        near = reach(positions, own, positions, neighbours, 2.0 * width)
+        normals = vertex_normals(face_geometry(positions, faces).normals, topology.around)
+        width = shortest_edges(positions, topology.neighbours)
+        near = reach(positions, own, positions, topology.neighbours, 2.0 * width)
         positions = _filter_heights(positions, normals, width, near.starts, near.members)
     return positions
 

@@ -5,10 +5,11 @@ import pytest
 from denoise_shapes import Partners, cube, grid
 
 from codec.denoise.bilateral import filter_normals
-from codec.denoise.guidance import inner_pairs, patch_guidance
-from codec.denoise.guided import GuidedFilter, guided_normal_filtering
+from codec.denoise.guidance import patch_guidance
+from codec.denoise.guided import GuidedFilter, guided_normal_filtering, own_normals
 from codec.denoise.noise import gaussian_along_normals
-from codec.denoise.surface import face_geometry, topology_of
+from codec.denoise.surface import face_geometry
+from codec.denoise.topology import Topology
 from codec.metrics import theta
 
 
@@ -23,7 +24,7 @@ def members(rows, i: int) -> list[int]:  # type: ignore[no-untyped-def]
 
 def test_the_bilateral_sum_is_the_printed_one() -> None:
     _, noisy, faces = noisy_cube()
-    topology, geometry = topology_of(faces, len(noisy)), face_geometry(noisy, faces)
+    topology, geometry = Topology(faces, len(noisy)), face_geometry(noisy, faces)
     guide = np.roll(geometry.normals, 1, axis=0)
     filtered = filter_normals(geometry, guide, topology.patches, 0.8, 0.4)
     for f in (0, 17, 200):
@@ -37,8 +38,8 @@ def test_the_bilateral_sum_is_the_printed_one() -> None:
 
 def test_the_guide_is_the_mean_of_the_most_consistent_patch() -> None:
     _, noisy, faces = noisy_cube()
-    topology, geometry = topology_of(faces, len(noisy)), face_geometry(noisy, faces)
-    guide = patch_guidance(geometry, topology, inner_pairs(topology))
+    topology, geometry = Topology(faces, len(noisy)), face_geometry(noisy, faces)
+    guide = patch_guidance(geometry, topology)
 
     def score(patch: list[int]) -> float:
         normals = geometry.normals[patch]
@@ -57,7 +58,7 @@ def test_the_guide_is_the_mean_of_the_most_consistent_patch() -> None:
 def test_normals_of_lost_faces_and_cancelled_sums_stay() -> None:
     positions, faces = grid(2)
     positions[:] = 0.0
-    topology, geometry = topology_of(faces, len(positions)), face_geometry(positions, faces)
+    topology, geometry = Topology(faces, len(positions)), face_geometry(positions, faces)
     assert (filter_normals(geometry, geometry.normals, topology.patches, 1.0, 0.35) == geometry.normals).all()
 
 
@@ -66,9 +67,18 @@ def test_a_cube_regains_its_edges() -> None:
     assert theta(clean, guided_normal_filtering(noisy, faces, 20), faces) < 0.2 * theta(clean, noisy, faces)
 
 
+def test_the_own_normals_make_an_ordinary_bilateral_filter() -> None:
+    clean, noisy, faces = noisy_cube()
+    topology = Topology(faces, len(noisy))
+    current = noisy
+    for _ in range(20):
+        current = GuidedFilter(current, topology).step(current, own_normals, 0.3)
+    assert theta(clean, current, faces) < 0.2 * theta(clean, noisy, faces)
+
+
 def test_one_filter_may_serve_many_steps() -> None:
     _, noisy, faces = noisy_cube()
-    guided = GuidedFilter(noisy, faces)
+    guided = GuidedFilter(noisy, Topology(faces, len(noisy)))
     assert (guided.step(guided.step(noisy)) == guided_normal_filtering(noisy, faces, 2)).all()
 
 

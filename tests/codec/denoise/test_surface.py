@@ -6,14 +6,12 @@ from denoise_shapes import cube, grid, sphere
 
 from codec.denoise.reach import reach, themselves
 from codec.denoise.surface import (
-    boundary_vertices,
     face_geometry,
     follow_normals,
     mean_centroid_distance,
-    topology_of,
     vertex_normals,
-    without_first,
 )
+from codec.denoise.topology import Topology, without_first
 from codec.incidence import Rows, vertex_neighbours
 
 
@@ -28,12 +26,12 @@ def test_shapes_are_what_they_say() -> None:
     assert (np.einsum("ij,ij->i", outward, geometry.normals) > 0).all()
     assert geometry.areas == pytest.approx(0.5)
     assert len(positions) - 3 * len(faces) / 2 + len(faces) == 2
-    assert not boundary_vertices(faces, len(positions)).any()
+    assert not Topology(faces, len(positions)).boundary.any()
 
 
 def test_patches_hold_the_faces_that_share_a_vertex() -> None:
     positions, faces = cube(3)
-    topology = topology_of(faces, len(positions))
+    topology = Topology(faces, len(positions))
     sets = [set(face) for face in faces.tolist()]
     for f in range(0, len(faces), 7):
         members = row(topology.patches, f)
@@ -46,13 +44,13 @@ def test_patches_hold_the_faces_that_share_a_vertex() -> None:
 
 def test_a_fin_of_three_faces_makes_a_chain_of_pairs() -> None:
     faces = np.array([[0, 1, 2], [1, 0, 3], [0, 1, 4], [5, 5, 1]], dtype=np.int32)
-    assert topology_of(faces, 6).pairs.tolist() == [[0, 1], [1, 2]]
+    assert Topology(faces, 6).pairs.tolist() == [[0, 1], [1, 2]]
 
 
 def test_only_the_rim_of_a_grid_is_boundary() -> None:
     positions, faces = grid(4)
     rim = (positions[:, :2] == 0).any(axis=1) | (positions[:, :2] == 4).any(axis=1)
-    assert (boundary_vertices(faces, len(positions)) == rim).all()
+    assert (Topology(faces, len(positions)).boundary == rim).all()
 
 
 def test_reach_stays_in_the_ball_and_on_the_surface() -> None:
@@ -78,14 +76,14 @@ def test_reach_takes_a_radius_for_each_centre() -> None:
 
 def test_vertex_normals_of_a_sphere_point_outwards() -> None:
     positions, faces = sphere(8)
-    topology = topology_of(faces, len(positions))
+    topology = Topology(faces, len(positions))
     normals = vertex_normals(face_geometry(positions, faces).normals, topology.around)
     assert np.einsum("ij,ij->i", normals, positions).min() > 0.98
 
 
 def test_centroid_distance_of_unit_squares() -> None:
     positions, faces = grid(1)
-    topology = topology_of(faces, 4)
+    topology = Topology(faces, 4)
     assert mean_centroid_distance(face_geometry(positions, faces).centroids, topology.pairs) == pytest.approx(
         np.sqrt(2) / 3
     )
@@ -95,7 +93,7 @@ def test_centroid_distance_of_unit_squares() -> None:
 def test_vertices_follow_the_true_normals_to_the_plane() -> None:
     flat, faces = grid(10)
     noisy = flat + np.random.default_rng(0).normal(0, 0.2, flat.shape) * [0, 0, 1]
-    topology = topology_of(faces, len(flat))
+    topology = Topology(faces, len(flat))
     up = np.tile([0.0, 0.0, 1.0], (len(faces), 1))
     moved = follow_normals(noisy, topology, up, 200)
     assert np.ptp(moved[:, 2]) < 0.02 * np.ptp(noisy[:, 2])
@@ -109,8 +107,8 @@ def test_vertices_follow_the_true_normals_to_the_plane() -> None:
 def test_vertices_that_are_not_free_stay() -> None:
     flat, faces = grid(4)
     noisy = flat + np.random.default_rng(0).normal(0, 0.2, flat.shape)
-    topology = topology_of(faces, len(flat))
-    free = ~boundary_vertices(faces, len(flat))
+    topology = Topology(faces, len(flat))
+    free = ~topology.boundary
     moved = follow_normals(noisy, topology, face_geometry(flat, faces).normals, 3, free)
     assert (moved[~free] == noisy[~free]).all()
     assert (moved[free] != noisy[free]).any(axis=1).all()
