@@ -1,0 +1,478 @@
+"""A stream to the frames of a sequence, while it arrives."""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import TypeAlias
+
+import numpy as np
+import numpy.typing as npt
+
+from bitstream import packets
+from bitstream.connectivity import decode_connectivity
+from bitstream.entropy import Bank
+from bitstream.errors import BsmError, CorruptError, FormatError, UnsupportedError
+from bitstream.gops import GopBody, GopMethod, parse_gop_body
+from bitstream.header import Header
+from bitstream.labels import decode_labels
+from bitstream.limits import DEFAULT_LIMITS, Limits
+from bitstream.reader import END_OF_STREAM, NEED_DATA, Reader, Signal
+from bitstream.sequence_coefficients import Levels, decode_levels, make_level_bank
+from bitstream.tolerant import TolerantReader
+from codec.blend import Blend
+from codec.blocks import Blocks, grow_blocks
+from codec.decoder import (
+    CONNECTIVITY_METHOD,
+    ChainDecoder,
+    ConnectivityEvent,
+    EndEvent,
+    HeaderEvent,
+    chain_rules,
+)
+from codec.dictionaries import Dictionaries, build_dictionaries
+from codec.graph import graph_of_faces
+from codec.mesh import Faces, Positions
+from codec.parallel import ordered_map
+from codec.partition import Partition, derive_partition, partition_of_labels
+from codec.sequence import Loop, cosine_basis, dequantize_basis, frames_of
+from codec.structure import check_work
+
+Matrix = npt.NDArray[np.float64]
+
+BATCH = 16
+"""Frames that are reconstructed at a time."""
+
+
+@dataclass(frozen=True, eq=False)
+class FrameEvent:
+    """A frame: its number from 0, and its positions, shape (n, 3), in the mesh's unit."""
+
+    index: int
+    positions: Positions
+
+
+@dataclass(frozen=True)
+class GopLost:
+    """Frames that cannot be decoded (tolerant mode): `frames` of them from number `index` on, 0 if not known."""
+
+    index: int
+    frames: int
+    reason: str
+
+
+Event: TypeAlias = HeaderEvent | ConnectivityEvent | FrameEvent | GopLost | EndEvent | Signal
+
+
+@dataclass(frozen=True, eq=False)
+class Setting:
+    """What every GOP of a sequence is decoded with.
+
+    Parameters
+    ----------
+    header : Header
+    dictionaries : Dictionaries
+    first : list of float64 arrays, shapes (c_i, 3)
+        Coefficients of the decoded first frame.
+    """
+
+    header: Header
+    dictionaries: Dictionaries
+    first: list[Matrix]
+
+    def in_mesh_units(self, positions: Matrix) -> Positions:
+        """Positions in BSM units as the mesh has them."""
+        return positions * self.header.scale + np.array(self.header.center)
+
+
+def make_setting(header: Header, faces: Faces, blocks: Blocks, first_frame: Matrix, threads: int | None) -> Setting:
+    """Build the dictionaries from the decoded first frame, shape (n, 3), in BSM units."""
+    dictionaries = build_dictionaries(blocks, faces, first_frame, header.coefficients, header.weights == 1, threads)
+    return Setting(header, dictionaries, dictionaries.analyse(first_frame, threads))
+
+
+def level_references(matrices: list[Levels], columns: int) -> list[Levels]:
+    """What the levels of each block are expected to resemble within a GOP: those of the block before."""
+    return [np.zeros((0, columns), np.int32), *matrices[:-1]]
+
+
+class FrameHistory:
+    """What low-delay frames of one block after another refer to; starts anew with every key frame.
+
+    Attributes
+    ----------
+    bank : Bank
+        Adaptive state of the entropy coder.
+    levels : list of int32 arrays
+        Of the latest frame.
+    """
+
+    def __init__(self, first: list[Matrix]) -> None:
+        self.bank: Bank = make_level_bank()
+        self.levels = [np.zeros((len(matrix), 3), np.int32) for matrix in first]
+        self.loops = [Loop(9, 3) for _ in first]
+        self._first = first
+        self._latest = first
+        self._before = first
+
+    def known(self, block: int) -> Matrix:
+        """What predicts a block's next change, shape (c_i, 9)."""
+        latest = self._latest[block]
+        return np.concatenate([self._first[block], latest, latest - self._before[block]], axis=1)
+
+    def base(self, block: int) -> Matrix:
+        """Coefficients that the change is added to."""
+        return self._latest[block]
+
+    def commit(self, levels: list[Levels], coefficients: list[Matrix]) -> None:
+        """Make a frame the latest."""
+        self.levels = levels
+        self._latest, self._before = coefficients, self._latest
+
+
+class GopDecoder:
+    """Decodes one GOP after the other."""
+
+    def __init__(self, setting: Setting, limits: Limits, threads: int | None) -> None:
+        self._setting = setting
+        self._limits = limits
+        self._threads = threads
+        self._history: FrameHistory | None = None
+
+    def forget(self) -> None:
+        """Take note that frames are missing here."""
+        self._history = None
+
+    def decode(self, body: GopBody) -> Iterator[Positions]:
+        """The frames of a GOP; all that can be wrong with it is raised before the first of them."""
+        if body.method <= GopMethod.COSINES:
+            self._history = None
+            return self._transformed(body)
+        return iter([self._single(body)])
+
+    def _single(self, body: GopBody) -> Positions:
+        if body.method is GopMethod.KEY_FRAME:
+            self._history = FrameHistory(self._setting.first)
+        history = self._history
+        if history is None:
+            raise CorruptError("a frame refers to one that is not there")
+        self._history = None  # unless all goes well
+        levels = [np.zeros((rows, 3), np.int32) for rows in self._setting.dictionaries.rows]
+        decode_levels(history.bank, body.levels, levels, history.levels)
+        coefficients = [
+            history.base(k) + history.loops[k].decode(history.known(k), matrix, body.step)
+            for k, matrix in enumerate(levels)
+        ]
+        history.commit(levels, coefficients)
+        self._history = history
+        return self._setting.in_mesh_units(self._setting.dictionaries.synthesise(coefficients))
+
+    def _transformed(self, body: GopBody) -> Iterator[Positions]:
+        setting, columns = self._setting, body.components
+        basis = decode_basis(body)
+        levels = [np.zeros((rows, columns), np.int32) for rows in setting.dictionaries.rows]
+        decode_levels(make_level_bank(), body.levels, levels, level_references(levels, columns))
+
+        def follow(block: int) -> Matrix:
+            return Loop(3, columns).decode(setting.first[block], levels[block], body.step)
+
+        components = list(ordered_map(follow, range(len(levels)), self._threads))
+        field = setting.dictionaries.synthesise(components)
+        return self._frames(field, basis.reshape(3, body.frames, columns))
+
+    def _frames(self, field: Matrix, basis: Matrix) -> Iterator[Positions]:
+        for start in range(0, basis.shape[1], BATCH):
+            part = basis[:, start : start + BATCH]
+            for frame in frames_of(field @ part.reshape(-1, field.shape[1]).T):
+                yield self._setting.in_mesh_units(frame)
+
+
+def decode_basis(body: GopBody) -> Matrix:
+    """Temporal basis of a GOP, shape (3T, r)."""
+    if body.method is GopMethod.COSINES:
+        return np.ascontiguousarray(cosine_basis(body.frames)[:, : body.components])
+    levels = np.zeros((3, body.frames, body.components), np.int32)
+    decode_levels(make_level_bank(), body.basis, list(levels), level_references(list(levels), body.components))
+    return dequantize_basis(levels, body.exponents)
+
+
+class SequenceDecoder:
+    """Takes the bytes of a sequence's stream as they come, and gives events as soon as they can be known.
+
+    Memory is bounded by one GOP. An error is raised by `next_event` after the events before it, and by every later
+    call.
+
+    Parameters
+    ----------
+    limits : Limits
+        What the stream may ask for.
+    threads : int, optional
+        None: one per core.
+    tolerant : bool
+        Go on behind a GOP that is lost or broken, and give a `GopLost` for it, instead of raising. What comes before
+        the GOPs must be whole in any case.
+    start : int
+        Give no frame before this one; GOPs that it does not need are not decoded.
+    """
+
+    def __init__(
+        self, limits: Limits = DEFAULT_LIMITS, threads: int | None = None, tolerant: bool = False, start: int = 0
+    ) -> None:
+        self._limits = limits
+        self._threads = threads
+        self._tolerant = tolerant
+        self._start = start
+        self._reader = TolerantReader(limits) if tolerant else Reader(limits)
+        self._queue: deque[Event] = deque()
+        self._frames: Iterator[Positions] = iter(())
+        self._error: BsmError | None = None
+        self._ended = False
+        self._header: Header | None = None
+        self._faces: Faces | None = None
+        self._partition: Partition | None = None
+        self._opening: Opening | None = None
+        self._gops: GopDecoder | None = None
+        self._next_frame = 0  # the frame that comes next in the stream
+        self._given = 0  # the frame that is given next
+        self._skipped: list[GopBody] = []  # low-delay frames since the latest key frame, not decoded
+        self._lost: str | None = None
+
+    def receive_data(self, data: bytes | bytearray | memoryview) -> None:
+        """Take more bytes of the stream."""
+        self._reader.receive_data(data)
+
+    def receive_eof(self) -> None:
+        """Take note that no more bytes will come."""
+        self._reader.receive_eof()
+
+    def next_event(self) -> Event:
+        """The next event, or `NEED_DATA`; `END_OF_STREAM` after `EndEvent` and `receive_eof`.
+
+        Raises
+        ------
+        BsmError
+            One of the stream's errors, with its place.
+        """
+        while True:
+            if self._queue:
+                return self._queue.popleft()
+            positions = next(self._frames, None)
+            if positions is not None:
+                self._given += 1
+                if self._given > self._start:
+                    return FrameEvent(self._given - 1, positions)
+                continue
+            if self._ended:
+                return END_OF_STREAM
+            if self._error is not None:
+                raise self._error
+            if not self._read():
+                return NEED_DATA
+
+    def _read(self) -> bool:
+        """Read one packet, if it is there."""
+        try:
+            packet = self._reader.next_packet()
+            if packet is NEED_DATA:
+                return False
+            if packet is END_OF_STREAM:
+                self._finish()
+            else:
+                self._accept(packet)
+        except BsmError as error:
+            span = self._reader.last_frame
+            self._error = error.located(offset=span.offset, frame=span.number) if span else error
+        return True
+
+    def _accept(self, packet: object) -> None:
+        match packet:
+            case Header():
+                self._accept_header(packet)
+            case packets.Connectivity():
+                self._accept_connectivity(packet)
+            case packets.Partition():
+                self._accept_partition(packet)
+            case packets.Block():
+                self._opened().add(packet)
+            case packets.Gop():
+                self._accept_gop(packet)
+            case packets.Damaged():
+                self._accept_damage(packet)
+
+    def _accept_header(self, header: Header) -> None:
+        if not header.gop_frames:
+            raise FormatError("this is a static mesh and no sequence; decode it with codec.Decoder")
+        if header.smoothing:
+            raise UnsupportedError("smoothing of sequences is unknown to this decoder")
+        solves = header.power * max(header.iterations, header.key_iterations)
+        check_work(self._limits, header.blocks, header.block_size, header.coefficients, solves, exact=True)
+        self._limits.check("sequence_bytes", 8.0 * header.blocks * header.block_size * header.coefficients)
+        self._header = header
+        self._queue.append(HeaderEvent(header))
+
+    def _accept_connectivity(self, packet: packets.Connectivity) -> None:
+        assert self._header is not None
+        if packet.method != CONNECTIVITY_METHOD:
+            raise UnsupportedError(f"connectivity method {packet.method} is unknown to this decoder")
+        self._faces = decode_connectivity(packet.data, self._header.vertices, self._header.faces, self._limits)
+        self._queue.append(ConnectivityEvent(self._faces))
+
+    def _accept_partition(self, packet: packets.Partition) -> None:
+        assert self._header is not None and self._faces is not None
+        if packet.method != 0:
+            raise UnsupportedError(f"partition method {packet.method} is unknown to this decoder")
+        graph = graph_of_faces(self._faces, self._header.vertices)
+        self._partition = partition_of_labels(
+            decode_labels(packet.data, graph.offsets, graph.neighbours, self._header.blocks)
+        )
+
+    def _opened(self) -> Opening:
+        if self._opening is None:
+            assert self._header is not None and self._faces is not None
+            self._opening = Opening(self._header, self._faces, self._partition)
+        return self._opening
+
+    def _gop_decoder(self) -> GopDecoder:
+        if self._gops is None:
+            self._gops = GopDecoder(self._opened().setting(self._threads), self._limits, self._threads)
+        return self._gops
+
+    def _accept_gop(self, packet: packets.Gop) -> None:
+        assert self._header is not None
+        decoder = self._gop_decoder()
+        if packet.index > self._next_frame:
+            self._report_loss(packet.index - self._next_frame)
+        try:
+            if packet.index < self._next_frame:
+                raise CorruptError(f"frame {packet.index} comes again behind frame {self._next_frame - 1}")
+            body = parse_gop_body(packet.data, self._header.gop_frames)
+            columns = 3 * body.frames if body.method is GopMethod.COSINES else body.components
+            self._limits.check("sequence_bytes", 16.0 * columns * (self._header.vertices + 3 * body.frames))
+            if 0 < self._header.frames < packet.index + body.frames:
+                raise CorruptError(
+                    f"frames {packet.index} to {packet.index + body.frames - 1} of {self._header.frames}"
+                )
+            self._given = self._next_frame
+            self._frames = self._decoded(decoder, body)
+            self._next_frame += body.frames
+        except BsmError as error:
+            if not self._tolerant:
+                raise
+            self._lose(error.message)
+
+    def _decoded(self, decoder: GopDecoder, body: GopBody) -> Iterator[Positions]:
+        """Frames of a GOP, or nothing of it where no frame of it is wanted and none that is depends on it."""
+        if body.method is not GopMethod.NEXT_FRAME:
+            self._skipped.clear()
+        if self._next_frame + body.frames <= self._start:
+            if body.method >= GopMethod.KEY_FRAME:
+                self._skipped.append(body)
+            return iter(())
+        for earlier in self._skipped:
+            decoder.decode(earlier)
+        self._skipped.clear()
+        return decoder.decode(body)
+
+    def _accept_damage(self, packet: packets.Damaged) -> None:
+        if self._opening is None or not self._opening.complete:
+            raise CorruptError(f"the beginning of a sequence must be whole: {packet.reason}")
+        self._lose(packet.reason)
+
+    def _lose(self, reason: str) -> None:
+        """Take note that frames are lost; how many is known when the next ones come."""
+        self._lost = self._lost or reason
+        self._skipped.clear()
+        self._gop_decoder().forget()
+
+    def _report_loss(self, frames: int) -> None:
+        reason = self._lost or "a GOP is missing"
+        if not self._tolerant:
+            raise CorruptError(f"{frames} frames from number {self._next_frame} on are missing")
+        self._queue.append(GopLost(self._next_frame, frames, reason))
+        self._gop_decoder().forget()
+        self._skipped.clear()
+        self._next_frame += frames
+        self._lost = None
+
+    def _finish(self) -> None:
+        assert self._header is not None
+        if not self._opened().complete:
+            raise CorruptError("the stream ends before its first frame is complete")
+        missing = self._header.frames - self._next_frame if self._header.frames else 0
+        if missing or self._lost:
+            self._report_loss(missing)
+        self._ended = True
+        self._queue.append(EndEvent())
+
+
+class Opening:
+    """The first frame, coded as a static mesh is: what every GOP builds upon."""
+
+    def __init__(self, header: Header, faces: Faces, partition: Partition | None) -> None:
+        graph = graph_of_faces(faces, header.vertices)
+        partition = partition or derive_partition(graph, header.blocks)
+        largest = int(np.diff(partition.bounds).max())
+        if largest > header.block_size:
+            raise CorruptError(f"a part of {largest} vertices in blocks of {header.block_size}")
+        self._header = header
+        self._faces = faces
+        self._blocks = grow_blocks(graph, partition, header.block_size)
+        self._blend = Blend(header.vertices)
+        self._chain: ChainDecoder | None = None
+        self._next_index = 0
+
+    @property
+    def complete(self) -> bool:
+        """Whether all blocks are there."""
+        return self._next_index == self._blocks.count
+
+    def add(self, packet: packets.Block) -> None:
+        """Decode the next block."""
+        if packet.index != self._next_index:
+            raise CorruptError(f"block {packet.index} where block {self._next_index} belongs")
+        rules = chain_rules(self._header)
+        if self._chain is None or packet.index % rules.chain_length(self._blocks.count) == 0:
+            self._chain = ChainDecoder(self._header, rules, self._blocks)
+        decoded = self._chain.decode(packet)
+        self._blend.add(decoded.vertices, decoded.positions, decoded.weights)
+        self._next_index += 1
+
+    def setting(self, threads: int | None) -> Setting:
+        """What the GOPs are decoded with."""
+        if not self.complete:
+            raise CorruptError(f"GOPs begin after {self._next_index} of {self._blocks.count} blocks of the first frame")
+        first = self._blend.positions(np.arange(self._header.vertices, dtype=np.int32))
+        return make_setting(self._header, self._faces, self._blocks, first, threads)
+
+
+def decode_sequence(
+    data: bytes, limits: Limits = DEFAULT_LIMITS, threads: int | None = None
+) -> tuple[npt.NDArray[np.float64], Faces]:
+    """Decode a complete sequence.
+
+    Returns
+    -------
+    positions : float64 array, shape (T, n, 3)
+    faces : int32 array, shape (m, 3)
+
+    Raises
+    ------
+    BsmError
+        `FormatError`, `UnsupportedError`, `CorruptError`, `TruncatedError`, `LimitError` or `NumericError`.
+    """
+    decoder = SequenceDecoder(limits, threads)
+    decoder.receive_data(data)
+    decoder.receive_eof()
+    frames: list[Positions] = []
+    faces = np.zeros((0, 3), np.int32)
+    vertices = 0
+    while (event := decoder.next_event()) is not END_OF_STREAM:
+        match event:
+            case HeaderEvent(header):
+                vertices = header.vertices
+            case ConnectivityEvent(received):
+                faces = received
+            case FrameEvent(_, positions):
+                frames.append(positions)
+    return np.array(frames).reshape(-1, vertices, 3), faces

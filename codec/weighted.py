@@ -1,0 +1,128 @@
+"""Dictionaries whose Laplacian weighs edges by geometry that both sides already know: the decoded first frame.
+
+The paper's Laplacian is the binary one because a decoder knows connectivity only. The frames of a sequence are
+different: once one of them is decoded, the others may be transformed in a basis that knows the shape of the
+triangles. L = D - W with W the cotangent weights, clamped to a positive range (they may be negative, and L indefinite,
+where a triangle is obtuse), and D = rowsum(W).
+
+References
+----------
+U. Pinkall, K. Polthier, "Computing discrete minimal surfaces and their conjugates", 1993, section 4.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+from numba import njit
+
+from codec.blocks import Block
+from codec.graph import Graph
+from codec.mesh import Faces, Positions
+from codec.subspace import CLUSTER_GAP, hash_columns, householder_orthonormalize
+
+Matrix = npt.NDArray[np.float64]
+
+SMALLEST_WEIGHT = 0.05
+LARGEST_WEIGHT = 10.0
+
+
+def cotangent_weights(graph: Graph, faces: Faces, positions: Positions) -> Matrix:
+    """Weight of every entry of `graph.neighbours`: half the sum of the cotangents opposite to the edge, clamped.
+
+    A triangle without area counts nothing. The result does not depend on the unit of `positions`, shape (n, 3).
+    """
+    weights: Matrix = _cotangents(graph.offsets, graph.neighbours, faces, np.ascontiguousarray(positions))
+    return weights
+
+
+def binary_weights(graph: Graph) -> Matrix:
+    """Weight one for every entry of `graph.neighbours`."""
+    return np.ones(len(graph.neighbours))
+
+
+def weighted_basis(graph: Graph, weights: Matrix, block: Block, width: int) -> Matrix:
+    """The `width` lowest eigenvectors of a block's weighted Laplacian, shape (n_i, width), in canonical form."""
+    return canonical_eigenvectors(weighted_laplacian(graph, weights, block), width)
+
+
+def weighted_laplacian(graph: Graph, weights: Matrix, block: Block) -> Matrix:
+    """L = D - W of a block as a dense matrix, shape (n_i, n_i); `weights` belong to `graph.neighbours`."""
+    laplacian: Matrix = _laplacian(graph.offsets, graph.neighbours, weights, block.vertices)
+    return laplacian
+
+
+def canonical_eigenvectors(matrix: Matrix, width: int) -> Matrix:
+    """The `width` lowest eigenvectors of a symmetric matrix in a form that does not depend on the eigensolver.
+
+    Within a cluster of equal eigenvalues a solver may return any rotation; the projection of fixed pseudo-random
+    columns onto the cluster's space, orthonormalised, is the same for all of them. For an eigenvalue of its own this
+    is its eigenvector with the sign that makes its product with the first of these columns positive.
+    """
+    values, vectors = np.linalg.eigh(matrix)
+    starts = np.flatnonzero(np.diff(values, prepend=-np.inf) > CLUSTER_GAP)
+    ends = np.append(starts[1:], len(values))
+    probe = hash_columns(len(matrix), int((ends - starts).max()))
+    basis = vectors[:, :width] * np.where(probe[:, 0] @ vectors[:, :width] < 0, -1.0, 1.0)
+    shared = (ends - starts > 1) & (starts < width)
+    for first, last in zip(starts[shared], ends[shared]):
+        cluster = vectors[:, first:last]
+        canonical = householder_orthonormalize(cluster @ (cluster.T @ probe[:, : last - first]))
+        basis[:, first:last] = canonical[:, : width - first]
+    return np.ascontiguousarray(basis)
+
+
+@njit(cache=True, nogil=True)
+def _entry(offsets, neighbours, v, w):  # type: ignore[no-untyped-def]
+    """Index of w among the neighbours of v."""
+    low, high = offsets[v], offsets[v + 1] - 1
+    while low < high:
+        middle = (low + high) // 2
+        if neighbours[middle] < w:
+            low = middle + 1
+        else:
+            high = middle
+    return low
+
+
+@njit(cache=True, nogil=True)
+def _cotangents(offsets, neighbours, faces, positions):  # type: ignore[no-untyped-def]
+    weights = np.zeros(len(neighbours))
+    for f in range(len(faces)):
+        for corner in range(3):
+            a, b, c = faces[f, corner], faces[f, (corner + 1) % 3], faces[f, (corner + 2) % 3]
+            if a in (b, c) or b == c:
+                continue
+            ux, uy, uz = (
+                positions[b, 0] - positions[a, 0],
+                positions[b, 1] - positions[a, 1],
+                positions[b, 2] - positions[a, 2],
+            )
+            vx, vy, vz = (
+                positions[c, 0] - positions[a, 0],
+                positions[c, 1] - positions[a, 1],
+                positions[c, 2] - positions[a, 2],
+            )
+            x, y, z = uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx
+            area = np.sqrt(x * x + y * y + z * z)
+            if area > 0.0:
+                half = 0.5 * (ux * vx + uy * vy + uz * vz) / area
+                weights[_entry(offsets, neighbours, b, c)] += half
+                weights[_entry(offsets, neighbours, c, b)] += half
+    return np.minimum(np.maximum(weights, SMALLEST_WEIGHT), LARGEST_WEIGHT)
+
+
+@njit(cache=True, nogil=True)
+def _laplacian(offsets, neighbours, weights, rows):  # type: ignore[no-untyped-def]
+    n = len(rows)
+    order = np.argsort(rows)
+    ascending = rows[order]
+    matrix = np.zeros((n, n))
+    for r in range(n):
+        v = rows[r]
+        for i in range(offsets[v], offsets[v + 1]):
+            at = np.searchsorted(ascending, neighbours[i])
+            if at < n and ascending[at] == neighbours[i]:
+                matrix[r, order[at]] = -weights[i]
+                matrix[r, r] += weights[i]
+    return matrix
