@@ -121,7 +121,7 @@ def _code_vertex(
 
 @leaf
 def _find_candidates(seams: Seams, fan: int) -> int:
-    """List the vertices next to other fans of the vertices next to `fan`, the opposite direction first."""
+    """List the vertices along the boundary next to all fans of the vertices next to `fan`, opposite direction first."""
     vertex, after, before, sibling, latest, candidates = seams
     number = 0
     for side in range(2):
@@ -132,7 +132,7 @@ def _find_candidates(seams: Seams, fan: int) -> int:
         for _ in range(_CANDIDATES):
             for turn in range(2):
                 beyond = before[other] if turn == side else after[other]
-                if number == _CANDIDATES or beyond < 0 or vertex[beyond] < 0 or other == neighbour:
+                if number == _CANDIDATES or beyond < 0 or vertex[beyond] < 0 or beyond == fan:
                     continue
                 fresh = vertex[beyond] != vertex[neighbour]
                 for k in range(number):
