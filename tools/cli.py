@@ -20,6 +20,9 @@ COMMANDS = {
     "compare": "measure the error of a mesh",
     "verify": "check a stream",
     "demo": "compress a sample and show what became of it",
+    "curve": "measure rate against error and draw it",
+    "boundary": "measure the error at the boundaries of blocks",
+    "figures": "measure the figures of the README again",
 }
 
 

@@ -7,7 +7,6 @@ from dataclasses import dataclass, fields
 from typing import Any, Protocol
 
 import numpy as np
-import numpy.typing as npt
 
 from codec import EncodeOptions, Encoder, TriangleMesh, decode
 from codec.mesh import Positions
@@ -142,9 +141,6 @@ class Draco:
         return Breakdown()
 
 
-Ints = npt.NDArray[np.int64]
-
-
 @dataclass(frozen=True)
 class Curve:
     """A codec at several operating points: one line of a plot, one JSON file per mesh.
@@ -198,24 +194,15 @@ def paper_curves(block_size: int = 500, keeps: tuple[float, ...] = PAPER_KEEPS) 
     )
 
 
-OUR_POINTS = (
-    (0.08, 1.2e-2),
-    (0.10, 8e-3),
-    (0.12, 5e-3),
-    (0.12, 3.5e-3),
-    (0.16, 2.5e-3),
-    (0.20, 1.7e-3),
-    (0.28, 1.0e-3),
-    (0.36, 5e-4),
-)
+OUR_STEPS = (2.4e-2, 1.6e-2, 1.1e-2, 8e-3, 5.5e-3, 4e-3, 2.8e-3, 2e-3, 1.3e-3, 8e-4)
 
 
 def our_curve(**changes: Any) -> Curve:
-    """The product at a ladder of fractions kept and steps, everything else its defaults."""
-    codecs = (Spectral(EncodeOptions(**{"threads": 1, "keep": k, "step": s, **changes})) for k, s in OUR_POINTS)
+    """The product at a ladder of steps, everything else its defaults."""
+    codecs = (Spectral(EncodeOptions(**{"threads": 1, "step": step, **changes})) for step in OUR_STEPS)
     return Curve("ours", "ours", tuple(codecs))
 
 
 def draco_curve() -> Curve:
-    """Draco at 5 to 14 bits per coordinate; level 10, below nine bits level 7 where it is smaller."""
-    return Curve("draco", "Draco", tuple(Draco(bits, (7, 10) if bits < 9 else (10,)) for bits in range(5, 15)))
+    """Draco at 6 to 14 bits per coordinate; level 10, below nine bits level 7 where it is smaller."""
+    return Curve("draco", "Draco", tuple(Draco(bits, (7, 10) if bits < 9 else (10,)) for bits in range(6, 15)))

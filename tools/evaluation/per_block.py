@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -12,6 +13,7 @@ from codec import EncodeOptions, Encoder, TriangleMesh, decode
 from codec.blocks import Blocks, grow_blocks
 from codec.graph import Graph, graph_of_faces
 from codec.partition import Partition, derive_partition
+from tools.evaluation.tables import number, table
 from tools.streams import StreamInfo, inspect_stream
 
 Floats = npt.NDArray[np.float64]
@@ -80,6 +82,23 @@ def boundary_table(mesh: TriangleMesh, options: EncodeOptions) -> dict[str, dict
         case: boundary_deviations(view_blocks(mesh, replace(options, **changes)))
         for case, changes in OVERLAP_CASES.items()
     }
+
+
+def quartiles(deviations: Floats) -> dict[str, float | None]:
+    """``lower``, ``median`` and ``upper`` quartile over the blocks; None where there are no blocks to speak of."""
+    if len(deviations) == 0:
+        return {"lower": None, "median": None, "upper": None}
+    return dict(zip(("lower", "median", "upper"), map(float, np.percentile(deviations, [25, 50, 75]))))
+
+
+def boundary_rows(rows: Sequence[Mapping[str, Any]]) -> str:
+    """The quartiles of `boundary_table`, one row per ``case`` and ``where``, as a table in thousandths."""
+    names = ("lower", "median", "upper")
+    cells = [
+        (row["case"], row["where"], *(number(None if row[n] is None else 1e3 * row[n], 3) for n in names))
+        for row in rows
+    ]
+    return table(("", "where", "lower quartile", "median", "upper quartile"), cells)
 
 
 def errors_along_chain(view: BlockView) -> list[dict[str, float]]:

@@ -7,6 +7,9 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
+import numpy as np
+import numpy.typing as npt
+
 from bitstream.errors import DependencyError
 from tools.evaluation.rates import MEASURES
 
@@ -31,18 +34,18 @@ def draw_paper_figure(results: Sequence[Result], stem: Path) -> list[Path]:
     """
 
     def draw(axes: Any) -> None:
+        ends = []
         for style, result in zip(_styles(), results):
             points = sorted(result["points"], key=lambda point: point["bpv_paper"])
             x, y = [p["bpv_paper"] for p in points], [p["nmsve_db"] for p in points]
             line = axes.plot(x, y, style, markersize=4, label=f"{result['label']}  ({time_range(result)})")[0]
-            axes.annotate(
-                f"{points[-1]['decode_seconds']:.2f} s",
-                (x[-1], y[-1]),
-                textcoords="offset points",
-                xytext=(5, 0),
-                fontsize=7,
-                color=line.get_color(),
-            )
+            ends.append((x[-1], y[-1], f"{points[-1]['decode_seconds']:.2g} s", line.get_color()))
+        # Times stand beside the ends of their lines, pushed apart where lines run together.
+        gap, lowest = 0.028 * abs(np.diff(axes.get_ylim())[0]), -np.inf
+        for x_end, y_end, text, color in sorted(ends, key=lambda end: end[1]):
+            lowest = max(y_end, lowest + gap)
+            axes.annotate(text, (x_end, y_end), (1.01 * x_end, lowest), fontsize=7, color=color, va="center")
+        axes.margins(x=0.08)
         axes.set_xlabel("bits per vertex, 3 q c k / n")
         axes.set_ylabel(AXES["nmsve_db"])
         axes.legend(fontsize=7, title="decoding time", title_fontsize=7)
@@ -99,15 +102,14 @@ def draw_per_block(blocks: Mapping[str, Sequence[Mapping[str, float]]], stem: Pa
     return _draw_figure(draw, stem)
 
 
-def draw_boxes(groups: Mapping[str, Mapping[str, Sequence[float]]], stem: Path) -> list[Path]:
+def draw_boxes(groups: Mapping[str, Mapping[str, npt.NDArray[np.float64]]], stem: Path) -> list[Path]:
     """Box plots of deviations: for each case one box per group of values (inside blocks, at their boundaries)."""
 
     def draw(axes: Any) -> None:
         names = [f"{case}\n{group}" for case, values in groups.items() for group in values]
-        axes.boxplot([list(v) for values in groups.values() for v in values.values()], tick_labels=names)
+        axes.boxplot([1e3 * v for values in groups.values() for v in values.values()], tick_labels=names)
         axes.tick_params(axis="x", labelsize=7)
-        axes.set_yscale("log")
-        axes.set_ylabel("standard deviation of the error / diagonal")
+        axes.set_ylabel("standard deviation of the error, thousandths of the diagonal")
 
     return _draw(draw, stem)
 

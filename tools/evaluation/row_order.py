@@ -41,7 +41,7 @@ def permuted(block: Block, rows: npt.NDArray[np.integer]) -> Block:
     return Block(block.vertices[rows], graph.indptr.astype(np.int32), graph.indices.astype(np.int32))
 
 
-def nmsve_db_of(mesh: TriangleMesh, options: EncodeOptions, row_order: RowOrder) -> float:
+def nmsve_db_of(mesh: TriangleMesh, options: EncodeOptions, keep: float, row_order: RowOrder) -> float:
     """NMSVE in dB of projecting a mesh on its blocks' subspaces and blending, without quantization.
 
     Parameters
@@ -50,6 +50,8 @@ def nmsve_db_of(mesh: TriangleMesh, options: EncodeOptions, row_order: RowOrder)
         Without isolated vertices.
     options : EncodeOptions
         Of the subspaces and blocks; partition derived, weights by degree.
+    keep : float
+        Columns of a subspace, as a fraction of the block's rows.
     row_order : callable
         `in_bisection_order` or `in_breadth_first_order`.
     """
@@ -69,7 +71,7 @@ def nmsve_db_of(mesh: TriangleMesh, options: EncodeOptions, row_order: RowOrder)
     chain, blend = Chain(rules, graph.size), Blend(graph.size)
     for index in range(blocks.count):
         block = row_order(blocks, index)
-        subspace = chain.dictionary(block, options.width(block.size, options.step))
+        subspace = chain.dictionary(block, max(1, round(keep * block.size)))
         coefficients = subspace.T @ mesh.positions[block.vertices]
         blend.add(block.vertices, chain.commit(block, subspace, coefficients), degree_weights(block.degrees))
     reference = Reference(mesh.positions, mesh.faces)
