@@ -15,8 +15,14 @@ from numba import njit
 
 from codec.blocks import Block
 from codec.graph import Indices
+from codec.panels import pack, unpack
+from codec.simd import LANES, add_scaled, load, scaled, store
 
 Matrix = npt.NDArray[np.float64]
+
+_LANES = np.uint64(LANES)
+_ONE = np.uint64(1)
+_NONE = np.uint32(0xFFFFFFFF)
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,7 +48,7 @@ class Factor:
 
 def factorize(block: Block, shift: float) -> Factor:
     """Factorise L + delta I of a block; `shift` is delta > 0."""
-    return Factor(*_factorize(block.offsets, block.neighbours, shift))
+    return Factor(*factorize_csr(block.offsets, block.neighbours, shift))
 
 
 def solve(factor: Factor, columns: Matrix, power: int) -> Matrix:
@@ -117,57 +123,45 @@ def _dissection(offsets, neighbours):  # type: ignore[no-untyped-def]
 
 
 @njit(cache=True, nogil=True)
-def _factorize(offsets, neighbours, shift):  # type: ignore[no-untyped-def]
-    """Up-looking sparse LDL^T (T. A. Davis, Direct Methods for Sparse Linear Systems, 2006, chapter 4)."""
-    n = len(offsets) - 1
+def factorize_csr(offsets, neighbours, shift):  # type: ignore[no-untyped-def]
+    """Compiled body of `factorize`: up-looking (T. A. Davis, Direct Methods for Sparse Linear Systems, 2006, ch. 4)."""
+    n = np.uint64(len(offsets) - 1)
     elimination = _dissection(offsets, neighbours)
-    step_of = np.empty(n, np.int32)
+    # Indices are unsigned in all loops: compiled code then need not provide for negative ones.
+    offsets, neighbours = offsets.view(np.uint32), neighbours.view(np.uint32)
+    row_at = elimination.view(np.uint32)
+    step_of = np.empty(n, np.uint32)
     for k in range(n):
-        step_of[elimination[k]] = k
-    parent = np.full(n, -1, np.int32)
-    mark = np.full(n, -1, np.int32)
-    counts = np.zeros(n, np.int32)
-    for k in range(n):
-        mark[k] = k
-        r = elimination[k]
-        for i in range(offsets[r], offsets[r + 1]):
-            j = step_of[neighbours[i]]
-            while j < k and mark[j] != k:
-                if parent[j] == -1:
-                    parent[j] = k
-                counts[j] += 1
-                mark[j] = k
-                j = parent[j]
-    starts = np.zeros(n + 1, np.int32)
-    for k in range(n):
-        starts[k + 1] = starts[k] + counts[k]
-    rows = np.empty(starts[n], np.int32)
+        step_of[row_at[k]] = k
+    parent, starts = _elimination_tree(offsets, neighbours, row_at, step_of)
+    rows = np.empty(starts[n], np.uint32)
     values = np.empty(starts[n], np.float64)
     pivots = np.empty(n, np.float64)
     work = np.zeros(n, np.float64)
-    pattern = np.empty(n, np.int32)
-    path = np.empty(n, np.int32)
+    pattern = np.empty(n, np.uint32)
+    path = np.empty(n, np.uint32)
+    mark = np.full(n, _NONE, np.uint32)
     filled = starts[:-1].copy()
-    mark[:] = -1
     for k in range(n):
+        # The pattern of row k of C, in an order in which every step comes after those it needs.
         top = n
         mark[k] = k
-        r = elimination[k]
-        for i in range(offsets[r], offsets[r + 1]):
+        r = row_at[k]
+        for i in range(offsets[r], offsets[r + _ONE]):
             j = step_of[neighbours[i]]
             if j < k:
                 work[j] = -1.0
-                length = 0
+                length = np.uint64(0)
                 while mark[j] != k:
                     path[length] = j
-                    length += 1
+                    length += _ONE
                     mark[j] = k
                     j = parent[j]
-                while length > 0:
-                    length -= 1
-                    top -= 1
+                while length > np.uint64(0):
+                    length -= _ONE
+                    top -= _ONE
                     pattern[top] = path[length]
-        pivot = offsets[r + 1] - offsets[r] + shift
+        pivot = offsets[r + _ONE] - offsets[r] + shift
         for p in range(top, n):
             j = pattern[p]
             value = work[j]
@@ -178,36 +172,57 @@ def _factorize(offsets, neighbours, shift):  # type: ignore[no-untyped-def]
             pivot -= scaled * value
             rows[filled[j]] = k
             values[filled[j]] = scaled
-            filled[j] += 1
+            filled[j] += np.uint32(1)
         pivots[k] = pivot
-    return elimination, starts, rows, values, pivots
+    return elimination, starts.view(np.int32), rows.view(np.int32), values, pivots
+
+
+@njit(cache=True, nogil=True)
+def _elimination_tree(offsets, neighbours, row_at, step_of):  # type: ignore[no-untyped-def]
+    """Parent of each step in the elimination tree, and where each column of C starts."""
+    n = np.uint64(len(row_at))
+    parent = np.full(n, _NONE, np.uint32)
+    mark = np.full(n, _NONE, np.uint32)
+    starts = np.zeros(n + _ONE, np.uint32)
+    for k in range(n):
+        mark[k] = k
+        r = row_at[k]
+        for i in range(offsets[r], offsets[r + _ONE]):
+            j = step_of[neighbours[i]]
+            while j < k and mark[j] != k:
+                if parent[j] == _NONE:
+                    parent[j] = k
+                starts[j + _ONE] += np.uint32(1)
+                mark[j] = k
+                j = parent[j]
+    for k in range(n):
+        starts[k + _ONE] += starts[k]
+    return parent, starts
+
+
+@njit(cache=True, nogil=True)
+def solve_panels(starts, rows, values, pivots, panels, power):  # type: ignore[no-untyped-def]
+    """Overwrite panels of X, their rows in the order of elimination, by (C D C^T)^-power X."""
+    n = np.uint64(len(pivots))
+    starts, rows = starts.view(np.uint32), rows.view(np.uint32)
+    for b in range(panels.shape[0]):
+        x = panels[b].reshape(-1)
+        for _ in range(power):
+            for k in range(n):
+                source = load(x, k * _LANES)
+                for q in range(starts[k], starts[k + _ONE]):
+                    place = rows[q] * _LANES
+                    store(x, place, add_scaled(load(x, place), -values[q], source))
+            for done in range(n):
+                last = n - _ONE - done
+                target = scaled(load(x, last * _LANES), 1.0 / pivots[last])
+                for q in range(starts[last], starts[last + _ONE]):
+                    target = add_scaled(target, -values[q], load(x, rows[q] * _LANES))
+                store(x, last * _LANES, target)
 
 
 @njit(cache=True, nogil=True)
 def _solve(elimination, starts, rows, values, pivots, columns, power):  # type: ignore[no-untyped-def]
-    n, c = columns.shape
-    x = np.empty((n, c))
-    for k in range(n):
-        x[k] = columns[elimination[k]]
-    for _ in range(power):
-        for k in range(n):
-            for q in range(starts[k], starts[k + 1]):
-                value = values[q]
-                target = x[rows[q]]
-                source = x[k]
-                for j in range(c):
-                    target[j] -= value * source[j]
-        for k in range(n - 1, -1, -1):
-            target = x[k]
-            scale = 1.0 / pivots[k]
-            for j in range(c):
-                target[j] *= scale
-            for q in range(starts[k], starts[k + 1]):
-                value = values[q]
-                source = x[rows[q]]
-                for j in range(c):
-                    target[j] -= value * source[j]
-    result = np.empty((n, c))
-    for k in range(n):
-        result[elimination[k]] = x[k]
-    return result
+    panels = pack(columns, elimination)
+    solve_panels(starts, rows, values, pivots, panels, power)
+    return unpack(panels, elimination, columns.shape[1])

@@ -13,9 +13,14 @@ from numba import njit
 
 from bitstream.errors import NumericError
 from codec.blocks import Block
-from codec.laplacian import dense_laplacian, factorize, solve
+from codec.laplacian import dense_laplacian, factorize, solve, solve_panels
+from codec.panels import factorize_gram, gram, invert_triangle, multiply, pack, unpack
 
 Matrix = npt.NDArray[np.float64]
+
+ONCE, TWICE = 1e-3, 1e-9
+"""Independence of the columns (see `codec.panels.factorize_gram`) from which Cholesky QR is orthogonal to 1e-12 after
+one pass, and to working precision after two."""
 
 CLUSTER_GAP = 1e-6
 """Neighbouring eigenvalues closer than this span one eigenspace in the exact basis."""
@@ -35,21 +40,16 @@ def cosine_columns(rows: int, first: int, last: int) -> Matrix:
 def onorm(columns: Matrix) -> Matrix:
     """Q of the QR factorisation with positive diagonal of `columns`, shape (n, c), n >= c.
 
-    Cholesky QR, twice where the first pass cannot be trusted to be orthogonal to working precision, and Householder
-    reflections where the columns are so close to dependent that the Gram matrix is not safely positive definite. All
-    of them compute the same Q.
+    Cholesky QR; twice where the columns are so close to dependent that once would not be orthogonal to working
+    precision, and Householder reflections where that is not safe either. All of them compute the same Q.
 
     Raises
     ------
     NumericError
         If a value is not finite.
     """
-    q, spread = cholesky_orthonormalize(columns)
-    if 0.0 < spread < 1e2:
-        return q
-    if 0.0 < spread < 1e6:
-        return cholesky_orthonormalize(q)[0]
-    return householder_orthonormalize(columns)
+    q, safe = _cholesky_onorm(np.ascontiguousarray(columns))
+    return q if safe else householder_orthonormalize(columns)
 
 
 def householder_orthonormalize(columns: Matrix) -> Matrix:
@@ -77,9 +77,14 @@ def orthogonal_iteration(block: Block, start: Matrix, *, shift: float, power: in
     float64 array, shape (n, c), C-contiguous
     """
     factor = factorize(block, shift)
-    subspace = start
-    for _ in range(iterations):
-        subspace = onorm(solve(factor, subspace, power))
+    start = np.ascontiguousarray(start)
+    subspace, safe = _iterate(
+        factor.elimination, factor.starts, factor.rows, factor.values, factor.pivots, start, power, iterations
+    )
+    if not safe:
+        subspace = start
+        for _ in range(iterations):
+            subspace = onorm(solve(factor, subspace, power))
     return subspace
 
 
@@ -124,34 +129,36 @@ def hash_columns(rows: int, columns: int) -> Matrix:
 
 
 @njit(cache=True, nogil=True)
-def cholesky_orthonormalize(columns):  # type: ignore[no-untyped-def]
-    """One pass of Cholesky QR: Q = X C^-T with X^T X = C C^T; also the spread of C's diagonal, 0 where it failed.
+def _iterate(elimination, starts, rows, values, pivots, start, power, iterations):  # type: ignore[no-untyped-def]
+    """Compiled body of `orthogonal_iteration`, and whether Cholesky QR was safe throughout."""
+    c = start.shape[1]
+    panels = pack(start, elimination)
+    safe = True
+    for _ in range(iterations):
+        solve_panels(starts, rows, values, pivots, panels, power)
+        panels, independence = _cholesky_qr(panels, c)
+        if independence < ONCE:
+            safe = safe and independence >= TWICE
+            panels, _ = _cholesky_qr(panels, c)
+    return unpack(panels, elimination, c), safe
 
-    The inverse of the small factor is formed so that the large product is one matrix multiplication.
-    """
-    c = columns.shape[1]
-    gram = np.dot(columns.T, columns)
-    largest, smallest = 0.0, np.inf
-    for j in range(c):
-        for k in range(j):
-            value = gram[j, k]
-            for i in range(k):
-                value -= gram[j, i] * gram[k, i]
-            gram[j, k] = value / gram[k, k]
-        value = gram[j, j]
-        for i in range(j):
-            value -= gram[j, i] * gram[j, i]
-        if not value > 0.0:
-            return columns, 0.0
-        gram[j, j] = np.sqrt(value)
-        largest = max(largest, gram[j, j])
-        smallest = min(smallest, gram[j, j])
-    inverse = np.zeros((c, c))
-    for j in range(c):
-        inverse[j, j] = 1.0 / gram[j, j]
-        for k in range(j):
-            value = 0.0
-            for i in range(k, j):
-                value -= gram[j, i] * inverse[k, i]
-            inverse[k, j] = value / gram[j, j]
-    return np.dot(columns, inverse), largest / smallest
+
+@njit(cache=True, nogil=True)
+def _cholesky_onorm(columns):  # type: ignore[no-untyped-def]
+    """Compiled body of `onorm`, and whether it was safe."""
+    n, c = columns.shape
+    order = np.arange(n)
+    panels, independence = _cholesky_qr(pack(columns, order), c)
+    if ONCE > independence >= TWICE:
+        panels, _ = _cholesky_qr(panels, c)
+    return unpack(panels, order, c), independence >= TWICE
+
+
+@njit(cache=True, nogil=True)
+def _cholesky_qr(panels, c):  # type: ignore[no-untyped-def]
+    """One pass of Cholesky QR, Q = X C^-1 with X^T X = C^T C, and how independent the columns are (0 to 1)."""
+    triangle = gram(panels)
+    independence = factorize_gram(triangle, c)
+    if independence == 0.0:
+        return panels, 0.0
+    return multiply(panels, invert_triangle(triangle, c)), independence

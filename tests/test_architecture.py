@@ -9,7 +9,7 @@ import pytest
 ROOT = Path(__file__).parent.parent
 KNOW_BYTES = {"codec.encoder", "codec.decoder", "codec.sequence_encoder", "codec.sequence_decoder"}
 BITSTREAM_LIBRARIES = {"numpy", "numba", "msgpack", "zstandard"}
-CODEC_LIBRARIES = {"numpy", "scipy", "numba", "pymetis", "threadpoolctl"}
+CODEC_LIBRARIES = {"numpy", "scipy", "numba", "llvmlite", "pymetis", "threadpoolctl"}
 
 
 def module_name(path: Path) -> str:
