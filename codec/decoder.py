@@ -12,6 +12,7 @@ import numpy.typing as npt
 
 from bitstream import packets
 from bitstream.adaptive import CoefficientModel, decode_coefficients
+from bitstream.arrangement import Arrangement, decode_arrangement
 from bitstream.coefficients import unpack_coefficients
 from bitstream.connectivity import decode_connectivity
 from bitstream.errors import BsmError, CorruptError, NumericError, UnsupportedError
@@ -37,6 +38,9 @@ Indices = npt.NDArray[np.int32]
 CONNECTIVITY_METHOD = 1
 """The valence-driven coder of `bitstream.connectivity`."""
 
+ORDER_METHOD = 1
+"""The permutations of `bitstream.arrangement`."""
+
 
 @dataclass(frozen=True)
 class HeaderEvent:
@@ -47,7 +51,10 @@ class HeaderEvent:
 
 @dataclass(frozen=True, eq=False)
 class ConnectivityEvent:
-    """The faces have arrived, shape (m, 3), in the decoder's order."""
+    """The faces have arrived, shape (m, 3), with all that is needed to decode blocks.
+
+    Where the stream stores the order that the mesh had, faces and all vertex numbers are in that order.
+    """
 
     faces: Faces
 
@@ -175,6 +182,7 @@ class Decoder:
         self._faces: Faces | None = None
         self._graph: Graph | None = None
         self._partition: Partition | None = None
+        self._arrangement: Arrangement | None = None
         self._blocks: Blocks | None = None
         self._chains: dict[int, ChainDecoder] = {}
         self._assembly: Assembly | None = None
@@ -270,6 +278,8 @@ class Decoder:
                 self._accept_connectivity(packet)
             case packets.Partition():
                 self._accept_partition(packet)
+            case packets.Order():
+                self._accept_order(packet)
             case packets.Block():
                 self._accept_block(packet)
             case packets.End():
@@ -291,7 +301,6 @@ class Decoder:
             raise UnsupportedError(f"connectivity method {packet.method} is unknown to this decoder")
         self._faces = decode_connectivity(packet.data, self._header.vertices, self._header.faces, self._limits)
         self._graph = graph_of_faces(self._faces, self._header.vertices)
-        self._queue.append(ConnectivityEvent(self._faces))
 
     def _accept_partition(self, packet: packets.Partition) -> None:
         assert self._header is not None and self._graph is not None
@@ -299,6 +308,13 @@ class Decoder:
             raise UnsupportedError(f"partition method {packet.method} is unknown to this decoder")
         labels = decode_labels(packet.data, self._graph.offsets, self._graph.neighbours, self._header.blocks)
         self._partition = partition_of_labels(labels)
+
+    def _accept_order(self, packet: packets.Order) -> None:
+        assert self._header is not None and self._faces is not None
+        if packet.method != ORDER_METHOD:
+            raise UnsupportedError(f"order method {packet.method} is unknown to this decoder")
+        self._arrangement = decode_arrangement(packet.data, self._faces, self._header.vertices)
+        self._faces = self._arrangement.faces
 
     def _accept_block(self, packet: packets.Block) -> None:
         blocks = self._built()
@@ -330,15 +346,19 @@ class Decoder:
             if not largest <= self._header.block_size:
                 raise CorruptError(f"a part of {largest} vertices in blocks of {self._header.block_size}")
             self._blocks = grow_blocks(self._graph, partition, self._header.block_size)
-            self._assembly = Assembly(self._header, self._graph, self._blocks)
+            order = self._arrangement.vertex_order if self._arrangement else None
+            self._assembly = Assembly(self._header, self._graph, self._blocks, order)
+            assert self._faces is not None
+            self._queue.append(ConnectivityEvent(self._faces))
         return self._blocks
 
 
 class Assembly:
     """Puts decoded blocks together, and knows which vertices are final."""
 
-    def __init__(self, header: Header, graph: Graph, blocks: Blocks) -> None:
+    def __init__(self, header: Header, graph: Graph, blocks: Blocks, order: Indices | None) -> None:
         self._header = header
+        self._order = order
         self._graph = graph
         self._blend = Blend(header.vertices)
         self._center = np.array(header.center)
@@ -353,7 +373,12 @@ class Assembly:
     def positions(self) -> Positions:
         """All positions, in the mesh's unit, once every block is in."""
         everything = np.arange(self._header.vertices, dtype=np.int32)
-        return self._in_mesh_units(smooth(self._graph, self._blend.positions(everything), self._header.smoothing))
+        decoded = self._in_mesh_units(smooth(self._graph, self._blend.positions(everything), self._header.smoothing))
+        if self._order is None:
+            return decoded
+        arranged = np.empty_like(decoded)
+        arranged[self._order] = decoded
+        return arranged
 
     def event(self, block: DecodedBlock) -> BlockEvent:
         """Blend one block in and say what it changed."""
@@ -365,9 +390,10 @@ class Assembly:
         self._final[finished] = True
         moved = seen[~self._final[seen]]
         done = smooth_some(self._graph, self._blended, self._header.smoothing, finished)
+        changed = np.concatenate([moved, finished])
         return BlockEvent(
             block.index,
-            np.concatenate([moved, finished]),
+            changed if self._order is None else self._order[changed],
             self._in_mesh_units(np.concatenate([self._blended[moved], done])),
             np.arange(len(moved) + len(finished)) >= len(moved),
         )

@@ -10,6 +10,7 @@ import numpy.typing as npt
 
 from bitstream import packets
 from bitstream.adaptive import CoefficientModel, encode_coefficients
+from bitstream.arrangement import encode_arrangement
 from bitstream.coefficients import pack_coefficients
 from bitstream.connectivity import encode_connectivity
 from bitstream.errors import OptionError
@@ -19,7 +20,7 @@ from bitstream.writer import Writer
 from codec.blend import Blend
 from codec.blocks import Blocks, block_size, grow_blocks
 from codec.chain import Chain, ChainRules
-from codec.decoder import CONNECTIVITY_METHOD, chain_rules, copy_weights
+from codec.decoder import CONNECTIVITY_METHOD, ORDER_METHOD, chain_rules, copy_weights
 from codec.dynamic import dynamic_size
 from codec.graph import graph_of_faces
 from codec.mesh import TriangleMesh
@@ -155,6 +156,9 @@ class Encoder:
         self.notes: tuple[str, ...] = (f"{dropped} vertices that no face uses were left out",) if dropped else ()
         connectivity = encode_connectivity(used.faces, len(kept))
         self._connectivity = packets.Connectivity(CONNECTIVITY_METHOD, connectivity.payload)
+        self._order: packets.Order | None = None
+        if self.options.keep_order:
+            self._order = packets.Order(ORDER_METHOD, encode_arrangement(used.faces, connectivity))
         self.vertex_order: npt.NDArray[np.int64] = kept[connectivity.vertex_order]
         self.face_order: npt.NDArray[np.int64] = connectivity.face_order.astype(np.int64)
         self.mesh = TriangleMesh(mesh.positions[self.vertex_order], connectivity.faces)
@@ -219,6 +223,8 @@ class Encoder:
             graph, partition = self._graph, self._partition
             labels = encode_labels(graph.offsets, graph.neighbours, partition.labels, partition.parts)
             yield writer.write(packets.Partition(0, labels))
+        if self._order is not None:
+            yield writer.write(self._order)
         for block in coded:
             yield writer.write(block.packet)
         yield writer.end()
