@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import os
+from typing import TYPE_CHECKING
 
 import numpy as np
 import numpy.typing as npt
@@ -12,6 +13,9 @@ from bitstream.errors import FormatError, MeshError
 from codec.mesh import Faces, Positions, TriangleMesh
 from tools.meshfiles import read_bytes
 from tools.output import open_output
+
+if TYPE_CHECKING:
+    from bitstream.connectivity import EncodedConnectivity
 
 Order = npt.NDArray[np.int64]
 
@@ -68,12 +72,19 @@ def in_order_of(original: TriangleMesh, other: TriangleMesh, order: Order | None
         )
     if order is not None:
         other = reorder(other, order)
+    # A symmetric mesh has more than one numbering that fits, so the closest likeness is looked for first.
+    if np.array_equal(original.faces, other.faces):
+        return other.positions
+    if order is None:
+        by_decoder = _encode(original)
+        if np.array_equal(by_decoder.faces, other.faces):
+            return other.positions[np.argsort(by_decoder.vertex_order)]
     if np.array_equal(_canonical(original.faces), _canonical(other.faces)):
         return other.positions
     if order is None:
-        places = _places_by_connectivity(original, other)
-        if places is not None:
-            return other.positions[places]
+        again = _encode(other)
+        if np.array_equal(by_decoder.faces, again.faces):
+            return other.positions[again.vertex_order[np.argsort(by_decoder.vertex_order)]]
     raise MeshError("the meshes have different faces, or number their vertices differently; use --permutation")
 
 
@@ -93,14 +104,7 @@ def _canonical(faces: Faces) -> Faces:
     return turned[np.lexsort(turned.T[::-1])]
 
 
-def _places_by_connectivity(original: TriangleMesh, other: TriangleMesh) -> Order | None:
-    """For each vertex of `original` its vertex in `other`, if the connectivity coder numbers both alike."""
+def _encode(mesh: TriangleMesh) -> EncodedConnectivity:
     from bitstream.connectivity import encode_connectivity
 
-    count = len(original.positions)
-    first, second = encode_connectivity(original.faces, count), encode_connectivity(other.faces, count)
-    if not np.array_equal(first.faces, second.faces):
-        return None
-    places = np.empty(count, dtype=np.int64)
-    places[first.vertex_order] = second.vertex_order
-    return places
+    return encode_connectivity(mesh.faces, len(mesh.positions))

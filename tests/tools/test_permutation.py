@@ -51,6 +51,26 @@ def test_the_numbering_of_the_decoder_is_recognised():
     assert np.array_equal(in_order_of(SAMPLE, decoded), SAMPLE.positions)
 
 
+@pytest.mark.parametrize("shift", range(4))
+def test_a_symmetric_mesh_is_matched_vertex_by_vertex(shift):
+    from bitstream.connectivity import encode_connectivity
+
+    faces = np.roll(np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]]), shift, axis=0)
+    mesh = TriangleMesh(np.array([[0, 0, 0], [1, 0, 0], [0, 2, 0], [0, 0, 3]]), faces)
+    coded = encode_connectivity(faces, 4)
+    decoded = TriangleMesh(mesh.positions[coded.vertex_order], coded.faces)
+    assert np.array_equal(in_order_of(mesh, decoded), mesh.positions)
+
+
+def test_two_files_of_the_same_connectivity_are_matched(order):
+    coded = [renumbered(SAMPLE, order), renumbered(SAMPLE, order[::-1])]
+    try:
+        matched = in_order_of(*coded)
+    except MeshError:
+        return  # the coder may number them differently; then it must not guess
+    assert np.array_equal(matched, coded[0].positions)
+
+
 def test_other_faces_are_refused(order):
     flipped = TriangleMesh(SAMPLE.positions, SAMPLE.faces[:, ::-1])
     with pytest.raises(MeshError, match="--permutation"):
