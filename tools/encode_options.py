@@ -4,8 +4,11 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Callable
-from dataclasses import dataclass
-from typing import Any
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from codec import EncodeOptions
 
 
 @dataclass(frozen=True)
@@ -41,7 +44,9 @@ class EncodeFlag:
 
 
 ENCODE_FLAGS = (
-    EncodeFlag("keep", float, "FRACTION", "coefficients kept, as a fraction of a block's vertices (default 0.1)"),
+    EncodeFlag(
+        "keep", float, "FRACTION", "largest c_i, as a fraction of a block's vertices (default: as many as pay)"
+    ),
     EncodeFlag("coefficients", int, "C", "coefficients kept per block and coordinate, instead of --keep"),
     EncodeFlag("step", float, "S", "quantisation step, relative to the bounding box's diagonal (default 0.004)"),
     EncodeFlag("bits", int, "Q", "as in the paper: every coefficient in Q bits, without prediction"),
@@ -63,13 +68,54 @@ ENCODE_FLAGS = (
 )
 
 
+PRESETS = ("small", "balanced", "fine")
+
+TARGET_FLAGS = (
+    ("nmsve-db", "nmsve_db", "X", "visual error, 10 log10 NMSVE, at most X"),
+    ("theta", "theta_deg", "DEG", "mean angle between the faces' normals before and after at most DEG"),
+    ("max-error", "max_error_relative", "REL", "no vertex farther off than REL times the bounding box's diagonal"),
+    ("bpv", "bpv", "X", "at most X bits per vertex, the whole file counted"),
+    ("size", "size", "BYTES", "at most BYTES"),
+)
+"""Flag, kind of target, metavar and help."""
+
+
 def add_encode_flags(parser: argparse.ArgumentParser) -> None:
-    """Add all of `ENCODE_FLAGS`."""
+    """Add presets, targets and all of `ENCODE_FLAGS`."""
+    wishes = parser.add_argument_group("what to reach", "a target is met in closed loop, on what the decoder will see")
+    wishes.add_argument("--preset", choices=PRESETS, default="balanced", help="how small or how good (balanced)")
+    targets = wishes.add_mutually_exclusive_group()
+    for flag, kind, metavar, text in TARGET_FLAGS:
+        targets.add_argument(f"--{flag}", dest=f"target_{kind}", type=float, metavar=metavar, help=text)
     group = parser.add_argument_group("coding")
     for flag in ENCODE_FLAGS:
         flag.add(group)
+    group.add_argument(
+        "--doi",
+        nargs=2,
+        type=float,
+        metavar=("EPS_L", "EPS_H"),
+        default=argparse.SUPPRESS,
+        help="dynamic subspaces: as many coefficients per block as keep its residual between the two thresholds",
+    )
 
 
 def given_options(args: argparse.Namespace) -> dict[str, Any]:
-    """The fields that were given on the command line."""
-    return {flag.field: getattr(args, flag.field) for flag in ENCODE_FLAGS if hasattr(args, flag.field)}
+    """The fields of `EncodeOptions` that were given on the command line, presets and targets left aside."""
+    given = {flag.field: getattr(args, flag.field) for flag in ENCODE_FLAGS if hasattr(args, flag.field)}
+    if hasattr(args, "doi"):
+        given["doi"] = tuple(args.doi)
+    return given
+
+
+def encode_options(args: argparse.Namespace) -> EncodeOptions:
+    """The options that the command line asks for: a preset, what was given on top of it, and a target."""
+    from codec import PRESETS as OPTIONS
+    from codec import Target
+
+    given = given_options(args)
+    for _, kind, _, _ in TARGET_FLAGS:
+        value = getattr(args, f"target_{kind}")
+        if value is not None:
+            given["target"] = Target(kind, value)
+    return replace(OPTIONS[args.preset], **given)

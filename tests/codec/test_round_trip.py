@@ -64,7 +64,7 @@ def events_of(data, pieces):
 )
 def test_a_mesh_comes_back(options):
     mesh = torus()
-    encoder, decoded, result = round_trip(mesh, **{**SMALL, **options})
+    encoder, _, result = round_trip(mesh, **{**SMALL, **options})
     assert np.array_equal(np.sort(encoder.vertex_order), np.arange(len(mesh.positions)))
     assert result.rms_relative < 0.006
     assert result.theta_deg < 12
@@ -170,7 +170,10 @@ def test_threads_change_neither_bytes_nor_positions():
 def test_positions_agree_between_blas_kernels_and_thread_counts(tmp_path):
     stream = tmp_path / "torus.bsm"
     stream.write_bytes(encode(torus(80, 60), EncodeOptions(block_size=400, key_interval=0, power=2)))
-    script = "import sys, numpy; from codec import decode; numpy.save(sys.argv[2], decode(open(sys.argv[1], 'rb').read()).positions)"
+    script = (
+        "import sys, numpy; from codec import decode; "
+        "numpy.save(sys.argv[2], decode(open(sys.argv[1], 'rb').read()).positions)"
+    )
     results = []
     for kernel, threads in (("Haswell", 1), ("SkylakeX", 2), ("Prescott", 1), ("Prescott", 2)):
         target = tmp_path / f"{kernel}{threads}.npy"

@@ -8,7 +8,7 @@ from typing import Any
 
 from bitstream.errors import OptionError
 from tools.console import Console, print_json
-from tools.encode_options import add_encode_flags, given_options
+from tools.encode_options import add_encode_flags, encode_options
 from tools.meshfiles import MESH_FORMATS, read_mesh
 from tools.naming import default_output, refuse_terminal
 from tools.output import open_output, refuse_to_overwrite
@@ -36,18 +36,18 @@ def run(args: argparse.Namespace, console: Console) -> None:
     for path in filter(None, (output, args.permutation)):
         refuse_to_overwrite(path, args.force)
 
-    from codec import EncodeOptions, Encoder
+    from codec import Encoder
 
-    options = EncodeOptions(**given_options(args))
+    options = encode_options(args)
     source = read_mesh(args.input, args.format)
     begin = time.perf_counter()
     encoder = Encoder(source.mesh, options)
-    notes = (*source.notes, *encoder.notes)
-    for note in notes:
-        console.note(f"{args.input}: {note}")
     with open_output(output, overwrite=args.force) as file, console.progress("encoding") as progress:
         size = sum(file.write(chunk) for chunk in encoder.chunks(progress))
     seconds = time.perf_counter() - begin
+    notes = (*source.notes, *encoder.notes)
+    for note in notes:
+        console.note(f"{args.input}: {note}")
     if args.permutation:
         write_permutation(args.permutation, encoder.vertex_order, overwrite=args.force)
     vertices, faces = len(encoder.mesh.positions), len(encoder.mesh.faces)
