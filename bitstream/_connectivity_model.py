@@ -28,7 +28,7 @@ LABEL, SUM, RANK = range(3)
 neighbours' labels less 6 each, and number among the real vertices (-1 for a dummy)."""
 
 VERTEX_COLUMNS = 4
-VALENCE_CONTEXTS = 12
+VALENCE_CONTEXTS = 14
 _VALENCE_NODES = 16
 _LAST_UNARY = 16  # longer valences escape
 _MULTIPLIER = 0x1E3779B97F4A7C15  # spreads packed features over a table, by the upper bits of the product
@@ -122,37 +122,64 @@ def look_around(models: Models, front: Front, vertices: npt.NDArray[np.int32], h
     nodes = front.nodes
     p, n = nodes[f, PREVIOUS], nodes[f, NEXT]
     pp, nn = nodes[p, PREVIOUS], nodes[n, NEXT]
-    vf, vn, vp = nodes[f, VERTEX], nodes[n, VERTEX], nodes[p, VERTEX]
-    label_f, label_n, label_p = vertices[vf, LABEL], vertices[vn, LABEL], vertices[vp, LABEL]
+    nnn = nodes[nn, NEXT]
+    label_f, apex_f, free_f, sum_f = _features(front, vertices, f)
+    label_n, apex_n, free_n, sum_n = _features(front, vertices, n)
+    label_p, apex_p, free_p, sum_p = _features(front, vertices, p)
     label_nn, label_pp = vertices[nodes[nn, VERTEX], LABEL], vertices[nodes[pp, VERTEX], LABEL]
-    apex_f, apex_n, apex_p = (
-        vertices[nodes[f, APEX], LABEL],
-        vertices[nodes[n, APEX], LABEL],
-        vertices[nodes[p, APEX], LABEL],
+    label_nnn = vertices[nodes[nnn, VERTEX], LABEL]
+    free_nn, free_pp = _four_bits(nodes[nn, FREE]), _four_bits(nodes[pp, FREE])
+    known_f, known_n, known_p = (
+        _four_bits(label_f - free_f),
+        _four_bits(label_n - free_n),
+        _four_bits(label_p - free_p),
     )
-    free_f, free_n, free_p = _four_bits(nodes[f, FREE]), _four_bits(nodes[n, FREE]), _four_bits(nodes[p, FREE])
-    free_pp = _four_bits(nodes[pp, FREE])
-    sum_f = _four_bits(vertices[vf, SUM] + 7)
-    sum_n = _four_bits(vertices[vn, SUM] + 7)
-    sum_p = _four_bits(vertices[vp, SUM] + 7)
+    loops = (label_f == 0) << 2 | (label_n == 0) << 1 | (label_p == 0)
 
     _set_context(models, 0, 0)
-    _set_context(models, 1, label_f)
-    _set_context(models, 2, label_f << 8 | label_n << 4 | apex_f)
-    _set_context(models, 3, label_f << 4 | free_f)
-    _set_context(models, 4, history & 0xFFF)
-    _set_context(models, 5, label_p << 20 | label_f << 16 | apex_p << 12 | free_n << 8 | sum_n << 4 | apex_n)
-    _set_context(models, 6, label_pp << 16 | label_f << 12 | label_n << 8 | sum_f << 4 | label_nn)
-    _set_context(models, 7, label_pp << 8 | label_p << 4 | free_p)
-    _set_context(models, 8, label_f << 12 | free_f << 8 | label_p << 4 | apex_p)
-    _set_context(models, 9, label_f << 8 | free_f << 4 | sum_f)
-    _set_context(models, 10, free_f << 12 | free_p << 8 | free_n << 4 | free_pp)
-    _set_context(models, 11, sum_f << 8 | sum_n << 4 | sum_p)
+    _set_context(models, 1, label_f << 8 | label_n << 4 | apex_f)
+    _set_context(models, 2, label_f << 4 | sum_f)
+    _set_context(models, 3, label_f << 12 | label_n << 8 | apex_f << 4 | sum_f)
+    _set_context(models, 4, label_n << 8 | apex_f << 4 | sum_n)
+    _set_context(models, 5, label_p << 12 | sum_p << 8 | apex_p << 4 | free_f)
+    _set_context(models, 6, free_p << 12 | free_n << 8 | label_p << 4 | free_nn)
+    _set_context(models, 7, loops << 8 | free_nn << 4 | label_nn)
+    _set_context(models, 8, loops << 4 | free_pp)
+    _set_context(models, 9, loops << 16 | apex_p << 12 | known_f << 8 | label_p << 4 | free_n)
+    _set_context(models, 10, free_f << 16 | free_p << 12 | label_f << 8 | label_n << 4 | label_p)
+    _set_context(
+        models,
+        11,
+        label_p << 24 | label_nn << 20 | known_p << 16 | known_n << 12 | apex_n << 8 | free_pp << 4 | label_pp,
+    )
+    _set_context(
+        models,
+        12,
+        apex_p << 24 | sum_n << 20 | (history & 15) << 16 | sum_f << 12 | free_f << 8 | sum_p << 4 | free_nn,
+    )
+    _set_context(
+        models,
+        13,
+        loops << 24 | free_nn << 20 | apex_f << 16 | free_p << 12 | free_n << 8 | label_nnn << 4 | known_n,
+    )
 
     events = models.event_contexts
     events[0] = free_f << 4 | free_n
     events[1] = _EVENT_SIZE + (free_f << 8 | free_p << 4 | free_n)
-    events[2] = 2 * _EVENT_SIZE + ((label_f == 0) << 2 | (label_n == 0) << 1 | (label_p == 0))
+    events[2] = 2 * _EVENT_SIZE + loops
+
+
+@leaf
+def _features(front: Front, vertices: npt.NDArray[np.int32], node: int) -> tuple[int, int, int, int]:
+    """Label, label of the vertex behind the gate, free degree and sum of a node, four bits each."""
+    row = front.nodes[node]
+    vertex = row[VERTEX]
+    return (
+        vertices[vertex, LABEL],
+        vertices[row[APEX], LABEL],
+        _four_bits(row[FREE]),
+        _four_bits(vertices[vertex, SUM] + 7),
+    )
 
 
 @leaf
