@@ -1,0 +1,19 @@
+"""Denoising: a coarse spectral step, a hand-over, a fine step on face normals, and a mode that chooses by itself."""
+
+from codec.denoise.automatic import AutomaticChoice, denoise_automatically
+from codec.denoise.coarse import CoarseFilter
+from codec.denoise.fine import FINE_STEPS
+from codec.denoise.handover import HAND_OVERS
+from codec.denoise.pipeline import DenoiseOptions, coarse_frames, denoise, denoise_frames
+
+__all__ = [
+    "FINE_STEPS",
+    "HAND_OVERS",
+    "AutomaticChoice",
+    "CoarseFilter",
+    "DenoiseOptions",
+    "coarse_frames",
+    "denoise",
+    "denoise_automatically",
+    "denoise_frames",
+]

@@ -1,0 +1,122 @@
+"""The automatic mode: its estimate of the noise, its choices, and what they are worth."""
+
+import numpy as np
+import pytest
+from denoise_shapes import Partners, cube, grid, sphere
+
+from codec.denoise.automatic import CANDIDATES, denoise_automatically
+from codec.denoise.estimate import add_noise, estimate_noise
+from codec.denoise.guided import guided_normal_filtering
+from codec.denoise.noise import gaussian_along_normals, gaussian_isotropic
+from codec.denoise.topology import Topology
+from codec.metrics import mean_edge_length, theta
+
+
+@pytest.mark.parametrize("sigma", [0.1, 0.2, 0.6])
+@pytest.mark.parametrize("shape", [cube, sphere])
+def test_the_estimate_finds_noise_along_the_normals(sigma: float, shape) -> None:  # type: ignore[no-untyped-def]
+    clean, faces = shape(16)
+    noisy = gaussian_along_normals(clean, faces, sigma, seed=3)
+    edge = mean_edge_length(clean, faces)
+    level = estimate_noise(noisy, clean, Topology(faces, len(clean)))
+    assert level.normal / edge == pytest.approx(sigma, rel=0.2)
+    assert level.tangential < 0.5 * level.normal
+
+
+def test_the_estimate_tells_isotropic_noise() -> None:
+    clean, faces = sphere(20)
+    edge = mean_edge_length(clean, faces)
+    level = estimate_noise(gaussian_isotropic(clean, faces, 0.4, seed=3), clean, Topology(faces, len(clean)))
+    assert level.normal / edge == pytest.approx(0.4, rel=0.15)
+    assert level.tangential / edge == pytest.approx(0.4, rel=0.3)
+
+
+def test_noise_that_is_added_is_noise_that_is_found() -> None:
+    clean, faces = sphere(20)
+    topology = Topology(faces, len(clean))
+    level = estimate_noise(gaussian_isotropic(clean, faces, 0.3, seed=1), clean, topology)
+    again = estimate_noise(add_noise(clean, level, topology, seed=2), clean, topology)
+    assert again.normal == pytest.approx(level.normal, rel=0.1)
+    assert (add_noise(clean, level, topology, 5) == add_noise(clean, level, topology, 5)).all()
+
+
+@pytest.mark.parametrize("shape", [cube, sphere])
+def test_it_beats_a_fixed_number_of_iterations(shape) -> None:  # type: ignore[no-untyped-def]
+    clean, faces = shape(14)
+    noisy = gaussian_along_normals(clean, faces, 0.25, seed=7)
+    denoised, choice = denoise_automatically(noisy, faces)
+    assert choice.recipe in CANDIDATES
+    assert choice.noise.normal == pytest.approx(0.25, rel=0.2)
+    assert theta(clean, denoised, faces) < theta(clean, guided_normal_filtering(noisy, faces, 20), faces)
+
+
+def test_more_noise_asks_for_more_iterations_on_a_round_shape() -> None:
+    clean, faces = sphere(14)
+    iterations = [
+        denoise_automatically(gaussian_along_normals(clean, faces, sigma, seed=7), faces)[1].iterations
+        for sigma in (0.02, 0.4)
+    ]
+    assert iterations[0] < iterations[1]
+
+
+def test_a_clean_plane_is_left_alone() -> None:
+    positions, faces = grid(12)
+    denoised, choice = denoise_automatically(positions, faces)
+    assert choice.recipe is None
+    assert (denoised == positions).all()
+
+
+def test_the_same_mesh_gets_the_same_result_in_any_unit() -> None:
+    clean, faces = cube(8)
+    noisy = gaussian_along_normals(clean, faces, 0.2, seed=7)
+    first, choice = denoise_automatically(noisy, faces)
+    again, _ = denoise_automatically(noisy, faces)
+    assert (first == again).all()
+    scaled, other = denoise_automatically(noisy * 1000.0, faces)
+    assert other.recipe == choice.recipe
+    assert scaled == pytest.approx(first * 1000.0, rel=1e-6)
+
+
+@pytest.mark.parametrize("count", [1, 2])
+def test_the_smallest_meshes_pass(count: int) -> None:
+    positions = np.array([[0.0, 0, 0], [1, 0, 0], [1, 1, 0.1], [0, 1, 0], [9, 9, 9]])
+    faces = np.array([[0, 1, 2], [0, 2, 3]], dtype=np.int32)[:count]
+    denoised, _ = denoise_automatically(positions, faces)
+    assert np.isfinite(denoised).all()
+
+
+# The better of guided filtering alone and of the paper's coarse-to-fine scheme (c = 10 %), each stopped at its best
+# iteration by an oracle that knows the clean mesh.
+BEST_BY_ORACLE = {
+    ("fandisk_6475", "fandisk_0.3_noisy"): 2.82,
+    ("fandisk_6475", "fandisk_0.7_noisy"): 6.96,
+    ("twelve_dodecahedron", "twelve_dodecahedron_noisy"): 3.60,
+    ("julius_36201", "julius_36201_noisy"): 6.66,
+    ("bunny_34834", "bunny_34834_noisy"): 5.44,
+    ("armadillo_12502", "armadillo_12502_0.2_noisy"): 14.12,
+    ("block", "block_noisy"): 3.65,
+    ("nicolo", "nicolo_noisy"): 6.62,
+    ("fr_casting", "fr_casting_0.2_noisy"): 10.64,
+    ("fr_chinese_lion", "fr_chinese_lion_0.2_noisy"): 14.27,
+}
+
+
+def _ratio(partners: Partners, names: tuple[str, str]) -> float:
+    original, mesh = partners(*names)
+    denoised, _ = denoise_automatically(mesh.positions, mesh.faces)
+    return theta(original.positions, denoised, mesh.faces) / BEST_BY_ORACLE[names]
+
+
+@pytest.mark.real
+@pytest.mark.parametrize("clean", ["twelve_dodecahedron", "fr_chinese_lion"])
+def test_it_is_as_good_as_the_best_fixed_scheme_with_an_oracle(partners: Partners, clean: str) -> None:
+    names = next(names for names in BEST_BY_ORACLE if names[0] == clean)
+    assert _ratio(partners, names) < 1.0
+
+
+@pytest.mark.real
+@pytest.mark.long
+def test_it_is_never_much_worse_and_mostly_better_than_the_oracle(partners: Partners) -> None:
+    ratios = {names[1]: _ratio(partners, names) for names in BEST_BY_ORACLE}
+    assert max(ratios.values()) < 1.05
+    assert sum(ratio < 1.0 for ratio in ratios.values()) >= 5

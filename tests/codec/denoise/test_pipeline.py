@@ -1,0 +1,66 @@
+"""The public entry: one mesh, all frames of a sequence, and what is refused."""
+
+import numpy as np
+import pytest
+from denoise_shapes import sphere
+
+from bitstream.errors import MeshError, OptionError
+from codec.denoise import DenoiseOptions, coarse_frames, denoise, denoise_automatically, denoise_frames
+from codec.denoise.coarse import CoarseFilter
+from codec.denoise.guided import guided_normal_filtering
+from codec.denoise.noise import gaussian_along_normals
+from codec.mesh import TriangleMesh
+from codec.metrics import theta
+
+CLEAN, FACES = sphere(10)
+NOISY = gaussian_along_normals(CLEAN, FACES, 0.25, seed=2)
+
+
+def test_the_default_is_the_automatic_mode() -> None:
+    expected, _ = denoise_automatically(NOISY, FACES)
+    result = denoise(TriangleMesh(NOISY, FACES))
+    assert (result.positions == expected).all()
+    assert (result.faces == FACES).all()
+
+
+def test_without_hand_over_it_is_the_fine_step_alone() -> None:
+    result = denoise(TriangleMesh(NOISY, FACES), DenoiseOptions(hand_over="none", iterations=3))
+    assert (result.positions == guided_normal_filtering(NOISY, FACES, 3)).all()
+
+
+def test_without_iterations_it_is_the_coarse_step_alone() -> None:
+    options = DenoiseOptions(hand_over="positions", fine="bilateral", iterations=0, keep=0.2, block_size=200)
+    result = denoise(TriangleMesh(NOISY, FACES), options)
+    assert result.positions == pytest.approx(CoarseFilter(FACES, len(NOISY), 0.2, 200)(NOISY, 0.2))
+
+
+@pytest.mark.parametrize(
+    "options", [None, DenoiseOptions(), DenoiseOptions(hand_over="normals", fine="bilateral-normal")]
+)
+def test_every_frame_of_a_sequence_is_denoised(options: DenoiseOptions | None) -> None:
+    frames = np.stack([gaussian_along_normals(CLEAN * scale, FACES, 0.25, seed=2) for scale in (1.0, 1.2, 1.5)])
+    denoised = denoise_frames(frames, FACES, options)
+    assert denoised.shape == frames.shape
+    for scale, before, after in zip((1.0, 1.2, 1.5), frames, denoised):
+        assert theta(CLEAN * scale, after, FACES) < 0.6 * theta(CLEAN * scale, before, FACES)
+
+
+def test_frames_pass_the_coarse_step_as_meshes_do() -> None:
+    frames = np.stack([NOISY, NOISY * 2.0])
+    alone = CoarseFilter(FACES, len(NOISY))
+    assert coarse_frames(frames, FACES) == pytest.approx(np.stack([alone(frame) for frame in frames]))
+
+
+@pytest.mark.parametrize(
+    "options",
+    [{"fine": "best"}, {"hand_over": "best"}, {"iterations": -1}, {"keep": 0.0}, {"keep": 1.1}, {"block_size": 0}],
+)
+def test_illegal_options_are_refused(options: dict[str, object]) -> None:
+    with pytest.raises(OptionError):
+        DenoiseOptions(**options)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("shape", [(0, 5, 3), (5, 3), (2, 5, 2)])
+def test_frames_of_another_shape_are_refused(shape: tuple[int, ...]) -> None:
+    with pytest.raises(MeshError, match="shape"):
+        denoise_frames(np.zeros(shape), FACES, DenoiseOptions())
