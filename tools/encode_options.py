@@ -81,12 +81,17 @@ TARGET_FLAGS = (
 
 
 def add_encode_flags(parser: argparse.ArgumentParser) -> None:
-    """Add presets, targets and all of `ENCODE_FLAGS`."""
+    """Add presets, targets and the flags of `add_coding_flags`."""
     wishes = parser.add_argument_group("what to reach", "a target is met in closed loop, on what the decoder will see")
     wishes.add_argument("--preset", choices=PRESETS, default="balanced", help="how small or how good (balanced)")
     targets = wishes.add_mutually_exclusive_group()
-    for flag, kind, metavar, text in TARGET_FLAGS:
-        targets.add_argument(f"--{flag}", dest=f"target_{kind}", type=float, metavar=metavar, help=text)
+    for name, kind, metavar, text in TARGET_FLAGS:
+        targets.add_argument(f"--{name}", dest=f"target_{kind}", type=float, metavar=metavar, help=text)
+    add_coding_flags(parser)
+
+
+def add_coding_flags(parser: argparse.ArgumentParser) -> None:
+    """Add all of `ENCODE_FLAGS`, and the thresholds of dynamic subspaces."""
     group = parser.add_argument_group("coding")
     for flag in ENCODE_FLAGS:
         flag.add(group)

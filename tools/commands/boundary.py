@@ -6,7 +6,7 @@ import argparse
 from pathlib import Path
 
 from tools.console import Console, print_json
-from tools.encode_options import add_encode_flags, given_options
+from tools.encode_options import add_coding_flags, given_options
 from tools.meshfiles import read_mesh
 
 
@@ -15,7 +15,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("input", metavar="MESH", help="mesh file")
     parser.add_argument("-o", "--output", metavar="STEM", help="draw the box plot as STEM.png and STEM.svg")
     parser.add_argument("--json", action="store_true", help="print it as JSON")
-    add_encode_flags(parser)
+    add_coding_flags(parser)
 
 
 def run(args: argparse.Namespace, console: Console) -> None:

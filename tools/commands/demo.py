@@ -11,7 +11,7 @@ import numpy as np
 
 from bitstream.errors import DependencyError
 from tools.console import Console, print_json
-from tools.encode_options import add_encode_flags, given_options
+from tools.encode_options import add_encode_flags, encode_options
 from tools.output import open_output, refuse_to_overwrite
 
 if TYPE_CHECKING:
@@ -36,7 +36,7 @@ def run(args: argparse.Namespace, console: Console) -> None:
     for path in (stream_path, picture_path):
         refuse_to_overwrite(path, args.force)
 
-    from codec import EncodeOptions, Encoder, TriangleMesh, decode
+    from codec import Encoder, TriangleMesh, decode
     from codec.metrics import compare
     from tools.sample import knot
 
@@ -46,7 +46,7 @@ def run(args: argparse.Namespace, console: Console) -> None:
     console.note(f"sample     a knotted rope: {vertices} vertices, {faces} faces, {plain} bytes as plain arrays")
 
     begin = time.perf_counter()
-    encoder = Encoder(sample, EncodeOptions(**given_options(args)))
+    encoder = Encoder(sample, encode_options(args))
     with console.progress("encoding") as progress:
         stream = b"".join(encoder.chunks(progress))
     encoding = time.perf_counter() - begin
