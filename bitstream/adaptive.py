@@ -1,8 +1,9 @@
-"""Adaptive coding of quantized coefficients, method 1: mixed contexts from frequency, neighbours and the block before.
+"""Adaptive coding of quantized coefficients, method 1: what the neighbours let expect, and what was learnt before.
 
-The magnitudes of a block's spectrum fall with frequency, resemble each other between neighbouring frequencies and
-coordinates, and resemble those of the previous block. Each of these says something about the next coefficient; the
-mixer of `bitstream.entropy` learns how much. All arithmetic is on integers.
+A level is the size of its magnitude in bits (in unary), up to two bits below the leading one, the rest of the bits and
+the sign, these last two as they are. Every other decision is predicted from three expectations of the magnitude (see
+`bitstream.neighbourhood`), each with adaptive probabilities of its own, mixed as `bitstream.entropy` does. A chain
+starts from the probabilities and weights of `bitstream.experience`. All arithmetic is on integers.
 """
 
 from __future__ import annotations
@@ -14,58 +15,101 @@ import numpy.typing as npt
 from numba import njit
 
 from bitstream.entropy import (
+    ONE,
     Bank,
-    code_signed,
+    code_bit,
+    code_mixed_bit,
+    code_uniform,
+    copy_bank,
     finish_reading,
     finish_writing,
     leaf,
     make_bank,
-    reset_bank,
-    signed_span,
+    overran,
     start_reading,
     start_writing,
+)
+from bitstream.errors import CorruptError, OptionError
+from bitstream.experience import EXPECTATIONS, NODES, SELECTORS, Experience, shipped_experience
+from bitstream.neighbourhood import (
+    BINS,
+    NEIGHBOURS,
+    Past,
+    close_block,
+    expectation_bin,
+    look_around,
+    make_past,
+    note_level,
+    situation,
 )
 
 Levels = npt.NDArray[np.int32]
 
-_INPUTS = 6
-_UNARY = 14
-_SPAN = signed_span(_UNARY)
-_BANDS = 24
-_STEPS = 12
-_CONTEXTS = (3 * _BANDS, _STEPS * 4, _STEPS * 6, _STEPS * _STEPS, _STEPS * _STEPS, _STEPS * 6)
-_BASES = np.concatenate([[0], np.cumsum(_CONTEXTS)]).astype(np.int64) * _SPAN
-_SELECTORS = 3 * _SPAN
-MAX_LEVEL = (1 << 23) - 1
+_LARGEST_SIZE = 23
+MAX_LEVEL = (1 << _LARGEST_SIZE) - 1
 """Largest magnitude of a quantized coefficient."""
+
+_SIZE_NODES = 14
+_BIT_SIZES = 9  # magnitudes of more bits share the nodes of this size
+_FIRST_NODES = _SIZE_NODES - 2
+_SECOND_NODES = _SIZE_NODES + _BIT_SIZES - 1 - 2 * 3
+_BYTES_PER_LEVEL = 64  # 24 decisions of at most two bytes each, and bits as they are
 
 
 @dataclass
 class CoefficientModel:
     """What a chain of blocks has taught the coder; encoder and decoder each keep one per chain.
 
+    Parameters
+    ----------
+    width : int
+        Rows of the largest block.
+    experience : Experience
+        What is known beforehand; encoder and decoder must start from the same.
+
     Attributes
     ----------
     bank : Bank
-        Adaptive probabilities.
-    previous : int32 array, shape (width, 3)
-        Magnitudes in the block before, zero where it had fewer coefficients.
+        Adaptive probabilities and weights.
+    past : Past
+        Magnitudes of earlier blocks.
+    expectations : int64 array
+        Weights of the expectations.
     """
 
     width: int
+    experience: Experience = field(default_factory=shipped_experience)
     bank: Bank = field(init=False)
-    previous: Levels = field(init=False)
+    past: Past = field(init=False)
+    expectations: npt.NDArray[np.int64] = field(init=False)
 
     def __post_init__(self) -> None:
-        self.bank = make_bank(int(_BASES[-1]), _SELECTORS, _INPUTS, limit=400, rate=6)
-        reset_bank(self.bank)
-        self.previous = np.zeros((self.width + 2, 3), np.int32)
+        self.bank = make_bank(EXPECTATIONS * BINS * NODES, SELECTORS * NODES, EXPECTATIONS, limit=400, rate=4)
+        self.bank.slots[:] = self.experience.first_slots()
+        self.bank.weights[:] = self.experience.first_weights()
+        self.past = make_past(self.width)
+        self.expectations = self.experience.expectations.astype(np.int64)
+
+    def copy(self) -> CoefficientModel:
+        """An independent copy of the present state."""
+        twin = CoefficientModel(self.width, self.experience)
+        twin.bank = copy_bank(self.bank)
+        twin.past = Past(*(array.copy() for array in self.past))
+        return twin
 
 
 def encode_coefficients(model: CoefficientModel, levels: Levels) -> bytes:
-    """Code one block's quantized coefficients, shape (c_i, 3), each coordinate a column; updates `model`."""
-    coder = start_writing(16 * levels.size + 64)
-    _code_block(coder, model.bank, model.previous, levels)
+    """Code one block's quantized coefficients, shape (c_i, 3), each coordinate a column; updates `model`.
+
+    Raises
+    ------
+    OptionError
+        If there are more rows than the model is made for, or a magnitude is over MAX_LEVEL.
+    """
+    if len(levels) > model.width or (levels.size and np.abs(levels.astype(np.int64)).max() > MAX_LEVEL):
+        raise OptionError(f"levels must be at most {model.width} rows of magnitudes up to {MAX_LEVEL}")
+    coder = start_writing(_BYTES_PER_LEVEL * levels.size)
+    _code_block(coder, model.bank, model.past, model.expectations, levels.astype(np.int32))
     return finish_writing(coder)
 
 
@@ -75,80 +119,80 @@ def decode_coefficients(model: CoefficientModel, payload: bytes, count: int) -> 
     Raises
     ------
     TruncatedError, CorruptError
-        If the payload is not exactly one block long.
+        If the payload is not exactly one block long, or the block has more rows than the model is made for.
     """
+    if count > model.width:
+        raise CorruptError(f"{count} coefficients where at most {model.width} are announced")
     levels = np.zeros((count, 3), np.int32)
     coder = start_reading(payload)
-    _code_block(coder, model.bank, model.previous, levels)
+    _code_block(coder, model.bank, model.past, model.expectations, levels)
     finish_reading(coder)
     return levels
 
 
 @leaf
-def _class(value):  # type: ignore[no-untyped-def]
-    """Magnitude class 0 .. 11 of a sum of magnitudes."""
-    if value < 5:
-        return value
-    if value < 7:
-        return 5
-    if value < 10:
-        return 6
-    if value < 15:
-        return 7
-    if value < 25:
-        return 8
-    if value < 50:
-        return 9
-    if value < 150:
-        return 10
-    return 11
+def size_node(size):  # type: ignore[no-untyped-def]
+    """Node of the decision whether a magnitude has more than `size` bits."""
+    return min(size, _SIZE_NODES - 1)
 
 
 @leaf
-def _band(j):  # type: ignore[no-untyped-def]
-    """Frequency band 0 .. 23 of row j."""
-    if j < 8:
-        return j
-    if j < 16:
-        return 8 + (j - 8) // 2
-    if j < 64:
-        return 12 + (j - 16) // 8
-    if j < 128:
-        return 18 + (j - 64) // 16
-    return min(23, 22 + (j - 128) // 128)
+def first_node(size):  # type: ignore[no-untyped-def]
+    """Node of the bit below the leading one of `size` bits, from 2 on."""
+    return _FIRST_NODES + min(size, _BIT_SIZES)
+
+
+@leaf
+def second_node(size, first):  # type: ignore[no-untyped-def]
+    """Node of the bit below `first`, for `size` from 3 on."""
+    return _SECOND_NODES + 2 * min(size, _BIT_SIZES) + first
+
+
+@leaf
+def set_contexts(past, expectations, row, coordinate, inputs, contexts):  # type: ignore[no-untyped-def]
+    """Write the contexts of a coefficient; `inputs` is scratch. Returns the selector."""
+    look_around(past, row, coordinate, inputs)
+    kind = situation(past, coordinate)
+    for i in range(EXPECTATIONS):
+        contexts[i] = NODES * (BINS * i + expectation_bin(expectations[i, kind], inputs))
+    return 0 if past.blocks[0] == 0 else NODES
+
+
+@leaf
+def code_level(coder, bank, contexts, selector, level):  # type: ignore[no-untyped-def]
+    """Code one level."""
+    magnitude = np.int64(abs(level))
+    size = 0
+    while size < _LARGEST_SIZE:
+        more = 1 if magnitude >> size > 0 else 0
+        if code_mixed_bit(coder, bank, contexts, size_node(size), selector, more) == 0:
+            break
+        size += 1
+    if size == 0:
+        return 0
+    result = 1
+    if size > 1:
+        first = code_mixed_bit(coder, bank, contexts, first_node(size), selector, (magnitude >> (size - 2)) & 1)
+        result = 2 | first
+        if size > 2:
+            bit = (magnitude >> (size - 3)) & 1
+            result = 2 * result | code_mixed_bit(coder, bank, contexts, second_node(size, first), selector, bit)
+            if size > 3:
+                count = 1 << (size - 3)
+                result = result * count + min(code_uniform(coder, magnitude & (count - 1), count), count - 1)
+    return -result if code_bit(coder, ONE // 2, 1 if level < 0 else 0) != 0 else result
 
 
 @njit(cache=True, nogil=True)
-def _code_block(coder, bank, previous, levels):  # type: ignore[no-untyped-def]
-    count = levels.shape[0]
-    contexts = np.empty(_INPUTS, np.int64)
-    recent = np.zeros(3, np.int64)
-    for j in range(count):
-        band = _band(j)
-        for d in range(3):
-            one = abs(levels[j - 1, d]) if j > 0 else 0
-            two = abs(levels[j - 2, d]) if j > 1 else 0
-            three = abs(levels[j - 3, d]) if j > 2 else 0
-            e, f = (d + 1) % 3, (d + 2) % 3
-            other = abs(levels[j, e]) if e < d else (abs(levels[j - 1, e]) if j > 0 else 0)
-            another = abs(levels[j, f]) if f < d else (abs(levels[j - 1, f]) if j > 0 else 0)
-            before = 2 * previous[j, d] + previous[j + 1, d] + (previous[j - 1, d] if j > 0 else 0)
-            local = 2 * one + two + three
-            across = other + another
-            slow = recent[d] >> 4
-            contexts[0] = _BASES[0] + _SPAN * (3 * band + d)
-            contexts[1] = _BASES[1] + _SPAN * (_STEPS * min(3, band // 6) + _class(local))
-            contexts[2] = _BASES[2] + _SPAN * (_STEPS * min(5, band // 4) + _class(before))
-            contexts[3] = _BASES[3] + _SPAN * (_STEPS * _class(local) + _class(across))
-            contexts[4] = _BASES[4] + _SPAN * (_STEPS * _class(before) + _class(slow))
-            contexts[5] = _BASES[5] + _SPAN * (
-                _STEPS * min(5, band // 4) + _class((local + 2 * across + before + slow + 1) >> 1)
-            )
-            level = code_signed(
-                coder, bank, contexts, _SPAN * (0 if j == 0 else (1 if j < 12 else 2)), _UNARY, levels[j, d]
-            )
-            levels[j, d] = level
-            recent[d] += ((min(abs(level), 4096) << 6) - recent[d]) >> 2
-    for j in range(previous.shape[0] - 2):
-        for d in range(3):
-            previous[j, d] = abs(levels[j, d]) if j < count else 0
+def _code_block(coder, bank, past, expectations, levels):  # type: ignore[no-untyped-def]
+    contexts = np.empty(EXPECTATIONS, np.int64)
+    inputs = np.empty(NEIGHBOURS, np.int64)
+    for row in range(levels.shape[0]):
+        for coordinate in range(3):
+            selector = set_contexts(past, expectations, row, coordinate, inputs, contexts)
+            level = code_level(coder, bank, contexts, selector, levels[row, coordinate])
+            levels[row, coordinate] = level
+            note_level(past, row, coordinate, level)
+        if overran(coder):
+            break
+    close_block(past)

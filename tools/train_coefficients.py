@@ -1,0 +1,188 @@
+"""Learn what the coefficient coder knows beforehand (`bitstream/experience.bin`) from a folder of meshes.
+
+    python -m tools.train_coefficients MESHES [--output bitstream/experience.bin] [--rounds 2]
+
+The meshes are encoded with several steps and block sizes; the levels are taken from these streams. Meshes that serve
+to evaluate the codec are left out, see `TRAINING_MESHES`. The result replaces a part of the format: streams of the
+old one can no longer be decoded.
+"""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+import numpy.typing as npt
+from numba import njit
+from scipy.optimize import minimize
+
+from bitstream import packets
+from bitstream.adaptive import CoefficientModel, Levels, decode_coefficients, encode_coefficients
+from bitstream.entropy import Bank, make_bank
+from bitstream.experience import EXPECTATIONS, NODES, SELECTORS, Experience, shipped_experience
+from bitstream.header import Header
+from bitstream.neighbourhood import (
+    BINS,
+    NEIGHBOURS,
+    SITUATIONS,
+    UNIT,
+    WEIGHT_BITS,
+    close_block,
+    look_around,
+    make_past,
+    note_level,
+    situation,
+)
+from bitstream.reader import Reader, Signal
+from codec.decoder import chain_rules
+from codec.encoder import encode
+from codec.options import EncodeOptions
+from tools.meshfiles import read_mesh
+
+TRAINING_MESHES = (
+    "c3d_spot",
+    "cgal_elephant_with_holes",
+    "dragon_22998",
+    "fr_casting",
+    "gargoyle_10002",
+    "scan_angel",
+    "sharpsphere",
+    "trim_star",
+)
+SETTINGS = tuple(
+    EncodeOptions(step=step, keep=keep, block_size=size, key_interval=interval)
+    for size, keep, intervals, steps in (
+        (500, 0.12, (0, 16), (0.0012, 0.0018, 0.0025, 0.0035, 0.005, 0.007, 0.012)),
+        (250, 0.16, (0,), (0.0004, 0.0025, 0.005)),
+        (1000, 0.10, (0,), (0.0004, 0.0025, 0.005)),
+    )
+    for interval in intervals
+    for step in steps
+)
+MAX_SEEN = 60
+_SEEN_UNIT = 4
+_OWN = np.array([0, 1, 2, 3, 4, 5, 6, 7, 8, 17, 18, 19])
+_EARLIER = np.arange(9, NEIGHBOURS)
+
+ChainLevels = list[Levels]
+
+
+def chains_of_stream(data: bytes) -> Iterator[ChainLevels]:
+    """Levels of a static stream, chain by chain."""
+    reader = Reader()
+    reader.receive_data(data)
+    reader.receive_eof()
+    header: Header | None = None
+    chain: ChainLevels = []
+    while not isinstance(packet := reader.next_packet(), Signal):
+        if isinstance(packet, Header):
+            header, length = packet, chain_rules(packet).chain_length(packet.blocks)
+        elif isinstance(packet, packets.Block):
+            assert header is not None
+            if packet.index % length == 0:
+                if chain:
+                    yield chain
+                chain, model = [], CoefficientModel(header.coefficients)
+            chain.append(decode_coefficients(model, packet.data, packet.coefficients))
+    if chain:
+        yield chain
+
+
+def fit_expectations(chains: list[ChainLevels]) -> npt.NDArray[np.uint16]:
+    """Weights of the expectations, of the greatest likelihood for geometrically distributed magnitudes."""
+    inputs, kinds, magnitudes = (np.concatenate(parts) for parts in zip(*map(_surroundings, chains)))
+    weights = np.zeros((EXPECTATIONS, SITUATIONS, NEIGHBOURS), np.uint16)
+    for expectation, used in enumerate((np.arange(NEIGHBOURS), _OWN, _EARLIER)):
+        for kind in range(SITUATIONS):
+            here = kinds == kind
+            known = used[inputs[here][:, used].any(axis=0)]
+            fitted = _fit_geometric(inputs[here][:, known] / UNIT, np.minimum(magnitudes[here], 300))
+            weights[expectation, kind, known] = np.rint(fitted * (1 << WEIGHT_BITS))
+    return weights
+
+
+def learn(chains: list[ChainLevels], expectations: npt.NDArray[np.uint16], seed: int = 0) -> Experience:
+    """Probabilities and mixing weights after coding all chains in one go, twice, in random orders."""
+    bank = make_bank(EXPECTATIONS * BINS * NODES, SELECTORS * NODES, EXPECTATIONS, limit=1023, rate=2)
+    random = np.random.default_rng(seed)
+    for _ in range(2):
+        for number in random.permutation(len(chains)):
+            model = CoefficientModel(max(map(len, chains[number])), _experience(bank, expectations))
+            model.bank = bank
+            for levels in chains[number]:
+                encode_coefficients(model, levels)
+    return _experience(bank, expectations)
+
+
+def coded_size(chains: list[ChainLevels], experience: Experience) -> int:
+    """Bytes of the payloads that code `chains`."""
+    total = 0
+    for chain in chains:
+        model = CoefficientModel(max(map(len, chain)), experience)
+        total += sum(len(encode_coefficients(model, levels)) for levels in chain)
+    return total
+
+
+def _experience(bank: Bank, expectations: npt.NDArray[np.uint16]) -> Experience:
+    seen = np.minimum(bank.slots & 1023, MAX_SEEN) // _SEEN_UNIT
+    mixing = np.clip(np.rint(bank.weights / 16), -(1 << 15), (1 << 15) - 1)
+    return Experience(expectations, mixing.astype(np.int16), ((bank.slots >> 20 << 4) | seen).astype(np.uint16))
+
+
+def _surroundings(chain: ChainLevels) -> tuple[npt.NDArray[np.int64], ...]:
+    """Inputs, situation and magnitude of every coefficient of a chain."""
+    past = make_past(max(map(len, chain)))
+    parts = [_look_at_block(past, levels) for levels in chain]
+    inputs, kinds, magnitudes = (np.concatenate(part) for part in zip(*parts))
+    return inputs, kinds, magnitudes
+
+
+@njit(cache=True)
+def _look_at_block(past, levels):  # type: ignore[no-untyped-def]
+    inputs = np.empty((levels.size, NEIGHBOURS), np.int64)
+    kinds = np.empty(levels.size, np.int64)
+    magnitudes = np.empty(levels.size, np.int64)
+    at = 0
+    for row in range(levels.shape[0]):
+        for coordinate in range(3):
+            look_around(past, row, coordinate, inputs[at])
+            kinds[at] = situation(past, coordinate)
+            magnitudes[at] = abs(levels[row, coordinate])
+            note_level(past, row, coordinate, levels[row, coordinate])
+            at += 1
+    close_block(past)
+    return inputs, kinds, magnitudes
+
+
+def _fit_geometric(inputs: npt.NDArray[np.float64], values: npt.NDArray[np.int64]) -> npt.NDArray[np.float64]:
+    """Weights w >= 0 for which geometric distributions of mean `inputs @ w` make `values` most likely."""
+
+    def cost(weights: npt.NDArray[np.float64]) -> tuple[float, npt.NDArray[np.float64]]:
+        mean = inputs @ weights + 1e-3
+        slope = (values + 1) / (1 + mean) - values / mean
+        likelihood = (values + 1) * np.log1p(mean) - values * np.log(mean)
+        return float(likelihood.mean()), inputs.T @ slope / len(values)
+
+    start = np.full(inputs.shape[1], 0.03)
+    found = minimize(cost, start, jac=True, method="L-BFGS-B", bounds=[(0, 60)] * len(start))
+    weights: npt.NDArray[np.float64] = found.x
+    return weights
+
+
+def main() -> None:
+    """Run the command."""
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("meshes", type=Path, help="folder with the training meshes")
+    parser.add_argument("--output", type=Path, default=Path("bitstream/experience.bin"))
+    arguments = parser.parse_args()
+    meshes = [read_mesh(arguments.meshes / f"{name}.ply").mesh for name in TRAINING_MESHES]
+    chains = [chain for mesh in meshes for options in SETTINGS for chain in chains_of_stream(encode(mesh, options))]
+    experience = learn(chains, fit_expectations(chains))
+    print(f"{len(chains)} chains; {coded_size(chains, shipped_experience())} -> {coded_size(chains, experience)} bytes")
+    arguments.output.write_bytes(experience.to_bytes())
+
+
+if __name__ == "__main__":
+    main()
