@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import deque
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from types import TracebackType
 from typing import TypeAlias
 
@@ -20,16 +20,18 @@ from bitstream.header import Header
 from bitstream.labels import decode_labels
 from bitstream.limits import DEFAULT_LIMITS, Limits
 from bitstream.reader import END_OF_STREAM, NEED_DATA, Reader, Signal
-from codec.blend import Blend, degree_weights
+from bitstream.tolerant import TolerantReader
+from bitstream.wire import FrameType
+from codec.assembly import Assembly, Changes, DecodedBlock, Frame, Losses
+from codec.blend import degree_weights
 from codec.blocks import Block, Blocks, grow_blocks
 from codec.chain import Chain, ChainRules
 from codec.graph import Graph, graph_of_faces
-from codec.mesh import Faces, Positions, TriangleMesh
+from codec.mesh import Faces, TriangleMesh
 from codec.parallel import Lanes, Pending
 from codec.partition import Partition, derive_partition, partition_of_labels
 from codec.predict import PriorModel
 from codec.quantize import dequantize, unsigned_to_levels
-from codec.smooth import DEGREE, rings_around, smooth, smooth_some
 from codec.structure import check_work
 
 Matrix = npt.NDArray[np.float64]
@@ -67,26 +69,61 @@ class BlockEvent:
     ----------
     index : int
         Of the block.
-    vertices : int32 array, shape (v,)
-        Vertices that this block moved or finished.
-    positions : float64 array, shape (v, 3)
-        Where they are now, in the mesh's unit.
-    final : bool array, shape (v,)
-        Which of them no later block will move.
+    changes : Changes
+        Vertices that this block moved or finished, their positions in the mesh's unit, and which of them no later
+        block will move.
     """
 
     index: int
-    vertices: Indices
-    positions: Positions
-    final: npt.NDArray[np.bool_]
+    changes: Changes
+
+    @property
+    def vertices(self) -> Indices:
+        """Vertices that this block moved or finished, shape (v,)."""
+        return self.changes.vertices
+
+    @property
+    def positions(self) -> npt.NDArray[np.float64]:
+        """Where they are now, in the mesh's unit, shape (v, 3)."""
+        return self.changes.positions
+
+    @property
+    def final(self) -> npt.NDArray[np.bool_]:
+        """Which of them no later block will move, shape (v,)."""
+        return self.changes.final
 
 
 @dataclass(frozen=True)
+class LossEvent:
+    """A tolerant decoder could not decode something, and goes on.
+
+    Parameters
+    ----------
+    block : int, optional
+        The block that is lost; None for bytes that belong to no block that is known.
+    error : BsmError
+        Why, and where in the stream.
+    """
+
+    block: int | None
+    error: BsmError
+
+
+@dataclass(frozen=True, eq=False)
 class EndEvent:
-    """The stream is complete and its checksum right."""
+    """The stream has come to its end.
+
+    Parameters
+    ----------
+    losses : Losses
+        Vertices that are missing or less good; none, and the checksum of the stream right, unless the decoder is
+        tolerant.
+    """
+
+    losses: Losses = field(default_factory=Losses)
 
 
-Event: TypeAlias = HeaderEvent | ConnectivityEvent | BlockEvent | EndEvent | Signal
+Event: TypeAlias = HeaderEvent | ConnectivityEvent | BlockEvent | LossEvent | EndEvent | Signal
 
 
 def chain_rules(header: Header) -> ChainRules:
@@ -112,30 +149,23 @@ def copy_weights(header: Header, blocks: Blocks, index: int, block: Block) -> Ma
     return np.isin(block.vertices, blocks.core(index)).astype(np.float64)
 
 
-@dataclass(frozen=True, eq=False)
-class DecodedBlock:
-    """A block's own reconstruction, before it is blended with others; positions in BSM units."""
-
-    index: int
-    vertices: Indices
-    positions: Matrix
-    weights: Matrix
-
-
 class ChainDecoder:
     """Decodes the blocks of one chain, in their order."""
 
-    def __init__(self, header: Header, rules: ChainRules, blocks: Blocks) -> None:
+    def __init__(self, header: Header, rules: ChainRules, blocks: Blocks, first: int) -> None:
         self._header = header
         self._blocks = blocks
+        self._next = first
         self._chain = Chain(rules, header.vertices)
         self._model = CoefficientModel(header.coefficients)
 
     def decode(self, packet: packets.Block) -> DecodedBlock:
-        """Decode the chain's next block."""
+        """Decode the chain's next block; once one is missing or broken, the rest of the chain cannot be decoded."""
         header, blocks = self._header, self._blocks
-        block = blocks.block(packet.index)
         try:
+            if packet.index != self._next:
+                raise CorruptError(f"the block depends on block {self._next}, which is lost")
+            block = blocks.block(packet.index)
             levels = self._levels(packet, block)
             subspace = self._chain.dictionary(block, len(levels))
             prediction = self._chain.prediction(block, subspace)
@@ -144,6 +174,7 @@ class ChainDecoder:
                 raise NumericError("the coefficients reconstruct to positions that are not finite")
         except BsmError as error:
             raise error.located(block=packet.index) from None
+        self._next += 1
         return DecodedBlock(packet.index, block.vertices, positions, copy_weights(header, blocks, packet.index, block))
 
     def _levels(self, packet: packets.Block, block: Block) -> npt.NDArray[np.int32]:
@@ -168,15 +199,20 @@ class Decoder:
         What the stream may ask for.
     threads : int, optional
         For decoding chains whose bytes are there at the same time; None: one per core.
+    tolerant : bool
+        Report damage to blocks as `LossEvent` and go on with every block that does not depend on what is lost.
+        Damage before the first block is raised all the same.
     """
 
-    def __init__(self, limits: Limits = DEFAULT_LIMITS, threads: int | None = None) -> None:
+    def __init__(self, limits: Limits = DEFAULT_LIMITS, threads: int | None = None, *, tolerant: bool = False) -> None:
         self._limits = limits
-        self._reader = Reader(limits)
+        self._tolerant = tolerant
+        self._reader = TolerantReader(limits) if tolerant else Reader(limits)
         self._lanes = Lanes(threads)
         self._queue: deque[Event | Pending[DecodedBlock]] = deque()
         self._error: BsmError | None = None
         self._ended = False
+        self._complete = False
         self._next_index = 0
         self._header: Header | None = None
         self._faces: Faces | None = None
@@ -216,11 +252,17 @@ class Decoder:
             One of the stream's errors, with its place.
         """
         item = self._next_item()
-        if isinstance(item, Pending):
+        if not isinstance(item, Pending):
+            return item
+        assert self._assembly is not None
+        try:
             decoded = self._result(item)
-            assert self._assembly is not None
-            return self._assembly.event(decoded)
-        return item
+        except BsmError as error:
+            if not self._tolerant or error.block is None:
+                raise
+            self._assembly.lose(error.block)
+            return LossEvent(error.block, error)
+        return BlockEvent(decoded.index, self._assembly.changes(decoded))
 
     def finish(self) -> TriangleMesh:
         """Decode the rest of a complete stream and return the mesh; faster than asking for events.
@@ -243,14 +285,18 @@ class Decoder:
         try:
             return pending.result()
         except BsmError as error:
-            self._queue.clear()
-            self._error = error
+            if not self._tolerant:
+                self._queue.clear()
+                self._error = error
             raise
 
     def _next_item(self) -> Event | Pending[DecodedBlock]:
         self._look_ahead()
         if self._queue:
-            return self._queue.popleft()
+            item = self._queue.popleft()
+            if isinstance(item, EndEvent) and self._assembly is not None:
+                return EndEvent(self._assembly.losses())
+            return item
         if self._error is not None:
             raise self._error
         return END_OF_STREAM if self._ended else NEED_DATA
@@ -264,6 +310,8 @@ class Decoder:
                     return
                 if packet is END_OF_STREAM:
                     self._ended = True
+                    if not self._complete:  # a tolerant reader may find no END
+                        self._accept_end()
                 else:
                     self._accept(packet)
             except BsmError as error:
@@ -284,6 +332,8 @@ class Decoder:
                 self._accept_block(packet)
             case packets.End():
                 self._accept_end()
+            case packets.Damaged():
+                self._accept_damage(packet)
 
     def _accept_header(self, header: Header) -> None:
         if header.gop_frames:
@@ -319,22 +369,39 @@ class Decoder:
     def _accept_block(self, packet: packets.Block) -> None:
         blocks = self._built()
         assert self._header is not None
-        if packet.index != self._next_index:
-            raise CorruptError(f"block {packet.index} where block {self._next_index} belongs")
+        self._skip_to(packet.index)
         self._next_index += 1
         rules = chain_rules(self._header)
         number = packet.index // rules.chain_length(blocks.count)
         if number not in self._chains:
             self._chains.clear()
-            self._chains[number] = ChainDecoder(self._header, rules, blocks)
+            first = number * rules.chain_length(blocks.count)
+            self._chains[number] = ChainDecoder(self._header, rules, blocks, first)
         chain = self._chains[number]
         self._queue.append(self._lanes.submit(number, lambda: chain.decode(packet)))
+
+    def _skip_to(self, index: int) -> None:
+        """Give up the blocks before `index` that did not come."""
+        for lost in range(self._next_index, index):
+            error = CorruptError("the frame of the block is missing", block=lost)
+            if not self._tolerant:
+                raise error
+            assert self._assembly is not None
+            self._assembly.lose(lost)
+            self._queue.append(LossEvent(lost, error))
+        self._next_index = index
+
+    def _accept_damage(self, packet: packets.Damaged) -> None:
+        error = CorruptError(f"{packet.length} bytes cannot be read: {packet.reason}", offset=packet.offset)
+        if self._blocks is None and packet.type is not FrameType.BLOCK:
+            raise error
+        self._queue.append(LossEvent(None, error))
 
     def _accept_end(self) -> None:
         assert self._header is not None
         self._built()
-        if self._next_index != self._header.blocks:
-            raise CorruptError(f"the stream ends after {self._next_index} of {self._header.blocks} blocks")
+        self._skip_to(self._header.blocks)
+        self._complete = True
         self._queue.append(EndEvent())
 
     def _built(self) -> Blocks:
@@ -347,70 +414,11 @@ class Decoder:
                 raise CorruptError(f"a part of {largest} vertices in blocks of {self._header.block_size}")
             self._blocks = grow_blocks(self._graph, partition, self._header.block_size)
             order = self._arrangement.vertex_order if self._arrangement else None
-            self._assembly = Assembly(self._header, self._graph, self._blocks, order)
+            frame = Frame(self._header.center, self._header.scale)
+            self._assembly = Assembly(self._graph, self._blocks, self._header.smoothing, frame, order)
             assert self._faces is not None
             self._queue.append(ConnectivityEvent(self._faces))
         return self._blocks
-
-
-class Assembly:
-    """Puts decoded blocks together, and knows which vertices are final."""
-
-    def __init__(self, header: Header, graph: Graph, blocks: Blocks, order: Indices | None) -> None:
-        self._header = header
-        self._order = order
-        self._graph = graph
-        self._blend = Blend(header.vertices)
-        self._center = np.array(header.center)
-        self._missing = np.bincount(blocks.members, minlength=header.vertices)
-        self._blended = np.zeros((header.vertices, 3))
-        self._final = np.zeros(header.vertices, np.bool_)
-
-    def add(self, block: DecodedBlock) -> None:
-        """Blend one block in."""
-        self._blend.add(block.vertices, block.positions, block.weights)
-
-    def positions(self) -> Positions:
-        """All positions, in the mesh's unit, once every block is in."""
-        everything = np.arange(self._header.vertices, dtype=np.int32)
-        decoded = self._in_mesh_units(smooth(self._graph, self._blend.positions(everything), self._header.smoothing))
-        if self._order is None:
-            return decoded
-        arranged = np.empty_like(decoded)
-        arranged[self._order] = decoded
-        return arranged
-
-    def event(self, block: DecodedBlock) -> BlockEvent:
-        """Blend one block in and say what it changed."""
-        self.add(block)
-        seen = block.vertices[self._blend.known(block.vertices)]
-        self._blended[seen] = self._blend.positions(seen)
-        self._missing[block.vertices] -= 1
-        finished = self._finished(block.vertices[self._missing[block.vertices] == 0])
-        self._final[finished] = True
-        moved = seen[~self._final[seen]]
-        done = smooth_some(self._graph, self._blended, self._header.smoothing, finished)
-        changed = np.concatenate([moved, finished])
-        return BlockEvent(
-            block.index,
-            changed if self._order is None else self._order[changed],
-            self._in_mesh_units(np.concatenate([self._blended[moved], done])),
-            np.arange(len(moved) + len(finished)) >= len(moved),
-        )
-
-    def _finished(self, complete: Indices) -> Indices:
-        """Vertices that become final when all copies of `complete` have come: none that the filter sees is missing."""
-        if self._header.smoothing == 0.0:
-            return complete
-        around = rings_around(self._graph, complete, 2 * DEGREE)
-        waiting = rings_around(self._graph, around[self._missing[around] > 0], DEGREE)
-        blocked = np.zeros(self._header.vertices, np.bool_)
-        blocked[waiting] = True
-        candidates = rings_around(self._graph, complete, DEGREE)
-        return candidates[~blocked[candidates] & ~self._final[candidates]]
-
-    def _in_mesh_units(self, positions: Matrix) -> Positions:
-        return positions * self._header.scale + self._center
 
 
 def decode(data: bytes, limits: Limits = DEFAULT_LIMITS, threads: int | None = None) -> TriangleMesh:

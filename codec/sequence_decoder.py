@@ -433,7 +433,7 @@ class Opening:
             raise CorruptError(f"block {packet.index} where block {self._next_index} belongs")
         rules = chain_rules(self._header)
         if self._chain is None or packet.index % rules.chain_length(self._blocks.count) == 0:
-            self._chain = ChainDecoder(self._header, rules, self._blocks)
+            self._chain = ChainDecoder(self._header, rules, self._blocks, packet.index)
         decoded = self._chain.decode(packet)
         self._blend.add(decoded.vertices, decoded.positions, decoded.weights)
         self._next_index += 1

@@ -1,0 +1,139 @@
+"""Putting decoded blocks together: which vertices have moved, which are final, which are missing."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+import numpy.typing as npt
+
+from codec.blend import Blend
+from codec.blocks import Blocks
+from codec.graph import Graph
+from codec.mesh import Positions
+from codec.smooth import DEGREE, rings_around, smooth, smooth_some
+
+Matrix = npt.NDArray[np.float64]
+Indices = npt.NDArray[np.int32]
+
+
+@dataclass(frozen=True, eq=False)
+class DecodedBlock:
+    """A block's own reconstruction, before it is blended with others; positions in BSM units."""
+
+    index: int
+    vertices: Indices
+    positions: Matrix
+    weights: Matrix
+
+
+@dataclass(frozen=True, eq=False)
+class Frame:
+    """Where positions in BSM units lie in the mesh's: position * scale + center."""
+
+    center: tuple[float, ...]
+    scale: float
+
+
+@dataclass(frozen=True, eq=False)
+class Changes:
+    """What a block changed: vertices, their positions in the mesh's unit, and which of them are final."""
+
+    vertices: Indices
+    positions: Positions
+    final: npt.NDArray[np.bool_]
+
+
+@dataclass(frozen=True, eq=False)
+class Losses:
+    """Vertices without any copy, and vertices that lack a copy or lie in the filter's reach of one that is missing."""
+
+    missing: Indices = field(default_factory=lambda: np.empty(0, np.int32))
+    degraded: Indices = field(default_factory=lambda: np.empty(0, np.int32))
+
+
+class Assembly:
+    """Blends the blocks of one mesh.
+
+    Parameters
+    ----------
+    graph : Graph
+    blocks : Blocks
+    smoothing : float
+        Amount of the decoder's filter.
+    frame : Frame
+    order : int32 array, shape (n,), optional
+        Number that the user knows each vertex by; None: its own.
+    """
+
+    def __init__(self, graph: Graph, blocks: Blocks, smoothing: float, frame: Frame, order: Indices | None) -> None:
+        self._graph = graph
+        self._blocks = blocks
+        self._smoothing = smoothing
+        self._frame = frame
+        self._order = order
+        self._blend = Blend(graph.size)
+        self._missing = np.bincount(blocks.members, minlength=graph.size)
+        self._blended = np.zeros((graph.size, 3))
+        self._final = np.zeros(graph.size, np.bool_)
+        self._lost: list[int] = []
+
+    def add(self, block: DecodedBlock) -> None:
+        """Blend one block in."""
+        self._blend.add(block.vertices, block.positions, block.weights)
+
+    def lose(self, index: int) -> None:
+        """Take note that a block will not come."""
+        self._lost.append(index)
+
+    def positions(self) -> Positions:
+        """All positions, in the mesh's unit, once every block is in."""
+        everything = np.arange(self._graph.size, dtype=np.int32)
+        decoded = self._in_mesh_units(smooth(self._graph, self._blend.positions(everything), self._smoothing))
+        if self._order is None:
+            return decoded
+        arranged = np.empty_like(decoded)
+        arranged[self._order] = decoded
+        return arranged
+
+    def changes(self, block: DecodedBlock) -> Changes:
+        """Blend one block in and say what it changed."""
+        self.add(block)
+        seen = block.vertices[self._blend.known(block.vertices)]
+        self._blended[seen] = self._blend.positions(seen)
+        self._missing[block.vertices] -= 1
+        finished = self._finished(block.vertices[self._missing[block.vertices] == 0])
+        self._final[finished] = True
+        moved = seen[~self._final[seen]]
+        done = smooth_some(self._graph, self._blended, self._smoothing, finished)
+        changed = np.concatenate([moved, finished])
+        positions = self._in_mesh_units(np.concatenate([self._blended[moved], done]))
+        return Changes(self._numbered(changed), positions, np.arange(len(changed)) >= len(moved))
+
+    def losses(self) -> Losses:
+        """What the blocks that were lost leave missing or less good."""
+        if not self._lost:
+            return Losses()
+        touched = np.unique(np.concatenate([self._blocks.members_of(index) for index in self._lost]))
+        known = self._blend.known(touched)
+        reach = DEGREE if self._smoothing else 0
+        around = rings_around(self._graph, touched, reach)
+        degraded = around[self._blend.known(around)]
+        return Losses(self._numbered(touched[~known]), self._numbered(np.sort(degraded)))
+
+    def _finished(self, complete: Indices) -> Indices:
+        """Vertices that become final when all copies of `complete` have come: none that the filter sees is missing."""
+        if self._smoothing == 0.0:
+            return complete
+        around = rings_around(self._graph, complete, 2 * DEGREE)
+        waiting = rings_around(self._graph, around[self._missing[around] > 0], DEGREE)
+        blocked = np.zeros(self._graph.size, np.bool_)
+        blocked[waiting] = True
+        candidates = rings_around(self._graph, complete, DEGREE)
+        return candidates[~blocked[candidates] & ~self._final[candidates]]
+
+    def _numbered(self, vertices: Indices) -> Indices:
+        return vertices if self._order is None else self._order[vertices]
+
+    def _in_mesh_units(self, positions: Matrix) -> Positions:
+        return positions * self._frame.scale + np.array(self._frame.center)
