@@ -382,12 +382,7 @@ def code_mixed_bit(
     slots, weights, inputs, settings = bank
     row = selector + node
     size = inputs.size
-    total = np.int64(0)
-    for i in range(size):
-        stretched = np.int64(_STRETCH[slots[contexts[i] + node] >> (32 - _STRETCH_BITS)])
-        inputs[i] = stretched
-        total += stretched * np.int64(weights[row, i])
-    probability = _squash(total >> 16)
+    probability = mixed_probability(bank, contexts, node, selector)
     bit = code_bit(coder, probability, bit)
 
     error = ((bit << 16) - probability) * settings[1]
@@ -401,6 +396,19 @@ def code_mixed_bit(
         count += 1 if count < limit else 0
         slots[contexts[i] + node] = (value << _COUNT_BITS) | count
     return bit
+
+
+@leaf
+def mixed_probability(bank: Bank, contexts: npt.NDArray[np.int64], node: int, selector: int) -> Any:
+    """Probability of a one, in 1 .. ONE - 1, with which `code_mixed_bit` would code this decision."""
+    slots, weights, inputs, _ = bank
+    row = selector + node
+    total = np.int64(0)
+    for i in range(inputs.size):
+        stretched = np.int64(_STRETCH[slots[contexts[i] + node] >> (32 - _STRETCH_BITS)])
+        inputs[i] = stretched
+        total += stretched * np.int64(weights[row, i])
+    return _squash(total >> 16)
 
 
 @leaf
