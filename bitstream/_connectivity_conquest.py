@@ -242,7 +242,7 @@ def _pass_gate(coder: Coder, models: Models, guide: Guide, conquest: Conquest, f
     if guide.conquered.size > 0:
         fan = guide.surface.corner[previous_halfedge(gate)]
         if guide.number[fan] >= 0:
-            node, free = _find_node(guide, gate)
+            node, free = _find_node(guide, front, gate)
         usual = 1 if node < 0 and fan < len(guide.fans) else 0
 
     look_around(models, front, vertices, tallies[HISTORY], f)
@@ -358,14 +358,22 @@ def _search(front: Front, f: int, node: int, reach: int) -> tuple[int, int]:
 
 
 @leaf
-def _find_node(guide: Guide, gate: int) -> tuple[int, int]:
-    """Node at the third vertex of the triangle at `gate`, and its free edges between that triangle and its own gate."""
-    h = next_halfedge(gate)
-    free = -1
-    while guide.conquered[guide.surface.twin[h] // 3] == 0:
-        h = previous_halfedge(guide.surface.twin[h])
-        free += 1
-    return guide.node[h], free
+def _find_node(guide: Guide, front: Front, gate: int) -> tuple[int, int]:
+    """Node at the third vertex of the triangle at `gate`, and its free edges between that triangle and its own gate.
+
+    Turns around the vertex both ways at once until one side is conquered: a hub is not searched again and again.
+    """
+    twin, conquered = guide.surface.twin, guide.conquered
+    inward, outward = next_halfedge(gate), previous_halfedge(gate)
+    turns = -1
+    while True:
+        if conquered[twin[inward] // 3] != 0:
+            return guide.node[inward], turns
+        if conquered[twin[outward] // 3] != 0:
+            node = front.nodes[guide.node[outward], NEXT]
+            return node, front.nodes[node, FREE] - 2 - turns
+        inward, outward = previous_halfedge(twin[inward]), next_halfedge(twin[outward])
+        turns += 1
 
 
 @leaf

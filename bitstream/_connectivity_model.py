@@ -69,7 +69,7 @@ class Models(NamedTuple):
 
 def make_models(vertex_count: int) -> Models:
     """Neutral models; the tables grow with the number of vertices, which both sides know."""
-    bits = min(max(int(vertex_count).bit_length() - 2, 6), 14)
+    bits = min(max(int(vertex_count).bit_length() - 2, 6), 12)
     return Models(
         make_bank((VALENCE_CONTEXTS << bits) * _VALENCE_NODES, _VALENCE_NODES, VALENCE_CONTEXTS, 1023, 16),
         make_bank(_EVENT_CONTEXTS * _EVENT_SIZE, 1, _EVENT_CONTEXTS, 1023, 16, ONE - ONE // 500, 30),

@@ -143,6 +143,7 @@ def decode_connectivity(payload: bytes, vertex_count: int, face_count: int, limi
     fans = regular + surplus
     if proper < 0 or regular < 0 or lonely > 3 * degenerate or fans > 3 * proper or loops > 3 * proper:
         raise _nonsense(coder, "the counts at its start contradict each other")
+    limits.check("vertices", fans + loops)
     coder, conquest = _conquer(coder, models, no_guide(), proper, fans, loops)
     faces = conquest.faces
     count = regular
