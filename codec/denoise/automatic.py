@@ -27,11 +27,9 @@ from codec.parallel import ordered_map
 
 MOST_ITERATIONS = 30
 PATIENCE = 5
-BASE = Recipe("normals", 0.10, "patches", 0.35)
+BASE = Recipe("normals", 0.20, "patches", 0.35)
 CANDIDATES = tuple(
-    Recipe(hand_over, keep, guide, sigma_r)
-    for hand_over, keep in (("positions", 0.20), ("normals", 0.10), ("none", 0.10))
-    for guide, sigma_r in (("own", 0.3), ("own", 0.4), ("patches", 0.35))
+    Recipe(hand_over, 0.20, "own", sigma_r) for hand_over in ("normals", "positions") for sigma_r in (0.25, 0.4, 0.5)
 )
 LARGEST_KEEP = max(recipe.keep for recipe in (BASE, *CANDIDATES))
 SEED = 1

@@ -12,7 +12,7 @@ from codec.denoise.surface import face_geometry
 from codec.denoise.topology import Topology
 from codec.mesh import Positions
 
-SIGMA_R = 0.2
+SIGMA_R = 0.3
 
 
 class HandOver(Protocol):
