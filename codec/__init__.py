@@ -6,6 +6,7 @@ from codec.decoder import (
     Decoder,
     EndEvent,
     HeaderEvent,
+    LossEvent,
     decode,
 )
 from codec.encoder import Encoder, encode, encode_chunks
@@ -22,6 +23,7 @@ __all__ = [
     "Encoder",
     "EndEvent",
     "HeaderEvent",
+    "LossEvent",
     "Target",
     "TriangleMesh",
     "decode",
