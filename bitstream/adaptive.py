@@ -8,6 +8,7 @@ starts from the probabilities and weights of `bitstream.experience`. All arithme
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -20,6 +21,7 @@ from bitstream.entropy import (
     code_bit,
     code_mixed_bit,
     code_uniform,
+    code_unsigned,
     copy_bank,
     finish_reading,
     finish_writing,
@@ -28,6 +30,7 @@ from bitstream.entropy import (
     overran,
     start_reading,
     start_writing,
+    unsigned_span,
 )
 from bitstream.errors import CorruptError, OptionError
 from bitstream.experience import EXPECTATIONS, NODES, SELECTORS, Experience, shipped_experience
@@ -53,6 +56,8 @@ _SIZE_NODES = 14
 _BIT_SIZES = 9  # magnitudes of more bits share the nodes of this size
 _FIRST_NODES = _SIZE_NODES - 2
 _SECOND_NODES = _SIZE_NODES + _BIT_SIZES - 1 - 2 * 3
+_ROWS_UNARY = 8
+_ROWS_SPAN = unsigned_span(_ROWS_UNARY)
 _BYTES_PER_LEVEL = 64  # 24 decisions of at most two bytes each, and bits as they are
 
 
@@ -71,8 +76,12 @@ class CoefficientModel:
     ----------
     bank : Bank
         Adaptive probabilities and weights.
+    rows : Bank
+        The same for numbers of rows.
     past : Past
         Magnitudes of earlier blocks.
+    missing : int64 array, shape (1,)
+        Rows that the block before had less than `width`.
     expectations : int64 array
         Weights of the expectations.
     """
@@ -80,21 +89,26 @@ class CoefficientModel:
     width: int
     experience: Experience = field(default_factory=shipped_experience)
     bank: Bank = field(init=False)
+    rows: Bank = field(init=False)
     past: Past = field(init=False)
+    missing: npt.NDArray[np.int64] = field(init=False)
     expectations: npt.NDArray[np.int64] = field(init=False)
 
     def __post_init__(self) -> None:
         self.bank = make_bank(EXPECTATIONS * BINS * NODES, SELECTORS * NODES, EXPECTATIONS, limit=400, rate=4)
         self.bank.slots[:] = self.experience.first_slots()
         self.bank.weights[:] = self.experience.first_weights()
+        self.rows = make_bank(17 * _ROWS_SPAN, _ROWS_SPAN, 2, limit=60)
         self.past = make_past(self.width)
+        self.missing = np.zeros(1, np.int64)
         self.expectations = self.experience.expectations.astype(np.int64)
 
     def copy(self) -> CoefficientModel:
         """An independent copy of the present state."""
         twin = CoefficientModel(self.width, self.experience)
-        twin.bank = copy_bank(self.bank)
+        twin.bank, twin.rows = copy_bank(self.bank), copy_bank(self.rows)
         twin.past = Past(*(array.copy() for array in self.past))
+        twin.missing = self.missing.copy()
         return twin
 
 
@@ -106,8 +120,7 @@ def encode_coefficients(model: CoefficientModel, levels: Levels) -> bytes:
     OptionError
         If there are more rows than the model is made for, or a magnitude is over MAX_LEVEL.
     """
-    if len(levels) > model.width or (levels.size and np.abs(levels.astype(np.int64)).max() > MAX_LEVEL):
-        raise OptionError(f"levels must be at most {model.width} rows of magnitudes up to {MAX_LEVEL}")
+    _check_levels(model, levels)
     coder = start_writing(_BYTES_PER_LEVEL * levels.size)
     _code_block(coder, model.bank, model.past, model.expectations, levels.astype(np.int32))
     return finish_writing(coder)
@@ -128,6 +141,49 @@ def decode_coefficients(model: CoefficientModel, payload: bytes, count: int) -> 
     _code_block(coder, model.bank, model.past, model.expectations, levels)
     finish_reading(coder)
     return levels
+
+
+def encode_blocks(model: CoefficientModel, blocks: Sequence[Levels]) -> bytes:
+    """Code consecutive blocks into one payload, with the number of rows of each; updates `model`.
+
+    Raises
+    ------
+    OptionError
+        As `encode_coefficients`, or if a block has no rows.
+    """
+    coder = start_writing(sum(_BYTES_PER_LEVEL * (levels.size + 1) for levels in blocks))
+    for levels in blocks:
+        _check_levels(model, levels)
+        _code_rows(coder, model.rows, model.missing, model.width, len(levels))
+        _code_block(coder, model.bank, model.past, model.expectations, levels.astype(np.int32))
+    return finish_writing(coder)
+
+
+def decode_blocks(model: CoefficientModel, payload: bytes, count: int) -> list[Levels]:
+    """Twin of `encode_blocks`: read `count` blocks.
+
+    Raises
+    ------
+    TruncatedError, CorruptError
+        If the payload is not exactly so many blocks long, or a block has no rows or too many.
+    """
+    coder = start_reading(payload)
+    blocks: list[Levels] = []
+    for _ in range(count):
+        rows = _code_rows(coder, model.rows, model.missing, model.width, 0)
+        if not 1 <= rows <= model.width:
+            raise CorruptError(f"{rows} coefficients where 1 to {model.width} are announced")
+        blocks.append(np.zeros((rows, 3), np.int32))
+        _code_block(coder, model.bank, model.past, model.expectations, blocks[-1])
+        if overran(coder):
+            break
+    finish_reading(coder)
+    return blocks
+
+
+def _check_levels(model: CoefficientModel, levels: Levels) -> None:
+    if not 1 <= len(levels) <= model.width or np.abs(levels.astype(np.int64)).max() > MAX_LEVEL:
+        raise OptionError(f"levels must be 1 to {model.width} rows of magnitudes up to {MAX_LEVEL}")
 
 
 @leaf
@@ -181,6 +237,18 @@ def code_level(coder, bank, contexts, selector, level):  # type: ignore[no-untyp
                 count = 1 << (size - 3)
                 result = result * count + min(code_uniform(coder, magnitude & (count - 1), count), count - 1)
     return -result if code_bit(coder, ONE // 2, 1 if level < 0 else 0) != 0 else result
+
+
+@njit(cache=True, nogil=True)
+def _code_rows(coder, bank, missing, width, rows):  # type: ignore[no-untyped-def]
+    """Code a number of rows, as what it lacks to `width`, given the same of the block before."""
+    contexts = np.zeros(2, np.int64)
+    before, size = missing[0], 0
+    while before >> size > 0 and size < 15:
+        size += 1
+    contexts[1] = _ROWS_SPAN * (1 + size)
+    missing[0] = code_unsigned(coder, bank, contexts, 0, _ROWS_UNARY, width - rows)
+    return width - missing[0]
 
 
 @njit(cache=True, nogil=True)

@@ -9,7 +9,14 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from bitstream.adaptive import MAX_LEVEL, CoefficientModel, decode_coefficients, encode_coefficients
+from bitstream.adaptive import (
+    MAX_LEVEL,
+    CoefficientModel,
+    decode_blocks,
+    decode_coefficients,
+    encode_blocks,
+    encode_coefficients,
+)
 from bitstream.errors import BsmError, CorruptError, OptionError, TruncatedError
 from bitstream.experience import Experience, shipped_experience
 from bitstream.neighbourhood import BINS, NEIGHBOURS, expectation_bin, look_around, make_past, note_level
@@ -40,6 +47,50 @@ def test_any_chain_of_blocks_round_trips(chain: list[list[tuple[int, int, int]]]
     payloads = [encode_coefficients(writer, block) for block in blocks]
     for payload, block in zip(payloads, blocks):
         np.testing.assert_array_equal(decode_coefficients(reader, payload, len(block)), block)
+
+
+@settings(deadline=None, max_examples=60)
+@given(CHAINS, st.integers(1, 3))
+def test_any_groups_of_blocks_round_trip(chain: list[list[tuple[int, int, int]]], size: int) -> None:
+    blocks = [np.array(block, np.int32) for block in chain]
+    writer, reader = CoefficientModel(20), CoefficientModel(20)
+    for first in range(0, len(blocks), size):
+        group = blocks[first : first + size]
+        decoded = decode_blocks(reader, encode_blocks(writer, group), len(group))
+        assert len(decoded) == len(group)
+        for one, other in zip(decoded, group):
+            np.testing.assert_array_equal(one, other)
+
+
+def test_in_a_group_the_numbers_of_rows_come_for_free() -> None:
+    random = np.random.default_rng(8)
+    blocks = [spectrum(random, 60) for _ in range(16)]
+    model, alone = CoefficientModel(60), CoefficientModel(60)
+    together = len(encode_blocks(model, blocks))
+    assert together <= sum(len(encode_coefficients(alone, block)) for block in blocks)
+
+
+def test_groups_of_another_length_are_noticed() -> None:
+    random = np.random.default_rng(9)
+    payload = encode_blocks(CoefficientModel(60), [spectrum(random, 40) for _ in range(3)])
+    for count in (2, 4):
+        with pytest.raises((CorruptError, TruncatedError)):
+            decode_blocks(CoefficientModel(60), payload, count)
+    with pytest.raises(OptionError, match="1 to 60 rows"):
+        encode_blocks(CoefficientModel(60), [np.zeros((0, 3), np.int32)])
+
+
+@settings(deadline=None, max_examples=100)
+@given(st.binary(max_size=100), st.integers(1, 6))
+def test_hostile_groups_raise_or_give_legal_blocks(payload: bytes, count: int) -> None:
+    try:
+        blocks = decode_blocks(CoefficientModel(50), payload, count)
+    except BsmError:
+        return
+    assert len(blocks) == count
+    for levels in blocks:
+        assert 1 <= len(levels) <= 50
+        assert np.abs(levels.astype(np.int64)).max() <= MAX_LEVEL
 
 
 def test_encoding_leaves_the_levels_alone() -> None:
@@ -118,7 +169,7 @@ def test_bytes_behind_the_payload_are_noticed() -> None:
 
 def test_a_block_wider_than_announced_is_refused() -> None:
     levels = np.ones((11, 3), np.int32)
-    with pytest.raises(OptionError, match="at most 10 rows"):
+    with pytest.raises(OptionError, match="1 to 10 rows"):
         encode_coefficients(CoefficientModel(10), levels)
     with pytest.raises(CorruptError, match="11 coefficients"):
         decode_coefficients(CoefficientModel(10), encode_coefficients(CoefficientModel(11), levels), 11)
