@@ -299,7 +299,7 @@ def test_memory_and_time_of_both_directions(tmp_path):
 
 
 def test_table():
-    assert table(("a", "b"), [("x", "10"), ("yy", "2")]) == "| a  |  b |\n| -- | -: |\n| x  | 10 |\n| yy |  2 |"
+    assert table(("a", "b"), [("x", "3"), ("yyy", "2")]) == "| a   |  b |\n| --- | -: |\n| x   |  3 |\n| yyy |  2 |"
 
 
 def shuffled(mesh: TriangleMesh) -> TriangleMesh:

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 def table(columns: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
     """A table whose columns are padded to the same width, the first to the left and the others to the right."""
-    widths = [max(len(row[i]) for row in (columns, *rows)) for i in range(len(columns))]
+    widths = [max(2, *(len(row[i]) for row in (columns, *rows))) for i in range(len(columns))]
     rule = ["-" * widths[0], *("-" * (width - 1) + ":" for width in widths[1:])]
 
     def line(cells: Sequence[str]) -> str:
