@@ -50,7 +50,7 @@ class Models(NamedTuple):
     ----------
     valence, event, rare : Bank
         For valences, for the decision whether a gate leads to a new vertex, and for everything else.
-    contexts : int64 array
+    contexts, event_contexts : int64 array
         Contexts of the valence and of the event that come next.
     zero : int64 array
         The only context of rare symbols.
@@ -101,10 +101,12 @@ def look_nowhere(models: Models) -> None:
 
 
 @leaf
-def _set_context(models: Models, number: int, features: int) -> None:
+def _hash_contexts(models: Models) -> None:
+    """Turn the packed features of each context into the place of its slots in its table."""
     bits = models.bits[0]
-    hashed = ((features + 1) * _MULTIPLIER) >> (64 - bits) & ((1 << bits) - 1)
-    models.contexts[number] = ((number << bits) + hashed) * _VALENCE_NODES
+    for i in range(VALENCE_CONTEXTS):
+        hashed = ((models.contexts[i] + 1) * _MULTIPLIER) >> (64 - bits) & ((1 << bits) - 1)
+        models.contexts[i] = ((i << bits) + hashed) * _VALENCE_NODES
 
 
 @leaf
@@ -136,32 +138,24 @@ def look_around(models: Models, front: Front, vertices: npt.NDArray[np.int32], h
     )
     loops = (label_f == 0) << 2 | (label_n == 0) << 1 | (label_p == 0)
 
-    _set_context(models, 0, 0)
-    _set_context(models, 1, label_f << 8 | label_n << 4 | apex_f)
-    _set_context(models, 2, label_f << 4 | sum_f)
-    _set_context(models, 3, label_f << 12 | label_n << 8 | apex_f << 4 | sum_f)
-    _set_context(models, 4, label_n << 8 | apex_f << 4 | sum_n)
-    _set_context(models, 5, label_p << 12 | sum_p << 8 | apex_p << 4 | free_f)
-    _set_context(models, 6, free_p << 12 | free_n << 8 | label_p << 4 | free_nn)
-    _set_context(models, 7, loops << 8 | free_nn << 4 | label_nn)
-    _set_context(models, 8, loops << 4 | free_pp)
-    _set_context(models, 9, loops << 16 | apex_p << 12 | known_f << 8 | label_p << 4 | free_n)
-    _set_context(models, 10, free_f << 16 | free_p << 12 | label_f << 8 | label_n << 4 | label_p)
-    _set_context(
-        models,
-        11,
-        label_p << 24 | label_nn << 20 | known_p << 16 | known_n << 12 | apex_n << 8 | free_pp << 4 | label_pp,
+    contexts = models.contexts
+    contexts[0] = 0
+    contexts[1] = label_f << 8 | label_n << 4 | apex_f
+    contexts[2] = label_f << 4 | sum_f
+    contexts[3] = label_f << 12 | label_n << 8 | apex_f << 4 | sum_f
+    contexts[4] = label_n << 8 | apex_f << 4 | sum_n
+    contexts[5] = label_p << 12 | sum_p << 8 | apex_p << 4 | free_f
+    contexts[6] = free_p << 12 | free_n << 8 | label_p << 4 | free_nn
+    contexts[7] = loops << 8 | free_nn << 4 | label_nn
+    contexts[8] = loops << 4 | free_pp
+    contexts[9] = loops << 16 | apex_p << 12 | known_f << 8 | label_p << 4 | free_n
+    contexts[10] = free_f << 16 | free_p << 12 | label_f << 8 | label_n << 4 | label_p
+    contexts[11] = (
+        label_p << 24 | label_nn << 20 | known_p << 16 | known_n << 12 | apex_n << 8 | free_pp << 4 | label_pp
     )
-    _set_context(
-        models,
-        12,
-        apex_p << 24 | sum_n << 20 | (history & 15) << 16 | sum_f << 12 | free_f << 8 | sum_p << 4 | free_nn,
-    )
-    _set_context(
-        models,
-        13,
-        loops << 24 | free_nn << 20 | apex_f << 16 | free_p << 12 | free_n << 8 | label_nnn << 4 | known_n,
-    )
+    contexts[12] = apex_p << 24 | sum_n << 20 | (history & 15) << 16 | sum_f << 12 | free_f << 8 | sum_p << 4 | free_nn
+    contexts[13] = loops << 24 | free_nn << 20 | apex_f << 16 | free_p << 12 | free_n << 8 | label_nnn << 4 | known_n
+    _hash_contexts(models)
 
     events = models.event_contexts
     events[0] = free_f << 4 | free_n
