@@ -46,9 +46,9 @@ class Factor:
     pivots: Matrix
 
 
-def factorize(block: Block, shift: float) -> Factor:
-    """Factorise L + delta I of a block; `shift` is delta > 0."""
-    return Factor(*factorize_csr(block.offsets, block.neighbours, shift))
+def factorize(block: Block, shift: float | Matrix) -> Factor:
+    """Factorise L + delta I of a block; `shift` is delta > 0, or one for every row, shape (n,)."""
+    return Factor(*factorize_csr(block.offsets, block.neighbours, np.broadcast_to(np.float64(shift), block.size)))
 
 
 def solve(factor: Factor, columns: Matrix, power: int) -> Matrix:
@@ -161,7 +161,7 @@ def factorize_csr(offsets, neighbours, shift):  # type: ignore[no-untyped-def]
                     length -= _ONE
                     top -= _ONE
                     pattern[top] = path[length]
-        pivot = offsets[r + _ONE] - offsets[r] + shift
+        pivot = offsets[r + _ONE] - offsets[r] + shift[r]
         for p in range(top, n):
             j = pattern[p]
             value = work[j]

@@ -1,4 +1,4 @@
-"""Running independent pieces of work on threads, results in order, with one BLAS thread each."""
+"""Running independent pieces of work on threads, results in order."""
 
 from __future__ import annotations
 
@@ -10,9 +10,6 @@ from functools import cache
 from threading import Lock
 from typing import Any, Generic, TypeVar
 
-import scipy.linalg.cython_blas  # noqa: F401  (loads the BLAS of the compiled kernels, so that it is found below)
-from threadpoolctl import ThreadpoolController
-
 Item = TypeVar("Item")
 Result = TypeVar("Result")
 
@@ -23,7 +20,10 @@ def available_threads() -> int:
 
 
 @cache
-def _controller() -> ThreadpoolController:
+def _controller() -> Any:
+    # Not needed by streams whose dictionaries are made by orthogonal iterations, so not imported before it is.
+    from threadpoolctl import ThreadpoolController
+
     return ThreadpoolController()
 
 
@@ -49,11 +49,14 @@ class _SingleBlasThread:
 
 
 SINGLE_BLAS_THREAD = _SingleBlasThread()
-"""Enter it around work on blocks: they are too small to share among BLAS threads."""
+"""Enter it around calls of BLAS and LAPACK: blocks are too small to share among BLAS threads."""
 
 
 def ordered_map(work: Callable[[Item], Result], items: Iterable[Item], threads: int | None) -> Iterator[Result]:
-    """`map(work, items)` on `threads` threads (None: one per core), a few items ahead of the consumer."""
+    """`map(work, items)` on `threads` threads (None: one per core), with one BLAS thread each.
+
+    Works a few items ahead of the consumer, so that results do not pile up.
+    """
     count = threads or available_threads()
     with SINGLE_BLAS_THREAD:
         if count == 1:
@@ -83,8 +86,7 @@ class Pending(Generic[Result]):
         """Do the work."""
         assert self._work is not None
         try:
-            with SINGLE_BLAS_THREAD:
-                self._future.set_result(self._work())
+            self._future.set_result(self._work())
         except BaseException as error:
             self._future.set_exception(error)
         self._work = None

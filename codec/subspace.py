@@ -15,6 +15,7 @@ from bitstream.errors import NumericError
 from codec.blocks import Block
 from codec.laplacian import dense_laplacian, factorize, solve, solve_panels
 from codec.panels import factorize_gram, gram, invert_triangle, multiply, pack, unpack
+from codec.parallel import SINGLE_BLAS_THREAD
 
 Matrix = npt.NDArray[np.float64]
 
@@ -31,10 +32,7 @@ def cosine_columns(rows: int, first: int, last: int) -> Matrix:
 
     Column j is cos(pi j (2 r + 1) / (2 n)), the eigenvectors of a path of n vertices, orthogonal to each other.
     """
-    r = np.arange(rows, dtype=np.int64)[:, None]
-    j = np.arange(first, last, dtype=np.int64)[None, :]
-    # Reduced as integers first, so that the argument of the cosine stays small and exact.
-    return np.cos(np.pi / (2 * rows) * ((2 * r + 1) * j % (4 * rows)))
+    return _cosines(rows, first, last)
 
 
 def onorm(columns: Matrix) -> Matrix:
@@ -56,11 +54,12 @@ def householder_orthonormalize(columns: Matrix) -> Matrix:
     """`onorm` by Householder reflections (LAPACK geqrf), for any condition number."""
     if not np.isfinite(columns).all():
         raise NumericError("the subspace iteration produced a value that is not finite")
-    q, r = np.linalg.qr(columns)
+    with SINGLE_BLAS_THREAD:
+        q, r = np.linalg.qr(columns)
     return np.ascontiguousarray(q * np.where(np.diag(r) < 0, -1.0, 1.0))
 
 
-def orthogonal_iteration(block: Block, start: Matrix, *, shift: float, power: int, iterations: int) -> Matrix:
+def orthogonal_iteration(block: Block, start: Matrix, *, shift: float | Matrix, power: int, iterations: int) -> Matrix:
     """U(t) = Onorm(R^z U(t-1)), `iterations` times (Algorithm 1).
 
     Parameters
@@ -69,8 +68,10 @@ def orthogonal_iteration(block: Block, start: Matrix, *, shift: float, power: in
         Of n rows.
     start : float64 array, shape (n, c)
         U(0); need not be orthonormal.
-    shift, power, iterations
-        delta, z and t_max.
+    shift : float, or float64 array, shape (n,)
+        delta, or the diagonal that takes the place of delta I.
+    power, iterations : int
+        z and t_max.
 
     Returns
     -------
@@ -96,13 +97,14 @@ def resized(previous: Matrix, width: int) -> Matrix:
     return np.concatenate([previous, cosine_columns(rows, known, width)], axis=1)
 
 
-def exact_basis(block: Block, width: int) -> Matrix:
-    """The `width` lowest eigenvectors of L in a form that does not depend on the eigensolver.
+def exact_basis(block: Block, width: int, springs: float | Matrix = 0.0) -> Matrix:
+    """The `width` lowest eigenvectors of L + diag(springs) in a form that does not depend on the eigensolver.
 
     Within a cluster of equal eigenvalues a solver may return any rotation; the projection of fixed pseudo-random
     columns onto the cluster's space, orthonormalised, is the same for all of them. It also fixes the signs.
     """
-    values, vectors = np.linalg.eigh(dense_laplacian(block))
+    with SINGLE_BLAS_THREAD:
+        values, vectors = np.linalg.eigh(dense_laplacian(block) + springs * np.eye(block.size))
     starts = np.flatnonzero(np.diff(values, prepend=-np.inf) > CLUSTER_GAP)
     ends = np.append(starts[1:], len(values))
     probe = hash_columns(block.size, int((ends - starts).max()))
@@ -162,3 +164,27 @@ def _cholesky_qr(panels, c):  # type: ignore[no-untyped-def]
     if independence == 0.0:
         return panels, 0.0
     return multiply(panels, invert_triangle(triangle, c)), independence
+
+
+@njit(cache=True, nogil=True)
+def _cosines(rows, first, last):  # type: ignore[no-untyped-def]
+    """Compiled body of `cosine_columns`: the same to the last bit on every machine, which libraries are not."""
+    table = np.empty(rows + 1)
+    for k in range(rows + 1):
+        # cos(pi k / (2 n)) by the series of the cosine or sine of an angle of at most pi / 4.
+        small = 2 * k <= rows
+        x = (k if small else rows - k) * (np.pi / (2 * rows))
+        value = 1.0
+        for i in range(20 if small else 21, 1, -2):
+            value = 1.0 - value * x * x / (i * (i - 1))
+        table[k] = value if small else value * x
+    columns = np.empty((rows, last - first))
+    for r in range(rows):
+        angle = (2 * r + 1) * first % (4 * rows)
+        for j in range(last - first):
+            fold = min(angle, 4 * rows - angle)
+            columns[r, j] = table[fold] if fold <= rows else -table[2 * rows - fold]
+            angle += 2 * r + 1
+            if angle >= 4 * rows:
+                angle -= 4 * rows
+    return columns
