@@ -44,7 +44,7 @@ _SELECTORS = 3 * _SPAN
 
 def make_level_bank() -> Bank:
     """The adaptive state of a level coder, neutral; one for each sequence of payloads that learn from each other."""
-    return make_bank(int(_BASES[-1]), _SELECTORS, _INPUTS, limit=400, rate=6)
+    return make_bank(int(_BASES[-1]), _SELECTORS, _INPUTS, limit=400, rate=10)
 
 
 def encode_levels(bank: Bank, matrices: Sequence[Levels], references: Sequence[Levels]) -> bytes:

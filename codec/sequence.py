@@ -22,17 +22,17 @@ from bitstream.errors import NumericError
 Matrix = npt.NDArray[np.float64]
 Levels = npt.NDArray[np.int32]
 
-LEADING = 16
+LEADING = 24
 """Columns of a row that help to predict the columns behind them."""
-FORGETTING = 0.98
+FORGETTING = 0.985
 """How much the past counts, per row, in the weights of the prediction."""
-RIDGE = 0.01
+RIDGE = 0.005
 """Regularisation of the weights."""
-NOISE = 3.0
+NOISE = 30.0
 """Energy in squared steps that is added to that of a row before the row is weighed by the inverse of it."""
-DENSE_ROWS = 32
+DENSE_ROWS = 16
 """First rows of a block, each with weights of its own; behind them the weights are renewed every `RENEWAL` rows."""
-RENEWAL = 4
+RENEWAL = 8
 LARGEST_LEVEL = (1 << 23) - 1
 OCTAVE = 4
 """Exponents of the steps of a basis are in units of 1 / OCTAVE octaves."""

@@ -69,7 +69,7 @@ class SequenceOptions:
     block_size: int = 500
     overlap: float = 1.0
     frame_rate: float = 0.0
-    rounding: float = 0.42
+    rounding: float = 0.4
     threads: int | None = None
 
     def __post_init__(self) -> None:

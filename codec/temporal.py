@@ -12,9 +12,9 @@ from codec.sequence import OCTAVE
 
 Matrix = npt.NDArray[np.float64]
 
-WORTH = 1.5
+WORTH = 0.5
 """A component is kept if its energy is above WORTH * 3T * step^2: below, it costs more than it brings."""
-PRECISION = 0.4
+PRECISION = 0.27
 """Error of the basis, times the coefficients that it multiplies, in steps."""
 
 
