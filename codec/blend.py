@@ -12,24 +12,30 @@ Matrix = npt.NDArray[np.float64]
 
 
 class Blend:
-    """Weighted sums over the copies of each of n vertices."""
+    """Weighted sums over the copies of each of n vertices.
+
+    Attributes
+    ----------
+    sums : float64 array, shape (n, 3)
+    weights : float64 array, shape (n,)
+    """
 
     def __init__(self, vertices: int) -> None:
         # Zeros cost memory only where they are touched.
-        self._sums = np.zeros((vertices, 3))
-        self._weights = np.zeros(vertices)
+        self.sums: Matrix = np.zeros((vertices, 3))
+        self.weights: Matrix = np.zeros(vertices)
 
     def add(self, vertices: Indices, positions: Matrix, weights: Matrix) -> None:
         """Add one copy of each vertex in `vertices`, shape (n_i,), at `positions`, shape (n_i, 3)."""
-        _add(self._sums, self._weights, vertices, positions, weights)
+        _add(self.sums, self.weights, vertices, positions, weights)
 
     def known(self, vertices: Indices) -> npt.NDArray[np.bool_]:
         """Which of `vertices` have a copy that counts."""
-        return self._weights[vertices] > 0
+        return self.weights[vertices] > 0
 
     def positions(self, vertices: Indices) -> Matrix:
         """Weighted averages for `vertices`, all of them known, shape (len(vertices), 3)."""
-        return self._sums[vertices] / self._weights[vertices][:, None]
+        return self.sums[vertices] / self.weights[vertices][:, None]
 
 
 def degree_weights(degrees: Indices) -> Matrix:

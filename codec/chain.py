@@ -1,6 +1,6 @@
 """A chain: a key block and the blocks that follow it, each of which may look back as far as the key block.
 
-Encoder and decoder step through the same chain with the same calls: `dictionary`, `prediction`, `commit`. Different
+Encoder and decoder step through the same chain with the same calls: `around`, `dictionary`, `commit`. Different
 chains know nothing of each other, which bounds what a lost block costs and lets chains run in parallel.
 """
 
@@ -11,9 +11,9 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from codec.blend import Blend, degree_weights
 from codec.blocks import Block
-from codec.predict import PriorModel, predict_coefficients
+from codec.graph import Graph
+from codec.predict import Known, Surroundings, unheld
 from codec.subspace import cosine_columns, exact_basis, orthogonal_iteration, resized
 
 Matrix = npt.NDArray[np.float64]
@@ -33,8 +33,8 @@ class ChainRules:
         Blocks per chain; 0: one chain.
     power, iterations, key_iterations, shift
         z, t_max, t_max of a block without predecessor, and delta.
-    prior : PriorModel, optional
-        Of the prediction; None: no prediction.
+    stiffness : float, optional
+        Of the springs in the prediction, see `codec.predict`; None: no prediction.
     """
 
     exact: bool
@@ -44,7 +44,7 @@ class ChainRules:
     iterations: int
     key_iterations: int
     shift: float
-    prior: PriorModel | None
+    stiffness: float | None
 
     def chain_starts(self, blocks: int) -> range:
         """Indices of the key blocks among `blocks` blocks."""
@@ -58,17 +58,21 @@ class ChainRules:
 class Chain:
     """State of one chain: the latest subspace, and the positions known so far."""
 
-    def __init__(self, rules: ChainRules, vertices: int) -> None:
+    def __init__(self, rules: ChainRules, graph: Graph) -> None:
         self._rules = rules
-        self._blend = Blend(vertices)
+        self._known = None if rules.stiffness is None else Known(graph, rules.stiffness)
         self._subspace: Matrix | None = None
 
-    def dictionary(self, block: Block, width: int) -> Matrix:
-        """U of a block with `width` columns (at most its rows), a function of (U of the predecessor, width) only."""
+    def around(self, block: Block) -> Surroundings:
+        """What the chain knows around a block."""
+        return unheld(block) if self._known is None else self._known.around(block)
+
+    def dictionary(self, block: Block, around: Surroundings, width: int) -> Matrix:
+        """U of a block with `width` columns (at most its rows), a function of connectivity and earlier widths only."""
         rules = self._rules
         width = min(width, block.size)
         if rules.exact:
-            return exact_basis(block, width)
+            return exact_basis(block, width, around.springs)
         follows = self._subspace is not None and len(self._subspace) == block.size and not rules.independent
         if follows:
             assert self._subspace is not None
@@ -76,19 +80,11 @@ class Chain:
         else:
             start = cosine_columns(block.size, 0, width)
         iterations = rules.iterations if follows or rules.independent else rules.key_iterations
-        return orthogonal_iteration(block, start, shift=rules.shift, power=rules.power, iterations=iterations)
+        shift = around.springs + rules.shift
+        return orthogonal_iteration(block, start, shift=shift, power=rules.power, iterations=iterations)
 
-    def prediction(self, block: Block, subspace: Matrix) -> Matrix:
-        """Expected coefficients of a block, shape (width, 3); zero where the chain predicts nothing."""
-        if self._rules.prior is None:
-            return np.zeros((subspace.shape[1], 3))
-        rows = np.flatnonzero(self._blend.known(block.vertices))
-        return predict_coefficients(subspace, rows, self._blend.positions(block.vertices[rows]), self._rules.prior)
-
-    def commit(self, block: Block, subspace: Matrix, coefficients: Matrix) -> Matrix:
-        """Reconstruct a block's positions, shape (n_i, 3), and make block and subspace the predecessor's."""
-        positions = subspace @ coefficients
+    def commit(self, block: Block, subspace: Matrix, positions: Matrix) -> None:
+        """Make a block, its subspace and its decoded positions, shape (n_i, 3), the predecessor's."""
         self._subspace = subspace
-        if self._rules.prior is not None:
-            self._blend.add(block.vertices, positions, degree_weights(block.degrees))
-        return positions
+        if self._known is not None:
+            self._known.add(block, positions)

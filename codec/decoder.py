@@ -30,7 +30,7 @@ from codec.graph import Graph, graph_of_faces
 from codec.mesh import Faces, TriangleMesh
 from codec.parallel import Lanes, Pending
 from codec.partition import Partition, derive_partition, partition_of_labels
-from codec.predict import PriorModel
+from codec.predict import MAX_STIFFNESS, extend
 from codec.quantize import dequantize, unsigned_to_levels
 from codec.structure import check_work
 
@@ -136,7 +136,7 @@ def chain_rules(header: Header) -> ChainRules:
         iterations=header.iterations,
         key_iterations=header.key_iterations,
         shift=header.shift,
-        prior=PriorModel(*header.prediction) if header.prediction else None,
+        stiffness=header.prediction[0] if header.prediction else None,
     )
 
 
@@ -156,7 +156,7 @@ class ChainDecoder:
         self._header = header
         self._blocks = blocks
         self._next = first
-        self._chain = Chain(rules, header.vertices)
+        self._chain = Chain(rules, blocks.graph)
         self._model = CoefficientModel(header.coefficients)
 
     def decode(self, packet: packets.Block) -> DecodedBlock:
@@ -167,9 +167,10 @@ class ChainDecoder:
                 raise CorruptError(f"the block depends on block {self._next}, which is lost")
             block = blocks.block(packet.index)
             levels = self._levels(packet, block)
-            subspace = self._chain.dictionary(block, len(levels))
-            prediction = self._chain.prediction(block, subspace)
-            positions = self._chain.commit(block, subspace, prediction + dequantize(levels, header.step))
+            around = self._chain.around(block)
+            subspace = self._chain.dictionary(block, around, len(levels))
+            positions = extend(block, around) + subspace @ dequantize(levels, header.step)
+            self._chain.commit(block, subspace, positions)
             if not np.isfinite(positions).all():
                 raise NumericError("the coefficients reconstruct to positions that are not finite")
         except BsmError as error:
@@ -340,8 +341,8 @@ class Decoder:
             raise UnsupportedError("this is a sequence; decode it with codec.SequenceDecoder")
         solves = header.power * max(header.iterations, header.key_iterations)
         check_work(self._limits, header.blocks, header.block_size, header.coefficients, solves, exact=header.basis == 1)
-        if len(header.prediction) not in (0, 3) or not all(value > 0 for value in header.prediction):
-            raise CorruptError(f"the prediction has the parameters {header.prediction}, three above zero are legal")
+        if len(header.prediction) > 1 or not all(0 < value < MAX_STIFFNESS for value in header.prediction):
+            raise CorruptError(f"the prediction has the parameters {header.prediction}, one stiffness is legal")
         self._header = header
         self._queue.append(HeaderEvent(header))
 

@@ -28,7 +28,7 @@ from codec.metrics import Comparison, Reference
 from codec.options import EncodeOptions
 from codec.parallel import ordered_map
 from codec.partition import Partition, derive_partition, metis_partition
-from codec.predict import PriorModel
+from codec.predict import extend
 from codec.quantize import dequantize, levels_to_unsigned, packed_step, quantize, smallest_step
 from codec.smooth import smooth
 from codec.spectrum import measure_spectrum, worthwhile_size
@@ -37,7 +37,7 @@ from codec.targets import search_step
 Matrix = npt.NDArray[np.float64]
 Progress = Callable[[int, int], None]
 
-PRIOR = PriorModel(amplitude=1.0, decay=3.0, noise=1e-3)
+STIFFNESS = 8.0
 PAPER_FRACTION = 0.10
 SMOOTHING_STEPS = tuple(2.0**k for k in range(-3, 7))
 
@@ -90,7 +90,7 @@ class ChainEncoder:
         self._header = header
         self._blocks = blocks
         self._options = options
-        self._chain = Chain(rules, header.vertices)
+        self._chain = Chain(rules, blocks.graph)
         self._model = CoefficientModel(header.coefficients)
         self._width = header.coefficients
 
@@ -98,20 +98,20 @@ class ChainEncoder:
         """Encode the chain's next block; `positions`, shape (n, 3), are the whole mesh's, in BSM units."""
         header, blocks, chain = self._header, self._blocks, self._chain
         block = blocks.block(index)
-        subspace = chain.dictionary(block, header.coefficients)
-        coefficients = subspace.T @ positions[block.vertices]
-        prediction = chain.prediction(block, subspace)
-        width = self._subspace_size(positions[block.vertices], coefficients, prediction)
-        if width < subspace.shape[1]:
-            subspace = np.ascontiguousarray(subspace[:, :width])
-            coefficients = coefficients[:width]
-            prediction = chain.prediction(block, subspace)
-        levels = quantize(coefficients - prediction, header.step, self._rounding)
+        around = chain.around(block)
+        subspace = chain.dictionary(block, around, header.coefficients)
+        prediction = extend(block, around)
+        residual = positions[block.vertices] - prediction
+        coefficients = subspace.T @ residual
+        width = self._subspace_size(residual, coefficients)
+        subspace = np.ascontiguousarray(subspace[:, :width])
+        levels = quantize(coefficients[:width], header.step, self._rounding)
         if header.coding == 0:
             payload = pack_coefficients(levels_to_unsigned(levels, header.bits), header.bits)
         else:
             payload = encode_coefficients(self._model, levels)
-        decoded = chain.commit(block, subspace, prediction + dequantize(levels, header.step))
+        decoded = prediction + subspace @ dequantize(levels, header.step)
+        chain.commit(block, subspace, decoded)
         weights = copy_weights(header, blocks, index, block)
         return CodedBlock(packets.Block(index, width, payload), block.vertices, decoded, weights)
 
@@ -119,14 +119,14 @@ class ChainEncoder:
     def _rounding(self) -> float:
         return 0.5 if self._header.coding == 0 else self._options.rounding
 
-    def _subspace_size(self, positions: Matrix, coefficients: Matrix, prediction: Matrix) -> int:
+    def _subspace_size(self, residual: Matrix, coefficients: Matrix) -> int:
         """c_i: as dynamic orthogonal iterations have it, or up to the last coefficient that is worth a level."""
         if self._options.doi is not None:
-            self._width = dynamic_size(positions, coefficients, self._width, *self._options.doi)
+            self._width = dynamic_size(residual, coefficients, self._width, *self._options.doi)
             return self._width
         if self._header.coding == 0:
             return len(coefficients)
-        rows = np.flatnonzero(quantize(coefficients - prediction, self._header.step, self._rounding).any(axis=1))
+        rows = np.flatnonzero(quantize(coefficients, self._header.step, self._rounding).any(axis=1))
         return int(rows[-1]) + 1 if len(rows) else 1
 
 
@@ -254,7 +254,7 @@ class Encoder:
             step=_single(packed_step(size, options.bits) if options.bits else step),
             center=tuple(self._center),
             scale=self._scale,
-            prediction=tuple(map(_single, PRIOR.as_floats())) if predicted else (),
+            prediction=(STIFFNESS,) if predicted else (),
         )
 
     def _subspace_size(self, size: int, step: float) -> int:

@@ -19,6 +19,7 @@ from codec.graph import Indices, graph_of_faces
 from codec.mesh import Faces
 from codec.parallel import ordered_map
 from codec.partition import metis_partition
+from codec.predict import unheld
 
 Floats = npt.NDArray[np.float64]
 
@@ -33,7 +34,7 @@ RULES = ChainRules(
     iterations=2,
     key_iterations=4,
     shift=0.125,
-    prior=None,
+    stiffness=None,
 )
 
 
@@ -106,12 +107,12 @@ def _dictionaries(blocks: Blocks, width: int, rules: ChainRules) -> Iterator[tup
     """Vertices, blending weights (a column) and dictionary of every block; chains run in parallel."""
 
     def chain_from(first: int) -> list[tuple[Indices, Floats, Floats]]:
-        chain = Chain(rules, 0)
+        chain = Chain(rules, blocks.graph)
         found = []
         for index in range(first, min(first + rules.chain_length(blocks.count), blocks.count)):
             block = blocks.block(index)
-            dictionary = chain.dictionary(block, width)
-            chain.commit(block, dictionary, np.zeros((dictionary.shape[1], 3)))
+            dictionary = chain.dictionary(block, unheld(block), width)
+            chain.commit(block, dictionary, np.zeros((block.size, 3)))
             found.append((block.vertices, degree_weights(block.degrees)[:, None], dictionary))
         return found
 

@@ -15,6 +15,7 @@ from codec.chain import Chain, ChainRules
 from codec.graph import graph_of_faces
 from codec.metrics import Reference
 from codec.partition import derive_partition
+from codec.predict import unheld
 
 RowOrder = Callable[[Blocks, int], Block]
 
@@ -66,13 +67,14 @@ def nmsve_db_of(mesh: TriangleMesh, options: EncodeOptions, keep: float, row_ord
         iterations=options.iterations,
         key_iterations=options.key_iterations,
         shift=options.shift,
-        prior=None,
+        stiffness=None,
     )
-    chain, blend = Chain(rules, graph.size), Blend(graph.size)
+    chain, blend = Chain(rules, graph), Blend(graph.size)
     for index in range(blocks.count):
         block = row_order(blocks, index)
-        subspace = chain.dictionary(block, max(1, round(keep * block.size)))
-        coefficients = subspace.T @ mesh.positions[block.vertices]
-        blend.add(block.vertices, chain.commit(block, subspace, coefficients), degree_weights(block.degrees))
+        subspace = chain.dictionary(block, unheld(block), max(1, round(keep * block.size)))
+        positions = subspace @ (subspace.T @ mesh.positions[block.vertices])
+        chain.commit(block, subspace, positions)
+        blend.add(block.vertices, positions, degree_weights(block.degrees))
     reference = Reference(mesh.positions, mesh.faces)
     return reference.compare(blend.positions(np.arange(graph.size, dtype=np.int32))).nmsve_db
