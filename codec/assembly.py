@@ -11,7 +11,7 @@ from codec.blend import Blend
 from codec.blocks import Blocks
 from codec.graph import Graph
 from codec.mesh import Positions
-from codec.smooth import DEGREE, rings_around, smooth, smooth_some
+from codec.smooth import DEGREE, LocalFilter, smooth
 
 Matrix = npt.NDArray[np.float64]
 Indices = npt.NDArray[np.int32]
@@ -76,6 +76,7 @@ class Assembly:
         self._missing = np.bincount(blocks.members, minlength=graph.size)
         self._blended = np.zeros((graph.size, 3))
         self._final = np.zeros(graph.size, np.bool_)
+        self._filter = LocalFilter(graph, smoothing)
         self._lost: list[int] = []
 
     def add(self, block: DecodedBlock) -> None:
@@ -105,7 +106,7 @@ class Assembly:
         finished = self._finished(block.vertices[self._missing[block.vertices] == 0])
         self._final[finished] = True
         moved = seen[~self._final[seen]]
-        done = smooth_some(self._graph, self._blended, self._smoothing, finished)
+        done = self._filter.smoothed(self._blended, finished)
         changed = np.concatenate([moved, finished])
         positions = self._in_mesh_units(np.concatenate([self._blended[moved], done]))
         return Changes(self._numbered(changed), positions, np.arange(len(changed)) >= len(moved))
@@ -117,7 +118,7 @@ class Assembly:
         touched = np.unique(np.concatenate([self._blocks.members_of(index) for index in self._lost]))
         known = self._blend.known(touched)
         reach = DEGREE if self._smoothing else 0
-        around = rings_around(self._graph, touched, reach)
+        around = self._filter.around(touched, reach)
         degraded = around[self._blend.known(around)]
         return Losses(self._numbered(touched[~known]), self._numbered(np.sort(degraded)))
 
@@ -125,12 +126,10 @@ class Assembly:
         """Vertices that become final when all copies of `complete` have come: none that the filter sees is missing."""
         if self._smoothing == 0.0:
             return complete
-        around = rings_around(self._graph, complete, 2 * DEGREE)
-        waiting = rings_around(self._graph, around[self._missing[around] > 0], DEGREE)
-        blocked = np.zeros(self._graph.size, np.bool_)
-        blocked[waiting] = True
-        candidates = rings_around(self._graph, complete, DEGREE)
-        return candidates[~blocked[candidates] & ~self._final[candidates]]
+        around = self._filter.around(complete, 2 * DEGREE)
+        waiting = self._filter.around(around[self._missing[around] > 0], DEGREE)
+        candidates = self._filter.around(complete, DEGREE)
+        return np.setdiff1d(candidates[~self._final[candidates]], waiting)
 
     def _numbered(self, vertices: Indices) -> Indices:
         return vertices if self._order is None else self._order[vertices]

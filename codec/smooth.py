@@ -38,74 +38,111 @@ def filter_polynomial(amount: float) -> Matrix:
 
 def smooth(graph: Graph, positions: Matrix, amount: float) -> Matrix:
     """Filter all positions, shape (n, 3); isolated vertices stay where they are."""
-    if amount == 0.0:
-        return positions
-    return _filter(graph.offsets, graph.neighbours, positions, filter_polynomial(amount))
+    return positions if amount == 0.0 else Spectrum(graph, positions).smoothed(amount)
 
 
-def smooth_some(graph: Graph, positions: Matrix, amount: float, vertices: Indices) -> Matrix:
-    """The rows `vertices` of `smooth`, from positions that need to be known only `DEGREE` rings around them."""
-    if amount == 0.0:
-        return positions[vertices]
-    rows, starts = _rings(graph.offsets, graph.neighbours, vertices, DEGREE)
-    return _filter_rings(
-        graph.offsets, graph.neighbours, positions, filter_polynomial(amount), rows, starts, len(vertices)
-    )
+class Spectrum:
+    """K^2 V to K^5 V, from which V filtered by any amount is but a sum.
+
+    Parameters
+    ----------
+    graph : Graph
+    positions : float64 array, shape (n, 3)
+        V.
+    """
+
+    def __init__(self, graph: Graph, positions: Matrix) -> None:
+        self._positions = positions
+        self._terms = _powers(graph.offsets, graph.neighbours, positions)
+
+    def smoothed(self, amount: float) -> Matrix:
+        """`smooth` of the positions by `amount`."""
+        result: Matrix = _combine(self._positions, self._terms, filter_polynomial(amount))
+        return result
 
 
-def rings_around(graph: Graph, vertices: Indices, rings: int) -> Indices:
-    """`vertices` and all others at most `rings` edges away."""
-    return _rings(graph.offsets, graph.neighbours, vertices, rings)[0]
+class LocalFilter:
+    """`smooth` for some vertices at a time, from positions that need to be known only `DEGREE` rings around them.
+
+    Parameters
+    ----------
+    graph : Graph
+    amount : float
+    """
+
+    def __init__(self, graph: Graph, amount: float) -> None:
+        self._graph = graph
+        self._amount = amount
+        # Number of each vertex among those at hand; -1 between calls.
+        self._number = np.full(graph.size, -1, np.int32)
+
+    def around(self, vertices: Indices, rings: int) -> Indices:
+        """`vertices` and all others at most `rings` edges away, ring after ring."""
+        rows, _ = _rings(self._graph.offsets, self._graph.neighbours, self._number, vertices, rings)
+        self._number[rows] = -1
+        return rows
+
+    def smoothed(self, positions: Matrix, vertices: Indices) -> Matrix:
+        """The rows `vertices`, all different, of `smooth` of `positions`, shape (n, 3)."""
+        if self._amount == 0.0:
+            return positions[vertices]
+        offsets, neighbours = self._graph.offsets, self._graph.neighbours
+        rows, starts = _rings(offsets, neighbours, self._number, vertices, DEGREE)
+        weights = filter_polynomial(self._amount)
+        result: Matrix = _filter_rows(offsets, neighbours, self._number, positions, weights, rows, starts)
+        self._number[rows] = -1
+        return result
 
 
 @njit(cache=True, nogil=True)
-def _laplacian_row(offsets, neighbours, values, v, out):  # type: ignore[no-untyped-def]
-    """out := (K values)[v]."""
-    first, last = offsets[v], offsets[v + 1]
-    x, y, z = 0.0, 0.0, 0.0
-    for i in range(first, last):
-        w = neighbours[i]
-        x += values[w, 0]
-        y += values[w, 1]
-        z += values[w, 2]
-    if last > first:
-        share = 1.0 / (last - first)
-        out[0] = values[v, 0] - share * x
-        out[1] = values[v, 1] - share * y
-        out[2] = values[v, 2] - share * z
-    else:
-        out[0], out[1], out[2] = 0.0, 0.0, 0.0
-
-
-@njit(cache=True, nogil=True)
-def _filter(offsets, neighbours, positions, powers):  # type: ignore[no-untyped-def]
-    n = len(offsets) - 1
-    current = positions.copy()
-    following = np.empty_like(current)
-    result = positions.copy()
+def _powers(offsets, neighbours, positions):  # type: ignore[no-untyped-def]
+    """K^2 V to K^DEGREE V."""
+    offsets, neighbours = offsets.view(np.uint32), neighbours.view(np.uint32)
+    n = np.uint64(len(offsets) - 1)
+    terms = np.empty((DEGREE, len(offsets) - 1, 3))
     for k in range(DEGREE):
+        values = terms[k - 1] if k > 0 else positions
         for v in range(n):
-            _laplacian_row(offsets, neighbours, current, v, following[v])
-        current, following = following, current
-        if k > 0:
-            for v in range(n):
-                for d in range(3):
-                    result[v, d] += powers[k - 1] * current[v, d]
+            first, last = offsets[v], offsets[v + np.uint64(1)]
+            x, y, z = 0.0, 0.0, 0.0
+            for i in range(first, last):
+                w = neighbours[i]
+                x += values[w, 0]
+                y += values[w, 1]
+                z += values[w, 2]
+            share = 1.0 / max(last - first, np.uint64(1))
+            isolated = last == first
+            terms[k, v, 0] = 0.0 if isolated else values[v, 0] - share * x
+            terms[k, v, 1] = 0.0 if isolated else values[v, 1] - share * y
+            terms[k, v, 2] = 0.0 if isolated else values[v, 2] - share * z
+    return terms[1:]
+
+
+@njit(cache=True, nogil=True)
+def _combine(positions, terms, weights):  # type: ignore[no-untyped-def]
+    result = np.empty_like(positions)
+    for v in range(len(positions)):
+        for d in range(3):
+            value = positions[v, d]
+            for k in range(DEGREE - 1):
+                value += weights[k] * terms[k, v, d]
+            result[v, d] = value
     return result
 
 
 @njit(cache=True, nogil=True)
-def _rings(offsets, neighbours, vertices, rings):  # type: ignore[no-untyped-def]
-    """`vertices` and the rings around them; ring k ends before `starts[k]`."""
-    n = len(offsets) - 1
-    seen = np.zeros(n, np.bool_)
-    rows = np.empty(n, np.int32)
+def _rings(offsets, neighbours, number, vertices, rings):  # type: ignore[no-untyped-def]
+    """`vertices` and the rings around them; ring k ends before `starts[k]`; `number` becomes their place in the list.
+
+    `number` is -1 everywhere before.
+    """
+    rows = np.empty(2 * len(vertices) + 64, np.int32)
     starts = np.empty(rings + 1, np.int64)
     count = 0
-    for i in range(len(vertices)):
-        if not seen[vertices[i]]:
-            seen[vertices[i]] = True
-            rows[count] = vertices[i]
+    for v in vertices:
+        if number[v] < 0:
+            number[v] = count
+            rows[count] = v
             count += 1
     starts[0] = count
     head = 0
@@ -114,10 +151,14 @@ def _rings(offsets, neighbours, vertices, rings):  # type: ignore[no-untyped-def
         while head < end:
             v = rows[head]
             head += 1
+            if count + offsets[v + 1] - offsets[v] > len(rows):
+                grown = np.empty(2 * (count + offsets[v + 1] - offsets[v]), np.int32)
+                grown[:count] = rows[:count]
+                rows = grown
             for i in range(offsets[v], offsets[v + 1]):
                 w = neighbours[i]
-                if not seen[w]:
-                    seen[w] = True
+                if number[w] < 0:
+                    number[w] = count
                     rows[count] = w
                     count += 1
         starts[ring + 1] = count
@@ -125,21 +166,24 @@ def _rings(offsets, neighbours, vertices, rings):  # type: ignore[no-untyped-def
 
 
 @njit(cache=True, nogil=True)
-def _filter_rings(offsets, neighbours, positions, powers, rows, starts, count):  # type: ignore[no-untyped-def]
-    n = len(offsets) - 1
-    current = np.empty((n, 3))
-    following = np.empty((n, 3))
-    for i in range(len(rows)):
-        current[rows[i]] = positions[rows[i]]
-    result = np.empty((count, 3))
-    for r in range(count):
-        result[r] = positions[rows[r]]
+def _filter_rows(offsets, neighbours, number, positions, weights, rows, starts):  # type: ignore[no-untyped-def]
+    """The filter on the innermost of the rings `rows`; each power of K is known on one ring less than the last."""
+    current = np.empty((len(rows), 3))
+    for r in range(len(rows)):
+        current[r] = positions[rows[r]]
+    following = np.empty((starts[DEGREE - 1], 3))
+    result = current[: starts[0]].copy()
     for k in range(DEGREE):
-        for i in range(starts[DEGREE - 1 - k]):
-            _laplacian_row(offsets, neighbours, current, rows[i], following[rows[i]])
+        for r in range(starts[DEGREE - 1 - k]):
+            first, last = offsets[rows[r]], offsets[rows[r] + 1]
+            for d in range(3):
+                total = 0.0
+                for i in range(first, last):
+                    total += current[number[neighbours[i]], d]
+                following[r, d] = current[r, d] - (1.0 / (last - first)) * total if last > first else 0.0
         current, following = following, current
         if k > 0:
-            for r in range(count):
+            for r in range(starts[0]):
                 for d in range(3):
-                    result[r, d] += powers[k - 1] * current[rows[r], d]
+                    result[r, d] += weights[k - 1] * current[r, d]
     return result
