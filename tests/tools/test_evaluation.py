@@ -120,7 +120,9 @@ class TestCodecs:
             coded.align(flipped)
 
     def test_settings_tell_what_differs_from_the_defaults(self):
-        assert Spectral(EncodeOptions(power=4, threads=1)).settings == {"power": 4, "threads": 1}
+        step = EncodeOptions().step
+        assert Spectral(EncodeOptions(power=4, threads=1)).settings == {"step": step, "power": 4, "threads": 1}
+        assert Spectral(EncodeOptions(bits=9)).settings == {"bits": 9}
 
 
 class TestResults:

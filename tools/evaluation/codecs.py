@@ -79,10 +79,11 @@ class Spectral:
 
     @property
     def settings(self) -> dict[str, Any]:
-        """The options that are not the defaults."""
+        """The options that are not the defaults, and the step where it counts."""
         values = {item.name: getattr(self.options, item.name) for item in fields(EncodeOptions)}
         defaults = EncodeOptions()
-        return {name: value for name, value in values.items() if value != getattr(defaults, name)}
+        changed = {name: value for name, value in values.items() if value != getattr(defaults, name)}
+        return changed if self.options.bits else {"step": self.options.step, **changed}
 
     def encode(self, mesh: TriangleMesh) -> Coded:
         """Encode; the encoder itself knows the order of the vertices."""
@@ -160,6 +161,8 @@ class Curve:
 
 
 PAPER_KEEPS = (0.05, 0.10, 0.15, 0.20, 0.25)
+PAPER_THRESHOLDS = (0.14, 0.1, 0.07, 0.05, 0.035)
+"""eps_h of dynamic orthogonal iterations; eps_l is a tenth less."""
 
 
 def paper_options(**changes: Any) -> EncodeOptions:
@@ -172,7 +175,11 @@ def paper_options(**changes: Any) -> EncodeOptions:
 
 
 def paper_curves(block_size: int = 500, keeps: tuple[float, ...] = PAPER_KEEPS) -> tuple[Curve, ...]:
-    """The lines of the paper's rate-distortion figure: full SVD, and orthogonal iterations of several kinds."""
+    """The lines of the paper's rate-distortion figure: full SVD, orthogonal iterations of several kinds, and DOI."""
+    dynamic = (
+        Spectral(paper_options(keep=0.4, block_size=block_size, doi=(0.9 * threshold, threshold)))
+        for threshold in PAPER_THRESHOLDS
+    )
     lines: tuple[tuple[str, str, dict[str, Any]], ...] = (
         ("svd", "SVD", {"basis": "svd"}),
         ("oi-r1", "OI, R", {}),
@@ -184,7 +191,7 @@ def paper_curves(block_size: int = 500, keeps: tuple[float, ...] = PAPER_KEEPS) 
         ("oi-r1-cold", "OI, R, no warm start", {"seed": "independent"}),
         ("oi-r2-cold", "OI, R², no warm start", {"seed": "independent", "power": 2}),
     )
-    return tuple(
+    fixed = (
         Curve(
             name,
             label,
@@ -192,6 +199,7 @@ def paper_curves(block_size: int = 500, keeps: tuple[float, ...] = PAPER_KEEPS) 
         )
         for name, label, changes in lines
     )
+    return (*fixed, Curve("doi-r1", "DOI, R", tuple(dynamic)))
 
 
 OUR_STEPS = (2.4e-2, 1.6e-2, 1.1e-2, 8e-3, 5.5e-3, 4e-3, 2.8e-3, 2e-3, 1.3e-3, 8e-4)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -9,17 +10,19 @@ from typing import Any
 
 import numpy as np
 
-from bitstream.errors import OptionError
+from bitstream.errors import DependencyError, OptionError
 from codec import TriangleMesh
 from codec.metrics import Reference
 from tools.evaluation.codecs import Spectral, draco_curve, our_curve, paper_options
 from tools.evaluation.per_block import boundary_rows, boundary_table, errors_along_chain, quartiles, spread, view_blocks
+from tools.evaluation.plots import draw_per_block
 from tools.evaluation.rates import compare_curves
 from tools.evaluation.resources import measure_resources
 from tools.evaluation.row_order import in_bisection_order, in_breadth_first_order, nmsve_db_of
 from tools.evaluation.run import measure, run_curve, write_result
 from tools.evaluation.tables import number, percent, table
 from tools.meshfiles import read_mesh
+from tools.output import open_output
 
 BLOCKS = {
     "bunny_34834": 70,
@@ -238,7 +241,14 @@ def dynamic_figure(source: Source) -> Figure:
     rows = []
     for name in ("bunny_34834", "fandisk_6475"):
         mesh = source.mesh(name)
-        for label, blocks in dynamic_comparison(mesh, block_size_for(mesh, BLOCKS[name])).items():
+        chains = dynamic_comparison(mesh, block_size_for(mesh, BLOCKS[name]))
+        if source.results is not None:
+            path = write_chains(chains, source.results / "blocks" / name)
+            try:
+                source.note(", ".join(map(str, draw_chains(path))))
+            except DependencyError as missing:
+                source.note(f"no pictures: {missing}")
+        for label, blocks in chains.items():
             sizes = np.array([block["coefficients"] for block in blocks])
             error = float(np.sqrt(np.mean([block["squared_error"] for block in blocks])))
             rows.append(
@@ -282,6 +292,20 @@ def dynamic_comparison(mesh: TriangleMesh, block_size: int, keep: float = 0.10) 
             break
         low, high = (middle, high) if kept > wanted else (low, middle)
     return {"fixed": fixed, "dynamic": dynamic}
+
+
+def write_chains(chains: dict[str, list[dict[str, float]]], stem: Path) -> Path:
+    """Write the result of `dynamic_comparison` as JSON."""
+    stem.parent.mkdir(parents=True, exist_ok=True)
+    path = stem.parent / f"{stem.name}.json"
+    with open_output(path, overwrite=True) as file:
+        file.write(json.dumps(chains, indent=1, allow_nan=False).encode())
+    return path
+
+
+def draw_chains(path: Path) -> list[Path]:
+    """Draw what `write_chains` wrote."""
+    return draw_per_block(json.loads(path.read_text()), path.parent / path.name.removesuffix(".json"))
 
 
 FIGURES: dict[str, Callable[[Source], Figure]] = {
