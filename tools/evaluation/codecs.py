@@ -90,6 +90,8 @@ class Spectral:
         encoder = Encoder(mesh, self.options)
 
         def align(decoded: TriangleMesh) -> Positions:
+            if self.options.keep_order:
+                return decoded.positions
             positions = np.empty_like(decoded.positions)
             positions[encoder.vertex_order] = decoded.positions
             return positions
