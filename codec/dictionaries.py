@@ -1,79 +1,102 @@
-"""The dictionaries of all blocks of a sequence, built once, and the way between vertices and coefficients."""
+"""The dictionaries of a sequence, built once, and the way between vertices and coefficients.
+
+The parts of the mesh are taken in the order of the chain, without overlap. Each hangs with springs on the parts before
+it, where they have a common edge: the harmonic extension of what is known there is its prediction, the lowest
+eigenvectors of its held Laplacian L + S are its dictionary, and what is coded is the difference from the extension (see
+`codec.predict`; here edges have weights, and the extension is computed in the dictionary, where it costs little:
+U^T (L + S)^-1 y = diag(1 / lambda) U^T y). All of this is linear, so that it may be applied to positions, to
+differences of frames and to components of trajectories alike.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
+from scipy.sparse import csr_matrix
 
-from codec.blend import degree_weights
-from codec.blocks import Block, Blocks
+from codec.blocks import Blocks
+from codec.graph import Indices
 from codec.mesh import Faces, Positions
 from codec.parallel import ordered_map
-from codec.weighted import binary_weights, cotangent_weights, weighted_basis
+from codec.weighted import binary_weights, canonical_eigenvectors, cotangent_weights, held_laplacian
 
 Matrix = npt.NDArray[np.float64]
 
+FREE = 1e-8
+"""A column whose eigenvalue is below hangs on nothing, and is not extended."""
+
 
 @dataclass(frozen=True, eq=False)
-class Dictionaries:
-    """Orthonormal columns for every block of a mesh.
+class Part:
+    """A part of the mesh and its dictionary.
 
     Parameters
     ----------
-    blocks : tuple of Block
-    bases : tuple of float64 arrays, shapes (n_i, c_i)
-    weights : float64 array, shape (n,)
-        Sum of the blending weights of each vertex over its copies.
+    vertices : int32 array, shape (n_i,)
+        Ascending.
+    basis : float64 array, shape (n_i, c_i)
+        U, orthonormal columns.
+    springs : csr_matrix, shape (b, n)
+        Weights between the rows that hang on known vertices, and these.
+    extension : float64 array, shape (c_i, b)
+        Coefficients of the extension for given pulls at these rows.
     """
 
-    blocks: tuple[Block, ...]
-    bases: tuple[Matrix, ...]
-    weights: Matrix
+    vertices: Indices
+    basis: Matrix
+    springs: csr_matrix
+    extension: Matrix
 
-    @property
-    def rows(self) -> list[int]:
-        """c_i of each block."""
-        return [basis.shape[1] for basis in self.bases]
+    def extend(self, field: Matrix) -> Matrix:
+        """Coefficients, shape (c_i, m), that continue what a field, shape (n, m), holds before this part."""
+        return np.asarray(self.extension @ (self.springs @ field))
 
-    def analyse(self, field: Matrix, threads: int | None = 1) -> list[Matrix]:
-        """Coefficients of a field over the vertices, shape (n, m): one array of shape (c_i, m) per block."""
-        pairs = zip(self.blocks, self.bases)
-        return list(ordered_map(lambda pair: pair[1].T @ field[pair[0].vertices], pairs, threads))
+    def difference(self, field: Matrix) -> Matrix:
+        """Coefficients of a known field, shape (n, m), less those of its extension."""
+        return np.asarray(self.basis.T @ field[self.vertices]) - self.extend(field)
 
-    def synthesise(self, coefficients: Sequence[Matrix]) -> Matrix:
-        """Field of given coefficients, the copies of a vertex blended by its degree in their blocks; shape (n, m)."""
-        field = np.zeros((len(self.weights), coefficients[0].shape[1]))
-        for block, basis, values in zip(self.blocks, self.bases, coefficients):
-            share = degree_weights(block.degrees) / self.weights[block.vertices]
-            field[block.vertices] += (basis * share[:, None]) @ values
-        return field
+    def place(self, field: Matrix, difference: Matrix) -> None:
+        """Fill this part of a field from its difference to the extension, shape (c_i, m)."""
+        field[self.vertices] = self.basis @ (difference + self.extend(field))
+
+
+def differences(parts: tuple[Part, ...], field: Matrix) -> list[Matrix]:
+    """Of all parts, in their order."""
+    return [part.difference(field) for part in parts]
 
 
 def build_dictionaries(
     blocks: Blocks, faces: Faces, first_frame: Positions, width: int, cotangent: bool, threads: int | None
-) -> Dictionaries:
-    """The exact eigenbasis of every block, with weights from the decoded first frame.
+) -> tuple[Part, ...]:
+    """The exact eigenbasis of every part, in the order of the chain, with weights from the decoded first frame.
 
     Parameters
     ----------
     blocks, faces
-        Of the mesh.
+        Of the mesh; only the blocks' cores are used.
     first_frame : float64 array, shape (n, 3)
         As the decoder has it.
     width : int
-        Columns of each dictionary, at most; a block has no more of them than vertices.
+        Columns of each dictionary, at most; a part has no more of them than vertices.
     cotangent : bool
         Cotangent weights; otherwise all weights are one and `first_frame` is not looked at.
     threads : int, optional
     """
     graph = blocks.graph
     weights = cotangent_weights(graph, faces, first_frame) if cotangent else binary_weights(graph)
-    members = tuple(blocks.block(index) for index in range(blocks.count))
-    bases = ordered_map(lambda b: weighted_basis(graph, weights, b, min(width, b.size)), members, threads)
-    total = np.zeros(graph.size)
-    for block in members:
-        total[block.vertices] += degree_weights(block.degrees)
-    return Dictionaries(members, tuple(bases), total)
+    cores = [np.sort(blocks.core(index)) for index in range(blocks.count)]
+    rank = np.empty(graph.size, np.int32)
+    for index, vertices in enumerate(cores):
+        rank[vertices] = index
+
+    def build(vertices: Indices) -> Part:
+        held = held_laplacian(graph, weights, vertices, rank)
+        values, basis = canonical_eigenvectors(held.matrix, min(width, len(vertices)))
+        rows, which = np.unique(held.rows, return_inverse=True)
+        springs = csr_matrix((held.weights, (which, held.outer)), shape=(len(rows), graph.size))
+        inverse = np.where(values > FREE, 1.0 / np.maximum(values, FREE), 0.0)
+        return Part(vertices, basis, springs, np.ascontiguousarray(basis[rows].T * inverse[:, None]))
+
+    return tuple(ordered_map(build, cores, threads))

@@ -31,10 +31,9 @@ from codec.decoder import (
     HeaderEvent,
     chain_rules,
 )
-from codec.dictionaries import Dictionaries, build_dictionaries
+from codec.dictionaries import Part, build_dictionaries, differences
 from codec.graph import graph_of_faces
 from codec.mesh import Faces, Positions
-from codec.parallel import ordered_map
 from codec.partition import Partition, derive_partition, partition_of_labels
 from codec.sequence import Loop, cosine_basis, dequantize_basis, frames_of
 from codec.structure import check_work
@@ -72,13 +71,13 @@ class Setting:
     Parameters
     ----------
     header : Header
-    dictionaries : Dictionaries
+    parts : tuple of Part
     first : list of float64 arrays, shapes (c_i, 3)
-        Coefficients of the decoded first frame.
+        The decoded first frame, each part as its difference from what the parts before let expect.
     """
 
     header: Header
-    dictionaries: Dictionaries
+    parts: tuple[Part, ...]
     first: list[Matrix]
 
     def in_mesh_units(self, positions: Matrix) -> Positions:
@@ -88,8 +87,8 @@ class Setting:
 
 def make_setting(header: Header, faces: Faces, blocks: Blocks, first_frame: Matrix, threads: int | None) -> Setting:
     """Build the dictionaries from the decoded first frame, shape (n, 3), in BSM units."""
-    dictionaries = build_dictionaries(blocks, faces, first_frame, header.coefficients, header.weights == 1, threads)
-    return Setting(header, dictionaries, dictionaries.analyse(first_frame, threads))
+    parts = build_dictionaries(blocks, faces, first_frame, header.coefficients, header.weights == 1, threads)
+    return Setting(header, parts, differences(parts, first_frame))
 
 
 def level_references(matrices: list[Levels], columns: int) -> list[Levels]:
@@ -134,10 +133,8 @@ class FrameHistory:
 class GopDecoder:
     """Decodes one GOP after the other."""
 
-    def __init__(self, setting: Setting, limits: Limits, threads: int | None) -> None:
+    def __init__(self, setting: Setting) -> None:
         self._setting = setting
-        self._limits = limits
-        self._threads = threads
         self._history: FrameHistory | None = None
 
     def forget(self) -> None:
@@ -158,27 +155,29 @@ class GopDecoder:
         if history is None:
             raise CorruptError("a frame refers to one that is not there")
         self._history = None  # unless all goes well
-        levels = [np.zeros((rows, 3), np.int32) for rows in self._setting.dictionaries.rows]
+        levels = self._empty_levels(3)
         decode_levels(history.bank, body.levels, levels, history.levels)
-        coefficients = [
-            history.base(k) + history.loops[k].decode(history.known(k), matrix, body.step)
-            for k, matrix in enumerate(levels)
-        ]
+        frame = np.zeros((self._setting.header.vertices, 3))
+        coefficients = []
+        for k, part in enumerate(self._setting.parts):
+            change = history.loops[k].decode(history.known(k), levels[k], body.step)
+            coefficients.append(history.base(k) + change)
+            part.place(frame, coefficients[k])
         history.commit(levels, coefficients)
         self._history = history
-        return self._setting.in_mesh_units(self._setting.dictionaries.synthesise(coefficients))
+        return self._setting.in_mesh_units(frame)
+
+    def _empty_levels(self, columns: int) -> list[Levels]:
+        return [np.zeros((part.basis.shape[1], columns), np.int32) for part in self._setting.parts]
 
     def _transformed(self, body: GopBody) -> Iterator[Positions]:
         setting, columns = self._setting, body.components
         basis = decode_basis(body)
-        levels = [np.zeros((rows, columns), np.int32) for rows in setting.dictionaries.rows]
+        levels = self._empty_levels(columns)
         decode_levels(make_level_bank(), body.levels, levels, level_references(levels, columns))
-
-        def follow(block: int) -> Matrix:
-            return Loop(3, columns).decode(setting.first[block], levels[block], body.step)
-
-        components = list(ordered_map(follow, range(len(levels)), self._threads))
-        field = setting.dictionaries.synthesise(components)
+        field = np.zeros((setting.header.vertices, columns))
+        for part, matrix, first in zip(setting.parts, levels, setting.first):
+            part.place(field, Loop(3, columns).decode(first, matrix, body.step))
         return self._frames(field, basis.reshape(3, body.frames, columns))
 
     def _frames(self, field: Matrix, basis: Matrix) -> Iterator[Positions]:
@@ -335,7 +334,7 @@ class SequenceDecoder:
 
     def _gop_decoder(self) -> GopDecoder:
         if self._gops is None:
-            self._gops = GopDecoder(self._opened().setting(self._threads), self._limits, self._threads)
+            self._gops = GopDecoder(self._opened().setting(self._threads))
         return self._gops
 
     def _accept_gop(self, packet: packets.Gop) -> None:
@@ -430,7 +429,7 @@ class Opening:
     def add(self, packet: packets.Block) -> None:
         """Decode the next block."""
         if packet.index != self._next_index:
-            raise CorruptError(f"block {packet.index} where block {self._next_index} belongs")
+            raise CorruptError(f"block {packet.index} of the first frame where block {self._next_index} belongs")
         rules = chain_rules(self._header)
         if self._chain is None or packet.index % rules.chain_length(self._blocks.count) == 0:
             self._chain = ChainDecoder(self._header, rules, self._blocks, packet.index)

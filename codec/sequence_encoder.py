@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from dataclasses import replace
 from itertools import chain
 
 import numpy as np
@@ -18,18 +19,17 @@ from bitstream.writer import Writer
 from codec.blend import Blend
 from codec.blocks import block_size, grow_blocks
 from codec.decoder import CONNECTIVITY_METHOD, chain_rules
-from codec.encoder import ChainEncoder, CodedBlock
+from codec.encoder import STIFFNESS, ChainEncoder, CodedBlock
 from codec.encoder import _frame_of_reference as frame_of_reference
 from codec.graph import graph_of_faces
 from codec.mesh import Faces, TriangleMesh
 from codec.options import EncodeOptions
-from codec.parallel import ordered_map
 from codec.partition import derive_partition
 from codec.quantize import smallest_step
 from codec.sequence import Loop, cosine_basis, quantize_basis, trajectories
 from codec.sequence_decoder import FrameHistory, Setting, decode_basis, level_references, make_setting
 from codec.sequence_options import SequenceOptions
-from codec.temporal import bits_estimate, learn_basis, projection
+from codec.temporal import WORTH, bits_estimate, learn_basis, projection
 
 Matrix = npt.NDArray[np.float64]
 
@@ -160,6 +160,7 @@ class OpeningEncoder:
             step=float(np.float32(step)),
             center=tuple(self._center),
             scale=self._scale,
+            prediction=(STIFFNESS,),
             frames=frames,
             frame_rate=float(np.float32(options.frame_rate)),
             gop_frames=options.gop if options.mode == "gop" else 1,
@@ -178,68 +179,68 @@ class GopEncoder:
 
     def encode(self, frames: Matrix, number: int) -> GopBody:
         """Encode frames, shape (T, n, 3), in BSM units, from frame `number` of the sequence on."""
-        coefficients = self._setting.dictionaries.analyse(trajectories(frames), self._options.threads)
         if self._options.mode == "low-delay":
-            return self._single(coefficients, key=number % self._options.gop == 0)
-        return self._transformed(coefficients, len(frames))
+            return self._single(frames[0], key=number % self._options.gop == 0)
+        return self._transformed(trajectories(frames))
 
-    def _single(self, coefficients: list[Matrix], key: bool) -> GopBody:
+    def _single(self, wanted: Matrix, key: bool) -> GopBody:
         history = self._history
         if key or history is None:
             history = self._history = FrameHistory(self._setting.first)
-        levels, decoded = [], []
-        for k, wanted in enumerate(coefficients):
+        frame = np.zeros_like(wanted)
+        levels, coefficients = [], []
+        for k, part in enumerate(self._setting.parts):
             base = history.base(k)
-            matrix, change = history.loops[k].encode(
-                history.known(k), wanted - base, self._step, self._options.rounding
-            )
-            levels.append(matrix)
-            decoded.append(base + change)
+            target = part.basis.T @ wanted[part.vertices] - part.extend(frame) - base
+            coded, change = history.loops[k].encode(history.known(k), target, self._step, self._options.rounding)
+            levels.append(coded)
+            coefficients.append(base + change)
+            part.place(frame, coefficients[k])
         payload = encode_levels(history.bank, levels, history.levels)
-        history.commit(levels, decoded)
+        history.commit(levels, coefficients)
         method = GopMethod.KEY_FRAME if key else GopMethod.NEXT_FRAME
         return GopBody(method, 1, self._step, 3, np.empty(0, np.int32), b"", payload)
 
-    def _transformed(self, coefficients: list[Matrix], frames: int) -> GopBody:
-        transform = self._options.transform
-        learnt = self._learnt(coefficients, frames) if transform != "cosine" else None
-        cosines = self._cosines(coefficients, frames) if transform != "learnt" else None
-        if learnt is None or (
-            cosines is not None and self._cost(coefficients, cosines) < self._cost(coefficients, learnt)
-        ):
-            assert cosines is not None
-            return self._coded(coefficients, cosines)
-        return self._coded(coefficients, learnt)
+    def _transformed(self, motion: Matrix) -> GopBody:
+        """Encode trajectories, shape (n, 3T)."""
+        candidates = []
+        if self._options.transform != "cosine":
+            candidates.append(self._learnt(motion))
+        if self._options.transform != "learnt":
+            candidates.append(self._cosines(motion))
+        body = min(candidates, key=lambda candidate: self._cost(motion, candidate)) if candidates[1:] else candidates[0]
+        return self._coded(motion, body)
 
-    def _learnt(self, coefficients: list[Matrix], frames: int) -> GopBody:
-        basis = learn_basis(coefficients, self._step, MAX_EXPONENT)
+    def _learnt(self, motion: Matrix) -> GopBody:
+        basis = learn_basis(motion, self._step, MAX_EXPONENT)
         levels = quantize_basis(basis.columns, basis.exponents, self._options.rounding)
         columns = basis.columns.shape[1]
         coded = encode_levels(make_level_bank(), list(levels), level_references(list(levels), columns))
-        return GopBody(GopMethod.LEARNT, frames, self._step, columns, basis.exponents, coded, b"")
+        return GopBody(GopMethod.LEARNT, levels.shape[1], self._step, columns, basis.exponents, coded, b"")
 
-    def _cosines(self, coefficients: list[Matrix], frames: int) -> GopBody:
-        basis = cosine_basis(frames)
-        largest = np.max([np.abs(matrix @ basis).max(axis=0) for matrix in coefficients], axis=0)
-        columns = int(np.max(np.flatnonzero(largest > 0.5 * self._step), initial=0)) + 1
+    def _cosines(self, motion: Matrix) -> GopBody:
+        frames = motion.shape[1] // 3
+        energies = np.square(motion @ cosine_basis(frames)).sum(axis=0)
+        worth = np.flatnonzero(energies > WORTH * self._step**2)
+        columns = int(np.max(worth, initial=0)) + 1
         return GopBody(GopMethod.COSINES, frames, self._step, columns, np.empty(0, np.int32), b"", b"")
 
-    def _cost(self, coefficients: list[Matrix], body: GopBody) -> float:
-        project = projection(decode_basis(body))
-        return bits_estimate([matrix @ project for matrix in coefficients], self._step) + 8.0 * len(body.basis)
+    def _cost(self, motion: Matrix, body: GopBody) -> float:
+        components = motion @ projection(decode_basis(body))
+        return bits_estimate(components, self._step) + 8.0 * len(body.basis)
 
-    def _coded(self, coefficients: list[Matrix], body: GopBody) -> GopBody:
+    def _coded(self, motion: Matrix, body: GopBody) -> GopBody:
         """The GOP with the levels of its blocks."""
-        project = projection(decode_basis(body))
-        first, columns = self._setting.first, body.components
-
-        def follow(block: int) -> npt.NDArray[np.int32]:
-            loop = Loop(3, columns)
-            return loop.encode(first[block], coefficients[block] @ project, self._step, self._options.rounding)[0]
-
-        levels = list(ordered_map(follow, range(len(first)), self._options.threads))
-        payload = encode_levels(make_level_bank(), levels, level_references(levels, columns))
-        return GopBody(body.method, body.frames, self._step, columns, body.exponents, body.basis, payload)
+        wanted = motion @ projection(decode_basis(body))
+        field = np.zeros_like(wanted)
+        levels = []
+        for part, first in zip(self._setting.parts, self._setting.first):
+            target = part.basis.T @ wanted[part.vertices] - part.extend(field)
+            coded, decoded = Loop(3, body.components).encode(first, target, self._step, self._options.rounding)
+            part.place(field, decoded)
+            levels.append(coded)
+        payload = encode_levels(make_level_bank(), levels, level_references(levels, body.components))
+        return replace(body, levels=payload)
 
 
 def encode_sequence(positions: npt.ArrayLike, faces: npt.ArrayLike, options: SequenceOptions | None = None) -> bytes:

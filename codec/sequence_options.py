@@ -66,7 +66,7 @@ class SequenceOptions:
     transform: str = "auto"
     weights: str = "cotangent"
     keep: float = 1.0
-    block_size: int = 500
+    block_size: int = 400
     overlap: float = 1.0
     frame_rate: float = 0.0
     rounding: float = 0.4

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -34,23 +33,22 @@ class LearntBasis:
     exponents: npt.NDArray[np.int32]
 
 
-def learn_basis(coefficients: Sequence[Matrix], step: float, limit: int) -> LearntBasis:
-    """Eigenvectors of the covariance of the coefficients' trajectories, x, y and z coupled.
+def learn_basis(motion: Matrix, step: float, limit: int) -> LearntBasis:
+    """Eigenvectors of the covariance of trajectories, x, y and z coupled.
 
     Parameters
     ----------
-    coefficients : sequence of float64 arrays, shapes (c_i, 3T)
+    motion : float64 array, shape (n, 3T)
     step : float
         With which the components will be quantized.
     limit : int
         Largest exponent.
     """
-    covariance = sum(matrix.T @ matrix for matrix in coefficients)
-    energies, vectors = np.linalg.eigh(covariance)
+    energies, vectors = np.linalg.eigh(motion.T @ motion)
     width = len(energies)
     count = int(np.count_nonzero(energies > WORTH * width * step**2))
     kept = energies[: -count - 1 : -1]
-    deviation = np.sqrt(kept / sum(map(len, coefficients)))
+    deviation = np.sqrt(kept / len(motion))
     exponents = np.round(OCTAVE * np.log2(deviation * np.sqrt(width) / (PRECISION * step)))
     columns = np.ascontiguousarray(vectors[:, : -count - 1 : -1])
     return LearntBasis(columns, np.clip(exponents, 0, limit).astype(np.int32))
@@ -61,6 +59,6 @@ def projection(basis: Matrix) -> Matrix:
     return np.ascontiguousarray(np.linalg.pinv(basis).T)
 
 
-def bits_estimate(components: Sequence[Matrix], step: float) -> float:
+def bits_estimate(components: Matrix, step: float) -> float:
     """About what components cost when quantized with `step`."""
-    return float(sum(np.log2(1.0 + np.abs(matrix) / step).sum() for matrix in components))
+    return float(np.log2(1.0 + np.abs(components) / step).sum())

@@ -1,4 +1,4 @@
-"""Dictionaries whose Laplacian weighs edges by geometry that both sides already know: the decoded first frame.
+"""Laplacians that weigh edges by geometry that both sides already know: the decoded first frame of a sequence.
 
 The paper's Laplacian is the binary one because a decoder knows connectivity only. The frames of a sequence are
 different: once one of them is decoded, the others may be transformed in a basis that knows the shape of the
@@ -12,13 +12,15 @@ U. Pinkall, K. Polthier, "Computing discrete minimal surfaces and their conjugat
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 import numpy.typing as npt
 from numba import njit
 
-from codec.blocks import Block
-from codec.graph import Graph
+from codec.graph import Graph, Indices
 from codec.mesh import Faces, Positions
+from codec.parallel import SINGLE_BLAS_THREAD
 from codec.subspace import CLUSTER_GAP, hash_columns, householder_orthonormalize
 
 Matrix = npt.NDArray[np.float64]
@@ -41,25 +43,57 @@ def binary_weights(graph: Graph) -> Matrix:
     return np.ones(len(graph.neighbours))
 
 
-def weighted_basis(graph: Graph, weights: Matrix, block: Block, width: int) -> Matrix:
-    """The `width` lowest eigenvectors of a block's weighted Laplacian, shape (n_i, width), in canonical form."""
-    return canonical_eigenvectors(weighted_laplacian(graph, weights, block), width)
+@dataclass(frozen=True, eq=False)
+class HeldLaplacian:
+    """The Laplacian of a part, and the springs on which it hangs: its edges to parts that are known before it.
+
+    Parameters
+    ----------
+    matrix : float64 array, shape (n_i, n_i)
+        D - W over the part's own edges, plus the springs' weights on the diagonal; edges to parts that are not known
+        yet count nothing.
+    rows, outer : int32 arrays, shape (s,)
+        Row of the part, and vertex of the mesh, that each spring connects; rows ascend.
+    weights : float64 array, shape (s,)
+    """
+
+    matrix: Matrix
+    rows: Indices
+    outer: Indices
+    weights: Matrix
 
 
-def weighted_laplacian(graph: Graph, weights: Matrix, block: Block) -> Matrix:
-    """L = D - W of a block as a dense matrix, shape (n_i, n_i); `weights` belong to `graph.neighbours`."""
-    laplacian: Matrix = _laplacian(graph.offsets, graph.neighbours, weights, block.vertices)
-    return laplacian
+def held_laplacian(graph: Graph, weights: Matrix, vertices: Indices, rank: Indices) -> HeldLaplacian:
+    """Laplacian of the part with the given vertices.
+
+    Parameters
+    ----------
+    graph : Graph
+        Of the mesh.
+    weights : float64 array
+        Of the entries of `graph.neighbours`.
+    vertices : int32 array, shape (n_i,)
+        Of the part, ascending.
+    rank : int32 array, shape (n,)
+        When the part of each vertex becomes known.
+    """
+    return HeldLaplacian(*_held(graph.offsets, graph.neighbours, weights, vertices, rank))
 
 
-def canonical_eigenvectors(matrix: Matrix, width: int) -> Matrix:
-    """The `width` lowest eigenvectors of a symmetric matrix in a form that does not depend on the eigensolver.
+def canonical_eigenvectors(matrix: Matrix, width: int) -> tuple[Matrix, Matrix]:
+    """The `width` lowest eigenvalues and eigenvectors of a symmetric matrix, whatever the eigensolver.
 
     Within a cluster of equal eigenvalues a solver may return any rotation; the projection of fixed pseudo-random
     columns onto the cluster's space, orthonormalised, is the same for all of them. For an eigenvalue of its own this
     is its eigenvector with the sign that makes its product with the first of these columns positive.
+
+    Returns
+    -------
+    values : float64 array, shape (width,)
+    vectors : float64 array, shape (n, width), C-contiguous
     """
-    values, vectors = np.linalg.eigh(matrix)
+    with SINGLE_BLAS_THREAD:
+        values, vectors = np.linalg.eigh(matrix)
     starts = np.flatnonzero(np.diff(values, prepend=-np.inf) > CLUSTER_GAP)
     ends = np.append(starts[1:], len(values))
     probe = hash_columns(len(matrix), int((ends - starts).max()))
@@ -69,7 +103,7 @@ def canonical_eigenvectors(matrix: Matrix, width: int) -> Matrix:
         cluster = vectors[:, first:last]
         canonical = householder_orthonormalize(cluster @ (cluster.T @ probe[:, : last - first]))
         basis[:, first:last] = canonical[:, : width - first]
-    return np.ascontiguousarray(basis)
+    return values[:width], np.ascontiguousarray(basis)
 
 
 @njit(cache=True, nogil=True)
@@ -113,16 +147,29 @@ def _cotangents(offsets, neighbours, faces, positions):  # type: ignore[no-untyp
 
 
 @njit(cache=True, nogil=True)
-def _laplacian(offsets, neighbours, weights, rows):  # type: ignore[no-untyped-def]
-    n = len(rows)
-    order = np.argsort(rows)
-    ascending = rows[order]
+def _held(offsets, neighbours, weights, vertices, rank):  # type: ignore[no-untyped-def]
+    n = len(vertices)
+    own = rank[vertices[0]]
     matrix = np.zeros((n, n))
-    for r in range(n):
-        v = rows[r]
+    springs = 0
+    for v in vertices:
         for i in range(offsets[v], offsets[v + 1]):
-            at = np.searchsorted(ascending, neighbours[i])
-            if at < n and ascending[at] == neighbours[i]:
-                matrix[r, order[at]] = -weights[i]
-                matrix[r, r] += weights[i]
-    return matrix
+            if rank[neighbours[i]] < own:
+                springs += 1
+    rows = np.empty(springs, np.int32)
+    outer = np.empty(springs, np.int32)
+    stiffness = np.empty(springs, np.float64)
+    springs = 0
+    for r in range(n):
+        v = vertices[r]
+        for i in range(offsets[v], offsets[v + 1]):
+            w = neighbours[i]
+            if rank[w] > own:
+                continue
+            matrix[r, r] += weights[i]
+            if rank[w] == own:
+                matrix[r, np.searchsorted(vertices, w)] -= weights[i]
+            else:
+                rows[springs], outer[springs], stiffness[springs] = r, w, weights[i]
+                springs += 1
+    return matrix, rows, outer, stiffness
