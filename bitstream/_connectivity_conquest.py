@@ -46,7 +46,6 @@ from bitstream._connectivity_model import (
     SUM,
     VERTEX_COLUMNS,
     Models,
-    code_choice,
     code_rare,
     code_rare_bit,
     code_usual,
@@ -56,16 +55,16 @@ from bitstream._connectivity_model import (
     look_nowhere,
 )
 from bitstream._connectivity_topology import Surface, next_halfedge, previous_halfedge
-from bitstream.entropy import Coder, has_room, leaf, overran
+from bitstream.entropy import Coder, code_uniform, has_room, leaf, overran
 
 Ints = npt.NDArray[np.int32]
 
 DONE, NONSENSE, NO_ROOM = range(3)
 """How a call of `conquer` ends; without room, make some and call again."""
 
-VERTICES, REAL, FACES, DUMMIES, TURNS, STEPS, START, HISTORY = range(8)
+VERTICES, REAL, FACES, DUMMIES, TURNS, STEPS, START, LATEST = range(8)
 """Tallies of a conquest: vertices, real vertices and faces so far; dummies, triangles and steps along the front still
-allowed; first face that the encoder may have left; labels of the latest vertices, four bits each."""
+allowed; first face that the encoder may have left; label of the latest real vertex."""
 
 TURN_BYTES = 1024
 """More than one triangle can take."""
@@ -143,7 +142,7 @@ def no_guide() -> Guide:
 
 def make_conquest(face_count: int, fans: int, dummies: int) -> Conquest:
     """The state before the first triangle."""
-    tallies = np.zeros(HISTORY + 1, np.int64)
+    tallies = np.zeros(LATEST + 1, np.int64)
     tallies[DUMMIES] = dummies
     tallies[TURNS] = 4 * face_count  # each real face has at most three dummy neighbours
     tallies[STEPS] = 65536 + 16 * face_count
@@ -245,7 +244,7 @@ def _pass_gate(coder: Coder, models: Models, guide: Guide, conquest: Conquest, f
             node, free = _find_node(guide, front, gate)
         usual = 1 if node < 0 and fan < len(guide.fans) else 0
 
-    look_around(models, front, vertices, tallies[HISTORY], f)
+    look_around(models, front, vertices, tallies[LATEST], f)
     usual = code_usual(coder, models, usual)
     loop = 0
     if usual == 0 and tallies[DUMMIES] > 0:
@@ -254,7 +253,7 @@ def _pass_gate(coder: Coder, models: Models, guide: Guide, conquest: Conquest, f
         node = _code_node(coder, models, conquest, guide.conquered.size > 0, f, node)
         if node < 0 or nodes[node, FREE] < 2:
             return False
-        free = code_choice(coder, free, nodes[node, FREE] - 1)
+        free = code_uniform(coder, free, nodes[node, FREE] - 1)
         vertex, before = nodes[node, VERTEX], nodes[node, PREVIOUS]
         other = add_node(front, vertex, nodes[node, FREE] - 2 - free)
         set_free(front, node, free)
@@ -304,7 +303,7 @@ def _add_vertex(coder: Coder, models: Models, guide: Guide, conquest: Conquest, 
         if guide.conquered.size > 0:
             guide.fans[tallies[REAL]] = fan
         tallies[REAL] += 1
-        tallies[HISTORY] = (tallies[HISTORY] << 4 | label_of(valence)) & 0xFFFFFF
+        tallies[LATEST] = label_of(valence)
     tallies[VERTICES] += 1
     return valence
 
@@ -322,7 +321,7 @@ def _code_node(coder: Coder, models: Models, conquest: Conquest, writing: bool, 
         way, count = _search(front, f, node, reach)
     if code_rare_bit(coder, models, RARE_WAY, way >> 1) != 0:
         tallies[STEPS] -= reach
-        return code_choice(coder, node, front.heads[MADE])
+        return code_uniform(coder, node, front.heads[MADE])
     way = code_rare_bit(coder, models, RARE_WAY + 1, way)
     count = code_rare(coder, models, RARE_STEPS, count)
     a = f if way != 0 else front.nodes[f, NEXT]

@@ -16,7 +16,6 @@ from bitstream.entropy import (
     Bank,
     Coder,
     code_mixed_bit,
-    code_uniform,
     code_unsigned,
     leaf,
     make_bank,
@@ -115,11 +114,12 @@ def _four_bits(value: int) -> int:
 
 
 @leaf
-def look_around(models: Models, front: Front, vertices: npt.NDArray[np.int32], history: int, f: int) -> None:
+def look_around(models: Models, front: Front, vertices: npt.NDArray[np.int32], latest: int, f: int) -> None:
     """Set the contexts for what lies beyond the gate of node `f`.
 
     The third vertex of the triangle beyond the edge from f to n, its next node, is neighbour to both; p is the node
-    before f. Labels, free degrees and sums of these and of the vertices behind the adjacent edges are the evidence.
+    before f. Labels, free degrees and sums of these and of the vertices behind the adjacent edges are the evidence,
+    and the label of the latest vertex.
     """
     nodes = front.nodes
     p, n = nodes[f, PREVIOUS], nodes[f, NEXT]
@@ -153,7 +153,7 @@ def look_around(models: Models, front: Front, vertices: npt.NDArray[np.int32], h
     contexts[11] = (
         label_p << 24 | label_nn << 20 | known_p << 16 | known_n << 12 | apex_n << 8 | free_pp << 4 | label_pp
     )
-    contexts[12] = apex_p << 24 | sum_n << 20 | (history & 15) << 16 | sum_f << 12 | free_f << 8 | sum_p << 4 | free_nn
+    contexts[12] = apex_p << 24 | sum_n << 20 | latest << 16 | sum_f << 12 | free_f << 8 | sum_p << 4 | free_nn
     contexts[13] = loops << 24 | free_nn << 20 | apex_f << 16 | free_p << 12 | free_n << 8 | label_nnn << 4 | known_n
     _hash_contexts(models)
 
@@ -203,9 +203,3 @@ def code_valence(coder: Coder, models: Models, valence: int) -> int:
 def label_of(valence: int) -> int:
     """How contexts see a valence."""
     return min(valence, 15)
-
-
-@leaf
-def code_choice(coder: Coder, value: int, count: int) -> int:
-    """Code one of `count` equally likely choices, where hostile data cannot leave the range."""
-    return min(code_uniform(coder, value, count), count - 1)

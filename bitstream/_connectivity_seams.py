@@ -12,9 +12,8 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from bitstream._connectivity_model import code_choice
 from bitstream._connectivity_topology import match_halfedges
-from bitstream.entropy import Bank, Coder, code_mixed_bit, leaf, make_bank, overran
+from bitstream.entropy import Bank, Coder, code_mixed_bit, code_uniform, leaf, make_bank, overran
 
 Ints = npt.NDArray[np.int32]
 
@@ -88,7 +87,7 @@ def _code_fans(coder: Coder, bank: Bank, contexts: npt.NDArray[np.int64], known:
         contexts[0] = _REPEAT
         if after[fan] >= 0:
             contexts[0] += 1 + 3 * _state(seams, after[fan]) + _state(seams, before[fan])
-        if code_mixed_bit(coder, bank, contexts, 0, 0, 1 if u < count else 0) != 0:
+        if code_mixed_bit(coder, bank, contexts, 0, 0, 1 if u < count else 0) != 0 and count > 0:
             u = _code_vertex(coder, bank, contexts, seams, fan, u, count)
             sibling[fan] = latest[u]
         else:
@@ -101,7 +100,7 @@ def _code_fans(coder: Coder, bank: Bank, contexts: npt.NDArray[np.int64], known:
 
 @leaf
 def _state(seams: Seams, fan: int) -> int:
-    if seams.vertex[fan] < 0:
+    if fan < 0 or seams.vertex[fan] < 0:
         return 0
     return 1 if seams.sibling[fan] < 0 else 2
 
@@ -116,7 +115,7 @@ def _code_vertex(
         contexts[0] = _CANDIDATE + 2 * k + (1 if number > 1 else 0)
         if code_mixed_bit(coder, bank, contexts, 0, 0, 1 if u == seams.candidates[k] else 0) != 0:
             return seams.candidates[k]
-    return code_choice(coder, u, count)
+    return code_uniform(coder, u, count)
 
 
 @leaf
@@ -132,7 +131,7 @@ def _find_candidates(seams: Seams, fan: int) -> int:
         for _ in range(_CANDIDATES):
             for turn in range(2):
                 beyond = before[other] if turn == side else after[other]
-                if number == _CANDIDATES or beyond < 0 or vertex[beyond] < 0 or beyond == fan:
+                if number == _CANDIDATES or beyond < 0 or vertex[beyond] < 0:
                     continue
                 fresh = vertex[beyond] != vertex[neighbour]
                 for k in range(number):
@@ -153,7 +152,7 @@ def code_degenerate(coder: Coder, corners: Ints, count: int) -> int:
     Fills `corners` when reading. Returns the number of vertices afterwards, or -1 for nonsense.
     """
     for i in range(len(corners)):
-        corners[i] = code_choice(coder, corners[i], count + 1)
+        corners[i] = code_uniform(coder, corners[i], count + 1)
         if corners[i] == count:
             count += 1
         if i % 3 == 2:

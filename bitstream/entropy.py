@@ -159,7 +159,7 @@ def make_bank(
         raise OptionError("a bank needs slots, selectors, inputs and rate > 0, and limit in 1..1023")
     if not (0 < probability < ONE and 0 <= trust <= limit):
         raise OptionError(f"the first probability must be in 1..{ONE - 1}, and trust in 0..limit")
-    initial = ONE * 2 // (2 * inputs) if inputs < 3 else ONE * 5 // (4 * inputs)
+    initial = ONE // inputs if inputs < 3 else ONE * 5 // (4 * inputs)
     bank = Bank(
         np.empty(slots, np.uint32),
         np.empty((selectors, inputs), np.int32),
@@ -208,10 +208,18 @@ def has_room(coder: Coder, capacity: int) -> bool:
 
 
 def start_reading(payload: bytes) -> Coder:
-    """Make a coder that reads `payload`."""
+    """Make a coder that reads `payload`.
+
+    Raises
+    ------
+    CorruptError
+        If it begins with four bytes of 255, where the low end and the range cannot be.
+    """
     data = np.frombuffer(payload, np.uint8).copy()
-    code = int.from_bytes(payload[:4].ljust(4, b"\0"), "big")
-    return Coder(np.array([code, (1 << 32) - 1, 4, 1, 0], np.int64), data)
+    code, width = int.from_bytes(payload[:4].ljust(4, b"\0"), "big"), (1 << 32) - 1
+    if code >= width:
+        raise CorruptError("an entropy-coded payload cannot begin with ff ff ff ff")
+    return Coder(np.array([code, width, 4, 1, 0], np.int64), data)
 
 
 def finish_writing(coder: Coder) -> bytes:
@@ -331,16 +339,14 @@ def code_bit(coder: Coder, probability: int, bit: int) -> int:
 
 @leaf
 def code_uniform(coder: Coder, value: int, count: int) -> int:
-    """Code an integer in 0 .. count - 1, all equally likely; `count` at most 2**32.
+    """Code an integer in 0 .. count - 1, all equally likely; `count` in 1 .. 2**32.
 
-    From hostile data the result may be anything in 0 .. 2**32 - 1 where `count` is over 65536: check it.
+    What hostile data has beyond is read as count - 1.
     """
-    high = 0
-    if count > ONE:
-        high = _code_uniform_16(coder, value >> 16, ((count - 1) >> 16) + 1)
-        value &= ONE - 1
-        count = ONE
-    return (high << 16) | _code_uniform_16(coder, value, count)
+    if count <= ONE:
+        return _code_uniform_16(coder, value, count)
+    high = _code_uniform_16(coder, value >> 16, ((count - 1) >> 16) + 1)
+    return min((high << 16) | _code_uniform_16(coder, value & (ONE - 1), ONE), count - 1)
 
 
 @leaf

@@ -34,7 +34,6 @@ _SAME = signed_span(_UNARY)
 _SPAN = _SAME + 1
 _INPUTS = 4
 _CLASSES = 32
-_ROTATION_SLOTS = 81
 _STEP_BYTES = 128  # more than one entry can take
 
 
@@ -103,7 +102,7 @@ def code_rotations(coder: Coder, values: Ints) -> Coder:
         if values.ndim != 1 or (len(values) and (values.min() < 0 or values.max() > 2)):
             raise OptionError("rotations of a triangle's corners are 0, 1 or 2")
         coder = make_room(coder, 4 * len(values))
-    bank = make_bank(2 * _ROTATION_SLOTS, 2, 2)
+    bank = make_bank(3 * (9 + 27), 2, 2)
     legal = _code_rotations(coder, bank, np.empty(2, np.int64), values)
     return _checked(coder, legal, f"{len(values)} rotations")
 
@@ -203,10 +202,10 @@ def _code_rotations(coder: Coder, bank: Bank, contexts: npt.NDArray[np.int64], v
         if overran(coder):
             return False
         contexts[0] = 3 * (history % 9)
-        contexts[1] = _ROTATION_SLOTS + 3 * (history % 27)
+        contexts[1] = 3 * (9 + history)
         value = code_mixed_bit(coder, bank, contexts, 0, 0, 1 if values[i] > 0 else 0)
         if value != 0:
             value += code_mixed_bit(coder, bank, contexts, 1, 0, 1 if values[i] > 1 else 0)
         values[i] = value
-        history = (history * 3 + value) % _ROTATION_SLOTS
+        history = (history * 3 + value) % 27
     return True

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import dataclasses
 from pathlib import Path
 
@@ -213,6 +214,15 @@ def test_damaged_payloads_end_in_typed_errors_or_faces_in_range(name: str) -> No
         assert decoded.min() >= 0
         assert decoded.max() < count
     assert survivors < 500
+
+
+def test_a_seam_that_repeats_a_vertex_before_there_is_one_is_harmless() -> None:
+    faces = np.array([[0, 1, 2], [0, 1, 3], [0, 1, 4], [2, 2, 5]])
+    payload = encode_connectivity(faces, 6).payload
+    for index in range(len(payload)):
+        for value in range(256):
+            with contextlib.suppress(CorruptError, TruncatedError):
+                decode_connectivity(payload[:index] + bytes([value]) + payload[index + 1 :], 6, 4)
 
 
 @pytest.mark.parametrize("name", ["torus", "holes", "soup"])

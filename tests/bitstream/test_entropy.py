@@ -196,15 +196,29 @@ def test_a_constant_source_costs_almost_nothing() -> None:
 @settings(max_examples=50, deadline=None)
 @given(st.binary(max_size=200))
 def test_random_bytes_are_read_without_harm(payload: bytes) -> None:
-    coder = start_reading(payload)
     values = np.zeros(100000, np.int64)
-    _code_order_one(coder, _order_one_bank(), values)
-    assert values.min() >= 0
-    assert values.max() < 1 << 25
     try:
+        coder = start_reading(payload)
+        _code_order_one(coder, _order_one_bank(), values)
         finish_reading(coder)
     except (TruncatedError, CorruptError):
-        return
+        pass
+    assert values.min() >= 0
+    assert values.max() < 1 << 25
+
+
+def test_what_no_range_contains_is_refused() -> None:
+    with pytest.raises(CorruptError, match="ff ff ff ff"):
+        start_reading(b"\xff" * 9)
+
+
+@settings(max_examples=50, deadline=None)
+@given(st.binary(max_size=50), st.integers(1, 1 << 32))
+def test_uniform_values_stay_below_their_count(payload: bytes, count: int) -> None:
+    values = np.zeros(20, np.int64)
+    _code_uniforms(start_reading(b"\xfe" + payload), np.full(20, count), values)
+    assert values.min() >= 0
+    assert values.max() < count
 
 
 def test_truncation_and_surplus_are_noticed() -> None:
