@@ -1,0 +1,133 @@
+"""Mutation of whole streams, frame by frame, checksums made right again, so that damage gets past the reader."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from random import Random
+
+from bitstream.errors import BsmError
+from bitstream.header import HEADER_FIELDS, Field
+from bitstream.maps import write_map
+from bitstream.wire import FrameType, write_varint
+from tools.surgery import Frames, frames_of, header_entries, stream_of
+
+Mutate = Callable[[bytes, int], bytes]
+
+_NUMBERS = (
+    0,
+    1,
+    2,
+    3,
+    4,
+    7,
+    8,
+    15,
+    16,
+    31,
+    64,
+    100,
+    120,
+    121,
+    127,
+    128,
+    255,
+    256,
+    1000,
+    4096,
+    8191,
+    1 << 14,
+    2**31 - 1,
+)
+_REALS = (0.0, 0.125, 1.0, 1e-3, 2.0**-30, 2.0**-40, 2.0**20, 2.0**30, 65535.0, 1e6, 1e30, -1e300, 1e300, 1e-300)
+
+
+def mutate_stream(data: bytes, max_size: int, seed: int, mutate: Mutate) -> bytes:
+    """Another stream like `data`; bytes that are no stream are mutated as such."""
+    random = Random(seed)
+    try:
+        frames = frames_of(data)
+    except (BsmError, ValueError):
+        return mutate(data, max_size)
+    if not frames or random.random() < 0.05:
+        return mutate(data, max_size)
+    for _ in range(random.choice((1, 1, 1, 2, 3))):
+        _STEPS[random.randrange(len(_STEPS))](frames, random, mutate)
+        if not frames:
+            return mutate(data, max_size)
+    changed = stream_of(frames)
+    return changed if len(changed) <= max_size else data[:max_size]
+
+
+def _change_payload(frames: Frames, random: Random, mutate: Mutate) -> None:
+    place = random.randrange(len(frames))
+    kind, payload = frames[place]
+    frames[place] = (kind, mutate(payload, len(payload) + 64))
+
+
+def _change_coded(frames: Frames, random: Random, mutate: Mutate) -> None:
+    """Change the data behind the first bytes, which say what it is."""
+    coded = [i for i, (kind, _) in enumerate(frames) if kind not in (FrameType.HEADER, FrameType.METADATA)]
+    if coded:
+        place = random.choice(coded)
+        kind, payload = frames[place]
+        kept = 2 if kind == FrameType.BLOCK else 1
+        frames[place] = (kind, payload[:kept] + mutate(payload[kept:], len(payload) + 64))
+
+
+def _change_header(frames: Frames, random: Random, mutate: Mutate) -> None:
+    if frames[0][0] != FrameType.HEADER:
+        return
+    try:
+        entries = header_entries(frames[0][1])
+    except (TypeError, ValueError):
+        return
+    declared = random.choice(list(HEADER_FIELDS.values()))
+    if declared.key in entries and random.random() < 0.2:
+        del entries[declared.key]
+    else:
+        entries[declared.key] = _value(declared, entries.get(declared.key), random)
+    try:
+        frames[0] = (FrameType.HEADER, write_map(sorted(entries.items())))
+    except (TypeError, ValueError, OverflowError):  # keys of several types, or a number too large
+        return
+
+
+def _value(declared: Field, old: object, random: Random) -> object:
+    if declared.type is int:
+        if isinstance(old, int) and random.random() < 0.5:
+            return max(0, old + random.choice((-8, -2, -1, 1, 2, 8, old)))
+        return random.choice(_NUMBERS)
+    if declared.type is float:
+        return random.choice(_REALS) if random.random() < 0.7 else random.uniform(0, 100)
+    return [random.choice(_REALS) for _ in range(random.choice((declared.lengths[0], 1, 3)))]
+
+
+def _change_block(frames: Frames, random: Random, mutate: Mutate) -> None:
+    """Another index or another number of coefficients."""
+    blocks = [i for i, (kind, _) in enumerate(frames) if kind in (FrameType.BLOCK, FrameType.GOP)]
+    if blocks:
+        place = random.choice(blocks)
+        kind, payload = frames[place]
+        numbers = [payload[0], payload[1]] if len(payload) > 1 else [0, 0]
+        numbers[random.randrange(2)] = random.choice(_NUMBERS[:-1])
+        frames[place] = (kind, write_varint(numbers[0]) + write_varint(numbers[1]) + payload[2:])
+
+
+def _move(frames: Frames, random: Random, mutate: Mutate) -> None:
+    """Drop, repeat, exchange or invent a frame."""
+    place = random.randrange(len(frames))
+    choice = random.randrange(5)
+    if choice == 0:
+        del frames[place]
+    elif choice == 1:
+        frames.insert(random.randrange(len(frames) + 1), frames[place])
+    elif choice == 2:
+        other = random.randrange(len(frames))
+        frames[place], frames[other] = frames[other], frames[place]
+    elif choice == 3:
+        frames.insert(place, (random.randrange(16), mutate(b"", 32)))
+    else:
+        frames[place] = (random.randrange(16), frames[place][1])
+
+
+_STEPS = (_change_payload, _change_coded, _change_coded, _change_header, _change_header, _change_block, _move)

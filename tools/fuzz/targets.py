@@ -1,0 +1,270 @@
+"""What is attacked. A target takes bytes; anything it raises but `BsmError` is a finding."""
+
+from __future__ import annotations
+
+import tempfile
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+
+from bitstream.adaptive import CoefficientModel, decode_blocks, decode_coefficients
+from bitstream.arrangement import decode_arrangement
+from bitstream.coefficients import unpack_coefficients
+from bitstream.connectivity import decode_connectivity
+from bitstream.errors import BsmError
+from bitstream.gops import GopMethod, parse_gop_body
+from bitstream.labels import decode_labels
+from bitstream.layout import PARSERS
+from bitstream.limits import Limits
+from bitstream.permutation import decode_permutation, decode_rotations
+from bitstream.reader import END_OF_STREAM, NEED_DATA, Reader
+from bitstream.sequence_coefficients import decode_levels, make_level_bank
+from bitstream.tolerant import TolerantReader
+from bitstream.wire import FrameType
+from codec.decoder import BlockEvent, Decoder, decode
+from codec.graph import graph_of_faces
+from codec.sequence_decoder import FrameEvent, SequenceDecoder
+from tools.meshfiles import MESH_FORMATS, read_mesh
+
+Target = Callable[[bytes], None]
+
+LIMITS = Limits(
+    vertices=1 << 13,
+    faces=1 << 14,
+    blocks=1 << 10,
+    block_size=1 << 10,
+    coefficients=1 << 9,
+    frames=1 << 10,
+    gop_frames=64,
+    frame_bytes=1 << 20,
+    work=1e9,
+    sequence_bytes=1 << 26,
+)
+"""What a caller would grant who wants an answer within a second."""
+
+
+class Finding(Exception):
+    """A result that is wrong though no error was raised."""
+
+
+def _expect(right: bool, problem: str) -> None:
+    if not right:
+        raise Finding(problem)
+
+
+def _drain(reader: Reader, data: bytes, cut: int) -> list[object]:
+    packets: list[object] = []
+    for piece in (data[:cut], data[cut:]):
+        reader.receive_data(piece)
+        while (packet := reader.next_packet()) is not NEED_DATA and packet is not END_OF_STREAM:
+            packets.append(packet)
+    reader.receive_eof()
+    while (packet := reader.next_packet()) is not END_OF_STREAM:
+        packets.append(packet)
+    return packets
+
+
+def reader(data: bytes) -> None:
+    """Frames and their payloads: what the strict reader accepts, the tolerant one reads alike."""
+    _drain(TolerantReader(LIMITS), data, len(data) // 3) if data.startswith(b"\x89BSM\0") else None
+    packets = _drain(Reader(LIMITS), data, len(data) // 2)
+    _expect(packets == _drain(TolerantReader(LIMITS), data, 1), "a tolerant reader reads something else")
+
+
+def payloads(data: bytes) -> None:
+    """The payload of each frame type, without frame and checksum."""
+    kinds = list(PARSERS)
+    PARSERS[kinds[data[0] % len(kinds)]](data[1:], LIMITS)
+
+
+def coefficients(data: bytes) -> None:
+    """Adaptive coefficients: two blocks of one chain, then several in one payload."""
+    model = CoefficientModel(1 + data[0])
+    decode_coefficients(model, data[2:], 1 + data[1] % (data[0] + 1))
+    decode_coefficients(model, data[2:], model.width)
+
+
+def coefficient_blocks(data: bytes) -> None:
+    """Several blocks in one payload."""
+    decode_blocks(CoefficientModel(1 + data[0]), data[2:], data[1])
+
+
+def packed(data: bytes) -> None:
+    """Packed coefficients, zstd included."""
+    count = 1 + data[1] % 96
+    _expect(len(unpack_coefficients(data[2:], count, 1 + data[0] % 32)) == count, "a wrong number of coefficients")
+
+
+def connectivity(data: bytes) -> None:
+    """Faces: indices in range, every vertex used."""
+    vertices, faces = int.from_bytes(data[:2], "little") % 2000, int.from_bytes(data[2:4], "little") % 4000
+    decoded = decode_connectivity(data[4:], vertices, faces, LIMITS)
+    _expect(decoded.shape == (faces, 3), "a wrong number of faces")
+    _expect(bool((np.bincount(decoded.ravel(), minlength=vertices) > 0).all()), "a vertex without face")
+    _expect(len(np.bincount(decoded.ravel())) == vertices, "a vertex beyond the last")
+
+
+_FAN = np.array([[0, k, k + 1] for k in range(1, 40)], np.int32)
+_FAN_GRAPH = graph_of_faces(_FAN, 41)
+
+
+def arrangement(data: bytes) -> None:
+    """An order of vertices and faces."""
+    decoded = decode_arrangement(data, _FAN, 41)
+    _expect(bool((np.sort(decoded.vertex_order) == np.arange(41)).all()), "no permutation of vertices")
+    _expect(bool((np.sort(decoded.face_order) == np.arange(len(_FAN))).all()), "no permutation of faces")
+
+
+def permutation(data: bytes) -> None:
+    """A permutation or rotations."""
+    size = data[1]
+    if data[0] % 2:
+        _expect(bool((np.sort(decode_permutation(data[2:], size)) == np.arange(size)).all()), "no permutation")
+    else:
+        _expect(bool((decode_rotations(data[2:], size) <= 2).all()), "a rotation over 2")
+
+
+def labels(data: bytes) -> None:
+    """Parts of vertices."""
+    parts = 1 + data[0] % 41
+    decoded = decode_labels(data[1:], _FAN_GRAPH.offsets, _FAN_GRAPH.neighbours, parts)
+    _expect(bool((np.unique(decoded) == np.arange(parts)).all()), "labels that are not all parts")
+
+
+def gops(data: bytes) -> None:
+    """The data of a GOP, and the levels in it."""
+    body = parse_gop_body(data, 64)
+    if body.method is GopMethod.LEARNT:
+        levels = np.zeros((3, body.frames, body.components), np.int32)
+        decode_levels(make_level_bank(), body.basis, list(levels), [levels[0], *levels[:-1]])
+    levels = np.zeros((2, 10, body.components), np.int32)
+    decode_levels(make_level_bank(), body.levels, list(levels), [levels[0], *levels[:-1]])
+
+
+def stream(data: bytes) -> None:
+    """A whole static stream."""
+    _expect(bool(np.isfinite(decode(data, LIMITS, threads=1).positions).all()), "positions that are not finite")
+
+
+def stream_threads(data: bytes) -> None:
+    """A whole static stream by events, on two threads."""
+    with Decoder(LIMITS, threads=2) as decoder:
+        _events(decoder, data)
+
+
+def damaged(data: bytes) -> None:
+    """A static stream in tolerant mode."""
+    with Decoder(LIMITS, threads=1, tolerant=True) as decoder:
+        _events(decoder, data)
+
+
+def _events(decoder: Decoder, data: bytes) -> None:
+    decoder.receive_data(data)
+    decoder.receive_eof()
+    while (event := decoder.next_event()) is not END_OF_STREAM:
+        if isinstance(event, BlockEvent):
+            _expect(bool(np.isfinite(event.positions).all()), "positions that are not finite")
+
+
+def sequence(data: bytes) -> None:
+    """A whole sequence; the first byte says whether in tolerant mode, and from which frame on."""
+    decoder = SequenceDecoder(LIMITS, threads=1, tolerant=len(data) % 2 == 1)
+    decoder.receive_data(data)
+    decoder.receive_eof()
+    while (event := decoder.next_event()) is not END_OF_STREAM:
+        if isinstance(event, FrameEvent):
+            _expect(bool(np.isfinite(event.positions).all()), "positions that are not finite")
+
+
+def mesh_file(data: bytes) -> None:
+    """A mesh file; its first byte tells the format that its name has."""
+    folder = Path("/dev/shm") if Path("/dev/shm").is_dir() else Path(tempfile.gettempdir())
+    with tempfile.NamedTemporaryFile(dir=folder, suffix="." + MESH_FORMATS[data[0] % len(MESH_FORMATS)]) as file:
+        file.write(data[1:])
+        file.flush()
+        mesh = read_mesh(file.name, limits=LIMITS).mesh
+    _expect(bool(np.isfinite(mesh.positions).all()), "positions that are not finite")
+    _expect(bool((mesh.faces < len(mesh.positions)).all() and (mesh.faces >= 0).all()), "faces out of range")
+
+
+TARGETS: dict[str, Target] = {
+    item.__name__: item
+    for item in (
+        reader,
+        payloads,
+        coefficients,
+        coefficient_blocks,
+        packed,
+        connectivity,
+        arrangement,
+        permutation,
+        labels,
+        gops,
+        stream,
+        stream_threads,
+        damaged,
+        sequence,
+        mesh_file,
+    )
+}
+WHOLE_STREAMS = ("reader", "stream", "stream_threads", "damaged", "sequence")
+"""Targets that take streams, and are given mutations that keep checksums right."""
+SLOW = ("stream", "stream_threads", "damaged", "sequence", "mesh_file")
+
+
+def seeds(name: str, vectors: Path) -> list[bytes]:
+    """What a target starts from: streams, or the payloads in them, behind the bytes the target reads first."""
+    from tools.surgery import frames_of
+
+    streams = [path.read_bytes() for path in sorted(vectors.glob("*.bsm"))]
+    good = [path.read_bytes() for path in sorted(vectors.glob("good-*.bsm"))]
+    if name in WHOLE_STREAMS:
+        return streams
+    if name == "mesh_file":
+        return _mesh_seeds()
+    found: list[bytes] = []
+    for data in good:
+        frames = frames_of(data)
+        header = PARSERS[FrameType.HEADER](frames[0][1], Limits())
+        found += [_seed(name, kind, payload, header) for kind, payload in frames]
+    return sorted(set(found) - {b""}) or [bytes(8)]
+
+
+def _seed(name: str, kind: int, payload: bytes, header: object) -> bytes:
+    """The input of a target that a frame makes, if any."""
+    kinds = list(PARSERS)
+    if name == "payloads" and kind in kinds:
+        return bytes([kinds.index(FrameType(kind))]) + payload
+    if name == "connectivity" and kind == FrameType.CONNECTIVITY:
+        counts = (getattr(header, "vertices"), getattr(header, "faces"))  # noqa: B009
+        return b"".join(count.to_bytes(2, "little") for count in counts) + payload[1:]
+    if name in ("coefficients", "coefficient_blocks", "packed") and kind == FrameType.BLOCK:
+        return bytes([min(255, getattr(header, "coefficients") - 1), payload[1] - 1]) + payload[2:]  # noqa: B009
+    if name in ("arrangement", "permutation") and kind == FrameType.ORDER:
+        return payload
+    if name == "labels" and kind == FrameType.PARTITION:
+        return payload
+    if name == "gops" and kind == FrameType.GOP:
+        return payload[1:]
+    return b""
+
+
+def _mesh_seeds() -> list[bytes]:
+    from tools.meshfiles import format_mesh
+    from tools.vectors.meshes import patch
+
+    mesh = patch(4, 3)
+    return [bytes([k]) + format_mesh(mesh, kind) for k, kind in enumerate(MESH_FORMATS)]
+
+
+def run(target: Target, data: bytes) -> None:
+    """Run a target; what it refuses as it should is no finding."""
+    try:
+        target(data)
+    except BsmError:
+        return
+    except IndexError:
+        if len(data) < 4:  # too short for the target's own first bytes
+            return
+        raise

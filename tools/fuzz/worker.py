@@ -1,0 +1,79 @@
+"""One target in one process: `python -m tools.fuzz.worker TARGET [options of libFuzzer]`."""
+
+from __future__ import annotations
+
+import logging
+import resource
+import sys
+import time
+from pathlib import Path
+from types import FunctionType, ModuleType
+
+import atheris
+
+from tools.fuzz.mutate import mutate_stream
+from tools.fuzz.targets import TARGETS, WHOLE_STREAMS, Finding, Target, run, seeds
+
+SECONDS = 1.0
+SMALL = 1 << 16
+MEMORY = 256 << 20
+"""Bytes that one execution may add to the highest memory use so far."""
+VECTORS = Path(__file__).parents[2] / "spec" / "vectors"
+
+
+def main() -> None:
+    """Fuzz until libFuzzer's options say stop; the process ends inside."""
+    name = sys.argv[1]
+    target = TARGETS[name]
+    for data in seeds(name, VECTORS):  # compiles the kernels, which takes its time
+        run(target, data)
+    instrument()
+
+    def one(data: bytes) -> None:
+        before = _peak()
+        seconds = _seconds(target, data)
+        if _peak() - before > MEMORY:
+            raise Finding(f"{(_peak() - before) >> 20} MiB for {len(data)} bytes")
+        # A kernel that was compiled on the way is not slow the second time.
+        if seconds > SECONDS and len(data) < SMALL and (seconds := _seconds(target, data)) > SECONDS:
+            raise Finding(f"{seconds:.1f} s for {len(data)} bytes")
+
+    def mutate(data: bytes, max_size: int, seed: int) -> bytes:
+        return mutate_stream(data, max_size, seed, atheris.Mutate)
+
+    options = {"custom_mutator": mutate} if name in WHOLE_STREAMS else {}
+    atheris.Setup([sys.argv[0], *sys.argv[2:]], one, **options)
+    atheris.Fuzz()
+
+
+def instrument() -> None:
+    """Follow the coverage of every Python function of the decoders; compiled ones stay as they are."""
+    logging.disable(logging.WARNING)
+    for name, module in sorted(sys.modules.items()):
+        if name.split(".")[0] in ("bitstream", "codec") or name.startswith(("tools.meshfiles", "tools.files")):
+            if name != "codec.simd":
+                _instrument_module(module)
+
+
+def _instrument_module(module: ModuleType) -> None:
+    for item in vars(module).values():
+        members = vars(item).values() if isinstance(item, type) else [item]
+        for function in members:
+            plain = function.fget if isinstance(function, property) else getattr(function, "__func__", function)
+            if isinstance(plain, FunctionType) and plain.__module__ == module.__name__:
+                atheris.instrument_func(plain)
+
+
+def _seconds(target: Target, data: bytes) -> float:
+    """Processor time of all threads."""
+    begin = time.process_time()
+    run(target, data)
+    return time.process_time() - begin
+
+
+def _peak() -> int:
+    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024
+
+
+if __name__ == "__main__":
+    main()

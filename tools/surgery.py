@@ -1,0 +1,66 @@
+"""Streams taken apart and put together again with right checksums, however wrong their content: for vectors and fuzzing."""
+
+from __future__ import annotations
+
+import zlib
+from typing import Any
+
+import msgpack
+
+from bitstream.limits import DEFAULT_LIMITS
+from bitstream.maps import write_map
+from bitstream.wire import FrameType, parse_frame, write_frame, write_preamble, write_varint
+
+Frames = list[tuple[int, bytes]]
+
+
+def frames_of(stream: bytes) -> Frames:
+    """Type and payload of every frame of a stream, END left out.
+
+    Raises
+    ------
+    BsmError
+        If a frame is damaged.
+    ValueError
+        If the stream ends inside one.
+    """
+    frames: Frames = []
+    offset = len(write_preamble())
+    while offset < len(stream):
+        frame = parse_frame(stream, offset, DEFAULT_LIMITS)
+        if frame is None:
+            raise ValueError(f"the stream ends inside the frame at byte {offset}")
+        frames.append((frame.type, frame.payload))
+        offset += frame.size
+    return [frame for frame in frames if frame[0] != FrameType.END]
+
+
+def stream_of(frames: Frames) -> bytes:
+    """The stream of these frames, with an END that fits them."""
+    body = write_preamble() + b"".join(write_frame(kind, payload) for kind, payload in frames)
+    return body + write_frame(FrameType.END, write_varint(len(frames)) + zlib.crc32(body).to_bytes(4, "little"))
+
+
+def header_entries(payload: bytes) -> dict[int, Any]:
+    """Key and value of every field that a header stores."""
+    return dict(msgpack.unpackb(payload, strict_map_key=False))
+
+
+def with_header(stream: bytes, **changes: Any) -> bytes:
+    """The stream with other header fields, by name (None: not stored), unchecked."""
+    from bitstream.header import HEADER_FIELDS
+
+    frames = frames_of(stream)
+    entries = header_entries(frames[0][1])
+    for name, value in changes.items():
+        entries[HEADER_FIELDS[name].key] = value
+    kept = sorted((key, value) for key, value in entries.items() if value is not None)
+    return stream_of([(FrameType.HEADER, write_map(kept)), *frames[1:]])
+
+
+def with_payload(stream: bytes, kind: FrameType, payload: bytes, which: int = 0) -> bytes:
+    """The stream with another payload in the frame number `which` of a type."""
+    frames = frames_of(stream)
+    place = [i for i, frame in enumerate(frames) if frame[0] == kind][which]
+    frames[place] = (kind, payload)
+    return stream_of(frames)

@@ -1,0 +1,94 @@
+"""Streams that every decoder must decode, each for one thing that it probes."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from bitstream.wire import FrameType
+from codec import EncodeOptions, TriangleMesh, encode
+from tools.surgery import frames_of, stream_of
+from tools.vectors.meshes import patch, shuffled, tangled, tetrahedron, together, torus, triangle
+
+BASE = EncodeOptions(block_size=60, keep=0.3, step=1 / 256, smoothing=0.0, threads=1)
+
+
+@dataclass(frozen=True)
+class Good:
+    """A stream to be decoded; `make` is called only when vectors are written."""
+
+    probes: str
+    make: Callable[[], bytes]
+
+
+def _static(probes: str, mesh: Callable[[], TriangleMesh], **options: object) -> Good:
+    return Good(probes, lambda: encode(mesh(), EncodeOptions(**{**vars(BASE), **options})))  # type: ignore[arg-type]
+
+
+def _small() -> TriangleMesh:
+    return torus(12, 10)
+
+
+def _with_isolated() -> TriangleMesh:
+    mesh = patch(6, 6)
+    return TriangleMesh(np.concatenate([[[9.0, 9.0, 9.0]], mesh.positions]), mesh.faces + 1)
+
+
+def _skippable() -> bytes:
+    frames = frames_of(encode(_small(), BASE))
+    return stream_of([frames[0], (8, b""), *frames[1:3], (11, b"skip this"), *frames[3:], (9, bytes(100))])
+
+
+def _metadata() -> bytes:
+    frames = frames_of(encode(patch(6, 6), BASE))
+    text = bytes.fromhex("83 a1 61 01 a1 62 ca 3f 00 00 00 a4 6e 61 6d 65 a3 c3 a9 21")
+    return stream_of([frames[0], (FrameType.METADATA, text), *frames[1:]])
+
+
+STATIC: dict[str, Good] = {
+    "good-tetrahedron": _static("four vertices, one block", tetrahedron, coefficients=4),
+    "good-triangle": _static("one face, and a boundary of three edges", triangle, coefficients=3),
+    "good-one-block": _static("one block that is the whole mesh", lambda: patch(6, 6), block_size=36),
+    "good-one-more": _static(
+        "one vertex more than a block holds", lambda: patch(6, 6), block_size=18, overlap=35 / 18, key_interval=0
+    ),
+    "good-default": _static("several blocks in one chain with prediction", _small, key_interval=0),
+    "good-keys": _static("key blocks in mid-stream: chains of two blocks", lambda: torus(16, 12), key_interval=2),
+    "good-independent": _static("every block on its own (seeding 1)", _small, seed="independent"),
+    "good-no-prediction": _static("a chain without prediction", _small, predict=False),
+    "good-exact": _static("exact eigenbasis (basis 1), with repeated eigenvalues", _small, basis="svd"),
+    "good-exact-plain": _static(
+        "exact eigenbasis without prediction: clusters of equal eigenvalues", _small, basis="svd", predict=False
+    ),
+    "good-one-column": _static("c = 1 in every block", _small, coefficients=1),
+    "good-all-columns": _static("c = n_d: as many coefficients as rows", _small, keep=1.0),
+    "good-rising-falling": _static("c_i rises and falls along a chain", lambda: torus(16, 12), doi=(2e-3, 6e-3)),
+    "good-components": _static(
+        "three components of the mesh", lambda: together(torus(7, 6), patch(6, 5), tetrahedron())
+    ),
+    "good-isolated": _static("a vertex in no face: not in the stream", _with_isolated),
+    "good-tangled": _static("non-manifold, repeated, turned and degenerate faces; a vertex without edges", tangled),
+    "good-boundary": _static("a disc: one boundary loop", lambda: patch(12, 11)),
+    "good-genus": _static("closed, genus one", lambda: torus(9, 8)),
+    "good-ordered": _static(
+        "ORDER: vertices, faces and first corners as given", lambda: shuffled(_small()), keep_order=True
+    ),
+    "good-labels": _static("PARTITION: labels of the parts are stored", _small, partition="metis"),
+    "good-packed": _static("packed coefficients (coding 0) of 12 bits", _small, bits=12),
+    "good-packed-7": _static("packed coefficients of 7 bits: levels that do not end at a byte", _small, bits=7),
+    "good-blend-uniform": _static("blend 1: all copies equal", _small, blend="uniform"),
+    "good-blend-own": _static("blend 2: only the copy in its own part", _small, blend="own"),
+    "good-smoothing": _static("smoothing over the whole mesh, boundary included", lambda: patch(12, 11), smoothing=2.0),
+    "good-parameters": _static(
+        "other exponent, iterations and shift", _small, power=1, iterations=3, key_iterations=5, shift=0.5
+    ),
+    "good-fine": _static("a fine step: levels of many bits", _small, step=1e-6, keep=1.0),
+    "good-far": _static(
+        "a mesh far from the origin, and small",
+        lambda: TriangleMesh(1e-3 * torus(12, 10).positions + [1e4, -3e5, 7.0], torus(12, 10).faces),
+    ),
+    "good-skippable": Good("skippable frames between the others", _skippable),
+    "good-metadata": Good("metadata: an integer, a float, a string beyond ASCII", _metadata),
+}

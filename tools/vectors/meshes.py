@@ -1,0 +1,81 @@
+"""Small meshes for the vectors; coordinates by sines, so that no file is needed."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from codec.mesh import TriangleMesh
+
+
+def _grid(rows: int, columns: int, closed: bool) -> np.ndarray:
+    i, j = np.meshgrid(np.arange(rows - (not closed)), np.arange(columns - (not closed)), indexing="ij")
+    a, b = i * columns + j, (i + 1) % rows * columns + j
+    c, d = (i + 1) % rows * columns + (j + 1) % columns, i * columns + (j + 1) % columns
+    halves = [np.stack([a, b, c], -1), np.stack([a, c, d], -1)]
+    return np.concatenate([half.reshape(-1, 3) for half in halves]).astype(np.int32)
+
+
+def patch(rows: int, columns: int) -> TriangleMesh:
+    """A wavy rectangle: a disc with a boundary."""
+    x, y = np.meshgrid(np.linspace(0, 1, rows), np.linspace(0, 1.3, columns), indexing="ij")
+    z = 0.1 * np.sin(5 * x) * np.cos(4 * y) + 0.02 * np.sin(17 * x + 9 * y)
+    return TriangleMesh(np.stack([x, y, z], -1).reshape(-1, 3), _grid(rows, columns, closed=False))
+
+
+def torus(rows: int, columns: int, phase: float = 0.0) -> TriangleMesh:
+    """A bumpy torus: closed, genus one; its graph is so regular that eigenvalues repeat."""
+    angles = [np.linspace(0, 2 * np.pi, count, endpoint=False) for count in (rows, columns)]
+    u, v = np.meshgrid(*angles, indexing="ij")
+    r = 0.35 * (1 + 0.05 * np.sin(6 * u + phase) * np.sin(4 * v))
+    x, y, z = (1 + r * np.cos(v)) * np.cos(u), (1 + r * np.cos(v)) * np.sin(u), r * np.sin(v + phase)
+    return TriangleMesh(np.stack([x, y, z], -1).reshape(-1, 3), _grid(rows, columns, closed=True))
+
+
+def tetrahedron() -> TriangleMesh:
+    """Four vertices, four faces."""
+    positions = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]
+    return TriangleMesh(np.array(positions, float), np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]]))
+
+
+def triangle() -> TriangleMesh:
+    """One face."""
+    return TriangleMesh(np.array([[0, 0, 0], [4, 0, 0], [0, 3, 0]], float), np.array([[0, 1, 2]]))
+
+
+def together(*meshes: TriangleMesh) -> TriangleMesh:
+    """Several meshes as one, side by side."""
+    starts = np.cumsum([0, *(len(mesh.positions) for mesh in meshes)])
+    positions = [mesh.positions + np.array([3.0 * k, 0.0, 0.0]) for k, mesh in enumerate(meshes)]
+    faces = [mesh.faces + start for mesh, start in zip(meshes, starts[:-1], strict=True)]
+    return TriangleMesh(np.concatenate(positions), np.concatenate(faces))
+
+
+def tangled() -> TriangleMesh:
+    """All that a list of triangles may be: an edge of three faces, faces turned around, repeated, and degenerate."""
+    base = patch(7, 6)
+    last = len(base.positions)
+    positions = np.concatenate([base.positions, [[0.5, 0.5, 1.0], [0.2, 0.9, -0.5], [2.0, 2.0, 2.0]]])
+    inner = base.faces[20]
+    extra = [
+        [inner[0], inner[1], last],
+        [inner[0], inner[1], last + 1],
+        [inner[1], inner[0], last + 1],
+        inner[[0, 2, 1]],
+        base.faces[3],
+        [inner[2], inner[2], last],
+        [last + 2, last + 2, last + 2],
+    ]
+    faces = np.concatenate([base.faces, np.array(extra)])
+    faces[5] = faces[5][[1, 0, 2]]
+    return TriangleMesh(positions, faces)
+
+
+def shuffled(mesh: TriangleMesh) -> TriangleMesh:
+    """The same mesh with vertices, faces and first corners in another order."""
+    n, m = len(mesh.positions), len(mesh.faces)
+    number = np.arange(n) * 7 % n if n % 7 else np.arange(n)[::-1]
+    positions = np.empty_like(mesh.positions)
+    positions[number] = mesh.positions
+    faces = number[mesh.faces][np.arange(m) * 11 % m if m % 11 else np.arange(m)[::-1]]
+    turns = (np.arange(m)[:, None] + np.arange(3)) % 3
+    return TriangleMesh(positions, np.take_along_axis(faces, turns, axis=1))
