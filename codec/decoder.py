@@ -394,7 +394,7 @@ class Decoder:
 
     def _accept_damage(self, packet: packets.Damaged) -> None:
         error = CorruptError(f"{packet.length} bytes cannot be read: {packet.reason}", offset=packet.offset)
-        if self._blocks is None and packet.type is not FrameType.BLOCK:
+        if self._graph is None or (self._blocks is None and packet.type is not FrameType.BLOCK):
             raise error
         self._queue.append(LossEvent(None, error))
 

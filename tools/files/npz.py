@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import io
+import lzma
 import zipfile
+import zlib
 from typing import Any
 
 import numpy as np
@@ -47,12 +49,12 @@ def _read_array(archive: zipfile.ZipFile, name: str) -> npt.NDArray[Any]:
             read = np.lib.format.read_array_header_1_0 if version == (1, 0) else np.lib.format.read_array_header_2_0
             shape, fortran, kind = read(file)
             body = file.read()
-    except (ValueError, EOFError, zipfile.BadZipFile) as error:
+    except (ValueError, EOFError, OSError, zipfile.BadZipFile, zlib.error, lzma.LZMAError) as error:
         raise CorruptError(f"the array {name} cannot be read: {error}") from error
     if kind.hasobject or kind.kind not in "iuf":
         raise MeshError(f"the array {name} holds {kind}, not numbers")
     count = int(np.prod([int(side) for side in shape], dtype=object))
-    if len(body) != count * kind.itemsize:
+    if min(shape, default=0) < 0 or len(body) != count * kind.itemsize:
         raise CorruptError(f"the array {name} should take {count * kind.itemsize} bytes, not {len(body)}")
     return np.frombuffer(body, kind).reshape(shape, order="F" if fortran else "C")
 
