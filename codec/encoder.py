@@ -30,7 +30,7 @@ from codec.parallel import ordered_map
 from codec.partition import Partition, derive_partition, metis_partition
 from codec.predict import extend
 from codec.quantize import dequantize, levels_to_unsigned, packed_step, quantize, smallest_step
-from codec.smooth import smooth
+from codec.smooth import Spectrum, smooth
 from codec.spectrum import measure_spectrum, worthwhile_size
 from codec.targets import search_step
 
@@ -299,18 +299,26 @@ class Encoder:
         return self._reference
 
     def _smoothing(self, header: Header, coded: list[CodedBlock]) -> float:
-        """The amount of smoothing that the options ask for, or that brings theta lowest without visual error."""
+        """The amount of smoothing that the options ask for, or the best by what they are after."""
         if header.coding == 0 or self.options.smoothing is not None:
             return _single(self.options.smoothing or 0.0)
-        decoded, reference = self._blended(coded), self._compared()
-        best, least, visual = 0.0, reference.theta(decoded), reference.nmsve(decoded)
+        spectrum = Spectrum(self._graph, self._blended(coded))
+        best, least = 0.0, self._badness(spectrum.smoothed(0.0))
         for amount in SMOOTHING_STEPS:
-            candidate = smooth(self._graph, decoded, amount)
-            angle = reference.theta(candidate)
-            if angle >= least or reference.nmsve(candidate) > visual:
+            badness = self._badness(spectrum.smoothed(amount))
+            if badness >= least:
                 break
-            best, least = amount, angle
+            best, least = amount, badness
         return best
+
+    def _badness(self, decoded: Matrix) -> float:
+        """What smoothing shall lower: the target's own measure, or else theta and NMSVE together."""
+        reference, target = self._compared(), self.options.target
+        if target is not None and target.kind == "theta_deg":
+            return reference.theta(decoded)
+        if target is not None and target.kind == "nmsve_db":
+            return reference.nmsve(decoded)
+        return reference.theta(decoded) * reference.nmsve(decoded)
 
 
 def encode(mesh: TriangleMesh, options: EncodeOptions | None = None) -> bytes:

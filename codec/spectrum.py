@@ -11,7 +11,7 @@ from codec.subspace import cosine_columns, orthogonal_iteration
 Matrix = npt.NDArray[np.float64]
 
 SAMPLES = 2
-WORTHWHILE = 0.7
+WORTHWHILE = 0.75
 
 
 def measure_spectrum(blocks: Blocks, positions: Matrix, *, shift: float) -> Matrix:
