@@ -6,14 +6,14 @@ block as weight.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 
 import numpy as np
 import numpy.typing as npt
 
 from bitstream.errors import OptionError
 from codec.blend import degree_weights
-from codec.blocks import Blocks, block_size, grow_blocks
+from codec.blocks import Block, Blocks, block_size, grow_blocks
 from codec.chain import Chain, ChainRules
 from codec.graph import Indices, graph_of_faces
 from codec.mesh import Faces
@@ -22,6 +22,7 @@ from codec.partition import metis_partition
 from codec.predict import unheld
 
 Floats = npt.NDArray[np.float64]
+Weights = Callable[[Indices], Floats]
 
 BLOCK_SIZE = 500
 OVERLAP = 1.15
@@ -54,26 +55,44 @@ class CoarseFilter:
         Vertices of a part before overlap, about.
     rules : ChainRules
         How the dictionaries are found.
+    overlap : float
+        n_d as a multiple of the largest part.
+    weights : callable
+        From the degrees of a block's vertices inside it, shape (n_d,), to the weights of their copies, all positive.
 
     Raises
     ------
     OptionError
-        If `keep` is not between 0 and 1, or `block` not positive.
+        If `keep` is not between 0 and 1, `block` not positive, or `overlap` below 1.
     """
 
     def __init__(
-        self, faces: Faces, n: int, keep: float = KEEP, block: int = BLOCK_SIZE, rules: ChainRules = RULES
+        self,
+        faces: Faces,
+        n: int,
+        keep: float = KEEP,
+        block: int = BLOCK_SIZE,
+        rules: ChainRules = RULES,
+        *,
+        overlap: float = OVERLAP,
+        weights: Weights = degree_weights,
     ) -> None:
         if not 0.0 < keep <= 1.0 or block < 1:
             raise OptionError(f"keep must be above 0 and at most 1, and the block positive; not {keep} and {block}")
+        if not overlap >= 1.0:
+            raise OptionError(f"the overlap must be at least 1, not {overlap}")
         graph = graph_of_faces(np.ascontiguousarray(faces, dtype=np.int32), n)
         partition = metis_partition(graph, max(1, round(n / block)))
-        self._size = block_size(partition, OVERLAP)
+        self._size = block_size(partition, overlap)
         self._keep = keep
-        self._blocks = list(_dictionaries(grow_blocks(graph, partition, self._size), self._width(keep), rules))
+        blocks = grow_blocks(graph, partition, self._size)
+        self._blocks = [
+            (block.vertices, weights(block.degrees)[:, None], dictionary)
+            for block, dictionary in _dictionaries(blocks, self._width(keep), rules)
+        ]
         self._weights = np.zeros((n, 1))
-        for vertices, weights, _ in self._blocks:
-            self._weights[vertices] += weights
+        for vertices, copies, _ in self._blocks:
+            self._weights[vertices] += copies
 
     def __call__(self, values: Floats, keep: float = KEEP) -> Floats:
         """Filter every column of `values`.
@@ -94,26 +113,31 @@ class CoarseFilter:
             raise OptionError(f"keep must be above 0 and at most {self._keep}, not {keep}")
         width = self._width(keep)
         sums = np.zeros_like(values)
-        for vertices, weights, dictionary in self._blocks:
+        for vertices, copies, dictionary in self._blocks:
             subspace = dictionary[:, :width]
-            sums[vertices] += weights * (subspace @ (subspace.T @ values[vertices]))
+            sums[vertices] += copies * (subspace @ (subspace.T @ values[vertices]))
         return sums / self._weights
+
+    @property
+    def size(self) -> int:
+        """n_d, the size of the blocks (one whose connected surroundings end earlier is smaller)."""
+        return self._size
 
     def _width(self, keep: float) -> int:
         return max(1, round(keep * self._size))
 
 
-def _dictionaries(blocks: Blocks, width: int, rules: ChainRules) -> Iterator[tuple[Indices, Floats, Floats]]:
-    """Vertices, blending weights (a column) and dictionary of every block; chains run in parallel."""
+def _dictionaries(blocks: Blocks, width: int, rules: ChainRules) -> Iterator[tuple[Block, Floats]]:
+    """Every block and its dictionary; chains run in parallel."""
 
-    def chain_from(first: int) -> list[tuple[Indices, Floats, Floats]]:
+    def chain_from(first: int) -> list[tuple[Block, Floats]]:
         chain = Chain(rules, blocks.graph)
         found = []
         for index in range(first, min(first + rules.chain_length(blocks.count), blocks.count)):
             block = blocks.block(index)
             dictionary = chain.dictionary(block, unheld(block), width)
             chain.commit(block, dictionary, np.zeros((block.size, 3)))
-            found.append((block.vertices, degree_weights(block.degrees)[:, None], dictionary))
+            found.append((block, dictionary))
         return found
 
     for found in ordered_map(chain_from, rules.chain_starts(blocks.count), None):

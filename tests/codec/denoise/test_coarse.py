@@ -111,3 +111,20 @@ def test_the_coarse_step_is_as_good_as_the_published_one(
     n = len(mesh.positions)
     coarse = CoarseFilter(mesh.faces, n, block=n // 10)(mesh.positions)
     assert theta(original.positions, coarse, mesh.faces) < 1.02 * expected
+
+
+def test_copies_are_weighted_as_asked() -> None:
+    positions, faces = sphere(12)
+    n = len(positions)
+    degree = CoarseFilter(faces, n, 0.1, 200)(positions)
+    assert not np.allclose(CoarseFilter(faces, n, 0.1, 200, weights=np.ones_like)(positions), degree, rtol=1e-6)
+    scaled = CoarseFilter(faces, n, 0.1, 200, weights=lambda degrees: 3.0 * np.maximum(degrees, 1))(positions)
+    assert scaled == pytest.approx(degree)
+
+
+def test_the_overlap_sets_the_size_of_the_blocks() -> None:
+    positions, faces = sphere(12)
+    largest = CoarseFilter(faces, len(positions), 0.1, 200, overlap=1.0).size
+    assert CoarseFilter(faces, len(positions), 0.1, 200, overlap=1.25).size == round(1.25 * largest)
+    with pytest.raises(OptionError, match="overlap"):
+        CoarseFilter(faces, len(positions), overlap=0.9)
