@@ -8,12 +8,14 @@ block are brought into the order of a full bisection, so that row r means about 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 import numpy.typing as npt
 from numba import njit
 
 from codec.bisection import bisect_csr
+from codec.fronts import Fronts, find_fronts
 from codec.graph import Graph, Indices
 from codec.partition import Partition
 
@@ -45,6 +47,11 @@ class Block:
     def degrees(self) -> Indices:
         """Neighbours of each row inside the block: the weights of the blend."""
         return np.diff(self.offsets)
+
+    @cached_property
+    def fronts(self) -> Fronts:
+        """How matrices with the block's pattern are factorised."""
+        return find_fronts(self.offsets, self.neighbours)
 
 
 @dataclass(frozen=True, eq=False)
@@ -98,8 +105,11 @@ def grow_blocks(graph: Graph, partition: Partition, size: int) -> Blocks:
     """Put the parts into a chain and grow each by breadth-first rings to `size` vertices (n_d).
 
     From part 0 on, the next part is the unvisited neighbour of the current one that shares most edges with all parts
-    visited so far (ties: the lowest number); where there is none, the unvisited part that shares most edges with the
-    visited ones. A part whose connected surroundings hold fewer than `size` vertices stays smaller.
+    visited so far (ties: the lowest number). Where there is none, it is the lowest unvisited neighbour of the latest
+    part that has one, and where no part has, the lowest unvisited part.
+
+    A block does not grow over vertices with more than `size` neighbours, so that no mesh makes it look at many edges.
+    A part whose surroundings hold fewer than `size` vertices that it may grow over stays smaller.
     """
     chain = _chain(graph.offsets, graph.neighbours, partition.labels, partition.parts)
     starts, members = _grow_all(graph.offsets, graph.neighbours, partition.order, partition.bounds, chain, size)
@@ -147,7 +157,7 @@ def _grow_all(offsets, neighbours, order, bounds, chain, size):  # type: ignore[
             head += 1
             for i in range(offsets[v], offsets[v + 1]):
                 w = neighbours[i]
-                if seen[w] != index and count < full:
+                if seen[w] != index and count < full and offsets[w + 1] - offsets[w] <= size:
                     seen[w] = index
                     members[count] = w
                     count += 1
@@ -242,20 +252,34 @@ def _chain(offsets, neighbours, labels, parts):  # type: ignore[no-untyped-def]
     chain = np.empty(parts, np.int32)
     visited = np.zeros(parts, np.bool_)
     shared = np.zeros(parts, np.int64)
+    # The way back: a part leaves it once it has no unvisited neighbours, and is not looked at again.
+    trail = np.empty(parts, np.int32)
+    seen = starts[:-1].copy()
+    length = 0
+    lowest = 0
     current = 0
     for step in range(parts):
         chain[step] = current
         visited[current] = True
+        trail[length] = current
+        length += 1
         best = -1
         for i in range(starts[current], starts[current + 1]):
-            shared[ends[i]] += edges[i]
-        for i in range(starts[current], starts[current + 1]):
             p = ends[i]
+            shared[p] += edges[i]
             if not visited[p] and (best == -1 or shared[p] > shared[best]):
                 best = p
+        while best == -1 and length > 0:
+            last = trail[length - 1]
+            while seen[last] < starts[last + 1] and visited[ends[seen[last]]]:
+                seen[last] += 1
+            if seen[last] < starts[last + 1]:
+                best = ends[seen[last]]
+            else:
+                length -= 1
         if best == -1:
-            for p in range(parts):
-                if not visited[p] and (best == -1 or shared[p] > shared[best]):
-                    best = p
+            while lowest < parts and visited[lowest]:
+                lowest += 1
+            best = lowest
         current = best
     return chain

@@ -1,8 +1,8 @@
 """The binary Laplacian of a block, L = D - A, and the solver behind R = (L + delta I)^-1 (paper, sections 3 and 4).
 
 Equation 1 of the paper weighs edges by geometry; the decoder has only connectivity, so the weights here are one.
-Sparse Cholesky factorisation in the nested-dissection order that the rows' own bisection implies, then forward and
-back substitution for all columns of a subspace at once.
+Sparse Cholesky factorisation front by front (`codec.fronts`), then forward and back substitution for all columns of a
+subspace at once.
 """
 
 from __future__ import annotations
@@ -14,54 +14,45 @@ import numpy.typing as npt
 from numba import njit
 
 from codec.blocks import Block
-from codec.graph import Indices
+from codec.fronts import Fronts, stride
 from codec.panels import pack, unpack
-from codec.simd import LANES, add_scaled, load, scaled, store
+from codec.simd import LANES, add_scaled, aligned, filled, load, scaled, store
 
 Matrix = npt.NDArray[np.float64]
 
 _LANES = np.uint64(LANES)
-_ONE = np.uint64(1)
+_ZERO, _ONE, _TWO = np.uint64(0), np.uint64(1), np.uint64(2)
 _NONE = np.uint32(0xFFFFFFFF)
 
 
 @dataclass(frozen=True, eq=False)
 class Factor:
-    """L + delta I = P^T C D C^T P with C unit lower triangular, stored by columns.
+    """L + delta I = P^T C D C^T P with C unit lower triangular.
 
     Parameters
     ----------
-    elimination : int32 array, shape (n,)
-        Row eliminated at each step (the permutation P).
-    starts, rows, values : arrays
-        Columns of C below its diagonal.
-    pivots : float64 array, shape (n,)
-        Diagonal of D.
+    fronts : Fronts
+        The order of elimination P, and the pattern of C.
+    values : float64 array
+        The columns of C, as rows of the fronts' matrices.
+    inverse : float64 array, shape (n,)
+        Diagonal of D^-1.
     """
 
-    elimination: Indices
-    starts: Indices
-    rows: Indices
+    fronts: Fronts
     values: Matrix
-    pivots: Matrix
+    inverse: Matrix
 
 
 def factorize(block: Block, shift: float | Matrix) -> Factor:
     """Factorise L + delta I of a block; `shift` is delta > 0, or one for every row, shape (n,)."""
-    return Factor(*factorize_csr(block.offsets, block.neighbours, np.broadcast_to(np.float64(shift), block.size)))
+    return Factor(block.fronts, *_factorize(block.offsets, block.neighbours, block.degrees + shift, block.fronts))
 
 
 def solve(factor: Factor, columns: Matrix, power: int) -> Matrix:
     """R^z X for X of shape (n, c), C-contiguous, with z = `power` >= 1."""
-    return _solve(
-        factor.elimination,
-        factor.starts,
-        factor.rows,
-        factor.values,
-        factor.pivots,
-        np.ascontiguousarray(columns),
-        power,
-    )
+    solution: Matrix = _solve(factor.fronts, factor.values, factor.inverse, np.ascontiguousarray(columns), power)
+    return solution
 
 
 def dense_laplacian(block: Block) -> Matrix:
@@ -73,156 +64,133 @@ def dense_laplacian(block: Block) -> Matrix:
 
 
 @njit(cache=True, nogil=True)
-def _dissection(offsets, neighbours):  # type: ignore[no-untyped-def]
-    """Elimination order: at each cut of the rows into halves, the rows before the cut that see across it come last."""
-    n = len(offsets) - 1
-    # claim[r]: the widest cut whose separator holds row r, as (depth from above, or -1).
-    first_of = np.empty(n, np.int32)
-    last_of = np.empty(n, np.int32)
-    claimed = np.zeros(n, np.bool_)
-    for r in range(n):
-        top = r
-        for i in range(offsets[r], offsets[r + 1]):
-            top = max(top, neighbours[i])
-        if top > r:
-            # The farthest neighbour is parted from r by the widest cut.
-            first, last = 0, n
-            while True:
-                middle = (first + last) // 2
-                if r < middle <= top:
-                    break
-                if r < middle:
-                    last = middle
-                else:
-                    first = middle
-            first_of[r], last_of[r], claimed[r] = first, last, True
-    elimination = np.empty(n, np.int32)
-    filled = n
-    stack = np.empty((128, 2), np.int32)
-    stack[0, 0], stack[0, 1] = 0, n
-    depth = 1
-    # Post-order written from the back: separator, then the right half, then the left one.
-    while depth > 0:
-        depth -= 1
-        first, last = stack[depth, 0], stack[depth, 1]
-        if last - first == 1:
-            if not claimed[first]:
-                filled -= 1
-                elimination[filled] = first
-            continue
-        middle = (first + last) // 2
-        for r in range(middle - 1, first - 1, -1):
-            if claimed[r] and first_of[r] == first and last_of[r] == last:
-                filled -= 1
-                elimination[filled] = r
-        stack[depth, 0], stack[depth, 1] = first, middle
-        depth += 1
-        stack[depth, 0], stack[depth, 1] = middle, last
-        depth += 1
-    return elimination
+def _factorize(offsets, neighbours, diagonal, fronts):  # type: ignore[no-untyped-def]
+    """Factorise the matrix that has `diagonal`, and -1 for every edge; returns `values` and `inverse` of `Factor`.
 
-
-@njit(cache=True, nogil=True)
-def factorize_csr(offsets, neighbours, shift):  # type: ignore[no-untyped-def]
-    """Compiled body of `factorize`: up-looking (T. A. Davis, Direct Methods for Sparse Linear Systems, 2006, ch. 4)."""
-    n = np.uint64(len(offsets) - 1)
-    elimination = _dissection(offsets, neighbours)
+    A front gets its part of the matrix, eliminates its own steps, and takes what they leave to the steps of its border
+    straight to the fronts that own those.
+    """
     # Indices are unsigned in all loops: compiled code then need not provide for negative ones.
     offsets, neighbours = offsets.view(np.uint32), neighbours.view(np.uint32)
-    row_at = elimination.view(np.uint32)
-    step_of = np.empty(n, np.uint32)
-    for k in range(n):
-        step_of[row_at[k]] = k
-    parent, starts = _elimination_tree(offsets, neighbours, row_at, step_of)
-    rows = np.empty(starts[n], np.uint32)
-    values = np.empty(starts[n], np.float64)
-    pivots = np.empty(n, np.float64)
-    work = np.zeros(n, np.float64)
-    pattern = np.empty(n, np.uint32)
-    path = np.empty(n, np.uint32)
-    mark = np.full(n, _NONE, np.uint32)
-    filled = starts[:-1].copy()
-    for k in range(n):
-        # The pattern of row k of C, in an order in which every step comes after those it needs.
-        top = n
-        mark[k] = k
-        r = row_at[k]
-        for i in range(offsets[r], offsets[r + _ONE]):
-            j = step_of[neighbours[i]]
-            if j < k:
-                work[j] = -1.0
-                length = np.uint64(0)
-                while mark[j] != k:
-                    path[length] = j
-                    length += _ONE
-                    mark[j] = k
-                    j = parent[j]
-                while length > np.uint64(0):
-                    length -= _ONE
-                    top -= _ONE
-                    pattern[top] = path[length]
-        pivot = offsets[r + _ONE] - offsets[r] + shift[r]
-        for p in range(top, n):
-            j = pattern[p]
-            value = work[j]
-            work[j] = 0.0
-            for q in range(starts[j], filled[j]):
-                work[rows[q]] -= values[q] * value
-            scaled = value / pivots[j]
-            pivot -= scaled * value
-            rows[filled[j]] = k
-            values[filled[j]] = scaled
-            filled[j] += np.uint32(1)
-        pivots[k] = pivot
-    return elimination, starts.view(np.int32), rows.view(np.int32), values, pivots
+    n, count = np.uint64(len(fronts.rows)), np.uint64(len(fronts.firsts) - 1)
+    values = aligned(fronts.places[count])
+    values[:] = 0.0
+    inverse = np.empty(len(fronts.rows))
+    column = np.empty(n + _ONE, np.uint32)
+    row = aligned(len(fronts.rows) + 2 * LANES)
+    for t in range(count):
+        first, end, edge = fronts.firsts[t], fronts.firsts[t + _ONE], fronts.starts[t]
+        own = end - first
+        width = own + fronts.starts[t + _ONE] - edge
+        apart = stride(width)
+        front = values[fronts.places[t] : fronts.places[t + _ONE]]
+        _find_columns(fronts, t, column)
+        for k in range(own):
+            r = fronts.rows[first + k]
+            front[k * apart + k] += diagonal[r]
+            for i in range(offsets[r], offsets[r + _ONE]):
+                step = fronts.steps[neighbours[i]]
+                if step > first + k:
+                    front[k * apart + column[step]] -= 1.0
+        for k in range(own):
+            for p in range(k // _LANES * _LANES, apart, _LANES):
+                lanes = load(front, k * apart + p)
+                for i in range(k):
+                    lanes = add_scaled(lanes, -front[i * apart + k] * inverse[first + i], load(front, i * apart + p))
+                store(front, k * apart + p, lanes)
+            inverse[first + k] = 1.0 / front[k * apart + k]
+        owner, beside = _NONE, _ZERO
+        for i in range(own, width):
+            step = fronts.borders[edge + i - own]
+            if step == n:
+                break
+            for p in range(i // _LANES * _LANES, apart, _LANES):
+                lanes = filled(0.0)
+                for k in range(own):
+                    lanes = add_scaled(lanes, -front[k * apart + i] * inverse[first + k], load(front, k * apart + p))
+                store(row, p, lanes)
+            if fronts.owners[step] != owner:
+                owner = fronts.owners[step]
+                beside = _find_columns(fronts, owner, column)
+            target = fronts.places[owner] + (step - fronts.firsts[owner]) * beside
+            for j in range(i, width):
+                later = fronts.borders[edge + j - own]
+                if later < n:
+                    values[target + column[later]] += row[j]
+        for k in range(own):
+            for p in range(_ZERO, apart, _LANES):
+                store(front, k * apart + p, scaled(load(front, k * apart + p), inverse[first + k]))
+    return values, inverse
 
 
 @njit(cache=True, nogil=True)
-def _elimination_tree(offsets, neighbours, row_at, step_of):  # type: ignore[no-untyped-def]
-    """Parent of each step in the elimination tree, and where each column of C starts."""
-    n = np.uint64(len(row_at))
-    parent = np.full(n, _NONE, np.uint32)
-    mark = np.full(n, _NONE, np.uint32)
-    starts = np.zeros(n + _ONE, np.uint32)
-    for k in range(n):
-        mark[k] = k
-        r = row_at[k]
-        for i in range(offsets[r], offsets[r + _ONE]):
-            j = step_of[neighbours[i]]
-            while j < k and mark[j] != k:
-                if parent[j] == _NONE:
-                    parent[j] = k
-                starts[j + _ONE] += np.uint32(1)
-                mark[j] = k
-                j = parent[j]
-    for k in range(n):
-        starts[k + _ONE] += starts[k]
-    return parent, starts
+def _find_columns(fronts, t, column):  # type: ignore[no-untyped-def]
+    """Column of each of its steps in the matrix of front t; returns the stride of that matrix."""
+    first, own = fronts.firsts[t], fronts.firsts[t + _ONE] - fronts.firsts[t]
+    edge, size = fronts.starts[t], fronts.starts[t + _ONE] - fronts.starts[t]
+    for j in range(own):
+        column[first + j] = j
+    for j in range(size):
+        column[fronts.borders[edge + j]] = own + j
+    return stride(own + size)
 
 
 @njit(cache=True, nogil=True)
-def solve_panels(starts, rows, values, pivots, panels, power):  # type: ignore[no-untyped-def]
+def solve_panels(fronts, values, inverse, panels, power):  # type: ignore[no-untyped-def]
     """Overwrite panels of X, their rows in the order of elimination, by (C D C^T)^-power X."""
-    n = np.uint64(len(pivots))
-    starts, rows = starts.view(np.uint32), rows.view(np.uint32)
     for b in range(panels.shape[0]):
-        x = panels[b].reshape(-1)
         for _ in range(power):
-            for k in range(n):
-                source = load(x, k * _LANES)
-                for q in range(starts[k], starts[k + _ONE]):
-                    place = rows[q] * _LANES
-                    store(x, place, add_scaled(load(x, place), -values[q], source))
-            for done in range(n):
-                last = n - _ONE - done
-                target = scaled(load(x, last * _LANES), 1.0 / pivots[last])
-                for q in range(starts[last], starts[last + _ONE]):
-                    target = add_scaled(target, -values[q], load(x, rows[q] * _LANES))
-                store(x, last * _LANES, target)
+            _substitute_forward(fronts, values, panels[b].reshape(-1))
+            _substitute_back(fronts, values, inverse, panels[b].reshape(-1))
 
 
 @njit(cache=True, nogil=True)
-def _solve(elimination, starts, rows, values, pivots, columns, power):  # type: ignore[no-untyped-def]
-    panels = pack(columns, elimination)
-    solve_panels(starts, rows, values, pivots, panels, power)
-    return unpack(panels, elimination, columns.shape[1])
+def _substitute_forward(fronts, values, x):  # type: ignore[no-untyped-def]
+    for t in range(np.uint64(len(fronts.firsts) - 1)):
+        first, own = fronts.firsts[t], fronts.firsts[t + _ONE] - fronts.firsts[t]
+        edge, last = np.uint64(fronts.starts[t]), np.uint64(fronts.starts[t + _ONE])
+        front, apart = np.uint64(fronts.places[t]), stride(own + last - edge)
+        for i in range(_ONE, own):
+            lanes = load(x, (first + i) * _LANES)
+            for k in range(i):
+                lanes = add_scaled(lanes, -values[front + k * apart + i], load(x, (first + k) * _LANES))
+            store(x, (first + i) * _LANES, lanes)
+        # Two rows of the border at a time: an addition takes longer than the processor needs to begin the next.
+        for i in range(edge, last, _TWO):
+            here, there = fronts.borders[i] * _LANES, fronts.borders[i + _ONE] * _LANES
+            lanes, others = load(x, here), load(x, there)
+            column = front + own + i - edge
+            for k in range(own):
+                source = load(x, (first + k) * _LANES)
+                lanes = add_scaled(lanes, -values[column + k * apart], source)
+                others = add_scaled(others, -values[column + k * apart + _ONE], source)
+            store(x, here, lanes)
+            store(x, there, others)
+
+
+@njit(cache=True, nogil=True)
+def _substitute_back(fronts, values, inverse, x):  # type: ignore[no-untyped-def]
+    count = np.uint64(len(fronts.firsts) - 1)
+    for done in range(count):
+        t = count - _ONE - done
+        first, own = fronts.firsts[t], fronts.firsts[t + _ONE] - fronts.firsts[t]
+        edge, last = np.uint64(fronts.starts[t]), np.uint64(fronts.starts[t + _ONE])
+        front, apart = np.uint64(fronts.places[t]), stride(own + last - edge)
+        for below in range(own):
+            k = own - _ONE - below
+            row = front + k * apart
+            lanes, others = scaled(load(x, (first + k) * _LANES), inverse[first + k]), filled(0.0)
+            for i in range(edge, last, _TWO):
+                column = row + own + i - edge
+                lanes = add_scaled(lanes, -values[column], load(x, fronts.borders[i] * _LANES))
+                others = add_scaled(others, -values[column + _ONE], load(x, fronts.borders[i + _ONE] * _LANES))
+            for i in range(k + _ONE, own):
+                lanes = add_scaled(lanes, -values[row + i], load(x, (first + i) * _LANES))
+            store(x, (first + k) * _LANES, add_scaled(lanes, 1.0, others))
+
+
+@njit(cache=True, nogil=True)
+def _solve(fronts, values, inverse, columns, power):  # type: ignore[no-untyped-def]
+    panels = pack(columns, fronts.rows)
+    solve_panels(fronts, values, inverse, panels, power)
+    return unpack(panels, fronts.rows, columns.shape[1])

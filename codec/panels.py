@@ -2,7 +2,7 @@
 
 A matrix of n rows and c columns is an array of shape (p, m, LANES): panel b holds columns b LANES to (b + 1) LANES of
 all rows, one row after the other, so that work on a panel stays near the processor. Columns beyond c and rows from n
-to m, a multiple of four, are zero. Small upper triangular matrices are kept alike, m being p LANES.
+to m, a multiple of four above n, are zero. Small upper triangular matrices are kept alike, m being p LANES.
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 from numba import njit
 
-from codec.simd import LANES, add_scaled, filled, load, scaled, store
+from codec.simd import LANES, add_scaled, aligned, filled, load, scaled, store
 
 _LANES = np.uint64(LANES)
 _ONE, _TWO, _THREE, _FOUR = np.uint64(1), np.uint64(2), np.uint64(3), np.uint64(4)
@@ -20,11 +20,14 @@ _ONE, _TWO, _THREE, _FOUR = np.uint64(1), np.uint64(2), np.uint64(3), np.uint64(
 def pack(columns, order):  # type: ignore[no-untyped-def]
     """Panels whose row k is row `order[k]` of `columns`, shape (n, c)."""
     n, c = columns.shape
-    panels = np.zeros((-(-c // LANES), -(-n // 4) * 4, LANES))
-    for b in range(panels.shape[0]):
-        first, last = b * LANES, min(c, (b + 1) * LANES)
+    count, m = -(-c // LANES), (n // 4 + 1) * 4
+    panels = aligned(count * m * LANES).reshape(count, m, LANES)
+    panels[:] = 0.0
+    for b in range(count):
+        first, width = b * LANES, min(LANES, c - b * LANES)
         for k in range(n):
-            panels[b, k, : last - first] = columns[order[k], first:last]
+            for j in range(width):
+                panels[b, k, j] = columns[order[k], first + j]
     return panels
 
 
@@ -33,9 +36,10 @@ def unpack(panels, order, c):  # type: ignore[no-untyped-def]
     """Inverse of `pack`."""
     columns = np.empty((len(order), c))
     for b in range(panels.shape[0]):
-        first, last = b * LANES, min(c, (b + 1) * LANES)
+        first, width = b * LANES, min(LANES, c - b * LANES)
         for k in range(len(order)):
-            columns[order[k], first:last] = panels[b, k, : last - first]
+            for j in range(width):
+                columns[order[k], first + j] = panels[b, k, j]
     return columns
 
 
@@ -43,7 +47,7 @@ def unpack(panels, order, c):  # type: ignore[no-untyped-def]
 def gram(panels):  # type: ignore[no-untyped-def]
     """X^T X of a matrix X, the panels on and above the diagonal."""
     count, m = panels.shape[0], panels.shape[1]
-    product = np.empty((count, count * LANES, LANES))
+    product = aligned(count * count * LANES * LANES).reshape(count, count * LANES, LANES)
     for b in range(count):
         right = panels[b].reshape(-1)
         for a in range(b + 1):
@@ -69,7 +73,7 @@ def gram(panels):  # type: ignore[no-untyped-def]
 def multiply(panels, triangle):  # type: ignore[no-untyped-def]
     """X T of a matrix X and an upper triangular T."""
     count, m = panels.shape[0], panels.shape[1]
-    product = np.empty_like(panels)
+    product = aligned(panels.size).reshape(panels.shape)
     x = panels.reshape(-1)
     for b in range(count):
         t = triangle[b].reshape(-1)
@@ -124,7 +128,8 @@ def factorize_gram(product, c):  # type: ignore[no-untyped-def]
 def invert_triangle(triangle, c):  # type: ignore[no-untyped-def]
     """Inverse of an upper triangular matrix of c rows; what `triangle` holds below its diagonal is ignored."""
     count, rows = triangle.shape[0], triangle.shape[1]
-    inverse = np.zeros_like(triangle)
+    inverse = aligned(triangle.size).reshape(triangle.shape)
+    inverse[:] = 0.0
     t, result = triangle.reshape(-1), inverse.reshape(-1)
     for j in range(c - 1, -1, -1):
         own = (j // LANES) * rows * LANES + j * LANES + j % LANES

@@ -9,14 +9,17 @@ from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
 from llvmlite import ir  # type: ignore[import-untyped]
-from numba import types
+from numba import njit, types
 from numba.core import cgutils
 from numba.extending import intrinsic as numba_intrinsic
 from numba.extending import models, register_model
 
 LANES = 32
 """Wide enough that the cost of an index is spread over four registers of 512 bits."""
+
+_LINE = 8  # doubles
 
 intrinsic: Any = numba_intrinsic
 
@@ -89,6 +92,14 @@ def add_scaled(_: Any, lanes: Any, scalar: Any, other: Any) -> Any:
         return builder.call(fused, [_spread(builder, arguments[1]), arguments[2], arguments[0]])
 
     return _LANES(_LANES, types.float64, _LANES), generate
+
+
+@njit(cache=True, nogil=True)
+def aligned(size: Any) -> Any:
+    """A flat float64 array that begins where a cache line does, so that no register straddles two of them."""
+    buffer = np.empty(size + _LINE - 1)
+    first = -(buffer.ctypes.data // buffer.itemsize) % _LINE
+    return buffer[first : first + size]
 
 
 def _address(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:

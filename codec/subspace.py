@@ -79,9 +79,7 @@ def orthogonal_iteration(block: Block, start: Matrix, *, shift: float | Matrix, 
     """
     factor = factorize(block, shift)
     start = np.ascontiguousarray(start)
-    subspace, safe = _iterate(
-        factor.elimination, factor.starts, factor.rows, factor.values, factor.pivots, start, power, iterations
-    )
+    subspace, safe = _iterate(factor.fronts, factor.values, factor.inverse, start, power, iterations)
     if not safe:
         subspace = start
         for _ in range(iterations):
@@ -131,18 +129,18 @@ def hash_columns(rows: int, columns: int) -> Matrix:
 
 
 @njit(cache=True, nogil=True)
-def _iterate(elimination, starts, rows, values, pivots, start, power, iterations):  # type: ignore[no-untyped-def]
+def _iterate(fronts, values, inverse, start, power, iterations):  # type: ignore[no-untyped-def]
     """Compiled body of `orthogonal_iteration`, and whether Cholesky QR was safe throughout."""
     c = start.shape[1]
-    panels = pack(start, elimination)
+    panels = pack(start, fronts.rows)
     safe = True
     for _ in range(iterations):
-        solve_panels(starts, rows, values, pivots, panels, power)
+        solve_panels(fronts, values, inverse, panels, power)
         panels, independence = _cholesky_qr(panels, c)
         if independence < ONCE:
             safe = safe and independence >= TWICE
             panels, _ = _cholesky_qr(panels, c)
-    return unpack(panels, elimination, c), safe
+    return unpack(panels, fronts.rows, c), safe
 
 
 @njit(cache=True, nogil=True)
