@@ -185,8 +185,6 @@ def _start_component(coder: Coder, models: Models, guide: Guide, conquest: Conqu
     """Make the border of the first face that is left, of three new vertices, the front."""
     front, vertices, _, tallies = conquest
     first, node, start = tallies[VERTICES], front.heads[MADE], tallies[START]
-    if first + 3 > len(vertices):
-        return False
     if guide.conquered.size > 0:
         while guide.conquered[start] != 0:
             start += 1
