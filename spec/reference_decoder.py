@@ -905,3 +905,468 @@ def decode_labels(payload, graph, parts):
     coder.finish()
     require(used == parts, "too few parts")
     return labels
+
+
+# ---------------------------------------------------------------- M 8 to M 11: blocks
+
+LEAF = 16
+
+
+def sweep(graph, segment, start):
+    """M 8.3: distance of every vertex of the segment from `start`, and the order in which they were found."""
+    inside, distance, found = set(segment), {start: 0}, [start]
+    level, frontier = 0, [start]
+    while len(found) < len(segment) or frontier:
+        level, behind, frontier = level + 1, frontier, []
+        for v in behind:
+            for w in graph[v]:
+                if w in inside and w not in distance:
+                    distance[w] = level
+                    frontier.append(w)
+                    found.append(w)
+        if not frontier and len(found) < len(segment):
+            rest = next(v for v in reversed(segment) if v not in distance)
+            distance[rest] = level
+            frontier.append(rest)
+            found.append(rest)
+    return distance, found
+
+
+def bisect(graph, parts):
+    """M 8: the vertices part after part, and where each part begins."""
+    order, ends = list(range(len(graph))), [len(graph)] * (parts + 1)
+    distances = [{}, {}]
+    if len(order) > LEAF:  # M 8.2
+        last = sweep(graph, order, 0)[1][-1]
+        distances[0] = sweep(graph, order, last)[0]
+    pending = [(0, len(order), 0, parts, 0)]
+    while pending:
+        first, last, part, count, kept = pending.pop()
+        ends[part] = first
+        if count == 1:
+            continue
+        segment = order[first:last]
+        if len(segment) > LEAF:  # M 8.4
+            near = distances[kept]
+            far = next(v for v in segment if near[v] == max(near[w] for w in segment))
+            distance, found = sweep(graph, segment, far)
+            distances[1 - kept].update(distance)
+            found.sort(key=lambda v: distances[0][v] - distances[1][v])
+            order[first:last] = found
+        half = count // 2
+        cut = first + (last - first) * half // count
+        pending.append((cut, last, part + half, count - half, 1))
+        pending.append((first, cut, part, half, 0))
+    return order, ends
+
+
+def derive_labels(graph, parts):
+    """M 9."""
+    order, ends = bisect(graph, parts)
+    labels = [0] * len(graph)
+    for part in range(parts):
+        for v in order[ends[part] : ends[part + 1]]:
+            labels[v] = part
+    sizes = [labels.count(part) for part in range(parts)]
+    room = len(graph) * 103 // (parts * 100) + 1
+    for _ in range(2):
+        for v, row in enumerate(graph):
+            own = best = labels[v]
+            around = [labels[w] for w in row]
+            for part in around:
+                if part in (own, best) or sizes[part] >= room:
+                    continue
+                more = around.count(part) - around.count(best)
+                if more > 0 or (more == 0 and sizes[part] + (best == own) < sizes[best]):
+                    best = part
+            if best != own and sizes[own] > 1:
+                labels[v] = best
+                sizes[own] -= 1
+                sizes[best] += 1
+    return labels
+
+
+def chain_of(graph, labels, parts):
+    """M 10.1: the parts in the order of the blocks."""
+    edges = [{} for _ in range(parts)]
+    for v, row in enumerate(graph):
+        for w in row:
+            if labels[v] != labels[w]:
+                edges[labels[v]][labels[w]] = edges[labels[v]].get(labels[w], 0) + 1
+    chain, shared = [0], [0] * parts
+    while len(chain) < parts:
+        beside = edges[chain[-1]]
+        for part, count in beside.items():
+            shared[part] += count
+        unvisited = [part for part in sorted(beside) if part not in chain]
+        unvisited = unvisited or [part for part in range(parts) if part not in chain]
+        chain.append(max(unvisited, key=lambda part: shared[part]))  # the first of equals
+    return chain
+
+
+def grow(graph, core, size):
+    """M 10.2."""
+    found, seen = list(core), set(core)
+    for v in found:  # `found` grows meanwhile
+        for w in graph[v]:
+            if w not in seen and len(found) < size:
+                seen.add(w)
+                found.append(w)
+    return found
+
+
+class Block:
+    """M 11: vertices in row order, and the block's own graph in row numbers."""
+
+    def __init__(self, graph, found):
+        place = {v: r for r, v in enumerate(found)}
+        local = [[place[w] for w in graph[v] if w in place] for v in found]
+        order = bisect(local, len(found))[0]
+        row = {old: new for new, old in enumerate(order)}
+        self.vertices = [found[old] for old in order]
+        self.graph = [[row[w] for w in local[old]] for old in order]
+        self.degrees = np.array([len(r) for r in self.graph], float)
+        self.size = len(found)
+        self.laplacian = np.diag(self.degrees)  # M 12.1
+        for r, neighbours in enumerate(self.graph):
+            self.laplacian[r, neighbours] = -1.0
+
+
+# ---------------------------------------------------------------- M 12, M 13: springs and dictionaries
+
+TETHER = 2.0**-16
+
+
+class Known:
+    """M 12.2: weighted sums of all copies that a chain has decoded."""
+
+    def __init__(self, vertices):
+        self.sums, self.weights = np.zeros((vertices, 3)), np.zeros(vertices)
+
+    def add(self, block, positions, weights):
+        self.sums[block.vertices] += weights[:, None] * positions
+        self.weights[block.vertices] += weights
+
+
+def surroundings(graph, block, known, stiffness):
+    """M 12.3: springs and pulls of each row."""
+    springs, pulls, inside = np.zeros(block.size), np.zeros((block.size, 3)), set(block.vertices)
+    for r, v in enumerate(block.vertices):
+        hooks = [(v, stiffness)] + [(w, 1.0) for w in graph[v] if w not in inside]
+        for w, k in hooks:
+            if known.weights[w] > 0:
+                springs[r] += k
+                pulls[r] += k * known.sums[w] / known.weights[w]
+    return springs, pulls
+
+
+def extend(block, springs, pulls):
+    """M 12.4."""
+    if springs.sum() == 0.0:
+        return np.zeros((block.size, 3))
+    mean = pulls.sum(axis=0) / springs.sum()
+    matrix = block.laplacian + np.diag(springs + TETHER)
+    return mean + np.linalg.solve(matrix, pulls - springs[:, None] * mean)
+
+
+def cosine_columns(rows, first, last):
+    """M 13.2."""
+    r, j = np.arange(rows)[:, None], np.arange(first, last)[None, :]
+    return np.cos(np.pi / (2 * rows) * ((2 * r + 1) * j % (4 * rows)))
+
+
+def onorm(columns):
+    """M 13.1."""
+    q, r = np.linalg.qr(columns)
+    return q * np.where(np.diag(r) < 0, -1.0, 1.0)
+
+
+def orthogonal_iterations(block, start, diagonal, power, iterations):
+    """M 13.4."""
+    matrix, subspace = block.laplacian + np.diag(diagonal), start
+    for _ in range(iterations):
+        for _ in range(power):
+            subspace = np.linalg.solve(matrix, subspace)
+        subspace = onorm(subspace)
+    return subspace
+
+
+def exact_basis(block, width, springs):
+    """M 13.5."""
+    values, vectors = np.linalg.eigh(block.laplacian + np.diag(springs))
+    basis, first = [], 0
+    while first < width:
+        last = first + 1
+        while last < block.size and values[last] - values[last - 1] <= 1e-6:
+            last += 1
+        cluster = vectors[:, first:last]
+        basis.append(onorm(cluster @ (cluster.T @ hash_columns(block.size, last - first))))
+        first = last
+    return np.concatenate(basis, axis=1)[:, :width]
+
+
+def hash_columns(rows, columns):
+    """M 13.6."""
+
+    def entry(row, column):
+        z = ((row << 32) + column + 1) * 0x9E3779B97F4A7C15 % 2**64
+        z = (z ^ z >> 30) * 0xBF58476D1CE4E5B9 % 2**64
+        z = (z ^ z >> 27) * 0x94D049BB133111EB % 2**64
+        z ^= z >> 31
+        return (z >> 11) * 2.0**-52 - 1.0
+
+    return np.array([[entry(r, j) for j in range(columns)] for r in range(rows)])
+
+
+# ---------------------------------------------------------------- M 14: coefficients
+
+EXPERIENCE = Path(__file__).parent.parent / "bitstream" / "experience.bin"
+EXPERIENCE_SHA256 = "5ca4ed1c21eb1441ecd9903d7e549a16e4c1aefa88b059e482d91b3ea418ea57"
+NEIGHBOURS, BINS, NODES, EXPECTATIONS = 20, 48, 36, 3
+
+
+class Experience:
+    """M 14.1: the learnt numbers."""
+
+    def __init__(self):
+        data = EXPERIENCE.read_bytes()
+        if hashlib.sha256(data).hexdigest() != EXPERIENCE_SHA256:
+            raise SystemExit(f"{EXPERIENCE} is not the file of the specification")
+        numbers = np.frombuffer(data, "<u2").astype(int)
+        first = EXPECTATIONS * 6 * NEIGHBOURS
+        second = first + 2 * NODES * EXPECTATIONS
+        self.expectations = numbers[:first].reshape(EXPECTATIONS, 6, NEIGHBOURS).tolist()
+        self.mixing = np.frombuffer(data, "<i2").astype(int)[first:second].reshape(2 * NODES, EXPECTATIONS).tolist()
+        self.slots = numbers[second:].tolist()
+
+
+class CoefficientModel:
+    """M 14: one for each chain."""
+
+    def __init__(self, width):
+        self.experience = Experience()
+        self.bank = Bank(EXPECTATIONS, 400, 4)
+        slots = enumerate(self.experience.slots)
+        self.bank.slots = {k: (s >> 4) << 20 | 1 << 19 | (s & 15) << 2 for k, s in slots}  # M 14.2
+        self.bank.weights = {k: [w << 4 for w in row] for k, row in enumerate(self.experience.mixing)}
+        self.width, self.blocks = width, 0
+        self.now, self.before, self.usual = ([[0, 0, 0] for _ in range(width + 11)] for _ in range(3))  # M 14.3
+
+    def decode(self, payload, count):
+        coder = Coder(payload)
+        levels = [[0, 0, 0] for _ in range(count)]
+        for row in range(count):
+            for d in range(3):
+                levels[row][d] = self.level(coder, row, d)
+                self.now[8 + row][d] = min(abs(levels[row][d]), 1 << 15)
+        share = min(self.blocks + 1, 8)  # M 14.7
+        for j in range(8, 8 + self.width):
+            for d in range(3):
+                self.before[j][d] = self.now[j][d]
+                self.usual[j][d] += (16 * self.now[j][d] - self.usual[j][d]) // share
+                self.now[j][d] = 0
+        self.blocks += 1
+        coder.finish()
+        return levels
+
+    def inputs(self, row, d):
+        """M 14.4."""
+        now, before, usual = self.now, self.before, self.usual
+        j, e, f = 8 + row, (d + 1) % 3, (d + 2) % 3
+        return [
+            16 * now[j - 1][d],
+            16 * now[j - 2][d],
+            16 * now[j - 3][d],
+            8 * (now[j - 4][d] + now[j - 5][d]),
+            4 * (now[j - 6][d] + now[j - 7][d] + 2 * now[j - 8][d]),
+            16 * now[j][d - 1] if d > 0 else 0,
+            16 * now[j][d - 2] if d > 1 else 0,
+            8 * (now[j - 1][e] + now[j - 1][f]),
+            4 * (now[j - 2][e] + now[j - 2][f] + now[j - 3][e] + now[j - 3][f]),
+            16 * before[j][d],
+            8 * (before[j - 1][d] + before[j + 1][d]),
+            4 * (before[j - 2][d] + before[j + 2][d] + before[j - 3][d] + before[j + 3][d]),
+            8 * (before[j][e] + before[j][f]),
+            4 * (before[j - 1][e] + before[j - 1][f] + before[j + 1][e] + before[j + 1][f]),
+            usual[j][d],
+            (usual[j - 1][d] + usual[j + 1][d]) >> 1,
+            (usual[j][e] + usual[j][f]) >> 1,
+            16,
+            256 // (row + 1),
+            1024 // (row + 1) ** 2,
+        ]
+
+    def level(self, coder, row, d):
+        """M 14.5, M 14.6."""
+        inputs = self.inputs(row, d)
+        kind = d + (3 if self.blocks == 0 else 0)
+        contexts = []
+        for i in range(EXPECTATIONS):
+            total = sum(w * x for w, x in zip(self.experience.expectations[i][kind], inputs)) >> 10
+            place = 0
+            if total >= 1:
+                octave = total.bit_length() - 1
+                place = min(3 * octave + ((3 * (total - (1 << octave))) >> octave), BINS - 1)
+            contexts.append(NODES * (BINS * i + place))
+        weights = 0 if self.blocks == 0 else NODES
+
+        def decide(node):
+            return coder.mixed(self.bank, contexts, node, weights)
+
+        size = 0
+        while size < 23 and decide(min(size, 13)):
+            size += 1
+        if size == 0:
+            return 0
+        result = 1
+        if size > 1:
+            first = decide(12 + min(size, 9))
+            result = 2 | first
+            if size > 2:
+                result = 2 * result | decide(16 + 2 * min(size, 9) + first)
+                if size > 3:
+                    result = (result << (size - 3)) + coder.uniform(1 << (size - 3))
+        return -result if coder.bit(ONE // 2) else result
+
+
+def unpack(payload, count, bits):
+    """F 6: `count` unsigned numbers."""
+    size = (count * bits + 7) // 8
+    require(len(payload) <= size, "too many bytes of coefficients")
+    if len(payload) < size:
+        frame = b"\x28\xb5\x2f\xfd" + payload
+        try:
+            parameters = zstandard.get_frame_parameters(frame)
+            require(parameters.content_size == size and parameters.window_size <= 1 << 23, "zstd frame of another size")
+            payload = zstandard.ZstdDecompressor().decompress(frame, max_output_size=size, allow_extra_data=False)
+        except zstandard.ZstdError as error:
+            raise Corrupt(f"zstd frame is damaged: {error}") from None
+        require(len(payload) == size, "zstd frame of another size")
+    number = int.from_bytes(payload, "big")
+    spare = 8 * size - count * bits
+    require(number & ((1 << spare) - 1) == 0, "the bits behind the last coefficient are not 0")
+    number >>= spare
+    return [number >> bits * (count - 1 - i) & ((1 << bits) - 1) for i in range(count)]
+
+
+# ---------------------------------------------------------------- M 15, M 16: positions
+
+
+def smoothing_powers(amount):
+    """M 16.3: coefficients of x^2 to x^5, by solving for the values at the four nodes."""
+    nodes = np.array([0.4, 0.9, 1.4, 1.8])
+    matrix = nodes[:, None] ** np.arange(2, 6)
+    return np.linalg.solve(matrix, 1 / (1 + amount * nodes**2) - 1)
+
+
+def smooth(graph, positions, amount):
+    """M 16.2, M 16.4."""
+    if amount == 0.0:
+        return positions
+    walk = np.zeros((len(graph), len(graph)))
+    for v, row in enumerate(graph):
+        if row:
+            walk[v, v] = 1.0
+            walk[v, row] = -1.0 / len(row)
+    current, result = walk @ positions, positions
+    for coefficient in smoothing_powers(amount):
+        current = walk @ current
+        result = result + coefficient * current
+    return result
+
+
+def check_work(header):
+    """M 18.3."""
+    rows, columns, blocks = header["block_size"], header["coefficients"], header["blocks"]
+    solves = header["power"] * max(header["iterations"], header["key_iterations"])
+    if header["basis"] == 1:
+        work = 30.0 * blocks * rows**3
+    else:
+        work = blocks * (200.0 * rows + solves * (40.0 * rows * columns + 8.0 * rows * columns**2))
+    require_limit(work, MOST_WORK, "work")
+
+
+def decode(stream):
+    """A static stream: positions, shape (n, 3), and faces, shape (m, 3)."""
+    header, packets = parse_stream(stream)
+    if header["gop_frames"]:
+        raise Unsupported("a sequence")
+    check_work(header)
+    prediction = header["prediction"]
+    require(len(prediction) <= 1 and all(0 < k < 2.0**16 for k in prediction), "illegal prediction")  # M 12.5
+    for kind, known in ((CONNECTIVITY, 1), (PARTITION, 0), (ORDER, 1)):
+        if packets[kind] and packets[kind][0][0] != known:
+            raise Unsupported(f"method {packets[kind][0][0]} in a frame of type {kind}")
+    vertices, parts = header["vertices"], header["blocks"]
+    faces = decode_connectivity(packets[CONNECTIVITY][0][1], vertices, header["faces"])
+    graph = graph_of(faces, vertices)
+    if packets[PARTITION]:
+        labels = decode_labels(packets[PARTITION][0][1], graph, parts)
+    else:
+        labels = derive_labels(graph, parts)
+    numbers = range(vertices)
+    if packets[ORDER]:
+        numbers, faces = decode_order(packets[ORDER][0][1], faces, vertices)
+    cores = [[v for v in range(vertices) if labels[v] == part] for part in range(parts)]
+    require(max(map(len, cores)) <= header["block_size"], "a part is larger than a block")  # M 10.2
+    chain = chain_of(graph, labels, parts)
+    indices = [index for index, _, _ in packets[BLOCK]]
+    require(indices == list(range(parts)), "a block is missing")
+    blended = Known(vertices)
+    for index, width, payload in packets[BLOCK]:
+        length = 1 if header["seeding"] == 1 else header["key_interval"] or parts  # M 15.1
+        if index % length == 0:
+            model, known, subspace = CoefficientModel(header["coefficients"]), Known(vertices), None
+        block = Block(graph, grow(graph, cores[chain[index]], header["block_size"]))
+        require(1 <= width <= block.size, "a wrong number of coefficients")  # M 14.8
+        if header["coding"] == 0:
+            values = unpack(payload, 3 * width, header["bits"])
+            levels = np.array(values).reshape(width, 3) - (1 << (header["bits"] - 1))  # M 14.9
+        else:
+            levels = np.array(model.decode(payload, width))
+        springs, pulls = surroundings(graph, block, known, prediction[0] if prediction else 0.0)
+        if not prediction:
+            springs, pulls = np.zeros(block.size), np.zeros((block.size, 3))
+        if header["basis"] == 1:
+            subspace = exact_basis(block, width, springs)
+        else:
+            follows = subspace is not None and len(subspace) == block.size  # M 13.3
+            iterations = header["iterations"] if follows or header["seeding"] == 1 else header["key_iterations"]
+            had = subspace.shape[1] if follows else 0
+            start = cosine_columns(block.size, had, max(had, width))
+            if follows:
+                start = np.concatenate([subspace, start], axis=1)[:, :width]
+            subspace = orthogonal_iterations(block, start, springs + header["shift"], header["power"], iterations)
+        positions = extend(block, springs, pulls) + subspace @ (levels * header["step"])  # M 15.2
+        if not np.isfinite(positions).all():
+            raise Numeric("positions are not finite")
+        known.add(block, positions, np.maximum(block.degrees, 1.0))
+        core = set(cores[chain[index]])
+        weights = {  # M 16.1
+            0: np.maximum(block.degrees, 1.0),
+            1: np.ones(block.size),
+            2: np.array([float(v in core) for v in block.vertices]),
+        }[header["blend"]]
+        blended.add(block, positions, weights)
+    decoded = smooth(graph, blended.sums / blended.weights[:, None], header["smoothing"])
+    decoded = decoded * header["scale"] + np.array(header["center"])  # M 16.5
+    if not np.isfinite(decoded).all():
+        raise Numeric("positions are not finite")
+    arranged = np.empty_like(decoded)
+    arranged[list(numbers)] = decoded  # M 6.1
+    return arranged, np.array(faces, np.int32).reshape(-1, 3)
+
+
+def main():
+    stream = Path(sys.argv[1]).read_bytes()
+    try:
+        positions, faces = decode(stream)
+    except (Format, Corrupt, Truncated, Unsupported, Limit, Numeric) as error:
+        print(f"{type(error).__name__.lower()}: {error}", file=sys.stderr)
+        return error.code
+    np.savez_compressed(sys.argv[2], positions=positions, faces=faces)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
