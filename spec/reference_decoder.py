@@ -1,6 +1,7 @@
 """A decoder of BSM streams, written from the documents of this folder alone: slow, plain, easy to compare with them.
 
-It is written to be read beside them: plain Python, slow, numpy for linear algebra only, nothing shared with the product.
+The rules that it follows are named as they are numbered: F for format.md, M for mathematics.md. numpy is used for
+linear algebra alone, and nothing is shared with the product.
 
     python spec/reference_decoder.py IN.bsm OUT.npz
 
@@ -108,7 +109,7 @@ def canonical_map(payload):
     kinds = {type(key) for key, _ in pairs}
     require(len(kinds) <= 1 and kinds <= {int, str}, "keys must be all integers or all strings")
     keys = [key.encode() if type(key) is str else key for key, _ in pairs]
-    require(all(a < b for a, b in zip(keys, keys[1:])), "keys must ascend")
+    require(keys == sorted(set(keys)), "keys must ascend")
     require(all(key >= 0 for key in keys if type(key) is int), "an integer key is negative")
     packed = msgpack.Packer().pack_map_header(len(pairs))
     for key, value in pairs:
@@ -280,7 +281,7 @@ def parse_stream(stream):
             require(len(payload) == at + 4, "END has a wrong length")
         place = order[kind]
         # F 3.8: ascending, CONNECTIVITY is required, only BLOCK and GOP repeat.
-        legal = kind == HEADER if last is None else place > last or place == last and kind in (BLOCK, GOP)
+        legal = kind == HEADER if last is None else place > last or (place == last and kind in (BLOCK, GOP))
         require(legal and (place <= 1 or last >= 1), f"frame type {kind} may not come here")
         if kind in (BLOCK, GOP):
             require(not packets[kind] or parsed[0] > packets[kind][-1][0], "indices must ascend")  # F 3.10
@@ -757,10 +758,12 @@ def decode_seams(coder, faces, fans):
             context = 1 + 3 * state(after[fan]) + state(before[fan])
         if coder.mixed(bank, [context], 0, 0):
             found = candidates(fan, vertex, after, before, sibling, latest)
-            for k, u in enumerate(found):
+            u = None
+            for k, candidate in enumerate(found):
                 if coder.mixed(bank, [16 + 2 * k + (len(found) > 1)], 0, 0):
+                    u = candidate
                     break
-            else:
+            if u is None:
                 require(count > 0, "a repetition of no vertex")
                 u = coder.uniform(count)
             sibling[fan] = latest[u]
@@ -1324,9 +1327,9 @@ def decode(stream):
             levels = np.array(values).reshape(width, 3) - (1 << (header["bits"] - 1))  # M 14.9
         else:
             levels = np.array(model.decode(payload, width))
-        springs, pulls = surroundings(graph, block, known, prediction[0] if prediction else 0.0)
-        if not prediction:
-            springs, pulls = np.zeros(block.size), np.zeros((block.size, 3))
+        springs, pulls = np.zeros(block.size), np.zeros((block.size, 3))
+        if prediction:
+            springs, pulls = surroundings(graph, block, known, prediction[0])
         if header["basis"] == 1:
             subspace = exact_basis(block, width, springs)
         else:
