@@ -1,4 +1,4 @@
-"""A streaming spectral codec for triangle meshes: encoder, decoder, and the mathematics they share."""
+"""A streaming spectral codec for triangle meshes: static and animated, and the mathematics they share."""
 
 from codec.decoder import (
     BlockEvent,
@@ -12,6 +12,9 @@ from codec.decoder import (
 from codec.encoder import Encoder, encode, encode_chunks
 from codec.mesh import TriangleMesh
 from codec.options import PRESETS, EncodeOptions
+from codec.sequence_decoder import FrameEvent, GopLost, SequenceDecoder, decode_sequence
+from codec.sequence_encoder import SequenceEncoder, encode_sequence
+from codec.sequence_options import SequenceOptions
 from codec.targets import Target
 
 __all__ = [
@@ -22,11 +25,18 @@ __all__ = [
     "EncodeOptions",
     "Encoder",
     "EndEvent",
+    "FrameEvent",
+    "GopLost",
     "HeaderEvent",
     "LossEvent",
+    "SequenceDecoder",
+    "SequenceEncoder",
+    "SequenceOptions",
     "Target",
     "TriangleMesh",
     "decode",
+    "decode_sequence",
     "encode",
     "encode_chunks",
+    "encode_sequence",
 ]

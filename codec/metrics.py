@@ -155,10 +155,10 @@ def mean_edge_length(positions: Positions, faces: Faces) -> float:
 
 
 def kg_error(original: Floats, decoded: Floats) -> float:
-    """Error of a sequence after Karni and Gotsman, in percent: ``100 * ||P - P~|| / ||P - mean(P)||``.
+    """Error of a sequence after Karni and Gotsman, in percent: ``100 * ||P - P~|| / ||P - E(P)||``.
 
-    Frobenius norms over the 3n x T matrix of all trajectories; the mean is each coordinate's own over time, so the
-    denominator is the motion alone.
+    Frobenius norms over the coordinates of all frames; E(P) puts every vertex of a frame at the mean of that frame's
+    vertices, which is how researchers in the field read the paper, so the denominator is the extent of the shapes.
 
     Parameters
     ----------
@@ -167,20 +167,24 @@ def kg_error(original: Floats, decoded: Floats) -> float:
     Returns
     -------
     float
-        Infinity where nothing moves but the two differ; 0 where they are equal.
+        Infinity where each frame is a point but the two differ; 0 where they are equal.
 
     Raises
     ------
     MeshError
         If the shapes differ.
+
+    References
+    ----------
+    Z. Karni, C. Gotsman, "Compression of soft-body animation sequences", Computers & Graphics 28, 2004.
     """
     if original.shape != decoded.shape:
         raise MeshError(f"decoded frames have shape {decoded.shape}, the original's {original.shape}")
     error = float(np.linalg.norm(original - decoded))
-    motion = float(np.linalg.norm(original - original.mean(axis=0)))
+    extent = float(np.linalg.norm(original - original.mean(axis=1, keepdims=True)))
     if error == 0.0:
         return 0.0
-    return 100.0 * error / motion if motion > 0.0 else math.inf
+    return 100.0 * error / extent if extent > 0.0 else math.inf
 
 
 def decibel(value: float) -> float:

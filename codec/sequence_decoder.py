@@ -21,6 +21,7 @@ from bitstream.limits import DEFAULT_LIMITS, Limits
 from bitstream.reader import END_OF_STREAM, NEED_DATA, Reader, Signal
 from bitstream.sequence_coefficients import Levels, decode_levels, make_level_bank
 from bitstream.tolerant import TolerantReader
+from bitstream.wire import FrameType
 from codec.blend import Blend
 from codec.blocks import Blocks, grow_blocks
 from codec.decoder import (
@@ -183,7 +184,7 @@ class GopDecoder:
     def _frames(self, field: Matrix, basis: Matrix) -> Iterator[Positions]:
         for start in range(0, basis.shape[1], BATCH):
             part = basis[:, start : start + BATCH]
-            for frame in frames_of(field @ part.reshape(-1, field.shape[1]).T):
+            for frame in frames_of(field @ part.reshape(3 * part.shape[1], -1 if part.size else 0).T):
                 yield self._setting.in_mesh_units(frame)
 
 
@@ -236,6 +237,7 @@ class SequenceDecoder:
         self._given = 0  # the frame that is given next
         self._skipped: list[GopBody] = []  # low-delay frames since the latest key frame, not decoded
         self._lost: str | None = None
+        self._lossy = False  # whether a loss was reported, so that an END that counts more frames is no news
 
     def receive_data(self, data: bytes | bytearray | memoryview) -> None:
         """Take more bytes of the stream."""
@@ -376,7 +378,8 @@ class SequenceDecoder:
     def _accept_damage(self, packet: packets.Damaged) -> None:
         if self._opening is None or not self._opening.complete:
             raise CorruptError(f"the beginning of a sequence must be whole: {packet.reason}")
-        self._lose(packet.reason)
+        if packet.type is not FrameType.END or not self._lossy:
+            self._lose(packet.reason)
 
     def _lose(self, reason: str) -> None:
         """Take note that frames are lost; how many is known when the next ones come."""
@@ -393,13 +396,14 @@ class SequenceDecoder:
         self._skipped.clear()
         self._next_frame += frames
         self._lost = None
+        self._lossy = True
 
     def _finish(self) -> None:
         assert self._header is not None
         if not self._opened().complete:
             raise CorruptError("the stream ends before its first frame is complete")
         missing = self._header.frames - self._next_frame if self._header.frames else 0
-        if missing or self._lost:
+        if missing or (self._lost and not self._header.frames):
             self._report_loss(missing)
         self._ended = True
         self._queue.append(EndEvent())

@@ -90,13 +90,14 @@ def test_rms_over_the_mean_edge() -> None:
     assert rms_over_edge(SQUARE, SQUARE + np.array([1.0, 0, 0]), TWO) == pytest.approx(5 / (4 + math.sqrt(2)))
 
 
-def test_kg_error_is_relative_to_the_motion() -> None:
-    frames = np.stack([SQUARE, SQUARE + np.array([2.0, 0, 0])])
+def test_kg_error_is_relative_to_the_extent() -> None:
+    square = SQUARE - SQUARE.mean(axis=0)
+    frames = np.stack([square, square + np.array([2.0, 0, 0])])  # where a frame is does not count
     assert kg_error(frames, frames) == 0
-    # Each vertex moves by +-1 about its mean: ||P - mean|| = sqrt(8); an offset of 0.1 on every vertex is 10 percent.
-    assert kg_error(frames, frames + np.array([0.0, 0.1, 0])) == pytest.approx(10.0)
-    still = np.stack([SQUARE, SQUARE])
-    assert kg_error(still, still + 1) == math.inf
+    offset = 0.1 * math.sqrt(np.square(square).sum() / len(square))
+    assert kg_error(frames, frames + np.array([0.0, offset, 0])) == pytest.approx(10.0)
+    points = np.zeros((2, 4, 3))
+    assert kg_error(points, points + 1) == math.inf
     with pytest.raises(MeshError):
         kg_error(frames, frames[:1])
 
