@@ -1,0 +1,182 @@
+"""The product and the decoder written from spec/connectivity.md treat the same payloads alike, damaged ones too."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from bitstream.arrangement import decode_arrangement, encode_arrangement
+from bitstream.connectivity import decode_connectivity, encode_connectivity
+from bitstream.errors import BsmError
+from bitstream.labels import decode_labels, encode_labels
+from bitstream.limits import DEFAULT_LIMITS
+from codec.graph import Graph, graph_of_faces
+from spec import reference_connectivity as reference
+from tests.bitstream.test_connectivity import SOUPS, compact, read_ply
+from tests.shapes import Faces, grid_faces
+
+quick = settings(deadline=None, max_examples=60)
+REFERENCE_ERRORS = (reference.CorruptError, reference.TruncatedError, reference.LimitError)
+
+
+def outcome(decode: Callable[[], Any]) -> Any:
+    """What a decoder gives, as lists, or the name of its error."""
+    try:
+        result = decode()
+    except (BsmError, *REFERENCE_ERRORS) as error:
+        return type(error).__name__
+    return result.tolist() if isinstance(result, np.ndarray) else result
+
+
+def check_faces(payload: bytes, vertices: int, faces: int) -> Any:
+    """Decode a connectivity payload with both decoders; their common outcome."""
+    expected = outcome(lambda: decode_connectivity(payload, vertices, faces))
+    assert outcome(lambda: reference.decode_connectivity(payload, vertices, faces)) == expected
+    return expected
+
+
+def check_order(payload: bytes, faces: Faces, vertices: int) -> Any:
+    """As `check_faces`, for an order payload."""
+
+    def decode() -> Any:
+        decoded = decode_arrangement(payload, faces, vertices)
+        return decoded.vertex_order.tolist(), decoded.faces.tolist()
+
+    expected = outcome(decode)
+    assert outcome(lambda: reference.decode_arrangement(payload, faces.tolist(), vertices)) == expected
+    return expected
+
+
+def check_labels(payload: bytes, graph: Graph, neighbours: list[list[int]], parts: int) -> Any:
+    """As `check_faces`, for a partition payload."""
+    expected = outcome(lambda: decode_labels(payload, graph.offsets, graph.neighbours, parts))
+    assert outcome(lambda: reference.decode_labels(payload, neighbours, parts)) == expected
+    return expected
+
+
+def check_mesh(faces: Faces, vertices: int, labels: list[int]) -> None:
+    """Encode faces, their order and a partition; both decoders give them back."""
+    encoded = encode_connectivity(faces, vertices)
+    assert check_faces(encoded.payload, vertices, len(faces)) == encoded.faces.tolist()
+    order = check_order(encode_arrangement(faces, encoded), encoded.faces, vertices)
+    assert order == (encoded.vertex_order.tolist(), np.asarray(faces).tolist())
+
+    numbered, parts = by_appearance([labels[v % len(labels)] for v in range(vertices)])
+    graph = graph_of_faces(encoded.faces, vertices)
+    neighbours = reference.neighbours_of(encoded.faces.tolist(), vertices)
+    assert neighbours == [list(row) for row in np.split(graph.neighbours, graph.offsets[1:-1])]
+    payload = encode_labels(graph.offsets, graph.neighbours, np.array(numbered, np.int32), parts)
+    assert check_labels(payload, graph, neighbours, parts) == numbered
+
+
+def by_appearance(labels: list[int]) -> tuple[list[int], int]:
+    """Labels numbered by their first appearance, and how many there are."""
+    numbers: dict[int, int] = {}
+    return [numbers.setdefault(label, len(numbers)) for label in labels], len(numbers)
+
+
+def holey(rows: int, columns: int, close: tuple[bool, bool], seed: int, flips: int) -> tuple[Faces, int]:
+    """A grid, cylinder or torus with holes, turned and repeated faces, and shuffled numbers."""
+    rng = np.random.default_rng(seed)
+    faces = grid_faces(rows, columns, close_rows=close[0], close_columns=close[1])
+    faces = faces[rng.random(len(faces)) < rng.choice([1.0, 0.9, 0.5])]
+    if len(faces) == 0:
+        faces = np.array([[0, 1, 2]], np.int32)
+    turned = rng.integers(0, len(faces), flips)
+    faces[turned] = faces[turned][:, ::-1]
+    faces = np.concatenate([faces, faces[rng.integers(0, len(faces), flips // 3)]])
+    return compact(rng.permutation(rows * columns)[faces][rng.permutation(len(faces))])
+
+
+HOLEY = st.builds(
+    holey,
+    st.integers(3, 9),
+    st.integers(3, 9),
+    st.tuples(st.booleans(), st.booleans()),
+    st.integers(0, 2**32 - 1),
+    st.integers(0, 9),
+)
+LABELS = st.lists(st.integers(0, 9), min_size=1, max_size=90)
+
+
+@quick
+@given(SOUPS.map(lambda soup: compact(np.array(soup))), LABELS)
+def test_any_triangles(mesh: tuple[Faces, int], labels: list[int]) -> None:
+    check_mesh(*mesh, labels)
+
+
+@quick
+@given(HOLEY, LABELS)
+def test_grids_and_tori_with_holes_flips_and_repeats(mesh: tuple[Faces, int], labels: list[int]) -> None:
+    check_mesh(*mesh, labels)
+
+
+@pytest.mark.parametrize(
+    "faces",
+    [
+        np.arange(300).reshape(-1, 3),
+        [[0, 1 + k, 1 + (k + 1) % 40] for k in range(40)],
+        [[0, 1, 2 + k] for k in range(40)],
+        [[0, 0, 0], [0, 1, 1]],
+        [[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2], [0, 4, 5], [0, 6, 4], [4, 6, 5], [0, 5, 6]],
+        np.concatenate([grid_faces(5, 5, close_rows=True, close_columns=True) + 25 * k for k in range(9)]),
+        grid_faces(30, 35, close_rows=True, close_columns=True),
+    ],
+    ids=["triangles", "wheel", "book", "degenerate", "kissing", "tori", "torus"],
+)
+def test_special_meshes(faces: Any) -> None:
+    check_mesh(np.array(faces, np.int32), int(np.max(faces)) + 1, [0, 1, 1, 1, 2, 0, 0, 0])
+
+
+def damaged(payload: bytes, data: st.DataObject) -> bytes:
+    """A payload cut, lengthened, or with some bytes changed."""
+    kind = data.draw(st.sampled_from(["cut", "longer", "changed", "random"]))
+    if kind == "cut":
+        return payload[: data.draw(st.integers(0, len(payload)))]
+    if kind == "longer":
+        return payload + data.draw(st.binary(min_size=1, max_size=9))
+    if kind == "random":
+        return data.draw(st.binary(max_size=60))
+    changed = bytearray(payload)
+    for _ in range(data.draw(st.integers(1, 3))):
+        if changed:
+            changed[data.draw(st.integers(0, len(changed) - 1))] = data.draw(st.integers(0, 255))
+    return bytes(changed)
+
+
+@settings(deadline=None, max_examples=400)
+@given(st.one_of(HOLEY, SOUPS.map(lambda soup: compact(np.array(soup)))), st.data())
+def test_damaged_connectivity(mesh: tuple[Faces, int], data: st.DataObject) -> None:
+    faces, vertices = mesh
+    payload = encode_connectivity(faces, vertices).payload
+    check_faces(damaged(payload, data), vertices, len(faces) + data.draw(st.sampled_from([0, 0, 0, 1])))
+
+
+@settings(deadline=None, max_examples=100)
+@given(HOLEY, LABELS, st.data())
+def test_damaged_order_and_labels(mesh: tuple[Faces, int], labels: list[int], data: st.DataObject) -> None:
+    faces, vertices = mesh
+    encoded = encode_connectivity(faces, vertices)
+    check_order(damaged(encode_arrangement(faces, encoded), data), encoded.faces, vertices)
+    numbered, parts = by_appearance([labels[v % len(labels)] for v in range(vertices)])
+    graph = graph_of_faces(encoded.faces, vertices)
+    payload = encode_labels(graph.offsets, graph.neighbours, np.array(numbered, np.int32), parts)
+    neighbours = reference.neighbours_of(encoded.faces.tolist(), vertices)
+    check_labels(damaged(payload, data), graph, neighbours, parts)
+
+
+@pytest.mark.real
+@pytest.mark.parametrize("name", ["twelve_dodecahedron", "c3d_spot"])
+def test_real_meshes(meshes: Path, name: str) -> None:
+    faces, vertices = read_ply(meshes / "static" / f"{name}.ply")
+    check_mesh(faces, vertices, [k // 40 for k in range(vertices)])
+
+
+def test_the_limit_is_the_same() -> None:
+    assert reference.decode_connectivity.__defaults__ == (DEFAULT_LIMITS.vertices,)
