@@ -15,6 +15,8 @@ from codec.mesh import Faces
 
 Mask = npt.NDArray[np.bool_]
 
+CROWD = 32
+
 
 @dataclass(frozen=True, eq=False)
 class Topology:
@@ -45,8 +47,12 @@ class Topology:
 
     @cached_property
     def patches(self) -> Rows:
-        """Faces that share a vertex with each face; itself comes first."""
-        return Rows(*_patches(self.faces, self.around.starts, self.around.members))
+        """Faces that share a vertex with each face; itself comes first.
+
+        In a fan of more than 64 faces only the 32 before and the 32 after in order of index count, lest the hub of a
+        wheel make everybody everybody's neighbour.
+        """
+        return Rows(*_patches(self.faces, self.around.starts, self.around.members, CROWD))
 
     @cached_property
     def pairs(self) -> Indices:
@@ -104,14 +110,14 @@ def _equal_runs(key, owner):  # type: ignore[no-untyped-def]
 
 
 @njit(cache=True, nogil=True)
-def _patches(faces, around_starts, around):  # type: ignore[no-untyped-def]
+def _patches(faces, around_starts, around, crowd):  # type: ignore[no-untyped-def]
     m = len(faces)
     starts = np.zeros(m + 1, dtype=np.int64)
-    bound = 0
+    bound = m
     for f in range(m):
         for corner in range(3):
             v = faces[f, corner]
-            bound += around_starts[v + 1] - around_starts[v]
+            bound += min(around_starts[v + 1] - around_starts[v], 2 * crowd + 1)
     members = np.empty(bound, dtype=np.int32)
     seen = np.full(m, -1, dtype=np.int32)
     end = 0
@@ -121,7 +127,11 @@ def _patches(faces, around_starts, around):  # type: ignore[no-untyped-def]
         end += 1
         for corner in range(3):
             v = faces[f, corner]
-            for k in range(around_starts[v], around_starts[v + 1]):
+            first, last = around_starts[v], around_starts[v + 1]
+            if last - first > 2 * crowd:
+                place = first + np.searchsorted(around[first:last], f)
+                first, last = max(first, place - crowd), min(last, place + crowd + 1)
+            for k in range(first, last):
                 g = around[k]
                 if seen[g] != f:
                     seen[g] = f

@@ -42,6 +42,15 @@ def test_patches_hold_the_faces_that_share_a_vertex() -> None:
     assert sorted(map(tuple, topology.pairs.tolist())) == expected
 
 
+def test_the_hub_of_a_wheel_does_not_make_everybody_a_neighbour() -> None:
+    spokes = np.arange(200)
+    faces = np.stack([spokes, (spokes + 1) % 200, np.full(200, 200)], axis=1).astype(np.int32)
+    topology = Topology(faces, 201)
+    assert np.diff(topology.patches.starts).max() == 65
+    assert sorted(row(topology.patches, 100)) == list(range(68, 133))
+    assert {1, 199} < set(row(topology.patches, 0))
+
+
 def test_a_fin_of_three_faces_makes_a_chain_of_pairs() -> None:
     faces = np.array([[0, 1, 2], [1, 0, 3], [0, 1, 4], [5, 5, 1]], dtype=np.int32)
     assert Topology(faces, 6).pairs.tolist() == [[0, 1], [1, 2]]
