@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
-from dataclasses import replace
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
 from itertools import chain
 
 import numpy as np
@@ -12,26 +12,55 @@ import numpy.typing as npt
 from bitstream import packets
 from bitstream.connectivity import encode_connectivity
 from bitstream.errors import MeshError, OptionError
-from bitstream.gops import MAX_EXPONENT, GopBody, GopMethod, write_gop_body
+from bitstream.gops import write_gop_body
 from bitstream.header import Header
-from bitstream.sequence_coefficients import encode_levels, make_level_bank
 from bitstream.writer import Writer
 from codec.blend import Blend
 from codec.blocks import block_size, grow_blocks
 from codec.decoder import CONNECTIVITY_METHOD, chain_rules
 from codec.encoder import STIFFNESS, ChainEncoder, CodedBlock
 from codec.encoder import _frame_of_reference as frame_of_reference
+from codec.gop_decoder import Setting, make_setting
+from codec.gop_encoder import GopEncoder
 from codec.graph import graph_of_faces
 from codec.mesh import Faces, TriangleMesh
 from codec.options import EncodeOptions
 from codec.partition import derive_partition
 from codec.quantize import smallest_step
-from codec.sequence import Loop, cosine_basis, quantize_basis, trajectories
-from codec.sequence_decoder import FrameHistory, Setting, decode_basis, level_references, make_setting
+from codec.sequence_decoder import decode_sequence
 from codec.sequence_options import SequenceOptions
-from codec.temporal import WORTH, bits_estimate, learn_basis, projection
+from codec.sequence_targets import SequenceComparison, compare_sequences
+from codec.targets import search_step
 
 Matrix = npt.NDArray[np.float64]
+
+
+FINEST_STEP = 2e-5
+"""Below, a search for a target does not look."""
+
+
+@dataclass(frozen=True, eq=False)
+class SequenceAttempt:
+    """A whole stream, and what its decoder will make of it.
+
+    Parameters
+    ----------
+    chunks : tuple of bytes
+        The stream.
+    samples : int
+        Vertices times frames.
+    comparison : SequenceComparison
+        The decoded frames against the original ones.
+    """
+
+    chunks: tuple[bytes, ...]
+    samples: int
+    comparison: SequenceComparison
+
+    @property
+    def bpvf(self) -> float:
+        """Bits of the whole stream per vertex and frame."""
+        return 8.0 * sum(map(len, self.chunks)) / self.samples
 
 
 class SequenceEncoder:
@@ -51,12 +80,15 @@ class SequenceEncoder:
         The decoder's vertex j is vertex `vertex_order[j]` of the frames; known once `chunks` has given its first bytes.
     face_order : int64 array, shape (m,)
         The decoder's face i is face `face_order[i]`.
+    notes : tuple of str
+        What could not be met.
     """
 
     def __init__(self, faces: npt.ArrayLike, options: SequenceOptions | None = None, frames: int = 0) -> None:
         self.options = options or SequenceOptions()
         self.vertex_order: npt.NDArray[np.int64] = np.empty(0, np.int64)
         self.face_order: npt.NDArray[np.int64] = np.empty(0, np.int64)
+        self.notes: tuple[str, ...] = ()
         self._faces = faces
         self._count = frames
 
@@ -72,11 +104,37 @@ class SequenceEncoder:
         MeshError
             If a frame is not finite or has another shape than the first, or there is no frame.
         """
+        if self.options.target is None:
+            yield from self._chunks(frames, self.options)
+        else:
+            yield from self.search([np.asarray(frame, np.float64) for frame in frames]).chunks
+
+    def search(self, frames: Sequence[Matrix]) -> SequenceAttempt:
+        """Look for the step that meets the options' target; what cannot be met is noted."""
+        target = self.options.target
+        if target is None:
+            raise OptionError("there is no target to search for")
+        finest = FINEST_STEP if self.options.first_step is None else self.options.first_step / 64
+        attempt, met = search_step(  # type: ignore[type-var]  # a sequence's target knows a sequence's outcome
+            lambda step: self.attempt(frames, step), target, self.options.step, finest
+        )
+        if not met:
+            self.notes += (f"{target.kind} {target.value:g} was not met: the best is {target.reached(attempt):g}",)
+        return attempt
+
+    def attempt(self, frames: Sequence[Matrix], step: float) -> SequenceAttempt:
+        """Encode with a given step, and see what the decoder will."""
+        chunks = tuple(self._chunks(frames, replace(self.options, step=step)))
+        decoded, faces = decode_sequence(b"".join(chunks), threads=self.options.threads)
+        original = np.array([frame[self.vertex_order] for frame in frames])
+        return SequenceAttempt(chunks, decoded.size // 3, compare_sequences(original, decoded, faces))
+
+    def _chunks(self, frames: Iterable[npt.ArrayLike], options: SequenceOptions) -> Iterator[bytes]:
         source = iter(frames)
         first = next(source, None)
         if first is None:
             raise MeshError("a sequence needs at least one frame")
-        opening = OpeningEncoder(TriangleMesh(np.asarray(first), np.asarray(self._faces)), self.options, self._count)
+        opening = OpeningEncoder(TriangleMesh(np.asarray(first), np.asarray(self._faces)), options, self._count)
         self.vertex_order, self.face_order = opening.vertex_order, opening.face_order
         writer = Writer()
         yield writer.start()
@@ -84,7 +142,7 @@ class SequenceEncoder:
         yield writer.write(opening.connectivity)
         for block in opening.coded:
             yield writer.write(block.packet)
-        encoder = GopEncoder(opening.setting(), self.options)
+        encoder = GopEncoder(opening.setting(), options)
         number = 0
         checked = self._checked(chain([first], source), np.shape(first), opening)
         while group := list(_taken(checked, opening.header.gop_frames)):
@@ -166,81 +224,6 @@ class OpeningEncoder:
             gop_frames=options.gop if options.mode == "gop" else 1,
             weights=("binary", "cotangent").index(options.weights),
         )
-
-
-class GopEncoder:
-    """Encodes one GOP after the other."""
-
-    def __init__(self, setting: Setting, options: SequenceOptions) -> None:
-        self._setting = setting
-        self._options = options
-        self._step = float(np.float32(options.step))
-        self._history: FrameHistory | None = None
-
-    def encode(self, frames: Matrix, number: int) -> GopBody:
-        """Encode frames, shape (T, n, 3), in BSM units, from frame `number` of the sequence on."""
-        if self._options.mode == "low-delay":
-            return self._single(frames[0], key=number % self._options.gop == 0)
-        return self._transformed(trajectories(frames))
-
-    def _single(self, wanted: Matrix, key: bool) -> GopBody:
-        history = self._history
-        if key or history is None:
-            history = self._history = FrameHistory(self._setting.first)
-        frame = np.zeros_like(wanted)
-        levels, coefficients = [], []
-        for k, part in enumerate(self._setting.parts):
-            base = history.base(k)
-            target = part.basis.T @ wanted[part.vertices] - part.extend(frame) - base
-            coded, change = history.loops[k].encode(history.known(k), target, self._step, self._options.rounding)
-            levels.append(coded)
-            coefficients.append(base + change)
-            part.place(frame, coefficients[k])
-        payload = encode_levels(history.bank, levels, history.levels)
-        history.commit(levels, coefficients)
-        method = GopMethod.KEY_FRAME if key else GopMethod.NEXT_FRAME
-        return GopBody(method, 1, self._step, 3, np.empty(0, np.int32), b"", payload)
-
-    def _transformed(self, motion: Matrix) -> GopBody:
-        """Encode trajectories, shape (n, 3T)."""
-        candidates = []
-        if self._options.transform != "cosine":
-            candidates.append(self._learnt(motion))
-        if self._options.transform != "learnt":
-            candidates.append(self._cosines(motion))
-        body = min(candidates, key=lambda candidate: self._cost(motion, candidate)) if candidates[1:] else candidates[0]
-        return self._coded(motion, body)
-
-    def _learnt(self, motion: Matrix) -> GopBody:
-        basis = learn_basis(motion, self._step, MAX_EXPONENT)
-        levels = quantize_basis(basis.columns, basis.exponents, self._options.rounding)
-        columns = basis.columns.shape[1]
-        coded = encode_levels(make_level_bank(), list(levels), level_references(list(levels), columns))
-        return GopBody(GopMethod.LEARNT, levels.shape[1], self._step, columns, basis.exponents, coded, b"")
-
-    def _cosines(self, motion: Matrix) -> GopBody:
-        frames = motion.shape[1] // 3
-        energies = np.square(motion @ cosine_basis(frames)).sum(axis=0)
-        worth = np.flatnonzero(energies > WORTH * self._step**2)
-        columns = int(np.max(worth, initial=0)) + 1
-        return GopBody(GopMethod.COSINES, frames, self._step, columns, np.empty(0, np.int32), b"", b"")
-
-    def _cost(self, motion: Matrix, body: GopBody) -> float:
-        components = motion @ projection(decode_basis(body))
-        return bits_estimate(components, self._step) + 8.0 * len(body.basis)
-
-    def _coded(self, motion: Matrix, body: GopBody) -> GopBody:
-        """The GOP with the levels of its blocks."""
-        wanted = motion @ projection(decode_basis(body))
-        field = np.zeros_like(wanted)
-        levels = []
-        for part, first in zip(self._setting.parts, self._setting.first):
-            target = part.basis.T @ wanted[part.vertices] - part.extend(field)
-            coded, decoded = Loop(3, body.components).encode(first, target, self._step, self._options.rounding)
-            part.place(field, decoded)
-            levels.append(coded)
-        payload = encode_levels(make_level_bank(), levels, level_references(levels, body.components))
-        return replace(body, levels=payload)
 
 
 def encode_sequence(positions: npt.ArrayLike, faces: npt.ArrayLike, options: SequenceOptions | None = None) -> bytes:

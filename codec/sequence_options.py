@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, fields
 
 from bitstream.errors import OptionError
+from codec.sequence_targets import SequenceTarget
 
 CHOICES = {
     "mode": ("gop", "low-delay"),
@@ -52,6 +53,8 @@ class SequenceOptions:
         Fraction added before a magnitude is cut to an integer; below 0.5 it widens the dead zone.
     threads : int, optional
         None: one per core.
+    target : SequenceTarget, optional
+        Look for the one step for all frames that reaches it; this needs all frames in memory.
 
     Raises
     ------
@@ -71,6 +74,7 @@ class SequenceOptions:
     frame_rate: float = 0.0
     rounding: float = 0.4
     threads: int | None = None
+    target: SequenceTarget | None = None
 
     def __post_init__(self) -> None:
         for item in fields(self):

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).parent.parent
-KNOW_BYTES = {"codec.encoder", "codec.decoder", "codec.sequence_encoder", "codec.sequence_decoder"}
+KNOW_BYTES = {f"codec.{what}{side}" for what in ("", "sequence_", "gop_") for side in ("encoder", "decoder")}
 BITSTREAM_LIBRARIES = {"numpy", "numba", "msgpack", "zstandard"}
 CODEC_LIBRARIES = {"numpy", "scipy", "numba", "llvmlite", "pymetis", "threadpoolctl"}
 

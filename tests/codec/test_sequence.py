@@ -28,6 +28,7 @@ from codec import (
     encode_sequence,
 )
 from codec.metrics import kg_error
+from codec.sequence_targets import SequenceTarget, compare_sequences
 
 SMALL = {"block_size": 100, "step": 0.002, "gop": 8}
 WAYS = [{"transform": "learnt"}, {"transform": "cosine"}, {"mode": "low-delay"}]
@@ -270,6 +271,29 @@ def test_a_frame_of_another_shape_or_not_finite_is_named():
         encode_sequence(positions[0], faces, options())
     with pytest.raises(OptionError, match="announced"):
         list(SequenceEncoder(faces, options(), 7).chunks(bending(5)[0]))
+
+
+@pytest.mark.parametrize(("kind", "value"), [("kg", 0.2), ("theta_deg", 1.0), ("nmsve_db", -45.0), ("bpvf", 1.0)])
+def test_targets(kind, value):
+    positions, faces = bending(12)
+    target = SequenceTarget(kind, value)
+    encoder = SequenceEncoder(faces, options(target=target), len(positions))
+    data = b"".join(encoder.chunks(positions))
+    assert encoder.notes == ()
+    decoded, decoded_faces = decode_sequence(data)
+    comparison = compare_sequences(positions[:, encoder.vertex_order], decoded, decoded_faces)
+    reached = 8 * len(data) / decoded[..., 0].size if kind == "bpvf" else getattr(comparison, kind)
+    assert value - (0.2 if kind == "nmsve_db" else 0.05 * value) <= reached <= value
+
+
+def test_a_target_that_cannot_be_met_is_noted():
+    positions, faces = bending(3)
+    encoder = SequenceEncoder(faces, options(target=SequenceTarget("bpvf", 0.01)), len(positions))
+    list(encoder.chunks(positions))
+    assert "bpvf 0.01 was not met" in encoder.notes[0]
+    for kind, value in (("size", 3.0), ("kg", 0.0), ("bpvf", math.inf)):
+        with pytest.raises(OptionError):
+            SequenceTarget(kind, value)
 
 
 def test_static_meshes_and_sequences_are_told_apart():
