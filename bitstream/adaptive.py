@@ -181,6 +181,48 @@ def decode_blocks(model: CoefficientModel, payload: bytes, count: int) -> list[L
     return blocks
 
 
+def encode_layers(model: CoefficientModel, levels: Levels, over: CoefficientModel, above: Levels) -> bytes:
+    """Code the levels of a block and those of a layer above them into one payload; updates both models.
+
+    The reader must know the number of rows of `levels`; that of `above`, which may be 0, is coded.
+
+    Raises
+    ------
+    OptionError
+        As `encode_coefficients`.
+    """
+    _check_levels(model, levels)
+    if len(above):
+        _check_levels(over, above)
+    coder = start_writing(_BYTES_PER_LEVEL * (levels.size + above.size + 1))
+    _code_block(coder, model.bank, model.past, model.expectations, levels.astype(np.int32))
+    _code_rows(coder, over.rows, over.missing, over.width, len(above))
+    _code_block(coder, over.bank, over.past, over.expectations, above.astype(np.int32))
+    return finish_writing(coder)
+
+
+def decode_layers(model: CoefficientModel, over: CoefficientModel, payload: bytes, count: int) -> tuple[Levels, Levels]:
+    """Twin of `encode_layers`: read `count` rows, and the layer above them.
+
+    Raises
+    ------
+    TruncatedError, CorruptError
+        If the payload is not exactly one block long, or a layer has more rows than its model is made for.
+    """
+    if count > model.width:
+        raise CorruptError(f"{count} coefficients where at most {model.width} are announced")
+    coder = start_reading(payload)
+    levels = np.zeros((count, 3), np.int32)
+    _code_block(coder, model.bank, model.past, model.expectations, levels)
+    rows = _code_rows(coder, over.rows, over.missing, over.width, 0)
+    if not 0 <= rows <= over.width:
+        raise CorruptError(f"{rows} rows of details where at most {over.width} are announced")
+    above = np.zeros((rows, 3), np.int32)
+    _code_block(coder, over.bank, over.past, over.expectations, above)
+    finish_reading(coder)
+    return levels, above
+
+
 def _check_levels(model: CoefficientModel, levels: Levels) -> None:
     if not 1 <= len(levels) <= model.width or np.abs(levels.astype(np.int64)).max() > MAX_LEVEL:
         raise OptionError(f"levels must be 1 to {model.width} rows of magnitudes up to {MAX_LEVEL}")

@@ -130,6 +130,10 @@ class Header:
     """Frames of the longest GOP; 0: a static mesh."""
     weights: int = method(24, known=2)
     """Edge weights in the dictionary of a sequence: 0: all one; 1: cotangents of the decoded first frame."""
+    detail_step: float = real(25, 0.0, 2.0**20, default=0.0)
+    """Quantization step of the detail layer, in BSM units; 0: there is none."""
+    details: int = integer(26, 0, COUNT, default=0)
+    """Coefficients of the largest detail layer of a block."""
 
     def __post_init__(self) -> None:
         for name, declared in HEADER_FIELDS.items():
@@ -159,6 +163,8 @@ def contradiction(header: Header) -> str | None:
         "blocks larger than the mesh": header.block_size > header.vertices,
         "blocks too small to cover the mesh": header.blocks * header.block_size < header.vertices,
         "more coefficients than a block has vertices": header.coefficients > header.block_size,
+        "more details than a block has vertices": header.details > header.block_size,
+        "details without a step, or a step without details": (header.details > 0) != (header.detail_step > 0),
         "frames without a length for GOPs": header.frames > 0 and header.gop_frames == 0,
     }
     return next((problem for problem, broken in rules.items() if broken), None)

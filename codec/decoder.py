@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from bitstream import packets
-from bitstream.adaptive import CoefficientModel, decode_coefficients
+from bitstream.adaptive import CoefficientModel, decode_coefficients, decode_layers
 from bitstream.arrangement import Arrangement, decode_arrangement
 from bitstream.coefficients import unpack_coefficients
 from bitstream.connectivity import decode_connectivity
@@ -26,6 +26,7 @@ from codec.assembly import Assembly, Changes, DecodedBlock, Frame, Losses
 from codec.blend import degree_weights
 from codec.blocks import Block, Blocks, grow_blocks
 from codec.chain import Chain, ChainRules
+from codec.detail import Normals, Surface, displace, make_surface, unfold_details
 from codec.graph import Graph, graph_of_faces
 from codec.mesh import Faces, TriangleMesh
 from codec.parallel import Lanes, Pending
@@ -140,6 +141,11 @@ def chain_rules(header: Header) -> ChainRules:
     )
 
 
+def detail_rows(header: Header) -> int:
+    """Rows of three that the largest detail layer takes."""
+    return -(-header.details // 3)
+
+
 def copy_weights(header: Header, blocks: Blocks, index: int, block: Block) -> Matrix:
     """Weight of each row of a block in the blend."""
     if header.blend == 0:
@@ -152,12 +158,16 @@ def copy_weights(header: Header, blocks: Blocks, index: int, block: Block) -> Ma
 class ChainDecoder:
     """Decodes the blocks of one chain, in their order."""
 
-    def __init__(self, header: Header, rules: ChainRules, blocks: Blocks, first: int) -> None:
+    def __init__(
+        self, header: Header, rules: ChainRules, blocks: Blocks, first: int, surface: Surface | None = None
+    ) -> None:
         self._header = header
         self._blocks = blocks
         self._next = first
         self._chain = Chain(rules, blocks.graph)
         self._model = CoefficientModel(header.coefficients)
+        self._details = CoefficientModel(detail_rows(header)) if header.details else None
+        self._normals = Normals(surface) if surface is not None else None
 
     def decode(self, packet: packets.Block) -> DecodedBlock:
         """Decode the chain's next block; once one is missing or broken, the rest of the chain cannot be decoded."""
@@ -166,10 +176,13 @@ class ChainDecoder:
             if packet.index != self._next:
                 raise CorruptError(f"the block depends on block {self._next}, which is lost")
             block = blocks.block(packet.index)
-            levels = self._levels(packet, block)
+            levels, details = self._levels(packet, block)
             around = self._chain.around(block)
-            subspace = self._chain.dictionary(block, around, len(levels))
-            positions = extend(block, around) + subspace @ dequantize(levels, header.step)
+            subspace = self._chain.dictionary(block, around, max(len(levels), len(details)))
+            positions = extend(block, around) + subspace[:, : len(levels)] @ dequantize(levels, header.step)
+            if self._normals is not None:
+                heights = dequantize(details, header.detail_step)
+                positions = displace(positions, self._normals.of(block, positions), subspace, heights)
             self._chain.commit(block, subspace, positions)
             if not np.isfinite(positions).all():
                 raise NumericError("the coefficients reconstruct to positions that are not finite")
@@ -178,14 +191,19 @@ class ChainDecoder:
         self._next += 1
         return DecodedBlock(packet.index, block.vertices, positions, copy_weights(header, blocks, packet.index, block))
 
-    def _levels(self, packet: packets.Block, block: Block) -> npt.NDArray[np.int32]:
+    def _levels(self, packet: packets.Block, block: Block) -> tuple[npt.NDArray[np.int32], npt.NDArray[np.int32]]:
+        """Levels of x, y and z, shape (c_i, 3), and of the detail layer, shape (d_i,)."""
+        nothing = np.zeros(0, np.int32)
         width = packet.coefficients
         if not 1 <= width <= block.size:
             raise CorruptError(f"{width} coefficients for a block of {block.size} vertices")
         if self._header.coding == 0:
             values = unpack_coefficients(packet.data, 3 * width, self._header.bits)
-            return unsigned_to_levels(values, self._header.bits)
-        return decode_coefficients(self._model, packet.data, width)
+            return unsigned_to_levels(values, self._header.bits), nothing
+        if self._details is None:
+            return decode_coefficients(self._model, packet.data, width), nothing
+        levels, folded = decode_layers(self._model, self._details, packet.data, width)
+        return levels, unfold_details(folded, min(self._header.details, block.size))
 
 
 class Decoder:
@@ -218,6 +236,7 @@ class Decoder:
         self._header: Header | None = None
         self._faces: Faces | None = None
         self._graph: Graph | None = None
+        self._surface: Surface | None = None
         self._partition: Partition | None = None
         self._arrangement: Arrangement | None = None
         self._blocks: Blocks | None = None
@@ -340,7 +359,8 @@ class Decoder:
         if header.gop_frames:
             raise UnsupportedError("this is a sequence; decode it with codec.SequenceDecoder")
         solves = header.power * max(header.iterations, header.key_iterations)
-        check_work(self._limits, header.blocks, header.block_size, header.coefficients, solves, exact=header.basis == 1)
+        width = max(header.coefficients, header.details)
+        check_work(self._limits, header.blocks, header.block_size, width, solves, exact=header.basis == 1)
         if len(header.prediction) > 1 or not all(0 < value < MAX_STIFFNESS for value in header.prediction):
             raise CorruptError(f"the prediction has the parameters {header.prediction}, one stiffness is legal")
         self._header = header
@@ -352,6 +372,8 @@ class Decoder:
             raise UnsupportedError(f"connectivity method {packet.method} is unknown to this decoder")
         self._faces = decode_connectivity(packet.data, self._header.vertices, self._header.faces, self._limits)
         self._graph = graph_of_faces(self._faces, self._header.vertices)
+        if self._header.details:
+            self._surface = make_surface(self._faces, self._header.vertices)
 
     def _accept_partition(self, packet: packets.Partition) -> None:
         assert self._header is not None and self._graph is not None
@@ -377,7 +399,7 @@ class Decoder:
         if number not in self._chains:
             self._chains.clear()
             first = number * rules.chain_length(blocks.count)
-            self._chains[number] = ChainDecoder(self._header, rules, blocks, first)
+            self._chains[number] = ChainDecoder(self._header, rules, blocks, first, self._surface)
         chain = self._chains[number]
         self._queue.append(self._lanes.submit(number, lambda: chain.decode(packet)))
 

@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from bitstream import packets
-from bitstream.adaptive import CoefficientModel, encode_coefficients
+from bitstream.adaptive import CoefficientModel, encode_coefficients, encode_layers
 from bitstream.arrangement import encode_arrangement
 from bitstream.coefficients import pack_coefficients
 from bitstream.connectivity import encode_connectivity
@@ -20,7 +20,8 @@ from bitstream.writer import Writer
 from codec.blend import Blend
 from codec.blocks import Blocks, block_size, grow_blocks
 from codec.chain import Chain, ChainRules
-from codec.decoder import CONNECTIVITY_METHOD, ORDER_METHOD, chain_rules, copy_weights
+from codec.decoder import CONNECTIVITY_METHOD, ORDER_METHOD, chain_rules, copy_weights, detail_rows
+from codec.detail import Normals, Surface, displace, fold_details, make_surface
 from codec.dynamic import dynamic_size
 from codec.graph import graph_of_faces
 from codec.mesh import TriangleMesh
@@ -39,6 +40,10 @@ Progress = Callable[[int, int], None]
 
 STIFFNESS = 8.0
 PAPER_FRACTION = 0.10
+BASE_REACH = 4.0
+"""With a detail layer, x, y and z go as far as they would pay at a step so many times that of the details."""
+DETAIL_REACH = 2 / 3
+"""Details go as far as would pay at a step so many times their own."""
 SMOOTHING_STEPS = tuple(2.0**k for k in range(-3, 7))
 
 
@@ -86,12 +91,16 @@ class Attempt:
 class ChainEncoder:
     """Encodes the blocks of one chain, in their order; the twin of `ChainDecoder`."""
 
-    def __init__(self, header: Header, rules: ChainRules, blocks: Blocks, options: EncodeOptions) -> None:
+    def __init__(
+        self, header: Header, rules: ChainRules, blocks: Blocks, options: EncodeOptions, surface: Surface | None = None
+    ) -> None:
         self._header = header
         self._blocks = blocks
         self._options = options
         self._chain = Chain(rules, blocks.graph)
         self._model = CoefficientModel(header.coefficients)
+        self._details = CoefficientModel(detail_rows(header)) if header.details else None
+        self._normals = Normals(surface) if surface is not None else None
         self._width = header.coefficients
 
     def encode(self, index: int, positions: Matrix) -> CodedBlock:
@@ -99,21 +108,33 @@ class ChainEncoder:
         header, blocks, chain = self._header, self._blocks, self._chain
         block = blocks.block(index)
         around = chain.around(block)
-        subspace = chain.dictionary(block, around, header.coefficients)
+        dictionary = chain.dictionary(block, around, max(header.coefficients, header.details))
         prediction = extend(block, around)
         residual = positions[block.vertices] - prediction
-        coefficients = subspace.T @ residual
+        coefficients = dictionary[:, : header.coefficients].T @ residual
         width = self._subspace_size(residual, coefficients)
-        subspace = np.ascontiguousarray(subspace[:, :width])
         levels = quantize(coefficients[:width], header.step, self._rounding)
+        decoded = prediction + dictionary[:, :width] @ dequantize(levels, header.step)
         if header.coding == 0:
             payload = pack_coefficients(levels_to_unsigned(levels, header.bits), header.bits)
-        else:
+        elif self._details is None or self._normals is None:
             payload = encode_coefficients(self._model, levels)
-        decoded = prediction + subspace @ dequantize(levels, header.step)
-        chain.commit(block, subspace, decoded)
+        else:
+            normals = self._normals.of(block, decoded)
+            heights = (normals * (positions[block.vertices] - decoded)).sum(axis=1)
+            details = self._detail_levels(dictionary[:, : header.details].T @ heights)
+            payload = encode_layers(self._model, levels, self._details, fold_details(details))
+            decoded = displace(decoded, normals, dictionary, dequantize(details, header.detail_step))
+            width = max(width, len(details))
+        chain.commit(block, np.ascontiguousarray(dictionary[:, :width]), decoded)
         weights = copy_weights(header, blocks, index, block)
-        return CodedBlock(packets.Block(index, width, payload), block.vertices, decoded, weights)
+        return CodedBlock(packets.Block(index, len(levels), payload), block.vertices, decoded, weights)
+
+    def _detail_levels(self, coefficients: Matrix) -> npt.NDArray[np.int32]:
+        """Levels up to the last one that is not zero, their number a multiple of three or all there are."""
+        levels = quantize(coefficients[:, None], self._header.detail_step, self._rounding, nearest=0)[:, 0]
+        used = np.flatnonzero(levels)
+        return levels[: 3 * (int(used[-1]) // 3 + 1)] if len(used) else levels[:0]
 
     @property
     def _rounding(self) -> float:
@@ -235,12 +256,13 @@ class Encoder:
         if not packed and step < smallest_step(size):
             raise OptionError(f"step = {step:g} is too fine for blocks of {size}, try {smallest_step(size):.1e}")
         predicted = options.predict and options.seed == "previous" and not packed
+        ratio = options.detail_ratio
         return Header(
             vertices=len(self.mesh.positions),
             faces=len(self.mesh.faces),
             blocks=self._partition.parts,
             block_size=size,
-            coefficients=self._subspace_size(size, step),
+            coefficients=self._subspace_size(size, BASE_REACH * step if ratio else step),
             basis=("oi", "svd").index(options.basis),
             seeding=("previous", "independent").index(options.seed),
             key_interval=options.key_interval,
@@ -251,10 +273,12 @@ class Encoder:
             blend=("degree", "uniform", "own").index(options.blend),
             coding=0 if packed else 1,
             bits=options.bits or 12,
-            step=_single(packed_step(size, options.bits) if options.bits else step),
+            step=_single(packed_step(size, options.bits) if options.bits else step * (ratio or 1.0)),
             center=tuple(self._center),
             scale=self._scale,
             prediction=(STIFFNESS,) if predicted else (),
+            detail_step=_single(step) if ratio else 0.0,
+            details=min(worthwhile_size(self._measured(), DETAIL_REACH * step), size) if ratio else 0,
         )
 
     def _subspace_size(self, size: int, step: float) -> int:
@@ -264,17 +288,22 @@ class Encoder:
             return min(options.coefficients, size)
         if options.keep is not None or options.bits is not None:
             return min(max(1, round((options.keep or PAPER_FRACTION) * size)), size)
+        return min(worthwhile_size(self._measured(), step), size)
+
+    def _measured(self) -> Matrix:
+        """The mesh's spectrum, measured when it is first needed."""
         if self._spectrum is None:
-            self._spectrum = measure_spectrum(self._blocks, self._positions, shift=options.shift)
-        return min(worthwhile_size(self._spectrum, step), size)
+            self._spectrum = measure_spectrum(self._blocks, self._positions, shift=self.options.shift)
+        return self._spectrum
 
     def _coded(self, step: float, progress: Progress | None) -> tuple[Header, list[CodedBlock]]:
         header, blocks = self._header(step), self._blocks
         rules = chain_rules(header)
         length = rules.chain_length(blocks.count)
+        surface = make_surface(self.mesh.faces, len(self._positions)) if header.details else None
 
         def encode_chain(first: int) -> list[CodedBlock]:
-            chain = ChainEncoder(header, rules, blocks, self.options)
+            chain = ChainEncoder(header, rules, blocks, self.options, surface)
             indices = range(first, min(first + length, blocks.count))
             return [chain.encode(index, self._positions) for index in indices]
 

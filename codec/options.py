@@ -25,6 +25,7 @@ RANGES: dict[str, tuple[float, float]] = {
     "shift": (1e-6, 1e3),
     "bits": (2, 16),
     "step": (1e-9, 1.0),
+    "detail": (0.0, 64.0),
     "rounding": (0.0, 0.5),
     "smoothing": (0.0, 64.0),
     "threads": (1, 256),
@@ -58,7 +59,10 @@ class EncodeOptions:
     bits : int, optional
         q_c: store every coefficient in so many bits, as in the paper, without prediction and smoothing. None: adaptive.
     step : float
-        Quantization step of the adaptive coder, relative to the bounding box's diagonal.
+        Finest quantization step of the adaptive coder, relative to the bounding box's diagonal.
+    detail : float, optional
+        How many times coarser x, y and z are quantized than the detail layer, which keeps what they leave out along
+        the normal alone; 0: no detail layer. None: 3, and 0 with `bits`, `doi` and targets of distance.
     rounding : float
         Fraction added before a magnitude is cut to an integer; below 0.5 it widens the dead zone.
     predict : bool
@@ -97,6 +101,7 @@ class EncodeOptions:
     shift: float = 0.125
     bits: int | None = None
     step: float = 0.004
+    detail: float | None = None
     rounding: float = 0.42
     predict: bool = True
     smoothing: float | None = None
@@ -117,11 +122,23 @@ class EncodeOptions:
                 low, high = RANGES[item.name]
                 if not low <= value <= high:
                     raise OptionError(f"{item.name} = {value:g} is outside {low:g}..{high:g}")
+        if self.detail_ratio and (self.bits is not None or self.doi is not None):
+            raise OptionError("a detail layer excludes a fixed number of bits and dynamic subspaces")
         if self.doi is not None and not 0.0 < self.doi[0] < self.doi[1]:
             raise OptionError(f"doi = {self.doi} must be two thresholds, 0 < eps_l < eps_h")
         if self.bits is not None and self.target is not None:
             raise OptionError("a target is reached by the step; it excludes a fixed number of bits")
 
+    @property
+    def detail_ratio(self) -> float:
+        """Step of x, y and z over that of the detail layer; 0: no detail layer."""
+        if self.detail is not None:
+            return self.detail
+        distance = self.target is not None and self.target.kind in ("nmsve_db", "max_error_relative")
+        return 0.0 if distance or self.bits is not None or self.doi is not None else DETAIL_RATIO
+
+
+DETAIL_RATIO = 3.0
 
 PRESETS: dict[str, EncodeOptions] = {
     "small": EncodeOptions(block_size=1000, key_interval=0, step=0.006),

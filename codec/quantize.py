@@ -11,15 +11,15 @@ Levels = npt.NDArray[np.int32]
 LARGEST_LEVEL = (1 << 23) - 1
 
 
-def quantize(coefficients: Matrix, step: float, rounding: float) -> Levels:
+def quantize(coefficients: Matrix, step: float, rounding: float, nearest: int = 1) -> Levels:
     """Levels of `coefficients`, shape (c, 3): magnitudes over `step` plus `rounding` (at most 0.5), cut to integers.
 
     `rounding` below 0.5 widens the dead zone: small coefficients become zero, which saves more bits than it costs in
-    error. The first row, the block's place in space, is always rounded to the nearest.
+    error. The first `nearest` rows (the block's place in space) are rounded to the nearest all the same.
     """
     scaled = coefficients / step
     offset = np.full((len(scaled), 1), rounding)
-    offset[:1] = 0.5
+    offset[:nearest] = 0.5
     magnitude = np.floor(np.abs(scaled) + offset)
     return np.copysign(magnitude, scaled).astype(np.int32)
 
