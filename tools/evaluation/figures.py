@@ -16,7 +16,7 @@ from codec.metrics import Reference
 from tools.evaluation.codecs import Spectral, draco_curve, our_curve, paper_options
 from tools.evaluation.per_block import boundary_rows, boundary_table, errors_along_chain, quartiles, spread, view_blocks
 from tools.evaluation.plots import draw_per_block
-from tools.evaluation.rates import compare_curves
+from tools.evaluation.rates import compare_curves, rate_curve_of, scaled
 from tools.evaluation.resources import measure_resources
 from tools.evaluation.row_order import in_bisection_order, in_breadth_first_order, nmsve_db_of
 from tools.evaluation.run import measure, run_curve, write_result
@@ -42,6 +42,22 @@ RATE_MESHES = (
     "fandisk_6475",
     "block",
     "twelve_dodecahedron",
+)
+COEFFICIENT_LIMITS = (
+    ("bunny_34834", 6.9, 1.1),
+    ("bunny_34834", 5.6, 1.85),
+    ("horse_48485", 6.1, 0.82),
+    ("julius_36201", 7.0, 1.35),
+    ("nicolo", 7.1, 1.55),
+)
+"""Mesh, theta in degrees, and the bits per vertex of coefficients that should do."""
+PAPER_RATE_MESHES = (
+    "bunny_34834",
+    "julius_36201",
+    "horse_48485",
+    "armadillo_20002_derived",
+    "nicolo",
+    "fr_chinese_lion",
 )
 KEEPS = (0.10, 0.20)
 SCALE = ("bunny_34834", "dragon_437645")
@@ -236,6 +252,28 @@ def rates_figure(source: Source) -> Figure:
     )
 
 
+def coefficients_figure(source: Source) -> Figure:
+    """Bits of the coefficients alone: at given angles, and at the error of the paper's mode."""
+    curves = {}
+    rows = []
+    for name in sorted({*PAPER_RATE_MESHES, *(name for name, _, _ in COEFFICIENT_LIMITS)}):
+        mesh = source.mesh(name)
+        curves[name] = run_curve(our_curve(), mesh, name)["points"]
+        if name in PAPER_RATE_MESHES:
+            codec = Spectral(paper_options(keep=KEEPS[-1], power=2))
+            paper = measure(codec, mesh, Reference(mesh.positions, mesh.faces))
+            found = rate_curve_of(curves[name], "nmsve_db", "bpv_geometry").rate(paper["nmsve_db"])
+            rows.append((f"{name}, {paper['nmsve_db']:.2f} dB", number(found, 2), number(paper["bpv_paper"] / 3, 2)))
+    for name, angle, limit in COEFFICIENT_LIMITS:
+        found = rate_curve_of(curves[name], "theta_deg", "bpv_geometry").rate(scaled(angle, "theta_deg") or 0.0)
+        rows.append((f"{name}, {angle:g}°", number(found, 2), number(limit, 2)))
+    return Figure(
+        "Coefficients alone, bits per vertex",
+        "at the error of the paper's mode (OI z=2, c = 20 %, 12 bits) a third of its bits, and the limits given",
+        table(("at", "bpv", "limit"), rows),
+    )
+
+
 def dynamic_figure(source: Source) -> Figure:
     """Dynamic orthogonal iterations against a fixed size, at the same number of coefficients."""
     rows = []
@@ -314,6 +352,7 @@ FIGURES: dict[str, Callable[[Source], Figure]] = {
     "boundary": boundary_figure,
     "dynamic": dynamic_figure,
     "rates": rates_figure,
+    "coefficients": coefficients_figure,
     "scale": scale_figure,
 }
 

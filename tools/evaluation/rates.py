@@ -41,6 +41,11 @@ class RateCurve:
             return None
         return float(PchipInterpolator(self.distortions, self.log_rates)(distortion))
 
+    def rate(self, distortion: float) -> float | None:
+        """Bits per vertex, interpolated as `log_rate`."""
+        log_rate = self.log_rate(distortion)
+        return None if log_rate is None else float(np.exp(log_rate))
+
 
 def rate_curve(rates: Sequence[float], distortions: Sequence[float]) -> RateCurve:
     """Curve through the points that no other point beats in both rate and distortion."""
@@ -58,10 +63,10 @@ def rate_curve(rates: Sequence[float], distortions: Sequence[float]) -> RateCurv
     return RateCurve(x[distinct], y[distinct])
 
 
-def rate_curve_of(points: Sequence[dict[str, Any]], measure: str) -> RateCurve:
-    """Curve of a result's points: ``bpv_total`` against one of `MEASURES`; lossless points are left out."""
+def rate_curve_of(points: Sequence[dict[str, Any]], measure: str, rate: str = "bpv_total") -> RateCurve:
+    """Curve of a result's points: a rate against one of `MEASURES`; lossless points are left out."""
     usable = [point for point in points if point[measure] is not None and scaled(point[measure], measure) is not None]
-    return rate_curve([p["bpv_total"] for p in usable], [scaled(p[measure], measure) or 0.0 for p in usable])
+    return rate_curve([p[rate] for p in usable], [scaled(p[measure], measure) or 0.0 for p in usable])
 
 
 def scaled(value: float, measure: str) -> float | None:
