@@ -265,7 +265,7 @@ class Conquest:
         self.queue: list[tuple[int, int, int]] = []  # bucket, stamp and number of nodes, some of them outdated
 
     def run(self) -> list[Face]:
-        """6.1 and 6.2."""
+        """6.1, 6.2 and 6.12."""
         while self.alive > 0 or len(self.faces) < self.face_count:
             self.triangles_left -= 1
             if self.triangles_left < 0 or self.decoder.overran():
@@ -549,7 +549,7 @@ def find_borders(faces: list[Face], fans: int) -> tuple[list[int], list[int]]:
 
 
 def read_degenerate(decoder: RangeDecoder, count: int, known: int, vertices: int) -> list[Face]:
-    """8: `count` faces that repeat a corner."""
+    """8.1 to 8.3: `count` faces that repeat a corner."""
     faces = []
     for _ in range(count):
         face = []

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+import zlib
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -13,6 +15,15 @@ from hypothesis import strategies as st
 
 from bitstream.arrangement import decode_arrangement, encode_arrangement
 from bitstream.connectivity import decode_connectivity, encode_connectivity
+from bitstream.entropy import (
+    code_signed,
+    code_uniform,
+    code_unsigned,
+    finish_writing,
+    make_bank,
+    signed_span,
+    start_writing,
+)
 from bitstream.errors import BsmError
 from bitstream.labels import decode_labels, encode_labels
 from bitstream.limits import DEFAULT_LIMITS
@@ -22,6 +33,7 @@ from tests.bitstream.test_connectivity import SOUPS, compact, read_ply
 from tests.shapes import Faces, grid_faces
 
 quick = settings(deadline=None, max_examples=60)
+DOCUMENT = (Path(__file__).parents[2] / "spec" / "connectivity.md").read_text()
 REFERENCE_ERRORS = (reference.CorruptError, reference.TruncatedError, reference.LimitError)
 
 
@@ -180,3 +192,76 @@ def test_real_meshes(meshes: Path, name: str) -> None:
 
 def test_the_limit_is_the_same() -> None:
     assert reference.decode_connectivity.__defaults__ == (DEFAULT_LIMITS.vertices,)
+
+
+def test_the_tables_are_those_of_the_document() -> None:
+    squash, stretch = np.array(reference.SQUASH), np.array(reference.STRETCH)
+    assert f"0x{zlib.crc32(squash.astype('<u2').tobytes()):X}" in DOCUMENT
+    assert f"0x{zlib.crc32(stretch.astype('<i2').tobytes()):X}" in DOCUMENT
+    exact = 65536 / (1 + np.exp(-np.arange(-2880, 2880) / 256))
+    np.testing.assert_array_equal(squash, np.clip(np.floor(exact + 0.5), 1, 65535))
+    assert np.abs(exact % 1 - 0.5).min() > 0.0003
+
+
+@quick
+@given(st.lists(st.tuples(st.integers(1, 1 << 32), st.integers(0, (1 << 24) - 1), st.booleans()), max_size=20))
+def test_integers_of_any_size(items: list[tuple[int, int, bool]]) -> None:
+    """Also those that no small mesh needs."""
+    coder, bank, contexts = (
+        start_writing(10000),
+        make_bank(2 * signed_span(3), signed_span(3), 1),
+        np.zeros(1, np.int64),
+    )
+    for count, value, negative in items:
+        code_uniform(coder, value % count, count)
+        code_unsigned(coder, bank, contexts, 0, 3, value)
+        code_signed(coder, bank, contexts, 0, 3, -value if negative else value)
+    decoder, model = reference.RangeDecoder(finish_writing(coder)), reference.Model(inputs=1)
+    for count, value, negative in items:
+        assert decoder.uniform(count) == value % count
+        assert reference.read_unsigned(decoder, model, (0,), 3, 0) == value
+        assert reference.read_signed(decoder, model, (0,), 3) == (-value if negative else value)
+    decoder.finish()
+
+
+def example(number: int) -> str:
+    """An indented line of the document's examples."""
+    section = DOCUMENT[DOCUMENT.index("## 11. ") : DOCUMENT.index("## 12. ")]
+    return [line.strip() for line in section.splitlines() if line.startswith("    ")][number]
+
+
+def example_numbers(number: int) -> list[list[int]]:
+    """As `example`, for a line of faces or other numbers."""
+    return [[int(corner) for corner in face.split()] for face in example(number).split("/")]
+
+
+def test_the_tetrahedron_of_the_document() -> None:
+    faces = example_numbers(1)
+    assert check_faces(bytes.fromhex(example(0)), 4, 4) == faces
+    expected = example_numbers(3)[0], example_numbers(4)
+    assert check_order(bytes.fromhex(example(2)), np.array(faces), 4) == expected
+    graph = graph_of_faces(np.array(faces, np.int32), 4)
+    labels = check_labels(bytes.fromhex(example(5)), graph, reference.neighbours_of(faces, 4), 2)
+    assert labels == example_numbers(6)[0]
+
+
+def test_the_decisions_of_the_tetrahedron(monkeypatch: pytest.MonkeyPatch) -> None:
+    seen: list[tuple[str, ...]] = []
+    decide = reference.RangeDecoder.bit
+
+    def record(decoder: reference.RangeDecoder, probability: int) -> int:
+        before = f"{decoder.range:x}", f"{decoder.low:x}", str(probability)
+        bit = decide(decoder, probability)
+        seen.append((*before, str(bit)))
+        return bit
+
+    monkeypatch.setattr(reference.RangeDecoder, "bit", record)
+    reference.decode_connectivity(bytes.fromhex(example(0)), 4, 4)
+    rows = re.findall(
+        r"([0-9a-f]+) \| ([0-9a-f]+) \| (\d+) \| ([01]) \|", DOCUMENT[DOCUMENT.index("by these decisions") :]
+    )
+    assert rows[::2] + rows[1::2] == seen
+
+
+def test_the_seam_of_the_document() -> None:
+    assert check_faces(bytes.fromhex(example(7)), 6, 3) == example_numbers(8)
