@@ -23,7 +23,7 @@ Matrix = npt.NDArray[np.float64]
 Levels = npt.NDArray[np.int32]
 
 SOFTNESS = 2.0**-10
-"""Below this share of the usual length of a sum of face normals, where they nearly cancel, a normal is shorter than 1."""
+"""Below this share of the usual length of a sum of face normals, as where they cancel, a normal is shorter than 1."""
 
 
 @dataclass(frozen=True, eq=False)
