@@ -43,7 +43,7 @@ class Block:
         """Number of rows n_i."""
         return len(self.vertices)
 
-    @property
+    @cached_property
     def degrees(self) -> Indices:
         """Neighbours of each row inside the block: the weights of the blend."""
         return np.diff(self.offsets)

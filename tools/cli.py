@@ -22,6 +22,7 @@ COMMANDS = {
     "demo": "compress a sample and show what became of it",
     "curve": "measure rate against error and draw it",
     "boundary": "measure the error at the boundaries of blocks",
+    "bench": "measure speed against exact solvers and Draco",
     "figures": "measure the figures of the README again",
 }
 
