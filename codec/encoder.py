@@ -42,7 +42,7 @@ STIFFNESS = 8.0
 PAPER_FRACTION = 0.10
 BASE_REACH = 4.0
 """With a detail layer, x, y and z go as far as they would pay at a step so many times that of the details."""
-DETAIL_REACH = 2 / 3
+DETAIL_REACH = 0.9
 """Details go as far as would pay at a step so many times their own."""
 SMOOTHING_STEPS = tuple(2.0**k for k in range(-3, 7))
 

@@ -94,7 +94,7 @@ class EncodeOptions:
     partition: str = "derived"
     basis: str = "oi"
     seed: str = "previous"
-    key_interval: int = 16
+    key_interval: int = 32
     power: int = 3
     iterations: int = 1
     key_iterations: int = 4
