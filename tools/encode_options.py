@@ -49,7 +49,7 @@ ENCODE_FLAGS = (
     ),
     EncodeFlag("coefficients", int, "C", "coefficients kept per block and coordinate, instead of --keep"),
     EncodeFlag("step", float, "S", "quantisation step, relative to the bounding box's diagonal (default 0.004)"),
-    EncodeFlag("detail", float, "R", "how much coarser x, y, z are than detail along normals, 0: no detail (default 3)"),
+    EncodeFlag("detail", float, "R", "how much coarser x, y, z are than detail along normals, 0: none (default 3)"),
     EncodeFlag("bits", int, "Q", "as in the paper: every coefficient in Q bits, without prediction"),
     EncodeFlag("smoothing", float, "A", "smoothing in the decoder (default: chosen by trying)"),
     EncodeFlag("block_size", int, "N", "vertices of a block before overlap, about (default 500)"),
