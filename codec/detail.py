@@ -9,6 +9,7 @@ b + m (U U^T h). Their step is finer than that of x, y and z, and they reach to 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TypeVar
 
 import numpy as np
 import numpy.typing as npt
@@ -21,9 +22,13 @@ from codec.mesh import Faces
 
 Matrix = npt.NDArray[np.float64]
 Levels = npt.NDArray[np.int32]
+Number = TypeVar("Number", bound=np.integer)
 
 SOFTNESS = 2.0**-10
 """Below this share of the usual length of a sum of face normals, as where they cancel, a normal is shorter than 1."""
+
+LEAST = 2.0**-33
+"""The same in BSM units: sums of normals that are no longer are rounding, on which decoders need not agree."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,8 +55,8 @@ class Normals:
     def of(self, block: Block, positions: Matrix) -> Matrix:
         """Normals at a block's rows, shape (n_i, 3), from its own positions and the faces that lie inside it.
 
-        The sum s of the faces' normals, each as long as twice its area, over sqrt(s . s + e^2); e is `SOFTNESS` times
-        the root mean square of |s| over the block. Zero where nothing has an area.
+        The sum s of the faces' normals, each as long as twice its area, over sqrt(s . s + e^2 + f^2); e is
+        `SOFTNESS` times the root mean square of |s| over the block, f is `LEAST`. Zero where nothing has an area.
         """
         surface = self._surface
         return np.asarray(
@@ -65,9 +70,9 @@ def displace(positions: Matrix, normals: Matrix, subspace: Matrix, coefficients:
     return positions + normals * height[:, None]
 
 
-def fold_details(levels: Levels) -> Levels:
+def fold_details(levels: npt.NDArray[Number]) -> npt.NDArray[Number]:
     """Levels of successive frequencies, shape (d,), as rows of three, the last one filled up with zeros."""
-    folded = np.zeros((-(-len(levels) // 3), 3), np.int32)
+    folded = np.zeros((-(-len(levels) // 3), 3), levels.dtype)
     folded.reshape(-1)[: len(levels)] = levels
     return folded
 
@@ -102,13 +107,11 @@ def _normals(faces, starts, members, vertices, row, positions):  # type: ignore[
                 z += ux * vy - uy * vx
         sums[r, 0], sums[r, 1], sums[r, 2] = x, y, z
         total += x * x + y * y + z * z
-    soft = SOFTNESS * SOFTNESS * total / n
+    soft = SOFTNESS * SOFTNESS * total / n + LEAST * LEAST
     for r in range(n):
-        square = sums[r, 0] ** 2 + sums[r, 1] ** 2 + sums[r, 2] ** 2 + soft
-        if square > 0.0:
-            length = np.sqrt(square)
-            for d in range(3):
-                sums[r, d] /= length
+        length = np.sqrt(sums[r, 0] ** 2 + sums[r, 1] ** 2 + sums[r, 2] ** 2 + soft)
+        for d in range(3):
+            sums[r, d] /= length
     for r in range(n):
         row[vertices[r]] = -1
     return sums
