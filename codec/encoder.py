@@ -9,8 +9,9 @@ import numpy as np
 import numpy.typing as npt
 
 from bitstream import packets
-from bitstream.adaptive import CoefficientModel, encode_coefficients, encode_layers
+from bitstream.adaptive import MAX_LEVEL, CoefficientModel, encode_coefficients, encode_layers
 from bitstream.arrangement import encode_arrangement
+from bitstream.choice import TARGET_UNIT, choose_levels
 from bitstream.coefficients import pack_coefficients
 from bitstream.connectivity import encode_connectivity
 from bitstream.errors import OptionError
@@ -21,7 +22,7 @@ from codec.blend import Blend
 from codec.blocks import Blocks, block_size, grow_blocks
 from codec.chain import Chain, ChainRules
 from codec.decoder import CONNECTIVITY_METHOD, ORDER_METHOD, chain_rules, copy_weights, detail_rows
-from codec.detail import Normals, Surface, displace, fold_details, make_surface
+from codec.detail import Normals, Surface, displace, fold_details, make_surface, unfold_details
 from codec.dynamic import dynamic_size
 from codec.graph import graph_of_faces
 from codec.mesh import TriangleMesh
@@ -31,6 +32,7 @@ from codec.parallel import ordered_map
 from codec.partition import Partition, derive_partition, metis_partition
 from codec.predict import extend
 from codec.quantize import dequantize, levels_to_unsigned, packed_step, quantize, smallest_step
+from codec.rate import BIT_WORTH, targets
 from codec.smooth import Spectrum, smooth
 from codec.spectrum import measure_spectrum, worthwhile_size
 from codec.targets import search_step
@@ -111,9 +113,8 @@ class ChainEncoder:
         dictionary = chain.dictionary(block, around, max(header.coefficients, header.details))
         prediction = extend(block, around)
         residual = positions[block.vertices] - prediction
-        coefficients = dictionary[:, : header.coefficients].T @ residual
-        width = self._subspace_size(residual, coefficients)
-        levels = quantize(coefficients[:width], header.step, self._rounding)
+        levels = self._levels(residual, dictionary[:, : header.coefficients].T @ residual)
+        width = len(levels)
         decoded = prediction + dictionary[:, :width] @ dequantize(levels, header.step)
         if header.coding == 0:
             payload = pack_coefficients(levels_to_unsigned(levels, header.bits), header.bits)
@@ -122,33 +123,31 @@ class ChainEncoder:
         else:
             normals = self._normals.of(block, decoded)
             heights = (normals * (positions[block.vertices] - decoded)).sum(axis=1)
-            details = self._detail_levels(dictionary[:, : header.details].T @ heights)
-            payload = encode_layers(self._model, levels, self._details, fold_details(details))
+            rows = self._detail_rows(self._details, dictionary[:, : header.details].T @ heights)
+            payload = encode_layers(self._model, levels, self._details, rows)
+            details = unfold_details(rows, min(header.details, block.size))
             decoded = displace(decoded, normals, dictionary, dequantize(details, header.detail_step))
             width = max(width, len(details))
         chain.commit(block, np.ascontiguousarray(dictionary[:, :width]), decoded)
         weights = copy_weights(header, blocks, index, block)
         return CodedBlock(packets.Block(index, len(levels), payload), block.vertices, decoded, weights)
 
-    def _detail_levels(self, coefficients: Matrix) -> npt.NDArray[np.int32]:
-        """Levels up to the last one that is not zero, their number a multiple of three or all there are."""
-        levels = quantize(coefficients[:, None], self._header.detail_step, self._rounding, nearest=0)[:, 0]
-        used = np.flatnonzero(levels)
-        return levels[: 3 * (int(used[-1]) // 3 + 1)] if len(used) else levels[:0]
-
-    @property
-    def _rounding(self) -> float:
-        return 0.5 if self._header.coding == 0 else self._options.rounding
-
-    def _subspace_size(self, residual: Matrix, coefficients: Matrix) -> int:
-        """c_i: as dynamic orthogonal iterations have it, or up to the last coefficient that is worth a level."""
+    def _levels(self, residual: Matrix, coefficients: Matrix) -> npt.NDArray[np.int32]:
+        """Levels of x, y and z, shape (c_i, 3): c_i as dynamic orthogonal iterations have it, or as far as they pay."""
+        step = self._header.step
+        if self._header.coding == 0:
+            return quantize(coefficients, step)
         if self._options.doi is not None:
             self._width = dynamic_size(residual, coefficients, self._width, *self._options.doi)
-            return self._width
-        if self._header.coding == 0:
-            return len(coefficients)
-        rows = np.flatnonzero(quantize(coefficients, self._header.step, self._rounding).any(axis=1))
-        return int(rows[-1]) + 1 if len(rows) else 1
+            coefficients = coefficients[: self._width]
+        choice = choose_levels(self._model, targets(coefficients, step, TARGET_UNIT, MAX_LEVEL), BIT_WORTH)
+        return choice.levels if self._options.doi is not None else choice.levels[: choice.width]
+
+    def _detail_rows(self, model: CoefficientModel, coefficients: Matrix) -> npt.NDArray[np.int32]:
+        """Levels of the detail layer, in rows of three, as far as they pay."""
+        wanted = targets(coefficients, self._header.detail_step, TARGET_UNIT, MAX_LEVEL)
+        choice = choose_levels(model, fold_details(wanted), BIT_WORTH)
+        return choice.levels[: choice.width if choice.levels.any() else 0]
 
 
 class Encoder:

@@ -26,7 +26,6 @@ RANGES: dict[str, tuple[float, float]] = {
     "bits": (2, 16),
     "step": (1e-9, 1.0),
     "detail": (0.0, 64.0),
-    "rounding": (0.0, 0.5),
     "smoothing": (0.0, 64.0),
     "threads": (1, 256),
 }
@@ -63,8 +62,6 @@ class EncodeOptions:
     detail : float, optional
         How many times coarser x, y and z are quantized than the detail layer, which keeps what they leave out along
         the normal alone; 0: no detail layer. None: 3, and 0 with `bits`, `doi` and targets of distance.
-    rounding : float
-        Fraction added before a magnitude is cut to an integer; below 0.5 it widens the dead zone.
     predict : bool
         Predict coefficients from overlapping vertices that are known already ("previous" only).
     smoothing : float, optional
@@ -102,7 +99,6 @@ class EncodeOptions:
     bits: int | None = None
     step: float = 0.004
     detail: float | None = None
-    rounding: float = 0.42
     predict: bool = True
     smoothing: float | None = None
     blend: str = "degree"

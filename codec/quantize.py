@@ -11,17 +11,9 @@ Levels = npt.NDArray[np.int32]
 LARGEST_LEVEL = (1 << 23) - 1
 
 
-def quantize(coefficients: Matrix, step: float, rounding: float, nearest: int = 1) -> Levels:
-    """Levels of `coefficients`, shape (c, 3): magnitudes over `step` plus `rounding` (at most 0.5), cut to integers.
-
-    `rounding` below 0.5 widens the dead zone: small coefficients become zero, which saves more bits than it costs in
-    error. The first `nearest` rows (the block's place in space) are rounded to the nearest all the same.
-    """
-    scaled = coefficients / step
-    offset = np.full((len(scaled), 1), rounding)
-    offset[:nearest] = 0.5
-    magnitude = np.floor(np.abs(scaled) + offset)
-    return np.copysign(magnitude, scaled).astype(np.int32)
+def quantize(coefficients: Matrix, step: float) -> Levels:
+    """Levels nearest to `coefficients`, shape (c, 3)."""
+    return np.rint(coefficients / step).astype(np.int32)
 
 
 def dequantize(levels: Levels, step: float) -> Matrix:

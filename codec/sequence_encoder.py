@@ -186,7 +186,7 @@ class OpeningEncoder:
         self._blocks = grow_blocks(graph, partition, self._size)
         self.header = self._header(partition.parts, frames)
         coder = ChainEncoder(
-            self.header, chain_rules(self.header), self._blocks, EncodeOptions(rounding=options.rounding)
+            self.header, chain_rules(self.header), self._blocks, EncodeOptions()
         )
         positions = self.in_units(ordered.positions)
         self.coded: list[CodedBlock] = [coder.encode(index, positions) for index in range(self._blocks.count)]
