@@ -14,7 +14,7 @@ from numba import njit
 
 from codec.graph import Graph, Indices
 
-LEAF = 16
+LEAF = 8
 """Segments of at most so many vertices keep the order they have; part of the format."""
 
 _ONE = np.uint64(1)

@@ -299,7 +299,7 @@ def parse_stream(stream):
 
 # ---------------------------------------------------------------- M 3 to M 6: blocks
 
-LEAF = 16
+LEAF = 8
 
 
 def sweep(graph, segment, start):
