@@ -3,8 +3,10 @@
 from codec.denoise.automatic import AutomaticChoice, denoise_automatically
 from codec.denoise.coarse import CoarseFilter
 from codec.denoise.fine import FINE_STEPS
+from codec.denoise.frames import FrameDenoiser, coarse_frames
 from codec.denoise.handover import HAND_OVERS
-from codec.denoise.pipeline import DenoiseOptions, coarse_frames, denoise, denoise_frames
+from codec.denoise.options import DenoiseOptions
+from codec.denoise.pipeline import denoise, denoise_frames
 
 __all__ = [
     "FINE_STEPS",
@@ -12,6 +14,7 @@ __all__ = [
     "AutomaticChoice",
     "CoarseFilter",
     "DenoiseOptions",
+    "FrameDenoiser",
     "coarse_frames",
     "denoise",
     "denoise_automatically",

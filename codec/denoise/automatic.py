@@ -87,21 +87,23 @@ def denoise_automatically(positions: Positions, faces: Faces) -> tuple[Positions
     topology = Topology(faces, len(positions))
     coarse = CoarseFilter(faces, len(positions), LARGEST_KEEP)
     choice = choose(positions, coarse, topology)
-    return apply(choice, positions, coarse, topology), choice
+    smooth = positions if choice.recipe is None else coarse(positions, choice.recipe.keep)
+    return apply(choice, positions, smooth, topology), choice
 
 
-def apply(choice: AutomaticChoice, positions: Positions, coarse: CoarseFilter, topology: Topology) -> Positions:
-    """Do what was chosen."""
+def apply(choice: AutomaticChoice, noisy: Positions, smooth: Positions, topology: Topology) -> Positions:
+    """Do what was chosen; `smooth` is the coarse mesh at the chosen fraction of the frequencies."""
     if choice.recipe is None:
-        return positions.copy()
-    return _after(iterates(choice.recipe, positions, coarse, topology), choice.iterations)
+        return noisy.copy()
+    return _after(iterates(choice.recipe, noisy, smooth, topology), choice.iterations)
 
 
 def choose(positions: Positions, coarse: CoarseFilter, topology: Topology) -> AutomaticChoice:
     """Estimate the noise and rehearse, see the module's description."""
     edge = mean_edge_length(positions, topology.faces)
-    level = estimate_noise(positions, coarse(positions, BASE.keep), topology)
-    base = iterates(BASE, positions, coarse, topology)
+    smooth = coarse(positions, BASE.keep)
+    level = estimate_noise(positions, smooth, topology)
+    base = iterates(BASE, positions, smooth, topology)
     given, done, rehearsals = 1, -1, 0
     while True:
         guess = _after(base, given - done - 1)
@@ -126,7 +128,8 @@ def choose(positions: Positions, coarse: CoarseFilter, topology: Topology) -> Au
 def _try(recipe: Recipe, noisy: Positions, truth: Reference, coarse: CoarseFilter, topology: Topology) -> _Trial:
     """Iterate until nothing has improved for a while."""
     best = _Trial(recipe, 0, np.inf)
-    for count, positions in enumerate(islice(iterates(recipe, noisy, coarse, topology), MOST_ITERATIONS + 1)):
+    run = iterates(recipe, noisy, coarse(noisy, recipe.keep), topology)
+    for count, positions in enumerate(islice(run, MOST_ITERATIONS + 1)):
         angle = truth.theta(positions)
         if angle < best.theta:
             best = _Trial(recipe, count, angle)

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from codec.denoise.coarse import CoarseFilter
 from codec.denoise.guidance import patch_guidance
 from codec.denoise.guided import Guide, GuidedFilter, own_normals
 from codec.denoise.handover import hand_over
@@ -38,9 +37,9 @@ class Recipe:
     sigma_r: float
 
 
-def iterates(recipe: Recipe, noisy: Positions, coarse: CoarseFilter, topology: Topology) -> Iterator[Positions]:
-    """The positions after the hand-over and 0, 1, 2, ... iterations, without end."""
-    positions = hand_over(recipe.hand_over)(noisy, coarse(noisy, recipe.keep), topology)
+def iterates(recipe: Recipe, noisy: Positions, smooth: Positions, topology: Topology) -> Iterator[Positions]:
+    """The positions after the hand-over and 0, 1, 2, ... iterations, without end; `smooth` is the coarse mesh."""
+    positions = hand_over(recipe.hand_over)(noisy, smooth, topology)
     guide = named("guide", GUIDES, recipe.guide)
     filter_ = GuidedFilter(positions, topology)
     while True:

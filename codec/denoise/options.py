@@ -1,0 +1,51 @@
+"""What a caller may choose instead of the automatic mode."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from bitstream.errors import OptionError
+from codec.denoise.coarse import BLOCK_SIZE, KEEP
+from codec.denoise.fine import fine_step
+from codec.denoise.handover import hand_over
+
+
+@dataclass(frozen=True, kw_only=True)
+class DenoiseOptions:
+    """How to denoise; the defaults are the paper's coarse-to-fine scheme.
+
+    Parameters
+    ----------
+    hand_over : str
+        "positions" (the paper's: the fine step sees the coarse mesh), "normals" (the noisy mesh, after a pass guided
+        by the coarse mesh's normals) or "none" (no coarse step).
+    fine : str
+        Name of the fine step, see `codec.denoise.fine.FINE_STEPS`.
+    iterations : int, optional
+        Of the fine step; None: the method's own number, 0: only the coarse step.
+    keep : float
+        Fraction of each block's frequencies that the coarse step keeps.
+    block_size : int
+        Vertices of a block before overlap, about.
+
+    Raises
+    ------
+    OptionError
+        If a name is unknown or a number outside its range.
+    """
+
+    hand_over: str = "positions"
+    fine: str = "guided"
+    iterations: int | None = None
+    keep: float = KEEP
+    block_size: int = BLOCK_SIZE
+
+    def __post_init__(self) -> None:
+        hand_over(self.hand_over)
+        fine_step(self.fine)
+        if self.iterations is not None and self.iterations < 0:
+            raise OptionError(f"iterations must not be negative, not {self.iterations}")
+        if not 0.0 < self.keep <= 1.0 or self.block_size < 1:
+            raise OptionError(
+                f"keep must be above 0 and at most 1, block_size positive; not {self.keep}, {self.block_size}"
+            )
