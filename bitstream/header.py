@@ -134,6 +134,8 @@ class Header:
     """Quantization step of the detail layer, in BSM units; 0: there is none."""
     details: int = integer(26, 0, COUNT, default=0)
     """Coefficients of the largest detail layer of a block."""
+    coarser: int = integer(27, 0, 30, default=0)
+    """Packed coefficients: those of the lowest frequency are in units of 2^coarser steps."""
 
     def __post_init__(self) -> None:
         for name, declared in HEADER_FIELDS.items():

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 import numpy as np
 import numpy.typing as npt
 
+from bitstream.errors import NumericError
 from codec.blend import Blend
 from codec.blocks import Blocks
 from codec.graph import Graph
@@ -50,6 +51,21 @@ class Losses:
 
     missing: Indices = field(default_factory=lambda: np.empty(0, np.int32))
     degraded: Indices = field(default_factory=lambda: np.empty(0, np.int32))
+
+
+def in_mesh_units(positions: Matrix, center: tuple[float, ...], scale: float) -> Positions:
+    """Positions in BSM units as the mesh has them.
+
+    Raises
+    ------
+    NumericError
+        If one is beyond the range of numbers.
+    """
+    with np.errstate(over="ignore", invalid="ignore"):
+        moved = positions * scale + np.array(center)
+    if not np.isfinite(moved).all():
+        raise NumericError("positions are not finite in the unit of the mesh")
+    return moved
 
 
 class Assembly:
@@ -135,4 +151,4 @@ class Assembly:
         return vertices if self._order is None else self._order[vertices]
 
     def _in_mesh_units(self, positions: Matrix) -> Positions:
-        return positions * self._frame.scale + np.array(self._frame.center)
+        return in_mesh_units(positions, self._frame.center, self._frame.scale)

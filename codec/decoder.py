@@ -199,7 +199,7 @@ class ChainDecoder:
             raise CorruptError(f"{width} coefficients for a block of {block.size} vertices")
         if self._header.coding == 0:
             values = unpack_coefficients(packet.data, 3 * width, self._header.bits)
-            return unsigned_to_levels(values, self._header.bits), nothing
+            return unsigned_to_levels(values, self._header.bits, self._header.coarser), nothing
         if self._details is None:
             return decode_coefficients(self._model, packet.data, width), nothing
         levels, folded = decode_layers(self._model, self._details, packet.data, width)
@@ -282,7 +282,11 @@ class Decoder:
                 raise
             self._assembly.lose(error.block)
             return LossEvent(error.block, error)
-        return BlockEvent(decoded.index, self._assembly.changes(decoded))
+        try:
+            return BlockEvent(decoded.index, self._assembly.changes(decoded))
+        except BsmError as error:
+            self._give_up(error.located(block=decoded.index))
+            raise
 
     def finish(self) -> TriangleMesh:
         """Decode the rest of a complete stream and return the mesh; faster than asking for events.
@@ -306,9 +310,12 @@ class Decoder:
             return pending.result()
         except BsmError as error:
             if not self._tolerant:
-                self._queue.clear()
-                self._error = error
+                self._give_up(error)
             raise
+
+    def _give_up(self, error: BsmError) -> None:
+        self._queue.clear()
+        self._error = error
 
     def _next_item(self) -> Event | Pending[DecodedBlock]:
         self._look_ahead()

@@ -15,7 +15,10 @@ Matrix = npt.NDArray[np.float64]
 
 
 def residual_norms(positions: Matrix, coefficients: Matrix) -> Matrix:
-    """||e|| of equation 4 for every size of the subspace.
+    """The error that a subspace of every size leaves.
+
+    Equation 4 adds the residuals of x, y and z before it takes the norm, so that errors of opposite sign cancel; this
+    is the norm over all three.
 
     Parameters
     ----------
@@ -26,10 +29,10 @@ def residual_norms(positions: Matrix, coefficients: Matrix) -> Matrix:
     Returns
     -------
     float64 array, shape (c + 1,)
-        Entry j is the norm of the sum over x, y, z of v - U_j U_j^T v, with U_j the first j columns.
+        Entry j is the norm of v - U_j U_j^T v over x, y and z, with U_j the first j columns.
     """
-    total = float(np.square(positions.sum(axis=1)).sum())
-    captured = np.concatenate([[0.0], np.cumsum(np.square(coefficients.sum(axis=1)))])
+    total = float(np.square(positions).sum())
+    captured = np.concatenate([[0.0], np.cumsum(np.square(coefficients).sum(axis=1))])
     return np.sqrt(np.maximum(total - captured, 0.0))
 
 

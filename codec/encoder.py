@@ -31,7 +31,7 @@ from codec.options import EncodeOptions
 from codec.parallel import ordered_map
 from codec.partition import Partition, derive_partition, metis_partition
 from codec.predict import extend
-from codec.quantize import dequantize, levels_to_unsigned, packed_step, quantize, smallest_step
+from codec.quantize import dequantize, levels_to_unsigned, packed_range, quantize_packed, smallest_step
 from codec.rate import BIT_WORTH, targets
 from codec.smooth import Spectrum, smooth
 from codec.spectrum import measure_spectrum, worthwhile_size
@@ -117,7 +117,7 @@ class ChainEncoder:
         width = len(levels)
         decoded = prediction + dictionary[:, :width] @ dequantize(levels, header.step)
         if header.coding == 0:
-            payload = pack_coefficients(levels_to_unsigned(levels, header.bits), header.bits)
+            payload = pack_coefficients(levels_to_unsigned(levels, header.bits, header.coarser), header.bits)
         elif self._details is None or self._normals is None:
             payload = encode_coefficients(self._model, levels)
         else:
@@ -132,11 +132,19 @@ class ChainEncoder:
         weights = copy_weights(header, blocks, index, block)
         return CodedBlock(packets.Block(index, len(levels), payload), block.vertices, decoded, weights)
 
+    def magnitudes(self, index: int, positions: Matrix) -> Matrix:
+        """Largest coefficient in the first row of the chain's next block, and in all others, shape (2,)."""
+        block, chain = self._blocks.block(index), self._chain
+        dictionary = chain.dictionary(block, chain.around(block), self._header.coefficients)
+        coefficients = np.abs(dictionary.T @ positions[block.vertices])
+        chain.commit(block, dictionary, positions[block.vertices])
+        return np.array([coefficients[:1].max(), coefficients[1:].max(initial=0.0)])
+
     def _levels(self, residual: Matrix, coefficients: Matrix) -> npt.NDArray[np.int32]:
         """Levels of x, y and z, shape (c_i, 3): c_i as dynamic orthogonal iterations have it, or as far as they pay."""
         step = self._header.step
         if self._header.coding == 0:
-            return quantize(coefficients, step)
+            return quantize_packed(coefficients, step, self._header.coarser)
         if self._options.doi is not None:
             self._width = dynamic_size(residual, coefficients, self._width, *self._options.doi)
             coefficients = coefficients[: self._width]
@@ -179,9 +187,13 @@ class Encoder:
         self._order: packets.Order | None = None
         if self.options.keep_order:
             self._order = packets.Order(ORDER_METHOD, encode_arrangement(used.faces, connectivity))
-        self.vertex_order: npt.NDArray[np.int64] = kept[connectivity.vertex_order]
-        self.face_order: npt.NDArray[np.int64] = connectivity.face_order.astype(np.int64)
-        self.mesh = TriangleMesh(mesh.positions[self.vertex_order], connectivity.faces)
+        order = kept[connectivity.vertex_order]
+        self.mesh = TriangleMesh(mesh.positions[order], connectivity.faces)
+        if self._order is None:
+            self.vertex_order: npt.NDArray[np.int64] = order
+            self.face_order: npt.NDArray[np.int64] = connectivity.face_order.astype(np.int64)
+        else:
+            self.vertex_order, self.face_order = kept, np.arange(len(used.faces))
         self._center, self._scale = _frame_of_reference(self.mesh)
         self._positions = (self.mesh.positions - self._center) / self._scale
         self._graph = graph_of_faces(self.mesh.faces, len(kept))
@@ -268,11 +280,11 @@ class Encoder:
             power=options.power,
             iterations=options.iterations,
             key_iterations=options.key_iterations,
-            shift=_single(options.shift),
+            shift=_single(options.delta),
             blend=("degree", "uniform", "own").index(options.blend),
             coding=0 if packed else 1,
             bits=options.bits or 12,
-            step=_single(packed_step(size, options.bits) if options.bits else step * (ratio or 1.0)),
+            step=_single(step * (ratio or 1.0)),
             center=tuple(self._center),
             scale=self._scale,
             prediction=(STIFFNESS,) if predicted else (),
@@ -292,11 +304,13 @@ class Encoder:
     def _measured(self) -> Matrix:
         """The mesh's spectrum, measured when it is first needed."""
         if self._spectrum is None:
-            self._spectrum = measure_spectrum(self._blocks, self._positions, shift=self.options.shift)
+            self._spectrum = measure_spectrum(self._blocks, self._positions, shift=self.options.delta)
         return self._spectrum
 
     def _coded(self, step: float, progress: Progress | None) -> tuple[Header, list[CodedBlock]]:
         header, blocks = self._header(step), self._blocks
+        if self.options.bits is not None:
+            header = self._packed(header)
         rules = chain_rules(header)
         length = rules.chain_length(blocks.count)
         surface = make_surface(self.mesh.faces, len(self._positions)) if header.details else None
@@ -313,6 +327,21 @@ class Encoder:
                 progress(len(coded), blocks.count)
         header = replace(header, coefficients=max(block.packet.coefficients for block in coded))
         return replace(header, smoothing=self._smoothing(header, coded)), coded
+
+    def _packed(self, header: Header) -> Header:
+        """The header with the step that makes the most of a fixed number of bits: it takes a pass over all blocks."""
+        rules, blocks = chain_rules(header), self._blocks
+        length = rules.chain_length(blocks.count)
+
+        def largest(start: int) -> Matrix:
+            chain = ChainEncoder(header, rules, blocks, self.options)
+            indices = range(start, min(start + length, blocks.count))
+            return np.max([chain.magnitudes(index, self._positions) for index in indices], axis=0)
+
+        starts = rules.chain_starts(blocks.count)
+        first, others = np.max(list(ordered_map(largest, starts, self.options.threads)), axis=0)
+        step, coarser = packed_range(first, others, header.bits)
+        return replace(header, step=step, coarser=coarser)
 
     def _blended(self, coded: list[CodedBlock]) -> Matrix:
         blend = Blend(len(self._positions))

@@ -53,8 +53,10 @@ class EncodeOptions:
         from the vertices shared with it) or "independent" (every block on its own).
     key_interval : int
         Every so many blocks one depends on nothing before it; 0: only the first.
-    power, iterations, key_iterations, shift
-        z, t_max, t_max of a key block, and delta of Algorithm 1.
+    power, iterations, key_iterations : int
+        z, t_max and t_max of a key block.
+    shift : float, optional
+        delta of Algorithm 1. None: 1/8, which keeps R^z well conditioned; with `bits` 1/32, which converges faster.
     bits : int, optional
         q_c: store every coefficient in so many bits, as in the paper, without prediction and smoothing. None: adaptive.
     step : float
@@ -95,7 +97,7 @@ class EncodeOptions:
     power: int = 3
     iterations: int = 1
     key_iterations: int = 4
-    shift: float = 0.125
+    shift: float | None = None
     bits: int | None = None
     step: float = 0.004
     detail: float | None = None
@@ -132,6 +134,13 @@ class EncodeOptions:
             return self.detail
         distance = self.target is not None and self.target.kind in ("nmsve_db", "max_error_relative")
         return 0.0 if distance or self.bits is not None or self.doi is not None else DETAIL_RATIO
+
+    @property
+    def delta(self) -> float:
+        """The shift delta."""
+        if self.shift is not None:
+            return self.shift
+        return 2.0**-3 if self.bits is None else 2.0**-5
 
 
 DETAIL_RATIO = 3.0

@@ -26,20 +26,40 @@ def smallest_step(block_size: int) -> float:
     return float(np.sqrt(block_size) / LARGEST_LEVEL)
 
 
-def packed_step(block_size: int, bits: int) -> float:
-    """Step with which `bits` bits hold every coefficient of a block of n_d vertices.
+def packed_range(first: float, others: float, bits: int) -> tuple[float, int]:
+    """Step with which `bits` bits hold every coefficient, and how many bits coarser the first row is for that.
 
-    Positions lie within half a diagonal of the centre, so a coefficient lies within sqrt(n_d) / 2.
+    Parameters
+    ----------
+    first, others : float
+        Largest magnitudes in the first row of any block, the block's place in space, and in all other rows.
+    bits : int
     """
-    return float(np.sqrt(block_size) / (2**bits - 1))
+    half = (1 << (bits - 1)) - 1
+    step = float(np.nextafter(np.float32(max(others, first * 2.0**-20, 1e-9) / half), np.float32(np.inf)))
+    coarser = 0
+    while first > half * step * 2**coarser:
+        coarser += 1
+    return step, coarser
 
 
-def levels_to_unsigned(levels: Levels, bits: int) -> npt.NDArray[np.uint32]:
-    """Levels of `packed_step` as unsigned integers of `bits` bits."""
+def quantize_packed(coefficients: Matrix, step: float, coarser: int) -> Levels:
+    """Levels nearest to `coefficients`; those of the first row are multiples of 2^`coarser`."""
+    levels = quantize(coefficients, step)
+    levels[0] = np.rint(coefficients[0] / (step * 2**coarser)) * 2**coarser
+    return levels
+
+
+def levels_to_unsigned(levels: Levels, bits: int, coarser: int) -> npt.NDArray[np.uint32]:
+    """Levels of `quantize_packed` as unsigned integers of `bits` bits."""
+    stored = levels.copy()
+    stored[0] >>= coarser
     half = 1 << (bits - 1)
-    return np.clip(levels + half, 0, 2 * half - 1).astype(np.uint32)
+    return np.clip(stored + half, 0, 2 * half - 1).astype(np.uint32)
 
 
-def unsigned_to_levels(values: npt.NDArray[np.uint32], bits: int) -> Levels:
+def unsigned_to_levels(values: npt.NDArray[np.uint32], bits: int, coarser: int) -> Levels:
     """Twin of `levels_to_unsigned`, shape (c, 3)."""
-    return (values.astype(np.int64) - (1 << (bits - 1))).astype(np.int32).reshape(-1, 3)
+    levels = (values.astype(np.int64) - (1 << (bits - 1))).astype(np.int32).reshape(-1, 3)
+    levels[0] <<= coarser
+    return levels
