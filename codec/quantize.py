@@ -36,7 +36,7 @@ def packed_range(first: float, others: float, bits: int) -> tuple[float, int]:
     bits : int
     """
     half = (1 << (bits - 1)) - 1
-    step = float(np.nextafter(np.float32(max(others, first * 2.0**-20, 1e-9) / half), np.float32(np.inf)))
+    step = float(np.nextafter(np.float32(max(others, first * 2.0**-20, 2.0**-20) / half), np.float32(np.inf)))
     coarser = 0
     while first > half * step * 2**coarser:
         coarser += 1
