@@ -389,8 +389,11 @@ def chain_of(graph, labels, parts):
         for part, count in beside.items():
             shared[part] += count
         unvisited = [part for part in sorted(beside) if part not in chain]
-        unvisited = unvisited or [part for part in range(parts) if part not in chain]
-        chain.append(max(unvisited, key=lambda part: shared[part]))  # the first of equals
+        if unvisited:
+            chain.append(max(unvisited, key=lambda part: shared[part]))  # the first of equals
+            continue
+        ways = (part for last in reversed(chain) for part in sorted(edges[last]) if part not in chain)
+        chain.append(next(ways, min(set(range(parts)) - set(chain))))
     return chain
 
 
@@ -399,7 +402,7 @@ def grow(graph, core, size):
     found, seen = list(core), set(core)
     for v in found:  # `found` grows meanwhile
         for w in graph[v]:
-            if w not in seen and len(found) < size:
+            if w not in seen and len(found) < size and len(graph[w]) <= size:
                 seen.add(w)
                 found.append(w)
     return found
