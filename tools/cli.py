@@ -19,6 +19,8 @@ COMMANDS = {
     "info": "show what a stream holds",
     "compare": "measure the error of a mesh",
     "verify": "check a stream",
+    "denoise": "remove noise from a mesh or a sequence",
+    "noise": "add noise to a mesh",
     "demo": "compress a sample and show what became of it",
     "curve": "measure rate against error and draw it",
     "boundary": "measure the error at the boundaries of blocks",
