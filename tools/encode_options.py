@@ -44,9 +44,7 @@ class EncodeFlag:
 
 
 ENCODE_FLAGS = (
-    EncodeFlag(
-        "keep", float, "FRACTION", "largest c_i, as a fraction of a block's vertices (default: as many as pay)"
-    ),
+    EncodeFlag("keep", float, "FRACTION", "largest c_i, as a fraction of a block's vertices (default: as many as pay)"),
     EncodeFlag("coefficients", int, "C", "coefficients kept per block and coordinate, instead of --keep"),
     EncodeFlag("step", float, "S", "quantisation step, relative to the bounding box's diagonal (default 0.004)"),
     EncodeFlag("detail", float, "R", "how much coarser x, y, z are than detail along normals, 0: none (default 3)"),

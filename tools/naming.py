@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import glob
 import sys
 from pathlib import Path
 
@@ -18,6 +19,8 @@ def default_output(path: str, suffix: str) -> str:
     """
     if path == "-":
         return "-"
+    if glob.has_magic(path) and not Path(path).exists():
+        raise OptionError(f"{path} names many files; name the output with -o")
     output = Path(path).with_suffix(suffix)
     if output == Path(path):
         raise OptionError(f"the output would replace the input {path}; name another with -o")

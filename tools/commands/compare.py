@@ -16,8 +16,8 @@ from tools.streams import decode_whole, is_stream
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare what the command takes."""
-    parser.add_argument("original", metavar="A", help="original: mesh file or stream")
-    parser.add_argument("decoded", metavar="B", help="what became of it: mesh file or stream")
+    parser.add_argument("original", metavar="A", help="original: mesh file or stream, or a sequence of meshes")
+    parser.add_argument("decoded", metavar="B", help="what became of it, in any of these forms")
     parser.add_argument("--permutation", metavar="FILE.npy", help="what encode wrote: vertex p[j] of A is j of B")
     parser.add_argument("--json", action="store_true", help="print it as JSON")
 
@@ -25,7 +25,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(args: argparse.Namespace, console: Console) -> None:
     """Compare two meshes."""
     from codec.metrics import compare
+    from tools.commands.sequence_compare import compare_if_sequences
 
+    if compare_if_sequences(args):
+        return
     original, decoded = (_load(path, console) for path in (args.original, args.decoded))
     order = read_permutation(args.permutation) if args.permutation else None
     result = asdict(compare(original.positions, in_order_of(original, decoded, order), original.faces))

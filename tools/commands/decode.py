@@ -12,14 +12,21 @@ from tools.naming import default_output, refuse_terminal
 from tools.output import open_output, refuse_to_overwrite
 from tools.permutation import read_permutation, reorder
 from tools.pipes import read_chunks
+from tools.sequence_streams import peek_header
+from tools.sequences import SEQUENCE_FORMATS
 from tools.streams import decode_blocks, decode_whole
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare what the command takes."""
     parser.add_argument("input", metavar="IN", help="stream, or - for standard input")
-    parser.add_argument("-o", "--output", metavar="OUT", help="mesh file (default: IN with .ply; - for a pipe)")
-    parser.add_argument("--format", choices=MESH_FORMATS, help="format of the output (default: by its name; ply)")
+    parser.add_argument(
+        "-o",
+        "--output",
+        metavar="OUT",
+        help="mesh file (default: IN with .ply; - for a pipe); for a sequence an npz (default) or a folder",
+    )
+    parser.add_argument("--format", choices=SEQUENCE_FORMATS, help="format of the output (default: by its name; ply)")
     parser.add_argument("--blocks", type=int, metavar="N", help="stop after N blocks, and write the part that is there")
     parser.add_argument(
         "--permutation", metavar="FILE.npy", help="what encode wrote with the same option: restore the input's order"
@@ -29,9 +36,15 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace, console: Console) -> None:
     """Decode one stream."""
+    header, chunks = peek_header(read_chunks(args.input))
+    if header is not None and header.gop_frames:
+        from tools.commands.sequence_decode import decode_sequence
+
+        decode_sequence(args, console, chunks)
+        return
     output = args.output or default_output(args.input, f".{args.format or 'ply'}")
     kind = args.format or ("ply" if output == "-" else format_of_name(output))
-    if kind is None:
+    if kind not in MESH_FORMATS:
         raise OptionError(f"{output}: the name tells no mesh format; use --format, one of {', '.join(MESH_FORMATS)}")
     if output == "-" and args.json:
         raise OptionError("--json and -o - would both write to standard output")
@@ -40,7 +53,6 @@ def run(args: argparse.Namespace, console: Console) -> None:
     refuse_terminal(output)
     refuse_to_overwrite(output, args.force)
     begin = time.perf_counter()
-    chunks = read_chunks(args.input)
     if args.blocks is None:
         mesh = decode_whole(chunks)
     else:

@@ -13,18 +13,27 @@ from tools.meshfiles import MESH_FORMATS, read_mesh
 from tools.naming import default_output, refuse_terminal
 from tools.output import open_output, refuse_to_overwrite
 from tools.permutation import write_permutation
+from tools.sequence_options import add_sequence_flags, refuse_sequence_flags
+from tools.sequences import open_sequence
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare what the command takes."""
-    parser.add_argument("input", metavar="IN", help="mesh file (OBJ, OFF, PLY, STL, npz), or - for standard input")
+    parser.add_argument(
+        "input",
+        metavar="IN",
+        help="mesh file (OBJ, OFF, PLY, STL, npz), - for standard input, or a sequence: npz, folder, or pattern",
+    )
     parser.add_argument("-o", "--output", metavar="OUT", help="where to write (default: IN with .bsm; - for a pipe)")
-    parser.add_argument("--format", choices=MESH_FORMATS, help="format of the input (default: by its name or content)")
+    parser.add_argument(
+        "--format", choices=(*MESH_FORMATS, "npy"), help="format of the input (default: by its name or content)"
+    )
     parser.add_argument(
         "--permutation", metavar="FILE.npy", help="also write which input vertex each decoded vertex is"
     )
     parser.add_argument("--json", action="store_true", help="print the result as JSON")
     add_encode_flags(parser)
+    add_sequence_flags(parser)
 
 
 def run(args: argparse.Namespace, console: Console) -> None:
@@ -38,6 +47,12 @@ def run(args: argparse.Namespace, console: Console) -> None:
 
     from codec import Encoder
 
+    if sequence := open_sequence(args.input, args.format):
+        from tools.commands.sequence_encode import encode_sequence
+
+        encode_sequence(args, console, sequence, output)
+        return
+    refuse_sequence_flags(args)
     options = encode_options(args)
     source = read_mesh(args.input, args.format)
     begin = time.perf_counter()

@@ -1,4 +1,4 @@
-"""npz: the arrays `positions` and `faces`, as numpy saves them."""
+"""npz: the arrays `positions` (of a mesh, or of a sequence of them) and `faces`, as numpy saves them."""
 
 from __future__ import annotations
 
@@ -6,13 +6,15 @@ import io
 import lzma
 import zipfile
 import zlib
-from typing import Any
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import IO, Any, BinaryIO
 
 import numpy as np
 import numpy.typing as npt
 
 from bitstream.errors import CorruptError, FormatError, LimitError, MeshError
-from codec.mesh import TriangleMesh
+from codec.mesh import Faces, Positions, TriangleMesh
 
 _MAX_BYTES = 1 << 32
 
@@ -64,3 +66,46 @@ def write_npz(mesh: TriangleMesh) -> bytes:
     buffer = io.BytesIO()
     np.savez_compressed(buffer, positions=mesh.positions, faces=mesh.faces)
     return buffer.getvalue()
+
+
+@contextmanager
+def open_npz_sequence(file: BinaryIO, faces: Faces, count: int) -> Iterator[Callable[[Positions], None]]:
+    """Write an npz of `positions`, shape (T, n, 3), and `faces`; yields what takes frame after frame.
+
+    With `count` > 0 frames, as many must come, and none is kept in memory; with 0, all are.
+    """
+    kept: list[Positions] = []
+    with zipfile.ZipFile(file, "w", zipfile.ZIP_DEFLATED) as archive:
+        with archive.open("faces.npy", "w") as entry:
+            np.lib.format.write_array(entry, faces)
+        if count:
+            with archive.open("positions.npy", "w", force_zip64=True) as entry:
+                taken = _FrameEntry(entry, count)
+                yield taken.write
+                taken.finish()
+        else:
+            yield kept.append
+            with archive.open("positions.npy", "w", force_zip64=True) as entry:
+                np.lib.format.write_array(entry, np.array(kept))
+
+
+class _FrameEntry:
+    """The array `positions` of an npz that is being written."""
+
+    def __init__(self, entry: IO[bytes], count: int) -> None:
+        self._entry = entry
+        self._count = count
+        self._taken = 0
+
+    def write(self, frame: Positions) -> None:
+        """Append one frame; the first one tells the number of vertices."""
+        if self._taken == 0:
+            header = {"descr": "<f8", "fortran_order": False, "shape": (self._count, *frame.shape)}
+            np.lib.format.write_array_header_1_0(self._entry, header)
+        self._entry.write(np.ascontiguousarray(frame, "<f8").tobytes())
+        self._taken += 1
+
+    def finish(self) -> None:
+        """Check that all frames came."""
+        if self._taken != self._count:
+            raise CorruptError(f"{self._taken} of {self._count} frames came")
