@@ -11,16 +11,19 @@ differences of frames and to components of trajectories alike.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 import numpy.typing as npt
-from scipy.sparse import csr_matrix
 
 from codec.blocks import Blocks
 from codec.graph import Indices
 from codec.mesh import Faces, Positions
 from codec.parallel import ordered_map
 from codec.weighted import binary_weights, canonical_eigenvectors, cotangent_weights, held_laplacian
+
+if TYPE_CHECKING:
+    from scipy.sparse import csr_matrix
 
 Matrix = npt.NDArray[np.float64]
 
@@ -84,6 +87,9 @@ def build_dictionaries(
         Cotangent weights; otherwise all weights are one and `first_frame` is not looked at.
     threads : int, optional
     """
+    # Not needed by static meshes, whose decoding it would delay.
+    from scipy.sparse import csr_matrix
+
     graph = blocks.graph
     weights = cotangent_weights(graph, faces, first_frame) if cotangent else binary_weights(graph)
     cores = [np.sort(blocks.core(index)) for index in range(blocks.count)]

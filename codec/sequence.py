@@ -15,9 +15,9 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 from numba import njit
-from scipy.fft import dct, idct
 
 from bitstream.errors import NumericError
+from codec.subspace import cosine_columns
 
 Matrix = npt.NDArray[np.float64]
 Levels = npt.NDArray[np.int32]
@@ -48,9 +48,16 @@ def frames_of(matrix: Matrix) -> Matrix:
     return np.ascontiguousarray(matrix.reshape(len(matrix), 3, -1).transpose(2, 0, 1))
 
 
+def _cosines(frames: int) -> Matrix:
+    """The orthonormal cosine transform (DCT-II), shape (T, T): row t, column frequency."""
+    columns = cosine_columns(frames, 0, frames) * np.sqrt(2.0 / frames)
+    columns[:, 0] = np.sqrt(1.0 / frames)
+    return columns
+
+
 def cosine_basis(frames: int) -> Matrix:
     """The cosine transform of each coordinate, shape (3T, 3T): frequencies ascend, x, y and z of each side by side."""
-    single = idct(np.eye(frames), axis=0, norm="ortho")
+    single = _cosines(frames)
     basis = np.zeros((3, frames, frames, 3))
     for axis in range(3):
         basis[axis, :, :, axis] = single
@@ -65,7 +72,7 @@ def basis_steps(exponents: npt.NDArray[np.int32]) -> Matrix:
 def quantize_basis(basis: Matrix, exponents: npt.NDArray[np.int32], rounding: float) -> Levels:
     """Levels of a basis, shape (3T, r), as cosines over time: shape (3, T, r)."""
     rows, components = basis.shape
-    spectrum = dct(basis.reshape(3, rows // 3, components), axis=1, norm="ortho") / basis_steps(exponents)
+    spectrum = _cosines(rows // 3).T @ basis.reshape(3, rows // 3, components) / basis_steps(exponents)
     magnitude = np.minimum(np.floor(np.abs(spectrum) + rounding), LARGEST_LEVEL)
     return np.ascontiguousarray(np.copysign(magnitude, spectrum).astype(np.int32))
 
@@ -73,7 +80,7 @@ def quantize_basis(basis: Matrix, exponents: npt.NDArray[np.int32], rounding: fl
 def dequantize_basis(levels: Levels, exponents: npt.NDArray[np.int32]) -> Matrix:
     """The basis of `quantize_basis`, shape (3T, r), as the decoder has it; its columns are nearly orthonormal."""
     _, frames, components = levels.shape
-    basis = idct(levels * basis_steps(exponents), axis=1, norm="ortho")
+    basis = _cosines(frames) @ (levels * basis_steps(exponents))
     return np.ascontiguousarray(basis.reshape(3 * frames, components))
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import gc
 import importlib
 import os
 import sys
@@ -88,7 +89,12 @@ def _parser(words: Sequence[str]) -> argparse.ArgumentParser:
 
 def run() -> NoReturn:
     """Run as a program."""
-    sys.exit(main())
+    # Looking for cycles among the objects of all modules, while they load and again at the end, would take longer than
+    # decoding a small mesh.
+    gc.set_threshold(100_000)
+    code = main()
+    gc.freeze()
+    sys.exit(code)
 
 
 if __name__ == "__main__":
