@@ -280,7 +280,7 @@ class Encoder:
             power=options.power,
             iterations=options.iterations,
             key_iterations=options.key_iterations,
-            shift=_single(options.delta),
+            shift=_single(options.shift),
             blend=("degree", "uniform", "own").index(options.blend),
             coding=0 if packed else 1,
             bits=options.bits or 12,
@@ -304,7 +304,7 @@ class Encoder:
     def _measured(self) -> Matrix:
         """The mesh's spectrum, measured when it is first needed."""
         if self._spectrum is None:
-            self._spectrum = measure_spectrum(self._blocks, self._positions, shift=self.options.delta)
+            self._spectrum = measure_spectrum(self._blocks, self._positions, shift=self.options.shift)
         return self._spectrum
 
     def _coded(self, step: float, progress: Progress | None) -> tuple[Header, list[CodedBlock]]:

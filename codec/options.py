@@ -56,7 +56,7 @@ class EncodeOptions:
     power, iterations, key_iterations : int
         z, t_max and t_max of a key block.
     shift : float, optional
-        delta of Algorithm 1. None: 1/8, which keeps R^z well conditioned; with `bits` 1/32, which converges faster.
+        delta of Algorithm 1; smaller ones converge faster, larger ones keep R^z better conditioned.
     bits : int, optional
         q_c: store every coefficient in so many bits, as in the paper, without prediction and smoothing. None: adaptive.
     step : float
@@ -88,7 +88,7 @@ class EncodeOptions:
 
     keep: float | None = None
     coefficients: int | None = None
-    block_size: int = 500
+    block_size: int = 750
     overlap: float = 1.15
     partition: str = "derived"
     basis: str = "oi"
@@ -97,7 +97,7 @@ class EncodeOptions:
     power: int = 3
     iterations: int = 1
     key_iterations: int = 4
-    shift: float | None = None
+    shift: float = 2.0**-5
     bits: int | None = None
     step: float = 0.004
     detail: float | None = None
@@ -135,19 +135,12 @@ class EncodeOptions:
         distance = self.target is not None and self.target.kind in ("nmsve_db", "max_error_relative")
         return 0.0 if distance or self.bits is not None or self.doi is not None else DETAIL_RATIO
 
-    @property
-    def delta(self) -> float:
-        """The shift delta."""
-        if self.shift is not None:
-            return self.shift
-        return 2.0**-3 if self.bits is None else 2.0**-5
-
 
 DETAIL_RATIO = 3.0
 
 PRESETS: dict[str, EncodeOptions] = {
-    "small": EncodeOptions(block_size=1000, key_interval=0, step=0.006),
+    "small": EncodeOptions(block_size=1500, overlap=1.0, key_interval=0, step=0.006),
     "balanced": EncodeOptions(),
-    "fine": EncodeOptions(step=0.0015),
+    "fine": EncodeOptions(block_size=500, power=4, step=0.0015),
 }
-"""Names for what most users want; "balanced" is the default."""
+"""Names for what most users want; "balanced" is the default. Larger blocks are smaller files and slower to decode."""

@@ -66,7 +66,7 @@ def nmsve_db_of(mesh: TriangleMesh, options: EncodeOptions, keep: float, row_ord
         power=options.power,
         iterations=options.iterations,
         key_iterations=options.key_iterations,
-        shift=options.delta,
+        shift=options.shift,
         stiffness=None,
     )
     chain, blend = Chain(rules, graph), Blend(graph.size)
