@@ -175,7 +175,7 @@ FIELDS = {
     "power": (9, int, 1, 64, 2),
     "iterations": (10, int, 1, 1024, 1),
     "key_iterations": (11, int, 1, 1024, 8),
-    "shift": (12, float, 2.0**-30, 2.0**30, 0.125),
+    "shift": (12, float, 2.0**-30, 2.0**30, 0.03125),
     "blend": (13, "method", 0, 2, 0),
     "coding": (14, "method", 0, 1, 1),
     "bits": (15, int, 1, 32, 12),
