@@ -37,7 +37,12 @@ def main(arguments: Sequence[str] | None = None) -> int:
     try:
         args = _parser(words).parse_args(words)
         subject = getattr(args, "input", None)
-        args.run(args, Console(quiet=args.quiet))
+        # Not at the top: it imports numba, and help should come at once.
+        from tools.compilation import announced_compilation
+
+        console = Console(quiet=args.quiet)
+        with announced_compilation(console.note):
+            args.run(args, console)
         sys.stdout.flush()
     except (Exception, KeyboardInterrupt) as error:
         if not is_expected(error):
