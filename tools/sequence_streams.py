@@ -101,6 +101,11 @@ def numbers_of(positions: Positions) -> npt.NDArray[np.int64]:
     return positions[:, 0].astype(np.int64)
 
 
+def decode_through(chunks: Iterator[bytes]) -> int:
+    """Decode a sequence to its end and keep nothing; the number of frames."""
+    return sum(1 for _ in SequenceStream(chunks).frames())
+
+
 def all_frames(stream: SequenceStream) -> Positions:
     """All frames, shape (T, n, 3)."""
     return np.array([frame for _, frame in stream.frames()]).reshape(-1, stream.header.vertices, 3)

@@ -13,6 +13,7 @@ import numpy.typing as npt
 
 from bitstream import packets
 from bitstream.errors import MeshError, OptionError
+from bitstream.gops import parse_gop_body
 from bitstream.limits import DEFAULT_LIMITS, Limits
 from bitstream.reader import Reader, read_packets
 from bitstream.wire import MAGIC
@@ -32,16 +33,28 @@ def is_stream(path: str | os.PathLike[str]) -> bool:
 
 
 @dataclass(frozen=True)
+class GopInfo:
+    """A GOP of a sequence: the number of its first frame, how many it has, and where it lies, in bytes."""
+
+    first: int
+    frames: int
+    offset: int
+    bytes: int
+
+
+@dataclass(frozen=True)
 class StreamInfo:
     """What a stream consists of, known without decoding it; sizes in bytes.
 
     `connectivity`, `partition`, `order` and `coefficient_bytes` count what the packets carry; `framing` is all the
-    rest: preamble, header, metadata, tags, checksums and the end.
+    rest: preamble, header, metadata, tags, checksums and the end. The `coefficients` of a sequence are those of its
+    first frame.
     """
 
     header: packets.Header
     metadata: packets.Metadata
     coefficients: tuple[int, ...]
+    gops: tuple[GopInfo, ...]
     connectivity: int
     partition: int
     order: int
@@ -57,6 +70,16 @@ class StreamInfo:
     def bpv_total(self) -> float:
         """Bits of the whole stream per vertex."""
         return 8 * self.total / self.header.vertices
+
+    @property
+    def frames(self) -> int:
+        """Frames of a sequence, 0 for a mesh."""
+        return sum(gop.frames for gop in self.gops)
+
+    @property
+    def bpvf_total(self) -> float | None:
+        """Bits of the whole stream per vertex and frame; None for a mesh."""
+        return self.bpv_total / self.frames if self.frames else None
 
     @property
     def bpv_geometry(self) -> float:
@@ -90,6 +113,7 @@ def inspect_stream(chunks: Iterator[bytes], limits: Limits = DEFAULT_LIMITS) -> 
     """
     header, metadata = None, packets.Metadata()
     coefficients: list[int] = []
+    gops: list[GopInfo] = []
     sizes: Counter[type] = Counter()
     reader = Reader(limits)
     for packet in read_packets(chunks, reader):
@@ -101,11 +125,16 @@ def inspect_stream(chunks: Iterator[bytes], limits: Limits = DEFAULT_LIMITS) -> 
             sizes[type(packet)] += len(packet.data)
         if isinstance(packet, packets.Block):
             coefficients.append(packet.coefficients)
+        if isinstance(packet, packets.Gop) and reader.last_frame is not None:
+            assert header is not None
+            frames = parse_gop_body(packet.data, header.gop_frames).frames
+            gops.append(GopInfo(packet.index, frames, reader.last_frame.offset, reader.last_frame.length))
     assert header is not None and reader.last_frame is not None
     return StreamInfo(
         header,
         metadata,
         tuple(coefficients),
+        tuple(gops),
         connectivity=sizes[packets.Connectivity],
         partition=sizes[packets.Partition],
         order=sizes[packets.Order],

@@ -46,6 +46,22 @@ def test_there_and_back_in_every_form(npz, tmp_path, capsys, kind):
     assert result(capsys, "encode", back, "-o", tmp_path / "again.bsm")["frames"] == FRAMES
 
 
+def test_info_and_verify(npz, tmp_path, capsys):
+    stream = tmp_path / "a.bsm"
+    encoded = result(capsys, "encode", npz, "-o", stream, "--gop", 4, "--frame-rate", 25)
+    info = result(capsys, "info", stream)
+    assert info["frames"] == FRAMES and info["header"]["frame_rate"] == 25
+    assert [(gop["first"], gop["frames"]) for gop in info["gops"]] == [(0, 4), (4, 2)]
+    assert all(stream.read_bytes()[gop["offset"]] & 15 == 7 for gop in info["gops"])
+    assert info["bpvf_total"] == pytest.approx(encoded["bpvf_total"])
+    assert bsm("info", stream) == 0 and "6 frames, 25 per second, in 2 GOPs" in capsys.readouterr().out
+    assert bsm("verify", stream) == 0
+    broken = bytearray(stream.read_bytes())
+    broken[info["gops"][1]["offset"] + 20] ^= 1
+    stream.write_bytes(broken)
+    assert bsm("verify", stream) != 0
+
+
 def test_folders_and_patterns_are_taken_in_the_order_of_numbers(tmp_path):
     positions, faces = bending(12)
     with sequence_writer(str(tmp_path / "run"), "off", faces, 12, overwrite=False) as write:

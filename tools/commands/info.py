@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+from dataclasses import asdict
 from typing import Any
 
 from bitstream.wire import VERSION
@@ -44,7 +45,10 @@ def summarise(info: StreamInfo) -> dict[str, Any]:
             "framing": info.framing,
             "total": info.total,
         },
+        "frames": info.frames,
+        "gops": [asdict(gop) for gop in info.gops],
         "bpv_total": info.bpv_total,
+        "bpvf_total": info.bpvf_total,
         "bpv_geometry": info.bpv_geometry,
         "bpv_paper": info.bpv_paper,
         "header": {name: getattr(header, name) for name in header.__dataclass_fields__},
@@ -62,9 +66,23 @@ def _lines(summary: dict[str, Any]) -> list[str]:
         f"version {summary['version']}: {summary['vertices']} vertices, {summary['faces']} faces",
         f"{summary['blocks']} blocks of {summary['block_size']} vertices, "
         f"{min(coefficients)} to {max(coefficients)} coefficients",
+        *_sequence_lines(summary),
         "bytes:",
         *shares,
         f"bits per vertex: {summary['bpv_total']:.3f} in all, {summary['bpv_geometry']:.3f} for the coefficients, "
         f"{summary['bpv_paper']:.3f} by the paper's formula",
         *(f"{name}: {value}" for name, value in summary["metadata"].items()),
+    ]
+
+
+def _sequence_lines(summary: dict[str, Any]) -> list[str]:
+    """What there is to say of a sequence; nothing of a mesh."""
+    gops, header = summary["gops"], summary["header"]
+    if not header["gop_frames"]:
+        return []
+    rate = f", {header['frame_rate']:g} per second" if header["frame_rate"] else ""
+    sizes = [gop["bytes"] for gop in gops] or [0]
+    return [
+        f"{summary['frames']} frames{rate}, in {len(gops)} GOPs of {min(sizes)} to {max(sizes)} bytes, "
+        f"{summary['bpvf_total'] or 0.0:.3f} bits per vertex and frame"
     ]

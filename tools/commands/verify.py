@@ -6,6 +6,7 @@ import argparse
 
 from tools.console import Console, print_json
 from tools.pipes import read_chunks
+from tools.sequence_streams import decode_through
 from tools.streams import decode_whole, inspect_stream
 
 
@@ -21,7 +22,7 @@ def run(args: argparse.Namespace, console: Console) -> None:
     chunks = list(read_chunks(args.input))
     info = inspect_stream(iter(chunks))
     if not args.quick:
-        decode_whole(iter(chunks))
+        decode_through(iter(chunks)) if info.header.gop_frames else decode_whole(iter(chunks))
     if args.json:
         print_json({"input": args.input, "ok": True, "decoded": not args.quick, "bytes": info.total})
     else:
