@@ -191,7 +191,9 @@ class ChainDecoder:
         self._next += 1
         return DecodedBlock(packet.index, block.vertices, positions, copy_weights(header, blocks, packet.index, block))
 
-    def _levels(self, packet: packets.Block, block: Block) -> tuple[npt.NDArray[np.int32], npt.NDArray[np.int32]]:
+    def _levels(
+        self, packet: packets.Block, block: Block
+    ) -> tuple[npt.NDArray[np.signedinteger], npt.NDArray[np.int32]]:
         """Levels of x, y and z, shape (c_i, 3), and of the detail layer, shape (d_i,)."""
         nothing = np.zeros(0, np.int32)
         width = packet.coefficients

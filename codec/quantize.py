@@ -16,7 +16,7 @@ def quantize(coefficients: Matrix, step: float) -> Levels:
     return np.rint(coefficients / step).astype(np.int32)
 
 
-def dequantize(levels: Levels, step: float) -> Matrix:
+def dequantize(levels: npt.NDArray[np.signedinteger], step: float) -> Matrix:
     """Coefficients of `levels`."""
     return np.asarray(levels * step, dtype=np.float64)
 
@@ -58,8 +58,8 @@ def levels_to_unsigned(levels: Levels, bits: int, coarser: int) -> npt.NDArray[n
     return np.clip(stored + half, 0, 2 * half - 1).astype(np.uint32)
 
 
-def unsigned_to_levels(values: npt.NDArray[np.uint32], bits: int, coarser: int) -> Levels:
-    """Twin of `levels_to_unsigned`, shape (c, 3)."""
-    levels = (values.astype(np.int64) - (1 << (bits - 1))).astype(np.int32).reshape(-1, 3)
+def unsigned_to_levels(values: npt.NDArray[np.uint32], bits: int, coarser: int) -> npt.NDArray[np.int64]:
+    """Twin of `levels_to_unsigned`, shape (c, 3); magnitudes up to 2^61."""
+    levels = (values.astype(np.int64) - (1 << (bits - 1))).reshape(-1, 3)
     levels[0] <<= coarser
     return levels

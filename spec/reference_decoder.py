@@ -190,6 +190,7 @@ FIELDS = {
     "weights": (24, "method", 0, 1, 0),
     "detail_step": (25, float, 0.0, 2.0**20, 0.0),
     "details": (26, int, 0, COUNT, 0),
+    "coarser": (27, int, 0, 30, 0),
 }
 
 
@@ -742,7 +743,8 @@ def decode(stream):
         require(1 <= width <= block.size, "a wrong number of coefficients")  # M 9.8
         if header["coding"] == 0:
             values = unpack(payload, 3 * width, header["bits"])
-            levels, heights = np.array(values).reshape(width, 3) - (1 << (header["bits"] - 1)), []  # M 9.9
+            levels, heights = np.array(values).reshape(width, 3) - (1 << (header["bits"] - 1)), []  # M 9.10
+            levels[0] <<= header["coarser"]
         else:
             decoder, heights = RangeDecoder(payload), []
             levels = np.array(model.block(decoder, width))
