@@ -13,6 +13,7 @@ from bitstream.errors import CorruptError
 from bitstream.gops import GopBody, GopMethod
 from bitstream.header import Header
 from bitstream.sequence_coefficients import Levels, decode_levels, make_level_bank
+from codec.assembly import in_mesh_units
 from codec.blocks import Blocks
 from codec.dictionaries import Part, build_dictionaries, differences
 from codec.mesh import Faces, Positions
@@ -42,7 +43,7 @@ class Setting:
 
     def in_mesh_units(self, positions: Matrix) -> Positions:
         """Positions in BSM units as the mesh has them."""
-        return positions * self.header.scale + np.array(self.header.center)
+        return in_mesh_units(positions, self.header.center, self.header.scale)
 
 
 def make_setting(header: Header, faces: Faces, blocks: Blocks, first_frame: Matrix, threads: int | None) -> Setting:
