@@ -1,4 +1,4 @@
-"""Streams taken apart and put together again with right checksums, however wrong their content: for vectors and fuzzing."""
+"""Streams taken apart and put together again with right checksums, however wrong: for vectors and fuzzing."""
 
 from __future__ import annotations
 

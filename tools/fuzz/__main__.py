@@ -1,4 +1,4 @@
-"""`python -m tools.fuzz --seconds N`: attack every target for its share of N seconds; exit code 1 if anything is found."""
+"""`python -m tools.fuzz --seconds N`: attack every target for its share of N seconds; exit code 1 if one falls."""
 
 from __future__ import annotations
 

@@ -50,9 +50,9 @@ def instrument() -> None:
     """Follow the coverage of every Python function of the decoders; compiled ones stay as they are."""
     logging.disable(logging.WARNING)
     for name, module in sorted(sys.modules.items()):
-        if name.split(".")[0] in ("bitstream", "codec") or name.startswith(("tools.meshfiles", "tools.files")):
-            if name != "codec.simd":
-                _instrument_module(module)
+        ours = name.split(".")[0] in ("bitstream", "codec") or name.startswith(("tools.meshfiles", "tools.files"))
+        if ours and name != "codec.simd":
+            _instrument_module(module)
 
 
 def _instrument_module(module: ModuleType) -> None:
