@@ -23,8 +23,9 @@ import numpy.typing as npt
 
 from bitstream.errors import FormatError, MeshError, OptionError, TruncatedError
 from codec.mesh import Faces, Positions, TriangleMesh
-from tools.files.npz import open_npz_sequence, read_arrays
-from tools.meshfiles import MESH_FORMATS, format_mesh, format_of_bytes, format_of_name, read_bytes, read_mesh
+from tools.files.npz import open_npz_sequence
+from tools.files.npz_frames import npz_faces, npz_frames, npz_shape
+from tools.meshfiles import MESH_FORMATS, format_mesh, format_of_bytes, format_of_name, read_mesh
 from tools.output import open_output
 
 NPY = b"\x93NUMPY"
@@ -77,13 +78,13 @@ def open_sequence(path: str, file_format: str | None = None) -> Frames | None:
         return _arrays(open(path, "rb"))
     if format_of_bytes(head) != "npz":
         return None
-    positions, faces = read_arrays(read_bytes(path), "positions", "faces")
-    if positions.ndim != 3:
+    shape = npz_shape(path)
+    if len(shape) != 3:
         return None
-    if len(positions) == 0:
+    if shape[0] == 0:
         raise MeshError("this npz file holds a sequence without frames")
-    mesh = TriangleMesh(positions[0], faces)
-    return Frames(mesh.faces, len(positions), (np.asarray(frame, np.float64) for frame in positions))
+    mesh = TriangleMesh(next(npz_frames(path)), npz_faces(path))
+    return Frames(mesh.faces, shape[0], npz_frames(path))
 
 
 @contextmanager

@@ -104,7 +104,7 @@ class FrameDenoiser:
         Raises
         ------
         MeshError
-            If a frame has another shape than the first one.
+            If a frame has another shape than the first one, or a coordinate that is not finite.
         """
         yield from ordered_map(lambda pair: self._way.finish(*pair), self._pairs(frames), None)
 
@@ -122,6 +122,8 @@ class FrameDenoiser:
     def _checked(self, frame: Positions) -> Positions:
         if frame.shape != self._shape:
             raise MeshError(f"a frame has shape {frame.shape}, the first one {self._shape}")
+        if not np.isfinite(frame).all():
+            raise MeshError("a frame has a coordinate that is not finite; remove or repair it")
         return np.ascontiguousarray(frame, dtype=np.float64)
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import lzma
 import os
 import zipfile
 import zlib
@@ -15,6 +16,8 @@ from bitstream.errors import CorruptError, FormatError, MeshError
 from codec.mesh import Positions
 
 Array = npt.NDArray[Any]
+
+_DAMAGE = (EOFError, OSError, zipfile.BadZipFile, zlib.error, lzma.LZMAError)
 
 
 def npz_shape(path: str | os.PathLike[str]) -> tuple[int, ...]:
@@ -62,6 +65,8 @@ class _Array:
             self._archive.close()
             if isinstance(error, KeyError):
                 raise FormatError(f"the npz file has no array {name}; it needs positions and faces") from None
+            if isinstance(error, (zipfile.BadZipFile, NotImplementedError, RuntimeError)):
+                raise FormatError(f"this is not an npz file that can be read: {error}") from error
             raise
 
     def __enter__(self) -> _Array:
@@ -76,7 +81,7 @@ class _Array:
         size = int(np.prod(shape, dtype=object)) * self._kind.itemsize
         try:
             data = self._entry.read(size)
-        except (EOFError, zipfile.BadZipFile, zlib.error) as error:
+        except _DAMAGE as error:
             raise CorruptError(f"the array {self._name} cannot be read: {error}") from error
         if len(data) < size:
             raise CorruptError(f"the array {self._name} ends early: {len(data)} of {size} bytes are left for a frame")
@@ -87,7 +92,7 @@ class _Array:
             version = np.lib.format.read_magic(entry)
             read = np.lib.format.read_array_header_1_0 if version == (1, 0) else np.lib.format.read_array_header_2_0
             shape, fortran, kind = read(entry)
-        except (ValueError, EOFError, zipfile.BadZipFile, zlib.error, NotImplementedError) as error:
+        except (ValueError, *_DAMAGE) as error:
             raise CorruptError(f"the array {self._name} cannot be read: {error}") from error
         if kind.hasobject or kind.kind not in "iuf":
             raise MeshError(f"the array {self._name} holds {kind}, not numbers")
