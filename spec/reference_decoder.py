@@ -740,7 +740,7 @@ def decode(stream):
             model, known, subspace = CoefficientModel(header["coefficients"]), Known(vertices), None
             details = CoefficientModel(-(-header["details"] // 3))
         block = Block(graph, grow(graph, cores[chain[index]], header["block_size"]))
-        require(1 <= width <= block.size, "a wrong number of coefficients")  # M 9.8
+        require(1 <= width <= block.size, "a wrong number of coefficients")  # M 9.9
         if header["coding"] == 0:
             values = unpack(payload, 3 * width, header["bits"])
             levels, heights = np.array(values).reshape(width, 3) - (1 << (header["bits"] - 1)), []  # M 9.10
