@@ -29,7 +29,7 @@ def run_bench(
     *,
     sample: int = 16,
     repeats: int = 3,
-    largest: int = 2_000_000,
+    largest: int = 2_500_000,
     note: Note = lambda text: None,
 ) -> dict[str, Any]:
     """Measure everything.

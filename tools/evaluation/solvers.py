@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 import time
+import warnings
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
@@ -70,7 +71,10 @@ def _lobpcg(laplacian: Matrix, width: int) -> Matrix:
     inverse = splu(_shifted(laplacian))
     preconditioner = LinearOperator(laplacian.shape, inverse.solve, matmat=inverse.solve)
     start = cosine_columns(len(laplacian), 0, width)
-    return lobpcg(csc_matrix(laplacian), start, M=preconditioner, tol=1e-4, maxiter=60, largest=False)[1]
+    with warnings.catch_warnings():
+        # It says so where it does not get below `tol`, and where it takes a dense solver (more than n / 5 columns).
+        warnings.simplefilter("ignore", UserWarning)
+        return lobpcg(csc_matrix(laplacian), start, M=preconditioner, tol=1e-4, maxiter=60, largest=False)[1]
 
 
 EXACT = (
