@@ -34,7 +34,7 @@ from codec.predict import extend
 from codec.quantize import dequantize, levels_to_unsigned, packed_range, quantize_packed, smallest_step
 from codec.rate import BIT_WORTH, targets
 from codec.smooth import Spectrum, smooth
-from codec.spectrum import measure_spectrum, worthwhile_size
+from codec.spectrum import MeasuredSpectrum
 from codec.targets import search_step
 
 Matrix = npt.NDArray[np.float64]
@@ -200,7 +200,7 @@ class Encoder:
         self._partition = self._cut(max(1, round(len(kept) / self.options.block_size)))
         self._blocks = grow_blocks(self._graph, self._partition, block_size(self._partition, self.options.overlap))
         self._reference: Reference | None = None
-        self._spectrum: Matrix | None = None
+        self._spectrum: MeasuredSpectrum | None = None
 
     def encode(self) -> bytes:
         """The whole stream."""
@@ -289,7 +289,7 @@ class Encoder:
             scale=self._scale,
             prediction=(STIFFNESS,) if predicted else (),
             detail_step=_single(step) if ratio else 0.0,
-            details=min(worthwhile_size(self._measured(), DETAIL_REACH * step), size) if ratio else 0,
+            details=min(self._measured().worthwhile_size(DETAIL_REACH * step), size) if ratio else 0,
         )
 
     def _subspace_size(self, size: int, step: float) -> int:
@@ -299,12 +299,12 @@ class Encoder:
             return min(options.coefficients, size)
         if options.keep is not None or options.bits is not None:
             return min(max(1, round((options.keep or PAPER_FRACTION) * size)), size)
-        return min(worthwhile_size(self._measured(), step), size)
+        return min(self._measured().worthwhile_size(step), size)
 
-    def _measured(self) -> Matrix:
+    def _measured(self) -> MeasuredSpectrum:
         """The mesh's spectrum, measured when it is first needed."""
         if self._spectrum is None:
-            self._spectrum = measure_spectrum(self._blocks, self._positions, shift=self.options.shift)
+            self._spectrum = MeasuredSpectrum(self._blocks, self._positions, shift=self.options.shift)
         return self._spectrum
 
     def _coded(self, step: float, progress: Progress | None) -> tuple[Header, list[CodedBlock]]:

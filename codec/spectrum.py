@@ -12,10 +12,11 @@ Matrix = npt.NDArray[np.float64]
 
 SAMPLES = 2
 WORTHWHILE = 0.75
+FIRST_LOOK = 160
 
 
-def measure_spectrum(blocks: Blocks, positions: Matrix, *, shift: float) -> Matrix:
-    """Root mean square coefficient at each frequency, not rising, shape (n_d,).
+class MeasuredSpectrum:
+    """Root mean square coefficient at each frequency, measured from the low ones on as far as somebody asks.
 
     Parameters
     ----------
@@ -25,20 +26,33 @@ def measure_spectrum(blocks: Blocks, positions: Matrix, *, shift: float) -> Matr
     shift : float
         delta of the dictionaries.
     """
-    size = int(np.diff(blocks.starts).max())
-    energy, count = np.zeros(size), np.zeros(size)
-    for index in np.unique(np.linspace(0, blocks.count - 1, SAMPLES + 2).astype(int)[1:-1]):
-        block = blocks.block(int(index))
-        subspace = orthogonal_iteration(
-            block, cosine_columns(block.size, 0, block.size), shift=shift, power=1, iterations=1
-        )
-        energy[: block.size] += np.square(subspace.T @ positions[block.vertices]).mean(axis=1)
-        count[: block.size] += 1
-    energy /= np.maximum(count, 1)
-    smooth = np.array([energy[j - (j + 4) // 8 : j + (j + 4) // 8 + 1].mean() for j in range(size)])
-    return np.sqrt(np.maximum.accumulate(smooth[::-1])[::-1])
 
+    def __init__(self, blocks: Blocks, positions: Matrix, *, shift: float) -> None:
+        indices = np.unique(np.linspace(0, blocks.count - 1, SAMPLES + 2).astype(int)[1:-1])
+        self._samples = [blocks.block(int(index)) for index in indices]
+        self._positions = positions
+        self._shift = shift
+        self._size = int(np.diff(blocks.starts).max())
+        self._magnitudes = self._measure(min(FIRST_LOOK, self._size))
 
-def worthwhile_size(spectrum: Matrix, step: float) -> int:
-    """Subspace size beyond which a coefficient is hardly ever quantized to anything but zero."""
-    return max(1, int(np.count_nonzero(spectrum > WORTHWHILE * step)))
+    def worthwhile_size(self, step: float) -> int:
+        """Subspace size beyond which a coefficient is hardly ever quantized to anything but zero."""
+        while True:
+            known = len(self._magnitudes)
+            size = int(np.count_nonzero(self._magnitudes > WORTHWHILE * step))
+            # The last eighth is an average over fewer frequencies than there are.
+            if size < known - known // 8 or known == self._size:
+                return max(1, size)
+            self._magnitudes = self._measure(min(2 * known, self._size))
+
+    def _measure(self, width: int) -> Matrix:
+        """The lowest `width` frequencies, not rising; the first columns of a dictionary do not depend on later ones."""
+        energy, count = np.zeros(width), np.zeros(width)
+        for block in self._samples:
+            start = cosine_columns(block.size, 0, min(width, block.size))
+            subspace = orthogonal_iteration(block, start, shift=self._shift, power=1, iterations=1)
+            energy[: block.size] += np.square(subspace.T @ self._positions[block.vertices]).mean(axis=1)
+            count[: block.size] += 1
+        energy /= np.maximum(count, 1)
+        smooth = np.array([energy[j - (j + 4) // 8 : j + (j + 4) // 8 + 1].mean() for j in range(width)])
+        return np.sqrt(np.maximum.accumulate(smooth[::-1])[::-1])
