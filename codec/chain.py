@@ -55,6 +55,11 @@ class ChainRules:
         return 1 if self.independent else self.key_interval or blocks
 
 
+def even_interval(interval: int, blocks: int) -> int:
+    """The length of chains that are as many as with `interval`, and as equal as can be; 0: one chain."""
+    return -(-blocks // -(-blocks // interval)) if interval else 0
+
+
 class Chain:
     """State of one chain: the latest subspace, and the positions known so far."""
 

@@ -20,7 +20,7 @@ from bitstream.labels import encode_labels
 from bitstream.writer import Writer
 from codec.blend import Blend
 from codec.blocks import Blocks, block_size, grow_blocks
-from codec.chain import Chain, ChainRules
+from codec.chain import Chain, ChainRules, even_interval
 from codec.decoder import CONNECTIVITY_METHOD, ORDER_METHOD, chain_rules, copy_weights, detail_rows
 from codec.detail import Normals, Surface, displace, fold_details, make_surface, unfold_details
 from codec.dynamic import dynamic_size
@@ -276,7 +276,7 @@ class Encoder:
             coefficients=self._subspace_size(size, BASE_REACH * step if ratio else step),
             basis=("oi", "svd").index(options.basis),
             seeding=("previous", "independent").index(options.seed),
-            key_interval=options.key_interval,
+            key_interval=even_interval(options.key_interval, self._partition.parts),
             power=options.power,
             iterations=options.iterations,
             key_iterations=options.key_iterations,

@@ -52,7 +52,7 @@ class EncodeOptions:
         "oi" (orthogonal iterations) or "svd" (exact eigenbasis); "previous" (start from the block before, predict
         from the vertices shared with it) or "independent" (every block on its own).
     key_interval : int
-        Every so many blocks one depends on nothing before it; 0: only the first.
+        Every so many blocks, at most, one depends on nothing before it; 0: only the first.
     power, iterations, key_iterations : int
         z, t_max and t_max of a key block.
     shift : float, optional

@@ -6,6 +6,7 @@ from hypothesis.extra import numpy as hnp
 from shapes import grid_faces, patch, tetrahedron, together, torus
 
 from codec.blocks import block_size, grow_blocks
+from codec.chain import even_interval
 from codec.graph import graph_of_faces
 from codec.partition import derive_partition
 
@@ -96,3 +97,12 @@ def test_a_blocks_graph_is_that_of_its_vertices(faces, parts, overlap):
             local = block.neighbours[block.offsets[row] : block.offsets[row + 1]]
             beyond = graph.neighbours[graph.offsets[v] : graph.offsets[v + 1]]
             assert sorted(block.vertices[local]) == [w for w in beyond if w in block.vertices]
+
+
+@given(st.integers(1, 40), st.integers(1, 200))
+def test_chains_are_evened_out_without_being_more(interval, blocks):
+    even = even_interval(interval, blocks)
+    chains = -(-blocks // interval)
+    assert even <= interval and -(-blocks // even) == chains
+    assert blocks - (chains - 1) * even > 0 and even - 1 < blocks / chains
+    assert even_interval(0, blocks) == 0
