@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import hashlib
 import os
 import re
 import subprocess
@@ -15,6 +16,7 @@ from pathlib import Path
 from tools.fuzz.targets import SLOW, TARGETS, seeds
 from tools.fuzz.worker import VECTORS
 
+ROOT = Path(__file__).parents[2]
 MEMORY_MIB = 2048
 """Of a whole process, the interpreter, the compiler and the corpus included."""
 HANG_SECONDS = 30
@@ -88,14 +90,15 @@ def attack(name: str, seconds: float, corpus: Path) -> Outcome:
 
 
 def environment() -> dict[str, str]:
-    """Compiled code that checks every index, kept apart from the code that does not; one thread for BLAS."""
-    cache = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "bsm-fuzz-kernels"
-    if not os.access(cache.parent, os.W_OK):
-        cache = Path(tempfile.gettempdir()) / "bsm-fuzz-kernels"
+    """Compiled code that checks every index, kept for these sources alone; one thread for BLAS."""
+    digest = hashlib.sha256()
+    for path in sorted(path for package in ("bitstream", "codec") for path in (ROOT / package).rglob("*.py")):
+        digest.update(path.read_bytes())
+    kernels = Path(tempfile.gettempdir()) / f"bsm-fuzz-kernels-{os.getuid()}" / digest.hexdigest()[:16]
     return {
         **os.environ,
         "NUMBA_BOUNDSCHECK": "1",
-        "NUMBA_CACHE_DIR": str(cache),
+        "NUMBA_CACHE_DIR": str(kernels),
         "OMP_NUM_THREADS": "1",
         "OPENBLAS_NUM_THREADS": "1",
     }

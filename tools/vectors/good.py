@@ -7,12 +7,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from bitstream.coefficients import pack_coefficients
 from bitstream.wire import FrameType
 from codec import EncodeOptions, TriangleMesh, encode
-from tools.surgery import frames_of, stream_of
-from tools.vectors.meshes import patch, shuffled, tangled, tetrahedron, together, torus, triangle
+from tools.surgery import frames_of, stream_of, with_header
+from tools.vectors.meshes import hub, patch, shuffled, tangled, tetrahedron, together, torus, triangle
 
-BASE = EncodeOptions(block_size=60, keep=0.3, step=1 / 256, smoothing=0.0, threads=1)
+BASE = EncodeOptions(block_size=30, keep=0.3, step=1 / 256, detail=0.0, smoothing=0.0, threads=1)
 
 
 @dataclass(frozen=True)
@@ -24,11 +25,38 @@ class Good:
 
 
 def _static(probes: str, mesh: Callable[[], TriangleMesh], **options: object) -> Good:
-    return Good(probes, lambda: encode(mesh(), EncodeOptions(**{**vars(BASE), **options})))  # type: ignore[arg-type]
+    return Good(probes, lambda: encode(mesh(), EncodeOptions(**{**vars(BASE), **options})))
 
 
 def _small() -> TriangleMesh:
     return torus(12, 10)
+
+
+def _shuffled() -> TriangleMesh:
+    return shuffled(_small())
+
+
+def _uneven() -> TriangleMesh:
+    """Rough on one side only."""
+    mesh = torus(18, 12)
+    x = mesh.positions[:, 0]
+    bumps = 0.1 * np.sin(40 * mesh.positions[:, 1] + 9 * np.arange(len(x))) * (x > 0.7)
+    return TriangleMesh(mesh.positions * (1 + bumps[:, None]), mesh.faces)
+
+
+def _coarser() -> bytes:
+    stream = encode(_small(), EncodeOptions(**{**vars(BASE), "bits": 12}))
+    return with_header(stream, coarser=2, blend=1)
+
+
+def _compressed() -> bytes:
+    """The same few levels in every block."""
+    stream = encode(_small(), EncodeOptions(**{**vars(BASE), "bits": 16, "coefficients": 21}))
+    frames = frames_of(stream)
+    values = np.full(63, 1 << 15)
+    values[3:9] += 8000
+    short = pack_coefficients(values, 16)
+    return stream_of([(kind, payload[:2] + short if kind == FrameType.BLOCK else payload) for kind, payload in frames])
 
 
 def _with_isolated() -> TriangleMesh:
@@ -54,37 +82,66 @@ STATIC: dict[str, Good] = {
     "good-one-more": _static(
         "one vertex more than a block holds", lambda: patch(6, 6), block_size=18, overlap=35 / 18, key_interval=0
     ),
-    "good-default": _static("several blocks in one chain with prediction", _small, key_interval=0),
-    "good-keys": _static("key blocks in mid-stream: chains of two blocks", lambda: torus(16, 12), key_interval=2),
+    "good-chain": _static("several blocks in one chain, with prediction", _small, key_interval=0),
+    "good-keys": _static("key blocks in mid-stream: chains of two blocks", _small, key_interval=2),
     "good-independent": _static("every block on its own (seeding 1)", _small, seed="independent"),
     "good-no-prediction": _static("a chain without prediction", _small, predict=False),
-    "good-exact": _static("exact eigenbasis (basis 1), with repeated eigenvalues", _small, basis="svd"),
-    "good-exact-plain": _static(
-        "exact eigenbasis without prediction: clusters of equal eigenvalues", _small, basis="svd", predict=False
+    "good-exact": _static("exact eigenbasis (basis 1) of blocks on springs", _small, basis="svd"),
+    "good-exact-clusters": _static(
+        "exact eigenbasis of one block with repeated eigenvalues", lambda: torus(6, 6), basis="svd", block_size=36
     ),
     "good-one-column": _static("c = 1 in every block", _small, coefficients=1),
-    "good-all-columns": _static("c = n_d: as many coefficients as rows", _small, keep=1.0),
-    "good-rising-falling": _static("c_i rises and falls along a chain", lambda: torus(16, 12), doi=(2e-3, 6e-3)),
+    "good-all-columns": _static("c = n_d: as many coefficients as rows", _small, keep=1.0, step=1e-5),
+    "good-rising-falling": _static("c_i rises and falls along a chain", _uneven, keep=1.0, step=0.02),
     "good-components": _static(
-        "three components of the mesh", lambda: together(torus(7, 6), patch(6, 5), tetrahedron())
+        "three components of the mesh, in blocks that hold several",
+        lambda: together(torus(7, 6), patch(6, 5), triangle()),
+    ),
+    "good-small-component": _static(
+        "a component smaller than a block: a block with fewer rows",
+        lambda: together(torus(12, 7), torus(7, 6)),
+        block_size=42,
+        overlap=1.5,
     ),
     "good-isolated": _static("a vertex in no face: not in the stream", _with_isolated),
     "good-tangled": _static("non-manifold, repeated, turned and degenerate faces; a vertex without edges", tangled),
+    "good-hub": _static("a vertex with more neighbours than a block has rows", hub, block_size=12),
     "good-boundary": _static("a disc: one boundary loop", lambda: patch(12, 11)),
     "good-genus": _static("closed, genus one", lambda: torus(9, 8)),
-    "good-ordered": _static(
-        "ORDER: vertices, faces and first corners as given", lambda: shuffled(_small()), keep_order=True
-    ),
+    "good-ordered": _static("ORDER: vertices, faces and first corners as given", _shuffled, keep_order=True),
     "good-labels": _static("PARTITION: labels of the parts are stored", _small, partition="metis"),
     "good-packed": _static("packed coefficients (coding 0) of 12 bits", _small, bits=12),
-    "good-packed-7": _static("packed coefficients of 7 bits: levels that do not end at a byte", _small, bits=7),
+    "good-packed-7": _static("packed coefficients of 7 bits, which do not end at a byte", _small, bits=7),
+    "good-packed-coarser": Good("packed coefficients whose first row is coarser", _coarser),
+    "good-packed-zstd": Good("packed coefficients that zstd shortens", _compressed),
     "good-blend-uniform": _static("blend 1: all copies equal", _small, blend="uniform"),
     "good-blend-own": _static("blend 2: only the copy in its own part", _small, blend="own"),
     "good-smoothing": _static("smoothing over the whole mesh, boundary included", lambda: patch(12, 11), smoothing=2.0),
+    "good-smoothing-tangled": _static("smoothing of a mesh with a vertex without edges", tangled, smoothing=0.5),
     "good-parameters": _static(
         "other exponent, iterations and shift", _small, power=1, iterations=3, key_iterations=5, shift=0.5
     ),
     "good-fine": _static("a fine step: levels of many bits", _small, step=1e-6, keep=1.0),
+    "good-coarse": _static("a coarse step: most levels are 0", _small, step=0.04),
+    "good-details": _static("a detail layer that is wider than the coefficients", _uneven, keep=0.1, detail=3.0),
+    "good-details-narrow": _static("a detail layer that is narrower", _small, keep=1.0, step=0.02, detail=0.05),
+    "good-details-flat": _static("a detail layer on a base without area: c = 1", _small, coefficients=1, detail=3.0),
+    "good-details-independent": _static(
+        "details of blocks on their own, ordered and smoothed",
+        _shuffled,
+        seed="independent",
+        detail=2.0,
+        keep_order=True,
+        smoothing=0.25,
+    ),
+    "good-all": _static(
+        "everything as the encoder chooses it",
+        lambda: torus(24, 16),
+        block_size=100,
+        keep=0.2,
+        detail=3.0,
+        smoothing=1.0,
+    ),
     "good-far": _static(
         "a mesh far from the origin, and small",
         lambda: TriangleMesh(1e-3 * torus(12, 10).positions + [1e4, -3e5, 7.0], torus(12, 10).faces),

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import numpy as np
+import numpy.typing as npt
 
 from codec.mesh import TriangleMesh
 
 
-def _grid(rows: int, columns: int, closed: bool) -> np.ndarray:
+def _grid(rows: int, columns: int, closed: bool) -> npt.NDArray[np.int32]:
     i, j = np.meshgrid(np.arange(rows - (not closed)), np.arange(columns - (not closed)), indexing="ij")
     a, b = i * columns + j, (i + 1) % rows * columns + j
     c, d = (i + 1) % rows * columns + (j + 1) % columns, i * columns + (j + 1) % columns
@@ -70,12 +71,21 @@ def tangled() -> TriangleMesh:
     return TriangleMesh(positions, faces)
 
 
+def hub() -> TriangleMesh:
+    """A cone over a ring of 40 vertices: one vertex is the neighbour of all others."""
+    angle = np.linspace(0, 2 * np.pi, 40, endpoint=False)
+    ring = np.stack([np.cos(angle), np.sin(angle), 0.1 * np.sin(5 * angle)], -1)
+    k = np.arange(40)
+    faces = np.stack([np.full(40, 40), k, (k + 1) % 40], -1)
+    return TriangleMesh(np.concatenate([ring, [[0.0, 0.0, 0.5]]]), faces)
+
+
 def shuffled(mesh: TriangleMesh) -> TriangleMesh:
     """The same mesh with vertices, faces and first corners in another order."""
     n, m = len(mesh.positions), len(mesh.faces)
     number = np.arange(n) * 7 % n if n % 7 else np.arange(n)[::-1]
     positions = np.empty_like(mesh.positions)
     positions[number] = mesh.positions
-    faces = number[mesh.faces][np.arange(m) * 11 % m if m % 11 else np.arange(m)[::-1]]
-    turns = (np.arange(m)[:, None] + np.arange(3)) % 3
-    return TriangleMesh(positions, np.take_along_axis(faces, turns, axis=1))
+    faces = number.astype(np.int32)[mesh.faces][np.arange(m) * 11 % m if m % 11 else np.arange(m)[::-1]]
+    turns: npt.NDArray[np.int64] = (np.arange(m)[:, None] + np.arange(3)) % 3
+    return TriangleMesh(positions, faces[np.arange(m)[:, None], turns])

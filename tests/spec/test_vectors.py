@@ -1,0 +1,113 @@
+"""Both decoders treat every vector alike, and as the manifest says."""
+
+import importlib
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from bitstream import errors
+from codec import Decoder, decode
+from codec.decoder import END_OF_STREAM
+from codec.sequence_decoder import decode_sequence
+from tools.vectors.__main__ import try_command, try_product
+from tools.vectors.bad import BAD
+from tools.vectors.good import STATIC
+from tools.vectors.good_sequences import SEQUENCES
+from tools.vectors.store import FOLDER, Vector, read_manifest
+
+VECTORS = read_manifest()
+GOOD = [vector for vector in VECTORS if vector.error is None]
+SPEC = Path(__file__).parents[2] / "spec"
+
+
+def named(vectors):
+    return pytest.mark.parametrize("vector", vectors, ids=[vector.name for vector in vectors])
+
+
+@pytest.fixture(scope="module")
+def reference():
+    sys.path.insert(0, str(SPEC))
+    yield importlib.import_module("reference_decoder")
+    sys.path.remove(str(SPEC))
+
+
+@named(VECTORS)
+def test_product(vector):
+    assert try_product(vector) is None
+
+
+@named(VECTORS)
+@pytest.mark.filterwarnings("ignore::RuntimeWarning")
+def test_reference_decoder(vector, reference):
+    try:
+        positions, faces = reference.decode(vector.stream.read_bytes())
+    except tuple(reference.EXIT_CODES) as error:
+        assert type(error).__name__.removesuffix("Error").lower() == vector.error, error
+    else:
+        assert vector.error is None
+        assert vector.complaint(positions, faces) is None
+
+
+def test_every_vector_has_its_files_and_every_file_is_a_vector():
+    names = {vector.name for vector in VECTORS}
+    assert names == {path.stem for path in FOLDER.glob("*.bsm")} == {*STATIC, *SEQUENCES, *BAD}
+    assert {vector.name for vector in GOOD} == {path.stem for path in FOLDER.glob("*.npz")}
+
+
+def test_every_prefix_says_what_its_error_is():
+    for vector in VECTORS:
+        kind = "good" if vector.error is None else "unsupported" if vector.error == "unsupported" else "bad"
+        assert vector.name.startswith(f"{kind}-")
+
+
+@pytest.mark.parametrize("name", ["good-chain", "bad-block-missing", "unsupported-type-0"])
+def test_command_lines(name):
+    vector = next(vector for vector in VECTORS if vector.name == name)
+    for command in (f"{sys.executable} {SPEC / 'reference_decoder.py'} {{in}} {{out}}",):
+        assert try_command(vector, command) is None
+
+
+def test_a_wrong_decoder_is_found_out():
+    chain = next(vector for vector in VECTORS if vector.name == "good-chain")
+    assert "ended with code 1" in try_command(chain, f"{sys.executable} -c 'raise SystemExit(1)' {{in}} {{out}}")
+    copy = f"{sys.executable} -c 'import shutil, sys; shutil.copy(\"{chain.expected}\", sys.argv[2])' {{in}} {{out}}"
+    assert try_command(chain, copy) is None
+    other = next(vector for vector in GOOD if vector.name == "good-independent")
+    assert "positions are off" in try_command(other, copy)
+
+
+@named([vector for vector in GOOD if not vector.name.startswith("good-sequence")])
+def test_threads_and_events_change_nothing(vector):
+    data = vector.stream.read_bytes()
+    whole = decode(data, threads=1)
+    assert np.array_equal(decode(data, threads=2).positions, whole.positions)
+    positions = np.full_like(whole.positions, np.nan)
+    with Decoder(threads=2) as decoder:
+        decoder.receive_data(data)
+        decoder.receive_eof()
+        while (event := decoder.next_event()) is not END_OF_STREAM:
+            if hasattr(event, "changes"):
+                positions[event.vertices] = event.positions
+    assert vector.complaint(positions, whole.faces) is None
+
+
+@named(GOOD)
+def test_every_truncation_is_refused(vector):
+    data = vector.stream.read_bytes()
+    decoder = decode_sequence if vector.name.startswith("good-sequence") else decode
+    for length in range(0, len(data), max(1, len(data) // 40)):
+        with pytest.raises(errors.TruncatedError):
+            decoder(data[:length], threads=1)
+
+
+@pytest.mark.parametrize("name", ["good-tetrahedron", "good-chain", "good-sequence-one"])
+def test_every_changed_byte_is_refused(name):
+    data = Vector(name, "").stream.read_bytes()
+    decoder = decode_sequence if name.startswith("good-sequence") else decode
+    for place in range(len(data)):
+        broken = bytearray(data)
+        broken[place] ^= 1 << place % 8
+        with pytest.raises(errors.BsmError):
+            decoder(bytes(broken), threads=1)

@@ -1,0 +1,118 @@
+"""The vectors of the specification.
+
+    python -m tools.vectors                            hold this project's decoder against all of them
+    python -m tools.vectors --run "CMD {in} {out}"     hold another one against them, by its command line
+    python -m tools.vectors --write                    make them anew, which only a change of the format justifies
+
+A command must write an npz with `positions` and `faces` and end with code 0, or refuse and end with the code of its
+error: 3 format, 4 corrupt or truncated, 5 unsupported, 6 limit, 7 numeric.
+"""
+
+from __future__ import annotations
+
+import argparse
+import shlex
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+import numpy as np
+
+from bitstream.errors import BsmError
+from codec import decode
+from codec.sequence_decoder import decode_sequence
+from tools.vectors.store import Vector, read_manifest, write_vectors
+
+EXIT_CODES = {"format": 3, "corrupt": 4, "truncated": 4, "unsupported": 5, "limit": 6, "numeric": 7}
+SECONDS = 120
+
+
+def main() -> int:
+    """Run the command."""
+    parser = argparse.ArgumentParser(
+        prog="python -m tools.vectors", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("--run", metavar="COMMAND", help="a decoder's command line with {in} and {out} in it")
+    parser.add_argument("--write", action="store_true", help="make the vectors anew")
+    parser.add_argument("--only", metavar="TEXT", default="", help="only vectors whose names hold this")
+    args = parser.parse_args()
+    if args.write:
+        return write()
+    vectors = [vector for vector in read_manifest() if args.only in vector.name]
+    wrong = 0
+    for vector in vectors:
+        complaint = try_command(vector, args.run) if args.run else try_product(vector)
+        wrong += complaint is not None
+        if complaint:
+            print(f"{vector.name}: {complaint} ({vector.probes})")
+    print(f"{len(vectors) - wrong} of {len(vectors)} vectors are treated as they should be")
+    return 1 if wrong else 0
+
+
+def try_product(vector: Vector) -> str | None:
+    """What this project's decoder does wrong with a vector, or None."""
+    decoder = decode_sequence if vector.name.startswith("good-sequence") else _decode_static
+    try:
+        positions, faces = decoder(vector.stream.read_bytes())
+    except BsmError as error:
+        found = type(error).__name__.removesuffix("Error").lower()
+        return None if found == vector.error else f"refused as {found}, {error}"
+    return f"decoded, and not refused as {vector.error}" if vector.error else vector.complaint(positions, faces)
+
+
+def _decode_static(data: bytes) -> tuple[np.ndarray, np.ndarray]:
+    mesh = decode(data)
+    return mesh.positions, mesh.faces
+
+
+def try_command(vector: Vector, command: str) -> str | None:
+    """What a decoder's command line does wrong with a vector, or None."""
+    with tempfile.TemporaryDirectory() as folder:
+        output = Path(folder) / "out.npz"
+        names = {"in": shlex.quote(str(vector.stream)), "out": shlex.quote(str(output))}
+        done = subprocess.run(
+            shlex.split(command.format(**names)), capture_output=True, text=True, timeout=SECONDS, check=False
+        )
+        expected = EXIT_CODES[vector.error] if vector.error else 0
+        if done.returncode != expected:
+            return f"ended with code {done.returncode} instead of {expected}: {done.stderr.strip()[-200:]}"
+        if vector.error:
+            return "refused, and yet it wrote a file" if output.exists() else None
+        with np.load(output) as file:
+            return vector.complaint(file["positions"], file["faces"])
+
+
+def write() -> int:
+    """Make all vectors, and refuse to write any if the decoder does not treat one of them as it should."""
+    from tools.vectors.bad import BAD
+    from tools.vectors.good import STATIC
+    from tools.vectors.good_sequences import SEQUENCES
+
+    streams: dict[Vector, bytes] = {}
+    meshes = {}
+    for name, good in {**STATIC, **SEQUENCES}.items():
+        vector = Vector(name, good.probes)
+        streams[vector] = good.make()
+        decoder = decode_sequence if name in SEQUENCES else _decode_static
+        meshes[vector] = decoder(streams[vector])
+    for name, bad in BAD.items():
+        vector = Vector(name, bad.probes, bad.error)
+        streams[vector] = bad.make()
+        try:
+            decode(streams[vector])
+        except BsmError as error:
+            found = type(error).__name__.removesuffix("Error").lower()
+            if found != bad.error:
+                print(f"{name} is refused as {found} and not as {bad.error}: {error}", file=sys.stderr)
+                return 1
+            continue
+        print(f"{name} is decoded and not refused", file=sys.stderr)
+        return 1
+    write_vectors(streams, meshes)
+    print(f"{len(streams)} vectors, {sum(map(len, streams.values()))} bytes of streams")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

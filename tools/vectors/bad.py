@@ -1,0 +1,413 @@
+"""Streams that every decoder must refuse, each for one rule, and how."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cache
+from typing import Any
+
+import msgpack
+import numpy as np
+import zstandard
+
+from bitstream.connectivity import decode_connectivity
+from bitstream.header import HEADER_FIELDS
+from bitstream.labels import encode_labels
+from bitstream.maps import write_map
+from bitstream.wire import FrameType, write_frame, write_preamble, write_varint
+from codec import EncodeOptions, encode
+from codec.graph import graph_of_faces
+from tools.surgery import Frames, frames_of, header_entries, stream_of, with_header, with_payload
+from tools.vectors.good import BASE
+from tools.vectors.meshes import patch, shuffled, together, torus
+
+KINDS = ("format", "unsupported", "corrupt", "truncated", "limit", "numeric")
+HEADER, CONNECTIVITY, PARTITION, ORDER, BLOCK = FrameType.HEADER, 3, 4, 5, FrameType.BLOCK
+METADATA, GOP, END = FrameType.METADATA, FrameType.GOP, FrameType.END
+
+
+_NARROW = {"bits": 7}
+_PACKED_BYTES = (3 * 6 * 7 + 7) // 8
+_WIDE = {"bits": 16, "coefficients": 25}
+_WIDE_BYTES = 3 * 25 * 2
+
+
+@dataclass(frozen=True)
+class Bad:
+    """A stream to be refused with an error of the class `error`, one of `KINDS`."""
+
+    probes: str
+    error: str
+    make: Callable[[], bytes]
+
+
+@cache
+def _base(**options: Any) -> bytes:
+    """A sound stream; smaller ones fail in fewer ways."""
+    return encode(patch(8, 7), EncodeOptions(**{**vars(BASE), "coefficients": 6, **options}))
+
+
+@cache
+def _ordered() -> bytes:
+    mesh = shuffled(patch(5, 5))
+    return encode(mesh, EncodeOptions(**{**vars(BASE), "keep_order": True, "partition": "metis", "block_size": 13}))
+
+
+@cache
+def _small_component() -> bytes:
+    mesh = together(torus(12, 7), torus(7, 6))
+    options = {"block_size": 42, "overlap": 1.5, "coefficients": 60, "step": 1e-6}
+    return encode(mesh, EncodeOptions(**{**vars(BASE), **options}))
+
+
+def _lopsided() -> bytes:
+    """Parts of 40 and 16 vertices, blocks of 32."""
+    frames, labels = frames_of(_base()), np.repeat(np.array([0, 1], np.int32), [40, 16])
+    graph = graph_of_faces(decode_connectivity(frames[1][1][1:], 56, 84), 56)
+    payload = b"\0" + encode_labels(graph.offsets, graph.neighbours, labels, 2)
+    return stream_of([*frames[:2], (PARTITION, payload), *frames[2:]])
+
+
+def _changed(change: Callable[[Frames], object], base: Callable[[], bytes] = _base) -> bytes:
+    frames = frames_of(base())
+    change(frames)
+    return stream_of(frames)
+
+
+def _framed(change: Callable[[Frames], object], base: Callable[[], bytes] = _base) -> Callable[[], bytes]:
+    return lambda: _changed(change, base)
+
+
+def _place(frames: Frames, kind: int) -> int:
+    return next(i for i, frame in enumerate(frames) if frame[0] == kind)
+
+
+def _swap(first: int, second: int) -> Callable[[Frames], None]:
+    def change(frames: Frames) -> None:
+        i, j = _place(frames, first), _place(frames, second)
+        frames[i], frames[j] = frames[j], frames[i]
+
+    return change
+
+
+def _edit(kind: int, edit: Callable[[bytes], bytes], which: int = 0) -> Callable[[Frames], None]:
+    def change(frames: Frames) -> None:
+        place = [i for i, frame in enumerate(frames) if frame[0] == kind][which]
+        frames[place] = (kind, edit(frames[place][1]))
+
+    return change
+
+
+def _entries(**changes: Any) -> Callable[[], bytes]:
+    return lambda: with_header(_base(), **changes)
+
+
+def _map(edit: Callable[[dict[int, Any]], bytes]) -> Callable[[], bytes]:
+    """A stream whose header is another map."""
+    return lambda: with_payload(_base(), HEADER, edit(header_entries(frames_of(_base())[0][1])))
+
+
+def _reversed(entries: dict[int, Any]) -> bytes:
+    return write_map(sorted(entries.items(), reverse=True))
+
+
+def _raw_frame(tag: bytes) -> bytes:
+    return write_preamble() + tag
+
+
+def _flipped(offset: int) -> bytes:
+    data = bytearray(_base())
+    data[offset] ^= 0x10
+    return bytes(data)
+
+
+def _inserting(kind: int) -> Callable[[Frames], None]:
+    return lambda frames: frames.insert(1, (kind, b""))
+
+
+def _with_method(method: int) -> Callable[[bytes], bytes]:
+    return lambda payload: bytes([method]) + payload[1:]
+
+
+def _end(frames: int, crc: int) -> bytes:
+    data = _base()
+    tail = write_frame(END, write_varint(len(frames_of(data))) + bytes(4))
+    body = data[: len(data) - len(tail)]
+    right = int.from_bytes(data[len(body) + 2 : len(body) + 6], "little")
+    payload = write_varint(len(frames_of(data)) + frames) + (right ^ crc).to_bytes(4, "little")
+    return body + write_frame(END, payload)
+
+
+def _packed(edit: Callable[[bytes], bytes], options: dict[str, int] = _NARROW) -> Callable[[], bytes]:
+    """A stream of packed values with another first block."""
+
+    def make() -> bytes:
+        return _changed(_edit(BLOCK, lambda payload: payload[:2] + edit(payload[2:])), lambda: _base(**options))
+
+    return make
+
+
+def _zstd(content: bytes, size: bool = True) -> bytes:
+    """A zstd frame without its magic number."""
+    return zstandard.ZstdCompressor(write_content_size=size).compress(content)[4:]
+
+
+def _zstd_window(size: int) -> bytes:
+    """The same of `size` zeros, with a window of 2^24 bytes: descriptor, window, size, one repeated byte."""
+    return b"\x80\x70" + size.to_bytes(4, "little") + (size << 3 | 3).to_bytes(3, "little") + b"\0"
+
+
+FRAMING: dict[str, Bad] = {
+    "bad-magic": Bad("another first byte", "format", lambda: b"\x88" + _base()[1:]),
+    "bad-magic-late": Bad("another fourth byte", "format", lambda: b"\x89BSN" + _base()[4:]),
+    "bad-empty": Bad("no bytes", "truncated", lambda: b""),
+    "bad-magic-only": Bad("nothing behind the magic", "truncated", lambda: _base()[:4]),
+    "unsupported-version": Bad("version 1", "unsupported", lambda: _base()[:4] + b"\x01" + _base()[5:]),
+    "bad-no-end": Bad("END is missing", "truncated", lambda: _base()[:-10]),
+    "bad-half": Bad("the second half is missing", "truncated", lambda: _base()[: len(_base()) // 2]),
+    "bad-trailing": Bad("a byte behind END", "corrupt", lambda: _base() + b"\0"),
+    "bad-two-streams": Bad("a second stream behind the first", "corrupt", lambda: _base() + _base()),
+    "bad-tag-long": Bad("a tag of six bytes", "corrupt", lambda: _raw_frame(b"\xff\xff\xff\xff\xff\x01")),
+    "bad-tag-padded": Bad("a tag longer than need be", "corrupt", lambda: _raw_frame(b"\x81\x00" + bytes(8))),
+    "bad-frame-huge": Bad("a frame that claims 2^30 bytes", "limit", lambda: _raw_frame(write_varint(1 << 34 | 1))),
+    "bad-checksum-header": Bad("a wrong CRC-32", "corrupt", lambda: _flipped(12)),
+    "bad-checksum-block": Bad("a wrong CRC-16", "corrupt", lambda: _flipped(len(_base()) - 16)),
+    "bad-end-count": Bad("END counts one frame too many", "corrupt", lambda: _end(1, 0)),
+    "bad-end-crc": Bad("END has another CRC-32 of the stream", "corrupt", lambda: _end(0, 1)),
+    "bad-end-long": Bad(
+        "END has a byte too many",
+        "corrupt",
+        lambda: _base()[:-10] + write_frame(END, b"\x04" + bytes(5)),
+    ),
+    "bad-skippable-first": Bad("a skippable frame before HEADER", "corrupt", _framed(lambda f: f.insert(0, (8, b"")))),
+    "bad-connectivity-first": Bad("CONNECTIVITY before HEADER", "corrupt", _framed(_swap(HEADER, CONNECTIVITY))),
+    "bad-two-headers": Bad("HEADER twice", "corrupt", _framed(lambda f: f.insert(1, f[0]))),
+    "bad-two-connectivities": Bad("CONNECTIVITY twice", "corrupt", _framed(lambda f: f.insert(1, f[1]))),
+    "bad-no-connectivity": Bad("no CONNECTIVITY", "corrupt", _framed(lambda f: f.pop(1))),
+    "bad-order-first": Bad("ORDER before PARTITION", "corrupt", _framed(_swap(PARTITION, ORDER), _ordered)),
+    "bad-partition-late": Bad("PARTITION behind a block", "corrupt", _framed(_swap(PARTITION, BLOCK), _ordered)),
+    "bad-metadata-late": Bad("METADATA behind a block", "corrupt", _framed(lambda f: f.append((METADATA, b"\x80")))),
+    "bad-metadata-twice": Bad(
+        "METADATA twice", "corrupt", _framed(lambda f: f.__setitem__(slice(1, 1), [(METADATA, b"\x80")] * 2))
+    ),
+    "bad-metadata-array": Bad(
+        "METADATA with an array", "corrupt", _framed(lambda f: f.insert(1, (METADATA, b"\x81\xa1a\x90")))
+    ),
+    "bad-metadata-huge": Bad(
+        "METADATA of 70,000 bytes",
+        "limit",
+        _framed(lambda f: f.insert(1, (METADATA, write_map([("a", bytes(70_000))])))),
+    ),
+    "bad-gop-static": Bad("a GOP in a static stream", "corrupt", _framed(lambda f: f.append((GOP, bytes(9))))),
+    **{
+        f"unsupported-type-{kind}": Bad(f"a frame of type {kind}", "unsupported", _framed(_inserting(kind)))
+        for kind in (0, 12, 13, 14)
+    },
+}
+
+HEADERS: dict[str, Bad] = {
+    **{
+        f"bad-lacks-{name.replace('_', '-')}": Bad(f"HEADER lacks {name}", "corrupt", _entries(**{name: None}))
+        for name in ("vertices", "faces", "blocks", "block_size", "coefficients")
+    },
+    "bad-default-stored": Bad("a field is stored that has its default", "corrupt", _entries(seeding=0)),
+    "bad-default-stored-float": Bad("the default step is stored", "corrupt", _entries(step=2.0**-8)),
+    "bad-int-as-float": Bad("a float where an int belongs", "corrupt", _entries(vertices=56.0)),
+    "bad-float-as-int": Bad("an int where a float belongs", "corrupt", _entries(shift=1)),
+    "bad-center-short": Bad("a center of two numbers", "corrupt", _entries(center=[1.0, 2.0])),
+    "bad-center-type": Bad("a center of ints", "corrupt", _entries(center=[1, 2, 3])),
+    "bad-scale-zero": Bad("scale = 0", "corrupt", _entries(scale=0.0)),
+    "bad-step-zero": Bad("step = 0", "corrupt", _entries(step=0.0)),
+    "bad-step-negative": Bad("step < 0", "corrupt", _entries(step=-0.5)),
+    "bad-shift-zero": Bad("shift = 0", "corrupt", _entries(shift=0.0)),
+    "bad-smoothing-negative": Bad("smoothing < 0", "corrupt", _entries(smoothing=-1.0)),
+    "bad-power-65": Bad("power = 65", "corrupt", _entries(power=65)),
+    "bad-iterations-zero": Bad("iterations = 0", "corrupt", _entries(iterations=0)),
+    "bad-bits-33": Bad("bits = 33", "corrupt", _entries(bits=33)),
+    "bad-basis-256": Bad("a method above 255", "corrupt", _entries(basis=256)),
+    "bad-vertices-zero": Bad("vertices = 0", "corrupt", _entries(vertices=0)),
+    "bad-vertices-negative": Bad("vertices < 0", "corrupt", _entries(vertices=-1)),
+    "bad-vertices-2-31": Bad("vertices = 2^31", "corrupt", _entries(vertices=2**31)),
+    "bad-vertices-many": Bad("more vertices than corners of faces", "corrupt", _entries(faces=10)),
+    "bad-blocks-many": Bad("more blocks than vertices", "corrupt", _entries(blocks=57)),
+    "bad-block-large": Bad("blocks larger than the mesh", "corrupt", _entries(block_size=57)),
+    "bad-blocks-small": Bad("blocks too small to cover the mesh", "corrupt", _entries(block_size=20)),
+    "bad-coefficients-many": Bad("more coefficients than rows", "corrupt", _entries(coefficients=50)),
+    "bad-details-many": Bad("more details than rows", "corrupt", _entries(details=50, detail_step=0.5)),
+    "bad-details-no-step": Bad("details without a step", "corrupt", _entries(details=5)),
+    "bad-details-none": Bad("a step without details", "corrupt", _entries(detail_step=0.5)),
+    "bad-frames-static": Bad("frames without gop_frames", "corrupt", _entries(frames=3)),
+    "bad-prediction-two": Bad("prediction with two parameters", "corrupt", _entries(prediction=[1.0, 2.0])),
+    "bad-prediction-zero": Bad("a spring without stiffness", "corrupt", _entries(prediction=[0.0])),
+    "bad-prediction-stiff": Bad("a spring of stiffness 2^16", "corrupt", _entries(prediction=[65536.0])),
+    "bad-limit-vertices": Bad(
+        "more vertices than a decoder should grant",
+        "limit",
+        _entries(vertices=2**30, faces=2**30, blocks=2**18, block_size=8192),
+    ),
+    "bad-limit-faces": Bad("more faces than a decoder should grant", "limit", _entries(faces=2**30)),
+    "bad-limit-block-size": Bad(
+        "larger blocks than a decoder should grant",
+        "limit",
+        _entries(vertices=100_000, faces=200_000, block_size=50_000),
+    ),
+    "bad-limit-coefficients": Bad(
+        "more coefficients than a decoder should grant",
+        "limit",
+        _entries(vertices=10_000, faces=20_000, block_size=8000, coefficients=5000),
+    ),
+    "bad-limit-work": Bad(
+        "more work than a decoder should grant",
+        "limit",
+        _entries(
+            vertices=2**24, faces=2**25, blocks=2**17, block_size=8192, coefficients=4096, power=64, key_iterations=1000
+        ),
+    ),
+    "bad-key-order": Bad("keys that descend", "corrupt", _map(_reversed)),
+    "bad-key-repeated": Bad(
+        "a key twice",
+        "corrupt",
+        _map(lambda e: write_map([(1, 56), *sorted(e.items())])),
+    ),
+    "bad-key-negative": Bad("a negative key", "corrupt", _map(lambda e: write_map([(-1, 1), *sorted(e.items())]))),
+    "bad-key-string": Bad(
+        "a string among integer keys", "corrupt", _map(lambda e: write_map([*sorted(e.items()), ("a", 1)]))
+    ),
+    "bad-int-long": Bad(
+        "an int that is longer than need be",
+        "corrupt",
+        _map(lambda e: write_map(sorted(e.items())).replace(b"\x01\x38", b"\x01\xcc\x38", 1)),
+    ),
+    "bad-float-long": Bad(
+        "a float 64 where a float 32 holds the value",
+        "corrupt",
+        _map(lambda e: write_map(sorted({**e, 18: 2.0}.items())).replace(b"\xca\x40\0\0\0", b"\xcb\x40" + bytes(7), 1)),
+    ),
+    "bad-float-infinite": Bad(
+        "an infinite scale",
+        "corrupt",
+        _map(lambda e: write_map(sorted({**e, 18: 2.0}.items())).replace(b"\xca\x40\0\0\0", b"\xca\x7f\x80\0\0", 1)),
+    ),
+    "bad-float-nan": Bad(
+        "a scale that is no number",
+        "corrupt",
+        _map(lambda e: write_map(sorted({**e, 18: 2.0}.items())).replace(b"\xca\x40\0\0\0", b"\xca\x7f\xc0\0\0", 1)),
+    ),
+    "bad-map-nil": Bad("nil in a map", "corrupt", _map(lambda e: msgpack.packb({**e, 64: None}))),
+    "bad-map-true": Bad("a boolean in a map", "corrupt", _map(lambda e: msgpack.packb({**e, 64: True}))),
+    "bad-map-nested": Bad("a map in a map", "corrupt", _map(lambda e: msgpack.packb({**e, 64: {1: 2}}))),
+    "bad-map-trailing": Bad("a byte behind the map", "corrupt", _map(lambda e: write_map(sorted(e.items())) + b"\0")),
+    "bad-map-array": Bad("an array instead of a map", "corrupt", _map(lambda e: msgpack.packb([1, 2]))),
+    "bad-map-deep": Bad(
+        "arrays nested 10,000 deep", "corrupt", _map(lambda e: b"\x81\x01" + b"\x91" * 10_000 + b"\x01")
+    ),
+    "unsupported-key": Bad(
+        "an unknown key below 64", "unsupported", _map(lambda e: write_map(sorted({**e, 63: 1}.items())))
+    ),
+    **{
+        f"unsupported-{name}": Bad(
+            f"a {name} that is not known", "unsupported", _entries(**{name: int(HEADER_FIELDS[name].high) + 1})
+        )
+        for name in ("basis", "seeding", "blend", "coding", "weights")
+    },
+    "bad-not-finite": Bad(
+        "positions beyond the greatest double",
+        "numeric",
+        lambda: with_header(_base(step=1e-6), scale=1e300, step=2.0**20),
+    ),
+}
+
+PAYLOADS: dict[str, Bad] = {
+    **{
+        f"unsupported-{name}-{method}": Bad(
+            f"{name} of method {method}",
+            "unsupported",
+            _framed(_edit(kind, _with_method(method)), _ordered),
+        )
+        for name, kind, method in (
+            ("connectivity", CONNECTIVITY, 0),
+            ("connectivity", CONNECTIVITY, 255),
+            ("partition", PARTITION, 1),
+            ("order", ORDER, 0),
+        )
+    },
+    **{
+        f"bad-{name}-{word}": Bad(probes.format(name.upper()), "corrupt", _framed(_edit(kind, edit), _ordered))
+        for name, kind in (("connectivity", CONNECTIVITY), ("partition", PARTITION), ("order", ORDER))
+        for word, probes, edit in (
+            ("long", "bytes behind the last symbol of {}", lambda p: p + b"\x55" * 8),
+            ("ff", "{} begins with four bytes of 255", lambda p: p[:1] + b"\xff" * 8 + p[9:]),
+            ("none", "{} without a method", lambda p: b""),
+        )
+    },
+    **{
+        f"bad-{name}-short": Bad(
+            f"only one byte of data in {name.upper()}", error, _framed(_edit(kind, lambda p: p[:2]), _ordered)
+        )
+        for name, kind, error in (("connectivity", CONNECTIVITY, "truncated"), ("order", ORDER, "corrupt"))
+    },
+    "bad-connectivity-zeros": Bad(
+        "CONNECTIVITY of zeros", "corrupt", _framed(_edit(CONNECTIVITY, lambda p: p[:1] + bytes(40)))
+    ),
+    "bad-connectivity-vertices": Bad("one vertex more than the faces have", "corrupt", _entries(vertices=57)),
+    "bad-connectivity-faces": Bad("one face fewer than there are", "corrupt", _entries(faces=83)),
+    "bad-partition-parts": Bad("more blocks than parts", "corrupt", lambda: with_header(_ordered(), blocks=3)),
+    "bad-part-large": Bad("a part larger than a block", "corrupt", _lopsided),
+    "bad-block-index": Bad(
+        "a block index that is too large", "corrupt", _framed(_edit(BLOCK, lambda p: b"\x7f" + p[1:], which=1))
+    ),
+    "bad-block-descending": Bad(
+        "block indices that descend",
+        "corrupt",
+        _framed(lambda f: f.__setitem__(slice(2, 4), [f[3], f[2]])),
+    ),
+    "bad-block-repeated": Bad("a block index twice", "corrupt", _framed(lambda f: f.insert(2, f[2]))),
+    "bad-block-missing": Bad("the first block is missing", "corrupt", _framed(lambda f: f.pop(2))),
+    "bad-block-missing-last": Bad("the last block is missing", "corrupt", _framed(lambda f: f.pop())),
+    "bad-block-none": Bad("no block", "corrupt", _framed(lambda f: f.__delitem__(slice(2, None)))),
+    "bad-block-empty": Bad("a block without index", "corrupt", _framed(_edit(BLOCK, lambda p: b""))),
+    "bad-columns-zero": Bad("c_i = 0", "corrupt", _framed(_edit(BLOCK, lambda p: p[:1] + b"\0" + p[2:]))),
+    "bad-columns-many": Bad(
+        "c_i above the header's", "corrupt", _framed(_edit(BLOCK, lambda p: p[:1] + b"\x07" + p[2:]))
+    ),
+    "bad-columns-rows": Bad(
+        "c_i above the rows of a small component's block",
+        "corrupt",
+        lambda: _changed(_edit(BLOCK, lambda p: p[:1] + b"\x3c" + p[2:], which=0), _small_component),
+    ),
+    "bad-details-missing": Bad(
+        "details announced, and none in the blocks", "truncated", _entries(details=6, detail_step=0.5)
+    ),
+    "bad-levels-short": Bad("levels that end too early", "truncated", _framed(_edit(BLOCK, lambda p: p[:3]))),
+    "bad-levels-long": Bad("bytes behind the levels", "corrupt", _framed(_edit(BLOCK, lambda p: p + b"\x55" * 8))),
+    "bad-packed-short": Bad(
+        "packed levels with a byte too few", "corrupt", _packed(lambda d: bytes(_PACKED_BYTES - 1))
+    ),
+    "bad-packed-long": Bad(
+        "packed levels with a byte too many", "corrupt", _packed(lambda d: bytes(_PACKED_BYTES + 1))
+    ),
+    "bad-packed-padding": Bad(
+        "bits that are not 0 behind packed levels", "corrupt", _packed(lambda d: b"\x55" * _PACKED_BYTES)
+    ),
+    "bad-packed-bomb": Bad(
+        "a zstd frame with 2^20 bytes of content", "corrupt", _packed(lambda d: _zstd(bytes(1 << 20)), _WIDE)
+    ),
+    "bad-packed-no-size": Bad(
+        "a zstd frame that does not state its size",
+        "corrupt",
+        _packed(lambda d: _zstd(bytes(_WIDE_BYTES), size=False), _WIDE),
+    ),
+    "bad-packed-extra": Bad(
+        "bytes behind a zstd frame", "corrupt", _packed(lambda d: _zstd(bytes(_WIDE_BYTES)) + b"\0\0", _WIDE)
+    ),
+    "bad-packed-window": Bad(
+        "a zstd frame with a window of 2^24 bytes", "corrupt", _packed(lambda d: _zstd_window(_WIDE_BYTES), _WIDE)
+    ),
+    "bad-packed-cut": Bad(
+        "a zstd frame that is cut short", "corrupt", _packed(lambda d: _zstd(bytes(_WIDE_BYTES))[:-3], _WIDE)
+    ),
+}
+
+
+BAD: dict[str, Bad] = {**FRAMING, **HEADERS, **PAYLOADS}

@@ -1,0 +1,31 @@
+"""Sequences that every decoder must decode."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from codec.sequence_encoder import encode_sequence
+from codec.sequence_options import SequenceOptions
+from tools.vectors.good import Good
+from tools.vectors.meshes import torus
+
+BASE = SequenceOptions(step=1 / 256, gop=6, block_size=36, threads=1)
+
+
+def _sequence(probes: str, frames: int, **options: object) -> Good:
+    def make() -> bytes:
+        meshes = [torus(10, 8, phase=0.2 * t) for t in range(frames)]
+        positions = np.array([mesh.positions * (1 + 0.02 * t) for t, mesh in enumerate(meshes)])
+        return encode_sequence(positions, meshes[0].faces, SequenceOptions(**{**vars(BASE), **options}))
+
+    return Good(probes, make)
+
+
+SEQUENCES: dict[str, Good] = {
+    "good-sequence-one": _sequence("a sequence of one frame", 1),
+    "good-sequence-learnt": _sequence("GOPs with learnt bases, the last one shorter", 8, transform="learnt"),
+    "good-sequence-cosines": _sequence("GOPs of cosines", 8, transform="cosine"),
+    "good-sequence-low-delay": _sequence("frames as they come, with key frames", 7, mode="low-delay", gop=3),
+    "good-sequence-binary": _sequence("binary weights in the dictionaries", 4, weights="binary"),
+    "good-sequence-overlap": _sequence("overlapping blocks of the first frame", 3, overlap=1.3, keep=0.5),
+}
