@@ -27,6 +27,7 @@ COMMANDS = {
     "boundary": "measure the error at the boundaries of blocks",
     "bench": "measure speed against exact solvers and Draco",
     "figures": "measure the figures of the README again",
+    "paper": "measure the tables and figures of the paper again",
 }
 
 

@@ -1,0 +1,157 @@
+"""What the report is made of: exhibits of tables and pictures, each number beside the paper's."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+
+@dataclass(frozen=True)
+class Column:
+    """A quantity of a table.
+
+    Parameters
+    ----------
+    name : str
+    digits : int
+        After the point.
+    tolerance : float or None
+        Largest relative difference from the paper that passes as agreement; None: none is expected.
+    why : str
+        Where the numbers differ by more: the reason, a sentence.
+    """
+
+    name: str
+    digits: int
+    tolerance: float | None = None
+    why: str = ""
+
+
+@dataclass(frozen=True)
+class Cell:
+    """One number: ours, and the paper's where it prints one.
+
+    Parameters
+    ----------
+    ours : float or None
+        None: not measured.
+    paper : float, optional
+    why : str
+        Reason for a difference of just this number, instead of the column's.
+    """
+
+    ours: float | None
+    paper: float | None = None
+    why: str = ""
+
+    @property
+    def deviation(self) -> float | None:
+        """Ours over the paper's, less one; of numbers in decibels and the like as well."""
+        if self.ours is None or not self.paper:
+            return None
+        return (self.ours - self.paper) / abs(self.paper)
+
+
+@dataclass(frozen=True)
+class Table:
+    """Rows of numbers.
+
+    Parameters
+    ----------
+    title : str
+    stub : str
+        What the labels of the rows are.
+    columns : tuple of Column
+    rows : tuple of (str, tuple of Cell)
+        A label and a cell for every column.
+    """
+
+    title: str
+    stub: str
+    columns: tuple[Column, ...]
+    rows: tuple[tuple[str, tuple[Cell, ...]], ...]
+
+    def differs(self, column: Column, cell: Cell) -> bool:
+        """Whether a number disagrees with the paper's."""
+        off = cell.deviation
+        return off is not None and column.tolerance is not None and abs(off) > column.tolerance
+
+    def compared(self) -> tuple[int, int]:
+        """How many numbers stand beside one of the paper, and how many of these agree."""
+        pairs = [
+            self.differs(column, cell)
+            for _, cells in self.rows
+            for column, cell in zip(self.columns, cells, strict=True)
+            if cell.deviation is not None and column.tolerance is not None
+        ]
+        return len(pairs), pairs.count(False)
+
+    def as_json(self) -> dict[str, Any]:
+        """Everything, ready for JSON."""
+        return {
+            "title": self.title,
+            "columns": [column.name for column in self.columns],
+            "rows": [
+                {
+                    "label": label,
+                    "cells": [
+                        {
+                            "ours": cell.ours,
+                            "paper": cell.paper,
+                            "note": (cell.why or column.why) if self.differs(column, cell) else None,
+                        }
+                        for column, cell in zip(self.columns, cells, strict=True)
+                    ],
+                }
+                for label, cells in self.rows
+            ],
+        }
+
+
+@dataclass(frozen=True, eq=False)
+class Picture:
+    """A picture in a file format of the web.
+
+    Parameters
+    ----------
+    caption : str
+    media : str
+        Media type: image/png or image/svg+xml.
+    data : bytes
+    """
+
+    caption: str
+    media: str
+    data: bytes
+
+
+@dataclass(frozen=True, eq=False)
+class Exhibit:
+    """A table or figure of the paper, made again.
+
+    Parameters
+    ----------
+    title : str
+    place : str
+        Where the paper has it.
+    tables : tuple of Table
+    pictures : tuple of Picture
+    remarks : tuple of str
+        What the paper claims, what we find, and why it differs; a sentence or two each.
+    """
+
+    title: str
+    place: str
+    tables: tuple[Table, ...] = ()
+    pictures: tuple[Picture, ...] = ()
+    remarks: tuple[str, ...] = ()
+
+    def as_json(self) -> dict[str, Any]:
+        """Everything but the pictures, ready for JSON."""
+        return {
+            "title": self.title,
+            "place": self.place,
+            "tables": [table.as_json() for table in self.tables],
+            "pictures": [picture.caption for picture in self.pictures],
+            "remarks": list(self.remarks),
+        }

@@ -1,0 +1,203 @@
+"""Section 8.2: orthogonal iterations against the SVD, in error and in time."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from dataclasses import replace
+from functools import partial
+
+import numpy as np
+import scipy.linalg
+
+from codec.blend import Blend, degree_weights
+from codec.blocks import Blocks
+from codec.chain import Chain
+from codec.denoise.coarse import KEEP, RULES, CoarseFilter
+from codec.laplacian import dense_laplacian
+from codec.mesh import Positions
+from codec.metrics import decibel
+from codec.parallel import SINGLE_BLAS_THREAD
+from codec.predict import unheld
+from tools.evaluation.row_order import RowOrder, in_bisection_order, in_breadth_first_order
+from tools.paper.exhibit import Cell, Column, Exhibit, Table
+from tools.paper.pictures import rendering
+from tools.paper.published import POWERS, TIMES
+from tools.paper.segments import blocks_of, parts_of
+from tools.paper.study import ROLES, Model, Study
+
+SEGMENTS = {"armadillo": 20, "hand": 800}
+"""The Armadillo's are the paper's; those of the Hand make n_d 470, of which the paper's c = 47 is a tenth."""
+
+ROW_ORDERS: tuple[RowOrder, ...] = (in_breadth_first_order, in_bisection_order)
+
+_MACHINE = "Another machine, and other libraries: ratios within one row compare, seconds do not."
+_ERROR = "Another file and another sample of noise set the level; compare the distance between SVD and OI."
+_GAP = "The paper does not say which z it used; ours is z = 3, twice per block, and closer to the exact basis."
+_GAIN = (
+    "Our solver and orthonormalisation are compiled for blocks of this size, while the full SVD is LAPACK's on both "
+    "sides; the last column gives the ratio to a solver that computes only the c vectors that are needed."
+)
+
+
+def fastest(work: Callable[[], object], repeats: int) -> float:
+    """Seconds of the fastest run."""
+    seconds = []
+    for _ in range(repeats):
+        begin = time.perf_counter()
+        work()
+        seconds.append(time.perf_counter() - begin)
+    return min(seconds)
+
+
+def svd_seconds(blocks: Blocks) -> float:
+    """Time of the full dense SVD of every block, on one thread: the paper's yardstick."""
+    total = 0.0
+    with SINGLE_BLAS_THREAD:
+        for index in range(blocks.count):
+            laplacian = dense_laplacian(blocks.block(index))
+            total += fastest(lambda: np.linalg.svd(laplacian), 1)  # noqa: B023  (runs at once)
+    return total
+
+
+def subset_seconds(blocks: Blocks, keep: float) -> float:
+    """Time of LAPACK's solver for just the lowest eigenvectors of every block, on one thread."""
+    total = 0.0
+    with SINGLE_BLAS_THREAD:
+        for index in range(blocks.count):
+            laplacian = dense_laplacian(blocks.block(index))
+            last = max(0, round(keep * len(laplacian)) - 1)
+            total += fastest(lambda: scipy.linalg.eigh(laplacian, subset_by_index=[0, last]), 1)  # noqa: B023
+    return total
+
+
+def coarse_in_order(model: Model, blocks: Blocks, order: RowOrder) -> Positions:
+    """The coarse step with one orthogonal iteration of R^1, c = 10 %, and the rows of blocks in a given order."""
+    chain, blend = Chain(replace(RULES, power=1, iterations=1, key_interval=0), blocks.graph), Blend(model.size)
+    for index in range(blocks.count):
+        block = order(blocks, index)
+        subspace = chain.dictionary(block, unheld(block), max(1, round(KEEP * block.size)))
+        positions = subspace @ (subspace.T @ model.noisy[block.vertices])
+        chain.commit(block, subspace, positions)
+        blend.add(block.vertices, positions, degree_weights(block.degrees))
+    return blend.positions(np.arange(model.size, dtype=np.int32))
+
+
+def _row(
+    model: Model,
+    study: Study,
+    segments: int,
+    keep: float,
+    blocks: Blocks,
+    svd: float,
+    exact: CoarseFilter,
+    there: tuple[float, float, float, float, float],
+) -> tuple[Cell, ...]:
+    block = model.block(segments)
+    reference = model.reference
+    # One chain, so that one thread does all the work, as the SVD's does.
+    rules = replace(RULES, key_interval=0)
+    seconds = fastest(lambda: CoarseFilter(model.faces, model.size, keep, block, rules), study.effort.repeats)
+    tracked = CoarseFilter(model.faces, model.size, keep, block, rules)
+    exact_db, tracked_db = (decibel(reference.nmsve(filter_(model.noisy, keep))) for filter_ in (exact, tracked))
+    subset = subset_seconds(blocks, keep)
+    svd_db, oi_db, svd_there, oi_there, gain = there
+    return (
+        Cell(exact_db, svd_db),
+        Cell(tracked_db, oi_db),
+        Cell(tracked_db - exact_db, oi_db - svd_db),
+        Cell(svd, svd_there),
+        Cell(seconds, oi_there),
+        Cell(svd / seconds, gain),
+        Cell(subset / seconds),
+    )
+
+
+def times(study: Study) -> Exhibit:
+    """The table of NMSVE and execution times."""
+    columns = (
+        Column("SVD, dB", 2, 0.01, _ERROR),
+        Column("OI, dB", 2, 0.01, _ERROR),
+        Column("OI less SVD, dB", 3, 0.25, _GAP),
+        Column("SVD, s", 2, 0.1, _MACHINE),
+        Column("OI, s", 3, 0.1, _MACHINE),
+        Column("speed-up", 1, 0.2, _GAIN),
+        Column("against eigh of c vectors", 1),
+    )
+    tables = []
+    for role, published in TIMES.items():
+        model = study.model(role)
+        segments = SEGMENTS[role]
+        blocks = blocks_of(model, parts_of(model, segments))
+        svd = svd_seconds(blocks)
+        shares = study.effort.some(published)
+        exact_rules = replace(RULES, exact=True)
+        exact = CoarseFilter(model.faces, model.size, max(shares) / 100, model.block(segments), exact_rules)
+        rows = []
+        for share in shares:
+            study.note(f"{model.name}, c = {share} %")
+            there = published[share]
+            rows.append((f"{share} %", _row(model, study, segments, share / 100, blocks, svd, exact, there)))
+        title = f"{model.role.name}: {model.name}, {blocks.count} segments, noise of 0.2 mean edges"
+        tables.append(Table(title, "c / n_d", columns, tuple(rows)))
+    return Exhibit(
+        "NMSVE and execution times",
+        "section 8.2, first table",
+        tuple(tables),
+        (),
+        (
+            "Orthogonal iterations are as good as the SVD here within a few hundredths of a decibel, and many times "
+            "faster: the paper's claim holds. Against a solver that computes only the c lowest eigenvectors, "
+            "which the paper does not compare, the gain is smaller.",
+            "Times of OI include the segmentation and the ordering of rows; everything runs on one thread.",
+        ),
+    )
+
+
+def powers(study: Study) -> Exhibit:
+    """The table of theta and time by the power of R, and the figure of coarse meshes for z = 1 to 7."""
+    why_time = _MACHINE
+    why_theta = {
+        "twelve": "The paper's column jumps up at R^3 and never comes down to its own SVD; ours falls towards the "
+        "exact basis, as theory has it.",
+        "fandisk": "Ours keeps falling towards the exact basis. The paper's rise at R^8 and R^9 appears when R^z is "
+        "formed as a matrix, which loses digits; we solve z times instead. Its noise is another sample, too.",
+    }
+    tables, pictures = [], []
+    orders: dict[str, str] = {}
+    for role, published in POWERS.items():
+        model = study.model(role)
+        reference, block = model.reference, model.block(10)
+        columns = (Column("t, s", 3, 0.1, why_time), Column("theta, degrees", 2, 0.05, why_theta[role]))
+        blocks = blocks_of(model, parts_of(model, 10))
+        first = published["R^1"][1]
+        rows = []
+        for name, (seconds_there, theta_there) in study.effort.some(published.items()):
+            study.note(f"{model.name}, {name}")
+            exact = name == "SVD"
+            power = 1 if exact else int(name[2:])
+            # One iteration for every block but the first, whose start has no predecessor.
+            rules = replace(RULES, exact=exact, power=power, iterations=1, key_interval=0)
+            build = partial(CoarseFilter, model.faces, model.size, block=block, rules=rules)
+            seconds = svd_seconds(blocks) if exact else fastest(build, study.effort.repeats)
+            coarse = build()(model.noisy)
+            angle = reference.theta(coarse)
+            rows.append((name, (Cell(seconds, seconds_there), Cell(angle, theta_there))))
+            if role == "fandisk" and (exact or power <= 7):
+                caption = f"{'SVD' if exact else f'z = {power}'}: {angle:.1f} degrees"
+                pictures.append(rendering(caption, coarse, model.faces, study.effort.pixels, like=model.clean))
+        found, ordered = (reference.theta(coarse_in_order(model, blocks, order)) for order in ROW_ORDERS)
+        orders[role] = f"{found:.1f} degrees as they were found, {ordered:.1f} by bisection (the paper: {first:.1f})"
+        tables.append(Table(f"{model.role.name}: {model.name}, 10 segments, c = 10 %", "", columns, tuple(rows)))
+    return Exhibit(
+        "Powers of R",
+        "section 8.2, second table, and the figure of coarse meshes for z = 1 to 7",
+        tuple(tables),
+        tuple(pictures),
+        (
+            "With one iteration of R^1, the order of rows decides: "
+            + "; ".join(f"{ROLES[role].name} {text}" for role, text in orders.items())
+            + ".",
+            "From z = 4 on the meshes look like those of the SVD, as the paper says.",
+        ),
+    )
