@@ -156,6 +156,8 @@ class SequenceDecoder:
                 self._accept_connectivity(packet)
             case packets.Partition():
                 self._accept_partition(packet)
+            case packets.Order():
+                raise UnsupportedError("the original order of sequences is unknown to this decoder")
             case packets.Block():
                 self._opened().add(packet)
             case packets.Gop():
@@ -166,8 +168,8 @@ class SequenceDecoder:
     def _accept_header(self, header: Header) -> None:
         if not header.gop_frames:
             raise FormatError("this is a static mesh and no sequence; decode it with codec.Decoder")
-        if header.smoothing:
-            raise UnsupportedError("smoothing of sequences is unknown to this decoder")
+        if header.smoothing or header.details:
+            raise UnsupportedError("smoothing and details of sequences are unknown to this decoder")
         solves = header.power * max(header.iterations, header.key_iterations)
         check_work(self._limits, header.blocks, header.block_size, header.coefficients, solves, exact=True)
         self._limits.check("sequence_bytes", 8.0 * header.blocks * header.block_size * header.coefficients)

@@ -1,8 +1,8 @@
 """A decoder of BSM streams, written from the documents of this folder alone: slow, plain, easy to compare with them.
 
 The rules that it follows are named as they are numbered: F for format.md, C for connectivity.md (see
-reference_connectivity.py), M for mathematics.md. numpy is used for linear algebra alone, and nothing is shared with the
-product.
+reference_connectivity.py), M for mathematics.md, S for sequence.md. numpy is used for linear algebra alone, and nothing
+is shared with the product.
 
     python spec/reference_decoder.py IN.bsm OUT.npz
 
@@ -31,6 +31,7 @@ from reference_connectivity import (
     decode_connectivity,
     decode_labels,
     neighbours_of,
+    read_signed,
     read_unsigned,
 )
 
@@ -485,18 +486,18 @@ def orthogonal_iterations(block, start, diagonal, power, iterations):
     return subspace
 
 
-def exact_basis(block, width, springs):
-    """M 8.5."""
-    values, vectors = np.linalg.eigh(block.laplacian + np.diag(springs))
+def exact_basis(matrix, width):
+    """M 8.5, S 3.3: the lowest eigenvalues, and eigenvectors in a form that does not depend on who computed them."""
+    values, vectors = np.linalg.eigh(matrix)
     basis, first = [], 0
     while first < width:
         last = first + 1
-        while last < block.size and values[last] - values[last - 1] <= 1e-6:
+        while last < len(values) and values[last] - values[last - 1] <= 1e-6:
             last += 1
         cluster = vectors[:, first:last]
-        basis.append(onorm(cluster @ (cluster.T @ hash_columns(block.size, last - first))))
+        basis.append(onorm(cluster @ (cluster.T @ hash_columns(len(values), last - first))))
         first = last
-    return np.concatenate(basis, axis=1)[:, :width]
+    return values[:width], np.concatenate(basis, axis=1)[:, :width]
 
 
 def hash_columns(rows, columns):
@@ -700,93 +701,382 @@ def check_work(header):
     """M 14.3."""
     rows, blocks, columns = header["block_size"], header["blocks"], max(header["coefficients"], header["details"])
     solves = header["power"] * max(header["iterations"], header["key_iterations"])
-    if header["basis"] == 1:
+    if header["basis"] == 1 or header["gop_frames"]:
         work = 30.0 * blocks * rows**3
     else:
         work = blocks * (200.0 * rows + solves * (40.0 * rows * columns + 8.0 * rows * columns**2))
     require_limit(work, MOST_WORK, "work")
 
 
-def decode(stream):
-    """A static stream: positions, shape (n, 3), and faces, shape (m, 3)."""
-    header, packets = parse_stream(stream)
-    if header["gop_frames"]:
-        raise UnsupportedError("a sequence")
-    check_work(header)
-    prediction = header["prediction"]
-    require(len(prediction) <= 1 and all(0 < k < 2.0**16 for k in prediction), "illegal prediction")  # M 7.5
-    for kind, known in ((CONNECTIVITY, 1), (PARTITION, 0), (ORDER, 1)):
-        if packets[kind] and packets[kind][0][0] != known:
-            raise UnsupportedError(f"method {packets[kind][0][0]} in a frame of type {kind}")
-    vertices, parts = header["vertices"], header["blocks"]
-    faces = decode_connectivity(packets[CONNECTIVITY][0][1], vertices, header["faces"], MOST_VERTICES)
-    graph = neighbours_of(faces, vertices)
-    if packets[PARTITION]:
-        labels = decode_labels(packets[PARTITION][0][1], graph, parts)
-    else:
-        labels = derive_labels(graph, parts)
-    decoded_faces, numbers = faces, range(vertices)
-    if packets[ORDER]:
-        numbers, faces = decode_arrangement(packets[ORDER][0][1], faces, vertices)
-    cores = [[v for v in range(vertices) if labels[v] == part] for part in range(parts)]
-    require(max(map(len, cores)) <= header["block_size"], "a part is larger than a block")  # M 5.2
-    chain = chain_of(graph, labels, parts)
-    indices = [index for index, _, _ in packets[BLOCK]]
-    require(indices == list(range(parts)), "a block is missing")
-    blended = Known(vertices)
-    for index, width, payload in packets[BLOCK]:
-        length = 1 if header["seeding"] == 1 else header["key_interval"] or parts  # M 10.1
-        if index % length == 0:
-            model, known, subspace = CoefficientModel(header["coefficients"]), Known(vertices), None
-            details = CoefficientModel(-(-header["details"] // 3))
-        block = Block(graph, grow(graph, cores[chain[index]], header["block_size"]))
-        require(1 <= width <= block.size, "a wrong number of coefficients")  # M 9.9
-        if header["coding"] == 0:
-            values = unpack(payload, 3 * width, header["bits"])
-            levels, heights = np.array(values).reshape(width, 3) - (1 << (header["bits"] - 1)), []  # M 9.10
-            levels[0] <<= header["coarser"]
+class Mesh:
+    """What a stream says before its blocks: header, faces, graph, and the cores of the blocks in their order."""
+
+    def __init__(self, header, packets):
+        self.header = header
+        for kind, known in ((CONNECTIVITY, 1), (PARTITION, 0), (ORDER, 1)):
+            if packets[kind] and packets[kind][0][0] != known:
+                raise UnsupportedError(f"method {packets[kind][0][0]} in a frame of type {kind}")
+        vertices, parts = header["vertices"], header["blocks"]
+        self.faces = decode_connectivity(packets[CONNECTIVITY][0][1], vertices, header["faces"], MOST_VERTICES)
+        self.graph = neighbours_of(self.faces, vertices)
+        if packets[PARTITION]:
+            labels = decode_labels(packets[PARTITION][0][1], self.graph, parts)
         else:
-            decoder, heights = RangeDecoder(payload), []
-            levels = np.array(model.block(decoder, width))
-            if header["details"]:  # M 11.1
-                heights = [h for row in details.block(decoder, details.rows(decoder)) for h in row]
-            decoder.finish()
-        heights = np.array(heights[: min(header["details"], block.size)])
-        columns = max(width, len(heights))  # M 11.2
+            labels = derive_labels(self.graph, parts)
+        self.numbers, self.arranged = range(vertices), self.faces
+        if packets[ORDER]:
+            self.numbers, self.arranged = decode_arrangement(packets[ORDER][0][1], self.faces, vertices)
+        cores = [[v for v in range(vertices) if labels[v] == part] for part in range(parts)]
+        require(max(map(len, cores)) <= header["block_size"], "a part is larger than a block")  # M 5.2
+        self.cores = [cores[part] for part in chain_of(self.graph, labels, parts)]
+        require([index for index, _, _ in packets[BLOCK]] == list(range(parts)), "a block is missing")
+
+    def result(self, positions):
+        """M 12.5, C 9.5: positions of n vertices in the unit of the mesh, each under its number."""
+        positions = positions * self.header["scale"] + np.array(self.header["center"])
+        if not np.isfinite(positions).all():
+            raise NumericError("positions are not finite")
+        arranged = np.empty_like(positions)
+        arranged[list(self.numbers)] = positions
+        return arranged
+
+
+class Chain:
+    """M 10.1: what blocks learn from those before them."""
+
+    def __init__(self, mesh):
+        self.mesh, header = mesh, mesh.header
+        self.model = CoefficientModel(header["coefficients"])
+        self.details = CoefficientModel(-(-header["details"] // 3))
+        self.known, self.subspace = Known(header["vertices"]), None
+
+    def decode(self, block, width, payload):
+        """Positions of the next block."""
+        header = self.mesh.header
+        levels, heights = self.levels(width, payload)
+        heights = heights[: min(header["details"], block.size)]
         springs, pulls = np.zeros(block.size), np.zeros((block.size, 3))
-        if prediction:
-            springs, pulls = surroundings(graph, block, known, prediction[0])
-        if header["basis"] == 1:
-            subspace = exact_basis(block, columns, springs)
-        else:
-            follows = subspace is not None and len(subspace) == block.size  # M 8.3
-            iterations = header["iterations"] if follows or header["seeding"] == 1 else header["key_iterations"]
-            had = subspace.shape[1] if follows else 0
-            start = cosine_columns(block.size, had, max(had, columns))
-            if follows:
-                start = np.concatenate([subspace, start], axis=1)[:, :columns]
-            subspace = orthogonal_iterations(block, start, springs + header["shift"], header["power"], iterations)
+        if header["prediction"]:
+            springs, pulls = surroundings(self.mesh.graph, block, self.known, header["prediction"][0])
+        subspace = self.subspace = self.dictionary(block, max(width, len(heights)), springs)  # M 11.2
         positions = extend(block, springs, pulls) + subspace[:, :width] @ (levels * header["step"])  # M 10.2
         if header["details"]:
             height = subspace[:, : len(heights)] @ (heights * header["detail_step"])
-            positions = positions + normals_of(block, decoded_faces, positions) * height[:, None]  # M 11.4
+            positions = positions + normals_of(block, self.mesh.faces, positions) * height[:, None]  # M 11.4
         if not np.isfinite(positions).all():
             raise NumericError("positions are not finite")
-        known.add(block, positions, np.maximum(block.degrees, 1.0))
-        core = set(cores[chain[index]])
+        self.known.add(block, positions, np.maximum(block.degrees, 1.0))
+        return positions
+
+    def levels(self, width, payload):
+        """Those of x, y and z, and those of the details."""
+        header, heights = self.mesh.header, []
+        if header["coding"] == 0:  # M 9.10
+            levels = np.array(unpack(payload, 3 * width, header["bits"])).reshape(width, 3) - (
+                1 << (header["bits"] - 1)
+            )
+            levels[0] <<= header["coarser"]
+        else:
+            decoder = RangeDecoder(payload)
+            levels = np.array(self.model.block(decoder, width))
+            if header["details"]:  # M 11.1
+                heights = [h for row in self.details.block(decoder, self.details.rows(decoder)) for h in row]
+            decoder.finish()
+        return levels, np.array(heights)
+
+    def dictionary(self, block, columns, springs):
+        header = self.mesh.header
+        if header["basis"] == 1:
+            return exact_basis(block.laplacian + np.diag(springs), columns)[1]
+        follows = self.subspace is not None and len(self.subspace) == block.size  # M 8.3
+        iterations = header["iterations"] if follows or header["seeding"] == 1 else header["key_iterations"]
+        had = self.subspace.shape[1] if follows else 0
+        start = cosine_columns(block.size, had, max(had, columns))
+        if follows:
+            start = np.concatenate([self.subspace, start], axis=1)[:, :columns]
+        return orthogonal_iterations(block, start, springs + header["shift"], header["power"], iterations)
+
+
+def decode_blocks(mesh, blocks):
+    """M 5 to M 12.1: the blended positions, in BSM units."""
+    header, blended = mesh.header, Known(mesh.header["vertices"])
+    length = 1 if header["seeding"] == 1 else header["key_interval"] or header["blocks"]
+    for index, width, payload in blocks:
+        if index % length == 0:
+            chain = Chain(mesh)
+        core = mesh.cores[index]
+        block = Block(mesh.graph, grow(mesh.graph, core, header["block_size"]))
+        require(1 <= width <= block.size, "a wrong number of coefficients")  # M 9.9
+        positions = chain.decode(block, width, payload)
         weights = {  # M 12.1
             0: np.maximum(block.degrees, 1.0),
             1: np.ones(block.size),
-            2: np.array([float(v in core) for v in block.vertices]),
+            2: np.isin(block.vertices, core).astype(float),
         }[header["blend"]]
         blended.add(block, positions, weights)
-    decoded = smooth(graph, blended.sums / blended.weights[:, None], header["smoothing"])
-    decoded = decoded * header["scale"] + np.array(header["center"])  # M 12.5
-    if not np.isfinite(decoded).all():
-        raise NumericError("positions are not finite")
-    arranged = np.empty_like(decoded)
-    arranged[list(numbers)] = decoded  # C 9.5
-    return arranged, np.array(faces, np.int32).reshape(-1, 3)
+    return blended.sums / blended.weights[:, None]
+
+
+# ---------------------------------------------------------------- S: sequences
+
+
+class Gop:
+    """S 2."""
+
+    def __init__(self, data, longest):
+        require(len(data) >= 1, "a GOP without method")
+        self.method = data[0]
+        if self.method > 3:
+            raise UnsupportedError(f"GOP method {self.method}")  # S 2.2
+        self.frames, at = payload_varint(data, 1)
+        require(1 <= self.frames <= (longest if self.method <= 1 else 1), "a wrong number of frames")  # S 2.3
+        require(at + 4 <= len(data), "a GOP ends inside its step")
+        self.step, at = struct.unpack("<f", data[at : at + 4])[0], at + 4
+        require(0.0 < self.step < math.inf, "a step that is not finite and above 0")  # S 2.1
+        self.columns, self.exponents, self.basis = 3, [], b""
+        if self.method <= 1:
+            self.columns, at = payload_varint(data, at)
+            require(self.columns <= 3 * self.frames, "too many components")
+        if self.method == 0:
+            for _ in range(self.columns):  # S 2.4
+                code, at = payload_varint(data, at)
+                before = self.exponents[-1] if self.exponents else 0
+                self.exponents.append(before + (code // 2 if code % 2 == 0 else -(code + 1) // 2))
+            require(all(0 <= exponent <= 400 for exponent in self.exponents), "an exponent out of range")
+            length, at = payload_varint(data, at)
+            require(at + length <= len(data), "a GOP ends inside its basis")
+            self.basis, at = data[at : at + length], at + length
+        self.levels = data[at:]
+
+
+class LevelModel:
+    """S 4: what is learnt from the levels of a sequence."""
+
+    def __init__(self):
+        self.sets = [Model(6, 400, 10) for _ in range(3)]
+        for model in self.sets:
+            model.slots = self.sets[0].slots
+
+    def decode(self, payload, shapes, references):
+        """Matrices of the shapes given; a reference of None is the matrix before."""
+        decoder, matrices = RangeDecoder(payload), []
+        for (rows, columns), reference in zip(shapes, references):
+            if reference is None:
+                reference = matrices[-1] if matrices else np.zeros((0, columns), int)
+            matrices.append(self.matrix(decoder, rows, columns, reference))
+        decoder.finish()
+        return matrices
+
+    def matrix(self, decoder, rows, columns, reference):
+        """S 4.1 to S 4.3."""
+        levels, slow = np.zeros((rows, columns), int), [0] * columns
+
+        def a(j, i):
+            return abs(int(levels[j, i])) if j >= 0 and 0 <= i < columns else 0
+
+        def b(j, i):
+            return abs(int(reference[j, i])) if 0 <= j < len(reference) else 0
+
+        for j in range(decoder.uniform(rows + 1)):
+            mean = 0
+            for i in range(columns):
+                above = 2 * a(j - 1, i) + a(j - 2, i) + a(j - 3, i)
+                left = 2 * a(j, i - 1) + a(j, i - 2)
+                around = a(j - 1, i + 1) + a(j - 1, i - 1)
+                before = 2 * b(j, i) + b(j - 1, i) + b(j + 1, i)
+                place = j if j < 20 else min(39, 20 + (j - 20) // 8)
+                contexts = [
+                    12 * octave(j) + size_class(slow[i] >> 4),
+                    12 * octave(i) + size_class(above),
+                    12 * size_class(before) + size_class(slow[i] >> 4),
+                    12 * size_class(above) + size_class(left),
+                    12 * size_class(mean >> 5) + size_class((above + left + around + before) >> 1),
+                    40 * size_class(left + around) + place,
+                ]
+                model = self.sets[0 if j == 0 else 1 if j < 12 else 2]
+                levels[j, i] = read_signed(decoder, model, contexts, 14)
+                magnitude = min(abs(int(levels[j, i])), 4096)
+                slow[i] += (64 * magnitude - slow[i]) >> 2
+                mean += (128 * magnitude - mean) >> 2
+            if decoder.overran():
+                decoder.fail("levels are missing")
+        return levels
+
+
+def octave(value):
+    return min(value.bit_length(), 11)
+
+
+def size_class(value):
+    if value < 5:
+        return value
+    return next((5 + k for k, bound in enumerate((7, 10, 15, 25, 50, 150)) if value < bound), 11)
+
+
+def cosines_over_time(frames):
+    """S 5.1: row t, column f."""
+    columns = cosine_columns(frames, 0, frames) * math.sqrt(2.0 / frames)
+    columns[:, 0] = math.sqrt(1.0 / frames)
+    return columns
+
+
+def temporal_basis(gop):
+    """S 5: 3 T rows, r columns."""
+    single = cosines_over_time(gop.frames)
+    if gop.method == 1:
+        basis = np.zeros((3, gop.frames, gop.frames, 3))
+        for d in range(3):
+            basis[d, :, :, d] = single
+        return basis.reshape(3 * gop.frames, 3 * gop.frames)[:, : gop.columns]
+    matrices = LevelModel().decode(gop.basis, [(gop.frames, gop.columns)] * 3, [None] * 3)
+    steps = 2.0 ** (-np.array(gop.exponents, float) / 4)
+    return np.concatenate([single @ (matrix * steps) for matrix in matrices])
+
+
+class Loop:
+    """S 6."""
+
+    def __init__(self, known, coded):
+        self.moments = np.zeros((known + min(coded, 24), known + coded))  # S 6.1
+
+    def decode(self, known, levels, step):
+        k, width = known.shape[1], self.moments.shape[1]
+        result = np.zeros((len(known), width - k))
+        for j in range(len(known)):
+            if j < 16 or j % 8 == 0:
+                factor = self.factor()
+            p, z = np.zeros(width), np.zeros(width)
+            for b in range(width):  # S 6.3
+                z[b] = known[j, b] if b < k else p[b] + levels[j, b - k] * step
+                if b < len(factor):
+                    p[b + 1 :] += factor[b, b + 1 :] * ((z[b] - p[b]) / factor[b, b])
+            result[j] = z[k:]
+            if j > 0:  # S 6.4
+                w = 1.0 / (30.0 * step**2 + (z**2).sum())
+                self.moments = 0.985 * self.moments + w * np.outer(z[: len(self.moments)], z)
+        if not np.isfinite(result).all():
+            raise NumericError("coefficients are not finite")  # S 6.5
+        return result
+
+    def factor(self):
+        """S 6.2."""
+        factor = np.zeros_like(self.moments)
+        for a in range(len(factor)):
+            g = self.moments[a].copy()
+            g[:a] = 0.0
+            g[a] += 0.005
+            g[a:] -= factor[:a, a] @ factor[:a, a:]
+            factor[a] = g / math.sqrt(g[a])
+        return factor
+
+
+class Part:
+    """S 3: the core of a block, its dictionary, and its edges to parts before it."""
+
+    def __init__(self, mesh, weight, vertices, rank):
+        self.vertices, own = sorted(vertices), rank[vertices[0]]
+        row = {v: r for r, v in enumerate(self.vertices)}
+        laplacian, self.edges = np.zeros((len(row), len(row))), []
+        for v, r in row.items():
+            for w in mesh.graph[v]:
+                if rank[w] > own:
+                    continue
+                laplacian[r, r] += weight[v, w]  # S 3.2
+                if w in row:
+                    laplacian[r, row[w]] -= weight[v, w]
+                else:
+                    self.edges.append((r, w, weight[v, w]))
+        self.values, self.basis = exact_basis(laplacian, min(mesh.header["coefficients"], len(row)))  # S 3.3
+
+    def extension(self, field):
+        """S 3.4."""
+        pulls = np.zeros((len(self.vertices), field.shape[1]))
+        for r, w, stiffness in self.edges:
+            pulls[r] += stiffness * field[w]
+        inverse = np.array([1.0 / value if value > 1e-8 else 0.0 for value in self.values])
+        return inverse[:, None] * (self.basis.T @ pulls)
+
+    def difference(self, field):
+        """S 3.5."""
+        return self.basis.T @ field[self.vertices] - self.extension(field)
+
+    def place(self, field, difference):
+        field[self.vertices] = self.basis @ (difference + self.extension(field))
+
+
+def edge_weights(mesh, positions):
+    """S 3.1: of both directions of every edge."""
+    if mesh.header["weights"] == 0:
+        return {(v, w): 1.0 for v, row in enumerate(mesh.graph) for w in row}
+    weights = {(v, w): 0.0 for v, row in enumerate(mesh.graph) for w in row}
+    for face in mesh.faces:
+        if len(set(face)) < 3:
+            continue
+        for k in range(3):
+            a, b, c = face[k], face[(k + 1) % 3], face[(k + 2) % 3]
+            u, v = positions[b] - positions[a], positions[c] - positions[a]
+            area = np.linalg.norm(np.cross(u, v))
+            if area > 0.0:
+                weights[b, c] += 0.5 * (u @ v) / area
+                weights[c, b] += 0.5 * (u @ v) / area
+    return {edge: min(max(value, 0.05), 10.0) for edge, value in weights.items()}
+
+
+def decode_frames(mesh, gops, first_frame):
+    """S 7: all frames, in BSM units."""
+    rank = {v: index for index, core in enumerate(mesh.cores) for v in core}
+    weight = edge_weights(mesh, first_frame)
+    parts = [Part(mesh, weight, core, rank) for core in mesh.cores]
+    first = [part.difference(first_frame) for part in parts]  # S 3.6
+    frames, history = [], None
+    for index, data in gops:
+        require(index == len(frames), "a GOP is missing or repeated")  # S 1.2
+        gop = Gop(data, mesh.header["gop_frames"])
+        require(not 0 < mesh.header["frames"] < index + gop.frames, "more frames than announced")
+        shapes = [(part.basis.shape[1], gop.columns) for part in parts]
+        field = np.zeros((mesh.header["vertices"], gop.columns))
+        if gop.method <= 1:  # S 7.1
+            basis, history = temporal_basis(gop), None
+            matrices = LevelModel().decode(gop.levels, shapes, [None] * len(parts))
+            for part, matrix, known in zip(parts, matrices, first):
+                part.place(field, Loop(3, gop.columns).decode(known, matrix, gop.step))
+            wide = (field @ basis.T).reshape(len(field), 3, gop.frames)
+            frames += [wide[:, :, t] for t in range(gop.frames)]
+            continue
+        if gop.method == 2:  # S 7.2
+            zeros = [np.zeros(shape, int) for shape in shapes]
+            history = [LevelModel(), [Loop(9, 3) for _ in parts], zeros, first, first]
+        require(history is not None, "a frame refers to one that is not there")
+        model, loops, references, latest, before = history
+        matrices = model.decode(gop.levels, shapes, references)
+        now = []
+        for k, part in enumerate(parts):
+            known = np.concatenate([first[k], latest[k], latest[k] - before[k]], axis=1)
+            now.append(latest[k] + loops[k].decode(known, matrices[k], gop.step))
+            part.place(field, now[k])
+        history = [model, loops, matrices, now, latest]
+        frames.append(field)
+    require(mesh.header["frames"] in (0, len(frames)), "frames are missing")
+    return frames
+
+
+def decode(stream):
+    """Positions, shape (n, 3) or for a sequence (T, n, 3), and faces, shape (m, 3)."""
+    header, packets = parse_stream(stream)
+    if header["gop_frames"] and (header["smoothing"] or header["details"] or packets[ORDER]):
+        raise UnsupportedError("smoothing, details or order in a sequence")  # S 1.1
+    check_work(header)
+    prediction = header["prediction"]
+    require(len(prediction) <= 1 and all(0 < k < 2.0**16 for k in prediction), "illegal prediction")  # M 7.5
+    mesh = Mesh(header, packets)
+    positions = decode_blocks(mesh, packets[BLOCK])
+    if header["gop_frames"]:
+        frames = decode_frames(mesh, packets[GOP], positions)
+        shape = (len(frames), header["vertices"], 3)
+        decoded = np.array([mesh.result(frame) for frame in frames]).reshape(shape)
+    else:
+        decoded = mesh.result(smooth(mesh.graph, positions, header["smoothing"]))
+    return decoded, np.array(mesh.arranged, np.int32).reshape(-1, 3)
 
 
 def main():
