@@ -1,18 +1,17 @@
-"""The programs that print the tables of denoising."""
+"""The program that prints the tables of denoising."""
 
 from pathlib import Path
 
 import pytest
 
-from tools import benchmark_denoise, reproduce_denoising
+from tools import benchmark_denoise
 
 
-@pytest.mark.parametrize("program", [benchmark_denoise, reproduce_denoising])
-def test_an_unknown_table_is_refused_with_the_known_ones(program, capsys) -> None:  # type: ignore[no-untyped-def]
+def test_an_unknown_table_is_refused_with_the_known_ones(capsys) -> None:  # type: ignore[no-untyped-def]
     with pytest.raises(SystemExit) as stopped:
-        program.main(["nowhere", "best"])
+        benchmark_denoise.main(["nowhere", "best"])
     assert stopped.value.code == 2
-    assert next(iter(program.TABLES)) in capsys.readouterr().err
+    assert next(iter(benchmark_denoise.TABLES)) in capsys.readouterr().err
 
 
 def test_a_wrong_answer_stops_the_benchmark(monkeypatch, capsys) -> None:  # type: ignore[no-untyped-def]
