@@ -14,7 +14,7 @@ from codec.denoise import FrameDenoiser, denoise_automatically
 from codec.denoise.frames import GROUP
 from codec.denoise.noise import gaussian_along_normals
 from codec.mesh import TriangleMesh
-from codec.metrics import rms_over_edge, theta
+from codec.metrics import mnd, rms_over_edge, theta
 from codec.parallel import available_threads
 from tools.files.npz_frames import npz_frames, npz_shape
 from tools.meshfiles import read_mesh, write_mesh
@@ -182,6 +182,20 @@ def test_noise_is_as_strong_as_asked_for_and_seeded(tmp_path, kind):
     measured = rms_over_edge(CLEAN.positions, positions[2], CLEAN.faces)
     assert measured == pytest.approx(0.3 * share**0.5, rel=0.1)
     assert json.loads(ran.stdout)["rms_over_edge"] == pytest.approx(measured)
+
+
+def test_compare_measures_surfaces_when_asked_to(noisy_file, tmp_path):
+    write_mesh(tmp_path / "clean.npz", CLEAN)
+    plain, full = (
+        json.loads(bsm("compare", tmp_path / "clean.npz", noisy_file, "--json", *flag).stdout)
+        for flag in ((), ("--surface",))
+    )
+    noisy = read_mesh(noisy_file).mesh.positions
+    assert plain.items() <= full.items() and "mnd" not in plain
+    assert full["mnd"] == pytest.approx(mnd(CLEAN.positions, noisy, CLEAN.faces))
+    assert full["rms_over_edge"] == pytest.approx(0.25, rel=0.1)
+    assert 0 < full["surface_distance"] < full["hausdorff"] <= full["max_error"]
+    assert full["hausdorff_relative"] == pytest.approx(full["hausdorff"] / CLEAN.diagonal)
 
 
 def test_noise_refuses_what_makes_no_sense(tmp_path):

@@ -6,7 +6,7 @@ import argparse
 import math
 from dataclasses import asdict
 
-from codec.mesh import TriangleMesh
+from codec.mesh import Positions, TriangleMesh
 from tools.console import Console, print_json
 from tools.meshfiles import read_mesh
 from tools.permutation import in_order_of, read_permutation
@@ -19,6 +19,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("original", metavar="A", help="original: mesh file or stream, or a sequence of meshes")
     parser.add_argument("decoded", metavar="B", help="what became of it, in any of these forms")
     parser.add_argument("--permutation", metavar="FILE.npy", help="what encode wrote: vertex p[j] of A is j of B")
+    parser.add_argument(
+        "--surface",
+        action="store_true",
+        help="of meshes also the mean normal difference, the rms error over the mean edge, and the Hausdorff distance",
+    )
     parser.add_argument("--json", action="store_true", help="print it as JSON")
 
 
@@ -31,12 +36,31 @@ def run(args: argparse.Namespace, console: Console) -> None:
         return
     original, decoded = (_load(path, console) for path in (args.original, args.decoded))
     order = read_permutation(args.permutation) if args.permutation else None
-    result = asdict(compare(original.positions, in_order_of(original, decoded, order), original.faces))
+    positions = in_order_of(original, decoded, order)
+    result = asdict(compare(original.positions, positions, original.faces))
+    if args.surface:
+        result |= _surface(original, positions)
     if args.json:
         # JSON has no infinity; equal meshes have no decibels.
         print_json({name: value if math.isfinite(value) else None for name, value in result.items()})
     else:
         print("\n".join(f"{name:<19}{value:.6g}" for name, value in result.items()))
+
+
+def _surface(original: TriangleMesh, positions: Positions) -> dict[str, float]:
+    """What the literature on denoising measures."""
+    from codec.hausdorff import surface_distance
+    from codec.metrics import mnd, rms_over_edge
+
+    faces = original.faces
+    distance = surface_distance(original.positions, faces, positions, faces)
+    return {
+        "mnd": mnd(original.positions, positions, faces),
+        "rms_over_edge": rms_over_edge(original.positions, positions, faces),
+        "hausdorff": distance.hausdorff,
+        "hausdorff_relative": distance.hausdorff / (original.diagonal or 1.0),
+        "surface_distance": distance.mean,
+    }
 
 
 def _load(path: str, console: Console) -> TriangleMesh:
