@@ -17,7 +17,7 @@ from numba import njit
 
 from codec.simd import LANES
 
-LEAF = 20
+LEAF = 16
 """Halves of at most so many rows are not cut further."""
 
 _LANES = np.uint64(LANES)

@@ -19,7 +19,7 @@ from codec.parallel import SINGLE_BLAS_THREAD
 
 Matrix = npt.NDArray[np.float64]
 
-ONCE, TWICE = 1e-3, 1e-9
+ONCE, TWICE = 1e-3, 1e-11
 """Independence of the columns (see `codec.panels.factorize_gram`) from which Cholesky QR is orthogonal to 1e-12 after
 one pass, and to working precision after two."""
 
