@@ -1,4 +1,5 @@
 import math
+import tracemalloc
 from functools import cache
 
 import numpy as np
@@ -154,6 +155,42 @@ def test_chunks_come_as_frames_do(way):
     seen = [len(given) for chunk in chunks if chunk[0] & 15 == 7]
     held = 1 if "mode" in way else 4
     assert seen == [min(held * (k + 1), 10) for k in range(len(seen))] and seen[-1] == 10
+
+
+def peak_of(work):
+    """Most bytes held while `work` runs."""
+    tracemalloc.start()
+    try:
+        work()
+        return tracemalloc.get_traced_memory()[1]
+    finally:
+        tracemalloc.stop()
+
+
+@pytest.mark.parametrize("way", [{}, {"mode": "low-delay"}])
+def test_memory_does_not_grow_with_the_number_of_frames(way):
+    positions, faces = bending(8)
+
+    def frames(count):
+        for number in range(count):
+            yield positions[number % 8]
+
+    def encode_all(count):
+        for _ in SequenceEncoder(faces, options(step=0.01, threads=1, **way)).chunks(frames(count)):
+            pass
+
+    def decode_all(count):
+        decoder = SequenceDecoder(threads=1)
+        chunks = SequenceEncoder(faces, options(step=0.01, threads=1, **way)).chunks(frames(count))
+        while (event := decoder.next_event()) is not END_OF_STREAM:
+            if event is NEED_DATA:
+                chunk = next(chunks, b"")
+                decoder.receive_data(chunk) if chunk else decoder.receive_eof()
+
+    for work in (encode_all, decode_all):
+        work(8)
+        short, long = peak_of(lambda: work(8)), peak_of(lambda: work(32))  # noqa: B023  (called at once)
+        assert long < short + 8 * positions[0].nbytes
 
 
 def test_encoding_in_a_stream_differs_only_in_what_the_header_says():

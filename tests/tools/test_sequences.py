@@ -62,6 +62,30 @@ def test_info_and_verify(npz, tmp_path, capsys):
     assert bsm("verify", stream) != 0
 
 
+def test_some_frames_only(npz, tmp_path, capsys):
+    stream, whole, part = tmp_path / "a.bsm", tmp_path / "whole.npz", tmp_path / "part.npz"
+    assert bsm("encode", npz, "-o", stream, "--gop", 2) == 0
+    assert bsm("decode", stream, "-o", whole) == 0
+    for text, chosen in (("3:5", slice(3, 5)), (":2", slice(2)), ("4:", slice(4, None)), ("5:99", slice(5, None))):
+        assert bsm("decode", stream, "-o", part, "-f", "--frames", text) == 0
+        assert np.array_equal(np.load(part)["positions"], np.load(whole)["positions"][chosen])
+    for text in ("3", "3:3", "a:b", "-1:2", "6:9"):
+        assert bsm("decode", stream, "-o", part, "-f", f"--frames={text}") != 0
+
+
+def test_tolerant_decoding_names_what_is_lost(npz, tmp_path, capsys):
+    stream, part = tmp_path / "a.bsm", tmp_path / "part.npz"
+    assert bsm("encode", npz, "-o", stream, "--gop", 2) == 0
+    gop = result(capsys, "info", stream)["gops"][1]
+    broken = bytearray(stream.read_bytes())
+    broken[gop["offset"] + 20] ^= 1
+    stream.write_bytes(broken)
+    assert bsm("decode", stream, "-o", part) != 0 and not part.exists()
+    assert bsm("decode", stream, "-o", part, "--tolerant") == 0
+    assert "frames 2 to 3 are lost" in capsys.readouterr().err
+    assert len(np.load(part)["positions"]) == 4
+
+
 def test_folders_and_patterns_are_taken_in_the_order_of_numbers(tmp_path):
     positions, faces = bending(12)
     with sequence_writer(str(tmp_path / "run"), "off", faces, 12, overwrite=False) as write:

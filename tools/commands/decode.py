@@ -6,6 +6,7 @@ import argparse
 import time
 
 from bitstream.errors import OptionError
+from tools.commands import sequence_decode
 from tools.console import Console, print_json
 from tools.meshfiles import MESH_FORMATS, format_mesh, format_of_name
 from tools.naming import default_output, refuse_terminal
@@ -32,16 +33,16 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--permutation", metavar="FILE.npy", help="what encode wrote with the same option: restore the input's order"
     )
     parser.add_argument("--json", action="store_true", help="print the result as JSON")
+    sequence_decode.add_flags(parser)
 
 
 def run(args: argparse.Namespace, console: Console) -> None:
     """Decode one stream."""
     header, chunks = peek_header(read_chunks(args.input))
     if header is not None and header.gop_frames:
-        from tools.commands.sequence_decode import decode_sequence
-
-        decode_sequence(args, console, chunks)
+        sequence_decode.decode_sequence(args, console, chunks)
         return
+    sequence_decode.refuse_flags(args)
     output = args.output or default_output(args.input, f".{args.format or 'ply'}")
     kind = args.format or ("ply" if output == "-" else format_of_name(output))
     if kind not in MESH_FORMATS:

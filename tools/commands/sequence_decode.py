@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import sys
 import time
 from collections.abc import Iterator
 
@@ -13,6 +14,21 @@ from tools.output import refuse_to_overwrite
 from tools.permutation import read_permutation, reorder
 from tools.sequence_streams import SequenceStream, numbered, numbers_of
 from tools.sequences import sequence_kind, sequence_writer
+
+
+def add_flags(parser: argparse.ArgumentParser) -> None:
+    """Add what only sequences have."""
+    group = parser.add_argument_group("sequences")
+    group.add_argument("--frames", metavar="A:B", help="frames A to B - 1 only; what they do not need is not decoded")
+    group.add_argument(
+        "--tolerant", action="store_true", help="go on behind damage; frames that are lost are named and left out"
+    )
+
+
+def refuse_flags(args: argparse.Namespace) -> None:
+    """Raise `OptionError` if a flag of `add_flags` was given for a mesh."""
+    if args.frames is not None or args.tolerant:
+        raise OptionError("--frames and --tolerant are for sequences, and this is one mesh")
 
 
 def decode_sequence(args: argparse.Namespace, console: Console, chunks: Iterator[bytes]) -> None:
@@ -26,22 +42,29 @@ def decode_sequence(args: argparse.Namespace, console: Console, chunks: Iterator
     refuse_terminal(output)
     refuse_to_overwrite(output, args.force)
     begin = time.perf_counter()
-    stream = SequenceStream(chunks)
+    first, last = _range(args.frames)
+    stream = SequenceStream(chunks, console.note if args.tolerant else None, first)
     header, faces = stream.header, stream.faces
+    last = min(last, header.frames or last)
+    expected = max(last - first, 0) if header.frames and not args.tolerant else 0
     mesh = numbered(faces, header.vertices)
     if args.permutation:
         mesh = reorder(mesh, read_permutation(args.permutation))
     order, faces = numbers_of(mesh.positions), mesh.faces
     count = 0
     with (
-        sequence_writer(output, kind, faces, header.frames, overwrite=args.force) as write,
+        sequence_writer(output, kind, faces, expected, overwrite=args.force) as write,
         console.progress("decoding") as progress,
     ):
-        for _, frame in stream.frames():
+        for number, frame in stream.frames():
+            if number >= last:
+                break
             write(frame[order])
             count += 1
-            if header.frames:
-                progress(count, header.frames)
+            if expected:
+                progress(count, expected)
+        if count == 0:
+            raise OptionError("the stream has none of these frames")
     seconds = time.perf_counter() - begin
     facts = {"frames": count, "vertices": header.vertices, "faces": header.faces, "frame_rate": header.frame_rate}
     if args.json:
@@ -51,3 +74,15 @@ def decode_sequence(args: argparse.Namespace, console: Console, chunks: Iterator
             f"{args.input} -> {output}: {count} frames of {header.vertices} vertices, {header.faces} faces, "
             f"{seconds:.2f} s"
         )
+
+
+def _range(text: str | None) -> tuple[int, int]:
+    """First frame, and the one behind the last."""
+    first, colon, last = (text or ":").partition(":")
+    try:
+        chosen = int(first or 0), int(last or sys.maxsize)
+    except ValueError:
+        chosen = -1, -1
+    if not colon or not 0 <= chosen[0] < chosen[1]:
+        raise OptionError(f"--frames {text}: write A:B with 0 <= A < B, or leave one of them out")
+    return chosen
