@@ -1,9 +1,10 @@
 """Denoising measured: answers first, then times.
 
-    python -m tools.benchmark_denoise MESHES [guided] [companions] [handover] [automatic] [metrics]
+    python -m tools.benchmark_denoise MESHES [guided] [companions] [handover] [automatic] [metrics] [sequences]
 
-MESHES is the folder of real meshes, with `static/` and `noisy/`. Without further words every table is printed. A table
-whose answers are outside their tolerances ends the program with exit code 1, before any time is printed.
+MESHES is the folder of real meshes, with `static/`, `noisy/` and `dynamic/`. Without further words every table is
+printed. A table whose answers are outside their tolerances ends the program with exit code 1, before any time is
+printed.
 """
 
 from __future__ import annotations
@@ -26,7 +27,9 @@ from codec.denoise.handover import HAND_OVERS
 from codec.denoise.topology import Topology
 from codec.mesh import Faces, Positions
 from codec.metrics import Reference, compare, theta
-from tools.meshfiles import read_mesh
+from tools.files.npz import read_arrays
+from tools.meshfiles import read_bytes, read_mesh
+from tools.paper.sequences import noisy_frames, time_sequence
 
 # Theta after 20 iterations and seconds of the guided filter's authors' own C++ program (bldeng/GuidedDenoising).
 AUTHORS = {
@@ -161,6 +164,19 @@ def metrics_table(folder: Path) -> None:
     print(f"compare, bunny, prepared reference: {fastest(lambda: reference.compare(noisy), 10) * 1e3:.1f} ms")
 
 
+def sequences_table(folder: Path) -> None:
+    """One dictionary for all frames against one for each."""
+    print("coarse step, ms a frame    shared   one by one   iterations anew   dictionaries anew   all anew   less by")
+    for name in ("samba", "dance", "horse_gallop"):
+        positions, faces = read_arrays(read_bytes(folder / "dynamic" / f"{name}.npz"), "positions", "faces")
+        faces = faces.astype(np.int32)
+        times, _ = time_sequence(noisy_frames(positions[:48].astype(np.float64), faces), faces, 5)
+        expect(f"frames of {name} in one product agree with single ones to 1e-10", times.difference < 1e-10)
+        seconds = (times.shared, times.single, times.iterations, times.remade, times.whole)
+        cells = "".join(f"{1e3 * value:{width}.2f}" for value, width in zip(seconds, (10, 13, 18, 20, 11)))
+        print(f"{name:23s} {cells} {times.remade / times.shared:12.0f}")
+
+
 def _guided(positions: Positions, topology: Topology, iterations: int) -> Iterator[Positions]:
     def endless() -> Iterator[Positions]:
         current = positions
@@ -178,6 +194,7 @@ TABLES: dict[str, Callable[[Path], None]] = {
     "handover": handover_table,
     "automatic": automatic_table,
     "metrics": metrics_table,
+    "sequences": sequences_table,
 }
 
 
