@@ -169,7 +169,7 @@ def peak_of(work):
 
 @pytest.mark.parametrize("way", [{}, {"mode": "low-delay"}])
 def test_memory_does_not_grow_with_the_number_of_frames(way):
-    positions, faces = bending(8)
+    positions, faces = bending(8, 18, 10)
 
     def frames(count):
         for number in range(count):
