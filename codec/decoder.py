@@ -34,6 +34,7 @@ from codec.partition import Partition, derive_partition, partition_of_labels
 from codec.predict import MAX_STIFFNESS, extend
 from codec.quantize import dequantize, unsigned_to_levels
 from codec.structure import check_work
+from codec.transform import reconstruct
 
 Matrix = npt.NDArray[np.float64]
 Indices = npt.NDArray[np.int32]
@@ -179,7 +180,7 @@ class ChainDecoder:
             levels, details = self._levels(packet, block)
             around = self._chain.around(block)
             subspace = self._chain.dictionary(block, around, max(len(levels), len(details)))
-            positions = extend(block, around) + subspace[:, : len(levels)] @ dequantize(levels, header.step)
+            positions = extend(block, around) + reconstruct(subspace, dequantize(levels, header.step))
             if self._normals is not None:
                 heights = dequantize(details, header.detail_step)
                 positions = displace(positions, self._normals.of(block, positions), subspace, heights)

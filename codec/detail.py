@@ -19,6 +19,7 @@ from codec.blocks import Block
 from codec.graph import Indices
 from codec.incidence import vertex_faces
 from codec.mesh import Faces
+from codec.transform import reconstruct
 
 Matrix = npt.NDArray[np.float64]
 Levels = npt.NDArray[np.int32]
@@ -66,7 +67,7 @@ class Normals:
 
 def displace(positions: Matrix, normals: Matrix, subspace: Matrix, coefficients: Matrix) -> Matrix:
     """b + m (U e) for e of shape (d,): U has at least d columns."""
-    height = subspace[:, : len(coefficients)] @ coefficients
+    height = reconstruct(subspace, coefficients)
     return positions + normals * height[:, None]
 
 

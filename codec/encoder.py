@@ -36,6 +36,7 @@ from codec.rate import BIT_WORTH, targets
 from codec.smooth import Spectrum, smooth
 from codec.spectrum import MeasuredSpectrum
 from codec.targets import search_step
+from codec.transform import project, reconstruct
 
 Matrix = npt.NDArray[np.float64]
 Progress = Callable[[int, int], None]
@@ -113,9 +114,9 @@ class ChainEncoder:
         dictionary = chain.dictionary(block, around, max(header.coefficients, header.details))
         prediction = extend(block, around)
         residual = positions[block.vertices] - prediction
-        levels = self._levels(residual, dictionary[:, : header.coefficients].T @ residual)
+        levels = self._levels(residual, project(dictionary, residual, min(header.coefficients, block.size)))
         width = len(levels)
-        decoded = prediction + dictionary[:, :width] @ dequantize(levels, header.step)
+        decoded = prediction + reconstruct(dictionary, dequantize(levels, header.step))
         if header.coding == 0:
             payload = pack_coefficients(levels_to_unsigned(levels, header.bits, header.coarser), header.bits)
         elif self._details is None or self._normals is None:
@@ -123,7 +124,7 @@ class ChainEncoder:
         else:
             normals = self._normals.of(block, decoded)
             heights = (normals * (positions[block.vertices] - decoded)).sum(axis=1)
-            rows = self._detail_rows(self._details, dictionary[:, : header.details].T @ heights)
+            rows = self._detail_rows(self._details, project(dictionary, heights, min(header.details, block.size)))
             payload = encode_layers(self._model, levels, self._details, rows)
             details = unfold_details(rows, min(header.details, block.size))
             decoded = displace(decoded, normals, dictionary, dequantize(details, header.detail_step))
@@ -136,7 +137,7 @@ class ChainEncoder:
         """Largest coefficient in the first row of the chain's next block, and in all others, shape (2,)."""
         block, chain = self._blocks.block(index), self._chain
         dictionary = chain.dictionary(block, chain.around(block), self._header.coefficients)
-        coefficients = np.abs(dictionary.T @ positions[block.vertices])
+        coefficients = np.abs(project(dictionary, positions[block.vertices], dictionary.shape[1]))
         chain.commit(block, dictionary, positions[block.vertices])
         return np.array([coefficients[:1].max(), coefficients[1:].max(initial=0.0)])
 

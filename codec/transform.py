@@ -1,9 +1,12 @@
 """From positions to the coefficients of a subspace and back (paper, section 4): E = U^T V and V = U E.
 
-Products this thin gain nothing from BLAS, and summed in a fixed order they are the same to the last bit everywhere.
+Products this thin gain nothing from BLAS, and summed in a fixed order they are the same to the last bit everywhere,
+whatever the width of the matrix whose first columns they take.
 """
 
 from __future__ import annotations
+
+import math
 
 import numpy as np
 import numpy.typing as npt
@@ -12,47 +15,47 @@ from numba import njit
 Matrix = npt.NDArray[np.float64]
 
 
-def project(subspace: Matrix, positions: Matrix) -> Matrix:
-    """E = U^T V, shape (c, 3), for U of shape (n, c) and V of shape (n, 3)."""
-    coefficients: Matrix = _project(subspace, positions)
-    return coefficients
+def project(subspace: Matrix, values: Matrix, count: int) -> Matrix:
+    """E = U^T V, shape (count, d) or (count,), for the first `count` columns U of `subspace`, shape (n, c).
+
+    V has shape (n, d) or (n,).
+    """
+    coefficients: Matrix = _project(subspace, values.reshape(len(values), math.prod(values.shape[1:])), count)
+    return coefficients.reshape(count, *values.shape[1:])
 
 
 def reconstruct(subspace: Matrix, coefficients: Matrix) -> Matrix:
-    """V = U E, shape (n, 3); U may have more columns than E, shape (c, 3), has rows: the first c count."""
-    positions: Matrix = _reconstruct(subspace, coefficients)
-    return positions
+    """V = U E, shape (n, d) or (n,), for E of shape (c, d) or (c,); U is the first c columns of `subspace`."""
+    values: Matrix = _reconstruct(subspace, coefficients.reshape(len(coefficients), math.prod(coefficients.shape[1:])))
+    return values.reshape(len(subspace), *coefficients.shape[1:])
 
 
 @njit(cache=True, nogil=True)
-def _project(subspace, positions):  # type: ignore[no-untyped-def]
-    n, c = subspace.shape
-    sums = np.zeros((3, c))
-    for r in range(n):
-        for d in range(3):
-            for j in range(c):
-                sums[d, j] += subspace[r, j] * positions[r, d]
+def _project(subspace, values, count):  # type: ignore[no-untyped-def]
+    sums = np.zeros((values.shape[1], count))
+    for r in range(len(subspace)):
+        for d in range(values.shape[1]):
+            for j in range(count):
+                sums[d, j] += subspace[r, j] * values[r, d]
     return sums.T.copy()
 
 
 @njit(cache=True, nogil=True)
 def _reconstruct(subspace, coefficients):  # type: ignore[no-untyped-def]
-    n, c = len(subspace), len(coefficients)
-    positions = np.empty((n, 3))
-    for r in range(n):
-        # Sums over even and odd columns, so that an addition need not wait for the one before.
-        x, y, z = 0.0, 0.0, 0.0
-        p, q, s = 0.0, 0.0, 0.0
-        for j in range(0, c - 1, 2):
-            x += subspace[r, j] * coefficients[j, 0]
-            y += subspace[r, j] * coefficients[j, 1]
-            z += subspace[r, j] * coefficients[j, 2]
-            p += subspace[r, j + 1] * coefficients[j + 1, 0]
-            q += subspace[r, j + 1] * coefficients[j + 1, 1]
-            s += subspace[r, j + 1] * coefficients[j + 1, 2]
-        if c % 2 > 0:
-            x += subspace[r, c - 1] * coefficients[c - 1, 0]
-            y += subspace[r, c - 1] * coefficients[c - 1, 1]
-            z += subspace[r, c - 1] * coefficients[c - 1, 2]
-        positions[r, 0], positions[r, 1], positions[r, 2] = x + p, y + q, z + s
-    return positions
+    c, width = coefficients.shape
+    values = np.empty((len(subspace), width))
+    last = np.uint64(len(subspace) - 1)
+    for first in range(np.uint64(0), np.uint64(len(subspace)), np.uint64(4)):
+        # Four rows at a time (the last one again and again at the end): an addition need not wait for the one before.
+        i, j = first, min(first + np.uint64(1), last)
+        k, m = min(first + np.uint64(2), last), min(first + np.uint64(3), last)
+        for d in range(np.uint64(width)):
+            s, t, u, v = 0.0, 0.0, 0.0, 0.0
+            for q in range(np.uint64(c)):
+                e = coefficients[q, d]
+                s += subspace[i, q] * e
+                t += subspace[j, q] * e
+                u += subspace[k, q] * e
+                v += subspace[m, q] * e
+            values[i, d], values[j, d], values[k, d], values[m, d] = s, t, u, v
+    return values
