@@ -2,7 +2,8 @@
 
 A level is the size of its magnitude in bits (in unary), up to two bits below the leading one, the rest of the bits and
 the sign, these last two as they are. Every other decision is predicted from three expectations of the magnitude (see
-`bitstream.neighbourhood`), each with adaptive probabilities of its own, mixed as `bitstream.entropy` does. A chain
+`bitstream.neighbourhood`), each with adaptive probabilities of its own, mixed as `bitstream.entropy` does. Levels stand
+for points on two grids, by the rule of `bitstream.trellis`, and zeros and ones are told apart by grid, too. A chain
 starts from the probabilities and weights of `bitstream.experience`. All arithmetic is on integers.
 """
 
@@ -18,6 +19,7 @@ from numba import njit
 from bitstream.entropy import (
     ONE,
     Bank,
+    Coder,
     code_bit,
     code_mixed_bit,
     code_uniform,
@@ -33,7 +35,7 @@ from bitstream.entropy import (
     unsigned_span,
 )
 from bitstream.errors import CorruptError, OptionError
-from bitstream.experience import EXPECTATIONS, NODES, SELECTORS, Experience, shipped_experience
+from bitstream.experience import EXPECTATIONS, NODES, SELECTORS, Experience, coordinate_experience
 from bitstream.neighbourhood import (
     BINS,
     NEIGHBOURS,
@@ -45,17 +47,17 @@ from bitstream.neighbourhood import (
     note_level,
     situation,
 )
-
-Levels = npt.NDArray[np.int32]
+from bitstream.trellis import Levels, following, grid
 
 _LARGEST_SIZE = 23
 MAX_LEVEL = (1 << _LARGEST_SIZE) - 1
 """Largest magnitude of a quantized coefficient."""
 
-_SIZE_NODES = 14
+_SIZE_NODES = 14  # magnitudes of more bits share the last
+_GRID_NODES = 2  # whether it is zero, or one, is another question on the odd grid
 _BIT_SIZES = 9  # magnitudes of more bits share the nodes of this size
-_FIRST_NODES = _SIZE_NODES - 2
-_SECOND_NODES = _SIZE_NODES + _BIT_SIZES - 1 - 2 * 3
+_FIRST_NODES = _SIZE_NODES + _GRID_NODES - 2
+_SECOND_NODES = _FIRST_NODES + _BIT_SIZES + 1 - 2 * 3
 _ROWS_UNARY = 8
 _ROWS_SPAN = unsigned_span(_ROWS_UNARY)
 _BYTES_PER_LEVEL = 64  # 24 decisions of at most two bytes each, and bits as they are
@@ -87,7 +89,7 @@ class CoefficientModel:
     """
 
     width: int
-    experience: Experience = field(default_factory=shipped_experience)
+    experience: Experience = field(default_factory=coordinate_experience)
     bank: Bank = field(init=False)
     rows: Bank = field(init=False)
     past: Past = field(init=False)
@@ -170,10 +172,7 @@ def decode_blocks(model: CoefficientModel, payload: bytes, count: int) -> list[L
     coder = start_reading(payload)
     blocks: list[Levels] = []
     for _ in range(count):
-        rows = _code_rows(coder, model.rows, model.missing, model.width, 0)
-        if not 1 <= rows <= model.width:
-            raise CorruptError(f"{rows} coefficients where 1 to {model.width} are announced")
-        blocks.append(np.zeros((rows, 3), np.int32))
+        blocks.append(np.zeros((_read_rows(coder, model, 1), 3), np.int32))
         _code_block(coder, model.bank, model.past, model.expectations, blocks[-1])
         if overran(coder):
             break
@@ -192,8 +191,7 @@ def encode_layers(model: CoefficientModel, levels: Levels, over: CoefficientMode
         As `encode_coefficients`.
     """
     _check_levels(model, levels)
-    if len(above):
-        _check_levels(over, above)
+    _check_levels(over, above)
     coder = start_writing(_BYTES_PER_LEVEL * (levels.size + above.size + 1))
     _code_block(coder, model.bank, model.past, model.expectations, levels.astype(np.int32))
     _code_rows(coder, over.rows, over.missing, over.width, len(above))
@@ -214,24 +212,30 @@ def decode_layers(model: CoefficientModel, over: CoefficientModel, payload: byte
     coder = start_reading(payload)
     levels = np.zeros((count, 3), np.int32)
     _code_block(coder, model.bank, model.past, model.expectations, levels)
-    rows = _code_rows(coder, over.rows, over.missing, over.width, 0)
-    if not 0 <= rows <= over.width:
-        raise CorruptError(f"{rows} rows of details where at most {over.width} are announced")
-    above = np.zeros((rows, 3), np.int32)
+    above = np.zeros((_read_rows(coder, over, 0), 3), np.int32)
     _code_block(coder, over.bank, over.past, over.expectations, above)
     finish_reading(coder)
     return levels, above
 
 
+def _read_rows(coder: Coder, model: CoefficientModel, least: int) -> int:
+    rows: int = _code_rows(coder, model.rows, model.missing, model.width, 0)
+    if overran(coder):
+        finish_reading(coder)
+    if not least <= rows <= model.width:
+        raise CorruptError(f"{rows} rows of levels where {least} to {model.width} are announced")
+    return rows
+
+
 def _check_levels(model: CoefficientModel, levels: Levels) -> None:
-    if not 1 <= len(levels) <= model.width or np.abs(levels.astype(np.int64)).max() > MAX_LEVEL:
-        raise OptionError(f"levels must be 1 to {model.width} rows of magnitudes up to {MAX_LEVEL}")
+    if len(levels) > model.width or np.abs(levels.astype(np.int64)).max(initial=0) > MAX_LEVEL:
+        raise OptionError(f"levels must be at most {model.width} rows of magnitudes up to {MAX_LEVEL}")
 
 
 @leaf
-def size_node(size):  # type: ignore[no-untyped-def]
-    """Node of the decision whether a magnitude has more than `size` bits."""
-    return min(size, _SIZE_NODES - 1)
+def size_node(size, grid):  # type: ignore[no-untyped-def]
+    """Node of the decision whether the magnitude of a level on a grid has more than `size` bits."""
+    return _SIZE_NODES + size if grid == 1 and size < _GRID_NODES else min(size, _SIZE_NODES - 1)
 
 
 @leaf
@@ -257,13 +261,13 @@ def set_contexts(past, expectations, row, coordinate, inputs, contexts):  # type
 
 
 @leaf
-def code_level(coder, bank, contexts, selector, level):  # type: ignore[no-untyped-def]
-    """Code one level."""
+def code_level(coder, bank, contexts, selector, grid, level):  # type: ignore[no-untyped-def]
+    """Code one level of a grid."""
     magnitude = np.int64(abs(level))
     size = 0
     while size < _LARGEST_SIZE:
         more = 1 if magnitude >> size > 0 else 0
-        if code_mixed_bit(coder, bank, contexts, size_node(size), selector, more) == 0:
+        if code_mixed_bit(coder, bank, contexts, size_node(size, grid), selector, more) == 0:
             break
         size += 1
     if size == 0:
@@ -297,12 +301,14 @@ def _code_rows(coder, bank, missing, width, rows):  # type: ignore[no-untyped-de
 def _code_block(coder, bank, past, expectations, levels):  # type: ignore[no-untyped-def]
     contexts = np.empty(EXPECTATIONS, np.int64)
     inputs = np.empty(NEIGHBOURS, np.int64)
+    state = 0
     for row in range(levels.shape[0]):
         for coordinate in range(3):
             selector = set_contexts(past, expectations, row, coordinate, inputs, contexts)
-            level = code_level(coder, bank, contexts, selector, levels[row, coordinate])
+            level = code_level(coder, bank, contexts, selector, grid(state), levels[row, coordinate])
             levels[row, coordinate] = level
             note_level(past, row, coordinate, level)
+            state = following(state, level)
         if overran(coder):
             break
     close_block(past)

@@ -1,7 +1,8 @@
 """Choosing levels by what they cost: the encoder's side of the adaptive coder, no part of the format.
 
-For each coefficient the levels around it are weighed, squared error plus a weight times the bits that the model in its
-present state would spend. What a choice does to the cost of later levels is left aside.
+The trellis leaves many ways to quantize a block. The one with the least sum of squared error and a weight times the
+bits is found by dynamic programming (Viterbi): for each state of the trellis the best way there survives. Bits are
+those that the model in its present state would spend; each survivor has its own neighbours as contexts.
 """
 
 from __future__ import annotations
@@ -12,23 +13,15 @@ import numpy as np
 import numpy.typing as npt
 from numba import njit
 
-from bitstream.adaptive import (
-    MAX_LEVEL,
-    CoefficientModel,
-    Levels,
-    code_level,
-    first_node,
-    second_node,
-    set_contexts,
-    size_node,
-)
-from bitstream.entropy import ONE, leaf, mixed_probability, start_writing
+from bitstream.adaptive import MAX_LEVEL, CoefficientModel, Levels, first_node, second_node, set_contexts, size_node
+from bitstream.entropy import ONE, leaf, mixed_probability
 from bitstream.errors import OptionError
 from bitstream.experience import EXPECTATIONS
-from bitstream.neighbourhood import NEIGHBOURS, note_level
+from bitstream.neighbourhood import NEIGHBOURS, Past, note_level, take_over
+from bitstream.trellis import STATES, following, grid, point_of_level
 
 TARGET_UNIT = 256
-"""Targets are in 1 / TARGET_UNIT of a level."""
+"""Targets are in 1 / TARGET_UNIT of a quantization step."""
 
 _BIT = 256
 _SHIFT = 4
@@ -68,53 +61,75 @@ def choose_levels(model: CoefficientModel, targets: npt.NDArray[np.int64], weigh
     Raises
     ------
     OptionError
-        If there are more rows than the model is made for, or a target beyond MAX_LEVEL.
+        If there are more rows than the model is made for, or a target is beyond MAX_LEVEL steps.
     """
-    if len(targets) > model.width or (targets.size and np.abs(targets).max() > MAX_LEVEL * TARGET_UNIT):
+    if len(targets) > model.width or np.abs(targets).max(initial=0) > MAX_LEVEL * TARGET_UNIT:
         raise OptionError(f"targets must be at most {model.width} rows of levels up to {MAX_LEVEL}")
-    state = model.copy()
-    levels = np.zeros(targets.shape, np.int32)
-    kept = np.zeros(len(targets))
     price = weight * TARGET_UNIT**2 / _BIT
-    coder = start_writing(64 * targets.size)
-    _choose(coder, state.bank, state.past, state.expectations, targets, price, levels, kept)
-    dropped = np.square(targets.astype(np.float64)).sum(axis=1)
-    width = 1 + int(np.argmin(np.cumsum(kept - dropped))) if len(targets) else 0
-    return Choice(levels, width)
+    levels, kept = _search(model.bank, model.past, model.expectations, targets, price)
+    dropped = np.square(targets[::-1].astype(np.float64)).sum(axis=1).cumsum()[::-1]
+    return Choice(levels, 1 + int(np.argmin(kept + np.append(dropped[1:], 0.0))) if len(targets) else 0)
 
 
 @njit(cache=True, nogil=True)
-def _choose(coder, bank, past, expectations, targets, price, levels, kept):  # type: ignore[no-untyped-def]
+def _search(bank, past, expectations, targets, price):  # type: ignore[no-untyped-def]
+    """The best levels for all rows, and the least error and bits together up to each row."""
+    rows = targets.shape[0]
+    ways = np.zeros((rows, 3, STATES), np.int64)
+    origins = np.zeros((rows, 3, STATES), np.int64)
+    survivors = np.zeros((2, STATES, *past.current.shape), np.int64)
+    costs = np.full((2, STATES), np.inf)
     contexts = np.empty(EXPECTATIONS, np.int64)
     inputs = np.empty(NEIGHBOURS, np.int64)
-    for row in range(targets.shape[0]):
+    new, old = 0, 1
+    costs[new, 0] = 0.0
+    kept = np.zeros(rows)
+    for row in range(rows):
         for coordinate in range(3):
-            selector = set_contexts(past, expectations, row, coordinate, inputs, contexts)
+            new, old = old, new
+            costs[new] = np.inf
             target = abs(targets[row, coordinate])
-            below = target // TARGET_UNIT
-            level, least = 0, np.inf
-            for candidate in (below, min(below + 1, MAX_LEVEL), 0):
-                error = float(target - TARGET_UNIT * candidate)
-                cost = error * error + price * _bits(bank, contexts, selector, candidate)
-                if cost < least:
-                    level, least = candidate, cost
-            if targets[row, coordinate] < 0:
-                level = -level
-            levels[row, coordinate] = level
-            kept[row] += least
-            code_level(coder, bank, contexts, selector, level)
-            note_level(past, row, coordinate, level)
+            for state in range(STATES):
+                if costs[old, state] == np.inf:
+                    continue
+                around = Past(survivors[old, state], past.before, past.usual, past.blocks)
+                selector = set_contexts(around, expectations, row, coordinate, inputs, contexts)
+                below = (2 * target + TARGET_UNIT * grid(state)) // (2 * TARGET_UNIT)
+                for candidate in range(3 if target > 0 else 1):  # what is zero stays zero: flat meshes stay flat
+                    level = min(below + candidate, MAX_LEVEL) if candidate < 2 else 0
+                    error = target - 0.5 * TARGET_UNIT * point_of_level(state, level)
+                    cost = error * error + price * _bits(bank, contexts, selector, grid(state), level)
+                    after = following(state, level)
+                    if costs[old, state] + cost < costs[new, after]:
+                        costs[new, after] = costs[old, state] + cost
+                        ways[row, coordinate, after] = level
+                        origins[row, coordinate, after] = state
+            for state in range(STATES):
+                if costs[new, state] < np.inf:
+                    origin = origins[row, coordinate, state]
+                    now = Past(survivors[new, state], past.before, past.usual, past.blocks)
+                    take_over(now, Past(survivors[old, origin], past.before, past.usual, past.blocks), row)
+                    note_level(now, row, coordinate, ways[row, coordinate, state])
+        kept[row] = costs[new].min()
+    levels = np.zeros((rows, 3), np.int32)
+    last = np.argmin(costs[new])
+    for row in range(rows - 1, -1, -1):
+        for coordinate in range(2, -1, -1):
+            level = ways[row, coordinate, last]
+            levels[row, coordinate] = level if targets[row, coordinate] >= 0 else -level
+            last = origins[row, coordinate, last]
+    return levels, kept
 
 
 @leaf
-def _bits(bank, contexts, selector, magnitude):  # type: ignore[no-untyped-def]
+def _bits(bank, contexts, selector, grid, magnitude):  # type: ignore[no-untyped-def]
     """What `code_level` would spend on a magnitude, in 1 / _BIT bits, with the sign."""
     size = 0
     total = np.int64(0)
     while magnitude >> size > 0:
-        total += _decision(bank, contexts, size_node(size), selector, 1)
+        total += _decision(bank, contexts, size_node(size, grid), selector, 1)
         size += 1
-    total += _decision(bank, contexts, size_node(size), selector, 0)
+    total += _decision(bank, contexts, size_node(size, grid), selector, 0)
     if size > 0:
         total += _BIT
     if size > 1:

@@ -18,7 +18,7 @@ from bitstream.neighbourhood import BINS, NEIGHBOURS, SITUATIONS
 
 EXPECTATIONS = 3
 """From everything, from the same block alone, from earlier blocks alone; each is a context of its own."""
-NODES = 36
+NODES = 38
 """Binary decisions that have a probability of their own, see `bitstream.adaptive`."""
 SELECTORS = 2
 """Sets of mixing weights for each node: first block of a chain, later blocks."""
@@ -77,9 +77,19 @@ class Experience:
         return self.mixing.astype(np.int32) << 4
 
 
+def coordinate_experience() -> Experience:
+    """What is known of the coefficients of x, y and z; part of the format."""
+    return shipped_experiences()[0]
+
+
+def detail_experience() -> Experience:
+    """What is known of detail layers, whose successive frequencies stand in rows of three; part of the format."""
+    return shipped_experiences()[1]
+
+
 @cache
-def shipped_experience() -> Experience:
-    """The experience that is part of the format.
+def shipped_experiences() -> tuple[Experience, ...]:
+    """The experiences that are part of the format, one behind the other in their file.
 
     Raises
     ------
@@ -87,6 +97,8 @@ def shipped_experience() -> Experience:
         If the installation lacks the file.
     """
     try:
-        return Experience.from_bytes(files("bitstream").joinpath(_FILE).read_bytes())
+        data = files("bitstream").joinpath(_FILE).read_bytes()
+        size = len(data) // 2
+        return Experience.from_bytes(data[:size]), Experience.from_bytes(data[size:])
     except (OSError, ValueError) as error:
         raise DependencyError(f"bitstream/{_FILE} is missing or damaged, install the package again: {error}") from None

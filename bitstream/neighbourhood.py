@@ -71,6 +71,14 @@ def note_level(past: Past, row: int, coordinate: int, level: int) -> None:
 
 
 @leaf
+def take_over(past: Past, other: Past, row: int) -> None:
+    """Copy from `other` what the current block's coefficients from `row` on have as neighbours."""
+    for j in range(row, row + _ABOVE + 1):
+        for d in range(3):
+            past.current[j, d] = other.current[j, d]
+
+
+@leaf
 def look_around(past: Past, row: int, coordinate: int, out: Magnitudes) -> None:
     """Write the NEIGHBOURS inputs of the expectations of a coefficient to `out`.
 

@@ -16,11 +16,13 @@ from bitstream.arrangement import Arrangement, decode_arrangement
 from bitstream.coefficients import unpack_coefficients
 from bitstream.connectivity import decode_connectivity
 from bitstream.errors import BsmError, CorruptError, NumericError, UnsupportedError
+from bitstream.experience import detail_experience
 from bitstream.header import Header
 from bitstream.labels import decode_labels
 from bitstream.limits import DEFAULT_LIMITS, Limits
 from bitstream.reader import END_OF_STREAM, NEED_DATA, Reader, Signal
 from bitstream.tolerant import TolerantReader
+from bitstream.trellis import points_of_levels
 from bitstream.wire import FrameType
 from codec.assembly import Assembly, Changes, DecodedBlock, Frame, Losses
 from codec.blend import degree_weights
@@ -147,6 +149,11 @@ def detail_rows(header: Header) -> int:
     return -(-header.details // 3)
 
 
+def half_steps(header: Header, levels: npt.NDArray[np.signedinteger]) -> npt.NDArray[np.signedinteger]:
+    """Levels in half steps: on one grid if they are packed, on the two of the trellis otherwise."""
+    return 2 * levels if header.coding == 0 else points_of_levels(levels)
+
+
 def copy_weights(header: Header, blocks: Blocks, index: int, block: Block) -> Matrix:
     """Weight of each row of a block in the blend."""
     if header.blend == 0:
@@ -167,7 +174,7 @@ class ChainDecoder:
         self._next = first
         self._chain = Chain(rules, blocks.graph)
         self._model = CoefficientModel(header.coefficients)
-        self._details = CoefficientModel(detail_rows(header)) if header.details else None
+        self._details = CoefficientModel(detail_rows(header), detail_experience()) if header.details else None
         self._normals = Normals(surface) if surface is not None else None
 
     def decode(self, packet: packets.Block) -> DecodedBlock:
@@ -180,9 +187,10 @@ class ChainDecoder:
             levels, details = self._levels(packet, block)
             around = self._chain.around(block)
             subspace = self._chain.dictionary(block, around, max(len(levels), len(details)))
-            positions = extend(block, around) + reconstruct(subspace, dequantize(levels, header.step))
+            coarse = dequantize(half_steps(header, levels), header.step / 2)
+            positions = extend(block, around) + reconstruct(subspace, coarse)
             if self._normals is not None:
-                heights = dequantize(details, header.detail_step)
+                heights = dequantize(details, header.detail_step / 2)
                 positions = displace(positions, self._normals.of(block, positions), subspace, heights)
             self._chain.commit(block, subspace, positions)
             if not np.isfinite(positions).all():
@@ -194,8 +202,8 @@ class ChainDecoder:
 
     def _levels(
         self, packet: packets.Block, block: Block
-    ) -> tuple[npt.NDArray[np.signedinteger], npt.NDArray[np.int32]]:
-        """Levels of x, y and z, shape (c_i, 3), and of the detail layer, shape (d_i,)."""
+    ) -> tuple[npt.NDArray[np.signedinteger], npt.NDArray[np.signedinteger]]:
+        """Levels of x, y and z, shape (c_i, 3), and the detail layer in half steps, shape (d_i,)."""
         nothing = np.zeros(0, np.int32)
         width = packet.coefficients
         if not 1 <= width <= block.size:
@@ -206,7 +214,8 @@ class ChainDecoder:
         if self._details is None:
             return decode_coefficients(self._model, packet.data, width), nothing
         levels, folded = decode_layers(self._model, self._details, packet.data, width)
-        return levels, unfold_details(folded, min(self._header.details, block.size))
+        details = half_steps(self._header, folded)
+        return levels, unfold_details(details, min(self._header.details, block.size))
 
 
 class Decoder:

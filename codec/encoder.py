@@ -15,13 +15,14 @@ from bitstream.choice import TARGET_UNIT, choose_levels
 from bitstream.coefficients import pack_coefficients
 from bitstream.connectivity import encode_connectivity
 from bitstream.errors import OptionError
+from bitstream.experience import detail_experience
 from bitstream.header import Header
 from bitstream.labels import encode_labels
 from bitstream.writer import Writer
 from codec.blend import Blend
 from codec.blocks import Blocks, block_size, grow_blocks
 from codec.chain import Chain, ChainRules, even_interval
-from codec.decoder import CONNECTIVITY_METHOD, ORDER_METHOD, chain_rules, copy_weights, detail_rows
+from codec.decoder import CONNECTIVITY_METHOD, ORDER_METHOD, chain_rules, copy_weights, detail_rows, half_steps
 from codec.detail import Normals, Surface, displace, fold_details, make_surface, unfold_details
 from codec.dynamic import dynamic_size
 from codec.graph import graph_of_faces
@@ -102,7 +103,7 @@ class ChainEncoder:
         self._options = options
         self._chain = Chain(rules, blocks.graph)
         self._model = CoefficientModel(header.coefficients)
-        self._details = CoefficientModel(detail_rows(header)) if header.details else None
+        self._details = CoefficientModel(detail_rows(header), detail_experience()) if header.details else None
         self._normals = Normals(surface) if surface is not None else None
         self._width = header.coefficients
 
@@ -116,7 +117,7 @@ class ChainEncoder:
         residual = positions[block.vertices] - prediction
         levels = self._levels(residual, project(dictionary, residual, min(header.coefficients, block.size)))
         width = len(levels)
-        decoded = prediction + reconstruct(dictionary, dequantize(levels, header.step))
+        decoded = prediction + reconstruct(dictionary, dequantize(half_steps(header, levels), header.step / 2))
         if header.coding == 0:
             payload = pack_coefficients(levels_to_unsigned(levels, header.bits, header.coarser), header.bits)
         elif self._details is None or self._normals is None:
@@ -126,8 +127,8 @@ class ChainEncoder:
             heights = (normals * (positions[block.vertices] - decoded)).sum(axis=1)
             rows = self._detail_rows(self._details, project(dictionary, heights, min(header.details, block.size)))
             payload = encode_layers(self._model, levels, self._details, rows)
-            details = unfold_details(rows, min(header.details, block.size))
-            decoded = displace(decoded, normals, dictionary, dequantize(details, header.detail_step))
+            details = unfold_details(half_steps(header, rows), min(header.details, block.size))
+            decoded = displace(decoded, normals, dictionary, dequantize(details, header.detail_step / 2))
             width = max(width, len(details))
         chain.commit(block, np.ascontiguousarray(dictionary[:, :width]), decoded)
         weights = copy_weights(header, blocks, index, block)

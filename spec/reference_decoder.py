@@ -516,17 +516,18 @@ def hash_columns(rows, columns):
 # ---------------------------------------------------------------- M 9: coefficients
 
 EXPERIENCE = Path(__file__).parent.parent / "bitstream" / "experience.bin"
-EXPERIENCE_SHA256 = "5ca4ed1c21eb1441ecd9903d7e549a16e4c1aefa88b059e482d91b3ea418ea57"
-NEIGHBOURS, BINS, NODES, EXPECTATIONS = 20, 48, 36, 3
+EXPERIENCE_SHA256 = "2a44d8f808d49ca9672132ecc3cc14e6ce99bec020504b7a96d206d4cfc47b34"
+NEIGHBOURS, BINS, NODES, EXPECTATIONS = 20, 48, 38, 3
 
 
 class Experience:
-    """M 9.1: the learnt numbers."""
+    """M 9.1: the learnt numbers, those for `part` 0 (x, y and z) or 1 (details)."""
 
-    def __init__(self):
+    def __init__(self, part):
         data = EXPERIENCE.read_bytes()
         if hashlib.sha256(data).hexdigest() != EXPERIENCE_SHA256:
             raise SystemExit(f"{EXPERIENCE} is not the file of the specification")
+        data = data[len(data) // 2 * part : len(data) // 2 * (part + 1)]
         numbers = np.frombuffer(data, "<u2").astype(int)
         first = EXPECTATIONS * 6 * NEIGHBOURS
         second = first + 2 * NODES * EXPECTATIONS
@@ -536,10 +537,10 @@ class Experience:
 
 
 class CoefficientModel:
-    """M 9: one for each chain."""
+    """M 9: one for each chain, and another for its details."""
 
-    def __init__(self, width):
-        self.experience = Experience()
+    def __init__(self, width, part):
+        self.experience = Experience(part)
         self.model = [Model(EXPECTATIONS, 400, 4) for _ in range(2)]  # M 9.2: the first block, and later ones
         self.model[1].slots = self.model[0].slots
         for number, stored in enumerate(self.experience.slots):
@@ -561,12 +562,15 @@ class CoefficientModel:
         return self.width - self.missing
 
     def block(self, decoder, count):
-        """M 9.4 to M 9.7: levels of `count` rows."""
-        levels = [[0, 0, 0] for _ in range(count)]
+        """M 9.4 to M 9.7: `count` rows in half steps."""
+        points = [[0, 0, 0] for _ in range(count)]
+        grids = [0, 0, 0]
         for row in range(count):
             for d in range(3):
-                levels[row][d] = self.level(decoder, row, d)
-                self.now[8 + row][d] = min(abs(levels[row][d]), 1 << 15)
+                level = self.level(decoder, row, d, grids[-1])
+                points[row][d] = 2 * level - grids[-1] * ((level > 0) - (level < 0))  # M 9.11
+                grids = [*grids[1:], (level + sum(grids)) % 2]
+                self.now[8 + row][d] = min(abs(level), 1 << 15)
             if decoder.overran():
                 decoder.fail("levels are missing")
         share = min(self.blocks + 1, 8)  # M 9.7
@@ -576,7 +580,7 @@ class CoefficientModel:
                 self.usual[j][d] += (16 * self.now[j][d] - self.usual[j][d]) // share
                 self.now[j][d] = 0
         self.blocks += 1
-        return levels
+        return points
 
     def inputs(self, row, d):
         """M 9.4."""
@@ -605,7 +609,7 @@ class CoefficientModel:
             1024 // (row + 1) ** 2,
         ]
 
-    def level(self, decoder, row, d):
+    def level(self, decoder, row, d, grid):
         """M 9.5, M 9.6."""
         inputs = self.inputs(row, d)
         kind = d + (3 if self.blocks == 0 else 0)
@@ -623,16 +627,16 @@ class CoefficientModel:
             return model.bit(decoder, contexts, node)
 
         size = 0
-        while size < 23 and decide(min(size, 13)):
+        while size < 23 and decide(14 + size if grid == 1 and size < 2 else min(size, 13)):
             size += 1
         if size == 0:
             return 0
         result = 1
         if size > 1:
-            first = decide(12 + min(size, 9))
+            first = decide(14 + min(size, 9))
             result = 2 | first
             if size > 2:
-                result = 2 * result | decide(16 + 2 * min(size, 9) + first)
+                result = 2 * result | decide(18 + 2 * min(size, 9) + first)
                 if size > 3:
                     result = (result << (size - 3)) + decoder.uniform(1 << (size - 3))
         return -result if decoder.bit(32768) else result
@@ -746,43 +750,44 @@ class Chain:
 
     def __init__(self, mesh):
         self.mesh, header = mesh, mesh.header
-        self.model = CoefficientModel(header["coefficients"])
-        self.details = CoefficientModel(-(-header["details"] // 3))
+        self.model = CoefficientModel(header["coefficients"], 0)
+        self.details = CoefficientModel(-(-header["details"] // 3), 1)
         self.known, self.subspace = Known(header["vertices"]), None
 
     def decode(self, block, width, payload):
         """Positions of the next block."""
         header = self.mesh.header
-        levels, heights = self.levels(width, payload)
+        points, heights = self.points(width, payload)
         heights = heights[: min(header["details"], block.size)]
         springs, pulls = np.zeros(block.size), np.zeros((block.size, 3))
         if header["prediction"]:
             springs, pulls = surroundings(self.mesh.graph, block, self.known, header["prediction"][0])
         subspace = self.subspace = self.dictionary(block, max(width, len(heights)), springs)  # M 11.2
-        positions = extend(block, springs, pulls) + subspace[:, :width] @ (levels * header["step"])  # M 10.2
+        positions = extend(block, springs, pulls) + subspace[:, :width] @ (points * (header["step"] / 2))  # M 10.2
         if header["details"]:
-            height = subspace[:, : len(heights)] @ (heights * header["detail_step"])
+            height = subspace[:, : len(heights)] @ (heights * (header["detail_step"] / 2))
             positions = positions + normals_of(block, self.mesh.faces, positions) * height[:, None]  # M 11.4
         if not np.isfinite(positions).all():
             raise NumericError("positions are not finite")
         self.known.add(block, positions, np.maximum(block.degrees, 1.0))
         return positions
 
-    def levels(self, width, payload):
-        """Those of x, y and z, and those of the details."""
+    def points(self, width, payload):
+        """Those of x, y and z, and those of the details, in half steps."""
         header, heights = self.mesh.header, []
         if header["coding"] == 0:  # M 9.10
             levels = np.array(unpack(payload, 3 * width, header["bits"])).reshape(width, 3) - (
                 1 << (header["bits"] - 1)
             )
             levels[0] <<= header["coarser"]
+            points = 2 * levels
         else:
             decoder = RangeDecoder(payload)
-            levels = np.array(self.model.block(decoder, width))
+            points = np.array(self.model.block(decoder, width))
             if header["details"]:  # M 11.1
                 heights = [h for row in self.details.block(decoder, self.details.rows(decoder)) for h in row]
             decoder.finish()
-        return levels, np.array(heights)
+        return points, np.array(heights)
 
     def dictionary(self, block, columns, springs):
         header = self.mesh.header

@@ -19,9 +19,9 @@ from numba import njit
 from scipy.optimize import minimize
 
 from bitstream import packets
-from bitstream.adaptive import CoefficientModel, Levels, decode_coefficients, encode_coefficients
+from bitstream.adaptive import CoefficientModel, Levels, decode_coefficients, decode_layers, encode_coefficients
 from bitstream.entropy import Bank, make_bank
-from bitstream.experience import EXPECTATIONS, NODES, SELECTORS, Experience, shipped_experience
+from bitstream.experience import EXPECTATIONS, NODES, SELECTORS, Experience, detail_experience, shipped_experiences
 from bitstream.header import Header
 from bitstream.neighbourhood import (
     BINS,
@@ -36,7 +36,7 @@ from bitstream.neighbourhood import (
     situation,
 )
 from bitstream.reader import Reader, Signal
-from codec.decoder import chain_rules
+from codec.decoder import chain_rules, detail_rows
 from codec.encoder import encode
 from codec.options import EncodeOptions
 from tools.meshfiles import read_mesh
@@ -52,13 +52,16 @@ TRAINING_MESHES = (
     "trim_star",
 )
 SETTINGS = tuple(
-    EncodeOptions(step=step, keep=keep, block_size=size, key_interval=interval)
-    for size, keep, intervals, steps in (
-        (500, 0.12, (0, 16), (0.0012, 0.0018, 0.0025, 0.0035, 0.005, 0.007, 0.012)),
-        (250, 0.16, (0,), (0.0004, 0.0025, 0.005)),
-        (1000, 0.10, (0,), (0.0004, 0.0025, 0.005)),
+    EncodeOptions(step=step, block_size=size, key_interval=interval, detail=detail)
+    for size, interval, detail, steps in (
+        (500, 0, None, (0.0006, 0.001, 0.0014, 0.002, 0.0028, 0.004)),
+        (500, 16, None, (0.001, 0.0014, 0.002, 0.0028)),
+        (250, 0, None, (0.001, 0.002)),
+        (1000, 0, None, (0.001, 0.002)),
+        (500, 0, 0.0, (0.0025, 0.005)),
+        (500, 16, 0.0, (0.0004, 0.0018, 0.0035, 0.007)),
+        (1000, 0, 0.0, (0.0025, 0.005)),
     )
-    for interval in intervals
     for step in steps
 )
 MAX_SEEN = 60
@@ -69,25 +72,32 @@ _EARLIER = np.arange(9, NEIGHBOURS)
 ChainLevels = list[Levels]
 
 
-def chains_of_stream(data: bytes) -> Iterator[ChainLevels]:
-    """Levels of a static stream, chain by chain."""
+def chains_of_stream(data: bytes) -> Iterator[tuple[ChainLevels, ChainLevels]]:
+    """Levels of a static stream and of its detail layer (empty if it has none), chain by chain."""
     reader = Reader()
     reader.receive_data(data)
     reader.receive_eof()
     header: Header | None = None
-    chain: ChainLevels = []
+    coarse: ChainLevels = []
+    details: ChainLevels = []
     while not isinstance(packet := reader.next_packet(), Signal):
         if isinstance(packet, Header):
             header, length = packet, chain_rules(packet).chain_length(packet.blocks)
         elif isinstance(packet, packets.Block):
             assert header is not None
             if packet.index % length == 0:
-                if chain:
-                    yield chain
-                chain, model = [], CoefficientModel(header.coefficients)
-            chain.append(decode_coefficients(model, packet.data, packet.coefficients))
-    if chain:
-        yield chain
+                if coarse:
+                    yield coarse, details
+                coarse, details = [], []
+                model = CoefficientModel(header.coefficients)
+                over = CoefficientModel(detail_rows(header), detail_experience())
+            if header.details:
+                levels, above = decode_layers(model, over, packet.data, packet.coefficients)
+                details.append(above)
+            else:
+                levels = decode_coefficients(model, packet.data, packet.coefficients)
+            coarse.append(levels)
+    yield coarse, details
 
 
 def fit_expectations(chains: list[ChainLevels]) -> npt.NDArray[np.uint16]:
@@ -178,10 +188,15 @@ def main() -> None:
     parser.add_argument("--output", type=Path, default=Path("bitstream/experience.bin"))
     arguments = parser.parse_args()
     meshes = [read_mesh(arguments.meshes / f"{name}.ply").mesh for name in TRAINING_MESHES]
-    chains = [chain for mesh in meshes for options in SETTINGS for chain in chains_of_stream(encode(mesh, options))]
-    experience = learn(chains, fit_expectations(chains))
-    print(f"{len(chains)} chains; {coded_size(chains, shipped_experience())} -> {coded_size(chains, experience)} bytes")
-    arguments.output.write_bytes(experience.to_bytes())
+    streams = (encode(mesh, options) for mesh in meshes for options in SETTINGS)
+    layers = zip(*(layers for stream in streams for layers in chains_of_stream(stream)))
+    learnt = b""
+    for chains, shipped in zip(layers, shipped_experiences()):
+        taught = [chain for chain in chains if any(map(len, chain))]
+        experience = learn(taught, fit_expectations(taught))
+        print(f"{len(taught)} chains: {coded_size(taught, shipped)} -> {coded_size(taught, experience)} bytes")
+        learnt += experience.to_bytes()
+    arguments.output.write_bytes(learnt)
 
 
 if __name__ == "__main__":

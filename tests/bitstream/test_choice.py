@@ -1,6 +1,8 @@
-"""Choosing levels: what is chosen costs least by the coder's own account, and the account is right."""
+"""Choosing levels: what is chosen costs least by the coder's own account, and the trellis saves error."""
 
 from __future__ import annotations
+
+import itertools
 
 import numpy as np
 import pytest
@@ -10,6 +12,7 @@ from hypothesis import strategies as st
 from bitstream.adaptive import MAX_LEVEL, CoefficientModel, encode_coefficients
 from bitstream.choice import TARGET_UNIT, choose_levels
 from bitstream.errors import OptionError
+from bitstream.trellis import points_of_levels
 
 UNITS = st.integers(-5, 5) | st.integers(-3000, 3000) | st.sampled_from([MAX_LEVEL * TARGET_UNIT])
 
@@ -22,8 +25,8 @@ def targets(seed: int, rows: int = 60, mean: float = 1.5) -> np.ndarray:
 
 
 def squared_error(levels: np.ndarray, wanted: np.ndarray) -> float:
-    """In squared steps."""
-    return float(np.square(levels - wanted / TARGET_UNIT).sum())
+    """Of levels on the trellis, in squared steps."""
+    return float(np.square(points_of_levels(levels) / 2 - wanted / TARGET_UNIT).sum())
 
 
 def coded_bits(blocks: list[np.ndarray]) -> int:
@@ -41,19 +44,27 @@ def chosen(seeds: range, weight: float) -> list[np.ndarray]:
 
 @settings(deadline=None)
 @given(st.lists(st.tuples(UNITS, UNITS, UNITS), min_size=1, max_size=12), st.floats(0.0, 4.0))
-def test_a_level_is_one_of_the_two_around_the_target_or_zero(rows: list[tuple[int, int, int]], weight: float) -> None:
+def test_a_point_is_within_a_step_or_zero(rows: list[tuple[int, int, int]], weight: float) -> None:
     wanted = np.array(rows, np.int64)
     choice = choose_levels(CoefficientModel(12), wanted, weight)
-    magnitude = np.abs(choice.levels.astype(np.int64))
-    assert ((magnitude == 0) | (np.abs(magnitude * TARGET_UNIT - np.abs(wanted)) <= TARGET_UNIT)).all()
+    distance = np.abs(points_of_levels(choice.levels).astype(np.int64) * TARGET_UNIT // 2 - wanted)
+    assert ((choice.levels == 0) | (distance <= TARGET_UNIT)).all()
     assert (choice.levels * wanted >= 0).all()
     assert 1 <= choice.width <= len(rows)
 
 
-def test_bits_for_nothing_mean_the_nearest_level() -> None:
-    wanted = targets(1)
-    error = np.abs(choose_levels(CoefficientModel(64), wanted, 0.0).levels * TARGET_UNIT - wanted)
-    assert error.max() <= TARGET_UNIT // 2
+@pytest.mark.parametrize("seed", range(5))
+def test_bits_for_nothing_mean_the_least_error_of_all_ways(seed: int) -> None:
+    wanted = np.random.default_rng(seed).integers(-2 * TARGET_UNIT, 2 * TARGET_UNIT, (2, 3))
+    choice = choose_levels(CoefficientModel(64), wanted, 0.0)
+    every = (np.array(way, np.int32).reshape(2, 3) for way in itertools.product(range(-3, 4), repeat=6))
+    assert squared_error(choice.levels, wanted) == pytest.approx(min(squared_error(way, wanted) for way in every))
+
+
+def test_the_trellis_saves_a_decibel_of_error() -> None:
+    wanted = np.random.default_rng(7).integers(20 * TARGET_UNIT, 60 * TARGET_UNIT, (2000, 3))
+    levels = choose_levels(CoefficientModel(2000), wanted, 0.0).levels
+    assert 10 * np.log10(squared_error(levels, wanted) / wanted.size * 12) == pytest.approx(-1.09, abs=0.05)
 
 
 def test_the_model_stays_as_it_is() -> None:
@@ -73,17 +84,20 @@ def test_dearer_bits_make_fewer_of_them() -> None:
 
 
 def test_the_trade_beats_plain_rounding_and_a_fixed_dead_zone() -> None:
-    weight, seeds = 0.2, range(10)
+    weight, seeds = 0.15, range(10)
+    wanted = [targets(seed) for seed in seeds]
 
-    def price(blocks: list[np.ndarray]) -> float:
-        return weight * coded_bits(blocks) + sum(squared_error(b, targets(s)) for s, b in zip(seeds, blocks))
+    def price(blocks: list[np.ndarray], error: float) -> float:
+        return weight * coded_bits(blocks) + error
 
-    def rounded(offset: float) -> list[np.ndarray]:
-        wanted = [targets(seed) / TARGET_UNIT for seed in seeds]
-        return [(np.sign(w) * np.floor(np.abs(w) + offset)).astype(np.int32) for w in wanted]
+    def rounded(offset: float) -> float:
+        scaled = [w / TARGET_UNIT for w in wanted]
+        blocks = [(np.sign(x) * np.floor(np.abs(x) + offset)).astype(np.int32) for x in scaled]
+        return price(blocks, sum(float(np.square(b - x).sum()) for b, x in zip(blocks, scaled)))
 
-    best = price(chosen(seeds, weight))
-    assert best < min(price(rounded(offset)) for offset in (0.5, 0.42, 0.35, 0.28))
+    blocks = chosen(seeds, weight)
+    best = price(blocks, sum(squared_error(b, w) for b, w in zip(blocks, wanted)))
+    assert best < 0.97 * min(rounded(offset) for offset in (0.5, 0.42, 0.35, 0.28))
 
 
 def test_rows_that_are_not_worth_their_bits_are_left_out() -> None:
@@ -94,6 +108,13 @@ def test_rows_that_are_not_worth_their_bits_are_left_out() -> None:
     assert choose_levels(CoefficientModel(64), np.zeros((9, 3), np.int64), 0.3).width == 1
     wanted[59] = 20 * TARGET_UNIT
     assert choose_levels(CoefficientModel(64), wanted, 0.3).width == 60
+
+
+def test_what_is_zero_stays_zero() -> None:
+    wanted = targets(4)
+    wanted[:, 2] = 0
+    choice = choose_levels(CoefficientModel(64), wanted, 0.3)
+    assert not choice.levels[:, 2].any() and choice.levels[:, 0].any()
 
 
 def test_what_the_model_is_not_made_for_is_refused() -> None:
