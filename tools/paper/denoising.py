@@ -18,7 +18,7 @@ from codec.mesh import Positions, TriangleMesh
 from codec.metrics import face_normals
 from tools.evaluation.codecs import Spectral, paper_options
 from tools.paper.exhibit import Cell, Column, Exhibit, Picture, Table
-from tools.paper.pictures import diagram, normal_colors, rendering
+from tools.paper.pictures import diagram, normal_colors, portrait
 from tools.paper.segments import blocks_of, parts_of
 from tools.paper.study import Model, Study
 
@@ -34,9 +34,9 @@ def companions(study: Study) -> Exhibit:
     angles = reference.theta(model.noisy), reference.theta(coarse)
     rows = [("none", (Cell(angles[0]), Cell(angles[1]), Cell(angles[0] - angles[1])))]
     pictures = [
-        rendering("original", model.clean, model.faces, pixels),
-        rendering(f"noisy: {angles[0]:.1f} degrees", model.noisy, model.faces, pixels, like=model.clean),
-        rendering(f"coarse: {angles[1]:.1f} degrees", coarse, model.faces, pixels, like=model.clean),
+        portrait("original", model, model.clean, pixels),
+        portrait(f"noisy: {angles[0]:.1f} degrees", model, model.noisy, pixels),
+        portrait(f"coarse: {angles[1]:.1f} degrees", model, coarse, pixels),
     ]
     gains = 0
     for name, step in FINE_STEPS.items():
@@ -47,7 +47,7 @@ def companions(study: Study) -> Exhibit:
         rows.append((name, (Cell(alone), Cell(after), Cell(alone - after))))
         for way, result, angle in zip(("alone", "after the coarse step"), results, (alone, after), strict=True):
             caption = f"{name} {way}: {angle:.1f} degrees"
-            pictures.append(rendering(caption, result, model.faces, pixels, like=model.clean))
+            pictures.append(portrait(caption, model, result, pixels))
     columns = (Column("alone", 2), Column("after the coarse step", 2), Column("gain", 2))
     return Exhibit(
         "Companions with and without the coarse step: Fandisk, noise 0.7",
@@ -108,7 +108,7 @@ def normals(study: Study) -> Exhibit:
     rows, pictures = [], []
     for name, positions in (("original", model.clean), ("noisy", model.noisy), ("coarse", coarse)):
         found = face_normals(positions, model.faces)
-        pictures.append(rendering(name, positions, model.faces, pixels, like=model.clean, colors=normal_colors(found)))
+        pictures.append(portrait(name, model, positions, pixels, colors=normal_colors(found)))
         rows.append((name, (Cell(reference.theta(positions)), Cell(reference.mnd(positions)))))
     columns = (Column("theta, degrees", 2), Column("MND", 4))
     return Exhibit(
@@ -130,11 +130,11 @@ def hand(study: Study) -> Exhibit:
     study.note(f"{model.name}: dynamic orthogonal iterations")
     positions = _dynamic(model, tracked, segments)
     rows = []
-    pictures = [rendering("noisy", model.noisy, model.faces, pixels, like=model.clean)]
+    pictures = [portrait("noisy", model, model.noisy, pixels)]
     for name, result in (("OI", tracked), ("SVD", exact), ("dynamic OI", positions)):
         angle = reference.theta(result)
         rows.append((name, (Cell(angle), Cell(reference.compare(result).nmsve_db))))
-        pictures.append(rendering(f"{name}: {angle:.2f} degrees", result, model.faces, pixels, like=model.clean))
+        pictures.append(portrait(f"{name}: {angle:.2f} degrees", model, result, pixels))
     columns = (Column("theta, degrees", 2), Column("NMSVE, dB", 2))
     title = f"{model.name} in place of the Hand, {model.segments(segments)} segments, c = {round(0.1 * block * 1.15)}"
     return Exhibit(
@@ -162,7 +162,7 @@ def _guided(positions: Positions, topology: Topology, iterations: int) -> Iterat
 def _stages(model: Model, coarse: Positions, fine: Positions, automatic: Positions, pixels: int) -> list[Picture]:
     stages = {"original": model.clean, "noisy": model.noisy, "coarse": coarse, "coarse to fine, 2 iterations": fine}
     stages["automatic mode"] = automatic
-    return [rendering(name, stage, model.faces, pixels, like=model.clean) for name, stage in stages.items()]
+    return [portrait(name, model, stage, pixels) for name, stage in stages.items()]
 
 
 def _draw_curves(curves: dict[str, list[float]], axes: Any) -> None:

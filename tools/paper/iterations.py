@@ -21,7 +21,7 @@ from codec.parallel import SINGLE_BLAS_THREAD
 from codec.predict import unheld
 from tools.evaluation.row_order import RowOrder, in_bisection_order, in_breadth_first_order
 from tools.paper.exhibit import Cell, Column, Exhibit, Table
-from tools.paper.pictures import rendering
+from tools.paper.pictures import portrait
 from tools.paper.published import POWERS, TIMES
 from tools.paper.segments import blocks_of, parts_of
 from tools.paper.study import ROLES, Model, Study
@@ -185,7 +185,7 @@ def powers(study: Study) -> Exhibit:
             rows.append((name, (Cell(seconds, seconds_there), Cell(angle, theta_there))))
             if role == "fandisk" and (exact or power <= 7):
                 caption = f"{'SVD' if exact else f'z = {power}'}: {angle:.1f} degrees"
-                pictures.append(rendering(caption, coarse, model.faces, study.effort.pixels, like=model.clean))
+                pictures.append(portrait(caption, model, coarse, study.effort.pixels))
         found, ordered = (reference.theta(coarse_in_order(model, blocks, order)) for order in ROW_ORDERS)
         orders[role] = f"{found:.1f} degrees as they were found, {ordered:.1f} by bisection (the paper: {first:.1f})"
         tables.append(Table(f"{model.role.name}: {model.name}, 10 segments, c = 10 %", "", columns, tuple(rows)))

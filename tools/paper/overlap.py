@@ -9,7 +9,7 @@ import numpy as np
 from codec.denoise.coarse import RULES, CoarseFilter
 from codec.denoise.guided import guided_normal_filtering
 from tools.paper.exhibit import Cell, Column, Exhibit, Table
-from tools.paper.pictures import rendering
+from tools.paper.pictures import portrait
 from tools.paper.published import JULIO, JULIO_SIZES, OVERLAPS
 from tools.paper.study import Study
 
@@ -53,7 +53,7 @@ def overlap(study: Study) -> Exhibit:
             rows.append((f"{factor:.2f} max", cells))
             if segments == SHOWN:
                 caption = f"{factor:.2f} max: {filter_.size} vertices"
-                pictures.append(rendering(caption, coarse, model.faces, study.effort.pixels, like=model.clean))
+                pictures.append(portrait(caption, model, coarse, study.effort.pixels))
         title = f"{model.segments(segments)} segments (the paper: {segments}), coarse and fine"
         tables.append(Table(title, "overlap", _COLUMNS, tuple(rows)))
     coarse_errors = [[cells[1].ours or 0.0 for _, cells in table.rows] for table in tables]

@@ -14,24 +14,25 @@ import numpy.typing as npt
 from codec.mesh import Faces, Positions
 from tools.evaluation.plots import import_matplotlib
 from tools.paper.exhibit import Picture
+from tools.paper.study import Model
 from tools.render import bounds_of, render
 
 Colors = npt.NDArray[np.float64]
 _GOLDEN = 0.618034
 
 
-def rendering(
+def portrait(
     caption: str,
+    model: Model,
     positions: Positions,
-    faces: Faces,
     pixels: int,
     *,
     like: Positions | None = None,
     colors: Colors | None = None,
 ) -> Picture:
-    """A shaded picture of a mesh; `like` gives the section that is shown, `colors` each face's colour."""
-    bounds = bounds_of(positions if like is None else like)
-    return image(caption, render(positions, faces, pixels, bounds=bounds, colors=colors))
+    """A model with other positions, as large as the clean one, or as `like`; `colors` gives each face's colour."""
+    bounds = bounds_of(model.clean if like is None else like, model.view)
+    return image(caption, render(positions, model.faces, pixels, view=model.view, bounds=bounds, colors=colors))
 
 
 def image(caption: str, pixels: npt.NDArray[np.float64]) -> Picture:

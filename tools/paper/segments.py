@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -16,7 +16,7 @@ from codec.mesh import Positions
 from codec.partition import Partition, metis_partition
 from tools.paper.exhibit import Cell, Column, Exhibit, Picture, Table
 from tools.paper.overlap import CONVERGED
-from tools.paper.pictures import error_colors, part_colors, rendering
+from tools.paper.pictures import error_colors, part_colors, portrait
 from tools.paper.published import BUNNY
 from tools.paper.study import Model, Study
 
@@ -73,8 +73,8 @@ def number_of_segments(study: Study) -> Exhibit:
         Column("gain by weights", 4),
     )
     pictures = [
-        rendering("original", model.clean, model.faces, pixels),
-        rendering("noisy", model.noisy, model.faces, pixels, like=model.clean),
+        portrait("original", model, model.clean, pixels),
+        portrait("noisy", model, model.noisy, pixels),
     ]
     rows = []
     for segments, (simple_there, weighted_there) in study.effort.some(BUNNY.items()):
@@ -89,7 +89,7 @@ def number_of_segments(study: Study) -> Exhibit:
         )
         rows.append((f"{segments}", cells))
         if segments in (25, 50, 70, 100):
-            pictures.append(rendering(f"{segments} segments", weighted, model.faces, pixels, like=model.clean))
+            pictures.append(portrait(f"{segments} segments", model, weighted, pixels))
     weighted_errors = [cells[2].ours or 0.0 for _, cells in rows]
     rising = bool((np.diff(weighted_errors) > 0).all())
     gains = sum((cells[3].ours or 0.0) > 0 for _, cells in rows)
@@ -111,7 +111,7 @@ def segmentation(study: Study) -> Exhibit:
     """The first figure of section 6.1: parts of METIS, and the meshes without and with overlap."""
     model = study.model("bunny")
     reference, pixels = model.reference, study.effort.pixels
-    clean = Model(model.name, model.role, model.clean, model.clean, model.faces)
+    clean = replace(model, noisy=model.clean)
     columns = (Column("MND without overlap", 4), Column("MND with overlap, weighted", 4))
     rows, pictures = [], []
     for segments in study.effort.some((70, 100, 200)):
@@ -119,9 +119,9 @@ def segmentation(study: Study) -> Exhibit:
         alone, joint = (joined(clean, segments, way) for way in (JOINTS[0], JOINTS[2]))
         colors = part_colors(parts_of(model, segments).labels, model.faces)
         pictures += [
-            rendering(f"{segments} segments", model.clean, model.faces, pixels, colors=colors),
-            rendering(f"{segments} segments, no overlap", alone, model.faces, pixels, like=model.clean),
-            rendering(f"{segments} segments, overlap", joint, model.faces, pixels, like=model.clean),
+            portrait(f"{segments} segments", model, model.clean, pixels, colors=colors),
+            portrait(f"{segments} segments, no overlap", model, alone, pixels),
+            portrait(f"{segments} segments, overlap", model, joint, pixels),
         ]
         rows.append((f"{segments}", (Cell(reference.mnd(alone)), Cell(reference.mnd(joint)))))
     return Exhibit(
@@ -144,9 +144,9 @@ def transition(study: Study) -> Exhibit:
         results = [joined(model, segments, joint) for joint in JOINTS]
         rows.append((f"{segments} segments", tuple(Cell(reference.theta(result)) for result in results)))
         colors = part_colors(parts_of(model, segments).labels, model.faces)
-        pictures.append(rendering(f"{segments} segments", model.clean, model.faces, pixels, colors=colors))
+        pictures.append(portrait(f"{segments} segments", model, model.clean, pixels, colors=colors))
         pictures += [
-            rendering(f"{segments}: {joint.name}", result, model.faces, pixels, like=model.clean)
+            portrait(f"{segments}: {joint.name}", model, result, pixels)
             for joint, result in zip(JOINTS, results, strict=True)
         ]
     return Exhibit(
@@ -177,7 +177,7 @@ def degrees(study: Study) -> Exhibit:
     rows, pictures = [], []
     own = np.flatnonzero(seen[:, vertex])
     whole = part_colors(partition.labels, model.faces)
-    pictures.append(rendering("segments before overlap", model.clean, model.faces, study.effort.pixels, colors=whole))
+    pictures.append(portrait("segments before overlap", model, model.clean, study.effort.pixels, colors=whole))
     for index in own[:3]:
         inside = (seen[index] > 0).astype(float)
         colors = error_colors(inside, model.faces, 1.0)
@@ -202,4 +202,4 @@ def _close(caption: str, model: Model, vertex: int, pixels: int, colors: Any) ->
     """A picture of a vertex's surroundings."""
     distance = np.linalg.norm(model.clean - model.clean[vertex], axis=1)
     near = model.clean[distance < 0.12 * model.mesh.diagonal]
-    return rendering(caption, model.clean, model.faces, pixels, like=near, colors=colors)
+    return portrait(caption, model, model.clean, pixels, like=near, colors=colors)

@@ -19,7 +19,7 @@ from codec.partition import metis_partition
 from codec.predict import unheld
 from tools.paper.exhibit import Cell, Column, Exhibit, Table
 from tools.paper.iterations import fastest
-from tools.paper.pictures import rendering
+from tools.paper.pictures import portrait
 from tools.paper.study import Study
 
 SIGMA = 0.2
@@ -95,7 +95,8 @@ def noisy_frames(clean: Frames, faces: Faces) -> Frames:
 
 def sequences(study: Study) -> Exhibit:
     """Time of a frame with shared dictionaries and with orthogonal iterations of its own, and whether they agree."""
-    name, clean, faces = study.sequence()
+    model, clean = study.sequence()
+    name, faces = model.name, model.faces
     count, n, _ = clean.shape
     study.note(f"{name}: {count} frames")
     noisy = noisy_frames(clean, faces)
@@ -114,7 +115,7 @@ def sequences(study: Study) -> Exhibit:
     middle = count // 2
     angles = [theta(clean[middle], stage[middle], faces) for stage in (noisy, coarse)]
     pictures = tuple(
-        rendering(f"frame {index}, {what}", stage[index], faces, study.effort.pixels)
+        portrait(f"frame {index}, {what}", model, stage[index], study.effort.pixels, like=clean[index])
         for index in np.linspace(0, count - 1, SHOWN).astype(int)
         for what, stage in (("noisy", noisy), ("coarse", coarse))
     )

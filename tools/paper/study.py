@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TypeVar
 
@@ -17,9 +17,13 @@ from codec.metrics import Reference
 from tools.files.npz import read_arrays
 from tools.meshfiles import read_bytes, read_mesh
 from tools.paper.shapes import ball, box, swaying
+from tools.render import DEFAULT_VIEW, view_matrix
 from tools.sample import knot
 
 Item = TypeVar("Item")
+
+_UPRIGHT = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])
+"""Turns y, which points up in the files, to z, which points up in pictures."""
 
 GENERATED = 12_000
 """Most vertices of a generated model."""
@@ -43,6 +47,8 @@ class Role:
         Noise in mean edges where there is no noisy file.
     remark : str
         How our file differs from the paper's model.
+    azimuth : float
+        From where our file is best looked at, degrees about its y axis.
     """
 
     name: str
@@ -52,13 +58,23 @@ class Role:
     shape: Callable[[int], TriangleMesh]
     sigma: float
     remark: str = ""
+    azimuth: float = -70.0
+
+    @property
+    def view(self) -> npt.NDArray[np.float64]:
+        """The camera for our file, see `tools.render`."""
+        return view_matrix(self.azimuth, 15.0) @ _UPRIGHT
 
 
 ROLES = {
     "bunny": Role("Bunny", 34_817, "bunny_34834", "bunny_34834_noisy", knot, 0.2, "17 vertices more than the paper's"),
-    "julio": Role("Julio", 36_201, "julius_36201", "julius_36201_noisy", lambda n: knot(n, 2), 0.2, "known as Julius"),
+    "julio": Role(
+        "Julio", 36_201, "julius_36201", "julius_36201_noisy", lambda n: knot(n, 2), 0.2, "known as Julius", 110.0
+    ),
     "twelve": Role("Twelve", 0, "twelve_dodecahedron", "twelve_dodecahedron_noisy", box, 0.3, "impulsive noise"),
-    "fandisk": Role("Fandisk", 0, "fandisk_6475", "fandisk_0.7_noisy", lambda n: box(n, (1.0, 0.6, 0.3)), 0.7),
+    "fandisk": Role(
+        "Fandisk", 0, "fandisk_6475", "fandisk_0.7_noisy", lambda n: box(n, (1.0, 0.6, 0.3)), 0.7, "", 110.0
+    ),
     "armadillo": Role(
         "Armadillo",
         20_002,
@@ -67,6 +83,7 @@ ROLES = {
         lambda n: knot(n, 3),
         0.2,
         "the authors' own file is not published; another reduction of the same scan to the same number of vertices",
+        110.0,
     ),
     "hand": Role(
         "Hand",
@@ -81,7 +98,8 @@ ROLES = {
     "star": Role("Trim star", 0, "trim_star", "trim_star_noisy", lambda n: ball(n, 0.35), 0.5),
     "gargoyle": Role("Gargoyle", 0, "gargoyle_10002", "", lambda n: knot(n, 5), 0.2),
 }
-SEQUENCE = "samba"
+MOVING = Role("a sequence", 0, "samba", "", knot, 0.2)
+"""Of the dynamic case, for which the paper names no model."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -95,6 +113,8 @@ class Model:
     role : Role
     clean, noisy : float64 array, shape (n, 3)
     faces : int32 array, shape (m, 3)
+    view : float64 array, shape (3, 3)
+        From where it is drawn, see `tools.render`.
     """
 
     name: str
@@ -102,6 +122,7 @@ class Model:
     clean: Positions
     noisy: Positions
     faces: Faces
+    view: npt.NDArray[np.float64] = field(default_factory=lambda: DEFAULT_VIEW)
 
     @property
     def size(self) -> int:
@@ -198,18 +219,20 @@ class Study:
             moved = gaussian_along_normals(model.clean, model.faces, sigma, seed=2)
         else:
             moved = self._positions("noisy", noisy).positions
-        return Model(model.name, model.role, model.clean, moved, model.faces)
+        return replace(model, noisy=moved)
 
-    def sequence(self) -> tuple[str, npt.NDArray[np.float64], Faces]:
-        """Name, frames of shape (T, n, 3), and faces of a sequence."""
+    def sequence(self) -> tuple[Model, npt.NDArray[np.float64]]:
+        """A sequence: its first frame as a model, and frames of shape (T, n, 3)."""
         if self.folder is None:
             mesh = knot(min(9_971, self.effort.vertices))
-            return "generated", swaying(mesh, min(48, self.effort.frames)), mesh.faces
-        path = self.folder / "dynamic" / f"{SEQUENCE}.npz"
+            frames = swaying(mesh, min(48, self.effort.frames))
+            return Model("generated", MOVING, frames[0], frames[0], mesh.faces), frames
+        path = self.folder / "dynamic" / f"{MOVING.clean}.npz"
         if not path.exists():
             raise OptionError(f"there is no {path}")
-        frames, faces = read_arrays(read_bytes(path), "positions", "faces")
-        return SEQUENCE, frames[: self.effort.frames].astype(np.float64), faces.astype(np.int32)
+        positions, faces = read_arrays(read_bytes(path), "positions", "faces")
+        frames = positions[: self.effort.frames].astype(np.float64)
+        return Model(MOVING.clean, MOVING, frames[0], frames[0], faces.astype(np.int32), MOVING.view), frames
 
     def _read(self, role: Role) -> Model:
         mesh = self._positions("static", role.clean)
@@ -217,7 +240,7 @@ class Study:
             moved = self._positions("noisy", role.noisy).positions
         else:
             moved = gaussian_along_normals(mesh.positions, mesh.faces, role.sigma, seed=1)
-        return Model(role.clean, role, mesh.positions, moved, mesh.faces)
+        return Model(role.clean, role, mesh.positions, moved, mesh.faces, role.view)
 
     def _positions(self, part: str, name: str) -> TriangleMesh:
         assert self.folder is not None
