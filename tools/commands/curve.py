@@ -19,7 +19,9 @@ GROUPS = ("ours", "paper", "draco")
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare what the command takes."""
-    parser.add_argument("meshes", metavar="MESH", nargs="*", help="mesh files; none: only draw what the folder holds")
+    parser.add_argument(
+        "meshes", metavar="MESH", nargs="*", help="mesh files or sequences; none: only draw what there is"
+    )
     parser.add_argument("-o", "--output", metavar="FOLDER", required=True, help="where JSON and pictures go")
     parser.add_argument(
         "--codecs",
@@ -37,10 +39,15 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace, console: Console) -> None:
     """Run, write, read again, compare and draw."""
+    from tools.commands.sequence_curve import run_sequence
     from tools.evaluation.run import read_results, run_curve, write_result
 
     folder = Path(args.output)
-    for path in args.meshes:
+    sequences = [path for path in args.meshes if run_sequence(path, folder, console)]
+    meshes = [path for path in args.meshes if path not in sequences]
+    if sequences and not meshes:
+        return
+    for path in meshes:
         mesh = read_mesh(path).mesh
         for curve in _chosen(args.codecs, len(mesh.positions), args.blocks):
             with console.progress(f"{Path(path).stem}, {curve.label}") as progress:

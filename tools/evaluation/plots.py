@@ -115,6 +115,28 @@ def draw_boxes(groups: Mapping[str, Mapping[str, npt.NDArray[np.float64]]], stem
     return _draw(draw, stem)
 
 
+def draw_sequence_rates(
+    lines: Mapping[str, Sequence[Mapping[str, Any]]], measure: str, label: str, title: str, stem: Path
+) -> list[Path]:
+    """Bits per vertex and frame of the whole file against one measure of a sequence, one line per codec."""
+
+    def draw(axes: Any) -> None:
+        for style, (name, points) in zip(_styles(), lines.items()):
+            ordered = sorted(points, key=lambda point: point["bpvf"])
+            axes.plot([p["bpvf"] for p in ordered], [p[measure] for p in ordered], style, markersize=4, label=name)
+        axes.set_xscale("log")
+        axes.set_yscale("log")
+        ticks = [0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20]
+        axes.set_xticks(ticks, [f"{tick:g}" for tick in ticks])
+        axes.minorticks_off()
+        axes.set_xlabel("bits per vertex and frame, whole file")
+        axes.set_ylabel(label)
+        axes.legend(fontsize=7)
+        axes.set_title(title)
+
+    return _draw(draw, stem)
+
+
 def draw_all(results: Iterable[Result], folder: Path) -> list[Path]:
     """Every picture that the results of a folder allow, mesh by mesh."""
     by_mesh: dict[str, list[Result]] = {}

@@ -29,7 +29,7 @@ Point = dict[str, Any]
 
 DRACO_BITS = (8, 10)
 KG_GOAL = 0.15
-PCA_BITS = (10, 12, 14)
+PCA_BITS = (6, 8, 10, 12, 14)
 
 
 def draco_point(positions: Positions, faces: Faces, bits: int, every: int) -> Point:
