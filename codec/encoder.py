@@ -34,7 +34,7 @@ from codec.partition import Partition, derive_partition, metis_partition
 from codec.predict import extend
 from codec.quantize import dequantize, levels_to_unsigned, packed_range, quantize_packed, smallest_step
 from codec.rate import BIT_WORTH, targets
-from codec.smooth import Spectrum, smooth
+from codec.smooth import smooth, smoothing_spectrum
 from codec.spectrum import MeasuredSpectrum
 from codec.targets import search_step
 from codec.transform import project, reconstruct
@@ -48,6 +48,7 @@ BASE_REACH = 4.0
 """With a detail layer, x, y and z go as far as they would pay at a step so many times that of the details."""
 DETAIL_REACH = 0.9
 """Details go as far as would pay at a step so many times their own."""
+SMOOTHING_FACES = 1 << 17
 SMOOTHING_STEPS = tuple(2.0**k for k in range(-3, 7))
 
 
@@ -203,6 +204,7 @@ class Encoder:
         self._blocks = grow_blocks(self._graph, self._partition, block_size(self._partition, self.options.overlap))
         self._reference: Reference | None = None
         self._spectrum: MeasuredSpectrum | None = None
+        self._sample: tuple[npt.NDArray[np.int32], Reference] | None = None
 
     def encode(self) -> bytes:
         """The whole stream."""
@@ -357,27 +359,47 @@ class Encoder:
             self._reference = Reference(self._positions, self.mesh.faces)
         return self._reference
 
+    def _sampled(self) -> tuple[npt.NDArray[np.int32], Reference]:
+        """Vertices on which smoothing is tried, and the original there: all of them, unless they are very many."""
+        if self._sample is None:
+            faces = _spread(self.mesh.faces, SMOOTHING_FACES)
+            used = np.zeros(len(self._positions), np.bool_)
+            used[faces] = True
+            vertices = np.flatnonzero(used).astype(np.int32)
+            number = np.cumsum(used) - 1
+            self._sample = vertices, Reference(self._positions[vertices], number[faces])
+        return self._sample
+
     def _smoothing(self, header: Header, coded: list[CodedBlock]) -> float:
         """The amount of smoothing that the options ask for, or the best by what they are after."""
         if header.coding == 0 or self.options.smoothing is not None:
             return _single(self.options.smoothing or 0.0)
-        spectrum = Spectrum(self._graph, self._blended(coded))
-        best, least = 0.0, self._badness(spectrum.smoothed(0.0))
+        vertices, reference = self._sampled()
+        spectrum = smoothing_spectrum(self._graph, self._blended(coded)).only(vertices)
+        best, least = 0.0, self._badness(reference, spectrum.smoothed(0.0))
         for amount in SMOOTHING_STEPS:
-            badness = self._badness(spectrum.smoothed(amount))
+            badness = self._badness(reference, spectrum.smoothed(amount))
             if badness >= least:
                 break
             best, least = amount, badness
         return best
 
-    def _badness(self, decoded: Matrix) -> float:
+    def _badness(self, reference: Reference, decoded: Matrix) -> float:
         """What smoothing shall lower: the target's own measure, or else theta and NMSVE together."""
-        reference, target = self._compared(), self.options.target
+        target = self.options.target
         if target is not None and target.kind == "theta_deg":
             return reference.theta(decoded)
         if target is not None and target.kind == "nmsve_db":
             return reference.nmsve(decoded)
         return reference.theta(decoded) * reference.nmsve(decoded)
+
+
+def _spread(faces: npt.NDArray[np.int32], most: int) -> npt.NDArray[np.int32]:
+    """All faces if they are at most `most`; otherwise so many, in sixteen runs of successive ones."""
+    if len(faces) <= most:
+        return faces
+    starts = np.linspace(0, len(faces) - most // 16, 16).astype(np.int64)
+    return np.concatenate([faces[start : start + most // 16] for start in starts])
 
 
 def encode(mesh: TriangleMesh, options: EncodeOptions | None = None) -> bytes:

@@ -7,6 +7,8 @@ depends on five rings around it only and can be finished while the rest of the s
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 import numpy.typing as npt
 from numba import njit
@@ -38,27 +40,37 @@ def filter_polynomial(amount: float) -> Matrix:
 
 def smooth(graph: Graph, positions: Matrix, amount: float) -> Matrix:
     """Filter all positions, shape (n, 3); isolated vertices stay where they are."""
-    return positions if amount == 0.0 else Spectrum(graph, positions).smoothed(amount)
+    return positions if amount == 0.0 else smoothing_spectrum(graph, positions).smoothed(amount)
 
 
+@dataclass(frozen=True, eq=False)
 class Spectrum:
-    """K^2 V to K^5 V, from which V filtered by any amount is but a sum.
+    """What positions V filtered by any amount are a sum of.
 
     Parameters
     ----------
-    graph : Graph
     positions : float64 array, shape (n, 3)
         V.
+    terms : float64 array, shape (DEGREE - 1, n, 3)
+        K^2 V to K^DEGREE V.
     """
 
-    def __init__(self, graph: Graph, positions: Matrix) -> None:
-        self._positions = positions
-        self._terms = _powers(graph.offsets, graph.neighbours, positions)
+    positions: Matrix
+    terms: Matrix
 
     def smoothed(self, amount: float) -> Matrix:
         """`smooth` of the positions by `amount`."""
-        result: Matrix = _combine(self._positions, self._terms, filter_polynomial(amount))
+        result: Matrix = _combine(self.positions, self.terms, filter_polynomial(amount))
         return result
+
+    def only(self, vertices: npt.NDArray[np.integer]) -> Spectrum:
+        """The same of some of the vertices."""
+        return Spectrum(self.positions[vertices], np.ascontiguousarray(self.terms[:, vertices]))
+
+
+def smoothing_spectrum(graph: Graph, positions: Matrix) -> Spectrum:
+    """Spectrum of `positions`, shape (n, 3)."""
+    return Spectrum(positions, _powers(graph.offsets, graph.neighbours, positions))
 
 
 class LocalFilter:

@@ -5,7 +5,7 @@ from hypothesis import strategies as st
 from shapes import patch, torus
 
 from codec.graph import graph_of_faces
-from codec.smooth import DEGREE, NODES, LocalFilter, Spectrum, filter_polynomial, smooth
+from codec.smooth import DEGREE, NODES, LocalFilter, filter_polynomial, smooth, smoothing_spectrum
 
 
 def random_walk_laplacian(graph):
@@ -29,7 +29,9 @@ def test_smoothing_is_the_polynomial_of_the_sparse_matrix():
         term = laplacian @ term
         expected += p * term
     assert np.allclose(smooth(graph, mesh.positions, 4.0), expected, atol=1e-13)
-    assert np.array_equal(Spectrum(graph, mesh.positions).smoothed(4.0), smooth(graph, mesh.positions, 4.0))
+    rows = np.array([3, 500, 77])
+    part = smoothing_spectrum(graph, mesh.positions).only(rows)
+    assert np.array_equal(part.smoothed(4.0), smooth(graph, mesh.positions, 4.0)[rows])
 
 
 def test_smoothing_leaves_isolated_vertices_and_constants_alone():
