@@ -16,7 +16,7 @@ import numpy as np
 import numpy.typing as npt
 from numba import njit
 
-from bitstream.errors import NumericError
+from bitstream.errors import NumericError, OptionError
 from codec.subspace import cosine_columns
 
 Matrix = npt.NDArray[np.float64]
@@ -109,9 +109,16 @@ class Loop:
         levels : int32 array, shape (c, r)
         decoded : float64 array, shape (c, r)
             What `decode` makes of the levels.
+
+        Raises
+        ------
+        OptionError
+            If a level is larger than can be coded.
         """
         levels = np.zeros(targets.shape, np.int32)
         decoded = self._run(known, np.ascontiguousarray(targets), levels, step, rounding, True)
+        if levels.size and max(levels.max(), -levels.min()) >= LARGEST_LEVEL:
+            raise OptionError(f"a step of {step:g} is too fine for motion that far; choose a coarser one")
         return levels, decoded
 
     def decode(self, known: Matrix, levels: Levels, step: float) -> Matrix:

@@ -27,6 +27,7 @@ from codec.mesh import Faces, TriangleMesh
 from codec.options import EncodeOptions
 from codec.partition import derive_partition
 from codec.quantize import smallest_step
+from codec.sequence import LARGEST_LEVEL
 from codec.sequence_decoder import decode_sequence
 from codec.sequence_options import SequenceOptions
 from codec.sequence_targets import SequenceComparison, compare_sequences
@@ -114,13 +115,20 @@ class SequenceEncoder:
         target = self.options.target
         if target is None:
             raise OptionError("there is no target to search for")
-        finest = FINEST_STEP if self.options.first_step is None else self.options.first_step / 64
+        finest = max(FINEST_STEP, self._finest_step(frames))
         attempt, met = search_step(  # type: ignore[type-var]  # a sequence's target knows a sequence's outcome
             lambda step: self.attempt(frames, step), target, self.options.step, finest
         )
         if not met:
             self.notes += (f"{target.kind} {target.value:g} was not met: the best is {target.reached(attempt):g}",)
         return attempt
+
+    def _finest_step(self, frames: Sequence[Matrix]) -> float:
+        """A step whose levels can be coded however the motion falls into one component."""
+        scale = float(np.linalg.norm(np.ptp(frames[0], axis=0))) or 1.0
+        reach = max(float(np.abs(frame - frames[0].mean(axis=0)).max()) for frame in frames) / scale
+        values = 3 * min(self.options.gop, len(frames)) * 2 * self.options.block_size
+        return 2.0 * reach * np.sqrt(values) / LARGEST_LEVEL
 
     def attempt(self, frames: Sequence[Matrix], step: float) -> SequenceAttempt:
         """Encode with a given step, and see what the decoder will."""
@@ -185,9 +193,7 @@ class OpeningEncoder:
         self._size = block_size(partition, options.overlap)
         self._blocks = grow_blocks(graph, partition, self._size)
         self.header = self._header(partition.parts, frames)
-        coder = ChainEncoder(
-            self.header, chain_rules(self.header), self._blocks, EncodeOptions()
-        )
+        coder = ChainEncoder(self.header, chain_rules(self.header), self._blocks, EncodeOptions())
         positions = self.in_units(ordered.positions)
         self.coded: list[CodedBlock] = [coder.encode(index, positions) for index in range(self._blocks.count)]
 

@@ -15,6 +15,8 @@ WORTH = 0.5
 """A component is kept if its energy is above WORTH * 3T * step^2: below, it costs more than it brings."""
 PRECISION = 0.27
 """Error of the basis, times the coefficients that it multiplies, in steps."""
+FINEST_EXPONENT = OCTAVE * 23 - 1
+"""With a finer step the levels of a column of length one could not be coded."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,7 +44,7 @@ def learn_basis(motion: Matrix, step: float, limit: int) -> LearntBasis:
     step : float
         With which the components will be quantized.
     limit : int
-        Largest exponent.
+        Largest exponent that can be sent.
     """
     energies, vectors = np.linalg.eigh(motion.T @ motion)
     width = len(energies)
@@ -51,7 +53,7 @@ def learn_basis(motion: Matrix, step: float, limit: int) -> LearntBasis:
     deviation = np.sqrt(kept / len(motion))
     exponents = np.round(OCTAVE * np.log2(deviation * np.sqrt(width) / (PRECISION * step)))
     columns = np.ascontiguousarray(vectors[:, : -count - 1 : -1])
-    return LearntBasis(columns, np.clip(exponents, 0, limit).astype(np.int32))
+    return LearntBasis(columns, np.clip(exponents, 0, min(limit, FINEST_EXPONENT)).astype(np.int32))
 
 
 def projection(basis: Matrix) -> Matrix:

@@ -236,6 +236,23 @@ def test_all_vertices_in_one_point():
     assert np.abs(decode_sequence(data)[0] - original).max() < 1e-2
 
 
+@pytest.mark.parametrize("way", WAYS)
+def test_motion_far_beyond_the_first_frame(way):
+    positions, faces = bending(8)
+    positions = positions + 300.0 * np.arange(8)[:, None, None]
+    data, original = encoded(positions, faces, **way)
+    assert np.abs(decode_sequence(data)[0] - original).max() < 0.05
+    with pytest.raises(OptionError, match="too fine"):
+        encode_sequence(positions * [1e4, 1, 1] + 1e6, faces, options(step=2e-6, first_step=0.001, **way))
+
+
+@pytest.mark.parametrize("way", WAYS)
+def test_very_fine_steps(way):
+    positions, faces = bending(8)
+    data, original = encoded(positions, faces, step=1e-5, **way)
+    assert np.abs(decode_sequence(data)[0] - original).max() < 1e-4
+
+
 def test_vertices_without_faces_are_left_out():
     positions, faces = bending(3)
     extra = np.concatenate([positions, np.zeros((3, 2, 3))], axis=1)
