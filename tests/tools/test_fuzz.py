@@ -1,0 +1,87 @@
+"""The fuzzer's own parts: targets that find nothing in the vectors, and mutations that reach behind the checksums."""
+
+import random
+from collections import Counter
+
+import pytest
+
+from bitstream.errors import BsmError, CorruptError
+from bitstream.limits import DEFAULT_LIMITS
+from bitstream.reader import Reader, read_packets
+from bitstream.wire import write_preamble
+from tools.fuzz.mutate import mutate_stream
+from tools.fuzz.targets import TARGETS, Finding, run, seeds
+from tools.surgery import frames_of, stream_of, with_header
+from tools.vectors.store import FOLDER
+
+
+def change_a_byte(data, max_size):
+    changed = bytearray(data or b"\0")
+    changed[random.randrange(len(changed))] = random.randrange(256)
+    return bytes(changed[:max_size])
+
+
+@pytest.mark.parametrize("name", TARGETS)
+def test_targets_find_nothing_in_their_seeds(name):
+    found = seeds(name, FOLDER)
+    assert len(found) >= 1
+    for data in found:
+        run(TARGETS[name], data)
+
+
+@pytest.mark.parametrize("name", ["stream", "damaged", "connectivity", "coefficient_layers", "gops"])
+def test_a_little_of_it(name):
+    """A few mutations of every seed; what the command does for minutes."""
+    random.seed(1)
+    for data in seeds(name, FOLDER)[:40]:
+        for k in range(3):
+            run(TARGETS[name], mutate_stream(data, 1 << 16, k, change_a_byte))
+
+
+def test_findings_and_escapes_are_not_swallowed():
+    def broken(data):
+        raise Finding("wrong")
+
+    def escaping(data):
+        raise ZeroDivisionError
+
+    def refusing(data):
+        raise CorruptError("as it should")
+
+    with pytest.raises(Finding):
+        run(broken, bytes(9))
+    with pytest.raises(ZeroDivisionError):
+        run(escaping, bytes(9))
+    run(refusing, bytes(9))
+
+
+def test_mutated_streams_get_past_the_checksums():
+    random.seed(2)
+    stream = (FOLDER / "good-chain.bsm").read_bytes()
+    reached = Counter()
+    for k in range(300):
+        mutated = mutate_stream(stream, 1 << 16, k, change_a_byte)
+        try:
+            list(read_packets([mutated], Reader()))
+            reached["whole"] += 1
+        except BsmError as error:
+            reached["checksum" if "checksum" in str(error) else "payload"] += 1
+    assert reached["whole"] > 80 and reached["checksum"] < 60
+
+
+def test_streams_are_put_together_as_they_were():
+    for path in sorted(FOLDER.glob("good-*.bsm")):
+        assert stream_of(frames_of(path.read_bytes())) == path.read_bytes()
+
+
+def test_headers_are_changed_by_name():
+    stream = (FOLDER / "good-chain.bsm").read_bytes()
+    header = next(iter(read_packets([with_header(stream, smoothing=2.5)], Reader(DEFAULT_LIMITS))))
+    assert header.smoothing == 2.5
+    with pytest.raises(CorruptError):
+        list(read_packets([with_header(stream, vertices=None)], Reader()))
+
+
+def test_half_a_frame_is_no_stream():
+    with pytest.raises(ValueError, match="ends inside"):
+        frames_of(write_preamble() + b"\x31")
