@@ -146,11 +146,11 @@ class ChainEncoder:
     def _levels(self, residual: Matrix, coefficients: Matrix) -> npt.NDArray[np.int32]:
         """Levels of x, y and z, shape (c_i, 3): c_i as dynamic orthogonal iterations have it, or as far as they pay."""
         step = self._header.step
-        if self._header.coding == 0:
-            return quantize_packed(coefficients, step, self._header.coarser)
         if self._options.doi is not None:
             self._width = dynamic_size(residual, coefficients, self._width, *self._options.doi)
             coefficients = coefficients[: self._width]
+        if self._header.coding == 0:
+            return quantize_packed(coefficients, step, self._header.coarser)
         choice = choose_levels(self._model, targets(coefficients, step, TARGET_UNIT, MAX_LEVEL), BIT_WORTH)
         return choice.levels if self._options.doi is not None else choice.levels[: choice.width]
 

@@ -5,6 +5,7 @@ from shapes import torus
 from codec import EncodeOptions, Encoder, decode
 from codec.dynamic import dynamic_size, residual_norms
 from codec.subspace import hash_columns, onorm
+from tools.streams import inspect_stream
 
 
 def test_the_residual_of_every_size_is_the_residual_of_the_projection():
@@ -36,3 +37,10 @@ def test_sizes_follow_the_error_and_the_decoder_follows_the_sizes():
     decoded = decode(b"".join(attempt.frames))
     error = np.abs(decoded.positions - mesh.positions[dynamic.vertex_order]).max()
     assert error == pytest.approx(attempt.comparison.max_error * mesh.diagonal, rel=0.5)
+
+
+def test_sizes_follow_the_error_in_the_papers_mode_too():
+    options = EncodeOptions(block_size=150, keep=0.5, bits=12, doi=(0.02, 0.03))
+    encoder = Encoder(torus(60, 40, bumps=0.15), options)
+    sizes = inspect_stream(iter([encoder.encode()])).coefficients
+    assert len(set(sizes)) > 2
