@@ -3,6 +3,7 @@
     python -m tools.vectors                            hold this project's decoder against all of them
     python -m tools.vectors --run "CMD {in} {out}"     hold another one against them, by its command line
     python -m tools.vectors --write                    make them anew, which only a change of the format justifies
+    python -m tools.vectors --example                  print the worked example of spec/mathematics.md
 
 A command must write an npz with `positions` and `faces` and end with code 0, or refuse and end with the code of its
 error: 3 format, 4 corrupt or truncated, 5 unsupported, 6 limit, 7 numeric.
@@ -22,6 +23,7 @@ import numpy as np
 from bitstream.errors import BsmError
 from codec import decode
 from codec.sequence_decoder import decode_sequence
+from tools.vectors.example import example
 from tools.vectors.store import Vector, read_manifest, write_vectors
 
 EXIT_CODES = {"format": 3, "corrupt": 4, "truncated": 4, "unsupported": 5, "limit": 6, "numeric": 7}
@@ -35,10 +37,14 @@ def main() -> int:
     )
     parser.add_argument("--run", metavar="COMMAND", help="a decoder's command line with {in} and {out} in it")
     parser.add_argument("--write", action="store_true", help="make the vectors anew")
+    parser.add_argument("--example", action="store_true", help="print the worked example of the specification")
     parser.add_argument("--only", metavar="TEXT", default="", help="only vectors whose names hold this")
     args = parser.parse_args()
     if args.write:
         return write()
+    if args.example:
+        print(example(), end="")
+        return 0
     vectors = [vector for vector in read_manifest() if args.only in vector.name]
     wrong = 0
     for vector in vectors:

@@ -1,0 +1,106 @@
+"""The worked example of the specification: one vector, byte for byte, and the numbers on the way to its positions."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+import numpy.typing as npt
+
+from bitstream.adaptive import CoefficientModel, decode_coefficients
+from bitstream.header import HEADER_FIELDS
+from bitstream.maps import write_map
+from bitstream.packets import Header
+from bitstream.reader import Reader
+from bitstream.trellis import points_of_levels
+from bitstream.wire import FrameType, write_frame, write_preamble, write_varint
+from codec import decode
+from codec.blocks import grow_blocks
+from codec.chain import Chain
+from codec.decoder import chain_rules
+from codec.graph import graph_of_faces
+from codec.partition import derive_partition
+from tools.surgery import frames_of, header_entries
+from tools.vectors.store import FOLDER
+
+NAME = "good-tetrahedron"
+
+
+def example() -> str:
+    """Text of the section, as it must stand in the document."""
+    stream = (FOLDER / f"{NAME}.bsm").read_bytes()
+    lines = [f"    {data.hex(' '):30}  {meaning}" for data, meaning in _bytes(stream)]
+    return "\n".join([f"`vectors/{NAME}.bsm`, {len(stream)} bytes:", "", *lines, "", *_numbers(stream)])
+
+
+def _bytes(stream: bytes) -> Iterator[tuple[bytes, str]]:
+    yield write_preamble(), "magic, version 0"
+    frames = frames_of(stream)
+    for number, (kind, payload) in enumerate(frames):
+        frame = write_frame(kind, payload)
+        tag = write_varint(len(payload) << 4 | kind)
+        yield tag, f"frame {number}: {FrameType(kind).name}, {len(payload)} bytes"
+        if kind == FrameType.HEADER:
+            yield from _header(payload)
+        elif kind == FrameType.BLOCK:
+            yield payload[:1], f"block {payload[0]}"
+            yield payload[1:2], f"c_i = {payload[1]}"
+            yield payload[2:], "coded levels"
+        else:
+            yield payload[:1], f"method {payload[0]}"
+            yield payload[1:], "coded faces"
+        yield frame[len(tag) + len(payload) :], "CRC-16" if kind == FrameType.BLOCK else "CRC-32"
+    start = len(stream) - 10
+    yield stream[start : start + 1], "END, 5 bytes"
+    yield stream[start + 1 : start + 2], f"{stream[start + 1]} frames before it"
+    yield stream[start + 2 : start + 6], "CRC-32 of all bytes before END"
+    yield stream[start + 6 :], "CRC-32"
+
+
+def _header(payload: bytes) -> Iterator[tuple[bytes, str]]:
+    names = {field.key: name for name, field in HEADER_FIELDS.items()}
+    entries = header_entries(payload)
+    yield payload[:1], f"a map of {len(entries)} entries"
+    for key, value in entries.items():
+        packed = write_map([(key, value)])[1:]
+        if isinstance(value, list) and len(value) > 1:
+            yield packed[:2], f"{names[key]}, {len(value)} floats"
+            for item in value:
+                yield write_map([(0, item)])[2:], f"{item:.9g}"
+        else:
+            yield packed, f"{names[key]} = {value[0] if isinstance(value, list) else value:.9g}"
+
+
+def _numbers(stream: bytes) -> list[str]:
+    reader = Reader()
+    reader.receive_data(stream)
+    header = reader.next_packet()
+    assert isinstance(header, Header)
+    mesh = decode(stream)
+    graph = graph_of_faces(mesh.faces, header.vertices)
+    block = grow_blocks(graph, derive_partition(graph, header.blocks), header.block_size).block(0)
+    payload = frames_of(stream)[2][1]
+    levels = decode_coefficients(CoefficientModel(header.coefficients), payload[2:], payload[1])
+    chain = Chain(chain_rules(header), graph)
+    subspace = chain.dictionary(block, chain.around(block), payload[1])
+    coefficients = points_of_levels(levels) * (header.step / 2)
+    return [
+        "The faces are " + ", ".join(f"({a} {b} {c})" for a, b, c in mesh.faces.tolist()) + ".",
+        "The rows of the only block are the vertices " + " ".join(map(str, block.vertices.tolist())) + ".",
+        "Its levels, and the coefficients that they stand for:",
+        "",
+        *(f"    {_row(a, '4d')}    {_row(b, '9.6f')}" for a, b in zip(levels, coefficients)),
+        "",
+        "The block is the first of its chain, so its extension is 0. Its dictionary U, and U times the coefficients:",
+        "",
+        *(f"    {_row(a, '9.6f')}    {_row(b, '9.6f')}" for a, b in zip(subspace, subspace @ coefficients)),
+        "",
+        "In the unit of the mesh, vertex after vertex:",
+        "",
+        *(f"    {_row(position, '9.6f')}" for position in mesh.positions),
+        "",
+    ]
+
+
+def _row(values: npt.NDArray[np.generic], form: str) -> str:
+    return " ".join(format(value + 0 if abs(value) > 5e-7 else abs(value), form) for value in values.tolist())
