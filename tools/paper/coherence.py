@@ -24,8 +24,8 @@ PART = 87
 PAPER_COUNT, MANY = 3, 40
 
 _UNIT = (
-    "The paper's matrices seem to hold geometry in a unit that it does not state; ours are binary Laplacians, "
-    "so the orders within a row compare, not the sizes."
+    "The paper's matrices hold geometry, and their sizes follow the units of the files, which are not stated; ours are "
+    "binary Laplacians. The order within a row compares, sizes do not."
 )
 
 

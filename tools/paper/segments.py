@@ -15,7 +15,7 @@ from codec.graph import graph_of_faces
 from codec.mesh import Positions
 from codec.partition import Partition, metis_partition
 from tools.paper.exhibit import Cell, Column, Exhibit, Picture, Table
-from tools.paper.overlap import CONVERGED
+from tools.paper.overlap import EXACT
 from tools.paper.pictures import error_colors, part_colors, portrait
 from tools.paper.published import BUNNY
 from tools.paper.study import Model, Study
@@ -45,7 +45,7 @@ def joined(model: Model, segments: int, joint: Joint) -> Positions:
         model.faces,
         model.size,
         block=model.block(segments),
-        rules=CONVERGED,
+        rules=EXACT,
         overlap=joint.overlap,
         weights=lambda degrees: joint.weights(degrees).astype(np.float64),
     )
@@ -171,9 +171,9 @@ def degrees(study: Study) -> Exhibit:
     for index, block in enumerate(found):
         seen[index, block.vertices] = block.degrees
     copies = (seen > 0).sum(axis=0)
-    # The vertex whose degrees differ most, among those in three segments or more.
+    # The vertex whose degrees differ most, of those in three segments or more if there are any.
     variety = np.array([len(np.unique(column[column > 0])) for column in seen.T])
-    vertex = int(np.argmax(np.where(copies >= 3, 10 * variety + copies, 0)))
+    vertex = int(np.argmax(100 * np.minimum(copies, 3) + 10 * variety + copies))
     rows, pictures = [], []
     own = np.flatnonzero(seen[:, vertex])
     whole = part_colors(partition.labels, model.faces)

@@ -122,7 +122,7 @@ def sequences(study: Study) -> Exhibit:
     return Exhibit(
         f"Sequences: {name}",
         "section 7.3, schema of the dynamic case",
-        (Table(f"Coarse step of {count} frames of {n} vertices", "", columns, rows),),
+        (Table(f"Coarse step of {count} frames of {n} vertices, CPU time", "", columns, rows),),
         pictures,
         (
             f"Shared dictionaries take {times.remade / times.shared:.0f} times less than dictionaries made for each "
