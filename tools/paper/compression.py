@@ -103,7 +103,7 @@ def dynamic(study: Study) -> Exhibit:
         (drawn("squared error and c along the chain", lambda stem: draw_per_block(chains, stem)),),
         (
             f"With {sums[1] / sums[0]:.2f} times the coefficients in all, the dynamic size brings the spread of errors "
-            f"from {spreads[0]:.3f} to {spreads[1]:.3f}. The paper finds the error stable with it, and c without jumps.",
+            f"from {spreads[0]:.3f} to {spreads[1]:.3f}. The paper finds the error stable, and c without jumps.",
             "The paper prints the two branches of its algorithm the wrong way round; the text is followed here. What a "
             "decoder cannot know, the residual that the paper appends, is replaced by a column known to both sides.",
         ),

@@ -66,7 +66,7 @@ def overlap(study: Study) -> Exhibit:
         (
             f"Coarse, the error falls with every increase of the overlap in {falling} of {len(tables)} tables (the "
             "paper: in all), and the fine step leaves little of the difference.",
-            "The basis is exact, as by SVD, which the paper seems to use here; orthogonal iterations come out a little higher.",
+            "The basis is exact, as by SVD; orthogonal iterations come out a little higher.",
             "c is 10 % of n_d, which grows with the overlap: part of the gain is that more coefficients are kept.",
         ),
     )
