@@ -11,6 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from bitstream import packets
+from bitstream.arrangement import Arrangement, decode_arrangement
 from bitstream.connectivity import decode_connectivity
 from bitstream.errors import BsmError, CorruptError, FormatError, UnsupportedError
 from bitstream.gops import GopBody, GopMethod, parse_gop_body
@@ -24,6 +25,7 @@ from codec.blend import Blend
 from codec.blocks import grow_blocks
 from codec.decoder import (
     CONNECTIVITY_METHOD,
+    ORDER_METHOD,
     ChainDecoder,
     ConnectivityEvent,
     EndEvent,
@@ -92,6 +94,7 @@ class SequenceDecoder:
         self._ended = False
         self._header: Header | None = None
         self._faces: Faces | None = None
+        self._arrangement: Arrangement | None = None
         self._partition: Partition | None = None
         self._opening: Opening | None = None
         self._gops: GopDecoder | None = None
@@ -124,7 +127,7 @@ class SequenceDecoder:
             if positions is not None:
                 self._given += 1
                 if self._given > self._start:
-                    return FrameEvent(self._given - 1, positions)
+                    return FrameEvent(self._given - 1, self._arranged(positions))
                 continue
             if self._ended:
                 return END_OF_STREAM
@@ -157,7 +160,7 @@ class SequenceDecoder:
             case packets.Partition():
                 self._accept_partition(packet)
             case packets.Order():
-                raise UnsupportedError("the original order of sequences is unknown to this decoder")
+                self._accept_order(packet)
             case packets.Block():
                 self._opened().add(packet)
             case packets.Gop():
@@ -181,7 +184,6 @@ class SequenceDecoder:
         if packet.method != CONNECTIVITY_METHOD:
             raise UnsupportedError(f"connectivity method {packet.method} is unknown to this decoder")
         self._faces = decode_connectivity(packet.data, self._header.vertices, self._header.faces, self._limits)
-        self._queue.append(ConnectivityEvent(self._faces))
 
     def _accept_partition(self, packet: packets.Partition) -> None:
         assert self._header is not None and self._faces is not None
@@ -192,10 +194,25 @@ class SequenceDecoder:
             decode_labels(packet.data, graph.offsets, graph.neighbours, self._header.blocks)
         )
 
+    def _accept_order(self, packet: packets.Order) -> None:
+        assert self._header is not None and self._faces is not None
+        if packet.method != ORDER_METHOD:
+            raise UnsupportedError(f"order method {packet.method} is unknown to this decoder")
+        self._arrangement = decode_arrangement(packet.data, self._faces, self._header.vertices)
+
+    def _arranged(self, positions: Positions) -> Positions:
+        """Positions in the order that the vertices had before coding, if that was kept."""
+        if self._arrangement is None:
+            return positions
+        arranged = np.empty_like(positions)
+        arranged[self._arrangement.vertex_order] = positions
+        return arranged
+
     def _opened(self) -> Opening:
         if self._opening is None:
             assert self._header is not None and self._faces is not None
             self._opening = Opening(self._header, self._faces, self._partition)
+            self._queue.append(ConnectivityEvent(self._arrangement.faces if self._arrangement else self._faces))
         return self._opening
 
     def _gop_decoder(self) -> GopDecoder:

@@ -10,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from bitstream import packets
+from bitstream.arrangement import encode_arrangement
 from bitstream.connectivity import encode_connectivity
 from bitstream.errors import MeshError, OptionError
 from bitstream.gops import write_gop_body
@@ -17,7 +18,7 @@ from bitstream.header import Header
 from bitstream.writer import Writer
 from codec.blend import Blend
 from codec.blocks import block_size, grow_blocks
-from codec.decoder import CONNECTIVITY_METHOD, chain_rules
+from codec.decoder import CONNECTIVITY_METHOD, ORDER_METHOD, chain_rules
 from codec.encoder import STIFFNESS, ChainEncoder, CodedBlock
 from codec.encoder import _frame_of_reference as frame_of_reference
 from codec.gop_decoder import Setting, make_setting
@@ -148,6 +149,8 @@ class SequenceEncoder:
         yield writer.start()
         yield writer.write(opening.header)
         yield writer.write(opening.connectivity)
+        if opening.order is not None:
+            yield writer.write(opening.order)
         for block in opening.coded:
             yield writer.write(block.packet)
         encoder = GopEncoder(opening.setting(), options)
@@ -169,7 +172,7 @@ class SequenceEncoder:
             positions = np.asarray(frame, np.float64)
             if positions.shape != shape:
                 raise MeshError(f"frame {number} has shape {positions.shape}, the first one {shape}")
-            positions = positions[opening.vertex_order]
+            positions = positions[opening.coding_order]
             if not np.isfinite(positions).all():
                 raise MeshError(f"frame {number} has a coordinate that is not finite; remove or repair it")
             yield opening.in_units(positions)
@@ -182,11 +185,16 @@ class OpeningEncoder:
         used, kept = mesh.without_isolated_vertices()
         connectivity = encode_connectivity(used.faces, len(kept))
         self.connectivity = packets.Connectivity(CONNECTIVITY_METHOD, connectivity.payload)
-        self.vertex_order: npt.NDArray[np.int64] = kept[connectivity.vertex_order]
+        self.coding_order: npt.NDArray[np.int64] = kept[connectivity.vertex_order]
+        self.vertex_order = self.coding_order
         self.face_order: npt.NDArray[np.int64] = connectivity.face_order.astype(np.int64)
+        self.order: packets.Order | None = None
+        if options.keep_order:
+            self.order = packets.Order(ORDER_METHOD, encode_arrangement(used.faces, connectivity))
+            self.vertex_order, self.face_order = kept, np.arange(len(used.faces))
         self._faces: Faces = connectivity.faces
         self._options = options
-        ordered = TriangleMesh(mesh.positions[self.vertex_order], connectivity.faces)
+        ordered = TriangleMesh(mesh.positions[self.coding_order], connectivity.faces)
         self._center, self._scale = frame_of_reference(ordered)
         graph = graph_of_faces(connectivity.faces, len(kept))
         partition = derive_partition(graph, max(1, round(len(kept) / options.block_size)))

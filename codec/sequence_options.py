@@ -51,6 +51,8 @@ class SequenceOptions:
         Frames per second, for information; 0: unknown.
     rounding : float
         Fraction added before a magnitude is cut to an integer; below 0.5 it widens the dead zone.
+    keep_order : bool
+        Store the order of vertices and faces, and the first corner of each face.
     threads : int, optional
         None: one per core.
     target : SequenceTarget, optional
@@ -73,6 +75,7 @@ class SequenceOptions:
     overlap: float = 1.0
     frame_rate: float = 0.0
     rounding: float = 0.4
+    keep_order: bool = False
     threads: int | None = None
     target: SequenceTarget | None = None
 

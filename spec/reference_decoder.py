@@ -1068,8 +1068,8 @@ def decode_frames(mesh, gops, first_frame):
 def decode(stream):
     """Positions, shape (n, 3) or for a sequence (T, n, 3), and faces, shape (m, 3)."""
     header, packets = parse_stream(stream)
-    if header["gop_frames"] and (header["smoothing"] or header["details"] or packets[ORDER]):
-        raise UnsupportedError("smoothing, details or order in a sequence")  # S 1.1
+    if header["gop_frames"] and (header["smoothing"] or header["details"]):
+        raise UnsupportedError("smoothing or details in a sequence")  # S 1.1
     check_work(header)
     prediction = header["prediction"]
     require(len(prediction) <= 1 and all(0 < k < 2.0**16 for k in prediction), "illegal prediction")  # M 7.5

@@ -11,7 +11,7 @@ from tools.encode_options import TARGET_FLAGS, given_options
 if TYPE_CHECKING:
     from codec import SequenceOptions
 
-SHARED_FIELDS = ("step", "keep", "block_size", "threads")
+SHARED_FIELDS = ("step", "keep", "block_size", "keep_order", "threads")
 """Fields of `EncodeOptions` that mean the same for sequences."""
 SHARED_TARGETS = ("theta_deg", "nmsve_db")
 PRESET_STEPS = {"small": 0.006, "balanced": 0.002, "fine": 0.0007}

@@ -261,6 +261,17 @@ def test_vertices_without_faces_are_left_out():
     assert decoded.shape == original.shape == positions.shape
 
 
+@pytest.mark.parametrize("way", WAYS)
+def test_the_order_can_be_kept(way):
+    positions, faces = bending(4)
+    shuffled = np.random.default_rng(1).permutation(len(positions[0]))
+    positions, faces = positions[:, np.argsort(shuffled)], shuffled[faces][::-1]
+    data = encode_sequence(positions, faces, options(keep_order=True, **way))
+    decoded, decoded_faces = decode_sequence(data)
+    assert np.array_equal(decoded_faces, faces)
+    assert np.abs(decoded - positions).max() < 0.02
+
+
 @pytest.mark.parametrize("transform", ["learnt", "cosine"])
 @pytest.mark.parametrize("how", ["removed", "changed"])
 @pytest.mark.parametrize("index", [0, 1, 3])
