@@ -15,10 +15,14 @@ import numpy as np
 import numpy.typing as npt
 from numba import njit
 
+from bitstream.errors import LimitError
 from codec.simd import LANES
 
 LEAF = 16
 """Halves of at most so many rows are not cut further."""
+
+WORK = 1 << 16
+"""Operations of a factorisation, per row, that are too many; surfaces in blocks of 8,000 take an eighth of them."""
 
 _LANES = np.uint64(LANES)
 _ONE, _TWO = np.uint64(1), np.uint64(2)
@@ -55,9 +59,21 @@ class Fronts(NamedTuple):
 
 
 def find_fronts(offsets: npt.NDArray[np.int32], neighbours: npt.NDArray[np.int32]) -> Fronts:
-    """Fronts of a graph (CSR) whose rows are in the order of a recursive bisection; any order will do."""
+    """Fronts of a graph (CSR) whose rows are in the order of a recursive bisection; any order will do.
+
+    Raises
+    ------
+    LimitError
+        If the graph has no small separators, as that of a surface has, and factorising it would take too long.
+    """
     rows, firsts = _dissect(offsets, neighbours)
-    return Fronts(*_find_borders(offsets, neighbours, rows, firsts))
+    work, *arrays = _find_borders(offsets, neighbours, rows, firsts)
+    if work > WORK * len(rows):
+        raise LimitError(
+            f"the faces of a block of {len(rows)} vertices are too entangled: more than {WORK} operations a vertex; "
+            "if this is a surface, take smaller blocks"
+        )
+    return Fronts(*arrays)
 
 
 @njit(cache=True, nogil=True)
@@ -116,7 +132,10 @@ def _dissect(offsets, neighbours):  # type: ignore[no-untyped-def]
 
 @njit(cache=True, nogil=True)
 def _find_borders(offsets, neighbours, row_at, first_of):  # type: ignore[no-untyped-def]
-    """The arrays of `Fronts`, from the first and the fourth of them."""
+    """Operations for one factorisation, and the arrays of `Fronts`, from the first and the fourth of them.
+
+    Gives up where the operations are too many.
+    """
     offsets, neighbours = offsets.view(np.uint32), neighbours.view(np.uint32)
     n, count = np.uint64(len(row_at)), np.uint64(len(first_of) - 1)
     step_of = np.empty(n, np.uint32)
@@ -131,7 +150,7 @@ def _find_borders(offsets, neighbours, row_at, first_of):  # type: ignore[no-unt
     # Fronts whose borders begin in the same front, as linked lists.
     child = np.full(count, _NONE, np.uint32)
     sibling = np.full(count, _NONE, np.uint32)
-    size = np.uint64(0)
+    size, work = np.uint64(0), 0.0
     for t in range(count):
         end = first_of[t + _ONE]
         if np.uint64(len(borders)) < size + n + _TWO:
@@ -161,11 +180,16 @@ def _find_borders(offsets, neighbours, row_at, first_of):  # type: ignore[no-unt
                 borders[size] = n
                 size += _ONE
         starts[t + _ONE] = size
+        own, width = end - first_of[t], end - first_of[t] + size - begin
+        work += np.float64(own) * np.float64(width) ** 2
+        if work > WORK * len(row_at):
+            count = t + _ONE
+            break
     places = np.zeros(count + _ONE, np.uint32)
     for t in range(count):
         own = first_of[t + _ONE] - first_of[t]
         places[t + _ONE] = places[t] + own * stride(own + starts[t + _ONE] - starts[t])
-    return row_at, step_of, front_of, first_of, starts, borders[:size].copy(), places
+    return work, row_at, step_of, front_of, first_of, starts, borders[:size].copy(), places
 
 
 @njit(cache=True, nogil=True)

@@ -5,8 +5,9 @@ from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 from shapes import patch, torus
 
+from bitstream.errors import LimitError
 from codec.blocks import Block, grow_blocks
-from codec.fronts import LEAF, find_fronts
+from codec.fronts import LEAF, WORK, find_fronts
 from codec.graph import graph_of_faces
 from codec.laplacian import dense_laplacian, factorize, solve
 from codec.partition import derive_partition
@@ -85,6 +86,20 @@ def test_solving_with_a_shift_for_every_row(columns):
     right = hash_columns(960, columns)
     expected = np.linalg.solve(dense_laplacian(block) + np.diag(springs), right)
     assert np.allclose(solve(factorize(block, springs), right, 1), expected, atol=1e-11)
+
+
+def test_a_graph_without_small_separators_is_refused_before_work_begins():
+    random = np.random.default_rng(5)
+    faces = random.integers(0, 6000, (24_000, 3)).astype(np.int32)
+    block = unordered(faces, 6000)
+    with pytest.raises(LimitError, match="too entangled"):
+        factorize(block, 0.1)
+
+
+def test_the_largest_blocks_of_surfaces_are_far_from_refused(monkeypatch):
+    monkeypatch.setattr("codec.fronts.WORK", WORK // 8)
+    block = whole(torus(100, 80).faces, 8000)
+    assert factorize(block, 0.1).inverse.shape == (8000,)
 
 
 def test_a_vertex_beside_all_others_and_a_complete_graph_can_be_solved():
