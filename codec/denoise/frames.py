@@ -77,7 +77,7 @@ class FrameDenoiser:
     Raises
     ------
     MeshError
-        If `first` is not of shape (n, 3).
+        If `first` is not of shape (n, 3), or has a coordinate that is not finite.
     """
 
     def __init__(self, first: Positions, faces: Faces, options: DenoiseOptions | None = None) -> None:
@@ -85,6 +85,7 @@ class FrameDenoiser:
         if first.ndim != 2 or first.shape[1] != 3:
             raise MeshError(f"a frame must have shape (n, 3), not {first.shape}")
         self._shape = first.shape
+        first = self._checked(first)
         topology = Topology(faces, len(first))
         self.choice: AutomaticChoice | None = None
         self._coarse: CoarseFilter | None = None

@@ -10,12 +10,14 @@ import pytest
 from shapes import torus
 
 from bitstream.errors import CorruptError, FormatError, MeshError
-from codec.denoise import FrameDenoiser, denoise_automatically
+from codec.denoise import FINE_STEPS, DenoiseOptions, FrameDenoiser, denoise_automatically
+from codec.denoise import HAND_OVERS as LIBRARY_HAND_OVERS
 from codec.denoise.frames import GROUP
 from codec.denoise.noise import gaussian_along_normals
 from codec.mesh import TriangleMesh
 from codec.metrics import mnd, rms_over_edge, theta
 from codec.parallel import available_threads
+from tools.commands.denoise import FINE, HAND_OVERS
 from tools.files.npz_frames import npz_frames, npz_shape
 from tools.meshfiles import read_mesh, write_mesh
 
@@ -103,6 +105,40 @@ def test_a_folder_of_frames_becomes_a_folder(frames, tmp_path):
     ran = bsm("denoise", tmp_path / "in", "-o", tmp_path / "out", *FEW)
     assert ran.returncode == 0, ran.stderr
     assert len(list((tmp_path / "out").iterdir())) == 3
+
+
+def test_frames_come_and_go_through_pipes(frames, tmp_path):
+    with open(tmp_path / "in.npy", "wb") as file:
+        np.save(file, CLEAN.faces)
+        for frame in frames[:3]:
+            np.save(file, frame)
+    with open(tmp_path / "in.npy", "rb") as source, open(tmp_path / "out.npy", "wb") as sink:
+        command = [sys.executable, "-m", "tools.cli", "denoise", "-", "-o", "-", "--format", "npy", "-q", *FEW]
+        subprocess.run(command, stdin=source, stdout=sink, timeout=120, cwd=ROOT, check=True)
+    expected = FrameDenoiser(frames[0], CLEAN.faces, DenoiseOptions(iterations=2, block_size=200))(frames[:3])
+    with open(tmp_path / "out.npy", "rb") as file:
+        assert (np.load(file) == CLEAN.faces).all()
+        for frame in expected:
+            assert np.allclose(np.load(file), frame, atol=1e-10)
+        assert file.read() == b""
+
+
+@pytest.mark.parametrize("options", [None, DenoiseOptions(iterations=1)])
+def test_frames_that_are_none_are_refused(frames, options):
+    broken = frames[0].copy()
+    broken[5, 1] = np.nan
+    with pytest.raises(MeshError, match="finite"):
+        FrameDenoiser(broken, CLEAN.faces, options)
+    denoiser = FrameDenoiser(frames[0], CLEAN.faces, options)
+    with pytest.raises(MeshError, match="finite"):
+        list(denoiser([frames[0], broken]))
+    with pytest.raises(MeshError, match="shape"):
+        list(denoiser([frames[0][1:]]))
+
+
+def test_the_command_knows_all_choices_of_the_library():
+    assert set(FINE) == set(FINE_STEPS)
+    assert set(HAND_OVERS) == set(LIBRARY_HAND_OVERS)
 
 
 def test_no_more_than_a_few_frames_are_held(frames):
