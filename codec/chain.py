@@ -46,6 +46,11 @@ class ChainRules:
     shift: float
     stiffness: float | None
 
+    @property
+    def solves(self) -> int:
+        """Solutions for each column of a block, at most."""
+        return self.power * max(self.iterations, self.key_iterations)
+
     def chain_starts(self, blocks: int) -> range:
         """Indices of the key blocks among `blocks` blocks."""
         return range(0, blocks, self.chain_length(blocks))

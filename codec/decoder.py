@@ -35,7 +35,7 @@ from codec.parallel import Lanes, Pending
 from codec.partition import Partition, derive_partition, partition_of_labels
 from codec.predict import MAX_STIFFNESS, extend
 from codec.quantize import dequantize, unsigned_to_levels
-from codec.structure import check_work
+from codec.structure import Allowance, block_work, check_work
 from codec.transform import reconstruct
 
 Matrix = npt.NDArray[np.float64]
@@ -167,9 +167,17 @@ class ChainDecoder:
     """Decodes the blocks of one chain, in their order."""
 
     def __init__(
-        self, header: Header, rules: ChainRules, blocks: Blocks, first: int, surface: Surface | None = None
+        self,
+        header: Header,
+        rules: ChainRules,
+        blocks: Blocks,
+        first: int,
+        allowance: Allowance,
+        surface: Surface | None = None,
     ) -> None:
         self._header = header
+        self._rules = rules
+        self._allowance = allowance
         self._blocks = blocks
         self._next = first
         self._chain = Chain(rules, blocks.graph)
@@ -185,8 +193,9 @@ class ChainDecoder:
                 raise CorruptError(f"the block depends on block {self._next}, which is lost")
             block = blocks.block(packet.index)
             levels, details = self._levels(packet, block)
-            around = self._chain.around(block)
-            subspace = self._chain.dictionary(block, around, max(len(levels), len(details)))
+            around, width = self._chain.around(block), max(len(levels), len(details))
+            self._allowance.spend(block_work(block, width, self._rules.solves, self._rules.exact))
+            subspace = self._chain.dictionary(block, around, width)
             coarse = dequantize(half_steps(header, levels), header.step / 2)
             positions = extend(block, around) + reconstruct(subspace, coarse)
             if self._normals is not None:
@@ -239,6 +248,7 @@ class Decoder:
         self._limits = limits
         self._tolerant = tolerant
         self._reader = TolerantReader(limits) if tolerant else Reader(limits)
+        self._allowance = Allowance(limits)
         self._lanes = Lanes(threads)
         self._queue: deque[Event | Pending[DecodedBlock]] = deque()
         self._error: BsmError | None = None
@@ -377,7 +387,7 @@ class Decoder:
     def _accept_header(self, header: Header) -> None:
         if header.gop_frames:
             raise UnsupportedError("this is a sequence; decode it with codec.SequenceDecoder")
-        solves = header.power * max(header.iterations, header.key_iterations)
+        solves = chain_rules(header).solves
         width = max(header.coefficients, header.details)
         check_work(self._limits, header.blocks, header.block_size, width, solves, exact=header.basis == 1)
         if len(header.prediction) > 1 or not all(0 < value < MAX_STIFFNESS for value in header.prediction):
@@ -418,7 +428,7 @@ class Decoder:
         if number not in self._chains:
             self._chains.clear()
             first = number * rules.chain_length(blocks.count)
-            self._chains[number] = ChainDecoder(self._header, rules, blocks, first, self._surface)
+            self._chains[number] = ChainDecoder(self._header, rules, blocks, first, self._allowance, self._surface)
         chain = self._chains[number]
         self._queue.append(self._lanes.submit(number, lambda: chain.decode(packet)))
 

@@ -36,7 +36,7 @@ from codec.gop_decoder import GopDecoder, Setting, make_setting
 from codec.graph import graph_of_faces
 from codec.mesh import Faces, Positions
 from codec.partition import Partition, derive_partition, partition_of_labels
-from codec.structure import check_work
+from codec.structure import Allowance, check_work
 
 Matrix = npt.NDArray[np.float64]
 
@@ -173,7 +173,7 @@ class SequenceDecoder:
             raise FormatError("this is a static mesh and no sequence; decode it with codec.Decoder")
         if header.smoothing or header.details:
             raise UnsupportedError("smoothing and details of sequences are unknown to this decoder")
-        solves = header.power * max(header.iterations, header.key_iterations)
+        solves = chain_rules(header).solves
         check_work(self._limits, header.blocks, header.block_size, header.coefficients, solves, exact=True)
         self._limits.check("sequence_bytes", 8.0 * header.blocks * header.block_size * header.coefficients)
         self._header = header
@@ -211,7 +211,7 @@ class SequenceDecoder:
     def _opened(self) -> Opening:
         if self._opening is None:
             assert self._header is not None and self._faces is not None
-            self._opening = Opening(self._header, self._faces, self._partition)
+            self._opening = Opening(self._header, self._faces, self._partition, self._limits)
             self._queue.append(ConnectivityEvent(self._arrangement.faces if self._arrangement else self._faces))
         return self._opening
 
@@ -293,7 +293,7 @@ class SequenceDecoder:
 class Opening:
     """The first frame, coded as a static mesh is: what every GOP builds upon."""
 
-    def __init__(self, header: Header, faces: Faces, partition: Partition | None) -> None:
+    def __init__(self, header: Header, faces: Faces, partition: Partition | None, limits: Limits) -> None:
         graph = graph_of_faces(faces, header.vertices)
         partition = partition or derive_partition(graph, header.blocks)
         largest = int(np.diff(partition.bounds).max())
@@ -303,6 +303,7 @@ class Opening:
         self._faces = faces
         self._blocks = grow_blocks(graph, partition, header.block_size)
         self._blend = Blend(header.vertices)
+        self._allowance = Allowance(limits)
         self._chain: ChainDecoder | None = None
         self._next_index = 0
 
@@ -317,7 +318,7 @@ class Opening:
             raise CorruptError(f"block {packet.index} of the first frame where block {self._next_index} belongs")
         rules = chain_rules(self._header)
         if self._chain is None or packet.index % rules.chain_length(self._blocks.count) == 0:
-            self._chain = ChainDecoder(self._header, rules, self._blocks, packet.index)
+            self._chain = ChainDecoder(self._header, rules, self._blocks, packet.index, self._allowance)
         decoded = self._chain.decode(packet)
         self._blend.add(decoded.vertices, decoded.positions, decoded.weights)
         self._next_index += 1
