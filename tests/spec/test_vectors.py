@@ -2,12 +2,14 @@
 
 import importlib
 import sys
+import threading
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 from bitstream import errors
+from bitstream.reader import Reader, read_packets
 from codec import Decoder, decode
 from codec.decoder import END_OF_STREAM
 from codec.sequence_decoder import decode_sequence
@@ -96,8 +98,11 @@ def test_threads_and_events_change_nothing(vector):
 @named(GOOD)
 def test_every_truncation_is_refused(vector):
     data = vector.stream.read_bytes()
+    for length in range(len(data)):
+        with pytest.raises(errors.TruncatedError):
+            list(read_packets([data[:length]], Reader()))
     decoder = decode_sequence if vector.name.startswith("good-sequence") else decode
-    for length in range(0, len(data), max(1, len(data) // 40)):
+    for length in range(0, len(data), max(1, len(data) // 20)):
         with pytest.raises(errors.TruncatedError):
             decoder(data[:length], threads=1)
 
@@ -111,3 +116,24 @@ def test_every_changed_byte_is_refused(name):
         broken[place] ^= 1 << place % 8
         with pytest.raises(errors.BsmError):
             decoder(bytes(broken), threads=1)
+
+
+@named([vector for vector in VECTORS if vector.error])
+def test_no_thread_is_left_behind(vector):
+    before = threading.active_count()
+    with pytest.raises(errors.BsmError):
+        decode(vector.stream.read_bytes(), threads=3)
+    assert threading.active_count() == before
+
+
+@named([vector for vector in VECTORS if vector.error])
+def test_errors_stay(vector):
+    with Decoder(threads=1) as decoder:
+        decoder.receive_data(vector.stream.read_bytes())
+        decoder.receive_eof()
+        with pytest.raises(errors.BsmError) as first:
+            while decoder.next_event() is not END_OF_STREAM:
+                pass
+        with pytest.raises(errors.BsmError) as second:
+            decoder.next_event()
+        assert second.value is first.value
