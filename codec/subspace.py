@@ -81,9 +81,11 @@ def orthogonal_iteration(block: Block, start: Matrix, *, shift: float | Matrix, 
     start = np.ascontiguousarray(start)
     subspace, safe = _iterate(factor.fronts, factor.values, factor.inverse, start, power, iterations)
     if not safe:
+        # R^z has all but lost the higher columns. Orthonormalised after every R they stay, and the subspaces of the
+        # first columns, which is all that Q depends on, are the same.
         subspace = start
-        for _ in range(iterations):
-            subspace = onorm(solve(factor, subspace, power))
+        for _ in range(iterations * power):
+            subspace = onorm(solve(factor, subspace, 1))
     return subspace
 
 

@@ -116,3 +116,18 @@ def test_a_truncated_start_gives_the_truncated_subspace():
     wide = orthogonal_iteration(block, cosine_columns(225, 0, 30), shift=0.125, power=2, iterations=1)
     narrow = orthogonal_iteration(block, cosine_columns(225, 0, 12), shift=0.125, power=2, iterations=1)
     assert np.allclose(wide[:, :12], narrow, atol=1e-12)
+
+
+@pytest.mark.parametrize(("shift", "power", "width"), [(0.01, 3, 40), (1e-4, 4, 30), (1e-6, 16, 12), (1e-3, 9, 60)])
+def test_high_powers_lose_no_column(shift, power, width):
+    """However ill conditioned R^z is; the reference orthonormalises after every dense solve."""
+    mesh = patch(17, 23)
+    block = whole(mesh.faces, len(mesh.positions))
+    start = cosine_columns(block.size, 0, width)
+    found = orthogonal_iteration(block, start, shift=shift, power=power, iterations=1)
+    expected = start
+    for _ in range(power):
+        expected = np.linalg.solve(dense_laplacian(block) + shift * np.eye(block.size), expected)
+        expected = householder_orthonormalize(expected)
+    assert np.allclose(found.T @ found, np.eye(width), atol=1e-11)
+    assert np.allclose(found, expected, atol=1e-7)
