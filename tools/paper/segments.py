@@ -13,6 +13,7 @@ from codec.blocks import Blocks, block_size, grow_blocks
 from codec.denoise.coarse import OVERLAP, CoarseFilter
 from codec.graph import graph_of_faces
 from codec.mesh import Positions
+from codec.metrics import face_normals
 from codec.partition import Partition, metis_partition
 from tools.paper.exhibit import Cell, Column, Exhibit, Picture, Table
 from tools.paper.overlap import EXACT
@@ -199,7 +200,13 @@ def degrees(study: Study) -> Exhibit:
 
 
 def _close(caption: str, model: Model, vertex: int, pixels: int, colors: Any) -> Picture:
-    """A picture of a vertex's surroundings."""
-    distance = np.linalg.norm(model.clean - model.clean[vertex], axis=1)
-    near = model.clean[distance < 0.12 * model.mesh.diagonal]
-    return portrait(caption, model, model.clean, pixels, like=near, colors=colors)
+    """A picture of a vertex's surroundings, looked at from straight above it."""
+    near = model.clean[np.linalg.norm(model.clean - model.clean[vertex], axis=1) < 0.12 * model.mesh.diagonal]
+    normals = face_normals(model.clean, model.faces)
+    towards = normals[(model.faces == vertex).any(axis=1)].mean(axis=0)
+    # The axis farthest from the line of sight points up.
+    up = np.eye(3)[np.argmin(np.abs(towards))]
+    right = np.cross(up, towards)
+    axes = np.stack([right, np.cross(towards, right), towards])
+    above = replace(model, view=axes / np.linalg.norm(axes, axis=1, keepdims=True))
+    return portrait(caption, above, model.clean, pixels, like=near, colors=colors)
