@@ -20,7 +20,8 @@ from codec.blocks import Blocks
 from codec.graph import Indices
 from codec.mesh import Faces, Positions
 from codec.parallel import ordered_map
-from codec.weighted import binary_weights, canonical_eigenvectors, cotangent_weights, held_laplacian
+from codec.subspace import canonical_eigenvectors
+from codec.weighted import binary_weights, cotangent_weights, held_laplacian
 
 if TYPE_CHECKING:
     from scipy.sparse import csr_matrix

@@ -98,24 +98,34 @@ def resized(previous: Matrix, width: int) -> Matrix:
 
 
 def exact_basis(block: Block, width: int, springs: float | Matrix = 0.0) -> Matrix:
-    """The `width` lowest eigenvectors of L + diag(springs) in a form that does not depend on the eigensolver.
+    """The `width` lowest eigenvectors of L + diag(springs), see `canonical_eigenvectors`."""
+    return canonical_eigenvectors(dense_laplacian(block) + springs * np.eye(block.size), width)[1]
+
+
+def canonical_eigenvectors(matrix: Matrix, width: int) -> tuple[Matrix, Matrix]:
+    """The `width` lowest eigenvalues and eigenvectors of a symmetric matrix, whatever the eigensolver.
 
     Within a cluster of equal eigenvalues a solver may return any rotation; the projection of fixed pseudo-random
-    columns onto the cluster's space, orthonormalised, is the same for all of them. It also fixes the signs.
+    columns onto the cluster's space, orthonormalised, is the same for all of them. For an eigenvalue of its own this
+    is its eigenvector with the sign that makes its product with the first of these columns positive.
+
+    Returns
+    -------
+    values : float64 array, shape (width,)
+    vectors : float64 array, shape (n, width), C-contiguous
     """
     with SINGLE_BLAS_THREAD:
-        values, vectors = np.linalg.eigh(dense_laplacian(block) + springs * np.eye(block.size))
+        values, vectors = np.linalg.eigh(matrix)
     starts = np.flatnonzero(np.diff(values, prepend=-np.inf) > CLUSTER_GAP)
     ends = np.append(starts[1:], len(values))
-    probe = hash_columns(block.size, int((ends - starts).max()))
-    basis = np.empty((block.size, width))
-    for first, last in zip(starts, ends):
-        if first >= width:
-            break
+    probe = hash_columns(len(matrix), int((ends - starts).max()))
+    basis = vectors[:, :width] * np.where(probe[:, 0] @ vectors[:, :width] < 0, -1.0, 1.0)
+    shared = (ends - starts > 1) & (starts < width)
+    for first, last in zip(starts[shared], ends[shared]):
         cluster = vectors[:, first:last]
         canonical = householder_orthonormalize(cluster @ (cluster.T @ probe[:, : last - first]))
-        basis[:, first : min(last, width)] = canonical[:, : width - first]
-    return basis
+        basis[:, first:last] = canonical[:, : width - first]
+    return values[:width], np.ascontiguousarray(basis)
 
 
 def hash_columns(rows: int, columns: int) -> Matrix:

@@ -20,8 +20,6 @@ from numba import njit
 
 from codec.graph import Graph, Indices
 from codec.mesh import Faces, Positions
-from codec.parallel import SINGLE_BLAS_THREAD
-from codec.subspace import CLUSTER_GAP, hash_columns, householder_orthonormalize
 
 Matrix = npt.NDArray[np.float64]
 
@@ -78,32 +76,6 @@ def held_laplacian(graph: Graph, weights: Matrix, vertices: Indices, rank: Indic
         When the part of each vertex becomes known.
     """
     return HeldLaplacian(*_held(graph.offsets, graph.neighbours, weights, vertices, rank))
-
-
-def canonical_eigenvectors(matrix: Matrix, width: int) -> tuple[Matrix, Matrix]:
-    """The `width` lowest eigenvalues and eigenvectors of a symmetric matrix, whatever the eigensolver.
-
-    Within a cluster of equal eigenvalues a solver may return any rotation; the projection of fixed pseudo-random
-    columns onto the cluster's space, orthonormalised, is the same for all of them. For an eigenvalue of its own this
-    is its eigenvector with the sign that makes its product with the first of these columns positive.
-
-    Returns
-    -------
-    values : float64 array, shape (width,)
-    vectors : float64 array, shape (n, width), C-contiguous
-    """
-    with SINGLE_BLAS_THREAD:
-        values, vectors = np.linalg.eigh(matrix)
-    starts = np.flatnonzero(np.diff(values, prepend=-np.inf) > CLUSTER_GAP)
-    ends = np.append(starts[1:], len(values))
-    probe = hash_columns(len(matrix), int((ends - starts).max()))
-    basis = vectors[:, :width] * np.where(probe[:, 0] @ vectors[:, :width] < 0, -1.0, 1.0)
-    shared = (ends - starts > 1) & (starts < width)
-    for first, last in zip(starts[shared], ends[shared]):
-        cluster = vectors[:, first:last]
-        canonical = householder_orthonormalize(cluster @ (cluster.T @ probe[:, : last - first]))
-        basis[:, first:last] = canonical[:, : width - first]
-    return values[:width], np.ascontiguousarray(basis)
 
 
 @njit(cache=True, nogil=True)
