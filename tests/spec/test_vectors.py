@@ -15,6 +15,7 @@ from codec.decoder import END_OF_STREAM
 from codec.sequence_decoder import decode_sequence
 from tools.vectors.__main__ import try_command, try_product
 from tools.vectors.bad import BAD
+from tools.vectors.bad_sequences import BAD_SEQUENCES
 from tools.vectors.good import STATIC
 from tools.vectors.good_sequences import SEQUENCES
 from tools.vectors.store import FOLDER, Vector, read_manifest
@@ -54,7 +55,7 @@ def test_reference_decoder(vector, reference):
 
 def test_every_vector_has_its_files_and_every_file_is_a_vector():
     names = {vector.name for vector in VECTORS}
-    assert names == {path.stem for path in FOLDER.glob("*.bsm")} == {*STATIC, *SEQUENCES, *BAD}
+    assert names == {path.stem for path in FOLDER.glob("*.bsm")} == {*STATIC, *SEQUENCES, *BAD, *BAD_SEQUENCES}
     assert {vector.name for vector in GOOD} == {path.stem for path in FOLDER.glob("*.npz")}
 
 

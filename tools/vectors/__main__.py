@@ -58,7 +58,7 @@ def main() -> int:
 
 def try_product(vector: Vector) -> str | None:
     """What this project's decoder does wrong with a vector, or None."""
-    decoder = decode_sequence if vector.name.startswith("good-sequence") else _decode_static
+    decoder = decode_sequence if "-sequence" in vector.name else _decode_static
     try:
         positions, faces = decoder(vector.stream.read_bytes())
     except BsmError as error:
@@ -92,6 +92,7 @@ def try_command(vector: Vector, command: str) -> str | None:
 def write() -> int:
     """Make all vectors, and refuse to write any if the decoder does not treat one of them as it should."""
     from tools.vectors.bad import BAD
+    from tools.vectors.bad_sequences import BAD_SEQUENCES
     from tools.vectors.good import STATIC
     from tools.vectors.good_sequences import SEQUENCES
 
@@ -102,11 +103,11 @@ def write() -> int:
         streams[vector] = good.make()
         decoder = decode_sequence if name in SEQUENCES else _decode_static
         meshes[vector] = decoder(streams[vector])
-    for name, bad in BAD.items():
+    for name, bad in {**BAD, **BAD_SEQUENCES}.items():
         vector = Vector(name, bad.probes, bad.error)
         streams[vector] = bad.make()
         try:
-            decode(streams[vector])
+            (decode_sequence if name in BAD_SEQUENCES else decode)(streams[vector])
         except BsmError as error:
             found = type(error).__name__.removesuffix("Error").lower()
             if found != bad.error:
