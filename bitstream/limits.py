@@ -26,7 +26,7 @@ class Limits:
     metadata_bytes: int = 1 << 16
     work: float = 5e13
     """Floating point operations of the dictionaries, by the estimate of the specification."""
-    sequence_bytes: float = 1 << 33
+    sequence_bytes: float = 1 << 31
     """Memory for the dictionaries of a sequence, and for the coefficients of a GOP."""
 
     def check(self, name: str, value: float) -> None:
