@@ -7,11 +7,14 @@ import pytest
 
 from bitstream.errors import BsmError, CorruptError
 from bitstream.limits import DEFAULT_LIMITS
-from bitstream.reader import Reader, read_packets
+from bitstream.reader import END_OF_STREAM, Reader, read_packets
 from bitstream.wire import write_preamble
+from codec import Decoder
 from tools.fuzz.mutate import mutate_stream
 from tools.fuzz.targets import TARGETS, Finding, run, seeds
+from tools.meshfiles import format_mesh, read_mesh
 from tools.surgery import frames_of, stream_of, with_header
+from tools.vectors.meshes import patch
 from tools.vectors.store import FOLDER
 
 
@@ -85,3 +88,28 @@ def test_headers_are_changed_by_name():
 def test_half_a_frame_is_no_stream():
     with pytest.raises(ValueError, match="ends inside"):
         frames_of(write_preamble() + b"\x31")
+
+
+# ------------------------------------------------------------------------------------------------- what it has found
+
+
+def test_damage_that_looks_like_a_block_before_the_faces_is_refused():
+    stream = (FOLDER / "good-chain.bsm").read_bytes()
+    header = next(iter(frames_of(stream)))
+    start = len(stream_of([header])) - 10
+    kind_of_block = bytes([stream[start] & 0xF0 | 6]) + stream[start + 1 :]
+    with Decoder(tolerant=True) as decoder, pytest.raises(CorruptError):
+        decoder.receive_data(stream[:start] + kind_of_block)
+        decoder.receive_eof()
+        while decoder.next_event() is not END_OF_STREAM:
+            pass
+
+
+def test_an_npz_whose_compression_is_damaged_is_refused(tmp_path):
+    whole = format_mesh(patch(6, 5), "npz")
+    for place in range(60, len(whole)):
+        (tmp_path / "a.npz").write_bytes(whole[:place] + bytes([whole[place] ^ 0xFF]) + whole[place + 1 :])
+        try:
+            read_mesh(tmp_path / "a.npz")
+        except BsmError:
+            continue
