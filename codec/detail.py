@@ -51,7 +51,8 @@ class Normals:
 
     def __init__(self, surface: Surface) -> None:
         self._surface = surface
-        self._row = np.full(len(surface.starts) - 1, -1, np.int32)
+        # One more than the row of each vertex; zeros cost memory only where they are touched.
+        self._place = np.zeros(len(surface.starts) - 1, np.int32)
 
     def of(self, block: Block, positions: Matrix) -> Matrix:
         """Normals at a block's rows, shape (n_i, 3), from its own positions and the faces that lie inside it.
@@ -61,7 +62,7 @@ class Normals:
         """
         surface = self._surface
         return np.asarray(
-            _normals(surface.faces, surface.starts, surface.members, block.vertices, self._row, positions)
+            _normals(surface.faces, surface.starts, surface.members, block.vertices, self._place, positions)
         )
 
 
@@ -89,17 +90,17 @@ def _difference(positions, a, b):  # type: ignore[no-untyped-def]
 
 
 @njit(cache=True, nogil=True)
-def _normals(faces, starts, members, vertices, row, positions):  # type: ignore[no-untyped-def]
+def _normals(faces, starts, members, vertices, place, positions):  # type: ignore[no-untyped-def]
     n = len(vertices)
     for r in range(n):
-        row[vertices[r]] = r
+        place[vertices[r]] = r + 1
     sums = np.zeros((n, 3))
     total = 0.0
     for r in range(n):
         x, y, z = 0.0, 0.0, 0.0
         for k in range(starts[vertices[r]], starts[vertices[r] + 1]):
             f = members[k]
-            a, b, c = row[faces[f, 0]], row[faces[f, 1]], row[faces[f, 2]]
+            a, b, c = place[faces[f, 0]] - 1, place[faces[f, 1]] - 1, place[faces[f, 2]] - 1
             if a >= 0 and b >= 0 and c >= 0:
                 ux, uy, uz = _difference(positions, b, a)
                 vx, vy, vz = _difference(positions, c, a)
@@ -114,5 +115,5 @@ def _normals(faces, starts, members, vertices, row, positions):  # type: ignore[
         for d in range(3):
             sums[r, d] /= length
     for r in range(n):
-        row[vertices[r]] = -1
+        place[vertices[r]] = 0
     return sums
