@@ -157,11 +157,12 @@ def test_pipes(folder, mesh):
 
 
 def test_the_demo_draws_a_picture(tmp_path, capsys):
-    result = run_json(capsys, "demo", "-o", tmp_path, "--vertices", "900", *SMALL)
+    folder = tmp_path / "new" / "folder"
+    result = run_json(capsys, "demo", "-o", folder, "--vertices", "900", *SMALL)
     assert {Path(path).name for path in result["written"]} == {"bsm_demo.bsm", "bsm_demo.png"}
-    assert (tmp_path / "bsm_demo.png").read_bytes().startswith(b"\x89PNG")
-    assert main(["verify", str(tmp_path / "bsm_demo.bsm"), "-q"]) == 0
-    assert result["bytes"] == (tmp_path / "bsm_demo.bsm").stat().st_size
+    assert (folder / "bsm_demo.png").read_bytes().startswith(b"\x89PNG")
+    assert main(["verify", str(folder / "bsm_demo.bsm"), "-q"]) == 0
+    assert result["bytes"] == (folder / "bsm_demo.bsm").stat().st_size
 
 
 def test_the_demo_works_without_matplotlib(tmp_path, capsys, monkeypatch):

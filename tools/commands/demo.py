@@ -35,6 +35,7 @@ def run(args: argparse.Namespace, console: Console) -> None:
     stream_path, picture_path = Path(args.output, "bsm_demo.bsm"), Path(args.output, "bsm_demo.png")
     for path in (stream_path, picture_path):
         refuse_to_overwrite(path, args.force)
+    Path(args.output).mkdir(parents=True, exist_ok=True)
 
     from codec import Encoder, TriangleMesh, decode
     from codec.metrics import compare
