@@ -477,12 +477,10 @@ def onorm(columns):
 
 
 def orthogonal_iterations(block, start, diagonal, power, iterations):
-    """M 8.4."""
+    """M 8.4, orthonormalised after every solution."""
     matrix, subspace = block.laplacian + np.diag(diagonal), start
-    for _ in range(iterations):
-        for _ in range(power):
-            subspace = np.linalg.solve(matrix, subspace)
-        subspace = onorm(subspace)
+    for _ in range(iterations * power):
+        subspace = onorm(np.linalg.solve(matrix, subspace))
     return subspace
 
 

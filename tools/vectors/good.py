@@ -121,6 +121,30 @@ STATIC: dict[str, Good] = {
     "good-parameters": _static(
         "other exponent, iterations and shift", _small, power=1, iterations=3, key_iterations=5, shift=0.5
     ),
+    "good-ill-conditioned": _static(
+        "a power of which rounding leaves nothing, unless every solution is orthonormalised",
+        _small,
+        power=16,
+        shift=1e-6,
+        keep=1.0,
+        step=1e-4,
+    ),
+    "good-extreme": Good(
+        "the largest power, the least shift", lambda: with_header(encode(_small(), BASE), power=64, shift=2.0**-30)
+    ),
+    "good-shifted": Good(
+        "the largest shift: nothing is left to tell the columns apart",
+        lambda: with_header(encode(_small(), BASE), shift=2.0**30),
+    ),
+    "good-stiff": Good(
+        "the stiffest springs, between blocks that hold several components",
+        lambda: with_header(
+            encode(together(torus(7, 6), patch(6, 5), tetrahedron()), BASE), prediction=[65535.0], key_interval=None
+        ),
+    ),
+    "good-loose": Good(
+        "the loosest springs", lambda: with_header(encode(_small(), BASE), prediction=[2.0**-30], key_interval=None)
+    ),
     "good-fine": _static("a fine step: levels of many bits", _small, step=1e-6, keep=1.0),
     "good-coarse": _static("a coarse step: most levels are 0", _small, step=0.04),
     "good-details": _static("a detail layer that is wider than the coefficients", _uneven, keep=0.1, detail=3.0),
