@@ -192,6 +192,48 @@ def decode_blocks(chunks: Iterator[bytes], count: int, progress: Progress) -> Tr
     return _known_part(positions, faces, known)
 
 
+def decode_what_is_left(chunks: Iterator[bytes], report: Callable[[str], None]) -> TriangleMesh:
+    """Decode every block of a damaged stream that does not depend on what is lost; `report` is told what is.
+
+    Returns
+    -------
+    TriangleMesh
+        The faces whose vertices are known.
+
+    Raises
+    ------
+    MeshError
+        If there is no such face.
+    BsmError
+        If the damage is before the first block.
+    """
+    from codec import BlockEvent, ConnectivityEvent, Decoder, EndEvent, HeaderEvent, LossEvent
+    from codec.decoder import END_OF_STREAM
+
+    faces: npt.NDArray[np.int32] = np.empty((0, 3), np.int32)
+    positions, known = np.empty((0, 3)), np.empty(0, np.bool_)
+    with Decoder(tolerant=True) as decoder:
+        for chunk in chunks:
+            decoder.receive_data(chunk)
+        decoder.receive_eof()
+        while (event := decoder.next_event()) is not END_OF_STREAM:
+            match event:
+                case HeaderEvent(header):
+                    positions, known = np.zeros((header.vertices, 3)), np.zeros(header.vertices, np.bool_)
+                case ConnectivityEvent(faces):
+                    pass
+                case BlockEvent() as block:
+                    positions[block.vertices] = block.positions
+                    known[block.vertices] = True
+                case LossEvent(_, error):
+                    report(f"lost: {error}")
+                case EndEvent(losses) if len(losses.missing) or len(losses.degraded):
+                    report(
+                        f"{len(losses.missing)} vertices are missing, {len(losses.degraded)} less good than they were"
+                    )
+    return _known_part(positions, faces, known)
+
+
 def _known_part(
     positions: npt.NDArray[np.float64], faces: npt.NDArray[np.int32], known: npt.NDArray[np.bool_]
 ) -> TriangleMesh:
@@ -199,6 +241,6 @@ def _known_part(
 
     complete = faces[known[faces].all(axis=1)]
     if len(complete) == 0:
-        raise MeshError("these blocks complete no face; decode more of them")
+        raise MeshError("no face is complete in the blocks that are there")
     positions = np.where(known[:, None], positions, 0.0)
     return TriangleMesh(positions, complete).without_isolated_vertices()[0]

@@ -171,6 +171,20 @@ def test_the_demo_works_without_matplotlib(tmp_path, capsys, monkeypatch):
     assert [Path(path).name for path in result["written"]] == ["bsm_demo.bsm"]
 
 
+def test_what_is_left_of_a_damaged_stream_is_written(tmp_path, capsys):
+    main(["demo", "-o", str(tmp_path), "--vertices", "900", *SMALL, "--seed", "independent", "-q"])
+    data = bytearray((tmp_path / "bsm_demo.bsm").read_bytes())
+    data[-60] ^= 0xFF
+    broken, output = tmp_path / "broken.bsm", tmp_path / "left.ply"
+    broken.write_bytes(data)
+    assert main(["decode", str(broken), "-o", str(output)]) == 4
+    assert not output.exists()
+    capsys.readouterr()
+    assert main(["decode", str(broken), "-o", str(output), "--tolerant"]) == 0
+    assert "lost: " in capsys.readouterr().err
+    assert 100 < len(read_mesh(str(output)).mesh.faces) < 1800
+
+
 # ------------------------------------------------------------------------------------------------------ what goes wrong
 
 

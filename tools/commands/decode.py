@@ -15,7 +15,7 @@ from tools.permutation import read_permutation, reorder
 from tools.pipes import read_chunks
 from tools.sequence_streams import peek_header
 from tools.sequences import SEQUENCE_FORMATS
-from tools.streams import decode_blocks, decode_whole
+from tools.streams import decode_blocks, decode_what_is_left, decode_whole
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -31,6 +31,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--blocks", type=int, metavar="N", help="stop after N blocks, and write the part that is there")
     parser.add_argument(
         "--permutation", metavar="FILE.npy", help="what encode wrote with the same option: restore the input's order"
+    )
+    parser.add_argument(
+        "--tolerant",
+        action="store_true",
+        help="go on behind damage; what is lost, blocks or frames, is named and left out",
     )
     parser.add_argument("--json", action="store_true", help="print the result as JSON")
     sequence_decode.add_flags(parser)
@@ -49,12 +54,16 @@ def run(args: argparse.Namespace, console: Console) -> None:
         raise OptionError(f"{output}: the name tells no mesh format; use --format, one of {', '.join(MESH_FORMATS)}")
     if output == "-" and args.json:
         raise OptionError("--json and -o - would both write to standard output")
-    if args.permutation and args.blocks is not None:
-        raise OptionError("--permutation orders whole meshes; leave out --blocks")
+    if args.permutation and (args.blocks is not None or args.tolerant):
+        raise OptionError("--permutation orders whole meshes; leave out --blocks and --tolerant")
+    if args.blocks is not None and args.tolerant:
+        raise OptionError("--blocks stops early and --tolerant goes on: choose one")
     refuse_terminal(output)
     refuse_to_overwrite(output, args.force)
     begin = time.perf_counter()
-    if args.blocks is None:
+    if args.tolerant:
+        mesh = decode_what_is_left(chunks, lambda text: console.note(f"{args.input}: {text}"))
+    elif args.blocks is None:
         mesh = decode_whole(chunks)
     else:
         with console.progress("decoding") as progress:

@@ -20,15 +20,12 @@ def add_flags(parser: argparse.ArgumentParser) -> None:
     """Add what only sequences have."""
     group = parser.add_argument_group("sequences")
     group.add_argument("--frames", metavar="A:B", help="frames A to B - 1 only; what they do not need is not decoded")
-    group.add_argument(
-        "--tolerant", action="store_true", help="go on behind damage; frames that are lost are named and left out"
-    )
 
 
 def refuse_flags(args: argparse.Namespace) -> None:
     """Raise `OptionError` if a flag of `add_flags` was given for a mesh."""
-    if args.frames is not None or args.tolerant:
-        raise OptionError("--frames and --tolerant are for sequences, and this is one mesh")
+    if args.frames is not None:
+        raise OptionError("--frames is for sequences, and this is one mesh")
 
 
 def decode_sequence(args: argparse.Namespace, console: Console, chunks: Iterator[bytes]) -> None:
