@@ -103,10 +103,10 @@ def test_held_rows_move_little_in_the_first_columns():
     assert free == pytest.approx(np.full(225, 1 / 15))
 
 
-def test_prediction_saves_bits_and_roughness():
+def test_prediction_saves_bits_and_error():
     mesh = torus(90, 60)
     options = {"block_size": 250, "overlap": 1.0, "keep": 0.12, "key_interval": 0, "threads": 1}
     held = Encoder(mesh, EncodeOptions(**options)).attempt(0.004)
     loose = Encoder(mesh, EncodeOptions(**options, predict=False)).attempt(0.004)
     assert held.size < 0.9 * loose.size
-    assert held.comparison.theta_deg < loose.comparison.theta_deg
+    assert held.comparison.nmsve < loose.comparison.nmsve
