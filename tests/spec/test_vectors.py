@@ -10,9 +10,10 @@ import pytest
 
 from bitstream import errors
 from bitstream.reader import Reader, read_packets
-from codec import Decoder, decode
+from codec import Decoder, EncodeOptions, decode, encode
 from codec.decoder import END_OF_STREAM
 from codec.sequence_decoder import decode_sequence
+from tools.meshfiles import read_mesh
 from tools.vectors.__main__ import try_command, try_product
 from tools.vectors.bad import BAD
 from tools.vectors.bad_sequences import BAD_SEQUENCES
@@ -51,6 +52,19 @@ def test_reference_decoder(vector, reference):
     else:
         assert vector.error is None
         assert vector.complaint(positions, faces) is None
+
+
+@pytest.mark.real
+@pytest.mark.long
+@pytest.mark.parametrize("options", [{}, {"keep_order": True, "partition": "metis", "doi": (5e-4, 2e-3)}])
+def test_both_decoders_agree_on_a_real_mesh(options, meshes, reference):
+    mesh = read_mesh(meshes / "static" / "fandisk_6475.ply").mesh
+    stream = encode(mesh, EncodeOptions(**options))
+    decoded = decode(stream)
+    positions, faces = reference.decode(stream)
+    assert np.array_equal(faces, decoded.faces)
+    error = np.linalg.norm(positions - decoded.positions, axis=1) / np.linalg.norm(np.ptp(decoded.positions, axis=0))
+    assert np.sqrt((error**2).mean()) < 1e-9 and error.max() < 1e-8
 
 
 def test_every_vector_has_its_files_and_every_file_is_a_vector():
