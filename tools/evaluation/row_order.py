@@ -39,7 +39,13 @@ def permuted(block: Block, rows: npt.NDArray[np.integer]) -> Block:
     graph = csr_matrix((entries, block.neighbours, block.offsets), shape=(block.size, block.size))
     graph = graph[rows][:, rows]
     graph.sort_indices()
-    return Block(block.vertices[rows], graph.indptr.astype(np.int32), graph.indices.astype(np.int32))
+    result = Block(block.vertices[rows], graph.indptr.astype(np.int32), graph.indices.astype(np.int32))
+    # The order of elimination is the same: fronts found from rows in another order than bisection's would be huge.
+    places = np.argsort(rows).astype(np.uint32)
+    vars(result)["fronts"] = block.fronts._replace(
+        rows=places[block.fronts.rows], steps=block.fronts.steps[rows].astype(np.uint32)
+    )
+    return result
 
 
 def nmsve_db_of(mesh: TriangleMesh, options: EncodeOptions, keep: float, row_order: RowOrder) -> float:
