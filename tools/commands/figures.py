@@ -12,7 +12,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare what the command takes."""
     parser.add_argument("meshes", metavar="FOLDER", help="folder of bunny_34834.ply, fandisk_6475.ply, ...")
     parser.add_argument(
-        "--only", metavar="LIST", help="basis,order,boundary,dynamic,rates,coefficients,scale (default: all)"
+        "--only",
+        metavar="LIST",
+        help="basis,order,boundary,dynamic,connectivity,rates,coefficients,scale (default: all)",
     )
     parser.add_argument("-o", "--output", metavar="FOLDER", help="keep the JSON of the rates there")
     parser.add_argument("--json", action="store_true", help="print it as JSON")

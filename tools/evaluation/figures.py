@@ -14,6 +14,7 @@ from bitstream.errors import DependencyError, OptionError
 from codec import TriangleMesh
 from codec.metrics import Reference
 from tools.evaluation.codecs import Spectral, draco_curve, our_curve, paper_options
+from tools.evaluation.connectivity import HEADINGS, connectivity_row
 from tools.evaluation.per_block import boundary_rows, boundary_table, errors_along_chain, quartiles, spread, view_blocks
 from tools.evaluation.plots import draw_per_block
 from tools.evaluation.rates import compare_curves, rate_curve_of, scaled
@@ -224,6 +225,16 @@ def scale_figure(source: Source) -> Figure:
     )
 
 
+def connectivity_figure(source: Source) -> Figure:
+    """Connectivity alone, beside Draco."""
+    names = ("bunny_34834", "julius_36201", "armadillo_12502", "dragon_437645", *RATE_MESHES[3:4], *RATE_MESHES[6:])
+    return Figure(
+        "Connectivity: bits per vertex, and million triangles per second of CPU time",
+        "at most Draco's; 1 million triangles per second or better",
+        table(HEADINGS, [connectivity_row(name, source.mesh(name)) for name in names]),
+    )
+
+
 def rates_figure(source: Source) -> Figure:
     """Whole files against Draco."""
     rows = []
@@ -353,6 +364,7 @@ FIGURES: dict[str, Callable[[Source], Figure]] = {
     "rates": rates_figure,
     "coefficients": coefficients_figure,
     "scale": scale_figure,
+    "connectivity": connectivity_figure,
 }
 
 
