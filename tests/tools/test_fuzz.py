@@ -5,7 +5,7 @@ from collections import Counter
 
 import pytest
 
-from bitstream.errors import BsmError, CorruptError
+from bitstream.errors import BsmError, CorruptError, FormatError
 from bitstream.limits import DEFAULT_LIMITS
 from bitstream.reader import END_OF_STREAM, Reader, read_packets
 from bitstream.wire import write_preamble
@@ -113,3 +113,15 @@ def test_an_npz_whose_compression_is_damaged_is_refused(tmp_path):
             read_mesh(tmp_path / "a.npz")
         except BsmError:
             continue
+
+
+def test_an_npz_with_a_name_that_is_no_text_is_refused(tmp_path):
+    whole = format_mesh(patch(3, 3), "npz")
+    listed = whole.rindex(b"faces.npy")
+    flags = listed - 46 + 8
+    broken = bytearray(whole)
+    broken[flags + 1] |= 0x08  # the name is UTF-8
+    broken[listed] = 0x9B
+    (tmp_path / "a.npz").write_bytes(broken)
+    with pytest.raises(FormatError):
+        read_mesh(tmp_path / "a.npz")

@@ -34,7 +34,7 @@ def read_arrays(data: bytes, *names: str) -> tuple[npt.NDArray[Any], ...]:
     try:
         with zipfile.ZipFile(io.BytesIO(data)) as archive:
             return tuple(_read_array(archive, name) for name in names)
-    except (zipfile.BadZipFile, NotImplementedError, RuntimeError) as error:
+    except (zipfile.BadZipFile, NotImplementedError, RuntimeError, UnicodeDecodeError) as error:
         raise FormatError(f"this is not an npz file: {error}") from error
 
 

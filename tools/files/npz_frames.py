@@ -56,7 +56,7 @@ class _Array:
         self._name = name
         try:
             self._archive = zipfile.ZipFile(path)
-        except zipfile.BadZipFile as error:
+        except (zipfile.BadZipFile, NotImplementedError, UnicodeDecodeError) as error:
             raise FormatError(f"this is not an npz file: {error}") from error
         try:
             self._entry = self._archive.open(f"{name}.npy")

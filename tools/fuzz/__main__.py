@@ -57,7 +57,7 @@ def main() -> int:
             flush=True,
         )
         if outcome.found:
-            print(outcome.log[-3000:])
+            print(trouble(outcome.log))
     total = sum(outcome.executions for outcome in outcomes)
     bad = sum(len(outcome.found) for outcome in outcomes)
     seconds = sum(outcome.seconds for outcome in outcomes)
@@ -87,6 +87,12 @@ def attack(name: str, seconds: float, corpus: Path) -> Outcome:
     executions = max(map(int, re.findall(r"^#(\d+)", log, re.MULTILINE)), default=0)
     coverage = max(map(int, re.findall(r"cov: (\d+)", log)), default=0)
     return Outcome(name, executions, coverage, time.monotonic() - begin, new, log)
+
+
+def trouble(log: str) -> str:
+    """The part of a log that says what happened: a Python traceback, or else libFuzzer's own end."""
+    begin = log.find("=== Uncaught Python exception")
+    return log[begin : begin + 3000] if begin >= 0 else log[-3000:]
 
 
 def environment() -> dict[str, str]:
