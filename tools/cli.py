@@ -45,12 +45,23 @@ def main(arguments: Sequence[str] | None = None) -> int:
         with announced_compilation(console.note):
             args.run(args, console)
         sys.stdout.flush()
-    except (Exception, KeyboardInterrupt) as error:
+    except (Exception, KeyboardInterrupt) as raised:
+        error = _behind(raised)
         if not is_expected(error):
             raise
         _report(error, subject)
         return exit_of(error).code
     return 0
+
+
+def _behind(error: BaseException) -> BaseException:
+    """The Ctrl-C behind an error, if there is one: a compiler or a loader that it hits may raise something else."""
+    cause: BaseException | None = error
+    while cause is not None:
+        if isinstance(cause, KeyboardInterrupt):
+            return cause
+        cause = cause.__cause__ or cause.__context__
+    return error
 
 
 def _report(error: BaseException, subject: str | None) -> None:

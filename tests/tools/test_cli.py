@@ -192,6 +192,18 @@ def damaged(data):
     return data[:200] + bytes([data[200] ^ 1]) + data[201:]
 
 
+def test_an_interrupt_that_something_wrapped_is_an_interrupt(monkeypatch, capsys):
+    def wrapped(*_):
+        try:
+            raise KeyboardInterrupt
+        except KeyboardInterrupt:
+            raise RuntimeError("while compiling")  # noqa: B904
+
+    monkeypatch.setattr("tools.commands.info.run", wrapped)
+    assert main(["info", "some.bsm"]) == 130
+    assert capsys.readouterr().err == "bsm: interrupted\n"
+
+
 FAILURES = {
     "unknown option": (["encode", "{folder}/sample.ply", "--no-such"], 2),
     "value out of range": (["encode", "{folder}/sample.ply", "-o", "{tmp}/a.bsm", "--keep", "7"], 2),

@@ -51,8 +51,8 @@ def test_killed_in_mid_encode(number, folder, tmp_path):
             assert process.poll() is None
             time.sleep(0.05)
         process.send_signal(number)
-        code = process.wait(timeout=30)
-    assert code == {signal.SIGTERM: 143, signal.SIGINT: 130, signal.SIGKILL: -9}[number]
+        said = process.communicate(timeout=30)[1].decode()
+    assert process.returncode == {signal.SIGTERM: 143, signal.SIGINT: 130, signal.SIGKILL: -9}[number], said
     assert not output.exists()
     if number != signal.SIGKILL:
         assert list(tmp_path.iterdir()) == []
