@@ -67,8 +67,8 @@ class Reference:
     def nmsve(self, decoded: Positions) -> float:
         """The function `nmsve` against this original."""
         decoded = self._checked(decoded)
-        detail = np.linalg.norm(self._laplacian - geometric_laplacian(decoded, self._neighbours))
-        return float((np.linalg.norm(self.positions - decoded) + detail) / (2 * len(decoded) * self.scale))
+        detail = _length(self._laplacian - geometric_laplacian(decoded, self._neighbours))
+        return (_length(self.positions - decoded) + detail) / (2 * len(decoded) * self.scale)
 
     def theta(self, decoded: Positions) -> float:
         """The function `theta` against this original."""
@@ -212,6 +212,11 @@ def geometric_laplacian(positions: Positions, neighbours: Rows) -> Floats:
     """
     laplacian: Floats = _geometric_laplacian(np.ascontiguousarray(positions), neighbours.starts, neighbours.members)
     return laplacian
+
+
+def _length(values: Floats) -> float:
+    """Euclidean norm of all entries, without BLAS: its threads would go on spinning beside the encoder's."""
+    return math.sqrt(np.square(values).sum())
 
 
 def _scale(positions: Positions) -> float:

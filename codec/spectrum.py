@@ -7,6 +7,7 @@ import numpy.typing as npt
 
 from codec.blocks import Blocks
 from codec.subspace import cosine_columns, orthogonal_iteration
+from codec.transform import project
 
 Matrix = npt.NDArray[np.float64]
 
@@ -51,7 +52,8 @@ class MeasuredSpectrum:
         for block in self._samples:
             start = cosine_columns(block.size, 0, min(width, block.size))
             subspace = orthogonal_iteration(block, start, shift=self._shift, power=1, iterations=1)
-            energy[: block.size] += np.square(subspace.T @ self._positions[block.vertices]).mean(axis=1)
+            coefficients = project(subspace, self._positions[block.vertices], subspace.shape[1])
+            energy[: block.size] += np.square(coefficients).mean(axis=1)
             count[: block.size] += 1
         energy /= np.maximum(count, 1)
         smooth = np.array([energy[j - (j + 4) // 8 : j + (j + 4) // 8 + 1].mean() for j in range(width)])
