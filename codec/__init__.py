@@ -1,6 +1,10 @@
 """A streaming spectral codec for triangle meshes: static and animated, and the mathematics they share."""
 
-from codec.decoder import (
+from codec.geometry.mesh import TriangleMesh
+from codec.sequence.decoder import FrameEvent, GopLost, SequenceDecoder, decode_sequence
+from codec.sequence.encoder import SequenceEncoder, encode_sequence
+from codec.sequence.options import SequenceOptions
+from codec.static.decoder import (
     BlockEvent,
     ConnectivityEvent,
     Decoder,
@@ -9,13 +13,9 @@ from codec.decoder import (
     LossEvent,
     decode,
 )
-from codec.encoder import Encoder, encode, encode_chunks
-from codec.mesh import TriangleMesh
-from codec.options import PRESETS, EncodeOptions
-from codec.sequence_decoder import FrameEvent, GopLost, SequenceDecoder, decode_sequence
-from codec.sequence_encoder import SequenceEncoder, encode_sequence
-from codec.sequence_options import SequenceOptions
-from codec.targets import Target
+from codec.static.encoder import Encoder, encode, encode_chunks
+from codec.static.options import PRESETS, EncodeOptions
+from codec.static.targets import Target
 
 __all__ = [
     "PRESETS",

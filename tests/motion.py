@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
-from shapes import torus
 
-from codec.mesh import Faces, Positions
+from codec.geometry.mesh import Faces, Positions
+from tests.shapes import torus
 
 
 def bending(frames: int, rows: int = 30, columns: int = 16) -> tuple[Positions, Faces]:

@@ -19,17 +19,17 @@ from pathlib import Path
 
 import numpy as np
 
+from bsm.files.mesh import read_bytes, read_mesh
+from bsm.files.npz import read_arrays
+from bsm.paper.sequences import noisy_frames, time_sequence
 from codec.denoise.automatic import denoise_automatically
 from codec.denoise.coarse import CoarseFilter
-from codec.denoise.fine import FINE_STEPS
-from codec.denoise.guided import GuidedFilter, guided_normal_filtering
+from codec.denoise.filters.fine import FINE_STEPS
+from codec.denoise.filters.guided import GuidedFilter, guided_normal_filtering
+from codec.denoise.filters.topology import Topology
 from codec.denoise.handover import HAND_OVERS
-from codec.denoise.topology import Topology
-from codec.mesh import Faces, Positions
-from codec.metrics import Reference, compare, theta
-from tools.files.npz import read_arrays
-from tools.meshfiles import read_bytes, read_mesh
-from tools.paper.sequences import noisy_frames, time_sequence
+from codec.geometry.mesh import Faces, Positions
+from codec.geometry.metrics import Reference, compare, theta
 
 # Theta after 20 iterations and seconds of the guided filter's authors' own C++ program (bldeng/GuidedDenoising).
 AUTHORS = {

@@ -7,9 +7,9 @@ from typing import Any
 
 import msgpack
 
+from bitstream.container.maps import write_map
+from bitstream.container.wire import FrameType, parse_frame, write_frame, write_preamble, write_varint
 from bitstream.limits import DEFAULT_LIMITS
-from bitstream.maps import write_map
-from bitstream.wire import FrameType, parse_frame, write_frame, write_preamble, write_varint
 
 Frames = list[tuple[int, bytes]]
 
@@ -48,7 +48,7 @@ def header_entries(payload: bytes) -> dict[int, Any]:
 
 def with_header(stream: bytes, **changes: Any) -> bytes:
     """The stream with other header fields, by name (None: not stored), unchecked."""
-    from bitstream.header import HEADER_FIELDS
+    from bitstream.container.header import HEADER_FIELDS
 
     frames = frames_of(stream)
     entries = header_entries(frames[0][1])

@@ -1,6 +1,6 @@
-"""Learn what the coefficient coder knows beforehand (`bitstream/experience.bin`) from a folder of meshes.
+"""Learn what the coefficient coder knows beforehand (`bitstream/coefficients/priors.bin`) from a folder of meshes.
 
-    python -m tools.train_coefficients MESHES [--output bitstream/experience.bin] [--rounds 2]
+    python -m tools.train_coefficients MESHES [--output bitstream/coefficients/priors.bin] [--rounds 2]
 
 The meshes are encoded with several steps and block sizes; the levels are taken from these streams. Meshes that serve
 to evaluate the codec are left out, see `TRAINING_MESHES`. The result replaces a part of the format: streams of the
@@ -18,12 +18,14 @@ import numpy.typing as npt
 from numba import njit
 from scipy.optimize import minimize
 
-from bitstream import packets
-from bitstream.adaptive import CoefficientModel, Levels, decode_coefficients, decode_layers, encode_coefficients
-from bitstream.entropy import Bank, make_bank
-from bitstream.experience import EXPECTATIONS, NODES, SELECTORS, Experience, detail_experience, shipped_experiences
-from bitstream.header import Header
-from bitstream.neighbourhood import (
+from bitstream.coefficients.adaptive import (
+    CoefficientModel,
+    Levels,
+    decode_coefficients,
+    decode_layers,
+    encode_coefficients,
+)
+from bitstream.coefficients.contexts import (
     BINS,
     NEIGHBOURS,
     SITUATIONS,
@@ -35,11 +37,22 @@ from bitstream.neighbourhood import (
     note_level,
     situation,
 )
-from bitstream.reader import Reader, Signal
-from codec.decoder import chain_rules, detail_rows
-from codec.encoder import encode
-from codec.options import EncodeOptions
-from tools.meshfiles import read_mesh
+from bitstream.coefficients.priors import (
+    EXPECTATIONS,
+    NODES,
+    SELECTORS,
+    Experience,
+    detail_experience,
+    shipped_experiences,
+)
+from bitstream.container import packets
+from bitstream.container.header import Header
+from bitstream.container.reader import Reader, Signal
+from bitstream.entropy.range_coder import Bank, make_bank
+from bsm.files.mesh import read_mesh
+from codec.static.decoder import chain_rules, detail_rows
+from codec.static.encoder import encode
+from codec.static.options import EncodeOptions
 
 TRAINING_MESHES = (
     "c3d_spot",
@@ -185,7 +198,7 @@ def main() -> None:
     """Run the command."""
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("meshes", type=Path, help="folder with the training meshes")
-    parser.add_argument("--output", type=Path, default=Path("bitstream/experience.bin"))
+    parser.add_argument("--output", type=Path, default=Path("bitstream/coefficients/priors.bin"))
     arguments = parser.parse_args()
     meshes = [read_mesh(arguments.meshes / f"{name}.ply").mesh for name in TRAINING_MESHES]
     streams = (encode(mesh, options) for mesh in meshes for options in SETTINGS)

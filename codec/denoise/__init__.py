@@ -2,7 +2,7 @@
 
 from codec.denoise.automatic import AutomaticChoice, denoise_automatically
 from codec.denoise.coarse import CoarseFilter
-from codec.denoise.fine import FINE_STEPS
+from codec.denoise.filters.fine import FINE_STEPS
 from codec.denoise.frames import FrameDenoiser, coarse_frames
 from codec.denoise.handover import HAND_OVERS
 from codec.denoise.options import DenoiseOptions

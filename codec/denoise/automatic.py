@@ -19,11 +19,11 @@ import numpy as np
 
 from codec.denoise.coarse import CoarseFilter
 from codec.denoise.estimate import NoiseLevel, add_noise, estimate_noise
+from codec.denoise.filters.topology import Topology
 from codec.denoise.recipe import Recipe, iterates
-from codec.denoise.topology import Topology
-from codec.mesh import Faces, Positions
-from codec.metrics import Reference, mean_edge_length
-from codec.parallel import ordered_map
+from codec.geometry.mesh import Faces, Positions
+from codec.geometry.metrics import Reference, mean_edge_length
+from codec.threads import ordered_map
 
 MOST_ITERATIONS = 30
 PATIENCE = 5

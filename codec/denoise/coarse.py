@@ -12,14 +12,14 @@ import numpy as np
 import numpy.typing as npt
 
 from bitstream.errors import OptionError
-from codec.blend import degree_weights
-from codec.blocks import Block, Blocks, block_size, grow_blocks
-from codec.chain import Chain, ChainRules
-from codec.graph import Indices, graph_of_faces
-from codec.mesh import Faces
-from codec.parallel import ordered_map
-from codec.partition import metis_partition
-from codec.predict import unheld
+from codec.blocks.blend import degree_weights
+from codec.blocks.overlap import Block, Blocks, block_size, grow_blocks
+from codec.blocks.partition import metis_partition
+from codec.geometry.graph import Indices, graph_of_faces
+from codec.geometry.mesh import Faces
+from codec.signal.chain import Chain, ChainRules
+from codec.signal.predict import unheld
+from codec.threads import ordered_map
 
 Floats = npt.NDArray[np.float64]
 Weights = Callable[[Indices], Floats]

@@ -12,10 +12,10 @@ from dataclasses import dataclass
 import numpy as np
 from numba import njit
 
-from codec.denoise.surface import Floats, face_geometry, vertex_normals
-from codec.denoise.topology import Topology
-from codec.mesh import Positions
-from codec.metrics import mean_edge_length
+from codec.denoise.filters.topology import Topology
+from codec.denoise.filters.vertex_update import Floats, face_geometry, vertex_normals
+from codec.geometry.mesh import Positions
+from codec.geometry.metrics import mean_edge_length
 
 ORDER = 4
 IRREGULARITY = 0.15

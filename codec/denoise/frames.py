@@ -12,12 +12,12 @@ import numpy.typing as npt
 from bitstream.errors import MeshError
 from codec.denoise.automatic import LARGEST_KEEP, AutomaticChoice, apply, choose
 from codec.denoise.coarse import BLOCK_SIZE, KEEP, CoarseFilter
-from codec.denoise.fine import fine_step
+from codec.denoise.filters.fine import fine_step
+from codec.denoise.filters.topology import Topology
 from codec.denoise.handover import hand_over
 from codec.denoise.options import DenoiseOptions
-from codec.denoise.topology import Topology
-from codec.mesh import Faces, Positions
-from codec.parallel import ordered_map
+from codec.geometry.mesh import Faces, Positions
+from codec.threads import ordered_map
 
 Frames = npt.NDArray[np.float64]
 

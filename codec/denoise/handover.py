@@ -6,11 +6,11 @@ from typing import Protocol
 
 import numpy as np
 
-from codec.denoise.guided import GuidedFilter
-from codec.denoise.registry import named
-from codec.denoise.surface import face_geometry
-from codec.denoise.topology import Topology
-from codec.mesh import Positions
+from codec.choices import named
+from codec.denoise.filters.guided import GuidedFilter
+from codec.denoise.filters.topology import Topology
+from codec.denoise.filters.vertex_update import face_geometry
+from codec.geometry.mesh import Positions
 
 SIGMA_R = 0.3
 

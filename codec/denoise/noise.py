@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from bitstream.errors import OptionError
-from codec.denoise.surface import Floats, face_geometry, vertex_normals
-from codec.incidence import vertex_faces
-from codec.mesh import Faces, Positions
-from codec.metrics import mean_edge_length
+from codec.denoise.filters.vertex_update import Floats, face_geometry, vertex_normals
+from codec.geometry.incidence import vertex_faces
+from codec.geometry.mesh import Faces, Positions
+from codec.geometry.metrics import mean_edge_length
 
 
 def gaussian_along_normals(positions: Positions, faces: Faces, sigma: float, seed: int) -> Positions:

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from bitstream.errors import OptionError
 from codec.denoise.coarse import BLOCK_SIZE, KEEP
-from codec.denoise.fine import fine_step
+from codec.denoise.filters.fine import fine_step
 from codec.denoise.handover import hand_over
 
 
@@ -20,7 +20,7 @@ class DenoiseOptions:
         "positions" (the paper's: the fine step sees the coarse mesh), "normals" (the noisy mesh, after a pass guided
         by the coarse mesh's normals) or "none" (no coarse step).
     fine : str
-        Name of the fine step, see `codec.denoise.fine.FINE_STEPS`.
+        Name of the fine step, see `codec.denoise.filters.fine.FINE_STEPS`.
     iterations : int, optional
         Of the fine step; None: the method's own number, 0: only the coarse step.
     keep : float

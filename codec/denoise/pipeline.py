@@ -7,7 +7,7 @@ import numpy as np
 from bitstream.errors import MeshError
 from codec.denoise.frames import FrameDenoiser, Frames
 from codec.denoise.options import DenoiseOptions
-from codec.mesh import Faces, TriangleMesh
+from codec.geometry.mesh import Faces, TriangleMesh
 
 
 def denoise(mesh: TriangleMesh, options: DenoiseOptions | None = None) -> TriangleMesh:

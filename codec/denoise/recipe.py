@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from codec.denoise.guidance import patch_guidance
-from codec.denoise.guided import Guide, GuidedFilter, own_normals
+from codec.choices import named
+from codec.denoise.filters.guidance import patch_guidance
+from codec.denoise.filters.guided import Guide, GuidedFilter, own_normals
+from codec.denoise.filters.topology import Topology
 from codec.denoise.handover import hand_over
-from codec.denoise.registry import named
-from codec.denoise.topology import Topology
-from codec.mesh import Positions
+from codec.geometry.mesh import Positions
 
 GUIDES: dict[str, Guide] = {"patches": patch_guidance, "own": own_normals}
 

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from bitstream.packets import Block, Connectivity, Gop, Header, Metadata, Order, Packet, Partition
-from bitstream.reader import Reader, read_packets
-from bitstream.writer import write_stream
+from bitstream.container.packets import Block, Connectivity, Gop, Header, Metadata, Order, Packet, Partition
+from bitstream.container.reader import Reader, read_packets
+from bitstream.container.writer import write_stream
 
 SMALL_HEADER = Header(vertices=100, faces=190, blocks=3, block_size=60, coefficients=10)
 

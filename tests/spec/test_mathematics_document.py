@@ -25,7 +25,7 @@ def test_the_example_is_the_vector():
 
 
 def test_the_learnt_numbers_are_named():
-    data = (Path(bitstream.__file__).parent / "experience.bin").read_bytes()
+    data = (Path(bitstream.__file__).parent / "coefficients" / "priors.bin").read_bytes()
     assert hashlib.sha256(data).hexdigest() in DOCUMENT
     assert hashlib.sha256(data).hexdigest() in (SPEC / "reference_decoder.py").read_text()
 

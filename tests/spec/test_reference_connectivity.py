@@ -13,9 +13,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from bitstream.arrangement import decode_arrangement, encode_arrangement
-from bitstream.connectivity import decode_connectivity, encode_connectivity
-from bitstream.entropy import (
+from bitstream.connectivity.faces import decode_connectivity, encode_connectivity
+from bitstream.connectivity.order import decode_arrangement, encode_arrangement
+from bitstream.connectivity.partition import decode_labels, encode_labels
+from bitstream.entropy.range_coder import (
     code_signed,
     code_uniform,
     code_unsigned,
@@ -25,11 +26,10 @@ from bitstream.entropy import (
     start_writing,
 )
 from bitstream.errors import BsmError
-from bitstream.labels import decode_labels, encode_labels
 from bitstream.limits import DEFAULT_LIMITS
-from codec.graph import Graph, graph_of_faces
+from codec.geometry.graph import Graph, graph_of_faces
 from spec import reference_connectivity as reference
-from tests.bitstream.test_connectivity import SOUPS, compact, read_ply
+from tests.bitstream.connectivity.test_faces import SOUPS, compact, read_ply
 from tests.shapes import Faces, grid_faces
 
 quick = settings(deadline=None, max_examples=60)

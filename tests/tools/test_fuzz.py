@@ -5,14 +5,14 @@ from collections import Counter
 
 import pytest
 
+from bitstream.container.reader import END_OF_STREAM, Reader, read_packets
+from bitstream.container.wire import write_preamble
 from bitstream.errors import BsmError, CorruptError, FormatError
 from bitstream.limits import DEFAULT_LIMITS
-from bitstream.reader import END_OF_STREAM, Reader, read_packets
-from bitstream.wire import write_preamble
+from bsm.files.mesh import format_mesh, read_mesh
 from codec import Decoder
 from tools.fuzz.mutate import mutate_stream
 from tools.fuzz.targets import TARGETS, Finding, run, seeds
-from tools.meshfiles import format_mesh, read_mesh
 from tools.surgery import frames_of, stream_of, with_header
 from tools.vectors.meshes import patch
 from tools.vectors.store import FOLDER

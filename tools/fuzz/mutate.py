@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable
 from random import Random
 
+from bitstream.container.header import HEADER_FIELDS, Field
+from bitstream.container.maps import write_map
+from bitstream.container.wire import FrameType, write_varint
 from bitstream.errors import BsmError
-from bitstream.header import HEADER_FIELDS, Field
-from bitstream.maps import write_map
-from bitstream.wire import FrameType, write_varint
 from tools.surgery import Frames, frames_of, header_entries, stream_of
 
 Mutate = Callable[[bytes, int], bytes]

@@ -8,24 +8,24 @@ from pathlib import Path
 
 import numpy as np
 
-from bitstream.adaptive import CoefficientModel, decode_blocks, decode_coefficients, decode_layers
-from bitstream.arrangement import decode_arrangement
-from bitstream.coefficients import unpack_coefficients
-from bitstream.connectivity import decode_connectivity
+from bitstream.coefficients.adaptive import CoefficientModel, decode_blocks, decode_coefficients, decode_layers
+from bitstream.coefficients.matrices import decode_levels, make_level_bank
+from bitstream.coefficients.packed import unpack_coefficients
+from bitstream.connectivity.faces import decode_connectivity
+from bitstream.connectivity.order import decode_arrangement
+from bitstream.connectivity.partition import decode_labels
+from bitstream.connectivity.permutation import decode_permutation, decode_rotations
+from bitstream.container.gop import GopMethod, parse_gop_body
+from bitstream.container.layout import PARSERS
+from bitstream.container.reader import END_OF_STREAM, NEED_DATA, Reader
+from bitstream.container.tolerant import TolerantReader
+from bitstream.container.wire import FrameType
 from bitstream.errors import BsmError
-from bitstream.gops import GopMethod, parse_gop_body
-from bitstream.labels import decode_labels
-from bitstream.layout import PARSERS
 from bitstream.limits import Limits
-from bitstream.permutation import decode_permutation, decode_rotations
-from bitstream.reader import END_OF_STREAM, NEED_DATA, Reader
-from bitstream.sequence_coefficients import decode_levels, make_level_bank
-from bitstream.tolerant import TolerantReader
-from bitstream.wire import FrameType
-from codec.decoder import BlockEvent, Decoder, decode
-from codec.graph import graph_of_faces
-from codec.sequence_decoder import FrameEvent, SequenceDecoder
-from tools.meshfiles import MESH_FORMATS, read_mesh
+from bsm.files.mesh import MESH_FORMATS, read_mesh
+from codec.geometry.graph import graph_of_faces
+from codec.sequence.decoder import FrameEvent, SequenceDecoder
+from codec.static.decoder import BlockEvent, Decoder, decode
 
 Target = Callable[[bytes], None]
 
@@ -265,7 +265,7 @@ def _seed(name: str, kind: int, payload: bytes, header: object) -> bytes:
 
 
 def _mesh_seeds() -> list[bytes]:
-    from tools.meshfiles import format_mesh
+    from bsm.files.mesh import format_mesh
     from tools.vectors.meshes import patch
 
     mesh = patch(4, 3)

@@ -50,8 +50,8 @@ def instrument() -> None:
     """Follow the coverage of every Python function of the decoders; compiled ones stay as they are."""
     logging.disable(logging.WARNING)
     for name, module in sorted(sys.modules.items()):
-        ours = name.split(".")[0] in ("bitstream", "codec") or name.startswith(("tools.meshfiles", "tools.files"))
-        if ours and name != "codec.simd":
+        ours = name.split(".")[0] in ("bitstream", "codec") or name.startswith(("bsm.files.mesh", "tools.files"))
+        if ours and name != "codec.basis.solver.simd":
             _instrument_module(module)
 
 

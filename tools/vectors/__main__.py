@@ -22,7 +22,7 @@ import numpy as np
 
 from bitstream.errors import BsmError
 from codec import decode
-from codec.sequence_decoder import decode_sequence
+from codec.sequence.decoder import decode_sequence
 from tools.vectors.example import example
 from tools.vectors.store import Vector, read_manifest, write_vectors
 

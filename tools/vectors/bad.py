@@ -11,13 +11,13 @@ import msgpack
 import numpy as np
 import zstandard
 
-from bitstream.connectivity import decode_connectivity
-from bitstream.header import HEADER_FIELDS
-from bitstream.labels import encode_labels
-from bitstream.maps import write_map
-from bitstream.wire import FrameType, write_frame, write_preamble, write_varint
+from bitstream.connectivity.faces import decode_connectivity
+from bitstream.connectivity.partition import encode_labels
+from bitstream.container.header import HEADER_FIELDS
+from bitstream.container.maps import write_map
+from bitstream.container.wire import FrameType, write_frame, write_preamble, write_varint
 from codec import EncodeOptions, encode
-from codec.graph import graph_of_faces
+from codec.geometry.graph import graph_of_faces
 from tools.surgery import Frames, frames_of, header_entries, stream_of, with_header, with_payload
 from tools.vectors.good import BASE
 from tools.vectors.meshes import patch, shuffled, together, torus

@@ -7,19 +7,19 @@ from collections.abc import Iterator
 import numpy as np
 import numpy.typing as npt
 
-from bitstream.adaptive import CoefficientModel, decode_coefficients
-from bitstream.header import HEADER_FIELDS
-from bitstream.maps import write_map
-from bitstream.packets import Header
-from bitstream.reader import Reader
-from bitstream.trellis import points_of_levels
-from bitstream.wire import FrameType, write_frame, write_preamble, write_varint
+from bitstream.coefficients.adaptive import CoefficientModel, decode_coefficients
+from bitstream.coefficients.trellis import points_of_levels
+from bitstream.container.header import HEADER_FIELDS
+from bitstream.container.maps import write_map
+from bitstream.container.packets import Header
+from bitstream.container.reader import Reader
+from bitstream.container.wire import FrameType, write_frame, write_preamble, write_varint
 from codec import decode
-from codec.blocks import grow_blocks
-from codec.chain import Chain
-from codec.decoder import chain_rules
-from codec.graph import graph_of_faces
-from codec.partition import derive_partition
+from codec.blocks.overlap import grow_blocks
+from codec.blocks.partition import derive_partition
+from codec.geometry.graph import graph_of_faces
+from codec.signal.chain import Chain
+from codec.static.decoder import chain_rules
 from tools.surgery import frames_of, header_entries
 from tools.vectors.store import FOLDER
 

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from bitstream.coefficients import pack_coefficients
-from bitstream.wire import FrameType
+from bitstream.coefficients.packed import pack_coefficients
+from bitstream.container.wire import FrameType
 from codec import EncodeOptions, TriangleMesh, encode
 from tools.surgery import frames_of, stream_of, with_header
 from tools.vectors.meshes import hub, patch, shuffled, tangled, tetrahedron, together, torus, triangle

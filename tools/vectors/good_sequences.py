@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from codec.sequence_encoder import encode_sequence
-from codec.sequence_options import SequenceOptions
+from codec.sequence.encoder import encode_sequence
+from codec.sequence.options import SequenceOptions
 from tools.vectors.good import Good
 from tools.vectors.meshes import torus
 

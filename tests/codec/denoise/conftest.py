@@ -7,9 +7,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from denoise_shapes import Partners
 
-from codec.mesh import TriangleMesh
+from codec.geometry.mesh import TriangleMesh
+from tests.codec.denoise.denoise_shapes import Partners
 
 
 def read_binary_ply(path: Path) -> TriangleMesh:

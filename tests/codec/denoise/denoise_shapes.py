@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from codec.mesh import Faces, Positions, TriangleMesh
+from codec.geometry.mesh import Faces, Positions, TriangleMesh
 
 Partners = Callable[[str, str], tuple[TriangleMesh, TriangleMesh]]
 

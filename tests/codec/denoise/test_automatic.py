@@ -2,14 +2,14 @@
 
 import numpy as np
 import pytest
-from denoise_shapes import Partners, cube, grid, sphere
 
 from codec.denoise.automatic import CANDIDATES, denoise_automatically
 from codec.denoise.estimate import add_noise, estimate_noise
-from codec.denoise.guided import guided_normal_filtering
+from codec.denoise.filters.guided import guided_normal_filtering
+from codec.denoise.filters.topology import Topology
 from codec.denoise.noise import gaussian_along_normals, gaussian_isotropic
-from codec.denoise.topology import Topology
-from codec.metrics import mean_edge_length, theta
+from codec.geometry.metrics import mean_edge_length, theta
+from tests.codec.denoise.denoise_shapes import Partners, cube, grid, sphere
 
 
 @pytest.mark.parametrize("sigma", [0.1, 0.2, 0.6])

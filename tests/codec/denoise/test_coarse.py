@@ -4,16 +4,16 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from denoise_shapes import Partners, cube, sphere
 
 from bitstream.errors import OptionError
-from codec.chain import ChainRules
 from codec.denoise.coarse import RULES, CoarseFilter
+from codec.denoise.filters.topology import Topology
 from codec.denoise.handover import HAND_OVERS, hand_over
 from codec.denoise.noise import gaussian_along_normals
-from codec.denoise.topology import Topology
-from codec.graph import graph_of_faces
-from codec.metrics import theta
+from codec.geometry.graph import graph_of_faces
+from codec.geometry.metrics import theta
+from codec.signal.chain import ChainRules
+from tests.codec.denoise.denoise_shapes import Partners, cube, sphere
 
 
 def dense_laplacian(faces: np.ndarray, n: int) -> np.ndarray:

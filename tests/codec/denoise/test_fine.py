@@ -2,12 +2,12 @@
 
 import numpy as np
 import pytest
-from denoise_shapes import Partners, cube, grid, sphere
 
 from bitstream.errors import OptionError
-from codec.denoise.fine import FINE_STEPS, FineStep, fine_step
+from codec.denoise.filters.fine import FINE_STEPS, FineStep, fine_step
 from codec.denoise.noise import gaussian_along_normals
-from codec.metrics import theta
+from codec.geometry.metrics import theta
+from tests.codec.denoise.denoise_shapes import Partners, cube, grid, sphere
 
 every_step = pytest.mark.parametrize("step", FINE_STEPS.values(), ids=FINE_STEPS.keys())
 

@@ -2,15 +2,15 @@
 
 import numpy as np
 import pytest
-from denoise_shapes import Partners, cube, grid
 
-from codec.denoise.bilateral import filter_normals
-from codec.denoise.guidance import patch_guidance
-from codec.denoise.guided import GuidedFilter, guided_normal_filtering, own_normals
+from codec.denoise.filters.guidance import patch_guidance
+from codec.denoise.filters.guided import GuidedFilter, guided_normal_filtering, own_normals
+from codec.denoise.filters.kernel import filter_normals
+from codec.denoise.filters.topology import Topology
+from codec.denoise.filters.vertex_update import face_geometry
 from codec.denoise.noise import gaussian_along_normals
-from codec.denoise.surface import face_geometry
-from codec.denoise.topology import Topology
-from codec.metrics import theta
+from codec.geometry.metrics import theta
+from tests.codec.denoise.denoise_shapes import Partners, cube, grid
 
 
 def noisy_cube() -> tuple[np.ndarray, np.ndarray, np.ndarray]:

@@ -2,11 +2,11 @@
 
 import numpy as np
 import pytest
-from denoise_shapes import sphere
 
 from bitstream.errors import OptionError
 from codec.denoise.noise import gaussian_along_normals, gaussian_isotropic, impulsive
-from codec.metrics import mean_edge_length
+from codec.geometry.metrics import mean_edge_length
+from tests.codec.denoise.denoise_shapes import sphere
 
 POSITIONS, FACES = sphere(24)
 EDGE = mean_edge_length(POSITIONS, FACES)

@@ -2,15 +2,15 @@
 
 import numpy as np
 import pytest
-from denoise_shapes import sphere
 
 from bitstream.errors import MeshError, OptionError
 from codec.denoise import DenoiseOptions, coarse_frames, denoise, denoise_automatically, denoise_frames
 from codec.denoise.coarse import CoarseFilter
-from codec.denoise.guided import guided_normal_filtering
+from codec.denoise.filters.guided import guided_normal_filtering
 from codec.denoise.noise import gaussian_along_normals
-from codec.mesh import TriangleMesh
-from codec.metrics import theta
+from codec.geometry.mesh import TriangleMesh
+from codec.geometry.metrics import theta
+from tests.codec.denoise.denoise_shapes import sphere
 
 CLEAN, FACES = sphere(10)
 NOISY = gaussian_along_normals(CLEAN, FACES, 0.25, seed=2)

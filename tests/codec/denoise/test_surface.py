@@ -2,17 +2,17 @@
 
 import numpy as np
 import pytest
-from denoise_shapes import cube, grid, sphere
 
-from codec.denoise.reach import reach, themselves
-from codec.denoise.surface import (
+from codec.denoise.filters.reach import reach, themselves
+from codec.denoise.filters.topology import Topology, without_first
+from codec.denoise.filters.vertex_update import (
     face_geometry,
     follow_normals,
     mean_centroid_distance,
     vertex_normals,
 )
-from codec.denoise.topology import Topology, without_first
-from codec.incidence import Rows, vertex_neighbours
+from codec.geometry.incidence import Rows, vertex_neighbours
+from tests.codec.denoise.denoise_shapes import cube, grid, sphere
 
 
 def row(rows: Rows, i: int) -> list[int]:

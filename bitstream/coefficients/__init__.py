@@ -1,0 +1,1 @@
+"""Ways of coding coefficients, one file each."""

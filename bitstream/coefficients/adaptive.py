@@ -1,0 +1,315 @@
+"""Adaptive coding of quantized coefficients, method 1: what the neighbours let expect, and what was learnt before.
+
+A level is the size of its magnitude in bits (in unary), up to two bits below the leading one, the rest of the bits
+and the sign, these last two as they are. Every other decision is predicted from three expectations of the magnitude
+(see `bitstream.coefficients.contexts`), each with adaptive probabilities of its own, mixed as
+`bitstream.entropy.range_coder` does. Levels stand for points on two grids, by the rule of
+`bitstream.coefficients.trellis`, and zeros and ones are told apart by grid, too. A chain starts from the
+probabilities and weights of `bitstream.coefficients.priors`. All arithmetic is on integers.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+import numpy.typing as npt
+from numba import njit
+
+from bitstream.coefficients.contexts import (
+    BINS,
+    NEIGHBOURS,
+    Past,
+    close_block,
+    expectation_bin,
+    look_around,
+    make_past,
+    note_level,
+    situation,
+)
+from bitstream.coefficients.priors import EXPECTATIONS, NODES, SELECTORS, Experience, coordinate_experience
+from bitstream.coefficients.trellis import Levels, following, grid
+from bitstream.entropy.range_coder import (
+    ONE,
+    Bank,
+    Coder,
+    code_bit,
+    code_mixed_bit,
+    code_uniform,
+    code_unsigned,
+    copy_bank,
+    finish_reading,
+    finish_writing,
+    leaf,
+    make_bank,
+    overran,
+    start_reading,
+    start_writing,
+    unsigned_span,
+)
+from bitstream.errors import CorruptError, OptionError
+
+_LARGEST_SIZE = 23
+MAX_LEVEL = (1 << _LARGEST_SIZE) - 1
+"""Largest magnitude of a quantized coefficient."""
+
+_SIZE_NODES = 14  # magnitudes of more bits share the last
+_GRID_NODES = 2  # whether it is zero, or one, is another question on the odd grid
+_BIT_SIZES = 9  # magnitudes of more bits share the nodes of this size
+_FIRST_NODES = _SIZE_NODES + _GRID_NODES - 2
+_SECOND_NODES = _FIRST_NODES + _BIT_SIZES + 1 - 2 * 3
+_ROWS_UNARY = 8
+_ROWS_SPAN = unsigned_span(_ROWS_UNARY)
+_BYTES_PER_LEVEL = 64  # 24 decisions of at most two bytes each, and bits as they are
+
+
+@dataclass
+class CoefficientModel:
+    """What a chain of blocks has taught the coder; encoder and decoder each keep one per chain.
+
+    Parameters
+    ----------
+    width : int
+        Rows of the largest block.
+    experience : Experience
+        What is known beforehand; encoder and decoder must start from the same.
+
+    Attributes
+    ----------
+    bank : Bank
+        Adaptive probabilities and weights.
+    rows : Bank
+        The same for numbers of rows.
+    past : Past
+        Magnitudes of earlier blocks.
+    missing : int64 array, shape (1,)
+        Rows that the block before had less than `width`.
+    expectations : int64 array
+        Weights of the expectations.
+    """
+
+    width: int
+    experience: Experience = field(default_factory=coordinate_experience)
+    bank: Bank = field(init=False)
+    rows: Bank = field(init=False)
+    past: Past = field(init=False)
+    missing: npt.NDArray[np.int64] = field(init=False)
+    expectations: npt.NDArray[np.int64] = field(init=False)
+
+    def __post_init__(self) -> None:
+        self.bank = make_bank(EXPECTATIONS * BINS * NODES, SELECTORS * NODES, EXPECTATIONS, limit=400, rate=4)
+        self.bank.slots[:] = self.experience.first_slots()
+        self.bank.weights[:] = self.experience.first_weights()
+        self.rows = make_bank(17 * _ROWS_SPAN, _ROWS_SPAN, 2, limit=60)
+        self.past = make_past(self.width)
+        self.missing = np.zeros(1, np.int64)
+        self.expectations = self.experience.expectations.astype(np.int64)
+
+    def copy(self) -> CoefficientModel:
+        """An independent copy of the present state."""
+        twin = CoefficientModel(self.width, self.experience)
+        twin.bank, twin.rows = copy_bank(self.bank), copy_bank(self.rows)
+        twin.past = Past(*(array.copy() for array in self.past))
+        twin.missing = self.missing.copy()
+        return twin
+
+
+def encode_coefficients(model: CoefficientModel, levels: Levels) -> bytes:
+    """Code one block's quantized coefficients, shape (c_i, 3), each coordinate a column; updates `model`.
+
+    Raises
+    ------
+    OptionError
+        If there are more rows than the model is made for, or a magnitude is over MAX_LEVEL.
+    """
+    _check_levels(model, levels)
+    coder = start_writing(_BYTES_PER_LEVEL * levels.size)
+    _code_block(coder, model.bank, model.past, model.expectations, levels.astype(np.int32))
+    return finish_writing(coder)
+
+
+def decode_coefficients(model: CoefficientModel, payload: bytes, count: int) -> Levels:
+    """Twin of `encode_coefficients`: read `count` rows.
+
+    Raises
+    ------
+    TruncatedError, CorruptError
+        If the payload is not exactly one block long, or the block has more rows than the model is made for.
+    """
+    if count > model.width:
+        raise CorruptError(f"{count} coefficients where at most {model.width} are announced")
+    levels = np.zeros((count, 3), np.int32)
+    coder = start_reading(payload)
+    _code_block(coder, model.bank, model.past, model.expectations, levels)
+    finish_reading(coder)
+    return levels
+
+
+def encode_blocks(model: CoefficientModel, blocks: Sequence[Levels]) -> bytes:
+    """Code consecutive blocks into one payload, with the number of rows of each; updates `model`.
+
+    Raises
+    ------
+    OptionError
+        As `encode_coefficients`, or if a block has no rows.
+    """
+    coder = start_writing(sum(_BYTES_PER_LEVEL * (levels.size + 1) for levels in blocks))
+    for levels in blocks:
+        _check_levels(model, levels)
+        _code_rows(coder, model.rows, model.missing, model.width, len(levels))
+        _code_block(coder, model.bank, model.past, model.expectations, levels.astype(np.int32))
+    return finish_writing(coder)
+
+
+def decode_blocks(model: CoefficientModel, payload: bytes, count: int) -> list[Levels]:
+    """Twin of `encode_blocks`: read `count` blocks.
+
+    Raises
+    ------
+    TruncatedError, CorruptError
+        If the payload is not exactly so many blocks long, or a block has no rows or too many.
+    """
+    coder = start_reading(payload)
+    blocks: list[Levels] = []
+    for _ in range(count):
+        blocks.append(np.zeros((_read_rows(coder, model, 1), 3), np.int32))
+        _code_block(coder, model.bank, model.past, model.expectations, blocks[-1])
+        if overran(coder):
+            break
+    finish_reading(coder)
+    return blocks
+
+
+def encode_layers(model: CoefficientModel, levels: Levels, over: CoefficientModel, above: Levels) -> bytes:
+    """Code the levels of a block and those of a layer above them into one payload; updates both models.
+
+    The reader must know the number of rows of `levels`; that of `above`, which may be 0, is coded.
+
+    Raises
+    ------
+    OptionError
+        As `encode_coefficients`.
+    """
+    _check_levels(model, levels)
+    _check_levels(over, above)
+    coder = start_writing(_BYTES_PER_LEVEL * (levels.size + above.size + 1))
+    _code_block(coder, model.bank, model.past, model.expectations, levels.astype(np.int32))
+    _code_rows(coder, over.rows, over.missing, over.width, len(above))
+    _code_block(coder, over.bank, over.past, over.expectations, above.astype(np.int32))
+    return finish_writing(coder)
+
+
+def decode_layers(model: CoefficientModel, over: CoefficientModel, payload: bytes, count: int) -> tuple[Levels, Levels]:
+    """Twin of `encode_layers`: read `count` rows, and the layer above them.
+
+    Raises
+    ------
+    TruncatedError, CorruptError
+        If the payload is not exactly one block long, or a layer has more rows than its model is made for.
+    """
+    if count > model.width:
+        raise CorruptError(f"{count} coefficients where at most {model.width} are announced")
+    coder = start_reading(payload)
+    levels = np.zeros((count, 3), np.int32)
+    _code_block(coder, model.bank, model.past, model.expectations, levels)
+    above = np.zeros((_read_rows(coder, over, 0), 3), np.int32)
+    _code_block(coder, over.bank, over.past, over.expectations, above)
+    finish_reading(coder)
+    return levels, above
+
+
+def _read_rows(coder: Coder, model: CoefficientModel, least: int) -> int:
+    rows: int = _code_rows(coder, model.rows, model.missing, model.width, 0)
+    if overran(coder):
+        finish_reading(coder)
+    if not least <= rows <= model.width:
+        raise CorruptError(f"{rows} rows of levels where {least} to {model.width} are announced")
+    return rows
+
+
+def _check_levels(model: CoefficientModel, levels: Levels) -> None:
+    if len(levels) > model.width or np.abs(levels.astype(np.int64)).max(initial=0) > MAX_LEVEL:
+        raise OptionError(f"levels must be at most {model.width} rows of magnitudes up to {MAX_LEVEL}")
+
+
+@leaf
+def size_node(size, grid):  # type: ignore[no-untyped-def]
+    """Node of the decision whether the magnitude of a level on a grid has more than `size` bits."""
+    return _SIZE_NODES + size if grid == 1 and size < _GRID_NODES else min(size, _SIZE_NODES - 1)
+
+
+@leaf
+def first_node(size):  # type: ignore[no-untyped-def]
+    """Node of the bit below the leading one of `size` bits, from 2 on."""
+    return _FIRST_NODES + min(size, _BIT_SIZES)
+
+
+@leaf
+def second_node(size, first):  # type: ignore[no-untyped-def]
+    """Node of the bit below `first`, for `size` from 3 on."""
+    return _SECOND_NODES + 2 * min(size, _BIT_SIZES) + first
+
+
+@leaf
+def set_contexts(past, expectations, row, coordinate, inputs, contexts):  # type: ignore[no-untyped-def]
+    """Write the contexts of a coefficient; `inputs` is scratch. Returns the selector."""
+    look_around(past, row, coordinate, inputs)
+    kind = situation(past, coordinate)
+    for i in range(EXPECTATIONS):
+        contexts[i] = NODES * (BINS * i + expectation_bin(expectations[i, kind], inputs))
+    return 0 if past.blocks[0] == 0 else NODES
+
+
+@leaf
+def code_level(coder, bank, contexts, selector, grid, level):  # type: ignore[no-untyped-def]
+    """Code one level of a grid."""
+    magnitude = np.int64(abs(level))
+    size = 0
+    while size < _LARGEST_SIZE:
+        more = 1 if magnitude >> size > 0 else 0
+        if code_mixed_bit(coder, bank, contexts, size_node(size, grid), selector, more) == 0:
+            break
+        size += 1
+    if size == 0:
+        return 0
+    result = 1
+    if size > 1:
+        first = code_mixed_bit(coder, bank, contexts, first_node(size), selector, (magnitude >> (size - 2)) & 1)
+        result = 2 | first
+        if size > 2:
+            bit = (magnitude >> (size - 3)) & 1
+            result = 2 * result | code_mixed_bit(coder, bank, contexts, second_node(size, first), selector, bit)
+            if size > 3:
+                count = 1 << (size - 3)
+                result = result * count + min(code_uniform(coder, magnitude & (count - 1), count), count - 1)
+    return -result if code_bit(coder, ONE // 2, 1 if level < 0 else 0) != 0 else result
+
+
+@njit(cache=True, nogil=True)
+def _code_rows(coder, bank, missing, width, rows):  # type: ignore[no-untyped-def]
+    """Code a number of rows, as what it lacks to `width`, given the same of the block before."""
+    contexts = np.zeros(2, np.int64)
+    before, size = missing[0], 0
+    while before >> size > 0 and size < 15:
+        size += 1
+    contexts[1] = _ROWS_SPAN * (1 + size)
+    missing[0] = code_unsigned(coder, bank, contexts, 0, _ROWS_UNARY, width - rows)
+    return width - missing[0]
+
+
+@njit(cache=True, nogil=True)
+def _code_block(coder, bank, past, expectations, levels):  # type: ignore[no-untyped-def]
+    contexts = np.empty(EXPECTATIONS, np.int64)
+    inputs = np.empty(NEIGHBOURS, np.int64)
+    state = 0
+    for row in range(levels.shape[0]):
+        for coordinate in range(3):
+            selector = set_contexts(past, expectations, row, coordinate, inputs, contexts)
+            level = code_level(coder, bank, contexts, selector, grid(state), levels[row, coordinate])
+            levels[row, coordinate] = level
+            note_level(past, row, coordinate, level)
+            state = following(state, level)
+        if overran(coder):
+            break
+    close_block(past)

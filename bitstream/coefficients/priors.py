@@ -1,0 +1,104 @@
+"""What the coefficient coder knows before it has seen anything: weights and first probabilities, learnt from meshes.
+
+A block has few coefficients, so a coder that starts from nothing spends much of the stream on learning. The numbers
+here were learnt once, by `tools/train_coefficients.py`; they are part of the format.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cache
+from importlib.resources import files
+
+import numpy as np
+import numpy.typing as npt
+
+from bitstream.coefficients.contexts import BINS, NEIGHBOURS, SITUATIONS
+from bitstream.errors import DependencyError
+
+EXPECTATIONS = 3
+"""From everything, from the same block alone, from earlier blocks alone; each is a context of its own."""
+NODES = 38
+"""Binary decisions that have a probability of their own, see `bitstream.coefficients.adaptive`."""
+SELECTORS = 2
+"""Sets of mixing weights for each node: first block of a chain, later blocks."""
+
+_FILE = "priors.bin"
+_SHAPES = {
+    "expectations": (EXPECTATIONS, SITUATIONS, NEIGHBOURS),
+    "mixing": (SELECTORS * NODES, EXPECTATIONS),
+    "slots": (EXPECTATIONS * BINS * NODES,),
+}
+
+
+@dataclass(frozen=True, eq=False)
+class Experience:
+    """Learnt numbers; in a file, the three arrays one behind the other, little-endian, 16 bits a number.
+
+    Attributes
+    ----------
+    expectations : uint16 array, shape (EXPECTATIONS, SITUATIONS, NEIGHBOURS)
+        Weights of the expectations, 1.0 = 1024.
+    mixing : int16 array, shape (SELECTORS * NODES, EXPECTATIONS)
+        First mixing weights, 1.0 = 4096.
+    slots : uint16 array, shape (EXPECTATIONS * BINS * NODES,)
+        First probability of a one in 1 / 4096 (upper 12 bits) and a quarter of how often it is deemed seen (lower 4).
+    """
+
+    expectations: npt.NDArray[np.uint16]
+    mixing: npt.NDArray[np.int16]
+    slots: npt.NDArray[np.uint16]
+
+    def to_bytes(self) -> bytes:
+        """As in the file."""
+        return b"".join(
+            array.astype(kind).tobytes()
+            for array, kind in ((self.expectations, "<u2"), (self.mixing, "<i2"), (self.slots, "<u2"))
+        )
+
+    @classmethod
+    def from_bytes(cls, data: bytes) -> Experience:
+        """Twin of `to_bytes`."""
+        first = 2 * int(np.prod(_SHAPES["expectations"]))
+        second = first + 2 * int(np.prod(_SHAPES["mixing"]))
+        return cls(
+            np.frombuffer(data[:first], "<u2").reshape(_SHAPES["expectations"]),
+            np.frombuffer(data[first:second], "<i2").reshape(_SHAPES["mixing"]),
+            np.frombuffer(data[second:], "<u2").reshape(_SHAPES["slots"]),
+        )
+
+    def first_slots(self) -> npt.NDArray[np.uint32]:
+        """Slots of a fresh bank, as `bitstream.entropy.range_coder.Bank` holds them."""
+        stored = self.slots.astype(np.int64)
+        return (((stored >> 4) << 20) | (1 << 19) | ((stored & 15) << 2)).astype(np.uint32)
+
+    def first_weights(self) -> npt.NDArray[np.int32]:
+        """Mixing weights of a fresh bank."""
+        return self.mixing.astype(np.int32) << 4
+
+
+def coordinate_experience() -> Experience:
+    """What is known of the coefficients of x, y and z; part of the format."""
+    return shipped_experiences()[0]
+
+
+def detail_experience() -> Experience:
+    """What is known of detail layers, whose successive frequencies stand in rows of three; part of the format."""
+    return shipped_experiences()[1]
+
+
+@cache
+def shipped_experiences() -> tuple[Experience, ...]:
+    """The experiences that are part of the format, one behind the other in their file.
+
+    Raises
+    ------
+    DependencyError
+        If the installation lacks the file.
+    """
+    try:
+        data = files("bitstream.coefficients").joinpath(_FILE).read_bytes()
+        size = len(data) // 2
+        return Experience.from_bytes(data[:size]), Experience.from_bytes(data[size:])
+    except (OSError, ValueError) as error:
+        raise DependencyError(f"{_FILE} is missing or damaged, install the package again: {error}") from None

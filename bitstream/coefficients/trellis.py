@@ -1,0 +1,63 @@
+"""Dependent quantization: two grids, and a rule by which the levels so far say which of them the next one is on.
+
+Coefficients are measured in half steps: those are the *points*. A level k stands for the point 2 k on the even grid,
+and for 2 k - sgn(k) on the odd one, so zero is on both and either grid has one point to a step. The first level of a
+block is on the even grid; after that the number of the grid (0 or 1) is the parity of the last level plus the numbers
+of the last three grids.
+
+An encoder picks one of the many ways through the grids, which packs the points of a block as densely as a lattice of
+many dimensions, while each level costs what it would on a single grid: the mean squared error is up to 1.09 dB lower at
+the same rate.
+
+References
+----------
+M. W. Marcellin and T. R. Fischer, "Trellis coded quantization of memoryless and Gauss-Markov sources", 1990; H. Schwarz
+et al., "Hybrid video coding with trellis-coded quantization", 2019 (grids that share zero, adaptive coding of levels).
+The rule here is a feedback form of the eight-state code.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+from numba import njit
+
+from bitstream.entropy.range_coder import leaf
+
+Levels = npt.NDArray[np.int32]
+
+STATES = 8
+"""A state is the numbers of the last three grids, the latest in the lowest bit. A block begins in state 0."""
+
+
+@leaf
+def grid(state):  # type: ignore[no-untyped-def]
+    """Number of the grid that the next level is on."""
+    return state & 1
+
+
+@leaf
+def following(state, level):  # type: ignore[no-untyped-def]
+    """State after `level`."""
+    return ((state << 1) & (STATES - 1)) | ((state ^ (state >> 1) ^ (state >> 2) ^ level) & 1)
+
+
+@leaf
+def point_of_level(state, level):  # type: ignore[no-untyped-def]
+    """Point that `level` stands for."""
+    if level > 0:
+        return 2 * level - grid(state)
+    return 2 * level + grid(state) if level < 0 else level
+
+
+@njit(cache=True, nogil=True)
+def points_of_levels(levels: Levels) -> Levels:
+    """Coefficients of a block in half steps, shape (c, 3); levels follow each other row by row."""
+    points = np.zeros_like(levels)
+    state = 0
+    for row in range(levels.shape[0]):
+        for column in range(levels.shape[1]):
+            level = levels[row, column]
+            points[row, column] = point_of_level(state, level)
+            state = following(state, level)
+    return points

@@ -1,0 +1,140 @@
+"""The payload of every packet: twins of writing and parsing side by side, and the tables that find them.
+
+Every parser takes the payload and the caller's limits, and raises `CorruptError`, `UnsupportedError` or `LimitError`.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Any, TypeVar
+
+from bitstream.container.header import header_from_entries, header_to_entries
+from bitstream.container.maps import parse_map, write_map
+from bitstream.container.packets import Block, Connectivity, End, Gop, Header, Metadata, Order, Packet, Partition
+from bitstream.container.wire import Cursor, FrameType, write_varint
+from bitstream.errors import CorruptError, OptionError
+from bitstream.limits import Limits
+
+LIMITED_FIELDS = ("vertices", "faces", "blocks", "block_size", "coefficients", "frames", "gop_frames")
+
+Coded = TypeVar("Coded", Connectivity, Partition, Order)
+
+
+def write_header(header: Header) -> bytes:
+    """A map from field keys to values."""
+    return write_map(header_to_entries(header))
+
+
+def parse_header(payload: bytes, limits: Limits) -> Header:
+    """Inverse of `write_header`; counts are checked against `limits`."""
+    header = header_from_entries(parse_map(payload))
+    for name in LIMITED_FIELDS:
+        limits.check(name, getattr(header, name))
+    return header
+
+
+def write_metadata(metadata: Metadata) -> bytes:
+    """A map from names to values."""
+    for name, value in metadata.entries.items():
+        if isinstance(value, float) and not math.isfinite(value):
+            raise OptionError(f"metadata {name!r} is {value}; only finite numbers can be stored")
+    try:
+        return write_map(metadata.entries.items())
+    except (ValueError, OverflowError) as error:
+        raise OptionError(f"metadata cannot be stored: {error}") from error
+
+
+def parse_metadata(payload: bytes, limits: Limits) -> Metadata:
+    """Inverse of `write_metadata`."""
+    limits.check("metadata_bytes", len(payload))
+    try:
+        return Metadata(dict(parse_map(payload)))
+    except OptionError as error:
+        raise CorruptError(error.message) from error
+
+
+def write_coded(packet: Connectivity | Partition | Order) -> bytes:
+    """A byte for the method, then its data."""
+    if not 0 <= packet.method <= 255:
+        raise OptionError(f"method {packet.method} does not fit a byte")
+    return bytes([packet.method]) + packet.data
+
+
+def parse_coded(make: Callable[[int, bytes], Coded]) -> Callable[[bytes, Limits], Coded]:
+    """Inverse of `write_coded` for the packet type `make`."""
+
+    def parse(payload: bytes, limits: Limits) -> Coded:
+        cursor = Cursor(payload)
+        return make(cursor.take(1)[0], cursor.rest())
+
+    return parse
+
+
+def write_block(block: Block) -> bytes:
+    """Varint index, varint c_i, coefficient bytes."""
+    return write_varint(block.index) + write_varint(block.coefficients) + block.data
+
+
+def parse_block(payload: bytes, limits: Limits) -> Block:
+    """Inverse of `write_block`."""
+    cursor = Cursor(payload)
+    return Block(cursor.varint(), cursor.varint(), cursor.rest())
+
+
+def write_gop(gop: Gop) -> bytes:
+    """Varint index, then data."""
+    return write_varint(gop.index) + gop.data
+
+
+def parse_gop(payload: bytes, limits: Limits) -> Gop:
+    """Inverse of `write_gop`."""
+    cursor = Cursor(payload)
+    return Gop(cursor.varint(), cursor.rest())
+
+
+def write_end(end: End) -> bytes:
+    """Varint number of frames, CRC-32 little-endian."""
+    return write_varint(end.frames) + end.crc.to_bytes(4, "little")
+
+
+def parse_end(payload: bytes, limits: Limits) -> End:
+    """Inverse of `write_end`."""
+    cursor = Cursor(payload)
+    end = End(cursor.varint(), int.from_bytes(cursor.take(4), "little"))
+    cursor.finish()
+    return end
+
+
+FRAME_TYPES: dict[type, FrameType] = {
+    Header: FrameType.HEADER,
+    Metadata: FrameType.METADATA,
+    Connectivity: FrameType.CONNECTIVITY,
+    Partition: FrameType.PARTITION,
+    Order: FrameType.ORDER,
+    Block: FrameType.BLOCK,
+    Gop: FrameType.GOP,
+    End: FrameType.END,
+}
+
+WRITERS: dict[FrameType, Callable[[Any], bytes]] = {
+    FrameType.HEADER: write_header,
+    FrameType.METADATA: write_metadata,
+    FrameType.CONNECTIVITY: write_coded,
+    FrameType.PARTITION: write_coded,
+    FrameType.ORDER: write_coded,
+    FrameType.BLOCK: write_block,
+    FrameType.GOP: write_gop,
+    FrameType.END: write_end,
+}
+
+PARSERS: dict[FrameType, Callable[[bytes, Limits], Packet]] = {
+    FrameType.HEADER: parse_header,
+    FrameType.METADATA: parse_metadata,
+    FrameType.CONNECTIVITY: parse_coded(Connectivity),
+    FrameType.PARTITION: parse_coded(Partition),
+    FrameType.ORDER: parse_coded(Order),
+    FrameType.BLOCK: parse_block,
+    FrameType.GOP: parse_gop,
+    FrameType.END: parse_end,
+}

@@ -1,0 +1,106 @@
+"""What a stream consists of, once it is no longer bytes."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import TypeAlias
+
+from bitstream.container.header import Header
+from bitstream.container.wire import FrameType
+from bitstream.errors import OptionError
+
+MetadataValue: TypeAlias = str | int | float | bytes
+
+
+@dataclass(frozen=True)
+class Metadata:
+    """The user's own names and values; kept in the order of the names."""
+
+    entries: Mapping[str, MetadataValue] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        for name, value in self.entries.items():
+            if type(name) is not str or type(value) not in (str, int, float, bytes):
+                raise OptionError(f"metadata {name!r}: {value!r} must map a str to a str, int, float or bytes")
+        object.__setattr__(self, "entries", dict(sorted(self.entries.items())))
+
+
+@dataclass(frozen=True)
+class Connectivity:
+    """The faces, coded by `method`."""
+
+    method: int
+    data: bytes
+
+
+@dataclass(frozen=True)
+class Partition:
+    """Which vertex belongs to which block, coded by `method`."""
+
+    method: int
+    data: bytes
+
+
+@dataclass(frozen=True)
+class Order:
+    """The order that vertices and faces had before coding, coded by `method`."""
+
+    method: int
+    data: bytes
+
+
+@dataclass(frozen=True)
+class Block:
+    """The coded coefficients of block `index`: `coefficients` (c_i) of them per coordinate."""
+
+    index: int
+    coefficients: int
+    data: bytes
+
+
+@dataclass(frozen=True)
+class Gop:
+    """The coded coefficients of a group of a sequence's frames; `index` is the number of the first of them."""
+
+    index: int
+    data: bytes
+
+
+@dataclass(frozen=True)
+class End:
+    """The last frame: how many were before it, and the CRC-32 of all bytes before it."""
+
+    frames: int
+    crc: int
+
+
+@dataclass(frozen=True)
+class Damaged:
+    """Bytes that a tolerant reader could not read and skipped.
+
+    `type` is what the frame seems to have been, None if nothing can be said; `offset` and `length` are in bytes of the
+    stream.
+    """
+
+    type: FrameType | None
+    offset: int
+    length: int
+    reason: str
+
+
+Packet: TypeAlias = Header | Metadata | Connectivity | Partition | Order | Block | Gop | End
+
+__all__ = [
+    "Block",
+    "Connectivity",
+    "Damaged",
+    "End",
+    "Gop",
+    "Header",
+    "Metadata",
+    "MetadataValue",
+    "Order",
+    "Packet",
+    "Partition",
+]

@@ -1,0 +1,173 @@
+"""Bytes to packets, without input or output of its own: the caller brings the bytes as they come."""
+
+from __future__ import annotations
+
+import zlib
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from enum import Enum
+from typing import TypeAlias
+
+from bitstream.container.grammar import Grammar
+from bitstream.container.layout import PARSERS
+from bitstream.container.packets import Damaged, End, Packet
+from bitstream.container.wire import SKIPPABLE_TYPES, Frame, FrameType, parse_frame, parse_preamble, write_preamble
+from bitstream.errors import BsmError, CorruptError, OptionError, TruncatedError, UnsupportedError
+from bitstream.limits import DEFAULT_LIMITS, Limits
+
+
+class Signal(Enum):
+    """What `Reader.next_packet` returns where there is no packet."""
+
+    NEED_DATA = "give more bytes to receive_data, or call receive_eof"
+    END_OF_STREAM = "END was read and nothing follows"
+
+
+NEED_DATA = Signal.NEED_DATA
+END_OF_STREAM = Signal.END_OF_STREAM
+
+Event: TypeAlias = Packet | Damaged | Signal
+
+
+@dataclass(frozen=True)
+class FrameSpan:
+    """Where a frame lies in the stream: its number from 0, its first byte, and its bytes with tag and checksum."""
+
+    number: int
+    offset: int
+    length: int
+
+
+class Reader:
+    """Strict: the first thing wrong is raised, and raised again by every later call.
+
+    Time and copies are linear in the bytes received, however they are cut up. A frame is kept until it is complete;
+    one that claims more than `limits.frame_bytes` is refused as soon as its tag is there.
+
+    Parameters
+    ----------
+    limits : Limits
+        What this reader may be asked to hold.
+
+    Attributes
+    ----------
+    last_frame : FrameSpan or None
+        The frame of the packet returned last.
+    """
+
+    def __init__(self, limits: Limits = DEFAULT_LIMITS) -> None:
+        self.last_frame: FrameSpan | None = None
+        self._limits = limits
+        self._buffer = bytearray()
+        self._offset = 0  # of the buffer's first byte in the stream
+        self._frames = 0
+        self._crc = 0
+        self._started = False
+        self._eof = False
+        self._grammar = Grammar()
+        self._error: BsmError | None = None
+
+    def receive_data(self, data: bytes | bytearray | memoryview) -> None:
+        """Take more bytes of the stream, any number of them."""
+        if self._eof:
+            raise OptionError("bytes were given to a reader after receive_eof")
+        self._buffer += data
+
+    def receive_eof(self) -> None:
+        """Take note that no more bytes will come."""
+        self._eof = True
+
+    def next_packet(self) -> Event:
+        """The next packet, `NEED_DATA` if it is not complete, or `END_OF_STREAM` after END and `receive_eof`.
+
+        Raises
+        ------
+        FormatError, UnsupportedError, CorruptError, TruncatedError, LimitError
+            If there is none; with the byte offset and the number of the frame.
+        """
+        if self._error is not None:
+            raise self._error
+        try:
+            return self._next()
+        except BsmError as error:
+            self._error = error.located(offset=self._offset, frame=self._frames if self._started else None)
+            raise
+
+    def _next(self) -> Event:
+        if not self._started and not self._start():
+            return NEED_DATA
+        while not self._grammar.ended:
+            frame = parse_frame(self._buffer, 0, self._limits)
+            if frame is None:
+                return self._incomplete()
+            packet = self._parse(frame)
+            self._consume(frame, packet)
+            if packet is not None:
+                return packet
+        if self._buffer:
+            raise CorruptError("trailing bytes after END")
+        return END_OF_STREAM if self._eof else NEED_DATA
+
+    def _start(self) -> bool:
+        if not parse_preamble(bytes(self._buffer[: len(write_preamble())])):
+            self._incomplete()
+            return False
+        self._crc = zlib.crc32(write_preamble())
+        self._drop(len(write_preamble()))
+        self._started = True
+        return True
+
+    def _incomplete(self) -> Event:
+        if self._eof:
+            end = self._offset + len(self._buffer)
+            raise TruncatedError("the stream ends before its END frame; get the rest of it", offset=end)
+        return NEED_DATA
+
+    def _parse(self, frame: Frame) -> Packet | None:
+        """The packet in a frame, checked against everything before it; None for a frame to be skipped."""
+        if frame.type in SKIPPABLE_TYPES:
+            if self._grammar.header is None:
+                raise CorruptError("the first frame must be HEADER")
+            return None
+        if frame.type not in PARSERS:
+            raise UnsupportedError(f"frame type {frame.type} is unknown to this decoder")
+        packet = PARSERS[FrameType(frame.type)](frame.payload, self._limits)
+        problem = self._grammar.problem(packet)
+        if problem:
+            raise CorruptError(problem)
+        if isinstance(packet, End):
+            self._check_end(packet)
+        return packet
+
+    def _check_end(self, end: End) -> None:
+        if end.frames != self._frames:
+            raise CorruptError(f"END counts {end.frames} frames before it, there were {self._frames}")
+        if end.crc != self._crc:
+            raise CorruptError("the CRC-32 of the whole stream is wrong")
+
+    def _consume(self, frame: Frame, packet: Packet | None) -> None:
+        self.last_frame = FrameSpan(self._frames, self._offset, frame.size)
+        if packet is not None:
+            self._grammar.advance(packet)
+        with memoryview(self._buffer) as view:
+            self._crc = zlib.crc32(view[: frame.size], self._crc)
+        self._frames += 1
+        self._drop(frame.size)
+
+    def _drop(self, count: int) -> None:
+        del self._buffer[:count]  # a bytearray does this in amortised constant time
+        self._offset += count
+
+
+def read_packets(chunks: Iterable[bytes], reader: Reader) -> Iterator[Packet | Damaged]:
+    """The packets of a stream that comes in `chunks`, each as soon as its bytes are there; raises as `reader` does."""
+    for chunk in chunks:
+        reader.receive_data(chunk)
+        yield from _drain(reader)
+    reader.receive_eof()
+    yield from _drain(reader)
+
+
+def _drain(reader: Reader) -> Iterator[Packet | Damaged]:
+    while not isinstance(event := reader.next_packet(), Signal):
+        yield event

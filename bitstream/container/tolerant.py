@@ -1,0 +1,141 @@
+"""A reader that goes on behind damage."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from bitstream.container.packets import Damaged, End
+from bitstream.container.reader import END_OF_STREAM, NEED_DATA, Event, FrameSpan, Reader
+from bitstream.container.wire import FrameType, Tag, parse_frame, parse_tag
+from bitstream.errors import BsmError
+from bitstream.limits import DEFAULT_LIMITS, Limits
+
+SCAN_BYTES = 1 << 20
+SCAN_FACTOR = 64
+
+
+@dataclass
+class _Damage:
+    """What is known of the damage at the buffer's start while its end is looked for."""
+
+    reason: str
+    tag: Tag | None
+    whole: bool
+    """Whether the checksum is right, and so the length in the tag too."""
+    scanned: int = 0
+    """Offset before which no frame begins; 0 while the length in the tag is not refuted."""
+
+
+class TolerantReader(Reader):
+    """Returns a `Damaged` packet where a `Reader` raises, and goes on with the next frame that is whole.
+
+    Damage to the preamble or to the HEADER is still raised. Behind any other, the length in the damaged frame's tag is
+    trusted if a whole frame, or the end of the data, lies there; otherwise the next offset at which a whole and fitting
+    frame begins is searched byte by byte. The checksums computed in such searches cover at most `SCAN_BYTES` plus
+    `SCAN_FACTOR` times the bytes received: a candidate beyond that is passed over. A missing END is reported too,
+    unless reported damage reaches the end of the data. Once something was lost, the count and the checksum in END are
+    not compared any more.
+
+    A tag that was damaged so that it claims too much is found out only when that many bytes, or the end of the data,
+    have come.
+    """
+
+    def __init__(self, limits: Limits = DEFAULT_LIMITS) -> None:
+        super().__init__(limits)
+        self._damage: _Damage | None = None
+        self._scan_work = 0
+        self._lossy = False
+        self._behind_damage = False
+
+    def _next(self) -> Event:
+        if self._behind_damage and self._eof and not self._buffer:
+            return END_OF_STREAM
+        if self._damage is None:
+            try:
+                event = super()._next()
+                self._behind_damage = self._behind_damage and event is NEED_DATA
+                return event
+            except BsmError as error:
+                if self._grammar.header is None:
+                    raise
+                self._damage = self._inspect(error)
+        return self._recover(self._damage)
+
+    def _check_end(self, end: End) -> None:
+        if not self._lossy:
+            super()._check_end(end)
+
+    def _inspect(self, error: BsmError) -> _Damage:
+        self._lossy = True
+        self._grammar.lose()
+        try:
+            tag = parse_tag(self._buffer, 0)
+            whole = parse_frame(self._buffer, 0, self._limits) is not None
+        except BsmError:
+            tag, whole = _readable_tag(self._buffer), False
+        return _Damage(error.message, tag, whole)
+
+    def _recover(self, damage: _Damage) -> Event:
+        """Report the damage once it is known how far it reaches."""
+        length = self._reach(damage)
+        if length is None:
+            return NEED_DATA
+        self._damage = None
+        self._behind_damage = True
+        self.last_frame = FrameSpan(self._frames, self._offset, length)
+        seems = _frame_type(damage.tag) if length else FrameType.END
+        event = Damaged(seems, self._offset, length, damage.reason)
+        self._frames += 1
+        self._drop(length)
+        return event
+
+    def _reach(self, damage: _Damage) -> int | None:
+        """Bytes up to the next whole frame or the end of the data; None if more data must come first."""
+        available = len(self._buffer)
+        if self._grammar.ended:
+            return available
+        if damage.tag is not None and damage.tag.end <= available and damage.scanned == 0:
+            if damage.whole or (self._eof and damage.tag.end == available):
+                return damage.tag.end
+            fits = self._fits(damage.tag.end)
+            if fits or fits is None:
+                return damage.tag.end if fits else None
+        for start in range(max(damage.scanned, 1), available):
+            damage.scanned = start
+            fits = self._fits(start)
+            if fits or fits is None:
+                return start if fits else None
+        return available if self._eof else None
+
+    def _fits(self, start: int) -> bool | None:
+        """Whether a whole frame that may come here begins at `start`; None if more data must come first."""
+        try:
+            tag = parse_tag(self._buffer, start)
+            if tag is not None:
+                cost = tag.end - start
+                budget = SCAN_BYTES + SCAN_FACTOR * (self._offset + len(self._buffer))
+                if tag.type not in self._grammar.expected or self._scan_work + cost > budget:
+                    return False
+                if tag.end <= len(self._buffer):
+                    self._scan_work += cost
+            frame = parse_frame(self._buffer, start, self._limits)
+            if frame is not None:
+                self._parse(frame)
+                return True
+        except BsmError:
+            return False
+        return False if self._eof else None
+
+
+def _readable_tag(data: bytearray) -> Tag | None:
+    try:
+        return parse_tag(data, 0)
+    except BsmError:
+        return None
+
+
+def _frame_type(tag: Tag | None) -> FrameType | None:
+    try:
+        return None if tag is None else FrameType(tag.type)
+    except ValueError:
+        return None

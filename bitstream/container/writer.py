@@ -1,0 +1,78 @@
+"""Packets to bytes."""
+
+from __future__ import annotations
+
+import zlib
+
+from bitstream.container.grammar import Grammar
+from bitstream.container.layout import FRAME_TYPES, PARSERS, WRITERS
+from bitstream.container.packets import End, Packet
+from bitstream.container.wire import write_frame, write_preamble
+from bitstream.errors import OptionError
+from bitstream.limits import DEFAULT_LIMITS, Limits
+
+
+class Writer:
+    """Turns packets into the bytes of a stream, and refuses to write one that no reader would accept.
+
+    Every method returns the bytes to send or store next; nothing is kept back.
+
+    Parameters
+    ----------
+    limits : Limits
+        Those of the readers that the stream is meant for; a frame over them is refused.
+    """
+
+    def __init__(self, limits: Limits = DEFAULT_LIMITS) -> None:
+        self._limits = limits
+        self._grammar = Grammar()
+        self._frames = 0
+        self._crc: int | None = None
+
+    def start(self) -> bytes:
+        """The preamble; must come first."""
+        if self._crc is not None:
+            raise OptionError("the stream has been started already")
+        preamble = write_preamble()
+        self._crc = zlib.crc32(preamble)
+        return preamble
+
+    def write(self, packet: Packet) -> bytes:
+        """The frame of one packet (not END, which `end` makes).
+
+        Raises
+        ------
+        OptionError
+            If the packet may not come here, or has a value that the format cannot hold.
+        LimitError
+            If it is over the limits.
+        """
+        if isinstance(packet, End):
+            raise OptionError("END is made by Writer.end()")
+        return self._frame(packet)
+
+    def end(self) -> bytes:
+        """The END frame; nothing may be written after it."""
+        return self._frame(End(self._frames, self._crc or 0))
+
+    def _frame(self, packet: Packet) -> bytes:
+        if self._crc is None:
+            raise OptionError("call Writer.start() first")
+        problem = self._grammar.problem(packet)
+        if problem:
+            raise OptionError(problem)
+        frame_type = FRAME_TYPES[type(packet)]
+        payload = WRITERS[frame_type](packet)
+        self._limits.check("frame_bytes", len(payload))
+        PARSERS[frame_type](payload, self._limits)  # for the limits that only a reader knows
+        frame = write_frame(frame_type, payload)
+        self._grammar.advance(packet)
+        self._frames += 1
+        self._crc = zlib.crc32(frame, self._crc)
+        return frame
+
+
+def write_stream(packets: list[Packet], limits: Limits = DEFAULT_LIMITS) -> bytes:
+    """A whole stream: preamble, the packets given, END."""
+    writer = Writer(limits)
+    return b"".join([writer.start(), *(writer.write(packet) for packet in packets), writer.end()])

@@ -1,0 +1,1 @@
+"""The codec as people meet it: one name to import, one command."""

@@ -1,0 +1,33 @@
+"""bsm bench: how fast it is, against exact eigensolvers and against Draco, and as meshes grow."""
+
+from __future__ import annotations
+
+import argparse
+
+from bsm.console import Console, print_json
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare what the command takes."""
+    parser.add_argument("meshes", metavar="MESH", nargs="+", help="mesh files; the first is also subdivided")
+    parser.add_argument(
+        "--sample", type=int, default=16, metavar="N", help="blocks that exact solvers solve (default: %(default)s)"
+    )
+    parser.add_argument(
+        "--repeat", type=int, default=3, metavar="N", help="runs of everything, the fastest counts (default: 3)"
+    )
+    parser.add_argument(
+        "--largest", type=int, default=2_500_000, metavar="N", help="subdivide up to N vertices; 0: not at all"
+    )
+    parser.add_argument("--json", action="store_true", help="print it as JSON")
+
+
+def run(args: argparse.Namespace, console: Console) -> None:
+    """Measure and print."""
+    from bsm.evaluation.bench import bench_tables, run_bench
+
+    result = run_bench(args.meshes, sample=args.sample, repeats=args.repeat, largest=args.largest, note=console.note)
+    if args.json:
+        print_json(result)
+    else:
+        print(bench_tables(result))

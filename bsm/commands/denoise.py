@@ -1,0 +1,187 @@
+"""bsm denoise: remove noise from a mesh, or from every frame of a sequence."""
+
+from __future__ import annotations
+
+import argparse
+import time
+from collections.abc import Iterator
+from dataclasses import asdict
+from itertools import chain
+from typing import TYPE_CHECKING, Any
+
+from bitstream.errors import OptionError
+from bsm.console import Console, Progress, print_json
+from bsm.files.mesh import MESH_FORMATS, format_mesh, format_of_name, read_mesh
+from bsm.files.naming import refuse_terminal
+from bsm.files.output import open_output, refuse_to_overwrite
+from bsm.files.sequence import Frames, open_sequence, sequence_kind, sequence_writer
+from codec.geometry.mesh import Positions, TriangleMesh
+
+if TYPE_CHECKING:
+    from codec.denoise import AutomaticChoice, DenoiseOptions
+
+FINE = ("guided", "bilateral", "non-iterative", "fast-effective", "bilateral-normal", "l0")
+HAND_OVERS = ("positions", "normals", "none")
+_OPTIONS = ("fine", "hand_over", "iterations", "keep", "block_size")
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare what the command takes."""
+    parser.add_argument(
+        "input",
+        metavar="IN",
+        help="mesh file (OBJ, OFF, PLY, STL, npz), - for standard input, or a sequence: npz, folder, or pattern",
+    )
+    parser.add_argument(
+        "-o", "--output", metavar="OUT", required=True, help="where to write, in the format of its name"
+    )
+    parser.add_argument("--format", choices=(*MESH_FORMATS, "npy"), help="format of the input, and of a piped output")
+    parser.add_argument("--json", action="store_true", help="print what was done as JSON")
+    ways = parser.add_argument_group(
+        "instead of the automatic mode",
+        "with none of these everything is chosen from the noise of the mesh (of the first frame); "
+        "with any of them the others have the paper's values",
+    )
+    ways.add_argument("--fine", choices=FINE, default=argparse.SUPPRESS, help="fine step (guided)")
+    ways.add_argument(
+        "--hand-over",
+        choices=HAND_OVERS,
+        default=argparse.SUPPRESS,
+        help="what the fine step gets: coarse positions, noisy ones smoothed along coarse normals, or no coarse step",
+    )
+    ways.add_argument(
+        "--iterations",
+        type=int,
+        metavar="N",
+        default=argparse.SUPPRESS,
+        help="of the fine step, 0: none (the method's own)",
+    )
+    ways.add_argument(
+        "--keep",
+        type=float,
+        metavar="FRACTION",
+        default=argparse.SUPPRESS,
+        help="share of a block's frequencies that the coarse step keeps, c over n_d (0.1)",
+    )
+    ways.add_argument(
+        "--block-size",
+        type=int,
+        metavar="N",
+        default=argparse.SUPPRESS,
+        help="vertices of a block before overlap, about (500)",
+    )
+
+
+def run(args: argparse.Namespace, console: Console) -> None:
+    """Denoise one mesh or one sequence."""
+    if args.output == "-" and args.json:
+        raise OptionError("--json and -o - would both write to standard output")
+    refuse_terminal(args.output)
+    options = _options(args)
+    if sequence := open_sequence(args.input, args.format):
+        result = _denoise_sequence(args, console, sequence, options)
+    else:
+        result = _denoise_mesh(args, console, options)
+    if args.json:
+        print_json({"input": args.input, "output": args.output, **result})
+
+
+def _options(args: argparse.Namespace) -> DenoiseOptions | None:
+    """What was asked for; None: nothing."""
+    given = {name: getattr(args, name) for name in _OPTIONS if hasattr(args, name)}
+    if not given:
+        return None
+    from codec.denoise import DenoiseOptions
+
+    return DenoiseOptions(**given)
+
+
+def _denoise_mesh(args: argparse.Namespace, console: Console, options: DenoiseOptions | None) -> dict[str, Any]:
+    kind = args.format if args.output == "-" else format_of_name(args.output)
+    if kind not in MESH_FORMATS:
+        raise OptionError(f"{args.output}: the name tells no mesh format; use one of .{', .'.join(MESH_FORMATS)}")
+    refuse_to_overwrite(args.output, args.force)
+
+    from codec.denoise import FrameDenoiser
+
+    source = read_mesh(args.input, args.format)
+    for note in source.notes:
+        console.note(f"{args.input}: {note}")
+    mesh = source.mesh
+    begin = time.perf_counter()
+    denoiser = FrameDenoiser(mesh.positions, mesh.faces, options)
+    _tell(console, denoiser.choice)
+    (positions,) = denoiser([mesh.positions])
+    seconds = time.perf_counter() - begin
+    with open_output(args.output, overwrite=args.force) as file:
+        file.write(format_mesh(TriangleMesh(positions, mesh.faces), kind))
+    console.note(f"{args.input}: {len(mesh.positions)} vertices -> {args.output}, {seconds:.2f} s")
+    return _result(len(positions), len(mesh.faces), 1, seconds, denoiser.choice, options)
+
+
+def _denoise_sequence(
+    args: argparse.Namespace, console: Console, source: Frames, options: DenoiseOptions | None
+) -> dict[str, Any]:
+    kind = sequence_kind(args.output, args.format if args.output == "-" else None)
+
+    from codec.denoise import FrameDenoiser
+
+    first = next(source.frames)
+    begin = time.perf_counter()
+    denoiser = FrameDenoiser(first, source.faces, options)
+    _tell(console, denoiser.choice)
+    count = 0
+    writer = sequence_writer(args.output, kind, source.faces, source.count, overwrite=args.force)
+    with writer as write, console.progress("denoising") as progress:
+        for frame in denoiser(_counted(chain([first], source.frames), source.count, progress)):
+            write(frame)
+            count += 1
+    seconds = time.perf_counter() - begin
+    console.note(
+        f"{args.input}: {count} frames of {len(first)} vertices -> {args.output}, "
+        f"{seconds:.2f} s, {1e3 * seconds / count:.0f} ms a frame"
+    )
+    return _result(len(first), len(source.faces), count, seconds, denoiser.choice, options)
+
+
+def _counted(frames: Iterator[Positions], total: int, progress: Progress) -> Iterator[Positions]:
+    for number, frame in enumerate(frames, start=1):
+        yield frame
+        if total:
+            progress(number, total)
+
+
+def _tell(console: Console, choice: AutomaticChoice | None) -> None:
+    """What the automatic mode found and chose."""
+    if choice is None:
+        return
+    console.note(
+        f"noise      {choice.noise.normal:.2f} mean edges along the normals, {choice.noise.tangential:.2f} across"
+    )
+    if choice.recipe is None:
+        console.note("chosen     nothing: any filter would cost more detail than it removes noise")
+    else:
+        guide = "guided normal filter" if choice.recipe.guide == "patches" else "bilateral normal filter"
+        console.note(
+            f"chosen     hand-over of {choice.recipe.hand_over}, c = {100 * choice.recipe.keep:g} % of a block; "
+            f"{choice.iterations} iterations of the {guide}, sigma_r {choice.recipe.sigma_r:g}"
+        )
+    console.note(f"expected   normals {choice.expected_theta:.1f} degrees off, more where there is fine detail")
+
+
+def _result(
+    vertices: int,
+    faces: int,
+    frames: int,
+    seconds: float,
+    choice: AutomaticChoice | None,
+    options: DenoiseOptions | None,
+) -> dict[str, Any]:
+    return {
+        "vertices": vertices,
+        "faces": faces,
+        "frames": frames,
+        "seconds": seconds,
+        "automatic": None if choice is None else asdict(choice),
+        "options": None if options is None else asdict(options),
+    }

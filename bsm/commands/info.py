@@ -1,0 +1,88 @@
+"""bsm info: what a stream holds, without decoding it."""
+
+from __future__ import annotations
+
+import argparse
+from dataclasses import asdict
+from typing import Any
+
+from bitstream.container.wire import VERSION
+from bsm.console import Console, print_json
+from bsm.files.pipes import read_chunks
+from bsm.files.stream import StreamInfo, inspect_stream
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare what the command takes."""
+    parser.add_argument("input", metavar="IN", help="stream, or - for standard input")
+    parser.add_argument("--json", action="store_true", help="print it as JSON")
+
+
+def run(args: argparse.Namespace, console: Console) -> None:
+    """Describe one stream."""
+    summary = summarise(inspect_stream(read_chunks(args.input)))
+    if args.json:
+        print_json(summary)
+    else:
+        print("\n".join(_lines(summary)))
+
+
+def summarise(info: StreamInfo) -> dict[str, Any]:
+    """The facts, ready for JSON."""
+    header = info.header
+    return {
+        "version": VERSION,
+        "vertices": header.vertices,
+        "faces": header.faces,
+        "blocks": header.blocks,
+        "block_size": header.block_size,
+        "coefficients": list(info.coefficients),
+        "bytes": {
+            "connectivity": info.connectivity,
+            "partition": info.partition,
+            "order": info.order,
+            "coefficients": info.coefficient_bytes,
+            "framing": info.framing,
+            "total": info.total,
+        },
+        "frames": info.frames,
+        "gops": [asdict(gop) for gop in info.gops],
+        "bpv_total": info.bpv_total,
+        "bpvf_total": info.bpvf_total,
+        "bpv_geometry": info.bpv_geometry,
+        "bpv_paper": info.bpv_paper,
+        "header": {name: getattr(header, name) for name in header.__dataclass_fields__},
+        "metadata": {
+            name: value.hex() if isinstance(value, bytes) else value for name, value in info.metadata.entries.items()
+        },
+    }
+
+
+def _lines(summary: dict[str, Any]) -> list[str]:
+    coefficients = summary["coefficients"] or [0]
+    total = summary["bytes"]["total"]
+    shares = [f"  {name:<13}{size:>12}  {100 * size / total:5.1f} %" for name, size in summary["bytes"].items()]
+    return [
+        f"version {summary['version']}: {summary['vertices']} vertices, {summary['faces']} faces",
+        f"{summary['blocks']} blocks of {summary['block_size']} vertices, "
+        f"{min(coefficients)} to {max(coefficients)} coefficients",
+        *_sequence_lines(summary),
+        "bytes:",
+        *shares,
+        f"bits per vertex: {summary['bpv_total']:.3f} in all, {summary['bpv_geometry']:.3f} for the coefficients, "
+        f"{summary['bpv_paper']:.3f} by the paper's formula",
+        *(f"{name}: {value}" for name, value in summary["metadata"].items()),
+    ]
+
+
+def _sequence_lines(summary: dict[str, Any]) -> list[str]:
+    """What there is to say of a sequence; nothing of a mesh."""
+    gops, header = summary["gops"], summary["header"]
+    if not header["gop_frames"]:
+        return []
+    rate = f", {header['frame_rate']:g} per second" if header["frame_rate"] else ""
+    sizes = [gop["bytes"] for gop in gops] or [0]
+    return [
+        f"{summary['frames']} frames{rate}, in {len(gops)} GOPs of {min(sizes)} to {max(sizes)} bytes, "
+        f"{summary['bpvf_total'] or 0.0:.3f} bits per vertex and frame"
+    ]

@@ -1,0 +1,71 @@
+"""bsm noise: add noise to a mesh, to try denoising on."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Callable
+
+from bitstream.errors import OptionError
+from bsm.console import Console, print_json
+from bsm.files.mesh import MESH_FORMATS, format_mesh, format_of_name, read_mesh
+from bsm.files.naming import refuse_terminal
+from bsm.files.output import open_output, refuse_to_overwrite
+from codec.geometry.mesh import Positions, TriangleMesh
+
+KINDS = ("gaussian", "isotropic", "impulsive")
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare what the command takes."""
+    parser.add_argument("input", metavar="IN", help="mesh file (OBJ, OFF, PLY, STL, npz), or - for standard input")
+    parser.add_argument("-o", "--output", metavar="OUT", required=True, help="mesh file, in the format of its name")
+    parser.add_argument("--format", choices=MESH_FORMATS, help="format of the input, and of a piped output")
+    parser.add_argument(
+        "--sigma", type=float, required=True, metavar="S", help="standard deviation, in mean edge lengths"
+    )
+    parser.add_argument(
+        "--kind",
+        choices=KINDS,
+        default="gaussian",
+        help="along the normals (default), in all directions, or along the normals of some vertices only",
+    )
+    parser.add_argument("--fraction", type=float, metavar="P", help="share of the vertices, impulsive only (0.5)")
+    parser.add_argument("--seed", type=int, default=0, metavar="N", help="the same seed gives the same noise (0)")
+    parser.add_argument("--json", action="store_true", help="print what was done as JSON")
+
+
+def run(args: argparse.Namespace, console: Console) -> None:
+    """Make one mesh noisy."""
+    if args.output == "-" and args.json:
+        raise OptionError("--json and -o - would both write to standard output")
+    if args.seed < 0:
+        raise OptionError(f"the seed must not be negative, not {args.seed}")
+    refuse_terminal(args.output)
+    kind = args.format if args.output == "-" else format_of_name(args.output)
+    if kind not in MESH_FORMATS:
+        raise OptionError(f"{args.output}: the name tells no mesh format; use one of .{', .'.join(MESH_FORMATS)}")
+    refuse_to_overwrite(args.output, args.force)
+    move = _generator(args)
+
+    from codec.geometry.metrics import rms_over_edge
+
+    mesh = read_mesh(args.input, args.format).mesh
+    noisy = move(mesh)
+    with open_output(args.output, overwrite=args.force) as file:
+        file.write(format_mesh(TriangleMesh(noisy, mesh.faces), kind))
+    rms = rms_over_edge(mesh.positions, noisy, mesh.faces)
+    console.note(f"{args.input}: {len(noisy)} vertices moved by {rms:.3f} mean edges (rms) -> {args.output}")
+    if args.json:
+        print_json({"input": args.input, "output": args.output, "vertices": len(noisy), "rms_over_edge": rms})
+
+
+def _generator(args: argparse.Namespace) -> Callable[[TriangleMesh], Positions]:
+    from codec.denoise.noise import gaussian_along_normals, gaussian_isotropic, impulsive
+
+    if args.kind == "impulsive":
+        fraction = 0.5 if args.fraction is None else args.fraction
+        return lambda mesh: impulsive(mesh.positions, mesh.faces, args.sigma, fraction, args.seed)
+    if args.fraction is not None:
+        raise OptionError("--fraction goes with --kind impulsive only")
+    generate = gaussian_along_normals if args.kind == "gaussian" else gaussian_isotropic
+    return lambda mesh: generate(mesh.positions, mesh.faces, args.sigma, args.seed)

@@ -1,0 +1,85 @@
+"""bsm decode, where the stream is a sequence."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+import time
+from collections.abc import Iterator
+
+from bitstream.errors import OptionError
+from bsm.console import Console, print_json
+from bsm.files.naming import default_output, refuse_terminal
+from bsm.files.output import refuse_to_overwrite
+from bsm.files.permutation import read_permutation, reorder
+from bsm.files.sequence import sequence_kind, sequence_writer
+from bsm.files.sequence_stream import SequenceStream, numbered, numbers_of
+
+
+def add_flags(parser: argparse.ArgumentParser) -> None:
+    """Add what only sequences have."""
+    group = parser.add_argument_group("sequences")
+    group.add_argument("--frames", metavar="A:B", help="frames A to B - 1 only; what they do not need is not decoded")
+
+
+def refuse_flags(args: argparse.Namespace) -> None:
+    """Raise `OptionError` if a flag of `add_flags` was given for a mesh."""
+    if args.frames is not None:
+        raise OptionError("--frames is for sequences, and this is one mesh")
+
+
+def decode_sequence(args: argparse.Namespace, console: Console, chunks: Iterator[bytes]) -> None:
+    """Decode one sequence; every frame is written as soon as it is known."""
+    if args.blocks is not None:
+        raise OptionError("--blocks is for meshes, and this is a sequence")
+    output = args.output or default_output(args.input, ".npz")
+    kind = sequence_kind(output, args.format)
+    if output == "-" and args.json:
+        raise OptionError("--json and -o - would both write to standard output")
+    refuse_terminal(output)
+    refuse_to_overwrite(output, args.force)
+    begin = time.perf_counter()
+    first, last = _range(args.frames)
+    stream = SequenceStream(chunks, console.note if args.tolerant else None, first)
+    header, faces = stream.header, stream.faces
+    last = min(last, header.frames or last)
+    expected = max(last - first, 0) if header.frames and not args.tolerant else 0
+    mesh = numbered(faces, header.vertices)
+    if args.permutation:
+        mesh = reorder(mesh, read_permutation(args.permutation))
+    order, faces = numbers_of(mesh.positions), mesh.faces
+    count = 0
+    with (
+        sequence_writer(output, kind, faces, expected, overwrite=args.force) as write,
+        console.progress("decoding") as progress,
+    ):
+        for number, frame in stream.frames():
+            if number >= last:
+                break
+            write(frame[order])
+            count += 1
+            if expected:
+                progress(count, expected)
+        if count == 0:
+            raise OptionError("the stream has none of these frames")
+    seconds = time.perf_counter() - begin
+    facts = {"frames": count, "vertices": header.vertices, "faces": header.faces, "frame_rate": header.frame_rate}
+    if args.json:
+        print_json({"input": args.input, "output": output, **facts, "seconds": seconds})
+    else:
+        console.note(
+            f"{args.input} -> {output}: {count} frames of {header.vertices} vertices, {header.faces} faces, "
+            f"{seconds:.2f} s"
+        )
+
+
+def _range(text: str | None) -> tuple[int, int]:
+    """First frame, and the one behind the last."""
+    first, colon, last = (text or ":").partition(":")
+    try:
+        chosen = int(first or 0), int(last or sys.maxsize)
+    except ValueError:
+        chosen = -1, -1
+    if not colon or not 0 <= chosen[0] < chosen[1]:
+        raise OptionError(f"--frames {text}: write A:B with 0 <= A < B, or leave one of them out")
+    return chosen

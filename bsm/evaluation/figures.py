@@ -1,0 +1,382 @@
+"""The figures that the README shows: each a table, what it should come to, and the command that makes it."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from bitstream.errors import DependencyError, OptionError
+from bsm.evaluation.codecs import Spectral, draco_curve, our_curve, paper_options
+from bsm.evaluation.connectivity import HEADINGS, connectivity_row
+from bsm.evaluation.per_block import boundary_rows, boundary_table, errors_along_chain, quartiles, spread, view_blocks
+from bsm.evaluation.plots import draw_per_block
+from bsm.evaluation.rates import compare_curves, rate_curve_of, scaled
+from bsm.evaluation.resources import measure_resources
+from bsm.evaluation.row_order import in_bisection_order, in_breadth_first_order, nmsve_db_of
+from bsm.evaluation.run import measure, run_curve, write_result
+from bsm.evaluation.tables import number, percent, table
+from bsm.files.mesh import read_mesh
+from bsm.files.output import open_output
+from codec import TriangleMesh
+from codec.geometry.metrics import Reference
+
+BLOCKS = {
+    "bunny_34834": 70,
+    "julius_36201": 70,
+    "horse_48485": 100,
+    "armadillo_20002_derived": 40,
+    "fandisk_6475": 15,
+}
+"""Meshes of the paper's mode, and into how many blocks each is cut."""
+RATE_MESHES = (
+    "horse_48485",
+    "bunny_34834",
+    "julius_36201",
+    "nicolo",
+    "armadillo_20002_derived",
+    "fr_chinese_lion",
+    "fandisk_6475",
+    "block",
+    "twelve_dodecahedron",
+)
+COEFFICIENT_LIMITS = (
+    ("bunny_34834", 6.9, 1.1),
+    ("bunny_34834", 5.6, 1.85),
+    ("horse_48485", 6.1, 0.82),
+    ("julius_36201", 7.0, 1.35),
+    ("nicolo", 7.1, 1.55),
+)
+"""Mesh, theta in degrees, and the bits per vertex of coefficients that should do."""
+PAPER_RATE_MESHES = (
+    "bunny_34834",
+    "julius_36201",
+    "horse_48485",
+    "armadillo_20002_derived",
+    "nicolo",
+    "fr_chinese_lion",
+)
+KEEPS = (0.10, 0.20)
+SCALE = ("bunny_34834", "dragon_437645")
+
+
+@dataclass(frozen=True)
+class Source:
+    """Where figures find meshes and leave results.
+
+    Parameters
+    ----------
+    meshes : path
+        Folder of mesh files.
+    results : path or None
+        Folder for the JSON behind a figure; None: it is not kept.
+    note : callable
+        Told of progress, a line at a time.
+    """
+
+    meshes: Path
+    results: Path | None
+    note: Callable[[str], None]
+
+    def path(self, name: str) -> Path:
+        """The file of one mesh.
+
+        Raises
+        ------
+        OptionError
+            If the folder does not hold it.
+        """
+        found = sorted(self.meshes.glob(f"{name}.*"))
+        if not found:
+            raise OptionError(f"{self.meshes} holds no {name}.ply or the like")
+        return found[0]
+
+    def mesh(self, name: str) -> TriangleMesh:
+        """One mesh, without isolated vertices."""
+        self.note(name)
+        return read_mesh(self.path(name)).mesh.without_isolated_vertices()[0]
+
+
+@dataclass(frozen=True)
+class Figure:
+    """One table of the README.
+
+    Parameters
+    ----------
+    title : str
+    expectation : str
+        What the figures should come to.
+    text : str
+        The table.
+    """
+
+    title: str
+    expectation: str
+    text: str
+
+
+def block_size_for(mesh: TriangleMesh, blocks: int) -> int:
+    """The option `block_size` that cuts a mesh into so many blocks."""
+    return round(len(mesh.positions) / blocks)
+
+
+def basis_figure(source: Source) -> Figure:
+    """NMSVE of the exact basis and of orthogonal iterations, 12 bits for every coefficient."""
+    methods: dict[str, dict[str, Any]] = {
+        "svd": {"basis": "svd"},
+        "z=1": {"power": 1},
+        "z=2": {"power": 2},
+        "z=1, independent": {"power": 1, "seed": "independent"},
+        "z=2, independent": {"power": 2, "seed": "independent"},
+    }
+    rows = []
+    for name, blocks in BLOCKS.items():
+        mesh = source.mesh(name)
+        reference = Reference(mesh.positions, mesh.faces)
+        for keep in KEEPS:
+            points = {
+                method: measure(
+                    Spectral(paper_options(keep=keep, block_size=block_size_for(mesh, blocks), **changes)),
+                    mesh,
+                    reference,
+                )
+                for method, changes in methods.items()
+            }
+            exact = points["svd"]
+            gaps = [points[m]["nmsve_db"] - exact["nmsve_db"] for m in methods if m != "svd"]
+            times = [exact["decode_seconds"], points["z=2"]["decode_seconds"]]
+            rows.append(
+                (
+                    f"{name}, {blocks} blocks",
+                    f"{100 * keep:g} %",
+                    number(exact["bpv_paper"], 2),
+                    number(exact["nmsve_db"], 2),
+                    *(f"{gap:+.2f}" for gap in gaps),
+                    *(number(seconds, 2) for seconds in times),
+                )
+            )
+    columns = ("mesh", "c/n_d", "bpv", "SVD, dB", *(m for m in methods if m != "svd"), "SVD, s", "z=2, s")
+    return Figure(
+        "Orthogonal iterations against the exact basis (12 bits, METIS, one iteration; decoding times)",
+        "bunny -52.6 and -53.6 dB within 0.2; z=2 within 0.5 dB of SVD, z=1 within 1.3",
+        table(columns, rows),
+    )
+
+
+def row_order_figure(source: Source) -> Figure:
+    """What the canonical order of a block's rows is worth."""
+    rows = []
+    for name, blocks in BLOCKS.items():
+        mesh = source.mesh(name)
+        for power in (1, 2):
+            options = paper_options(block_size=block_size_for(mesh, blocks), power=power)
+            ordered, unordered = (
+                nmsve_db_of(mesh, options, KEEPS[0], order) for order in (in_bisection_order, in_breadth_first_order)
+            )
+            rows.append((name, f"{power}", number(unordered, 2), number(ordered, 2), f"{unordered - ordered:.2f}"))
+    return Figure(
+        "Order of rows inside a block: NMSVE of warm-started iterations, c = 10 %, not quantized",
+        "bisection 0.8 to 1.5 dB better at z = 1",
+        table(("mesh", "z", "breadth first, dB", "bisection, dB", "gain, dB"), rows),
+    )
+
+
+def boundary_figure(source: Source) -> Figure:
+    """The error inside blocks and at their boundaries."""
+    mesh = source.mesh(SCALE[0])
+    options = paper_options(keep=KEEPS[0], power=2, block_size=block_size_for(mesh, BLOCKS[SCALE[0]]))
+    rows = [
+        {"case": case, "where": where, **quartiles(deviations)}
+        for case, groups in boundary_table(mesh, options).items()
+        for where, deviations in groups.items()
+    ]
+    return Figure(
+        f"Standard deviation of the error over the blocks of {SCALE[0]}, in thousandths of the diagonal",
+        "with weights by degree as small at the boundaries as inside",
+        boundary_rows(rows),
+    )
+
+
+def scale_figure(source: Source) -> Figure:
+    """Memory, and time per vertex, of a large mesh against a small one."""
+    measured = {name: measure_resources(source.path(name), repeats) for name, repeats in zip(SCALE, (5, 2))}
+    rows = []
+    for action in ("encode", "decode"):
+        base = measured[SCALE[0]][action]["cpu_microseconds_per_vertex"]
+        for name in SCALE:
+            m = measured[name][action]
+            rows.append(
+                (
+                    f"{action} {name}",
+                    number(m["seconds"], 2),
+                    number(m["cpu_microseconds_per_vertex"], 1),
+                    number(m["cpu_microseconds_per_vertex"] / base, 2),
+                    number(m["peak_mib"], 0),
+                )
+            )
+    return Figure(
+        "Scale: each in a process of its own, reading the file included in the memory",
+        "below 2048 MiB; time per vertex at most 1.3 times the bunny's",
+        table(("", "s", "CPU µs per vertex", "ratio", "peak, MiB"), rows),
+    )
+
+
+def connectivity_figure(source: Source) -> Figure:
+    """Connectivity alone, beside Draco."""
+    names = ("bunny_34834", "julius_36201", "armadillo_12502", "dragon_437645", *RATE_MESHES[3:4], *RATE_MESHES[6:])
+    return Figure(
+        "Connectivity: bits per vertex, and million triangles per second of CPU time",
+        "at most Draco's; 1 million triangles per second or better",
+        table(HEADINGS, [connectivity_row(name, source.mesh(name)) for name in names]),
+    )
+
+
+def rates_figure(source: Source) -> Figure:
+    """Whole files against Draco."""
+    rows = []
+    for name in RATE_MESHES:
+        mesh = source.mesh(name)
+        draco, ours = (run_curve(curve, mesh, name) for curve in (draco_curve(), our_curve()))
+        if source.results is not None:
+            for result in (draco, ours):
+                write_result(result, source.results)
+        row = compare_curves(draco, ours)
+        sizes = ours["points"][0]["bytes"]
+        rows.append(
+            (
+                name,
+                number(8 * sizes["connectivity"] / len(mesh.positions), 2),
+                number(row["bytes_at_theta"]["7"], 3),
+                number(row["bytes_at_theta"]["10"], 3),
+                percent(row["bd_rate_percent"]["theta_deg"]),
+                percent(row["bd_rate_percent"]["nmsve_db"]),
+            )
+        )
+    return Figure(
+        "Whole files against Draco (level 10): bytes at equal theta, and BD-rate over the common range",
+        "at 7 and 10 degrees at most 0.40 on horse, bunny, julius and nicolo, 0.52 on armadillo",
+        table(("mesh", "our connectivity, bpv", "at 7°", "at 10°", "BD-rate, theta", "BD-rate, NMSVE"), rows),
+    )
+
+
+def coefficients_figure(source: Source) -> Figure:
+    """Bits of the coefficients alone: at given angles, and at the error of the paper's mode."""
+    rows = []
+    for name in PAPER_RATE_MESHES:
+        mesh = source.mesh(name)
+        paper = measure(Spectral(paper_options(keep=KEEPS[-1], power=2)), mesh, Reference(mesh.positions, mesh.faces))
+        # Distance, not looks: every coordinate counts, so there is no detail layer.
+        points = run_curve(our_curve(detail=0.0), mesh, name)["points"]
+        found = rate_curve_of(points, "nmsve_db", "bpv_geometry").rate(paper["nmsve_db"])
+        rows.append((f"{name}, {paper['nmsve_db']:.2f} dB", number(found, 2), number(paper["bpv_paper"] / 3, 2)))
+    curves = {name: run_curve(our_curve(), source.mesh(name), name)["points"] for name, _, _ in COEFFICIENT_LIMITS}
+    for name, angle, limit in COEFFICIENT_LIMITS:
+        found = rate_curve_of(curves[name], "theta_deg", "bpv_geometry").rate(scaled(angle, "theta_deg") or 0.0)
+        rows.append((f"{name}, {angle:g}°", number(found, 2), number(limit, 2)))
+    return Figure(
+        "Coefficients alone, bits per vertex",
+        "at the error of the paper's mode (OI z=2, c = 20 %, 12 bits) a third of its bits, and the limits given",
+        table(("at", "bpv", "limit"), rows),
+    )
+
+
+def dynamic_figure(source: Source) -> Figure:
+    """Dynamic orthogonal iterations against a fixed size, at the same number of coefficients."""
+    rows = []
+    for name in ("bunny_34834", "fandisk_6475"):
+        mesh = source.mesh(name)
+        chains = dynamic_comparison(mesh, block_size_for(mesh, BLOCKS[name]))
+        if source.results is not None:
+            path = write_chains(chains, source.results / "blocks" / name)
+            try:
+                source.note(", ".join(map(str, draw_chains(path))))
+            except DependencyError as missing:
+                source.note(f"no pictures: {missing}")
+        for label, blocks in chains.items():
+            sizes = np.array([block["coefficients"] for block in blocks])
+            error = float(np.sqrt(np.mean([block["squared_error"] for block in blocks])))
+            rows.append(
+                (
+                    f"{name}, {label}",
+                    f"{sizes.sum():.0f}",
+                    f"{sizes.min():.0f} to {sizes.max():.0f}",
+                    number(1e3 * error, 3),
+                    number(spread(blocks), 3),
+                )
+            )
+    return Figure(
+        "Dynamic subspace size: spread (standard deviation over mean) of the blocks' rms errors, 12 bits",
+        "at most half of the fixed size's",
+        table(("mesh", "sum of c", "c", "rms error, thousandths", "spread"), rows),
+    )
+
+
+def dynamic_comparison(mesh: TriangleMesh, block_size: int, keep: float = 0.10) -> dict[str, list[dict[str, float]]]:
+    """Errors along the chain for a fixed size and for one that follows the error, at about the same rate.
+
+    The thresholds are a narrow band around one residual, found by bisection so that both keep about as many
+    coefficients.
+
+    Returns
+    -------
+    dict
+        ``fixed`` and ``dynamic``: what `errors_along_chain` returns.
+    """
+    settings: dict[str, Any] = {"block_size": block_size, "power": 2}
+    fixed = errors_along_chain(view_blocks(mesh, paper_options(**settings, keep=keep)))
+    wanted = sum(block["coefficients"] for block in fixed)
+    low, high = 1e-4, 10.0
+    dynamic = fixed
+    for _ in range(12):
+        middle = float(np.sqrt(low * high))
+        options = paper_options(**settings, keep=min(1.0, 5 * keep), doi=(0.9 * middle, middle))
+        dynamic = errors_along_chain(view_blocks(mesh, options))
+        kept = sum(block["coefficients"] for block in dynamic)
+        if abs(kept / wanted - 1) < 0.01:
+            break
+        low, high = (middle, high) if kept > wanted else (low, middle)
+    return {"fixed": fixed, "dynamic": dynamic}
+
+
+def write_chains(chains: dict[str, list[dict[str, float]]], stem: Path) -> Path:
+    """Write the result of `dynamic_comparison` as JSON."""
+    stem.parent.mkdir(parents=True, exist_ok=True)
+    path = stem.parent / f"{stem.name}.json"
+    with open_output(path, overwrite=True) as file:
+        file.write(json.dumps(chains, indent=1, allow_nan=False).encode())
+    return path
+
+
+def draw_chains(path: Path) -> list[Path]:
+    """Draw what `write_chains` wrote."""
+    return draw_per_block(json.loads(path.read_text()), path.parent / path.name.removesuffix(".json"))
+
+
+FIGURES: dict[str, Callable[[Source], Figure]] = {
+    "basis": basis_figure,
+    "order": row_order_figure,
+    "boundary": boundary_figure,
+    "dynamic": dynamic_figure,
+    "rates": rates_figure,
+    "coefficients": coefficients_figure,
+    "scale": scale_figure,
+    "connectivity": connectivity_figure,
+}
+
+
+def make_figures(source: Source, names: Sequence[str]) -> list[Figure]:
+    """Some of `FIGURES`.
+
+    Raises
+    ------
+    OptionError
+        If there is no such figure.
+    """
+    unknown = [name for name in names if name not in FIGURES]
+    if unknown:
+        raise OptionError(f"no figure is called {', '.join(unknown)}; there are {', '.join(FIGURES)}")
+    return [FIGURES[name](source) for name in names]

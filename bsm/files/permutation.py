@@ -1,0 +1,110 @@
+"""The order of vertices: files that hold one, and meshes whose vertices are numbered differently."""
+
+from __future__ import annotations
+
+import io
+import os
+from typing import TYPE_CHECKING
+
+import numpy as np
+import numpy.typing as npt
+
+from bitstream.errors import FormatError, MeshError
+from bsm.files.mesh import read_bytes
+from bsm.files.output import open_output
+from codec.geometry.mesh import Faces, Positions, TriangleMesh
+
+if TYPE_CHECKING:
+    from bitstream.connectivity.faces import EncodedConnectivity
+
+Order = npt.NDArray[np.int64]
+
+
+def write_permutation(path: str | os.PathLike[str], order: npt.NDArray[np.integer], *, overwrite: bool) -> None:
+    """Write `vertex_order` (the decoder's vertex j is the input's vertex order[j]) as an npy file."""
+    with open_output(path, overwrite=overwrite) as file:
+        np.save(file, order.astype(np.int64))
+
+
+def read_permutation(path: str | os.PathLike[str]) -> Order:
+    """Read what `write_permutation` wrote.
+
+    Raises
+    ------
+    FormatError
+        If the file is no such thing.
+    """
+    try:
+        order = np.lib.format.read_array(io.BytesIO(read_bytes(path)), allow_pickle=False)
+    except (ValueError, EOFError, MemoryError) as error:
+        raise FormatError(f"{path} is not an npy file: {error}") from error
+    if order.ndim != 1 or order.dtype.kind not in "iu" or len(np.unique(order)) != len(order):
+        raise FormatError(f"{path} does not hold the order of vertices that bsm encode --permutation writes")
+    return order.astype(np.int64)
+
+
+def reorder(mesh: TriangleMesh, order: Order) -> TriangleMesh:
+    """Number the vertices as the input of the encoder did, without those that no face used."""
+    places = _places(order, len(mesh.positions))
+    return TriangleMesh(mesh.positions[np.argsort(places)], places[mesh.faces].astype(np.int32))
+
+
+def in_order_of(original: TriangleMesh, other: TriangleMesh, order: Order | None = None) -> Positions:
+    """The positions of `other`, numbered as in `original`; neither may have vertices that no face uses.
+
+    Parameters
+    ----------
+    original, other : TriangleMesh
+        The same faces, up to their order, their first corners, and the numbering of the vertices.
+    order : int64 array, optional
+        Vertex j of `other` is vertex order[j] of `original` (before isolated ones were left out). Without it `other`
+        must have the numbering of `original`, or that of the decoder.
+
+    Raises
+    ------
+    MeshError
+        If the faces are not the same.
+    """
+    if len(original.positions) != len(other.positions) or len(original.faces) != len(other.faces):
+        raise MeshError(
+            f"the meshes differ: {len(original.positions)} and {len(other.positions)} vertices in faces, "
+            f"{len(original.faces)} and {len(other.faces)} faces"
+        )
+    if order is not None:
+        other = reorder(other, order)
+    # A symmetric mesh has more than one numbering that fits, so the closest likeness is looked for first.
+    if np.array_equal(original.faces, other.faces):
+        return other.positions
+    if order is None:
+        by_decoder = _encode(original)
+        if np.array_equal(by_decoder.faces, other.faces):
+            return other.positions[np.argsort(by_decoder.vertex_order)]
+    if np.array_equal(_canonical(original.faces), _canonical(other.faces)):
+        return other.positions
+    if order is None:
+        again = _encode(other)
+        if np.array_equal(by_decoder.faces, again.faces):
+            return other.positions[again.vertex_order[np.argsort(by_decoder.vertex_order)]]
+    raise MeshError("the meshes have different faces, or number their vertices differently; use --permutation")
+
+
+def _places(order: Order, count: int) -> Order:
+    """The rank of each entry: its place among the vertices that are used."""
+    if len(order) != count:
+        raise MeshError(f"the permutation is of {len(order)} vertices, the mesh has {count}")
+    places = np.empty(count, dtype=np.int64)
+    places[np.argsort(order)] = np.arange(count)
+    return places
+
+
+def _canonical(faces: Faces) -> Faces:
+    """The faces with their smallest corner first, in ascending order: equal for equal sets of oriented faces."""
+    first = np.argmin(faces, axis=1)[:, None]
+    turned = np.take_along_axis(faces, (first + np.arange(3)) % 3, axis=1)
+    return turned[np.lexsort(turned.T[::-1])]
+
+
+def _encode(mesh: TriangleMesh) -> EncodedConnectivity:
+    from bitstream.connectivity.faces import encode_connectivity
+
+    return encode_connectivity(mesh.faces, len(mesh.positions))

@@ -1,0 +1,216 @@
+"""Sequences in files and pipes: frames that share their faces, read and written one at a time.
+
+Forms: an npz with `positions` of shape (T, n, 3) and `faces`; mesh files, one for each frame, in a folder or named by
+a pattern (``run/*.obj``), taken in the order of the numbers in their names; and, for live pipes, npy arrays one behind
+the other: the faces, then the positions of each frame as it comes.
+"""
+
+from __future__ import annotations
+
+import glob
+import io
+import os
+import re
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, BinaryIO, cast
+
+import numpy as np
+import numpy.typing as npt
+
+from bitstream.errors import FormatError, MeshError, OptionError, TruncatedError
+from bsm.files.mesh import MESH_FORMATS, format_mesh, format_of_bytes, format_of_name, read_mesh
+from bsm.files.npz import open_npz_sequence
+from bsm.files.npz_frames import npz_faces, npz_frames, npz_shape
+from bsm.files.output import open_output
+from codec.geometry.mesh import Faces, Positions, TriangleMesh
+
+NPY = b"\x93NUMPY"
+SEQUENCE_FORMATS = ("npz", "npy", *(name for name in MESH_FORMATS if name != "npz"))
+"""What `bsm decode` can make of a sequence: an npz, a pipe of npy arrays, or a folder of mesh files."""
+
+
+@dataclass(frozen=True, eq=False)
+class Frames:
+    """A sequence that is read as it is used.
+
+    Parameters
+    ----------
+    faces : int32 array, shape (m, 3)
+    count : int
+        Number of frames; 0 if that is not known beforehand.
+    frames : iterator of float64 arrays, shape (n, 3)
+        Can be used once.
+    """
+
+    faces: Faces
+    count: int
+    frames: Iterator[Positions]
+
+
+def open_sequence(path: str, file_format: str | None = None) -> Frames | None:
+    """The sequence that `path` names, or None if it is not one but perhaps a mesh.
+
+    Parameters
+    ----------
+    path : str
+        A folder, a pattern, a file, or "-" for standard input (with `file_format` "npy" only).
+    file_format : str, optional
+        Of the file or of the frames' files.
+
+    Raises
+    ------
+    FormatError, MeshError, TruncatedError
+        If it is one, but cannot be read; also later, while the frames are read.
+    """
+    if path == "-":
+        return _arrays(cast(BinaryIO, sys.stdin.buffer)) if file_format == "npy" else None
+    if Path(path).is_dir() or (glob.has_magic(path) and not Path(path).exists()):
+        return _files(_frame_files(path), file_format)
+    if file_format not in (None, "npz", "npy"):
+        return None
+    with open(path, "rb") as file:
+        head = file.read(len(NPY))
+    if head == NPY:
+        return _arrays(open(path, "rb"))
+    if format_of_bytes(head) != "npz":
+        return None
+    shape = npz_shape(path)
+    if len(shape) != 3:
+        return None
+    if shape[0] == 0:
+        raise MeshError("this npz file holds a sequence without frames")
+    mesh = TriangleMesh(next(npz_frames(path)), npz_faces(path))
+    return Frames(mesh.faces, shape[0], npz_frames(path))
+
+
+@contextmanager
+def sequence_writer(
+    path: str, kind: str, faces: Faces, count: int, *, overwrite: bool
+) -> Iterator[Callable[[Positions], None]]:
+    """Open a sequence for writing; yields what takes frame after frame.
+
+    Parameters
+    ----------
+    path : str
+        A file for "npz" and "npy" ("-" is standard output), otherwise a folder, which is made.
+    kind : str
+        One of `SEQUENCE_FORMATS`.
+    count : int
+        Number of frames, if known; an npz whose length is not known is put together in memory.
+    """
+    if kind == "npz":
+        with open_output(path, overwrite=overwrite) as file, open_npz_sequence(file, faces, count) as write:
+            yield write
+    elif kind == "npy":
+        with open_output(path, overwrite=overwrite) as file:
+            write_npy(file, faces)
+            yield lambda frame: write_npy(file, frame)
+    else:
+        folder = Path(path)
+        folder.mkdir(parents=True, exist_ok=True)
+        if any(folder.iterdir()) and not overwrite:
+            raise FileExistsError(17, "the folder is not empty; -f writes into it", path)
+        numbers = iter(range(sys.maxsize))
+        yield lambda frame: _write_frame(folder / f"{next(numbers):05d}.{kind}", TriangleMesh(frame, faces), kind)
+
+
+def write_npy(file: BinaryIO, array: npt.NDArray[Any]) -> None:
+    """Write an npy array so that whoever reads a pipe has it at once."""
+    buffer = io.BytesIO()  # numpy would ask a pipe for its position
+    np.save(buffer, array)
+    file.write(buffer.getvalue())
+    file.flush()
+
+
+def _write_frame(path: Path, mesh: TriangleMesh, kind: str) -> None:
+    with open_output(path, overwrite=True) as file:
+        file.write(format_mesh(mesh, kind))
+
+
+def _frame_files(path: str) -> list[str]:
+    """The mesh files of a folder or pattern, by the numbers in their names."""
+    names = [os.path.join(path, name) for name in os.listdir(path)] if Path(path).is_dir() else glob.glob(path)
+    found = [name for name in names if format_of_name(name)]
+    if not found:
+        raise FormatError(f"there are no mesh files in {path}; the formats are {', '.join(MESH_FORMATS)}")
+    return sorted(found, key=lambda name: [int(p) if p.isdigit() else p for p in re.split(r"(\d+)", name)])
+
+
+def _files(names: list[str], file_format: str | None) -> Frames:
+    first = read_mesh(names[0], file_format).mesh
+
+    def frames() -> Iterator[Positions]:
+        yield first.positions
+        for number, name in enumerate(names[1:], 1):
+            mesh = read_mesh(name, file_format).mesh
+            if mesh.positions.shape != first.positions.shape or not np.array_equal(mesh.faces, first.faces):
+                raise MeshError(f"frame {number}, {name}, has other faces than the first one, {names[0]}")
+            yield mesh.positions
+
+    return Frames(first.faces, len(names), frames())
+
+
+def _arrays(file: BinaryIO) -> Frames:
+    """npy arrays, one behind the other: faces, frame, frame, ..."""
+    faces = read_npy(file)
+    if faces is None or faces.ndim != 2 or faces.shape[1] != 3 or faces.dtype.kind not in "iu":
+        raise FormatError("the first array must be the faces: integers of shape (m, 3)")
+
+    def frames() -> Iterator[Positions]:
+        while (frame := read_npy(file)) is not None:
+            if frame.ndim != 2 or frame.shape[1] != 3 or frame.dtype.kind not in "iuf":
+                raise FormatError(f"an array of {frame.dtype} and shape {frame.shape} is no frame; (n, 3) numbers are")
+            yield frame.astype(np.float64)
+
+    return Frames(faces.astype(np.int32), 0, frames())
+
+
+def read_npy(file: BinaryIO) -> npt.NDArray[np.generic] | None:
+    """The next array, or None at the end; never unpickles."""
+    magic = file.read(len(NPY))
+    if not magic:
+        return None
+    try:
+        if magic != NPY:
+            raise FormatError("this is not a sequence of npy arrays")
+        major, _ = file.read(2)
+        read = np.lib.format.read_array_header_1_0 if major == 1 else np.lib.format.read_array_header_2_0
+        shape, fortran, kind = read(file)
+        if kind.hasobject:
+            raise FormatError("an npy array holds objects, not numbers")
+        size = int(np.prod([int(side) for side in shape], dtype=object)) * kind.itemsize
+        data = file.read(size)
+    except ValueError as error:
+        if isinstance(error, FormatError):
+            raise
+        raise TruncatedError(f"an npy array ends in its header or has none: {error}") from error
+    if len(data) < size:
+        raise TruncatedError(f"an npy array has {len(data)} of {size} bytes")
+    return np.frombuffer(data, kind).reshape(shape, order="F" if fortran else "C")
+
+
+def sequence_kind(path: str, file_format: str | None) -> str:
+    """The form in which a sequence is written: as asked for, or as the name tells.
+
+    Raises
+    ------
+    OptionError
+        If a single mesh file is named.
+    """
+    if path == "-":
+        kind = file_format or "npy"
+        if kind not in ("npz", "npy"):
+            raise OptionError("a sequence goes to standard output as npy or npz")
+        return kind
+    suffix = Path(path).suffix[1:].lower()
+    if suffix in ("npz", "npy"):
+        if file_format not in (None, suffix):
+            raise OptionError(f"{path}: the name does not go with --format {file_format}")
+        return suffix
+    if suffix in MESH_FORMATS:
+        raise OptionError(f"{path}: this is a sequence; write it to an npz, or to a folder of mesh files")
+    return file_format or "ply"

@@ -1,0 +1,111 @@
+"""Sequences from streams: told from meshes, and decoded as they come."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from itertools import chain
+
+import numpy as np
+import numpy.typing as npt
+
+from bitstream.container.packets import Header
+from bitstream.container.reader import NEED_DATA, Reader
+from bitstream.errors import BsmError, TruncatedError
+from codec.geometry.mesh import Faces, Positions, TriangleMesh
+
+Note = Callable[[str], None]
+
+
+def peek_header(chunks: Iterator[bytes]) -> tuple[Header | None, Iterator[bytes]]:
+    """The header of a stream, and all of its bytes again; None where the stream is too short or no stream at all."""
+    taken: list[bytes] = []
+    reader = Reader()
+    for chunk in chunks:
+        taken.append(chunk)
+        reader.receive_data(chunk)
+        try:
+            packet = reader.next_packet()
+        except BsmError:  # whoever decodes it will say so
+            break
+        if packet is not NEED_DATA:
+            assert isinstance(packet, Header)
+            return packet, chain(taken, chunks)
+    return None, chain(taken, chunks)
+
+
+class SequenceStream:
+    """A stream that is decoded while its frames are asked for.
+
+    Parameters
+    ----------
+    chunks : iterator of bytes
+    note : callable, optional
+        Is told of frames that are lost; None: a loss is an error.
+    start : int
+        First frame to give.
+
+    Attributes
+    ----------
+    header : Header
+    faces : int32 array, shape (m, 3)
+    """
+
+    def __init__(self, chunks: Iterator[bytes], note: Note | None = None, start: int = 0) -> None:
+        from codec import SequenceDecoder
+
+        self.header: Header
+        self.faces: Faces
+        self._chunks = chunks
+        self._note = note
+        self._decoder = SequenceDecoder(tolerant=note is not None, start=start)
+        if self._next() is not None or not hasattr(self, "faces"):
+            raise TruncatedError("the stream ends before its faces")
+
+    def frames(self) -> Iterator[tuple[int, Positions]]:
+        """Number and positions, shape (n, 3), of one frame after the other."""
+        while (frame := self._next()) is not None:
+            yield frame
+
+    def _next(self) -> tuple[int, Positions] | None:
+        """The next frame; None at the end, and when the faces have come."""
+        from codec import ConnectivityEvent, FrameEvent, GopLost, HeaderEvent
+        from codec.sequence.decoder import END_OF_STREAM
+        from codec.sequence.decoder import NEED_DATA as MORE
+
+        while (event := self._decoder.next_event()) is not END_OF_STREAM:
+            match event:
+                case HeaderEvent(header):
+                    self.header = header
+                case ConnectivityEvent(faces):
+                    self.faces = faces
+                    return None
+                case FrameEvent(index, positions):
+                    return index, positions
+                case GopLost(index, frames, reason):
+                    assert self._note is not None
+                    what = f"frames {index} to {index + frames - 1} are" if frames else f"what follows frame {index} is"
+                    self._note(f"{what} lost: {reason}")
+                case signal if signal is MORE:
+                    chunk = next(self._chunks, b"")
+                    self._decoder.receive_data(chunk) if chunk else self._decoder.receive_eof()
+        return None
+
+
+def numbered(faces: Faces, vertices: int) -> TriangleMesh:
+    """A mesh whose positions are the numbers of its vertices: what reorders meshes then tells their order."""
+    return TriangleMesh(np.repeat(np.arange(vertices, dtype=np.float64)[:, None], 3, axis=1), faces)
+
+
+def numbers_of(positions: Positions) -> npt.NDArray[np.int64]:
+    """The order that has come upon the positions of `numbered`."""
+    return positions[:, 0].astype(np.int64)
+
+
+def decode_through(chunks: Iterator[bytes]) -> int:
+    """Decode a sequence to its end and keep nothing; the number of frames."""
+    return sum(1 for _ in SequenceStream(chunks).frames())
+
+
+def all_frames(stream: SequenceStream) -> Positions:
+    """All frames, shape (T, n, 3)."""
+    return np.array([frame for _, frame in stream.frames()]).reshape(-1, stream.header.vertices, 3)

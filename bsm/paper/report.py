@@ -1,0 +1,137 @@
+"""The report: one HTML file with everything in it, made from exhibits and nothing else."""
+
+from __future__ import annotations
+
+import base64
+import html
+import json
+from typing import Any
+
+from bsm.paper.exhibit import Cell, Column, Exhibit, Picture, Table
+
+PAPER = "Block-Based Spectral Processing of Static and Dynamic 3D Meshes using Orthogonal Iterations"
+_GENERATED = "A generated mesh stands in for the paper's, so the numbers need not agree."
+_STYLE = """
+body { font: 15px/1.5 system-ui, sans-serif; max-width: 72em; margin: 2em auto; padding: 0 1em; color: #222 }
+h1 { font-size: 1.6em } h2 { margin: 2.5em 0 0 } h3 { font-size: 1em; margin: 1.2em 0 .3em }
+.place { color: #777; margin: 0 }
+table { border-collapse: collapse; font-variant-numeric: tabular-nums }
+th, td { padding: .15em .8em; text-align: right; border-bottom: 1px solid #ddd; vertical-align: baseline }
+th:first-child, td:first-child { text-align: left }
+.paper { color: #777 } .differs { background: #fff3cd } sup a { text-decoration: none }
+.notes { font-size: .87em; color: #555; margin: .4em 0 1em; padding-left: 1.6em }
+figure { display: inline-block; margin: .5em; vertical-align: top; text-align: center }
+figure img { max-width: 100%; display: block }
+figcaption { font-size: .85em; color: #555; max-width: 20em; margin: auto }
+figure.wide figcaption { max-width: none }
+.warning { background: #fff3cd; padding: .6em 1em }
+"""
+
+
+def report(exhibits: dict[str, Exhibit], models: Table, *, generated: bool, quick: bool) -> str:
+    """The whole HTML document.
+
+    Parameters
+    ----------
+    exhibits : dict of str to Exhibit
+    models : Table
+        Which mesh plays which model.
+    generated : bool
+        The models are generated, not the paper's.
+    quick : bool
+        Only a few settings were tried.
+    """
+    words = []
+    if generated:
+        words.append(
+            "There were no real meshes: generated ones stand in for all models. What is measured is measured on "
+            "them, and the paper's numbers stand beside for orientation only. Name a folder of meshes with --meshes."
+        )
+    if quick:
+        words.append("Quick run: few settings, small pictures, times of single runs.")
+    contents = "".join(f'<li><a href="#{key}">{_text(e.title)}</a></li>' for key, e in exhibits.items())
+    data = json.dumps({key: e.as_json() for key, e in exhibits.items()}, allow_nan=False).replace("<", "\\u003c")
+    return "".join(
+        [
+            '<!doctype html><html lang="en"><head><meta charset="utf-8"><title>The paper, measured again</title>',
+            f"<style>{_STYLE}</style></head><body><h1>The paper, measured again</h1>",
+            f"<p>Every table and figure of <i>{_text(PAPER)}</i> (Arvanitis, Lalos, Moustakas), made by this program. "
+            "Beside each number, in grey, the paper's; where the two differ by more than is to be expected, it says by "
+            "how much, and a note says why. Angles are in degrees; theta is the mean angle between the normals of "
+            "corresponding faces, MND the mean length of their difference.</p>",
+            *(f'<p class="warning">{_text(word)}</p>' for word in words),
+            _table(models, "models", generated=False),
+            f"<ol>{contents}</ol>",
+            *(_exhibit(key, exhibit, generated=generated) for key, exhibit in exhibits.items()),
+            f'<script type="application/json" id="data">{data}</script></body></html>\n',
+        ]
+    )
+
+
+def summary(exhibits: dict[str, Exhibit]) -> str:
+    """A line for each exhibit: how many numbers were compared, and how many agree."""
+    lines = []
+    for key, exhibit in exhibits.items():
+        counts = [table.compared() for table in exhibit.tables]
+        compared, agreeing = (sum(count[i] for count in counts) for i in range(2))
+        verdict = f"{agreeing} of {compared} numbers agree with the paper's" if compared else "no numbers in the paper"
+        lines.append(f"{key:<16}{len(exhibit.tables)} tables, {len(exhibit.pictures):>2} pictures; {verdict}")
+    return "\n".join(lines)
+
+
+def _exhibit(key: str, exhibit: Exhibit, *, generated: bool) -> str:
+    tables = (_table(table, f"{key}-{i}", generated=generated) for i, table in enumerate(exhibit.tables))
+    return "".join(
+        [
+            f'<section id="{key}"><h2>{_text(exhibit.title)}</h2><p class="place">{_text(exhibit.place)}</p>',
+            *tables,
+            *map(_picture, exhibit.pictures),
+            *(f"<p>{_text(remark)}</p>" for remark in exhibit.remarks),
+            "</section>",
+        ]
+    )
+
+
+def _table(table: Table, key: str, *, generated: bool) -> str:
+    notes: list[str] = []
+    rows = []
+    for label, cells in table.rows:
+        entries = [_cell(table, column, cell, key, notes, generated) for column, cell in zip(table.columns, cells)]
+        rows.append(f"<tr><td>{_text(label)}</td>{''.join(entries)}</tr>")
+    heads = "".join(f"<th>{_text(column.name)}</th>" for column in table.columns)
+    listed = "".join(f'<li id="{key}-note{i}">{note}</li>' for i, note in enumerate(notes, start=1))
+    return (
+        f"<h3>{_text(table.title)}</h3><table><thead><tr><th>{_text(table.stub)}</th>{heads}</tr></thead>"
+        f"<tbody>{''.join(rows)}</tbody></table>" + (f'<ol class="notes">{listed}</ol>' if notes else "")
+    )
+
+
+def _cell(table: Table, column: Column, cell: Cell, key: str, notes: list[str], generated: bool) -> str:
+    ours = "-" if cell.ours is None else f"{cell.ours:.{column.digits}f}"
+    if cell.paper is None:
+        return f"<td>{ours}</td>"
+    there = f'<span class="paper">{cell.paper:.{column.digits}f}</span>'
+    off = cell.deviation
+    if off is None or not table.differs(column, cell):
+        return f"<td>{ours} {there}</td>"
+    reason = _GENERATED if generated else cell.why or column.why
+    # One note for all numbers that differ for one reason; by how much stands with the number.
+    note = _text(reason)
+    if note not in notes:
+        notes.append(note)
+    number = notes.index(note) + 1
+    return (
+        f'<td class="differs">{ours} {there} <small>{100 * off:+.0f}&thinsp;%</small>'
+        f'<sup><a href="#{key}-note{number}">{number}</a></sup></td>'
+    )
+
+
+def _picture(picture: Picture) -> str:
+    kind = ' class="wide"' if picture.media == "image/svg+xml" else ""
+    source = f"data:{picture.media};base64,{base64.b64encode(picture.data).decode()}"
+    caption = _text(picture.caption)
+    return f'<figure{kind}><img alt="{caption}" src="{source}"><figcaption>{caption}</figcaption></figure>'
+
+
+def _text(value: Any) -> str:
+    return html.escape(str(value))

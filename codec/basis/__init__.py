@@ -1,0 +1,1 @@
+"""The dictionaries of blocks: Laplacian, orthogonal iterations, subspace sizes."""

@@ -1,0 +1,64 @@
+"""Dynamic orthogonal iterations: the subspace's size follows the error of each block (paper, section 5, Algorithm 2).
+
+The printed algorithm has its two branches the wrong way round; this follows the text. Where the paper appends the
+residual, which a decoder cannot know, both sides append a cosine (`codec.basis.orthogonal_iteration.resized`). Q of a
+QR factorisation is nested, so one iteration at the largest size holds the subspace of every smaller size, and the
+residual for all of them is one cumulative sum: the search costs no further iteration.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+
+Matrix = npt.NDArray[np.float64]
+
+
+def residual_norms(positions: Matrix, coefficients: Matrix) -> Matrix:
+    """The error that a subspace of every size leaves.
+
+    Equation 4 adds the residuals of x, y and z before it takes the norm, so that errors of opposite sign cancel; this
+    is the norm over all three.
+
+    Parameters
+    ----------
+    positions : float64 array, shape (n, 3)
+    coefficients : float64 array, shape (c, 3)
+        U^T v for c orthonormal columns U.
+
+    Returns
+    -------
+    float64 array, shape (c + 1,)
+        Entry j is the norm of v - U_j U_j^T v over x, y and z, with U_j the first j columns.
+    """
+    total = float(np.square(positions).sum())
+    captured = np.concatenate([[0.0], np.cumsum(np.square(coefficients).sum(axis=1))])
+    return np.sqrt(np.maximum(total - captured, 0.0))
+
+
+def dynamic_size(positions: Matrix, coefficients: Matrix, previous: int, lowest: float, highest: float) -> int:
+    """c_i: from the predecessor's size, one column more while the error is over eps_h, one less while under eps_l.
+
+    Parameters
+    ----------
+    positions, coefficients
+        As for `residual_norms`.
+    previous : int
+        c_{i-1}.
+    lowest, highest : float
+        eps_l and eps_h.
+
+    Returns
+    -------
+    int
+        From 1 to c.
+    """
+    norms = residual_norms(positions, coefficients)
+    size = min(max(previous, 1), len(coefficients))
+    if norms[size] > highest:
+        while size < len(coefficients) and norms[size] > highest:
+            size += 1
+    else:
+        while size > 1 and norms[size] < lowest and norms[size - 1] <= highest:
+            size -= 1
+    return size

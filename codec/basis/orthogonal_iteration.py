@@ -1,0 +1,200 @@
+"""Tracking the low-frequency subspace of each block by orthogonal iterations (paper, section 4, Algorithm 1).
+
+U is the dictionary of a block, n_d rows and c orthonormal columns; R = (L + delta I)^-1; Onorm is the Q of a QR
+factorisation with a positive diagonal, which makes Q unique and nested: its
+first c columns do not depend on later ones.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+from numba import njit
+
+from bitstream.errors import NumericError
+from codec.basis.laplacian import dense_laplacian, factorize, solve, solve_panels
+from codec.basis.solver.panels import factorize_gram, gram, invert_triangle, multiply, pack, unpack
+from codec.blocks.overlap import Block
+from codec.threads import SINGLE_BLAS_THREAD
+
+Matrix = npt.NDArray[np.float64]
+
+ONCE, TWICE = 1e-3, 1e-11
+"""Independence of the columns (see `codec.basis.solver.panels.factorize_gram`) from which Cholesky QR is orthogonal to
+1e-12 after one pass, and to working precision after two."""
+
+CLUSTER_GAP = 1e-6
+"""Neighbouring eigenvalues closer than this span one eigenspace in the exact basis."""
+
+
+def cosine_columns(rows: int, first: int, last: int) -> Matrix:
+    """Cosines along the rows, frequencies `first` to `last - 1`: the start that needs no predecessor.
+
+    Column j is cos(pi j (2 r + 1) / (2 n)), the eigenvectors of a path of n vertices, orthogonal to each other.
+    """
+    return _cosines(rows, first, last)
+
+
+def onorm(columns: Matrix) -> Matrix:
+    """Q of the QR factorisation with positive diagonal of `columns`, shape (n, c), n >= c.
+
+    Cholesky QR; twice where the columns are so close to dependent that once would not be orthogonal to working
+    precision, and Householder reflections where that is not safe either. All of them compute the same Q.
+
+    Raises
+    ------
+    NumericError
+        If a value is not finite.
+    """
+    q, safe = _cholesky_onorm(np.ascontiguousarray(columns))
+    return q if safe else householder_orthonormalize(columns)
+
+
+def householder_orthonormalize(columns: Matrix) -> Matrix:
+    """`onorm` by Householder reflections (LAPACK geqrf), for any condition number."""
+    if not np.isfinite(columns).all():
+        raise NumericError("the subspace iteration produced a value that is not finite")
+    with SINGLE_BLAS_THREAD:
+        q, r = np.linalg.qr(columns)
+    return np.ascontiguousarray(q * np.where(np.diag(r) < 0, -1.0, 1.0))
+
+
+def orthogonal_iteration(block: Block, start: Matrix, *, shift: float | Matrix, power: int, iterations: int) -> Matrix:
+    """U(t) = Onorm(R^z U(t-1)), `iterations` times (Algorithm 1).
+
+    Parameters
+    ----------
+    block : Block
+        Of n rows.
+    start : float64 array, shape (n, c)
+        U(0); need not be orthonormal.
+    shift : float, or float64 array, shape (n,)
+        delta, or the diagonal that takes the place of delta I.
+    power, iterations : int
+        z and t_max.
+
+    Returns
+    -------
+    float64 array, shape (n, c), C-contiguous
+    """
+    factor = factorize(block, shift)
+    start = np.ascontiguousarray(start)
+    subspace, safe = _iterate(factor.fronts, factor.values, factor.inverse, start, power, iterations)
+    if not safe:
+        # R^z has all but lost the higher columns. Orthonormalised after every R they stay, and the subspaces of the
+        # first columns, which is all that Q depends on, are the same.
+        subspace = start
+        for _ in range(iterations * power):
+            subspace = onorm(solve(factor, subspace, 1))
+    return subspace
+
+
+def resized(previous: Matrix, width: int) -> Matrix:
+    """The start for a block of `width` columns: the predecessor's columns, and cosines where it has fewer."""
+    rows, known = previous.shape
+    if known >= width:
+        return previous[:, :width]
+    return np.concatenate([previous, cosine_columns(rows, known, width)], axis=1)
+
+
+def exact_basis(block: Block, width: int, springs: float | Matrix = 0.0) -> Matrix:
+    """The `width` lowest eigenvectors of L + diag(springs), see `canonical_eigenvectors`."""
+    return canonical_eigenvectors(dense_laplacian(block) + springs * np.eye(block.size), width)[1]
+
+
+def canonical_eigenvectors(matrix: Matrix, width: int) -> tuple[Matrix, Matrix]:
+    """The `width` lowest eigenvalues and eigenvectors of a symmetric matrix, whatever the eigensolver.
+
+    Within a cluster of equal eigenvalues a solver may return any rotation; the projection of fixed pseudo-random
+    columns onto the cluster's space, orthonormalised, is the same for all of them. For an eigenvalue of its own this
+    is its eigenvector with the sign that makes its product with the first of these columns positive.
+
+    Returns
+    -------
+    values : float64 array, shape (width,)
+    vectors : float64 array, shape (n, width), C-contiguous
+    """
+    with SINGLE_BLAS_THREAD:
+        values, vectors = np.linalg.eigh(matrix)
+    starts = np.flatnonzero(np.diff(values, prepend=-np.inf) > CLUSTER_GAP)
+    ends = np.append(starts[1:], len(values))
+    probe = hash_columns(len(matrix), int((ends - starts).max()))
+    basis = vectors[:, :width] * np.where(probe[:, 0] @ vectors[:, :width] < 0, -1.0, 1.0)
+    shared = (ends - starts > 1) & (starts < width)
+    for first, last in zip(starts[shared], ends[shared]):
+        cluster = vectors[:, first:last]
+        canonical = householder_orthonormalize(cluster @ (cluster.T @ probe[:, : last - first]))
+        basis[:, first:last] = canonical[:, : width - first]
+    return values[:width], np.ascontiguousarray(basis)
+
+
+def hash_columns(rows: int, columns: int) -> Matrix:
+    """Fixed pseudo-random numbers in [-1, 1), shape (rows, columns): the splitmix64 of row * 2^32 + column."""
+    row = np.arange(rows, dtype=np.uint64)[:, None]
+    column = np.arange(columns, dtype=np.uint64)[None, :]
+    with np.errstate(over="ignore"):
+        z = (row * np.uint64(1 << 32) + column + np.uint64(1)) * np.uint64(0x9E3779B97F4A7C15)
+        z = (z ^ (z >> np.uint64(30))) * np.uint64(0xBF58476D1CE4E5B9)
+        z = (z ^ (z >> np.uint64(27))) * np.uint64(0x94D049BB133111EB)
+        z = z ^ (z >> np.uint64(31))
+    return (z >> np.uint64(11)).astype(np.float64) * 2.0**-52 - 1.0
+
+
+@njit(cache=True, nogil=True)
+def _iterate(fronts, values, inverse, start, power, iterations):  # type: ignore[no-untyped-def]
+    """Compiled body of `orthogonal_iteration`, and whether Cholesky QR was safe throughout."""
+    c = start.shape[1]
+    panels = pack(start, fronts.rows)
+    safe = True
+    for _ in range(iterations):
+        solve_panels(fronts, values, inverse, panels, power)
+        panels, independence = _cholesky_qr(panels, c)
+        if independence < ONCE:
+            safe = safe and independence >= TWICE
+            panels, _ = _cholesky_qr(panels, c)
+    return unpack(panels, fronts.rows, c), safe
+
+
+@njit(cache=True, nogil=True)
+def _cholesky_onorm(columns):  # type: ignore[no-untyped-def]
+    """Compiled body of `onorm`, and whether it was safe."""
+    n, c = columns.shape
+    order = np.arange(n)
+    panels, independence = _cholesky_qr(pack(columns, order), c)
+    if ONCE > independence >= TWICE:
+        panels, _ = _cholesky_qr(panels, c)
+    return unpack(panels, order, c), independence >= TWICE
+
+
+@njit(cache=True, nogil=True)
+def _cholesky_qr(panels, c):  # type: ignore[no-untyped-def]
+    """One pass of Cholesky QR, Q = X C^-1 with X^T X = C^T C, and how independent the columns are (0 to 1)."""
+    triangle = gram(panels)
+    independence = factorize_gram(triangle, c)
+    if independence == 0.0:
+        return panels, 0.0
+    return multiply(panels, invert_triangle(triangle, c)), independence
+
+
+@njit(cache=True, nogil=True)
+def _cosines(rows, first, last):  # type: ignore[no-untyped-def]
+    """Compiled body of `cosine_columns`: the same to the last bit on every machine, which libraries are not."""
+    table = np.empty(rows + 1)
+    for k in range(rows + 1):
+        # cos(pi k / (2 n)) by the series of the cosine or sine of an angle of at most pi / 4.
+        small = 2 * k <= rows
+        x = (k if small else rows - k) * (np.pi / (2 * rows))
+        value = 1.0
+        for i in range(20 if small else 21, 1, -2):
+            value = 1.0 - value * x * x / (i * (i - 1))
+        table[k] = value if small else value * x
+    columns = np.empty((rows, last - first))
+    for r in range(rows):
+        angle = (2 * r + 1) * first % (4 * rows)
+        for j in range(last - first):
+            fold = min(angle, 4 * rows - angle)
+            columns[r, j] = table[fold] if fold <= rows else -table[2 * rows - fold]
+            angle += 2 * r + 1
+            if angle >= 4 * rows:
+                angle -= 4 * rows
+    return columns

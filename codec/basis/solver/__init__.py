@@ -1,0 +1,1 @@
+"""Sparse factorisation of a block and solutions for many columns at once."""

@@ -1,0 +1,1 @@
+"""Cutting a mesh into overlapping blocks, and blending them again."""

@@ -1,0 +1,52 @@
+"""Blending the copies of a vertex in overlapping blocks (paper, section 6.1, Algorithm 3)."""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+from numba import njit
+
+from codec.geometry.graph import Indices
+
+Matrix = npt.NDArray[np.float64]
+
+
+class Blend:
+    """Weighted sums over the copies of each of n vertices.
+
+    Attributes
+    ----------
+    sums : float64 array, shape (n, 3)
+    weights : float64 array, shape (n,)
+    """
+
+    def __init__(self, vertices: int) -> None:
+        # Zeros cost memory only where they are touched.
+        self.sums: Matrix = np.zeros((vertices, 3))
+        self.weights: Matrix = np.zeros(vertices)
+
+    def add(self, vertices: Indices, positions: Matrix, weights: Matrix) -> None:
+        """Add one copy of each vertex in `vertices`, shape (n_i,), at `positions`, shape (n_i, 3)."""
+        _add(self.sums, self.weights, vertices, positions, weights)
+
+    def known(self, vertices: Indices) -> npt.NDArray[np.bool_]:
+        """Which of `vertices` have a copy that counts."""
+        return self.weights[vertices] > 0
+
+    def positions(self, vertices: Indices) -> Matrix:
+        """Weighted averages for `vertices`, all of them known, shape (len(vertices), 3)."""
+        return self.sums[vertices] / self.weights[vertices][:, None]
+
+
+def degree_weights(degrees: Indices) -> Matrix:
+    """Weight of each row: its neighbours inside the block; a row without any counts as one."""
+    return np.maximum(degrees, 1).astype(np.float64)
+
+
+@njit(cache=True, nogil=True)
+def _add(sums, total, vertices, positions, weights):  # type: ignore[no-untyped-def]
+    for r in range(len(vertices)):
+        v = vertices[r]
+        total[v] += weights[r]
+        for d in range(3):
+            sums[v, d] += weights[r] * positions[r, d]

@@ -1,0 +1,1 @@
+"""Fine filters: surfaces that follow filtered normals, and relatives."""

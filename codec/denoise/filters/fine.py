@@ -1,0 +1,35 @@
+"""Fine steps by name: each takes noisy or coarsely denoised positions and returns denoised ones."""
+
+from __future__ import annotations
+
+from typing import Protocol
+
+from codec.choices import named
+from codec.denoise.filters.bilateral_normal import bilateral_normal_filtering
+from codec.denoise.filters.fast_effective import fast_effective_denoising
+from codec.denoise.filters.guided import guided_normal_filtering
+from codec.denoise.filters.l0 import l0_minimisation
+from codec.denoise.filters.non_iterative import non_iterative_smoothing
+from codec.denoise.filters.vertex_bilateral import bilateral_mesh_denoising
+from codec.geometry.mesh import Faces, Positions
+
+
+class FineStep(Protocol):
+    """Positions (n, 3), faces (m, 3) and a number of iterations, whose default is the method's own, to positions."""
+
+    def __call__(self, positions: Positions, faces: Faces, iterations: int = ...) -> Positions: ...
+
+
+FINE_STEPS: dict[str, FineStep] = {
+    "guided": guided_normal_filtering,
+    "bilateral": bilateral_mesh_denoising,
+    "non-iterative": non_iterative_smoothing,
+    "fast-effective": fast_effective_denoising,
+    "bilateral-normal": bilateral_normal_filtering,
+    "l0": l0_minimisation,
+}
+
+
+def fine_step(name: str) -> FineStep:
+    """The fine step called `name`; `OptionError` if there is none."""
+    return named("fine step", FINE_STEPS, name)

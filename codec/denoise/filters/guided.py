@@ -1,0 +1,82 @@
+"""Guided normal filtering (Zhang et al. 2015), the fine step of the paper, and its relatives with other guides."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+
+from codec.denoise.filters.guidance import patch_guidance
+from codec.denoise.filters.kernel import filter_normals
+from codec.denoise.filters.reach import reach, themselves
+from codec.denoise.filters.topology import Topology
+from codec.denoise.filters.vertex_update import (
+    FaceGeometry,
+    Floats,
+    face_geometry,
+    follow_normals,
+    mean_centroid_distance,
+)
+from codec.geometry.mesh import Faces, Positions
+
+SIGMA_R = 0.35
+RADIUS = 2.0
+VERTEX_ITERATIONS = 10
+
+Guide = Callable[[FaceGeometry, Topology], Floats]
+"""From the mesh as it is to the unit normals, shape (m, 3), that the range kernel compares."""
+
+
+def own_normals(geometry: FaceGeometry, topology: Topology) -> Floats:
+    """The guide that makes the filter an ordinary bilateral one: the normals themselves."""
+    return geometry.normals
+
+
+class GuidedFilter:
+    """The filter with its neighbourhoods, which are found once, on the mesh that it starts from.
+
+    Parameters
+    ----------
+    positions : ndarray of float64, shape (n, 3)
+        Where the filter starts: the neighbourhood of a face reaches twice the mean distance of adjacent centroids.
+    topology : Topology
+    """
+
+    def __init__(self, positions: Positions, topology: Topology) -> None:
+        self.topology = topology
+        centroids = face_geometry(positions, topology.faces).centroids
+        radius = RADIUS * mean_centroid_distance(centroids, topology.pairs)
+        self._near = reach(centroids, themselves(len(centroids)), centroids, topology.patches, radius)
+
+    def step(self, positions: Positions, guide: Guide = patch_guidance, sigma_r: float = SIGMA_R) -> Positions:
+        """Positions after one iteration: filter the normals once, then let the vertices follow.
+
+        Parameters
+        ----------
+        positions : ndarray of float64, shape (n, 3)
+        guide : callable
+            `patch_guidance` for guided normal filtering, `own_normals` for bilateral filtering.
+        sigma_r : float
+            Width of the range kernel.
+        """
+        geometry = face_geometry(positions, self.topology.faces)
+        sigma_s = mean_centroid_distance(geometry.centroids, self.topology.pairs)
+        normals = filter_normals(geometry, guide(geometry, self.topology), self._near, sigma_s, sigma_r)
+        return follow_normals(positions, self.topology, normals, VERTEX_ITERATIONS)
+
+
+def guided_normal_filtering(positions: Positions, faces: Faces, iterations: int = 20) -> Positions:
+    """Denoise by guided normal filtering.
+
+    Parameters
+    ----------
+    positions : ndarray of float64, shape (n, 3)
+    faces : ndarray of int32, shape (m, 3)
+    iterations : int
+        Outer iterations, of one normal filter and ten vertex updates each.
+    """
+    current = np.array(positions, dtype=np.float64)
+    guided = GuidedFilter(current, Topology(faces, len(current)))
+    for _ in range(iterations):
+        current = guided.step(current)
+    return current

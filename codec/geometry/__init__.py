@@ -1,0 +1,1 @@
+"""Meshes, their graphs, and how far two of them lie apart."""

@@ -1,0 +1,296 @@
+"""How far a decoded mesh is from the original: visual error, normals, distances, and the error of a sequence.
+
+All lengths called *relative* are in units of the original's bounding-box diagonal. Where that diagonal is zero (all
+vertices coincide) the scale is 1.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+from numba import njit
+
+from bitstream.errors import MeshError
+from codec.geometry.incidence import Rows, mesh_edges, vertex_neighbours
+from codec.geometry.mesh import Faces, Positions
+
+Floats = npt.NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """What the encoder's closed loops and the evaluation look at.
+
+    Attributes
+    ----------
+    nmsve : float
+        Normalised mean square visual error, see `nmsve`.
+    nmsve_db : float
+        ``10 * log10(nmsve)``; minus infinity where the meshes are equal.
+    theta_deg : float
+        Mean angle between corresponding face normals, degrees, see `theta`.
+    rms, max_error : float
+        Root mean square and largest distance between corresponding vertices, in the mesh's own unit.
+    rms_relative, max_error_relative : float
+        The same over the original's bounding-box diagonal.
+    """
+
+    nmsve: float
+    nmsve_db: float
+    theta_deg: float
+    rms: float
+    rms_relative: float
+    max_error: float
+    max_error_relative: float
+
+
+class Reference:
+    """An original mesh, prepared so that comparing one decoded version after another is cheap.
+
+    Parameters
+    ----------
+    positions : ndarray of float64, shape (n, 3)
+    faces : ndarray of int32, shape (m, 3)
+    """
+
+    def __init__(self, positions: Positions, faces: Faces) -> None:
+        self.positions: Positions = np.ascontiguousarray(positions, dtype=np.float64)
+        self.faces = np.ascontiguousarray(faces, dtype=np.int32)
+        self.scale = _scale(self.positions)
+        self._neighbours = vertex_neighbours(self.faces, len(self.positions))
+        self._laplacian = geometric_laplacian(self.positions, self._neighbours)
+        self._normals = face_normals(self.positions, self.faces)
+
+    def nmsve(self, decoded: Positions) -> float:
+        """The function `nmsve` against this original."""
+        decoded = self._checked(decoded)
+        detail = _length(self._laplacian - geometric_laplacian(decoded, self._neighbours))
+        return (_length(self.positions - decoded) + detail) / (2 * len(decoded) * self.scale)
+
+    def theta(self, decoded: Positions) -> float:
+        """The function `theta` against this original."""
+        return _mean_angle(self._normals, face_normals(self._checked(decoded), self.faces))
+
+    def mnd(self, decoded: Positions) -> float:
+        """The function `mnd` against this original."""
+        return _mean_difference(self._normals, face_normals(self._checked(decoded), self.faces))
+
+    def compare(self, decoded: Positions) -> Comparison:
+        """The function `compare` against this original."""
+        visual = self.nmsve(decoded)
+        squared = np.square(self.positions - decoded).sum(axis=1)
+        rms = math.sqrt(squared.mean())
+        largest = math.sqrt(squared.max())
+        return Comparison(
+            nmsve=visual,
+            nmsve_db=decibel(visual),
+            theta_deg=self.theta(decoded),
+            rms=rms,
+            rms_relative=rms / self.scale,
+            max_error=largest,
+            max_error_relative=largest / self.scale,
+        )
+
+    def _checked(self, decoded: Positions) -> Positions:
+        if decoded.shape != self.positions.shape:
+            raise MeshError(f"decoded positions have shape {decoded.shape}, the original's {self.positions.shape}")
+        return np.ascontiguousarray(decoded, dtype=np.float64)
+
+
+def compare(original: Positions, decoded: Positions, faces: Faces) -> Comparison:
+    """Compare two meshes of the same faces; `Reference` does it faster for many decoded versions of one original.
+
+    Parameters
+    ----------
+    original, decoded : ndarray of float64, shape (n, 3)
+    faces : ndarray of int32, shape (m, 3)
+
+    Raises
+    ------
+    MeshError
+        If the shapes of the positions differ.
+    """
+    return Reference(original, faces).compare(decoded)
+
+
+def nmsve(original: Positions, decoded: Positions, faces: Faces) -> float:
+    """Normalised mean square visual error, with un-squared norms as in section 8 of Arvanitis, Lalos and Moustakas.
+
+    ``(||v - v~|| + ||GL(v) - GL(v~)||) / (2 n)`` over the 3n coordinates of both meshes divided by the original's
+    diagonal; GL is `geometric_laplacian` with the distances of the mesh it is applied to.
+    """
+    return Reference(original, faces).nmsve(decoded)
+
+
+def theta(original: Positions, decoded: Positions, faces: Faces) -> float:
+    """Mean angle between corresponding face normals, in degrees, every face counted alike.
+
+    Faces without area in the original have no direction to lose and are skipped (0 if that is all of them); a face
+    that lost its area only in the decoded mesh counts as 90 degrees.
+    """
+    return Reference(original, faces).theta(decoded)
+
+
+def mnd(original: Positions, decoded: Positions, faces: Faces) -> float:
+    """Mean normal difference: the mean over faces of ``||n - n~||``, between 0 and 2.
+
+    Faces without area are treated as in `theta`: skipped if degenerate in the original, ``sqrt(2)`` if only decoded so.
+    """
+    return Reference(original, faces).mnd(decoded)
+
+
+def rms_over_edge(original: Positions, decoded: Positions, faces: Faces) -> float:
+    """Root mean square distance of corresponding vertices over the original's mean edge length."""
+    return float(np.linalg.norm(original - decoded) / math.sqrt(len(original)) / mean_edge_length(original, faces))
+
+
+def mean_edge_length(positions: Positions, faces: Faces) -> float:
+    """Mean length of the edges, each counted once; 1 where that is zero."""
+    a, b = mesh_edges(faces, len(positions)).T
+    length = float(np.linalg.norm(positions[a] - positions[b], axis=1).mean()) if len(a) else 0.0
+    return length or 1.0
+
+
+def kg_error(original: Floats, decoded: Floats) -> float:
+    """Error of a sequence after Karni and Gotsman, in percent: ``100 * ||P - P~|| / ||P - E(P)||``.
+
+    Frobenius norms over the coordinates of all frames; E(P) puts every vertex of a frame at the mean of that frame's
+    vertices, which is how researchers in the field read the paper, so the denominator is the extent of the shapes.
+
+    Parameters
+    ----------
+    original, decoded : ndarray of float64, shape (T, n, 3)
+
+    Returns
+    -------
+    float
+        Infinity where each frame is a point but the two differ; 0 where they are equal.
+
+    Raises
+    ------
+    MeshError
+        If the shapes differ.
+
+    References
+    ----------
+    Z. Karni, C. Gotsman, "Compression of soft-body animation sequences", Computers & Graphics 28, 2004.
+    """
+    if original.shape != decoded.shape:
+        raise MeshError(f"decoded frames have shape {decoded.shape}, the original's {original.shape}")
+    error = float(np.linalg.norm(original - decoded))
+    extent = float(np.linalg.norm(original - original.mean(axis=1, keepdims=True)))
+    if error == 0.0:
+        return 0.0
+    return 100.0 * error / extent if extent > 0.0 else math.inf
+
+
+def decibel(value: float) -> float:
+    """``10 * log10(value)``, minus infinity for 0."""
+    return 10.0 * math.log10(value) if value > 0.0 else -math.inf
+
+
+def face_normals(positions: Positions, faces: Faces) -> Floats:
+    """Unit normals, shape (m, 3); zero where a face has no area."""
+    normals: Floats = _unit_normals(np.ascontiguousarray(positions), faces)
+    return normals
+
+
+def geometric_laplacian(positions: Positions, neighbours: Rows) -> Floats:
+    """Each vertex minus the mean of its neighbours, weighted by inverse distance; shape (n, 3).
+
+    A vertex with a neighbour at distance zero has the limit of that formula, 0, and so has a vertex without
+    neighbours.
+
+    Parameters
+    ----------
+    positions : ndarray of float64, shape (n, 3)
+    neighbours : Rows
+        From `codec.geometry.incidence.vertex_neighbours`.
+    """
+    laplacian: Floats = _geometric_laplacian(np.ascontiguousarray(positions), neighbours.starts, neighbours.members)
+    return laplacian
+
+
+def _length(values: Floats) -> float:
+    """Euclidean norm of all entries, without BLAS: its threads would go on spinning beside the encoder's."""
+    return math.sqrt(np.square(values).sum())
+
+
+def _scale(positions: Positions) -> float:
+    return float(np.linalg.norm(np.ptp(positions, axis=0))) or 1.0
+
+
+@njit(cache=True, nogil=True)
+def _unit_normals(positions, faces):  # type: ignore[no-untyped-def]
+    normals = np.zeros((len(faces), 3))
+    for f in range(len(faces)):
+        a, b, c = positions[faces[f, 0]], positions[faces[f, 1]], positions[faces[f, 2]]
+        ux, uy, uz = b[0] - a[0], b[1] - a[1], b[2] - a[2]
+        vx, vy, vz = c[0] - a[0], c[1] - a[1], c[2] - a[2]
+        x, y, z = uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx
+        length = math.sqrt(x * x + y * y + z * z)
+        if length > 0.0:
+            normals[f, 0], normals[f, 1], normals[f, 2] = x / length, y / length, z / length
+    return normals
+
+
+@njit(cache=True, nogil=True)
+def _geometric_laplacian(positions, starts, members):  # type: ignore[no-untyped-def]
+    result = np.zeros_like(positions)
+    for i in range(len(positions)):
+        total = 0.0
+        x = y = z = 0.0
+        apart = True
+        for k in range(starts[i], starts[i + 1]):
+            j = members[k]
+            dx = positions[j, 0] - positions[i, 0]
+            dy = positions[j, 1] - positions[i, 1]
+            dz = positions[j, 2] - positions[i, 2]
+            distance = math.sqrt(dx * dx + dy * dy + dz * dz)
+            if distance == 0.0:
+                apart = False
+                break
+            weight = 1.0 / distance
+            total += weight
+            x += weight * dx
+            y += weight * dy
+            z += weight * dz
+        if apart and total > 0.0:
+            result[i, 0], result[i, 1], result[i, 2] = -x / total, -y / total, -z / total
+    return result
+
+
+@njit(cache=True, nogil=True)
+def _mean_angle(original, decoded):  # type: ignore[no-untyped-def]
+    total, count = 0.0, 0
+    for f in range(len(original)):
+        ax, ay, az = original[f, 0], original[f, 1], original[f, 2]
+        bx, by, bz = decoded[f, 0], decoded[f, 1], decoded[f, 2]
+        if ax == 0.0 and ay == 0.0 and az == 0.0:
+            continue
+        count += 1
+        if bx == 0.0 and by == 0.0 and bz == 0.0:
+            total += 0.5 * math.pi
+            continue
+        x, y, z = ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx
+        # The arc tangent keeps small angles exact, where the arc cosine loses half the digits.
+        total += math.atan2(math.sqrt(x * x + y * y + z * z), ax * bx + ay * by + az * bz)
+    return total / count * 180.0 / math.pi if count else 0.0
+
+
+@njit(cache=True, nogil=True)
+def _mean_difference(original, decoded):  # type: ignore[no-untyped-def]
+    total, count = 0.0, 0
+    for f in range(len(original)):
+        if original[f, 0] == 0.0 and original[f, 1] == 0.0 and original[f, 2] == 0.0:
+            continue
+        count += 1
+        if decoded[f, 0] == 0.0 and decoded[f, 1] == 0.0 and decoded[f, 2] == 0.0:
+            total += math.sqrt(2.0)
+            continue
+        x, y, z = original[f, 0] - decoded[f, 0], original[f, 1] - decoded[f, 1], original[f, 2] - decoded[f, 2]
+        total += math.sqrt(x * x + y * y + z * z)
+    return total / count if count else 0.0

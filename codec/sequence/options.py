@@ -1,0 +1,92 @@
+"""What a user may choose when encoding a sequence."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+
+from bitstream.errors import OptionError
+from codec.sequence.targets import SequenceTarget
+
+CHOICES = {
+    "mode": ("gop", "low-delay"),
+    "transform": ("auto", "learnt", "cosine"),
+    "weights": ("cotangent", "binary"),
+}
+RANGES: dict[str, tuple[float, float]] = {
+    "step": (1e-7, 1.0),
+    "first_step": (1e-7, 1.0),
+    "gop": (1, 1 << 20),
+    "block_size": (8, 8192),
+    "overlap": (1.0, 8.0),
+    "keep": (1e-6, 1.0),
+    "frame_rate": (0.0, 1e6),
+    "rounding": (0.0, 0.5),
+    "threads": (1, 256),
+}
+
+
+@dataclass(frozen=True, kw_only=True)
+class SequenceOptions:
+    """How to encode a sequence.
+
+    Parameters
+    ----------
+    mode : str
+        "gop": a temporal transform over groups of frames; "low-delay": every frame is sent as it comes.
+    step : float
+        Quantization step, relative to the bounding box's diagonal of the first frame.
+    first_step : float, optional
+        That of the first frame, which all others are predicted from; None: half of `step`.
+    gop : int
+        Frames of a GOP at most, or between key frames: what a loss costs at most, and what the encoder holds.
+    transform : str
+        Of a GOP: "learnt", "cosine", or what seems to cost less ("auto").
+    weights : str
+        Dictionary: "cotangent" weights taken from the decoded first frame, or "binary" ones.
+    keep : float
+        Columns of the dictionary as a fraction of the block size; below 1, fine detail is lost.
+    block_size, overlap
+        Vertices of a part, about, and size of a block as a multiple of the largest part.
+    frame_rate : float
+        Frames per second, for information; 0: unknown.
+    rounding : float
+        Fraction added before a magnitude is cut to an integer; below 0.5 it widens the dead zone.
+    keep_order : bool
+        Store the order of vertices and faces, and the first corner of each face.
+    threads : int, optional
+        None: one per core.
+    target : SequenceTarget, optional
+        Look for the one step for all frames that reaches it; this needs all frames in memory.
+
+    Raises
+    ------
+    OptionError
+        If a value is outside its legal range.
+    """
+
+    mode: str = "gop"
+    step: float = 0.002
+    first_step: float | None = None
+    gop: int = 256
+    transform: str = "auto"
+    weights: str = "cotangent"
+    keep: float = 1.0
+    block_size: int = 400
+    overlap: float = 1.0
+    frame_rate: float = 0.0
+    rounding: float = 0.4
+    keep_order: bool = False
+    threads: int | None = None
+    target: SequenceTarget | None = None
+
+    def __post_init__(self) -> None:
+        for item in fields(self):
+            value = getattr(self, item.name)
+            if value is None:
+                continue
+            if item.name in CHOICES and value not in CHOICES[item.name]:
+                raise OptionError(f"{item.name} must be one of {', '.join(CHOICES[item.name])}, not {value!r}")
+            if item.name in RANGES:
+                low, high = RANGES[item.name]
+                if not low <= value <= high:
+                    raise OptionError(f"{item.name} = {value:g} is outside {low:g}..{high:g}")

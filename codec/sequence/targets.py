@@ -1,0 +1,85 @@
+"""What a sequence is to reach: the targets of static meshes, over all of its frames."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from bitstream.errors import OptionError
+from codec.geometry.mesh import Faces, Positions
+from codec.geometry.metrics import Reference, kg_error
+from codec.static.targets import Target
+
+SEQUENCE_KINDS = ("kg", "theta_deg", "nmsve_db", "bpvf")
+
+
+@dataclass(frozen=True)
+class SequenceComparison:
+    """A decoded sequence against its original.
+
+    Attributes
+    ----------
+    kg : float
+        Karni and Gotsman's error, percent.
+    theta_deg, nmsve_db : float
+        Means over the frames (of NMSVE itself, not of its decibels).
+    rms_relative, max_error_relative : float
+        Over all frames, in diagonals of the first frame.
+    """
+
+    kg: float
+    theta_deg: float
+    nmsve_db: float
+    rms_relative: float
+    max_error_relative: float
+
+
+def compare_sequences(original: Positions, decoded: Positions, faces: Faces) -> SequenceComparison:
+    """Compare frames, both of shape (T, n, 3), that share their faces and the order of their vertices."""
+    kg = kg_error(original, decoded)
+    each = [Reference(a, faces).compare(b) for a, b in zip(original, decoded, strict=True)]
+    diagonal = float(np.linalg.norm(np.ptp(original[0], axis=0))) or 1.0
+    nmsve = float(np.mean([frame.nmsve for frame in each]))
+    return SequenceComparison(
+        kg=kg,
+        theta_deg=float(np.mean([frame.theta_deg for frame in each])),
+        nmsve_db=10.0 * math.log10(nmsve) if nmsve > 0.0 else -math.inf,
+        rms_relative=math.sqrt(float(np.mean([frame.rms**2 for frame in each]))) / diagonal,
+        max_error_relative=max(frame.max_error for frame in each) / diagonal,
+    )
+
+
+@dataclass(frozen=True)
+class SequenceTarget(Target):
+    """What to reach.
+
+    Parameters
+    ----------
+    kind : str
+        "kg" (percent), "theta_deg", "nmsve_db" (at most so much error), or "bpvf" (at most so many bits per vertex and
+        frame of the whole file).
+    value : float
+
+    Raises
+    ------
+    OptionError
+        If there is no such target.
+    """
+
+    def __post_init__(self) -> None:
+        if self.kind not in SEQUENCE_KINDS:
+            raise OptionError(f"a target must be one of {', '.join(SEQUENCE_KINDS)}, not {self.kind!r}")
+        if not math.isfinite(self.value) or (self.kind != "nmsve_db" and self.value <= 0):
+            raise OptionError(f"{self.kind} cannot be {self.value:g}")
+
+    def reached(self, outcome: Any) -> float:
+        """The outcome's value of what the target is about."""
+        return float(outcome.bpvf if self.kind == "bpvf" else getattr(outcome.comparison, self.kind))
+
+    @property
+    def shrinks_with_step(self) -> bool:
+        """Whether a coarser step lowers the value (a size) instead of raising it (an error)."""
+        return self.kind == "bpvf"

@@ -1,0 +1,66 @@
+"""Choosing the temporal basis of a GOP: the encoder's own business."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from codec.sequence.row_prediction import OCTAVE
+
+Matrix = npt.NDArray[np.float64]
+
+WORTH = 0.5
+"""A component is kept if its energy is above WORTH * 3T * step^2: below, it costs more than it brings."""
+PRECISION = 0.27
+"""Error of the basis, times the coefficients that it multiplies, in steps."""
+FINEST_EXPONENT = OCTAVE * 23 - 1
+"""With a finer step the levels of a column of length one could not be coded."""
+
+
+@dataclass(frozen=True, eq=False)
+class LearntBasis:
+    """Principal components of trajectories.
+
+    Parameters
+    ----------
+    columns : float64 array, shape (3T, r)
+        Orthonormal, by descending energy.
+    exponents : int32 array, shape (r,)
+        Steps to quantize them with, see `codec.sequence.row_prediction.basis_steps`.
+    """
+
+    columns: Matrix
+    exponents: npt.NDArray[np.int32]
+
+
+def learn_basis(motion: Matrix, step: float, limit: int) -> LearntBasis:
+    """Eigenvectors of the covariance of trajectories, x, y and z coupled.
+
+    Parameters
+    ----------
+    motion : float64 array, shape (n, 3T)
+    step : float
+        With which the components will be quantized.
+    limit : int
+        Largest exponent that can be sent.
+    """
+    energies, vectors = np.linalg.eigh(motion.T @ motion)
+    width = len(energies)
+    count = int(np.count_nonzero(energies > WORTH * width * step**2))
+    kept = energies[: -count - 1 : -1]
+    deviation = np.sqrt(kept / len(motion))
+    exponents = np.round(OCTAVE * np.log2(deviation * np.sqrt(width) / (PRECISION * step)))
+    columns = np.ascontiguousarray(vectors[:, : -count - 1 : -1])
+    return LearntBasis(columns, np.clip(exponents, 0, min(limit, FINEST_EXPONENT)).astype(np.int32))
+
+
+def projection(basis: Matrix) -> Matrix:
+    """Pseudo-inverse of a decoded basis, transposed: coefficients times this are the components that fit best."""
+    return np.ascontiguousarray(np.linalg.pinv(basis).T)
+
+
+def bits_estimate(components: Matrix, step: float) -> float:
+    """About what components cost when quantized with `step`."""
+    return float(np.log2(1.0 + np.abs(components) / step).sum())

@@ -1,0 +1,60 @@
+"""How the energy of a mesh falls with frequency, measured on a few blocks: it tells how many coefficients pay."""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+
+from codec.basis.orthogonal_iteration import cosine_columns, orthogonal_iteration
+from codec.blocks.overlap import Blocks
+from codec.signal.transform import project
+
+Matrix = npt.NDArray[np.float64]
+
+SAMPLES = 2
+WORTHWHILE = 0.75
+FIRST_LOOK = 160
+
+
+class MeasuredSpectrum:
+    """Root mean square coefficient at each frequency, measured from the low ones on as far as somebody asks.
+
+    Parameters
+    ----------
+    blocks : Blocks
+    positions : float64 array, shape (n, 3)
+        In the unit of the quantization step.
+    shift : float
+        delta of the dictionaries.
+    """
+
+    def __init__(self, blocks: Blocks, positions: Matrix, *, shift: float) -> None:
+        indices = np.unique(np.linspace(0, blocks.count - 1, SAMPLES + 2).astype(int)[1:-1])
+        self._samples = [blocks.block(int(index)) for index in indices]
+        self._positions = positions
+        self._shift = shift
+        self._size = int(np.diff(blocks.starts).max())
+        self._magnitudes = self._measure(min(FIRST_LOOK, self._size))
+
+    def worthwhile_size(self, step: float) -> int:
+        """Subspace size beyond which a coefficient is hardly ever quantized to anything but zero."""
+        while True:
+            known = len(self._magnitudes)
+            size = int(np.count_nonzero(self._magnitudes > WORTHWHILE * step))
+            # The last eighth is an average over fewer frequencies than there are.
+            if size < known - known // 8 or known == self._size:
+                return max(1, size)
+            self._magnitudes = self._measure(min(2 * known, self._size))
+
+    def _measure(self, width: int) -> Matrix:
+        """The lowest `width` frequencies, not rising; the first columns of a dictionary do not depend on later ones."""
+        energy, count = np.zeros(width), np.zeros(width)
+        for block in self._samples:
+            start = cosine_columns(block.size, 0, min(width, block.size))
+            subspace = orthogonal_iteration(block, start, shift=self._shift, power=1, iterations=1)
+            coefficients = project(subspace, self._positions[block.vertices], subspace.shape[1])
+            energy[: block.size] += np.square(coefficients).mean(axis=1)
+            count[: block.size] += 1
+        energy /= np.maximum(count, 1)
+        smooth = np.array([energy[j - (j + 4) // 8 : j + (j + 4) // 8 + 1].mean() for j in range(width)])
+        return np.sqrt(np.maximum.accumulate(smooth[::-1])[::-1])

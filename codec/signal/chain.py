@@ -1,0 +1,100 @@
+"""A chain: a key block and the blocks that follow it, each of which may look back as far as the key block.
+
+Encoder and decoder step through the same chain with the same calls: `around`, `dictionary`, `commit`. Different
+chains know nothing of each other, which bounds what a lost block costs and lets chains run in parallel.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from codec.basis.orthogonal_iteration import cosine_columns, exact_basis, orthogonal_iteration, resized
+from codec.blocks.overlap import Block
+from codec.geometry.graph import Graph
+from codec.signal.predict import Known, Surroundings, unheld
+
+Matrix = npt.NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class ChainRules:
+    """What the stream's header says about dictionaries and chains.
+
+    Parameters
+    ----------
+    exact : bool
+        Exact eigenbasis of every block instead of orthogonal iterations.
+    independent : bool
+        Every block starts from cosines and is a chain of its own.
+    key_interval : int
+        Blocks per chain; 0: one chain.
+    power, iterations, key_iterations, shift
+        z, t_max, t_max of a block without predecessor, and delta.
+    stiffness : float, optional
+        Of the springs in the prediction, see `codec.signal.predict`; None: no prediction.
+    """
+
+    exact: bool
+    independent: bool
+    key_interval: int
+    power: int
+    iterations: int
+    key_iterations: int
+    shift: float
+    stiffness: float | None
+
+    @property
+    def solves(self) -> int:
+        """Solutions for each column of a block, at most."""
+        return self.power * max(self.iterations, self.key_iterations)
+
+    def chain_starts(self, blocks: int) -> range:
+        """Indices of the key blocks among `blocks` blocks."""
+        return range(0, blocks, self.chain_length(blocks))
+
+    def chain_length(self, blocks: int) -> int:
+        """Blocks in a chain (the last one may be shorter)."""
+        return 1 if self.independent else self.key_interval or blocks
+
+
+def even_interval(interval: int, blocks: int) -> int:
+    """The length of chains that are as many as with `interval`, and as equal as can be; 0: one chain."""
+    return -(-blocks // -(-blocks // interval)) if interval else 0
+
+
+class Chain:
+    """State of one chain: the latest subspace, and the positions known so far."""
+
+    def __init__(self, rules: ChainRules, graph: Graph) -> None:
+        self._rules = rules
+        self._known = None if rules.stiffness is None else Known(graph, rules.stiffness)
+        self._subspace: Matrix | None = None
+
+    def around(self, block: Block) -> Surroundings:
+        """What the chain knows around a block."""
+        return unheld(block) if self._known is None else self._known.around(block)
+
+    def dictionary(self, block: Block, around: Surroundings, width: int) -> Matrix:
+        """U of a block with `width` columns (at most its rows), a function of connectivity and earlier widths only."""
+        rules = self._rules
+        width = min(width, block.size)
+        if rules.exact:
+            return exact_basis(block, width, around.springs)
+        follows = self._subspace is not None and len(self._subspace) == block.size and not rules.independent
+        if follows:
+            assert self._subspace is not None
+            start = resized(self._subspace, width)
+        else:
+            start = cosine_columns(block.size, 0, width)
+        iterations = rules.iterations if follows or rules.independent else rules.key_iterations
+        shift = around.springs + rules.shift
+        return orthogonal_iteration(block, start, shift=shift, power=rules.power, iterations=iterations)
+
+    def commit(self, block: Block, subspace: Matrix, positions: Matrix) -> None:
+        """Make a block, its subspace and its decoded positions, shape (n_i, 3), the predecessor's."""
+        self._subspace = subspace
+        if self._known is not None:
+            self._known.add(block, positions)

@@ -1,0 +1,119 @@
+"""The detail layer: what the coefficients of x, y and z leave out, kept along the normal alone.
+
+Not in the paper. How a surface looks is decided by how far it stands out, hardly by where on it the vertices sit. So
+beyond the lowest frequencies only one number per frequency is coded, not three: with b the block decoded so far, m its
+vertex normals and v the original, the displacement h = m . (v - b) has the coefficients U^T h, and the block becomes
+b + m (U U^T h). Their step is finer than that of x, y and z, and they reach to higher frequencies.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TypeVar
+
+import numpy as np
+import numpy.typing as npt
+from numba import njit
+
+from codec.blocks.overlap import Block
+from codec.geometry.graph import Indices
+from codec.geometry.incidence import vertex_faces
+from codec.geometry.mesh import Faces
+from codec.signal.transform import reconstruct
+
+Matrix = npt.NDArray[np.float64]
+Levels = npt.NDArray[np.int32]
+Number = TypeVar("Number", bound=np.integer)
+
+SOFTNESS = 2.0**-10
+"""Below this share of the usual length of a sum of face normals, as where they cancel, a normal is shorter than 1."""
+
+LEAST = 2.0**-33
+"""The same in BSM units: sums of normals that are no longer are rounding, on which decoders need not agree."""
+
+
+@dataclass(frozen=True, eq=False)
+class Surface:
+    """Faces, and which of them are around each vertex."""
+
+    faces: Faces
+    starts: npt.NDArray[np.int64]
+    members: Indices
+
+
+def make_surface(faces: Faces, size: int) -> Surface:
+    """Surface of `faces`, shape (m, 3), on `size` vertices."""
+    return Surface(faces, *vertex_faces(faces, size))
+
+
+class Normals:
+    """Vertex normals of one block after another."""
+
+    def __init__(self, surface: Surface) -> None:
+        self._surface = surface
+        # One more than the row of each vertex; zeros cost memory only where they are touched.
+        self._place = np.zeros(len(surface.starts) - 1, np.int32)
+
+    def of(self, block: Block, positions: Matrix) -> Matrix:
+        """Normals at a block's rows, shape (n_i, 3), from its own positions and the faces that lie inside it.
+
+        The sum s of the faces' normals, each as long as twice its area, over sqrt(s . s + e^2 + f^2); e is
+        `SOFTNESS` times the root mean square of |s| over the block, f is `LEAST`. Zero where nothing has an area.
+        """
+        surface = self._surface
+        return np.asarray(
+            _normals(surface.faces, surface.starts, surface.members, block.vertices, self._place, positions)
+        )
+
+
+def displace(positions: Matrix, normals: Matrix, subspace: Matrix, coefficients: Matrix) -> Matrix:
+    """b + m (U e) for e of shape (d,): U has at least d columns."""
+    height = reconstruct(subspace, coefficients)
+    return positions + normals * height[:, None]
+
+
+def fold_details(levels: npt.NDArray[Number]) -> npt.NDArray[Number]:
+    """Levels of successive frequencies, shape (d,), as rows of three, the last one filled up with zeros."""
+    folded = np.zeros((-(-len(levels) // 3), 3), levels.dtype)
+    folded.reshape(-1)[: len(levels)] = levels
+    return folded
+
+
+def unfold_details(rows: Levels, limit: int) -> Levels:
+    """Twin of `fold_details`; at most `limit` levels."""
+    return rows.reshape(-1)[:limit]
+
+
+@njit(cache=True, nogil=True)
+def _difference(positions, a, b):  # type: ignore[no-untyped-def]
+    return positions[a, 0] - positions[b, 0], positions[a, 1] - positions[b, 1], positions[a, 2] - positions[b, 2]
+
+
+@njit(cache=True, nogil=True)
+def _normals(faces, starts, members, vertices, place, positions):  # type: ignore[no-untyped-def]
+    n = len(vertices)
+    for r in range(n):
+        place[vertices[r]] = r + 1
+    sums = np.zeros((n, 3))
+    total = 0.0
+    for r in range(n):
+        x, y, z = 0.0, 0.0, 0.0
+        for k in range(starts[vertices[r]], starts[vertices[r] + 1]):
+            f = members[k]
+            a, b, c = place[faces[f, 0]] - 1, place[faces[f, 1]] - 1, place[faces[f, 2]] - 1
+            if a >= 0 and b >= 0 and c >= 0:
+                ux, uy, uz = _difference(positions, b, a)
+                vx, vy, vz = _difference(positions, c, a)
+                x += uy * vz - uz * vy
+                y += uz * vx - ux * vz
+                z += ux * vy - uy * vx
+        sums[r, 0], sums[r, 1], sums[r, 2] = x, y, z
+        total += x * x + y * y + z * z
+    soft = SOFTNESS * SOFTNESS * total / n + LEAST * LEAST
+    for r in range(n):
+        length = np.sqrt(sums[r, 0] ** 2 + sums[r, 1] ** 2 + sums[r, 2] ** 2 + soft)
+        for d in range(3):
+            sums[r, d] /= length
+    for r in range(n):
+        place[vertices[r]] = 0
+    return sums

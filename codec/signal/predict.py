@@ -1,0 +1,122 @@
+"""Predicting a block from the vertices around it that are known already, and letting its dictionary know of them.
+
+Not in the paper. Every edge that leaves the block to a known vertex is a spring of stiffness 1 to where that vertex
+is, as every edge is in the quadratic form of L; a known vertex inside the block hangs on a spring to its own place.
+With S the stiffnesses at each row and y their pulls, the surface that continues what is known is the equilibrium
+(L + S)^-1 y: the harmonic extension. Only the difference from it is coded. It is small beside known vertices and free
+elsewhere, and so are the lowest eigenvectors of L + S: they, not those of L, are the dictionary.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+from numba import njit
+
+from codec.basis.laplacian import factorize, solve
+from codec.blocks.blend import Blend, degree_weights
+from codec.blocks.overlap import Block
+from codec.geometry.graph import Graph
+
+Matrix = npt.NDArray[np.float64]
+
+MAX_STIFFNESS = 2.0**16
+"""Largest stiffness that a stream may ask for."""
+TETHER = 2.0**-16
+"""Stiffness with which every row hangs on the mean of the pulls; it places what no spring reaches."""
+
+
+@dataclass(frozen=True, eq=False)
+class Surroundings:
+    """What holds a block.
+
+    Parameters
+    ----------
+    springs : float64 array, shape (n,)
+        Sum of the stiffnesses at each row.
+    pulls : float64 array, shape (n, 3)
+        Sum of stiffness times known position at each row.
+    """
+
+    springs: Matrix
+    pulls: Matrix
+
+
+class Known:
+    """What a chain has decoded so far.
+
+    Parameters
+    ----------
+    graph : Graph
+        Of the whole mesh.
+    stiffness : float
+        Of the spring between a known vertex inside a block and its own place.
+    """
+
+    def __init__(self, graph: Graph, stiffness: float) -> None:
+        self._graph = graph
+        self._stiffness = stiffness
+        self._blend = Blend(graph.size)
+        self._inside = np.zeros(graph.size, np.bool_)
+
+    def add(self, block: Block, positions: Matrix) -> None:
+        """Remember one copy of a block's vertices, shape (n_i, 3)."""
+        self._blend.add(block.vertices, positions, degree_weights(block.degrees))
+
+    def around(self, block: Block) -> Surroundings:
+        """What holds `block`."""
+        graph, blend = self._graph, self._blend
+        return Surroundings(
+            *_look_around(
+                graph.offsets,
+                graph.neighbours,
+                block.vertices,
+                self._inside,
+                blend.sums,
+                blend.weights,
+                self._stiffness,
+            )
+        )
+
+
+def unheld(block: Block) -> Surroundings:
+    """Surroundings of a block that knows of nothing."""
+    return Surroundings(np.zeros(block.size), np.zeros((block.size, 3)))
+
+
+def extend(block: Block, around: Surroundings) -> Matrix:
+    """Positions of a block that continue what is known, shape (n, 3); zero where nothing is known."""
+    total = around.springs.sum()
+    if total == 0.0:
+        return np.zeros((block.size, 3))
+    mean = around.pulls.sum(axis=0) / total
+    factor = factorize(block, around.springs + TETHER)
+    return mean + solve(factor, around.pulls - around.springs[:, None] * mean, 1)
+
+
+@njit(cache=True, nogil=True)
+def _look_around(offsets, neighbours, vertices, inside, sums, weights, stiffness):  # type: ignore[no-untyped-def]
+    springs = np.zeros(len(vertices))
+    pulls = np.zeros((len(vertices), 3))
+    for v in vertices:
+        inside[v] = True
+    for r in range(len(vertices)):
+        v = vertices[r]
+        if weights[v] > 0.0:
+            _hang(springs, pulls, r, stiffness, sums[v], weights[v])
+        for i in range(offsets[v], offsets[v + 1]):
+            w = neighbours[i]
+            if not inside[w] and weights[w] > 0.0:
+                _hang(springs, pulls, r, 1.0, sums[w], weights[w])
+    for v in vertices:
+        inside[v] = False
+    return springs, pulls
+
+
+@njit(cache=True, nogil=True)
+def _hang(springs, pulls, row, stiffness, total, weight):  # type: ignore[no-untyped-def]
+    springs[row] += stiffness
+    for d in range(3):
+        pulls[row, d] += stiffness * (total[d] / weight)

@@ -1,0 +1,146 @@
+"""What a user may choose when encoding; the defaults are the product."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+
+from bitstream.errors import OptionError
+from codec.static.targets import Target
+
+CHOICES = {
+    "basis": ("oi", "svd"),
+    "seed": ("previous", "independent"),
+    "blend": ("degree", "uniform", "own"),
+    "partition": ("derived", "metis"),
+}
+RANGES: dict[str, tuple[float, float]] = {
+    "keep": (1e-6, 1.0),
+    "coefficients": (1, 1 << 20),
+    "block_size": (8, 1 << 20),
+    "overlap": (1.0, 8.0),
+    "key_interval": (0, 1 << 30),
+    "key_iterations": (1, 64),
+    "power": (1, 16),
+    "iterations": (1, 64),
+    "shift": (1e-6, 1e3),
+    "bits": (2, 16),
+    "step": (1e-9, 1.0),
+    "detail": (0.0, 64.0),
+    "smoothing": (0.0, 64.0),
+    "threads": (1, 256),
+}
+
+
+@dataclass(frozen=True, kw_only=True)
+class EncodeOptions:
+    """How to encode a static mesh.
+
+    Parameters
+    ----------
+    keep : float, optional
+        Largest size of the subspace, c, as a fraction of the block size n_d; None: as many
+        as are worth coding at the step, measured on a few blocks (a tenth with `bits`, as in the paper).
+    coefficients : int, optional
+        c itself; overrides `keep`.
+    block_size : int
+        Vertices of a part before overlap, about.
+    overlap : float
+        n_d as a multiple of the largest part.
+    partition : str
+        "derived": both sides compute it; "metis": the paper's, its labels are sent.
+    basis, seed : str
+        "oi" (orthogonal iterations) or "svd" (exact eigenbasis); "previous" (start from the block before, predict
+        from the vertices shared with it) or "independent" (every block on its own).
+    key_interval : int
+        Every so many blocks, at most, one depends on nothing before it; 0: only the first.
+    power, iterations, key_iterations : int
+        z, t_max and t_max of a key block.
+    shift : float, optional
+        delta of Algorithm 1; smaller ones converge faster, larger ones keep R^z better conditioned.
+    bits : int, optional
+        q_c: store every coefficient in so many bits, as in the paper, without prediction and smoothing. None: adaptive.
+    step : float
+        Finest quantization step of the adaptive coder, relative to the bounding box's diagonal.
+    detail : float, optional
+        How many times coarser x, y and z are quantized than the detail layer, which keeps what they leave out along
+        the normal alone; 0: no detail layer. None: 3, and 0 with `bits`, `doi` and targets of distance.
+    predict : bool
+        Predict coefficients from overlapping vertices that are known already ("previous" only).
+    smoothing : float, optional
+        Amount alpha of smoothing in the decoder; None: chosen by trying.
+    blend : str
+        Weights of a vertex's copies: "degree" (the paper's), "uniform", or "own" (only the copy in its part counts).
+    keep_order : bool
+        Store the order of vertices and faces, and the first corner of each face.
+    doi : (float, float), optional
+        eps_l and eps_h of dynamic orthogonal iterations, in units of the bounding box's diagonal: c_i follows the
+        error of each block.
+    target : Target, optional
+        Quality or size to reach; the step is searched for.
+    threads : int, optional
+        None: one per core.
+
+    Raises
+    ------
+    OptionError
+        If a value is outside its legal range, or options exclude each other.
+    """
+
+    keep: float | None = None
+    coefficients: int | None = None
+    block_size: int = 750
+    overlap: float = 1.15
+    partition: str = "derived"
+    basis: str = "oi"
+    seed: str = "previous"
+    key_interval: int = 32
+    power: int = 3
+    iterations: int = 1
+    key_iterations: int = 4
+    shift: float = 2.0**-5
+    bits: int | None = None
+    step: float = 0.004
+    detail: float | None = None
+    predict: bool = True
+    smoothing: float | None = None
+    blend: str = "degree"
+    keep_order: bool = False
+    doi: tuple[float, float] | None = None
+    target: Target | None = None
+    threads: int | None = None
+
+    def __post_init__(self) -> None:
+        for item in fields(self):
+            value = getattr(self, item.name)
+            if value is None:
+                continue
+            if item.name in CHOICES and value not in CHOICES[item.name]:
+                raise OptionError(f"{item.name} must be one of {', '.join(CHOICES[item.name])}, not {value!r}")
+            if item.name in RANGES:
+                low, high = RANGES[item.name]
+                if not low <= value <= high:
+                    raise OptionError(f"{item.name} = {value:g} is outside {low:g}..{high:g}")
+        if self.detail_ratio and (self.bits is not None or self.doi is not None):
+            raise OptionError("a detail layer excludes a fixed number of bits and dynamic subspaces")
+        if self.doi is not None and not 0.0 < self.doi[0] < self.doi[1]:
+            raise OptionError(f"doi = {self.doi} must be two thresholds, 0 < eps_l < eps_h")
+        if self.bits is not None and self.target is not None:
+            raise OptionError("a target is reached by the step; it excludes a fixed number of bits")
+
+    @property
+    def detail_ratio(self) -> float:
+        """Step of x, y and z over that of the detail layer; 0: no detail layer."""
+        if self.detail is not None:
+            return self.detail
+        distance = self.target is not None and self.target.kind in ("nmsve_db", "max_error_relative")
+        return 0.0 if distance or self.bits is not None or self.doi is not None else DETAIL_RATIO
+
+
+DETAIL_RATIO = 3.0
+
+PRESETS: dict[str, EncodeOptions] = {
+    "small": EncodeOptions(block_size=1500, overlap=1.0, key_interval=0, step=0.006),
+    "balanced": EncodeOptions(),
+    "fine": EncodeOptions(block_size=500, power=4, step=0.0015),
+}
+"""Names for what most users want; "balanced" is the default. Larger blocks are smaller files and slower to decode."""

@@ -1,0 +1,145 @@
+"""Reaching a quality or a size: a search over the quantization step, on what the decoder will see."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Protocol, TypeVar
+
+from bitstream.errors import OptionError
+from codec.geometry.metrics import Comparison
+
+KINDS = ("nmsve_db", "theta_deg", "max_error_relative", "bpv", "size")
+TOLERANCE = 0.02
+TOLERANCE_DB = 0.1
+COARSEST_STEP = 0.1
+_TRIES = 24
+
+
+class Outcome(Protocol):
+    """What an attempt to encode came to."""
+
+    @property
+    def size(self) -> int:
+        """Bytes of the whole file."""
+
+    @property
+    def vertices(self) -> int:
+        """Number of vertices."""
+
+    @property
+    def comparison(self) -> Comparison:
+        """The decoded mesh against the original."""
+
+
+@dataclass(frozen=True)
+class Target:
+    """What to reach.
+
+    Parameters
+    ----------
+    kind : str
+        "nmsve_db", "theta_deg", "max_error_relative" (at most so much error), "bpv" or "size" (at most so many bits
+        per vertex, or bytes, of the whole file).
+    value : float
+
+    Raises
+    ------
+    OptionError
+        If there is no such target.
+    """
+
+    kind: str
+    value: float
+
+    def __post_init__(self) -> None:
+        if self.kind not in KINDS:
+            raise OptionError(f"a target must be one of {', '.join(KINDS)}, not {self.kind!r}")
+        if not math.isfinite(self.value) or (self.kind != "nmsve_db" and self.value <= 0):
+            raise OptionError(f"{self.kind} cannot be {self.value:g}")
+
+    def reached(self, outcome: Outcome) -> float:
+        """The outcome's value of what the target is about."""
+        if self.kind == "size":
+            return float(outcome.size)
+        if self.kind == "bpv":
+            return 8.0 * outcome.size / outcome.vertices
+        return float(getattr(outcome.comparison, self.kind))
+
+    def excess(self, outcome: Outcome) -> float:
+        """How far over the target an outcome is, in units of the tolerance; in -1 .. 0 it is met."""
+        value = self.reached(outcome)
+        if self.kind == "nmsve_db":
+            return (value - self.value) / TOLERANCE_DB
+        return math.log(max(value, 1e-300) / self.value) / TOLERANCE
+
+    @property
+    def shrinks_with_step(self) -> bool:
+        """Whether a coarser step lowers the value (a size) instead of raising it (an error)."""
+        return self.kind in ("bpv", "size")
+
+
+Found = TypeVar("Found", bound=Outcome)
+
+
+def search_step(attempt: Callable[[float], Found], target: Target, first: float, finest: float) -> tuple[Found, bool]:
+    """Find a step whose outcome meets the target.
+
+    Parameters
+    ----------
+    attempt : callable
+        Encodes with a given step.
+    target : Target
+    first : float
+        Step to try first.
+    finest : float
+        Smallest step that can be tried; the largest is `COARSEST_STEP`.
+
+    Returns
+    -------
+    outcome
+        The one that meets the target, or is on the right side of it and closest, or, where none is, the closest.
+    met : bool
+        Whether it is on the right side of the target, or within the tolerance of it.
+    """
+    low, high = math.log(finest), math.log(COARSEST_STEP)
+    sign = -1.0 if target.shrinks_with_step else 1.0
+    under: tuple[float, float] | None = None  # step and signed excess on the fine side
+    over: tuple[float, float] | None = None
+    right: tuple[float, Found] | None = None
+    nearest: tuple[float, Found] | None = None
+    at = min(max(math.log(first), low), high)
+    for _ in range(_TRIES):
+        outcome = attempt(math.exp(at))
+        excess = target.excess(outcome)
+        if nearest is None or abs(excess) < abs(nearest[0]):
+            nearest = excess, outcome
+        if excess <= 0 and (right is None or excess > right[0]):
+            right = excess, outcome
+        if -1.0 <= excess <= 0.0:
+            break
+        # On the fine side of the answer the signed excess is negative.
+        if sign * excess < 0:
+            under = at, sign * excess
+        else:
+            over = at, sign * excess
+        following = _next_try(under, over, low, high)
+        if abs(following - at) < 1e-4:
+            break
+        at = following
+    assert nearest is not None
+    if right is not None:
+        return right[1], True
+    return nearest[1], abs(nearest[0]) <= 1.0
+
+
+def _next_try(under: tuple[float, float] | None, over: tuple[float, float] | None, low: float, high: float) -> float:
+    """A step (its logarithm) between the two sides, or beyond the only one."""
+    if under is None or over is None:
+        if over is not None:
+            return max(low, over[0] - max(0.3, min(1.5, 0.02 * over[1])))
+        assert under is not None
+        return min(high, under[0] + max(0.3, min(1.5, -0.02 * under[1])))
+    share = -under[1] / (over[1] - under[1])
+    return under[0] + min(max(share, 0.08), 0.92) * (over[0] - under[0])

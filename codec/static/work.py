@@ -1,0 +1,70 @@
+"""Everything that both sides derive from the decoded faces and a few numbers of the header, before any coefficient."""
+
+from __future__ import annotations
+
+from threading import Lock
+
+import numpy as np
+
+from bitstream.limits import Limits
+from codec.blocks.overlap import Block, Blocks, grow_blocks
+from codec.blocks.partition import Partition
+from codec.geometry.graph import Graph
+
+
+def dictionary_work(blocks: int, block_size: int, coefficients: int, solves: int) -> float:
+    """Floating point operations for all dictionaries, about: what `Limits.work` bounds.
+
+    Parameters
+    ----------
+    blocks, block_size, coefficients
+        k, n_d and c.
+    solves : int
+        Orthogonal iterations times power, of a key block.
+    """
+    per_iteration = 8.0 * block_size * coefficients**2
+    return blocks * (block_size * 200.0 + solves * (40.0 * block_size * coefficients + per_iteration))
+
+
+def check_work(limits: Limits, blocks: int, block_size: int, coefficients: int, solves: int, exact: bool) -> None:
+    """Raise `LimitError` if a header asks for more blocks, larger ones or more work than `limits` grant."""
+    limits.check("blocks", blocks)
+    limits.check("block_size", block_size)
+    limits.check("coefficients", coefficients)
+    work = 30.0 * blocks * block_size**3 if exact else dictionary_work(blocks, block_size, coefficients, solves)
+    limits.check("work", work)
+
+
+def block_work(block: Block, columns: int, solves: int, exact: bool) -> float:
+    """Floating point operations that one block takes, about: two factorisations, solutions, orthonormalisation.
+
+    `dictionary_work` supposes surfaces; in the graph of a hostile list of faces everything may be beside everything,
+    and the factors are as dense.
+    """
+    fronts = block.fronts
+    own = np.diff(fronts.firsts.astype(np.float64))
+    width = own + np.diff(fronts.starts.astype(np.float64))
+    factorisation, entries = float((own * width**2).sum()), float((own * width).sum())
+    if exact:
+        return factorisation + 30.0 * block.size**3
+    return 2.0 * factorisation + solves * columns * (4.0 * entries + 8.0 * block.size * columns)
+
+
+class Allowance:
+    """How much work a decoder may still do; blocks of several chains draw on it at the same time."""
+
+    def __init__(self, limits: Limits) -> None:
+        self._limits = limits
+        self._spent = 0.0
+        self._lock = Lock()
+
+    def spend(self, work: float) -> None:
+        """Take note of work to come; `LimitError` if all of it together is over the limit."""
+        with self._lock:
+            self._spent += work
+            self._limits.check("work", self._spent)
+
+
+def build_blocks(graph: Graph, partition: Partition, size: int) -> Blocks:
+    """Blocks of a partition, grown to n_d = `size`."""
+    return grow_blocks(graph, partition, size)

@@ -1,0 +1,228 @@
+"""The coefficient coder: exact round trips, independence of chains, no harm from damaged payloads, learnt numbers."""
+
+from __future__ import annotations
+
+import hashlib
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from bitstream.coefficients.adaptive import (
+    MAX_LEVEL,
+    CoefficientModel,
+    decode_blocks,
+    decode_coefficients,
+    decode_layers,
+    encode_blocks,
+    encode_coefficients,
+    encode_layers,
+)
+from bitstream.coefficients.contexts import BINS, NEIGHBOURS, expectation_bin, look_around, make_past, note_level
+from bitstream.coefficients.priors import Experience, coordinate_experience, detail_experience, shipped_experiences
+from bitstream.errors import BsmError, CorruptError, OptionError, TruncatedError
+
+HASH = "2a44d8f808d49ca9672132ecc3cc14e6ce99bec020504b7a96d206d4cfc47b34"
+
+LEVELS = st.integers(-3, 3) | st.integers(-300, 300) | st.sampled_from([MAX_LEVEL, -MAX_LEVEL, MAX_LEVEL // 3])
+CHAINS = st.lists(st.lists(st.tuples(LEVELS, LEVELS, LEVELS), min_size=1, max_size=20), min_size=1, max_size=4)
+
+
+def spectrum(random: np.random.Generator, rows: int, mean: float = 6.0) -> np.ndarray:
+    """Levels as a smooth patch has them: falling with frequency, of a scale that differs from block to block."""
+    scale = mean * random.lognormal(0.0, 0.5) * (1.0 + np.arange(rows)) ** -0.3
+    return random.laplace(0.0, scale[:, None], (rows, 3)).astype(np.int32)
+
+
+def entropy_of_laplace(mean: float) -> float:
+    """Bits of a geometric magnitude and its sign."""
+    p = 1 / (1 + mean)
+    return (-p * np.log2(p) - (1 - p) * np.log2(1 - p)) / p + (1 - p)
+
+
+@settings(deadline=None, max_examples=60)
+@given(CHAINS)
+def test_any_chain_of_blocks_round_trips(chain: list[list[tuple[int, int, int]]]) -> None:
+    blocks = [np.array(block, np.int32) for block in chain]
+    writer, reader = CoefficientModel(20), CoefficientModel(20)
+    payloads = [encode_coefficients(writer, block) for block in blocks]
+    for payload, block in zip(payloads, blocks):
+        np.testing.assert_array_equal(decode_coefficients(reader, payload, len(block)), block)
+
+
+@settings(deadline=None, max_examples=60)
+@given(CHAINS, st.integers(1, 3))
+def test_any_groups_of_blocks_round_trip(chain: list[list[tuple[int, int, int]]], size: int) -> None:
+    blocks = [np.array(block, np.int32) for block in chain]
+    writer, reader = CoefficientModel(20), CoefficientModel(20)
+    for first in range(0, len(blocks), size):
+        group = blocks[first : first + size]
+        decoded = decode_blocks(reader, encode_blocks(writer, group), len(group))
+        assert len(decoded) == len(group)
+        for one, other in zip(decoded, group):
+            np.testing.assert_array_equal(one, other)
+
+
+def test_in_a_group_the_numbers_of_rows_come_for_free() -> None:
+    random = np.random.default_rng(8)
+    blocks = [spectrum(random, 60) for _ in range(16)]
+    model, alone = CoefficientModel(60), CoefficientModel(60)
+    together = len(encode_blocks(model, blocks))
+    assert together <= sum(len(encode_coefficients(alone, block)) for block in blocks)
+
+
+def test_groups_of_another_length_are_noticed() -> None:
+    random = np.random.default_rng(9)
+    payload = encode_blocks(CoefficientModel(60), [spectrum(random, 40) for _ in range(3)])
+    for count in (2, 4):
+        with pytest.raises((CorruptError, TruncatedError)):
+            decode_blocks(CoefficientModel(60), payload, count)
+
+
+@settings(deadline=None, max_examples=100)
+@given(st.binary(max_size=100), st.integers(1, 6))
+def test_hostile_groups_raise_or_give_legal_blocks(payload: bytes, count: int) -> None:
+    try:
+        blocks = decode_blocks(CoefficientModel(50), payload, count)
+    except BsmError:
+        return
+    assert len(blocks) == count
+    for levels in blocks:
+        assert 1 <= len(levels) <= 50
+        assert np.abs(levels.astype(np.int64)).max() <= MAX_LEVEL
+
+
+def test_encoding_leaves_the_levels_alone() -> None:
+    levels = spectrum(np.random.default_rng(0), 30)
+    before = levels.copy()
+    encode_coefficients(CoefficientModel(30), levels)
+    np.testing.assert_array_equal(levels, before)
+
+
+def test_a_new_model_knows_nothing_of_an_old_one() -> None:
+    random = np.random.default_rng(1)
+    first, second = spectrum(random, 40), spectrum(random, 40)
+    used = CoefficientModel(40)
+    encode_coefficients(used, first)
+    assert encode_coefficients(CoefficientModel(40), second) != encode_coefficients(used, second)
+    assert encode_coefficients(CoefficientModel(40), first) == encode_coefficients(CoefficientModel(40), first)
+
+
+def test_a_copy_is_independent() -> None:
+    random = np.random.default_rng(2)
+    model = CoefficientModel(40)
+    encode_coefficients(model, spectrum(random, 40))
+    twin = model.copy()
+    levels = spectrum(random, 33)
+    encode_coefficients(model.copy(), levels)
+    assert encode_coefficients(twin, levels) == encode_coefficients(model, levels)
+
+
+def test_the_width_of_a_model_does_not_change_the_bytes() -> None:
+    levels = spectrum(np.random.default_rng(3), 25)
+    assert encode_coefficients(CoefficientModel(25), levels) == encode_coefficients(CoefficientModel(400), levels)
+
+
+@pytest.mark.parametrize("mean, ratio", [(4.0, 1.1), (20.0, 1.06)])
+def test_a_short_chain_costs_little_more_than_its_entropy(mean: float, ratio: float) -> None:
+    random = np.random.default_rng(4)
+    blocks = [np.trunc(random.exponential(1 / np.log1p(1 / mean), (60, 3))).astype(np.int32) for _ in range(4)]
+    blocks = [block * random.choice([-1, 1], block.shape).astype(np.int32) for block in blocks]
+    model = CoefficientModel(60)
+    bits = 8 * sum(len(encode_coefficients(model, block)) - 1 for block in blocks)
+    assert bits <= ratio * entropy_of_laplace(mean) * 4 * 180
+
+
+def test_blocks_of_zeros_cost_almost_nothing() -> None:
+    model = CoefficientModel(100)
+    assert sum(len(encode_coefficients(model, np.zeros((100, 3), np.int32))) for _ in range(10)) < 10 * 15
+
+
+def test_every_truncation_of_a_payload_is_noticed() -> None:
+    levels = spectrum(np.random.default_rng(5), 30)
+    payload = encode_coefficients(CoefficientModel(30), levels)
+    for size in range(len(payload)):
+        try:
+            decoded = decode_coefficients(CoefficientModel(30), payload[:size], 30)
+        except (TruncatedError, CorruptError):
+            continue
+        assert not np.array_equal(decoded, levels)
+
+
+@settings(deadline=None, max_examples=100)
+@given(st.binary(max_size=200), st.integers(1, 50))
+def test_hostile_payloads_raise_or_give_legal_levels(payload: bytes, count: int) -> None:
+    try:
+        levels = decode_coefficients(CoefficientModel(50), payload, count)
+    except BsmError:
+        return
+    assert levels.shape == (count, 3)
+    assert np.abs(levels.astype(np.int64)).max() <= MAX_LEVEL
+
+
+def test_bytes_behind_the_payload_are_noticed() -> None:
+    payload = encode_coefficients(CoefficientModel(30), spectrum(np.random.default_rng(6), 30))
+    with pytest.raises(CorruptError, match="left over"):
+        decode_coefficients(CoefficientModel(30), payload + bytes(5), 30)
+
+
+def test_a_block_wider_than_announced_is_refused() -> None:
+    levels = np.ones((11, 3), np.int32)
+    with pytest.raises(OptionError, match="at most 10 rows"):
+        encode_coefficients(CoefficientModel(10), levels)
+    with pytest.raises(CorruptError, match="11 coefficients"):
+        decode_coefficients(CoefficientModel(10), encode_coefficients(CoefficientModel(11), levels), 11)
+
+
+def test_levels_beyond_the_largest_are_refused() -> None:
+    with pytest.raises(OptionError, match="magnitudes up to"):
+        encode_coefficients(CoefficientModel(1), np.array([[0, MAX_LEVEL + 1, 0]], np.int32))
+
+
+def test_the_shipped_experiences_are_those_of_the_format() -> None:
+    shipped = shipped_experiences()
+    assert hashlib.sha256(b"".join(one.to_bytes() for one in shipped)).hexdigest() == HASH
+    assert shipped == (coordinate_experience(), detail_experience())
+    for experience in shipped:
+        again = Experience.from_bytes(experience.to_bytes())
+        for one, other in zip(vars(experience).values(), vars(again).values()):
+            np.testing.assert_array_equal(one, other)
+        assert (experience.first_slots() >> 20 == experience.slots >> 4).all()
+
+
+def test_layers_round_trip_each_with_its_own_experience() -> None:
+    random = np.random.default_rng(10)
+    writers = CoefficientModel(30), CoefficientModel(20, detail_experience())
+    readers = CoefficientModel(30), CoefficientModel(20, detail_experience())
+    for rows, above in ((30, 20), (5, 0), (12, 7)):
+        levels, details = spectrum(random, rows), spectrum(random, above)
+        payload = encode_layers(writers[0], levels, writers[1], details)
+        for one, other in zip(decode_layers(*readers, payload, rows), (levels, details)):
+            np.testing.assert_array_equal(one, other)
+
+
+def test_known_neighbours() -> None:
+    past = make_past(8)
+    for row, levels in enumerate(([5, -6, 7], [1, 2, -3])):
+        for coordinate, level in enumerate(levels):
+            note_level(past, row, coordinate, level)
+    note_level(past, 2, 0, 9)
+    inputs = np.empty(NEIGHBOURS, np.int64)
+    look_around(past, 2, 1, inputs)
+    np.testing.assert_array_equal(inputs[:9], [32, 96, 0, 0, 0, 144, 0, 32, 48])
+    np.testing.assert_array_equal(inputs[17:], [16, 85, 113])
+    assert not inputs[9:17].any()
+
+
+def test_bins_are_thirds_of_an_octave() -> None:
+    weights = np.zeros(NEIGHBOURS, np.int64)
+    weights[0] = 1 << 10
+    inputs = np.zeros(NEIGHBOURS, np.int64)
+
+    def bin_of(value: int) -> int:
+        inputs[0] = value
+        return expectation_bin(weights, inputs)
+
+    assert [bin_of(v) for v in (0, 1, 2, 3, 4, 5, 6, 7, 8)] == [0, 0, 3, 4, 6, 6, 7, 8, 9]
+    assert bin_of(1 << 30) == BINS - 1

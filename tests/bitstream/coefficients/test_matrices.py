@@ -1,0 +1,157 @@
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from hypothesis.extra.numpy import array_shapes, arrays
+
+from bitstream.coefficients.matrices import decode_levels, encode_levels, make_level_bank
+from bitstream.container.gop import MAX_EXPONENT, GopBody, GopMethod, parse_gop_body, write_gop_body
+from bitstream.errors import BsmError, CorruptError, OptionError, TruncatedError, UnsupportedError
+
+NONE = np.empty(0, np.int32)
+
+
+def empty(columns):
+    return np.zeros((0, columns), np.int32)
+
+
+def round_trip(matrices, references):
+    payload = encode_levels(make_level_bank(), matrices, references)
+    decoded = [np.zeros_like(matrix) for matrix in matrices]
+    decode_levels(make_level_bank(), payload, decoded, references)
+    return payload, decoded
+
+
+@settings(deadline=None)
+@given(
+    arrays(np.int32, array_shapes(min_dims=2, max_dims=2, max_side=30), elements=st.integers(-(2**23) + 1, 2**23 - 1))
+)
+def test_round_trip(matrix):
+    _, decoded = round_trip([matrix], [empty(matrix.shape[1])])
+    assert np.array_equal(decoded[0], matrix)
+
+
+def decaying(seed, rows=60, columns=20):
+    size = 40.0 / (1 + np.arange(rows)[:, None]) / (1 + np.arange(columns))
+    return np.round(np.random.default_rng(seed).laplace(size=(rows, columns)) * size).astype(np.int32)
+
+
+def test_references_are_worth_their_while_and_may_be_earlier_matrices():
+    first, second = decaying(0), decaying(1)
+    related = first + np.random.default_rng(2).integers(-1, 2, first.shape, dtype=np.int32) * (first != 0)
+    alone = encode_levels(make_level_bank(), [first, related], [empty(20), empty(20)])
+    informed = encode_levels(make_level_bank(), [first, related], [empty(20), first])
+    assert len(informed) < 0.97 * len(alone)
+    payload = encode_levels(make_level_bank(), [first, second], [empty(20), first])
+    decoded = [np.zeros_like(first), np.zeros_like(second)]
+    decode_levels(make_level_bank(), payload, decoded, [empty(20), decoded[0]])
+    assert np.array_equal(decoded[0], first) and np.array_equal(decoded[1], second)
+
+
+def test_payloads_learn_from_each_other():
+    bank, reader = make_level_bank(), make_level_bank()
+    learning = fresh = 0
+    for seed in range(6):
+        matrix = decaying(seed)
+        payload = encode_levels(bank, [matrix], [empty(20)])
+        decoded = [np.zeros_like(matrix)]
+        decode_levels(reader, payload, decoded, [empty(20)])
+        assert np.array_equal(decoded[0], matrix)
+        learning += len(payload)
+        fresh += len(encode_levels(make_level_bank(), [matrix], [empty(20)]))
+    assert learning < 0.98 * fresh
+
+
+def test_zeros_are_almost_free():
+    payload, _ = round_trip([np.zeros((500, 100), np.int32)] * 4, [empty(100)] * 4)
+    assert len(payload) < 10
+
+
+def test_small_magnitudes_cost_about_their_entropy():
+    matrix = np.random.default_rng(0).choice([-1, 0, 1], p=[0.1, 0.8, 0.1], size=(400, 50)).astype(np.int32)
+    payload, _ = round_trip([matrix], [empty(50)])
+    entropy = -(0.8 * np.log2(0.8) + 0.2 * np.log2(0.1)) * matrix.size / 8
+    assert len(payload) < 1.05 * entropy
+
+
+def test_no_columns():
+    payload, decoded = round_trip([np.zeros((5, 0), np.int32)], [empty(0)])
+    assert len(payload) < 3 and decoded[0].shape == (5, 0)
+
+
+def test_truncated_and_trailing_payloads():
+    matrix = decaying(3)
+    payload = encode_levels(make_level_bank(), [matrix], [empty(20)])
+    with pytest.raises(TruncatedError):
+        decode_levels(make_level_bank(), payload[: len(payload) // 2], [np.zeros_like(matrix)], [empty(20)])
+    with pytest.raises(CorruptError):
+        decode_levels(make_level_bank(), payload + bytes(8), [np.zeros_like(matrix)], [empty(20)])
+
+
+@settings(deadline=None)
+@given(st.binary(max_size=200))
+def test_noise_is_a_typed_error_or_levels(noise):
+    matrices = [np.zeros((9, 5), np.int32), np.zeros((4, 5), np.int32)]
+    try:
+        decode_levels(make_level_bank(), noise, matrices, [empty(5), matrices[0]])
+    except BsmError:
+        return
+    _, again = round_trip(matrices, [empty(5), matrices[0]])
+    assert all(np.array_equal(a, b) for a, b in zip(matrices, again))
+
+
+BODIES = [
+    GopBody(GopMethod.LEARNT, 4, 0.5, 3, np.array([7, 3, 40], np.int32), b"basis", b"levels"),
+    GopBody(GopMethod.LEARNT, 4, 0.5, 0, NONE, b"", b""),
+    GopBody(GopMethod.COSINES, 2, 0.25, 6, NONE, b"", b"levels"),
+    GopBody(GopMethod.KEY_FRAME, 1, 2.0**-20, 3, NONE, b"", b"x"),
+    GopBody(GopMethod.NEXT_FRAME, 1, 1.0, 3, NONE, b"", b""),
+]
+
+
+@pytest.mark.parametrize("body", BODIES)
+def test_bodies(body):
+    parsed = parse_gop_body(write_gop_body(body), 4)
+    assert (parsed.method, parsed.frames, parsed.step, parsed.components) == (
+        body.method,
+        body.frames,
+        body.step,
+        body.components,
+    )
+    assert np.array_equal(parsed.exponents, body.exponents)
+    assert (parsed.basis, parsed.levels) == (body.basis, body.levels)
+
+
+def test_known_bytes_of_a_body():
+    # method 0, T = 4, step 0.5, r = 3, zigzag differences 7, -4, 37, length 5
+    assert write_gop_body(BODIES[0]) == b"\x00\x04\x00\x00\x00\x3f\x03\x0e\x07\x4a\x05basislevels"
+
+
+@pytest.mark.parametrize(
+    ("data", "error"),
+    [
+        (b"", CorruptError),
+        (b"\x04\x01\x00\x00\x80\x3f\x03", UnsupportedError),
+        (b"\x01\x00\x00\x00\x80\x3f\x03", CorruptError),  # no frames
+        (b"\x01\x05\x00\x00\x80\x3f\x03", CorruptError),  # more than the header allows
+        (b"\x02\x02\x00\x00\x80\x3f", CorruptError),  # two frames where there is one
+        (b"\x01\x01\x00\x00\x80\xbf\x03", CorruptError),  # negative step
+        (b"\x01\x01\x00\x00\xc0\x7f\x03", CorruptError),  # step not a number
+        (b"\x01\x01\x00\x00\x80\x7f\x03", CorruptError),  # infinite step
+        (b"\x01\x01\x00\x00\x80\x3f\x04", CorruptError),  # more components than 3 T
+        (b"\x00\x01\x00\x00\x80\x3f\x01\x01\x00", CorruptError),  # exponent -1
+        (b"\x00\x01\x00\x00\x80\x3f\x01\xa2\x06\x00", CorruptError),  # exponent 401
+        (b"\x00\x01\x00\x00\x80\x3f\x01\x00\x02\x00", CorruptError),  # basis longer than the data
+        (b"\x01\x01\x00\x00\x80", CorruptError),
+    ],
+)
+def test_illegal_bodies(data, error):
+    with pytest.raises(error):
+        parse_gop_body(data, 4)
+
+
+def test_illegal_steps_cannot_be_written():
+    for step in (0.0, -1.0, float("inf"), float("nan"), 0.1):  # 0.1 is no single-precision number
+        with pytest.raises(OptionError):
+            write_gop_body(GopBody(GopMethod.COSINES, 1, step, 3, NONE, b"", b""))
+    assert MAX_EXPONENT == 400

@@ -1,0 +1,109 @@
+"""Permutations, rotations and the original order of a mesh: exact round trips, and damage is noticed."""
+
+from __future__ import annotations
+
+from math import lgamma, log
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from bitstream.connectivity.faces import decode_connectivity, encode_connectivity
+from bitstream.connectivity.order import decode_arrangement, encode_arrangement
+from bitstream.connectivity.permutation import (
+    decode_permutation,
+    decode_rotations,
+    encode_permutation,
+    encode_rotations,
+)
+from bitstream.errors import CorruptError, OptionError, TruncatedError
+from tests.shapes import Faces, grid_faces
+
+quick = settings(deadline=None, max_examples=100)
+
+
+@quick
+@given(st.integers(0, 300).flatmap(lambda n: st.permutations(range(n))))
+def test_permutations_round_trip(order: list[int]) -> None:
+    np.testing.assert_array_equal(decode_permutation(encode_permutation(order), len(order)), order)
+
+
+@quick
+@given(st.lists(st.integers(0, 2), max_size=300))
+def test_rotations_round_trip(rotations: list[int]) -> None:
+    np.testing.assert_array_equal(decode_rotations(encode_rotations(rotations), len(rotations)), rotations)
+
+
+def test_random_order_costs_about_its_entropy_and_runs_cost_little() -> None:
+    size = 5000
+    order = np.random.default_rng(0).permutation(size)
+    assert 8 * len(encode_permutation(order)) < 1.1 * lgamma(size + 1) / log(2)
+    assert len(encode_permutation(np.arange(size))) < 40
+    assert len(encode_permutation(np.arange(size)[::-1])) < 60
+    assert len(encode_permutation(np.roll(np.arange(size), 1234))) < 50
+    assert len(encode_permutation(np.arange(size).reshape(50, 100).T.ravel())) < 0.2 * size
+
+
+@pytest.mark.parametrize("order", [[0, 0], [1, 2], [-1, 0], [[0, 1]]])
+def test_what_is_no_permutation_is_refused(order: list[int]) -> None:
+    with pytest.raises(OptionError):
+        encode_permutation(order)
+    with pytest.raises(OptionError):
+        encode_rotations([0, 1, 3])
+
+
+def test_damage_to_a_permutation_is_noticed_or_gives_another() -> None:
+    rng = np.random.default_rng(1)
+    payload = encode_permutation(rng.permutation(300))
+    damaged = [payload[:size] for size in range(len(payload) - 4)]
+    for _ in range(500):
+        data = bytearray(payload)
+        data[rng.integers(0, len(data))] ^= int(rng.integers(1, 256))
+        damaged.append(bytes(data))
+    noticed = 0
+    for data in damaged:
+        try:
+            order = decode_permutation(data, 300)
+        except (CorruptError, TruncatedError):
+            noticed += 1
+            continue
+        np.testing.assert_array_equal(np.sort(order), np.arange(300))
+    assert noticed > 0.8 * len(damaged)
+
+
+def shuffled(faces: Faces, seed: int) -> Faces:
+    """Other numbers, another order, other first corners."""
+    rng = np.random.default_rng(seed)
+    faces = rng.permutation(int(faces.max()) + 1)[faces][rng.permutation(len(faces))]
+    turn = rng.integers(0, 3, len(faces))
+    return np.take_along_axis(faces, (turn[:, None] + np.arange(3)) % 3, axis=1)
+
+
+@pytest.mark.parametrize(
+    "faces",
+    [
+        grid_faces(9, 13),
+        shuffled(grid_faces(9, 13), 3),
+        np.array([[0, 1, 2], [1, 2, 0], [0, 1, 2], [2, 1, 0], [3, 3, 1], [3, 1, 3], [2, 2, 2]]),
+        shuffled(np.random.default_rng(2).integers(0, 12, (60, 3)), 4),
+    ],
+    ids=["grid", "shuffled", "repeats", "soup"],
+)
+def test_original_faces_are_restored_exactly(faces: Faces) -> None:
+    count = int(faces.max()) + 1
+    encoded = encode_connectivity(faces, count)
+    payload = encode_arrangement(faces, encoded)
+    restored = decode_arrangement(payload, decode_connectivity(encoded.payload, count, len(faces)), count)
+    np.testing.assert_array_equal(restored.faces, faces)
+    np.testing.assert_array_equal(restored.vertex_order, encoded.vertex_order)
+    np.testing.assert_array_equal(restored.face_order, encoded.face_order)
+    with pytest.raises((CorruptError, TruncatedError)):
+        decode_arrangement(payload[: len(payload) // 2], encoded.faces, count)
+
+
+def test_arrangement_of_another_mesh_is_refused() -> None:
+    faces = grid_faces(9, 13)
+    encoded = encode_connectivity(faces, 117)
+    with pytest.raises(CorruptError, match="116 vertices"):
+        decode_arrangement(encode_arrangement(faces, encoded), encoded.faces, 116)

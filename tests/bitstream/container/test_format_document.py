@@ -1,0 +1,72 @@
+"""spec/format.md must say what the code does."""
+
+import math
+import re
+from pathlib import Path
+
+import pytest
+
+from bitstream.container.header import FIRST_IGNORABLE_KEY, HEADER_DEFAULTS, HEADER_FIELDS
+from bitstream.container.wire import SKIPPABLE_TYPES, FrameType, checksum
+from tests.bitstream.streams import BARE, encoded, read_all
+
+DOCUMENT = (Path(__file__).parents[3] / "spec" / "format.md").read_text()
+
+
+def number(value) -> str:
+    """A number as the document writes it: extreme powers of two as such."""
+    if value == 2**31 - 1:
+        return "2^31 - 1"
+    mantissa, exponent = math.frexp(value)
+    if mantissa == 0.5 and not 1e-3 < value < 1e6:
+        return f"2^{exponent - 1}"
+    return f"{value:g}"
+
+
+def row(name: str) -> str:
+    """The line of the document's table for one field, without its meaning."""
+    declared = HEADER_FIELDS[name]
+    least, most = declared.lengths
+    kind = {int: "method" if declared.reserved else "int", float: "float", tuple: "floats"}[declared.type]
+    if declared.type is tuple:
+        kind += f" [{least}]" if least == most else f" [{least} to {most}]"
+    default = HEADER_DEFAULTS.get(name)
+    if isinstance(default, tuple):
+        shown = f"[{', '.join(map(number, default))}]"
+    else:
+        shown = "none" if default is None else number(default)
+    return f"| {declared.key} | {name} | {kind} | {number(declared.low)} to {number(declared.high)} | {shown} |"
+
+
+@pytest.mark.parametrize("name", HEADER_FIELDS)
+def test_header_field_is_documented(name):
+    lines = [line for line in DOCUMENT.splitlines() if line.startswith(row(name))]
+    assert len(lines) == 1, f"spec/format.md needs the line: {row(name)} <meaning> |"
+
+
+def test_no_other_header_field_is_documented():
+    section = DOCUMENT[DOCUMENT.index("## 4. ") : DOCUMENT.index("## 5. ")]
+    assert [int(key) for key in re.findall(r"^\| (\d+) \|", section, re.MULTILINE)] == [
+        declared.key for declared in HEADER_FIELDS.values()
+    ]
+    assert f"below {FIRST_IGNORABLE_KEY}" in section
+
+
+def test_frame_types_are_documented():
+    section = DOCUMENT[DOCUMENT.index("## 3. ") : DOCUMENT.index("## 4. ")]
+    assert re.findall(r"^\| (\d+) \| (\w+) \|", section, re.MULTILINE) == [
+        (str(item.value), item.name) for item in FrameType
+    ]
+    assert f"{SKIPPABLE_TYPES[0]} to {SKIPPABLE_TYPES[-1]} | skippable" in section
+
+
+def test_checksums_are_documented():
+    for frame_type in (FrameType.BLOCK, FrameType.HEADER):
+        assert f"0x{int.from_bytes(checksum(frame_type, b'123456789'), 'little'):X}" in DOCUMENT
+
+
+def test_example():
+    section = DOCUMENT[DOCUMENT.index("## 7. ") : DOCUMENT.index("## 8. ")]
+    data = bytes.fromhex("".join(re.findall(r"^    ([0-9a-f ]+?) +\(", section, re.MULTILINE)))
+    assert data == encoded("bare")
+    assert read_all(data)[:-1] == BARE

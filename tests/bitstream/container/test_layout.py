@@ -1,0 +1,93 @@
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from bitstream.container.layout import FRAME_TYPES, PARSERS, WRITERS
+from bitstream.container.packets import Block, Connectivity, End, Gop, Metadata, Order, Partition
+from bitstream.container.wire import FrameType
+from bitstream.errors import CorruptError, LimitError, OptionError
+from bitstream.limits import DEFAULT_LIMITS, Limits
+
+CASES = [
+    (Metadata({}), "80"),
+    (Metadata({"b": 1, "a": 2.5, "c": b"\x00", "d": "x"}), "84a161ca40200000a16201a163c40100a164a178"),
+    (Connectivity(1, b"xyz"), "0178797a"),
+    (Partition(0, b""), "00"),
+    (Order(255, b"\x07"), "ff07"),
+    (Block(300, 58, b"abc"), "ac023a616263"),
+    (Gop(2, b"abc"), "02616263"),
+    (End(5, 0x12345678), "0578563412"),
+]
+
+
+def write(packet):
+    return WRITERS[FRAME_TYPES[type(packet)]](packet)
+
+
+def parse(like, payload, limits=DEFAULT_LIMITS):
+    return PARSERS[FRAME_TYPES[type(like)]](payload, limits)
+
+
+@pytest.mark.parametrize(("packet", "expected"), CASES)
+def test_known_bytes(packet, expected):
+    assert write(packet).hex() == expected
+    assert parse(packet, bytes.fromhex(expected)) == packet
+
+
+def test_tables_are_complete():
+    assert set(FRAME_TYPES.values()) == set(WRITERS) == set(PARSERS) == set(FrameType)
+
+
+values = st.one_of(
+    st.text(), st.binary(), st.integers(-(2**63), 2**64 - 1), st.floats(allow_nan=False, allow_infinity=False)
+)
+
+
+@given(st.dictionaries(st.text(), values, max_size=20))
+def test_metadata_round_trip(entries):
+    assert parse(Metadata(), write(Metadata(entries))) == Metadata(entries)
+
+
+@given(st.binary(max_size=30))
+def test_metadata_noise_is_refused_or_canonical(noise):
+    try:
+        metadata = parse(Metadata(), noise)
+    except CorruptError:
+        return
+    assert write(metadata) == noise
+
+
+@pytest.mark.parametrize(
+    "entries", [{"a": None}, {"a": True}, {1: "a"}, {"a": [1]}, {"a": float("nan")}, {"a": 2**64}, {"a": "\ud800"}]
+)
+def test_metadata_that_cannot_be_stored(entries):
+    with pytest.raises(OptionError):
+        write(Metadata(entries))
+
+
+def test_metadata_limit():
+    payload = write(Metadata({"a": "x" * 100}))
+    with pytest.raises(LimitError):
+        parse(Metadata(), payload, Limits(metadata_bytes=len(payload) - 1))
+    assert parse(Metadata(), payload, Limits(metadata_bytes=len(payload)))
+
+
+@pytest.mark.parametrize(
+    ("like", "payload"),
+    [
+        (CASES[0][0], "8101"),
+        (CASES[0][0], "8101a161"),  # an integer for a name
+        (CASES[0][0], "81a16191a161"),  # a list for a value
+        (CASES[0][0], "81a161cb3ff0000000000000"),  # a double where a single is exact
+        (CASES[2][0], ""),
+        (CASES[5][0], ""),
+        (CASES[5][0], "05"),
+        (CASES[5][0], "8000"),
+        (CASES[6][0], "80"),
+        (CASES[7][0], "05785634"),
+        (CASES[7][0], "057856341200"),
+    ],
+)
+def test_corrupt_payloads(like, payload):
+    with pytest.raises(CorruptError):
+        parse(like, bytes.fromhex(payload))

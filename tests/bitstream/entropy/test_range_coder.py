@@ -1,0 +1,275 @@
+"""The entropy coder: exact round trips, sizes near the entropy, and no harm from damaged payloads."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from numba import njit
+
+from bitstream.entropy import range_coder as entropy
+from bitstream.entropy.range_coder import (
+    Bank,
+    code_bit,
+    code_mixed_bit,
+    code_signed,
+    code_uniform,
+    code_unsigned,
+    copy_bank,
+    finish_reading,
+    finish_writing,
+    make_bank,
+    overran,
+    reset_bank,
+    signed_span,
+    start_reading,
+    start_writing,
+    unsigned_span,
+)
+from bitstream.errors import CorruptError, OptionError, TruncatedError
+
+UNARY = 5
+SPAN = unsigned_span(UNARY)
+SIGNED = signed_span(UNARY)
+
+
+@njit
+def _code_bits(coder, probabilities, bits):
+    for i in range(bits.size):
+        bits[i] = code_bit(coder, probabilities[i], bits[i])
+
+
+@njit
+def _code_uniforms(coder, counts, values):
+    for i in range(values.size):
+        values[i] = code_uniform(coder, values[i], counts[i])
+
+
+@njit
+def _code_order_one(coder, bank, values):
+    """Values below 16, given the value before, and given nothing."""
+    contexts = np.empty(2, np.int64)
+    before = 0
+    for i in range(values.size):
+        contexts[0] = 0
+        contexts[1] = SPAN * (1 + before)
+        values[i] = code_unsigned(coder, bank, contexts, 0, UNARY, values[i])
+        before = min(values[i], 15)
+        if overran(coder):
+            break
+
+
+@njit
+def _code_signeds(coder, bank, values):
+    contexts = np.zeros(1, np.int64)
+    for i in range(values.size):
+        values[i] = code_signed(coder, bank, contexts, 0, UNARY, values[i])
+        if overran(coder):
+            break
+
+
+@njit
+def _code_mixed_bits(coder, bank, bits):
+    contexts = np.zeros(1, np.int64)
+    for i in range(bits.size):
+        bits[i] = code_mixed_bit(coder, bank, contexts, 0, 0, bits[i])
+
+
+def _order_one_bank() -> Bank:
+    return make_bank(SPAN * 17, SPAN, 2)
+
+
+def _write(kernel, *arguments, capacity: int = 1 << 16) -> bytes:
+    coder = start_writing(capacity)
+    kernel(coder, *(a.copy() if isinstance(a, np.ndarray) else a for a in arguments))
+    return finish_writing(coder)
+
+
+def _entropy(counts: np.ndarray) -> float:
+    p = counts[counts > 0] / counts.sum()
+    return float(-(p * np.log2(p)).sum())
+
+
+@settings(deadline=None)
+@given(st.lists(st.tuples(st.integers(1, entropy.ONE - 1), st.integers(0, 1)), max_size=300))
+def test_bits_of_any_probability_round_trip(pairs: list[tuple[int, int]]) -> None:
+    probabilities = np.array([p for p, _ in pairs], np.int64)
+    bits = np.array([b for _, b in pairs], np.int64)
+    payload = _write(_code_bits, probabilities, bits)
+    coder = start_reading(payload)
+    decoded = np.zeros_like(bits)
+    _code_bits(coder, probabilities, decoded)
+    finish_reading(coder)
+    np.testing.assert_array_equal(decoded, bits)
+    chosen = np.where(bits == 1, probabilities, entropy.ONE - probabilities) / entropy.ONE
+    assert len(payload) <= -np.log2(chosen).sum() / 8 + 1.01 + 1e-4 * len(bits)
+    assert len(payload) <= 2 * len(bits) + 1
+
+
+@settings(deadline=None)
+@given(st.lists(st.integers(1, 1 << 32).flatmap(lambda c: st.tuples(st.just(c), st.integers(0, c - 1))), max_size=50))
+def test_uniform_integers_round_trip(pairs: list[tuple[int, int]]) -> None:
+    counts = np.array([c for c, _ in pairs], np.int64)
+    values = np.array([v for _, v in pairs], np.int64)
+    payload = _write(_code_uniforms, counts, values)
+    coder = start_reading(payload)
+    decoded = np.zeros_like(values)
+    _code_uniforms(coder, counts, decoded)
+    finish_reading(coder)
+    np.testing.assert_array_equal(decoded, values)
+
+
+@settings(deadline=None)
+@given(st.lists(st.one_of(st.integers(0, 10), st.integers(0, (1 << 24) - 2)), max_size=100))
+def test_unsigned_integers_round_trip(values: list[int]) -> None:
+    array = np.array(values, np.int64)
+    payload = _write(_code_order_one, _order_one_bank(), array)
+    coder = start_reading(payload)
+    decoded = np.zeros_like(array)
+    _code_order_one(coder, _order_one_bank(), decoded)
+    finish_reading(coder)
+    np.testing.assert_array_equal(decoded, array)
+
+
+@settings(deadline=None)
+@given(st.lists(st.one_of(st.integers(-4, 4), st.integers(1 - (1 << 24), (1 << 24) - 1)), max_size=100))
+def test_signed_integers_round_trip(values: list[int]) -> None:
+    array = np.array(values, np.int64)
+    payload = _write(_code_signeds, make_bank(SIGNED, SIGNED, 1), array)
+    decoded = np.zeros_like(array)
+    _code_signeds(start_reading(payload), make_bank(SIGNED, SIGNED, 1), decoded)
+    np.testing.assert_array_equal(decoded, array)
+
+
+def test_learning_goes_on_over_several_payloads() -> None:
+    values = np.arange(3000, dtype=np.int64) * 5 % 13
+    parts = np.split(values, 30)
+    bank = _order_one_bank()
+    continued = [_write(_code_order_one, bank, part) for part in parts]
+    separate = [_write(_code_order_one, _order_one_bank(), part) for part in parts]
+    whole = _write(_code_order_one, _order_one_bank(), values)
+    assert sum(map(len, continued)) < len(whole) + 2 * len(parts)
+    assert sum(map(len, continued)) < 0.9 * sum(map(len, separate))
+    bank = _order_one_bank()
+    snapshot = copy_bank(bank)
+    for part, payload in zip(parts, continued, strict=True):
+        decoded = np.zeros_like(part)
+        coder = start_reading(payload)
+        _code_order_one(coder, bank, decoded)
+        finish_reading(coder)
+        np.testing.assert_array_equal(decoded, part)
+    assert (snapshot.slots != bank.slots).any()
+    reset_bank(bank)
+    np.testing.assert_array_equal(snapshot.slots, bank.slots)
+    np.testing.assert_array_equal(snapshot.weights, bank.weights)
+
+
+def test_size_is_near_the_entropy_of_a_memoryless_source() -> None:
+    rng = np.random.default_rng(2)
+    values = rng.choice(8, 60000, p=[0.6, 0.15, 0.1, 0.05, 0.04, 0.03, 0.02, 0.01]).astype(np.int64)
+    payload = _write(_code_order_one, _order_one_bank(), values, capacity=1 << 18)
+    assert 8 * len(payload) / len(values) < 1.015 * _entropy(np.bincount(values)) + 0.005
+
+
+def test_size_is_near_the_entropy_of_a_markov_source() -> None:
+    rng = np.random.default_rng(3)
+    stay = rng.random(60000) < 0.9
+    jumps = rng.integers(0, 4, 60000)
+    values = np.zeros(60000, np.int64)
+    for i in range(1, len(values)):
+        values[i] = values[i - 1] if stay[i] else jumps[i]
+    rate = _entropy(np.array([0.925, 0.025, 0.025, 0.025]))
+    payload = _write(_code_order_one, _order_one_bank(), values, capacity=1 << 18)
+    assert 8 * len(payload) / len(values) < 1.02 * rate + 0.005
+
+
+def test_a_constant_source_costs_almost_nothing() -> None:
+    payload = _write(_code_mixed_bits, make_bank(1, 1, 1), np.ones(100000, np.int64))
+    assert len(payload) < 20
+
+
+@settings(max_examples=50, deadline=None)
+@given(st.binary(max_size=200))
+def test_random_bytes_are_read_without_harm(payload: bytes) -> None:
+    values = np.zeros(100000, np.int64)
+    try:
+        coder = start_reading(payload)
+        _code_order_one(coder, _order_one_bank(), values)
+        finish_reading(coder)
+    except (TruncatedError, CorruptError):
+        pass
+    assert values.min() >= 0
+    assert values.max() < 1 << 25
+
+
+def test_what_no_range_contains_is_refused() -> None:
+    with pytest.raises(CorruptError, match="ff ff ff ff"):
+        start_reading(b"\xff" * 9)
+
+
+@settings(max_examples=50, deadline=None)
+@given(st.binary(max_size=50), st.integers(1, 1 << 32))
+def test_uniform_values_stay_below_their_count(payload: bytes, count: int) -> None:
+    values = np.zeros(20, np.int64)
+    _code_uniforms(start_reading(b"\xfe" + payload), np.full(20, count), values)
+    assert values.min() >= 0
+    assert values.max() < count
+
+
+def test_truncation_and_surplus_are_noticed() -> None:
+    values = np.arange(200, dtype=np.int64) ** 2 % 97
+    payload = _write(_code_order_one, _order_one_bank(), values)
+    for size in range(len(payload) - 4):
+        coder = start_reading(payload[:size])
+        _code_order_one(coder, _order_one_bank(), np.zeros_like(values))
+        with pytest.raises((TruncatedError, CorruptError)):
+            finish_reading(coder)
+    coder = start_reading(payload + bytes(5))
+    _code_order_one(coder, _order_one_bank(), np.zeros_like(values))
+    with pytest.raises(CorruptError, match="left over"):
+        finish_reading(coder)
+
+
+def test_a_full_buffer_is_an_error_and_not_a_crash() -> None:
+    coder = start_writing(10)
+    _code_order_one(coder, _order_one_bank(), np.arange(1000, dtype=np.int64))
+    with pytest.raises(OptionError, match="10 bytes"):
+        finish_writing(coder)
+
+
+@pytest.mark.parametrize("arguments", [(0, 1, 1), (1, 0, 1), (1, 1, 0), (1, 1, 1, 0), (1, 1, 1, 1024), (1, 1, 1, 9, 0)])
+def test_bad_sizes_of_a_bank_are_refused(arguments: tuple[int, ...]) -> None:
+    with pytest.raises(OptionError):
+        make_bank(*arguments)
+
+
+def test_tables_are_what_the_logistic_function_says() -> None:
+    x = np.arange(-2880, 2880)
+    exact = np.clip(np.rint(65536 / (1 + np.exp(-x / 256))), 1, 65535)
+    np.testing.assert_array_equal(entropy._SQUASH, exact)
+    centres = (np.arange(4096) + 0.5) / 4096
+    assert np.abs(entropy._STRETCH - 256 * np.log(centres / (1 - centres))).max() < 20
+    np.testing.assert_array_equal(entropy._STRETCH, -entropy._STRETCH[::-1])
+
+
+def test_a_second_process_loads_the_compiled_code(tmp_path) -> None:
+    script = (
+        "import numpy as np; from bitstream.entropy import range_coder as e\n"
+        "b = e.make_bank(40, 40, 1); c = e.start_writing(99)\n"
+        "e.code_unsigned(c, b, np.zeros(1, np.int64), 0, 3, 7)\n"
+        "print(sum(e.code_unsigned.stats.cache_hits.values()), sum(e.code_unsigned.stats.cache_misses.values()))\n"
+    )
+    environment = {**os.environ, "NUMBA_CACHE_DIR": str(tmp_path)}
+    outputs = [
+        subprocess.run(
+            [sys.executable, "-c", script], env=environment, capture_output=True, text=True, check=True
+        ).stdout
+        for _ in range(2)
+    ]
+    assert outputs[0].split() == ["0", "1"]
+    assert outputs[1].split() == ["1", "0"]

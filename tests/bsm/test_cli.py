@@ -1,0 +1,326 @@
+"""The command line: what a user types, and what comes of it."""
+
+import json
+import os
+import subprocess
+import sys
+from dataclasses import MISSING, fields
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from bsm.cli import COMMANDS, main
+from bsm.commands.encode_options import ENCODE_FLAGS
+from bsm.evaluation.sample import knot
+from bsm.exits import EXITS
+from bsm.files.mesh import read_mesh, write_mesh
+
+ROOT = Path(__file__).parents[2]
+SMALL = ["--block-size", "150", "--threads", "1"]
+
+
+def bsm(*arguments, **keywords):
+    """Run the program as a user does, in a process of its own."""
+    return subprocess.run(
+        [sys.executable, "-m", "bsm.cli", *map(str, arguments)],
+        capture_output=True,
+        timeout=120,
+        cwd=ROOT,
+        check=False,
+        **keywords,
+    )
+
+
+@pytest.fixture(scope="module")
+def mesh():
+    return knot(900)
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory, mesh):
+    """A folder with sample.ply and its stream."""
+    folder = tmp_path_factory.mktemp("cli")
+    write_mesh(folder / "sample.ply", mesh)
+    assert main(["encode", str(folder / "sample.ply"), "-q", "--permutation", str(folder / "order.npy"), *SMALL]) == 0
+    return folder
+
+
+def run_json(capsys, *arguments):
+    """Run in this process; the JSON it prints."""
+    assert main([*map(str, arguments), "--json"]) == 0
+    return json.loads(capsys.readouterr().out)
+
+
+# ------------------------------------------------------------------------------------------------------- round trips
+
+
+def test_encode_and_decode_name_their_outputs(folder, tmp_path, capsys):
+    source = tmp_path / "mesh.ply"
+    source.write_bytes((folder / "sample.ply").read_bytes())
+    assert main(["encode", str(source), *SMALL]) == 0
+    output = capsys.readouterr()
+    assert output.out == ""
+    assert "mesh.bsm" in output.err and "bits per vertex" in output.err
+    source.unlink()
+    assert main(["decode", str(tmp_path / "mesh.bsm"), "-q"]) == 0
+    assert capsys.readouterr() == ("", "")
+    assert {path.name for path in tmp_path.iterdir()} == {"mesh.bsm", "mesh.ply"}
+    assert main(["compare", str(folder / "sample.ply"), str(source), "-q"]) == 0
+    assert "theta_deg" in capsys.readouterr().out
+
+
+def test_json_of_encode_decode_and_verify(folder, tmp_path, capsys, mesh):
+    result = run_json(capsys, "encode", folder / "sample.ply", "-o", tmp_path / "a.bsm", "--keep", "0.2", *SMALL)
+    assert (result["vertices"], result["faces"]) == (len(mesh.positions), len(mesh.faces))
+    assert result["bytes"] == (tmp_path / "a.bsm").stat().st_size
+    assert result["bpv_total"] == pytest.approx(8 * result["bytes"] / result["vertices"])
+    result = run_json(capsys, "decode", tmp_path / "a.bsm", "-o", tmp_path / "a.off")
+    assert (result["vertices"], result["faces"]) == (len(mesh.positions), len(mesh.faces))
+    assert run_json(capsys, "verify", tmp_path / "a.bsm")["ok"] is True
+    assert run_json(capsys, "verify", tmp_path / "a.bsm", "--quick")["decoded"] is False
+
+
+def test_info_adds_up(folder, capsys, mesh):
+    info = run_json(capsys, "info", folder / "sample.bsm")
+    assert (info["vertices"], info["faces"]) == (len(mesh.positions), len(mesh.faces))
+    assert len(info["coefficients"]) == info["blocks"] > 1
+    sizes = info["bytes"]
+    total = sizes.pop("total")
+    assert total == (folder / "sample.bsm").stat().st_size == sum(sizes.values())
+    assert all(size >= 0 for size in sizes.values())
+    assert info["bpv_total"] == pytest.approx(8 * total / info["vertices"])
+    assert main(["info", str(folder / "sample.bsm")]) == 0
+    assert f"{info['vertices']} vertices" in capsys.readouterr().out
+
+
+def test_the_papers_rate_counts_every_coefficient(folder, tmp_path, capsys):
+    options = ["--bits", "12", "--coefficients", "15", *SMALL]
+    main(["encode", str(folder / "sample.ply"), "-q", "-o", str(tmp_path / "a.bsm"), *options])
+    info = run_json(capsys, "info", tmp_path / "a.bsm")
+    assert info["coefficients"] == [15] * info["blocks"]
+    assert info["bpv_paper"] == pytest.approx(3 * 12 * 15 * info["blocks"] / info["vertices"])
+
+
+def test_compare_takes_streams_files_and_permutations(folder, tmp_path, capsys, mesh):
+    stream = run_json(capsys, "compare", folder / "sample.ply", folder / "sample.bsm")
+    main(["decode", str(folder / "sample.bsm"), "-q", "-o", str(tmp_path / "a.npz")])
+    file = run_json(capsys, "compare", folder / "sample.ply", tmp_path / "a.npz")
+    assert file == stream
+    order = ["--permutation", str(folder / "order.npy")]
+    assert run_json(capsys, "compare", folder / "sample.ply", folder / "sample.bsm", *order) == stream
+    main(["decode", str(folder / "sample.bsm"), "-q", "-o", str(tmp_path / "b.npz"), *order])
+    ordered = read_mesh(tmp_path / "b.npz").mesh
+    distance = np.linalg.norm(ordered.positions - mesh.positions, axis=1)
+    assert distance.max() == pytest.approx(stream["max_error"], rel=1e-5)
+    assert stream["max_error_relative"] < 0.05
+    same = run_json(capsys, "compare", folder / "sample.ply", folder / "sample.ply")
+    assert same["rms"] == same["theta_deg"] == 0
+    assert same["nmsve_db"] is None
+
+
+def test_keep_order_keeps_it(folder, tmp_path, mesh):
+    options = ["-q", "--keep-order", "-o", str(tmp_path / "a.bsm"), *SMALL]
+    assert main(["encode", str(folder / "sample.ply"), *options]) == 0
+    assert main(["decode", str(tmp_path / "a.bsm"), "-q", "-o", str(tmp_path / "a.npz")]) == 0
+    assert np.array_equal(read_mesh(tmp_path / "a.npz").mesh.faces, mesh.faces)
+
+
+def test_some_blocks_are_a_part_of_the_mesh(folder, tmp_path, capsys):
+    blocks = run_json(capsys, "info", folder / "sample.bsm")["blocks"]
+    whole = run_json(capsys, "decode", folder / "sample.bsm", "-o", tmp_path / "all.ply")
+    faces = [
+        run_json(capsys, "decode", folder / "sample.bsm", "-o", tmp_path / f"{count}.ply", "--blocks", count)["faces"]
+        for count in range(1, blocks + 2)
+    ]
+    assert faces == sorted(faces)
+    assert 0 < faces[0] < faces[blocks - 1] == faces[blocks] == whole["faces"]
+
+
+def test_some_blocks_of_a_stream_that_is_cut_short(folder, tmp_path):
+    data = (folder / "sample.bsm").read_bytes()
+    cut = tmp_path / "cut.bsm"
+    cut.write_bytes(data[: len(data) - 40])
+    assert main(["decode", str(cut), "-q"]) == 4
+    assert main(["decode", str(cut), "-q", "--blocks", "2"]) == 0
+    assert main(["decode", str(cut), "-q", "-f", "--blocks", "1000"]) == 4
+
+
+def test_pipes(folder, mesh):
+    encoded = bsm("encode", "-", "-q", *SMALL, input=(folder / "sample.ply").read_bytes())
+    assert (encoded.returncode, encoded.stderr) == (0, b"")
+    assert encoded.stdout == (folder / "sample.bsm").read_bytes()
+    decoded = bsm("decode", "-", "--format", "obj", input=encoded.stdout)
+    assert decoded.returncode == 0
+    assert decoded.stdout.count(b"\nf ") == len(mesh.faces)
+    assert b"[" not in decoded.stderr, "no progress bar without a terminal"
+
+
+def test_the_demo_draws_a_picture(tmp_path, capsys):
+    folder = tmp_path / "new" / "folder"
+    result = run_json(capsys, "demo", "-o", folder, "--vertices", "900", *SMALL)
+    assert {Path(path).name for path in result["written"]} == {"bsm_demo.bsm", "bsm_demo.png"}
+    assert (folder / "bsm_demo.png").read_bytes().startswith(b"\x89PNG")
+    assert main(["verify", str(folder / "bsm_demo.bsm"), "-q"]) == 0
+    assert result["bytes"] == (folder / "bsm_demo.bsm").stat().st_size
+
+
+def test_the_demo_works_without_matplotlib(tmp_path, capsys, monkeypatch):
+    monkeypatch.setitem(sys.modules, "matplotlib.figure", None)
+    result = run_json(capsys, "demo", "-o", tmp_path, "--vertices", "900", *SMALL)
+    assert [Path(path).name for path in result["written"]] == ["bsm_demo.bsm"]
+
+
+def test_what_is_left_of_a_damaged_stream_is_written(tmp_path, capsys):
+    main(["demo", "-o", str(tmp_path), "--vertices", "900", *SMALL, "--seed", "independent", "-q"])
+    data = bytearray((tmp_path / "bsm_demo.bsm").read_bytes())
+    data[-60] ^= 0xFF
+    broken, output = tmp_path / "broken.bsm", tmp_path / "left.ply"
+    broken.write_bytes(data)
+    assert main(["decode", str(broken), "-o", str(output)]) == 4
+    assert not output.exists()
+    capsys.readouterr()
+    assert main(["decode", str(broken), "-o", str(output), "--tolerant"]) == 0
+    assert "lost: " in capsys.readouterr().err
+    assert 100 < len(read_mesh(str(output)).mesh.faces) < 1800
+
+
+# ------------------------------------------------------------------------------------------------------ what goes wrong
+
+
+def damaged(data):
+    return data[:200] + bytes([data[200] ^ 1]) + data[201:]
+
+
+def test_an_interrupt_that_something_wrapped_is_an_interrupt(monkeypatch, capsys):
+    def wrapped(*_):
+        try:
+            raise KeyboardInterrupt
+        except KeyboardInterrupt:
+            raise RuntimeError("while compiling")  # noqa: B904
+
+    monkeypatch.setattr("bsm.commands.info.run", wrapped)
+    assert main(["info", "some.bsm"]) == 130
+    assert capsys.readouterr().err == "bsm: interrupted\n"
+
+
+FAILURES = {
+    "unknown option": (["encode", "{folder}/sample.ply", "--no-such"], 2),
+    "value out of range": (["encode", "{folder}/sample.ply", "-o", "{tmp}/a.bsm", "--keep", "7"], 2),
+    "no word for it": (["encode", "{folder}/sample.ply", "-o", "{tmp}/a.bsm", "--basis", "dct"], 2),
+    "unknown output format": (["decode", "{folder}/sample.bsm", "-o", "{tmp}/a.xyz"], 2),
+    "json into a pipe": (["encode", "{folder}/sample.ply", "-o", "-", "--json"], 2),
+    "output is the input": (["encode", "{folder}/sample.bsm"], 2),
+    "no blocks": (["decode", "{folder}/sample.bsm", "-o", "{tmp}/a.ply", "--blocks", "0"], 2),
+    "not a stream": (["decode", "{folder}/sample.ply", "-o", "{tmp}/a.ply"], 3),
+    "not a mesh": (["encode", "{folder}/sample.bsm", "-o", "{tmp}/a.bsm"], 3),
+    "other faces": (["compare", "{folder}/sample.ply", "{tmp}/other.off"], 3),
+    "damaged": (["verify", "{tmp}/damaged.bsm"], 4),
+    "cut short": (["decode", "{tmp}/cut.bsm", "-o", "{tmp}/a.ply"], 4),
+    "unknown version": (["info", "{tmp}/version.bsm"], 5),
+    "no input": (["encode", "{tmp}/none.ply"], 9),
+    "no folder": (["encode", "{folder}/sample.ply", "-o", "{tmp}/none/a.bsm"], 9),
+    "output exists": (["encode", "{folder}/sample.ply"], 9),
+}
+
+
+@pytest.mark.parametrize("name", FAILURES)
+def test_failures_have_codes_and_say_what_is_wrong(name, folder, tmp_path, capsys):
+    data = (folder / "sample.bsm").read_bytes()
+    (tmp_path / "damaged.bsm").write_bytes(damaged(data))
+    (tmp_path / "cut.bsm").write_bytes(data[:-10])
+    (tmp_path / "version.bsm").write_bytes(data[:4] + b"\x7f" + data[5:])
+    (tmp_path / "other.off").write_text("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")
+    before = {path.name for path in tmp_path.iterdir()}
+    arguments, code = FAILURES[name]
+    try:
+        returned = main([word.format(folder=folder, tmp=tmp_path) for word in arguments])
+    except SystemExit as stop:  # argparse
+        returned = stop.code
+    assert returned == code
+    message = capsys.readouterr().err
+    assert "bsm" in message and "Traceback" not in message
+    assert {path.name for path in tmp_path.iterdir()} == before
+
+
+def test_a_missing_package_has_its_code(folder, monkeypatch, capsys):
+    monkeypatch.setitem(sys.modules, "openmesh", None)
+    assert main(["compare", str(folder / "sample.ply"), str(folder / "sample.bsm")]) == 8
+    assert "pip install" in capsys.readouterr().err
+
+
+def test_force_overwrites(folder, tmp_path):
+    output = tmp_path / "a.bsm"
+    output.write_bytes(b"old")
+    assert main(["encode", str(folder / "sample.ply"), "-o", str(output), "-q", *SMALL]) == 9
+    assert output.read_bytes() == b"old"
+    assert main(["encode", str(folder / "sample.ply"), "-o", str(output), "-q", "-f", *SMALL]) == 0
+    assert output.read_bytes() == (folder / "sample.bsm").read_bytes()
+
+
+def test_a_full_disk(folder):
+    if not os.path.exists("/dev/full"):
+        pytest.skip("no /dev/full on this system")
+    done = bsm("decode", folder / "sample.bsm", "-q", "-f", "-o", "/dev/full", "--format", "ply")
+    assert done.returncode == 9
+    assert done.stderr.count(b"\n") == 1 and b"No space left" in done.stderr
+
+
+def test_the_reader_of_a_pipe_goes_away(folder):
+    reading, writing = os.pipe()
+    os.close(reading)
+    done = subprocess.run(
+        [sys.executable, "-m", "bsm.cli", "decode", folder / "sample.bsm", "-o", "-"],
+        stdout=writing,
+        stderr=subprocess.PIPE,
+        timeout=60,
+        cwd=ROOT,
+        check=False,
+    )
+    os.close(writing)
+    assert (done.returncode, done.stderr) == (141, b"")
+
+
+def test_ctrl_c(folder, monkeypatch, capsys):
+    def interrupted(args, console):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("bsm.commands.verify.run", interrupted)
+    assert main(["verify", str(folder / "sample.bsm")]) == 130
+    assert capsys.readouterr() == ("", "bsm: interrupted\n")
+
+
+# ---------------------------------------------------------------------------------------------------------------- help
+
+
+def test_the_help_prints_the_table_of_codes_and_starts_fast(folder):
+    done = bsm("--help")
+    assert done.returncode == 0
+    text = done.stdout.decode()
+    assert all(f"{row.code:>3}  {row.meaning}" in text for row in EXITS)
+    assert all(f"    {name} " in text for name in COMMANDS)
+    program = "import sys; from bsm.cli import main; main(['info', sys.argv[1]]); sys.exit('codec' in sys.modules)"
+    done = subprocess.run([sys.executable, "-c", program, folder / "sample.bsm"], cwd=ROOT, timeout=60, check=False)
+    assert done.returncode == 0, "bsm info needs no mathematics"
+
+
+def test_every_command_has_help(capsys):
+    for name in COMMANDS:
+        with pytest.raises(SystemExit) as stop:
+            main([name, "--help"])
+        assert stop.value.code == 0
+        assert "--quiet" in capsys.readouterr().out
+
+
+def test_the_flags_are_fields_and_show_their_defaults():
+    from codec import EncodeOptions
+
+    defaults = {field.name: field.default for field in fields(EncodeOptions)}
+    assert MISSING not in defaults.values()
+    for flag in ENCODE_FLAGS:
+        default = defaults[flag.field]
+        shown = flag.help.partition("(default")[2]
+        if isinstance(default, bool):
+            assert ("yes" if default else "no") in shown
+        elif default is not None:
+            assert f"{default}" in shown, flag.field

@@ -1,0 +1,241 @@
+"""bsm denoise and bsm noise: what a user types, and what comes of it."""
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from bitstream.errors import CorruptError, FormatError, MeshError
+from bsm.commands.denoise import FINE, HAND_OVERS
+from bsm.files.mesh import read_mesh, write_mesh
+from bsm.files.npz_frames import npz_frames, npz_shape
+from codec.denoise import FINE_STEPS, DenoiseOptions, FrameDenoiser, denoise_automatically
+from codec.denoise import HAND_OVERS as LIBRARY_HAND_OVERS
+from codec.denoise.frames import GROUP
+from codec.denoise.noise import gaussian_along_normals
+from codec.geometry.mesh import TriangleMesh
+from codec.geometry.metrics import mnd, rms_over_edge, theta
+from codec.threads import available_threads
+from tests.shapes import torus
+
+ROOT = Path(__file__).parents[2]
+CLEAN = torus(36, 28, bumps=0.02)
+NOISY = gaussian_along_normals(CLEAN.positions, CLEAN.faces, 0.25, seed=3)
+FEW = ("--iterations", "2", "--block-size", "200")
+
+
+def bsm(*arguments):
+    """Run the program as a user does, in a process of its own."""
+    return subprocess.run(
+        [sys.executable, "-m", "bsm.cli", *map(str, arguments)],
+        capture_output=True,
+        text=True,
+        timeout=120,
+        cwd=ROOT,
+        check=False,
+    )
+
+
+@pytest.fixture(scope="module")
+def noisy_file(tmp_path_factory) -> Path:
+    path = tmp_path_factory.mktemp("denoise") / "noisy.ply"
+    write_mesh(path, TriangleMesh(NOISY, CLEAN.faces))
+    return path
+
+
+@pytest.fixture(scope="module")
+def frames() -> np.ndarray:
+    """More frames than pass the coarse step together."""
+    scales = np.linspace(1.0, 1.5, GROUP + 3)
+    return np.stack([gaussian_along_normals(CLEAN.positions * s, CLEAN.faces, 0.2, seed=2) for s in scales])
+
+
+def test_without_options_it_says_what_it_chose(noisy_file, tmp_path):
+    ran = bsm("denoise", noisy_file, "-o", tmp_path / "out.obj", "--json")
+    assert ran.returncode == 0
+    result = json.loads(ran.stdout)
+    expected, choice = denoise_automatically(read_mesh(noisy_file).mesh.positions, CLEAN.faces)
+    denoised = read_mesh(tmp_path / "out.obj").mesh
+    assert np.allclose(denoised.positions, expected, atol=1e-6)
+    assert result["automatic"]["iterations"] == choice.iterations
+    assert result["automatic"]["noise"]["normal"] == pytest.approx(0.25, rel=0.3)
+    assert result["options"] is None
+    assert f"{choice.iterations} iterations" in ran.stderr
+    assert f"{choice.noise.normal:.2f} mean edges" in ran.stderr
+    assert f"{choice.expected_theta:.1f} degrees" in ran.stderr
+    before, after = (theta(CLEAN.positions, positions, CLEAN.faces) for positions in (NOISY, denoised.positions))
+    assert after < 0.5 * before
+
+
+def test_every_option_reaches_the_library(noisy_file, tmp_path):
+    given = ("--fine", "bilateral-normal", "--hand-over", "normals", "--keep", "0.2", *FEW)
+    ran = bsm("denoise", noisy_file, "-o", tmp_path / "out.ply", "--json", "-q", *given)
+    assert ran.returncode == 0 and ran.stderr == ""
+    assert json.loads(ran.stdout)["options"] == {
+        "fine": "bilateral-normal",
+        "hand_over": "normals",
+        "keep": 0.2,
+        "iterations": 2,
+        "block_size": 200,
+    }
+
+
+def test_an_npz_sequence_is_denoised_frame_by_frame(frames, tmp_path):
+    np.savez_compressed(tmp_path / "run.npz", positions=frames.astype(np.float32), faces=CLEAN.faces)
+    ran = bsm("denoise", tmp_path / "run.npz", "-o", tmp_path / "out.npz", "--json", *FEW)
+    assert ran.returncode == 0, ran.stderr
+    assert json.loads(ran.stdout)["frames"] == len(frames)
+    with np.load(tmp_path / "out.npz") as out:
+        assert out["positions"].shape == frames.shape
+        assert (out["faces"] == CLEAN.faces).all()
+        alone = TriangleMesh(frames[-1].astype(np.float32), CLEAN.faces)
+        write_mesh(tmp_path / "last.npz", alone)
+        assert bsm("denoise", tmp_path / "last.npz", "-o", tmp_path / "last_out.npz", *FEW).returncode == 0
+        last = read_mesh(tmp_path / "last_out.npz").mesh.positions
+        assert np.abs(out["positions"][-1] - last).max() < 1e-10
+
+
+def test_a_folder_of_frames_becomes_a_folder(frames, tmp_path):
+    (tmp_path / "in").mkdir()
+    for number, frame in enumerate(frames[:3]):
+        write_mesh(tmp_path / "in" / f"frame{number}.obj", TriangleMesh(frame, CLEAN.faces))
+    ran = bsm("denoise", tmp_path / "in", "-o", tmp_path / "out", *FEW)
+    assert ran.returncode == 0, ran.stderr
+    assert len(list((tmp_path / "out").iterdir())) == 3
+
+
+def test_frames_come_and_go_through_pipes(frames, tmp_path):
+    with open(tmp_path / "in.npy", "wb") as file:
+        np.save(file, CLEAN.faces)
+        for frame in frames[:3]:
+            np.save(file, frame)
+    with open(tmp_path / "in.npy", "rb") as source, open(tmp_path / "out.npy", "wb") as sink:
+        command = [sys.executable, "-m", "bsm.cli", "denoise", "-", "-o", "-", "--format", "npy", "-q", *FEW]
+        subprocess.run(command, stdin=source, stdout=sink, timeout=120, cwd=ROOT, check=True)
+    expected = FrameDenoiser(frames[0], CLEAN.faces, DenoiseOptions(iterations=2, block_size=200))(frames[:3])
+    with open(tmp_path / "out.npy", "rb") as file:
+        assert (np.load(file) == CLEAN.faces).all()
+        for frame in expected:
+            assert np.allclose(np.load(file), frame, atol=1e-10)
+        assert file.read() == b""
+
+
+@pytest.mark.parametrize("options", [None, DenoiseOptions(iterations=1)])
+def test_frames_that_are_none_are_refused(frames, options):
+    broken = frames[0].copy()
+    broken[5, 1] = np.nan
+    with pytest.raises(MeshError, match="finite"):
+        FrameDenoiser(broken, CLEAN.faces, options)
+    denoiser = FrameDenoiser(frames[0], CLEAN.faces, options)
+    with pytest.raises(MeshError, match="finite"):
+        list(denoiser([frames[0], broken]))
+    with pytest.raises(MeshError, match="shape"):
+        list(denoiser([frames[0][1:]]))
+
+
+def test_the_command_knows_all_choices_of_the_library():
+    assert set(FINE) == set(FINE_STEPS)
+    assert set(HAND_OVERS) == set(LIBRARY_HAND_OVERS)
+
+
+def test_no_more_than_a_few_frames_are_held(frames):
+    held = most = 0
+
+    def endless():
+        nonlocal held, most
+        while True:
+            held += 1
+            most = max(most, held)
+            yield frames[0]
+
+    denoiser = FrameDenoiser(frames[0], CLEAN.faces)
+    results = denoiser(endless())
+    for _ in range(5 * GROUP):
+        assert next(results).shape == frames[0].shape
+        held -= 1
+    assert most <= 2 * GROUP + 2 * available_threads() + 2
+
+
+def test_frames_of_an_npz_are_read_one_by_one(frames, tmp_path):
+    np.savez(tmp_path / "a.npz", positions=frames, faces=CLEAN.faces)
+    assert npz_shape(tmp_path / "a.npz") == frames.shape
+    assert all((read == frame).all() for read, frame in zip(npz_frames(tmp_path / "a.npz"), frames, strict=True))
+
+
+def test_npz_files_that_are_none_are_refused(tmp_path):
+    (tmp_path / "text.npz").write_bytes(b"PK\x03\x04 and no more")
+    with pytest.raises(FormatError):
+        npz_shape(tmp_path / "text.npz")
+    np.savez(tmp_path / "other.npz", points=np.zeros(3))
+    with pytest.raises(FormatError, match="positions"):
+        npz_shape(tmp_path / "other.npz")
+    np.savez(tmp_path / "words.npz", positions=np.array(["a"]))
+    with pytest.raises(MeshError, match="numbers"):
+        npz_shape(tmp_path / "words.npz")
+    np.savez(tmp_path / "short.npz", positions=np.zeros((2, 3, 3)))
+    data = (tmp_path / "short.npz").read_bytes().replace(b"(2, 3, 3)", b"(9, 3, 3)")
+    (tmp_path / "short.npz").write_bytes(data)
+    with pytest.raises(CorruptError):
+        list(npz_frames(tmp_path / "short.npz"))
+
+
+@pytest.mark.parametrize(
+    ("arguments", "word"),
+    [
+        (("--fine", "best"), "best"),
+        (("--keep", "2"), "keep"),
+        (("--iterations", "-1"), "iterations"),
+        (("-o", "out.xyz"), "format"),
+        (("-o", "-", "--json"), "standard output"),
+    ],
+)
+def test_what_is_refused(noisy_file, tmp_path, arguments, word):
+    ran = bsm("denoise", noisy_file, "-o", tmp_path / "out.ply", *arguments)
+    assert ran.returncode != 0
+    assert word in ran.stderr
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_outputs_are_not_replaced_unasked(noisy_file, tmp_path):
+    (tmp_path / "out.ply").write_bytes(b"mine")
+    assert bsm("denoise", noisy_file, "-o", tmp_path / "out.ply", *FEW).returncode != 0
+    assert (tmp_path / "out.ply").read_bytes() == b"mine"
+
+
+@pytest.mark.parametrize("kind", ["gaussian", "isotropic", "impulsive"])
+def test_noise_is_as_strong_as_asked_for_and_seeded(tmp_path, kind):
+    write_mesh(tmp_path / "clean.npz", CLEAN)
+    first, again, other = (tmp_path / f"{name}.npz" for name in ("first", "again", "other"))
+    for path, seed in ((first, 5), (again, 5), (other, 6)):
+        ran = bsm("noise", tmp_path / "clean.npz", "-o", path, "--sigma", 0.3, "--kind", kind, "--seed", seed, "--json")
+        assert ran.returncode == 0, ran.stderr
+    positions = [read_mesh(path).mesh.positions for path in (first, again, other)]
+    assert (positions[0] == positions[1]).all() and (positions[0] != positions[2]).any()
+    share = {"gaussian": 1.0, "isotropic": 3.0, "impulsive": 0.5}[kind]
+    measured = rms_over_edge(CLEAN.positions, positions[2], CLEAN.faces)
+    assert measured == pytest.approx(0.3 * share**0.5, rel=0.1)
+    assert json.loads(ran.stdout)["rms_over_edge"] == pytest.approx(measured)
+
+
+def test_compare_measures_surfaces_when_asked_to(noisy_file, tmp_path):
+    write_mesh(tmp_path / "clean.npz", CLEAN)
+    plain, full = (
+        json.loads(bsm("compare", tmp_path / "clean.npz", noisy_file, "--json", *flag).stdout)
+        for flag in ((), ("--surface",))
+    )
+    noisy = read_mesh(noisy_file).mesh.positions
+    assert plain.items() <= full.items() and "mnd" not in plain
+    assert full["mnd"] == pytest.approx(mnd(CLEAN.positions, noisy, CLEAN.faces))
+    assert full["rms_over_edge"] == pytest.approx(0.25, rel=0.1)
+    assert 0 < full["surface_distance"] < full["hausdorff"] <= full["max_error"]
+    assert full["hausdorff_relative"] == pytest.approx(full["hausdorff"] / CLEAN.diagonal)
+
+
+def test_noise_refuses_what_makes_no_sense(tmp_path):
+    write_mesh(tmp_path / "clean.npz", CLEAN)
+    for wrong in (("--sigma", "-1"), ("--sigma", "1", "--fraction", "0.5"), ("--sigma", "1", "--seed", "-4")):
+        assert bsm("noise", tmp_path / "clean.npz", "-o", tmp_path / "out.npz", *wrong).returncode != 0
+    assert not (tmp_path / "out.npz").exists()

@@ -1,0 +1,167 @@
+"""What the program leaves behind, says and returns when the machine fails it; always in a process of its own."""
+
+import os
+import resource
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+from bsm.cli import main
+from bsm.evaluation.sample import knot
+from bsm.files.mesh import read_mesh, write_mesh
+from tools.vectors.store import FOLDER as VECTORS
+
+ROOT = Path(__file__).parents[2]
+BSM = [sys.executable, "-m", "bsm.cli"]
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    """A folder with sample.ply, its stream sample.bsm, and large.ply, which takes long."""
+    folder = tmp_path_factory.mktemp("faults")
+    write_mesh(folder / "sample.ply", knot(900))
+    write_mesh(folder / "large.ply", knot(30_000))
+    assert main(["encode", str(folder / "sample.ply"), "-q", "--threads", "1"]) == 0
+    return folder
+
+
+def run(*arguments, **keywords):
+    return subprocess.run(
+        [*BSM, *map(str, arguments)], capture_output=True, timeout=120, cwd=ROOT, check=False, **keywords
+    )
+
+
+def said(done):
+    """The one line on the standard error output."""
+    text = done.stderr.decode()
+    assert text.startswith("bsm: ") and text.count("\n") == 1, text
+    return text
+
+
+@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGINT, signal.SIGKILL])
+def test_killed_in_mid_encode(number, folder, tmp_path):
+    output = tmp_path / "a.bsm"
+    command = [*BSM, "encode", folder / "large.ply", "-o", output, "--block-size", "300", "--keep", "1"]
+    with subprocess.Popen(command, cwd=ROOT, stderr=subprocess.PIPE) as process:
+        while not list(tmp_path.iterdir()):  # the temporary file is there from the first block on
+            assert process.poll() is None
+            time.sleep(0.05)
+        process.send_signal(number)
+        said = process.communicate(timeout=30)[1].decode()
+    assert process.returncode == {signal.SIGTERM: 143, signal.SIGINT: 130, signal.SIGKILL: -9}[number], said
+    assert not output.exists()
+    if number != signal.SIGKILL:
+        assert list(tmp_path.iterdir()) == []
+
+
+def test_killed_in_mid_decode(folder, tmp_path):
+    stream = (folder / "sample.bsm").read_bytes()
+    command = [*BSM, "decode", "-", "-o", tmp_path / "a.ply"]
+    with subprocess.Popen(command, cwd=ROOT, stdin=subprocess.PIPE, stderr=subprocess.PIPE) as process:
+        process.stdin.write(stream[: len(stream) // 2])
+        process.stdin.flush()
+        time.sleep(1)
+        process.terminate()
+        assert process.wait(timeout=30) in (-15, 143)
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("command", ["encode", "decode"])
+def test_no_room_for_the_whole_file(command, folder, tmp_path):
+    """A limit on the size of files fails in mid-file, as a full disk does."""
+    given, output = ("sample.ply", "a.bsm") if command == "encode" else ("sample.bsm", "a.ply")
+    done = run(
+        command,
+        folder / given,
+        "-o",
+        tmp_path / output,
+        preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (512, 512)),
+    )
+    assert done.returncode == 9
+    assert "File too large" in said(done)
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.skipif(not os.path.exists("/dev/full"), reason="no /dev/full on this system")
+@pytest.mark.parametrize("command", ["encode", "decode"])
+def test_a_full_device(command, folder):
+    given, kind = ("sample.ply", ()) if command == "encode" else ("sample.bsm", ("--format", "ply"))
+    done = run(command, folder / given, "-f", "-o", "/dev/full", *kind)
+    assert done.returncode == 9
+    assert "No space left" in said(done)
+
+
+@pytest.mark.parametrize("command", ["encode", "decode"])
+def test_the_reader_of_a_pipe_goes_away(command, folder):
+    given = "sample.ply" if command == "encode" else "sample.bsm"
+    reading, writing = os.pipe()
+    os.close(reading)
+    done = subprocess.run(
+        [*BSM, command, folder / given, "-o", "-"],
+        stdout=writing,
+        stderr=subprocess.PIPE,
+        timeout=120,
+        cwd=ROOT,
+        check=False,
+    )
+    os.close(writing)
+    assert (done.returncode, done.stderr) == (141, b"")
+
+
+def test_a_read_only_folder(folder, tmp_path):
+    tmp_path.chmod(0o555)
+    closed = tmp_path
+    if os.access(tmp_path, os.W_OK):  # nothing is closed to the superuser but what is no disk
+        closed = Path("/proc")
+        if not closed.is_dir():
+            pytest.skip("the superuser may write everywhere")
+    done = run("encode", folder / "sample.ply", "-o", closed / "a.bsm")
+    tmp_path.chmod(0o755)
+    assert done.returncode == 9
+    assert str(closed) in said(done)
+    assert not (closed / "a.bsm").exists()
+
+
+def test_a_file_that_is_replaced_is_whole_or_the_old_one(folder, tmp_path):
+    output = tmp_path / "a.ply"
+    output.write_bytes(b"old")
+    done = run("decode", folder / "sample.bsm", "-f", "-o", output, preexec_fn=_small_files)
+    assert done.returncode == 9 and output.read_bytes() == b"old"
+    assert run("decode", folder / "sample.bsm", "-f", "-q", "-o", output).returncode == 0
+    assert len(read_mesh(output).mesh.faces) == len(read_mesh(folder / "sample.ply").mesh.faces)
+
+
+def _small_files():
+    resource.setrlimit(resource.RLIMIT_FSIZE, (512, 512))
+
+
+@pytest.mark.parametrize(
+    ("name", "code", "places"),
+    [
+        ("bad-checksum-block", 4, ["checksum", "byte", "frame"]),
+        ("bad-levels-short", 4, ["ends before", "block 0"]),
+        ("bad-block-missing", 4, ["missing", "block 0"]),
+        ("bad-connectivity-long", 4, ["left over", "frame 1"]),
+        ("unsupported-version", 5, ["version 1"]),
+        ("bad-limit-vertices", 6, ["vertices", "limit"]),
+        ("bad-not-finite", 7, ["not finite"]),
+        ("bad-magic", 3, ["not a BSM stream"]),
+    ],
+)
+def test_verify_says_what_is_wrong_and_where(name, code, places, capsys):
+    assert main(["verify", str(VECTORS / f"{name}.bsm")]) == code
+    message = capsys.readouterr().err
+    assert all(place in message for place in places), message
+
+
+def test_verify_says_so_of_sequences(tmp_path, capsys):
+    stream = bytearray((VECTORS / "good-sequence-learnt.bsm").read_bytes())
+    assert main(["verify", str(VECTORS / "good-sequence-learnt.bsm")]) == 0
+    stream[-60] ^= 1
+    (tmp_path / "a.bsm").write_bytes(stream)
+    assert main(["verify", str(tmp_path / "a.bsm")]) == 4
+    assert "checksum" in capsys.readouterr().err

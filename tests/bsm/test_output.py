@@ -1,0 +1,130 @@
+"""Outputs appear as a whole or not at all."""
+
+import errno
+import os
+import signal
+import stat
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+from bsm.files.output import open_output
+
+ROOT = Path(__file__).parents[2]
+SLOW_WRITER = """
+import sys, time
+from bsm.files.output import open_output
+with open_output(sys.argv[1], overwrite=True) as file:
+    file.write(b"half")
+    file.flush()
+    print("ready", flush=True)
+    time.sleep(60)
+"""
+
+
+def contents(folder):
+    return {path.name: path.read_bytes() for path in folder.iterdir()}
+
+
+def test_a_file_is_written(tmp_path):
+    with open_output(tmp_path / "a") as file:
+        file.write(b"whole")
+        assert not (tmp_path / "a").exists()
+    assert contents(tmp_path) == {"a": b"whole"}
+
+
+@pytest.mark.parametrize("error", [ValueError, KeyboardInterrupt, SystemExit])
+def test_an_error_leaves_nothing_behind(error, tmp_path):
+    with pytest.raises(error), open_output(tmp_path / "a") as file:
+        file.write(b"half")
+        raise error
+    assert contents(tmp_path) == {}
+
+
+def test_an_error_leaves_the_old_file(tmp_path):
+    (tmp_path / "a").write_bytes(b"old")
+    with pytest.raises(ValueError), open_output(tmp_path / "a", overwrite=True) as file:
+        file.write(b"half")
+        raise ValueError
+    assert contents(tmp_path) == {"a": b"old"}
+
+
+def test_nothing_is_overwritten_unasked(tmp_path):
+    (tmp_path / "a").write_bytes(b"old")
+    with pytest.raises(FileExistsError, match="-f overwrites"), open_output(tmp_path / "a") as file:
+        file.write(b"new")
+    assert contents(tmp_path) == {"a": b"old"}
+
+
+def test_a_file_that_appears_meanwhile_is_not_overwritten(tmp_path):
+    with pytest.raises(FileExistsError), open_output(tmp_path / "a") as file:
+        file.write(b"new")
+        (tmp_path / "a").write_bytes(b"somebody else's")
+    assert contents(tmp_path) == {"a": b"somebody else's"}
+
+
+def test_permissions(tmp_path):
+    before = os.umask(0o027)
+    try:
+        with open_output(tmp_path / "new") as file:
+            file.write(b"")
+    finally:
+        os.umask(before)
+    assert stat.S_IMODE((tmp_path / "new").stat().st_mode) == 0o640
+    (tmp_path / "old").write_bytes(b"")
+    (tmp_path / "old").chmod(0o604)
+    with open_output(tmp_path / "old", overwrite=True) as file:
+        file.write(b"")
+    assert stat.S_IMODE((tmp_path / "old").stat().st_mode) == 0o604
+
+
+def test_the_file_behind_a_link_is_replaced(tmp_path):
+    (tmp_path / "real").write_bytes(b"old")
+    (tmp_path / "link").symlink_to("real")
+    with open_output(tmp_path / "link", overwrite=True) as file:
+        file.write(b"new")
+    assert (tmp_path / "link").is_symlink()
+    assert (tmp_path / "real").read_bytes() == b"new"
+
+
+def test_folders_and_missing_folders(tmp_path):
+    with pytest.raises(IsADirectoryError), open_output(tmp_path):
+        pass
+    with pytest.raises(FileNotFoundError), open_output(tmp_path / "none" / "a"):
+        pass
+
+
+def test_a_device_is_written_to_as_it_is():
+    with open_output("/dev/null") as file:
+        file.write(b"anything")
+    assert stat.S_ISCHR(os.stat("/dev/null").st_mode)
+
+
+def test_a_full_disk_leaves_nothing_behind(tmp_path, monkeypatch):
+    def full(handle):
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+
+    monkeypatch.setattr(os, "fsync", full)
+    with pytest.raises(OSError, match="No space left"), open_output(tmp_path / "a") as file:
+        file.write(b"whole")
+    assert contents(tmp_path) == {}
+
+
+@pytest.mark.parametrize(("number", "code"), [(signal.SIGTERM, 143), (signal.SIGINT, -signal.SIGINT)])
+def test_signals_leave_nothing_behind(number, code, tmp_path):
+    with subprocess.Popen(
+        [sys.executable, "-c", SLOW_WRITER, str(tmp_path / "a")],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.DEVNULL,
+        cwd=ROOT,
+    ) as process:
+        assert process.stdout.readline() == b"ready\n"
+        assert list(contents(tmp_path).values()) == [b"half"]
+        begin = time.monotonic()
+        process.send_signal(number)
+        assert process.wait(timeout=10) == code
+        assert time.monotonic() - begin < 10
+    assert contents(tmp_path) == {}

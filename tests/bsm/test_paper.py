@@ -1,0 +1,205 @@
+"""bsm paper: every table and figure is there, stands on its own, and says what it is made from."""
+
+import base64
+import json
+import re
+import subprocess
+import sys
+from html.parser import HTMLParser
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from bitstream.errors import OptionError
+from bsm.cli import main
+from bsm.paper import published
+from bsm.paper.coherence import errors, left_out, smallest_on_diagonal
+from bsm.paper.exhibit import Cell, Column, Exhibit, Picture, Table
+from bsm.paper.exhibits import EXHIBITS, make_exhibits
+from bsm.paper.report import report, summary
+from bsm.paper.shapes import ball, box, swaying
+from bsm.paper.study import FULL, QUICK, Study
+from codec.geometry.metrics import face_normals
+
+ROOT = Path(__file__).parents[2]
+
+# What the paper has: exhibits, the least number of tables, and of pictures in a quick run.
+EXPECTED = {
+    "segmentation": (1, 6),
+    "degrees": (1, 2),
+    "boundary": (1, 1),
+    "transition": (1, 8),
+    "segments": (1, 3),
+    "overlap": (3, 2),
+    "coherence": (4, 15),
+    "normals": (1, 3),
+    "sequences": (1, 6),
+    "rates": (1, 1),
+    "dynamic": (1, 1),
+    "coarse-to-fine": (1, 6),
+    "companions": (1, 15),
+    "hand": (1, 4),
+    "times": (2, 0),
+    "powers": (2, 3),
+}
+
+
+class Outline(HTMLParser):
+    """Sections with their tables, pictures and links, and everything that points outside."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.sections: dict[str, dict[str, int]] = {}
+        self.outside: list[str] = []
+        self.ids: set[str] = set()
+        self.links: set[str] = set()
+        self._current: dict[str, int] | None = None
+
+    def handle_starttag(self, tag, attrs):
+        values = dict(attrs)
+        if "id" in values:
+            assert values["id"] not in self.ids
+            self.ids.add(values["id"])
+        if tag == "section":
+            self._current = self.sections.setdefault(values["id"], {"table": 0, "img": 0})
+        if self._current is not None and tag in self._current:
+            self._current[tag] += 1
+        if tag == "img":
+            kind, data = re.fullmatch(r"data:image/([a-z+]+);base64,(.+)", values["src"]).groups()
+            start = base64.b64decode(data)[:100]
+            assert start.startswith(b"\x89PNG") if kind == "png" else b"<?xml" in start
+        for name in ("src", "href"):
+            value = values.get(name) or ""
+            if value.startswith("#"):
+                self.links.add(value[1:])
+            elif value and not value.startswith("data:"):
+                self.outside.append(value)
+
+    def handle_endtag(self, tag):
+        if tag == "section":
+            self._current = None
+
+
+@pytest.fixture(scope="module")
+def quick(tmp_path_factory) -> tuple[str, dict]:
+    """A quick report, and the data it printed."""
+    path = tmp_path_factory.mktemp("paper") / "report.html"
+    ran = subprocess.run(
+        [sys.executable, "-m", "bsm.cli", "paper", "-o", str(path), "--quick", "--json"],
+        capture_output=True,
+        text=True,
+        timeout=120,
+        cwd=ROOT,
+        check=False,
+    )
+    assert ran.returncode == 0, ran.stderr
+    assert "generated" in ran.stderr
+    return path.read_text(), json.loads(ran.stdout)
+
+
+def test_every_table_and_figure_is_there(quick):
+    text, data = quick
+    outline = Outline()
+    outline.feed(text)
+    assert list(outline.sections) == list(EXPECTED) == list(data) == list(EXHIBITS)
+    for name, (tables, pictures) in EXPECTED.items():
+        assert outline.sections[name]["table"] == tables, name
+        assert outline.sections[name]["img"] >= pictures, name
+    assert outline.outside == []
+    assert outline.links <= outline.ids
+
+
+def test_every_number_of_the_paper_stands_beside_ours_and_differences_are_explained(quick):
+    text, data = quick
+    cells = [cell for e in data.values() for t in e["tables"] for row in t["rows"] for cell in row["cells"]]
+    there = [cell for cell in cells if cell["paper"] is not None]
+    assert len(there) > 80
+    for cell in there:
+        assert cell["ours"] is not None
+        assert cell["note"] is None or len(cell["note"]) > 20
+    embedded = re.search(r'<script type="application/json" id="data">(.+)</script>', text).group(1)
+    assert json.loads(embedded) == data
+    assert "generated ones stand in" in text
+
+
+def test_a_full_run_has_all_the_papers_numbers():
+    for values in (published.BUNNY, published.OVERLAPS, *published.TIMES.values(), *published.POWERS.values()):
+        assert FULL.some(values) == list(values)
+        assert len(QUICK.some(values)) < len(list(values))
+
+
+def test_what_is_refused(tmp_path, capsys):
+    assert main(["paper", "-o", str(tmp_path / "r.html"), "--meshes", str(tmp_path / "nowhere")]) != 0
+    assert main(["paper", "-o", str(tmp_path / "r.html"), "--only", "nothing", "--quick"]) != 0
+    assert "overlap" in capsys.readouterr().err
+    with pytest.raises(OptionError):
+        make_exhibits(Study(None, QUICK, lambda text: None), ["best"])
+
+
+def test_a_folder_that_lacks_a_model_is_refused(tmp_path):
+    (tmp_path / "static").mkdir()
+    with pytest.raises(OptionError, match="bunny"):
+        Study(tmp_path, QUICK, lambda text: None).model("bunny")
+
+
+def test_notes_stand_where_numbers_differ_and_nowhere_else():
+    column = Column("x", 1, 0.1, "since <b> is so")
+    table = Table("t", "", (column,), (("near", (Cell(1.05, 1.0),)), ("far", (Cell(1.2, 1.0),)), ("no", (Cell(3.0),))))
+    assert table.compared() == (2, 1)
+    exhibit = Exhibit("title", "place", (table,), (Picture("p", "image/png", b"data"),), ("a remark",))
+    text = report({"key": exhibit}, table, generated=False, quick=False)
+    assert text.count("since &lt;b&gt; is so") == 2  # below each of the two tables
+    assert "+20&thinsp;%" in text and "+5&thinsp;%" not in text
+    assert "generated ones stand in" not in text
+    assert "1 of 2 numbers" in summary({"key": exhibit})
+
+
+def test_a_matrix_left_out_of_its_mean_is_farther_from_it():
+    random = np.random.default_rng(0)
+    matrices = [random.normal(size=(3, 20, 20)) for _ in range(4)]
+    printed, honest = errors(matrices), left_out(matrices)
+    assert smallest_on_diagonal(printed) == 4  # even of noise, which has no coherence
+    assert smallest_on_diagonal(honest) < 4
+    assert (np.diag(honest) > np.diag(printed)).all()
+    off = ~np.eye(4, dtype=bool)
+    assert (honest[off] == printed[off]).all()
+
+
+@pytest.mark.parametrize("mesh", [box(600), box(600, (1.0, 0.6, 0.3)), ball(500), ball(500, 0.35)])
+def test_generated_models_are_closed_and_look_outwards(mesh):
+    edges = np.concatenate([mesh.faces[:, [0, 1]], mesh.faces[:, [1, 2]], mesh.faces[:, [2, 0]]])
+    directed = {tuple(edge) for edge in edges.tolist()}
+    assert len(directed) == len(edges) and all((b, a) in directed for a, b in directed)
+    centres = mesh.positions[mesh.faces].mean(axis=1) - mesh.positions.mean(axis=0)
+    outwards = np.einsum("ij,ij->i", face_normals(mesh.positions, mesh.faces), centres)
+    assert (outwards > 0).all()
+
+
+def test_swaying_keeps_heights_and_distances_from_the_axis():
+    mesh = box(100)
+    frames = swaying(mesh, 5)
+    assert frames.shape == (5, *mesh.positions.shape)
+    assert (frames[..., 2] == mesh.positions[:, 2]).all()
+    radius = np.linalg.norm(frames[..., :2], axis=-1)
+    assert np.allclose(radius, radius[0])
+    assert not np.allclose(frames[1], frames[0])
+
+
+@pytest.mark.real
+def test_real_meshes_are_found(meshes):
+    study = Study(meshes, QUICK, lambda text: None)
+    exhibits = make_exhibits(study, ["normals", "sequences"])
+    assert "Shared dictionaries" in exhibits["sequences"].remarks[0]
+    assert study.model("twelve").name == "twelve_dodecahedron"
+    theta = [cells[0].ours for _, cells in exhibits["normals"].tables[0].rows]
+    assert theta[0] == 0.0 and theta[2] < 0.5 * theta[1]
+
+
+@pytest.mark.real
+def test_the_frames_of_a_product_agree_with_single_ones(meshes):
+    (exhibit,) = make_exhibits(Study(meshes, QUICK, lambda text: None), ["sequences"]).values()
+    difference = float(re.search(r"differ by (\S+) at most", exhibit.remarks[0]).group(1))
+    assert difference < 1e-10
+    together, _, *anew = (cells[0].ours for _, cells in exhibit.tables[0].rows)
+    assert min(anew) > 5 * together > 0

@@ -1,0 +1,97 @@
+"""Meshes whose vertices are numbered differently."""
+
+import numpy as np
+import pytest
+
+from bitstream.errors import FormatError, MeshError
+from bsm.evaluation.sample import knot
+from bsm.files.permutation import in_order_of, read_permutation, reorder, write_permutation
+from codec.geometry.mesh import TriangleMesh
+
+SAMPLE = knot(600)
+
+
+def renumbered(mesh, order):
+    """Vertex j of the result is vertex order[j] of `mesh`."""
+    places = np.argsort(order)
+    return TriangleMesh(mesh.positions[order], places[mesh.faces])
+
+
+@pytest.fixture(scope="module")
+def order():
+    return np.random.default_rng(0).permutation(len(SAMPLE.positions))
+
+
+def test_reorder_undoes_a_numbering(order):
+    back = reorder(renumbered(SAMPLE, order), order)
+    assert np.array_equal(back.positions, SAMPLE.positions)
+    assert np.array_equal(back.faces, SAMPLE.faces)
+
+
+def test_reorder_closes_the_gaps_of_vertices_left_out(order):
+    back = reorder(renumbered(SAMPLE, order), 10 * order + 3)
+    assert np.array_equal(back.positions, SAMPLE.positions)
+
+
+def test_equal_numbering_is_recognised_whatever_the_order_of_faces_and_corners():
+    shuffled = np.random.default_rng(1).permutation(np.roll(SAMPLE.faces, 1, axis=1))
+    other = TriangleMesh(SAMPLE.positions + 1, shuffled)
+    assert np.array_equal(in_order_of(SAMPLE, other), other.positions)
+
+
+def test_the_permutation_is_used(order):
+    assert np.array_equal(in_order_of(SAMPLE, renumbered(SAMPLE, order), order), SAMPLE.positions)
+
+
+def test_the_numbering_of_the_decoder_is_recognised():
+    from codec import EncodeOptions, Encoder
+
+    encoder = Encoder(SAMPLE, EncodeOptions(block_size=100, threads=1))
+    decoded = TriangleMesh(SAMPLE.positions[encoder.vertex_order], np.argsort(encoder.vertex_order)[SAMPLE.faces])
+    assert np.array_equal(in_order_of(SAMPLE, decoded), SAMPLE.positions)
+
+
+@pytest.mark.parametrize("shift", range(4))
+def test_a_symmetric_mesh_is_matched_vertex_by_vertex(shift):
+    from bitstream.connectivity.faces import encode_connectivity
+
+    faces = np.roll(np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]]), shift, axis=0)
+    mesh = TriangleMesh(np.array([[0, 0, 0], [1, 0, 0], [0, 2, 0], [0, 0, 3]]), faces)
+    coded = encode_connectivity(faces, 4)
+    decoded = TriangleMesh(mesh.positions[coded.vertex_order], coded.faces)
+    assert np.array_equal(in_order_of(mesh, decoded), mesh.positions)
+
+
+def test_two_files_of_the_same_connectivity_are_matched(order):
+    coded = [renumbered(SAMPLE, order), renumbered(SAMPLE, order[::-1])]
+    try:
+        matched = in_order_of(*coded)
+    except MeshError:
+        return  # the coder may number them differently; then it must not guess
+    assert np.array_equal(matched, coded[0].positions)
+
+
+def test_other_faces_are_refused(order):
+    flipped = TriangleMesh(SAMPLE.positions, SAMPLE.faces[:, ::-1])
+    with pytest.raises(MeshError, match="--permutation"):
+        in_order_of(SAMPLE, flipped)
+    with pytest.raises(MeshError, match="different faces"):
+        in_order_of(SAMPLE, renumbered(SAMPLE, order), np.arange(len(order)))
+    with pytest.raises(MeshError, match="faces"):
+        in_order_of(SAMPLE, TriangleMesh(SAMPLE.positions, SAMPLE.faces[1:]))
+    with pytest.raises(MeshError, match="permutation"):
+        reorder(SAMPLE, order[1:])
+
+
+def test_files(tmp_path, order):
+    path = tmp_path / "order.npy"
+    write_permutation(path, order, overwrite=False)
+    assert np.array_equal(read_permutation(path), order)
+    for content in (b"", b"no array", path.read_bytes()[:-8]):
+        path.write_bytes(content)
+        with pytest.raises(FormatError):
+            read_permutation(path)
+    for wrong in (np.zeros(3), np.zeros(3, int), np.zeros((2, 2), int)):
+        np.save(path, wrong)
+        with pytest.raises(FormatError):
+            read_permutation(path)

@@ -1,0 +1,256 @@
+import io
+import json
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+from bitstream.errors import CorruptError, FormatError, MeshError, OptionError, TruncatedError
+from bsm.cli import main
+from bsm.files.sequence import open_sequence, read_npy, sequence_kind, sequence_writer
+from tests.motion import bending
+
+FRAMES = 6
+
+
+@pytest.fixture
+def npz(tmp_path):
+    positions, faces = bending(FRAMES)
+    path = tmp_path / "torus.npz"
+    np.savez(path, positions=positions.astype(np.float32), faces=faces)
+    return path
+
+
+def bsm(*words):
+    return main([str(word) for word in words])
+
+
+def result(capsys, *words):
+    capsys.readouterr()
+    assert bsm(*words, "--json") == 0
+    return json.loads(capsys.readouterr().out)
+
+
+@pytest.mark.parametrize("kind", ["npz", "npy", "obj", "ply"])
+def test_there_and_back_in_every_form(npz, tmp_path, capsys, kind):
+    stream, back = tmp_path / "a.bsm", tmp_path / (f"back.{kind}" if kind in ("npz", "npy") else "back")
+    encoded = result(capsys, "encode", npz, "-o", stream, "--gop", 4)
+    assert encoded["frames"] == FRAMES and encoded["bytes"] == stream.stat().st_size
+    decoded = result(capsys, "decode", stream, "-o", back, *([] if back.suffix else ["--format", kind]))
+    assert decoded["frames"] == FRAMES
+    direct, through = result(capsys, "compare", npz, stream), result(capsys, "compare", npz, back)
+    assert through["kg"] == pytest.approx(direct["kg"], rel=1e-4) and 0 < direct["kg"] < 1
+    assert direct["bpvf_total"] == pytest.approx(encoded["bpvf_total"])
+    # What was decoded is a sequence again.
+    assert result(capsys, "encode", back, "-o", tmp_path / "again.bsm")["frames"] == FRAMES
+
+
+def test_info_and_verify(npz, tmp_path, capsys):
+    stream = tmp_path / "a.bsm"
+    encoded = result(capsys, "encode", npz, "-o", stream, "--gop", 4, "--frame-rate", 25)
+    info = result(capsys, "info", stream)
+    assert info["frames"] == FRAMES and info["header"]["frame_rate"] == 25
+    assert [(gop["first"], gop["frames"]) for gop in info["gops"]] == [(0, 4), (4, 2)]
+    assert all(stream.read_bytes()[gop["offset"]] & 15 == 7 for gop in info["gops"])
+    assert info["bpvf_total"] == pytest.approx(encoded["bpvf_total"])
+    assert bsm("info", stream) == 0 and "6 frames, 25 per second, in 2 GOPs" in capsys.readouterr().out
+    assert bsm("verify", stream) == 0
+    broken = bytearray(stream.read_bytes())
+    broken[info["gops"][1]["offset"] + 20] ^= 1
+    stream.write_bytes(broken)
+    assert bsm("verify", stream) != 0
+
+
+def test_some_frames_only(npz, tmp_path, capsys):
+    stream, whole, part = tmp_path / "a.bsm", tmp_path / "whole.npz", tmp_path / "part.npz"
+    assert bsm("encode", npz, "-o", stream, "--gop", 2) == 0
+    assert bsm("decode", stream, "-o", whole) == 0
+    for text, chosen in (("3:5", slice(3, 5)), (":2", slice(2)), ("4:", slice(4, None)), ("5:99", slice(5, None))):
+        assert bsm("decode", stream, "-o", part, "-f", "--frames", text) == 0
+        assert np.array_equal(np.load(part)["positions"], np.load(whole)["positions"][chosen])
+    for text in ("3", "3:3", "a:b", "-1:2", "6:9"):
+        assert bsm("decode", stream, "-o", part, "-f", f"--frames={text}") != 0
+
+
+def test_tolerant_decoding_names_what_is_lost(npz, tmp_path, capsys):
+    stream, part = tmp_path / "a.bsm", tmp_path / "part.npz"
+    assert bsm("encode", npz, "-o", stream, "--gop", 2) == 0
+    gop = result(capsys, "info", stream)["gops"][1]
+    broken = bytearray(stream.read_bytes())
+    broken[gop["offset"] + 20] ^= 1
+    stream.write_bytes(broken)
+    assert bsm("decode", stream, "-o", part) != 0 and not part.exists()
+    assert bsm("decode", stream, "-o", part, "--tolerant") == 0
+    assert "frames 2 to 3 are lost" in capsys.readouterr().err
+    assert len(np.load(part)["positions"]) == 4
+
+
+def test_folders_and_patterns_are_taken_in_the_order_of_numbers(tmp_path):
+    positions, faces = bending(12)
+    with sequence_writer(str(tmp_path / "run"), "off", faces, 12, overwrite=False) as write:
+        for frame in positions:
+            write(frame)
+    for number in range(12):
+        (tmp_path / "run" / f"{number:05d}.off").rename(tmp_path / "run" / f"{number}.off")
+    for path in (tmp_path / "run", tmp_path / "run" / "*.off"):
+        source = open_sequence(str(path))
+        assert source.count == 12
+        assert np.abs(np.array(list(source.frames)) - positions).max() < 1e-6
+
+
+def test_the_first_frame_with_other_faces_is_named(tmp_path, capsys):
+    positions, faces = bending(4)
+    for folder, change in (("faces", faces[::-1]), ("count", faces[:-1])):
+        with sequence_writer(str(tmp_path / folder), "obj", faces, 4, overwrite=False) as write:
+            for frame in positions:
+                write(frame)
+        with sequence_writer(str(tmp_path / "other"), "obj", change, 4, overwrite=True) as write:
+            write(positions[2])
+        (tmp_path / "other" / "00000.obj").rename(tmp_path / folder / "00002.obj")
+        assert bsm("encode", tmp_path / folder, "-o", tmp_path / "x.bsm") != 0
+        with pytest.raises(MeshError, match=r"frame 2, .*00002\.obj, has other faces than the first"):
+            list(open_sequence(str(tmp_path / folder)).frames)
+        assert not (tmp_path / "x.bsm").exists()
+
+
+def test_permutation_restores_the_order(npz, tmp_path, capsys):
+    stream, order, back = (tmp_path / name for name in ("a.bsm", "order.npy", "back.npz"))
+    assert bsm("encode", npz, "-o", stream, "--permutation", order) == 0
+    assert bsm("decode", stream, "-o", back, "--permutation", order) == 0
+    original, decoded = np.load(npz), np.load(back)
+    assert np.abs(original["positions"] - decoded["positions"]).max() < 0.02
+    assert result(capsys, "compare", npz, stream, "--permutation", order)["kg"] < 1
+
+
+@pytest.mark.parametrize(
+    ("flag", "name", "value"), [("--kg", "kg", 0.3), ("--theta", "theta_deg", 2.0), ("--bpvf", "bpvf_total", 3.0)]
+)
+def test_targets(npz, tmp_path, capsys, flag, name, value):
+    assert bsm("encode", npz, "-o", tmp_path / "a.bsm", flag, value) == 0
+    assert result(capsys, "compare", npz, tmp_path / "a.bsm")[name] <= value * 1.001
+
+
+@pytest.mark.parametrize("words", [["--kg", 1, "--bpvf", 2], ["--overlap", 1.2], ["--bpv", 2], ["--gop", 0]])
+def test_options_that_do_not_go_with_a_sequence(npz, tmp_path, words):
+    assert bsm("encode", npz, "-o", tmp_path / "a.bsm", *words) != 0
+    assert not (tmp_path / "a.bsm").exists()
+
+
+def test_options_of_sequences_do_not_go_with_a_mesh(npz, tmp_path, capsys):
+    assert bsm("decode", npz) != 0
+    positions, faces = bending(1)
+    np.savez(tmp_path / "mesh.npz", positions=positions[0], faces=faces)
+    assert bsm("encode", tmp_path / "mesh.npz", "--gop", 3) != 0
+    assert "sequences" in capsys.readouterr().err
+    assert bsm("encode", npz) == 0 and bsm("encode", tmp_path / "mesh.npz") == 0
+    assert bsm("decode", npz.with_suffix(".bsm"), "--blocks", 1, "-o", tmp_path / "x.npz") != 0
+    assert bsm("decode", npz.with_suffix(".bsm"), "-o", tmp_path / "x.ply") != 0
+    assert bsm("decode", tmp_path / "mesh.bsm", "--format", "npy", "-o", tmp_path / "x.npy") != 0
+    assert bsm("compare", npz, tmp_path / "mesh.npz") != 0
+
+
+@pytest.mark.long
+def test_live_pipes():
+    positions, faces = bending(9)
+    encode = subprocess.Popen(
+        [sys.executable, "-m", "bsm.cli", "encode", "-", "--format", "npy", "-o", "-", "--low-delay"],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+    )
+    decode = subprocess.Popen(
+        [sys.executable, "-m", "bsm.cli", "decode", "-", "-o", "-"], stdin=encode.stdout, stdout=subprocess.PIPE
+    )
+    encode.stdin.write(arrays(faces))
+    for number, frame in enumerate(positions):
+        encode.stdin.write(arrays(frame))
+        encode.stdin.flush()
+        if number == 0:
+            assert read_npy(decode.stdout).shape == faces.shape
+        # Every frame comes out before the next one goes in.
+        assert read_npy(decode.stdout).shape == frame.shape
+    encode.stdin.close()
+    assert decode.stdout.read() == b"" and encode.wait() == 0 and decode.wait() == 0
+
+
+def arrays(*items):
+    file = io.BytesIO()
+    for item in items:
+        np.save(file, item)
+    return file.getvalue()
+
+
+@pytest.mark.parametrize(
+    ("data", "error"),
+    [
+        (arrays(np.zeros((4, 2), int)), FormatError),
+        (arrays(np.zeros((4, 3))), FormatError),
+        (arrays(np.zeros((4, 3), int), np.zeros((5, 2))), FormatError),
+        (arrays(np.zeros((4, 3), int), np.zeros((5, 3)))[:-1], TruncatedError),
+        (arrays(np.zeros((4, 3), int))[:20], TruncatedError),
+        (arrays(np.zeros((4, 3), int)) + b"something else", FormatError),
+        (arrays(np.array([None, {}], object)), FormatError),
+    ],
+)
+def test_damaged_arrays(tmp_path, data, error):
+    (tmp_path / "a.npy").write_bytes(data)
+    with pytest.raises(error):
+        list(open_sequence(str(tmp_path / "a.npy")).frames)
+
+
+def test_what_is_no_sequence(tmp_path):
+    assert open_sequence("-") is None
+    positions, faces = bending(1)
+    np.savez(tmp_path / "mesh.npz", positions=positions[0], faces=faces)
+    assert open_sequence(str(tmp_path / "mesh.npz")) is None
+    np.savez(tmp_path / "none.npz", positions=positions[:0], faces=faces)
+    with pytest.raises(MeshError):
+        open_sequence(str(tmp_path / "none.npz"))
+    (tmp_path / "empty").mkdir()
+    with pytest.raises(FormatError):
+        open_sequence(str(tmp_path / "empty"))
+
+
+def test_forms_of_the_output():
+    assert [sequence_kind(*pair) for pair in (("-", None), ("a.npz", None), ("a", None), ("a", "obj"))] == [
+        "npy",
+        "npz",
+        "ply",
+        "obj",
+    ]
+    for pair in (("a.ply", None), ("-", "ply"), ("a.npz", "npy")):
+        with pytest.raises(OptionError):
+            sequence_kind(*pair)
+
+
+def test_an_npz_says_when_frames_are_missing(tmp_path):
+    positions, faces = bending(3)
+    with (
+        pytest.raises(CorruptError, match="3 of 4"),
+        sequence_writer(str(tmp_path / "a.npz"), "npz", faces, 4, overwrite=False) as write,
+    ):
+        for frame in positions:
+            write(frame)
+    assert not (tmp_path / "a.npz").exists()
+
+
+def test_curves(npz, tmp_path, capsys, monkeypatch):
+    pytest.importorskip("DracoPy")
+    from bsm.evaluation import sequence_curve
+
+    monkeypatch.setattr(sequence_curve, "STEPS", (0.01, 0.001))
+    monkeypatch.setattr(sequence_curve, "DRACO_BITS", (8, 11))
+    monkeypatch.setattr(sequence_curve, "PCA_ERRORS", (1.0,))
+    assert bsm("curve", npz, "-o", tmp_path / "curves") == 0
+    lines = json.loads((tmp_path / "curves" / "torus-sequence.json").read_text())["lines"]
+    assert {line: len(points) for line, points in lines.items()} == {
+        "ours": 2,
+        "ours-low-delay": 2,
+        "draco": 2,
+        "pca": 1,
+    }
+    for line in ("ours", "ours-low-delay", "draco"):
+        coarse, fine = lines[line]
+        assert coarse["kg"] > fine["kg"] and coarse["bpvf"] < fine["bpvf"]
+    assert lines["ours"][0]["bpvf"] < lines["draco"][0]["bpvf"]
+    assert "Draco qp 11" in capsys.readouterr().out

@@ -1,0 +1,112 @@
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from hypothesis.extra import numpy as hnp
+
+from bitstream.errors import LimitError
+from codec.basis.laplacian import dense_laplacian, factorize, solve
+from codec.basis.orthogonal_iteration import hash_columns
+from codec.basis.solver.fronts import LEAF, WORK, find_fronts
+from codec.blocks.overlap import Block, grow_blocks
+from codec.blocks.partition import derive_partition
+from codec.geometry.graph import graph_of_faces
+from tests.shapes import patch, torus
+
+soups = hnp.arrays(np.int32, st.tuples(st.integers(1, 150), st.just(3)), elements=st.integers(0, 69))
+
+
+def whole(faces, size):
+    """All of a mesh as one block, its rows in bisection order."""
+    graph = graph_of_faces(faces, size)
+    return grow_blocks(graph, derive_partition(graph, 1), size).block(0)
+
+
+def unordered(faces, size):
+    graph = graph_of_faces(faces, size)
+    return Block(np.arange(size, dtype=np.int32), graph.offsets, graph.neighbours)
+
+
+def fill(block, fronts):
+    """Entries below the diagonal that elimination in this order fills: by brute force, on sets."""
+    rows = fronts.rows.astype(int)
+    later = {int(r): set(block.neighbours[block.offsets[r] : block.offsets[r + 1]].tolist()) for r in rows}
+    pattern = {}
+    for r in rows.tolist():
+        pattern[r] = later.pop(r)
+        for v in pattern[r]:
+            later[v] = (later[v] | pattern[r]) - {r, v}
+    return pattern
+
+
+@settings(deadline=None, max_examples=12)
+@given(soups)
+def test_fronts_hold_everything_that_elimination_fills(faces):
+    block = unordered(faces, 70)
+    fronts = find_fronts(block.offsets, block.neighbours)
+    assert sorted(fronts.rows) == list(range(70))
+    assert np.array_equal(fronts.rows[fronts.steps], np.arange(70))
+    pattern = fill(block, fronts)
+    for t in range(len(fronts.firsts) - 1):
+        first, end = int(fronts.firsts[t]), int(fronts.firsts[t + 1])
+        assert (fronts.owners[first:end] == t).all()
+        border = fronts.borders[fronts.starts[t] : fronts.starts[t + 1]]
+        assert len(border) % 2 == 0 and (np.diff(border.astype(int)) > 0).all() and (border >= end).all()
+        held = {int(fronts.rows[s]) for s in [*range(first, end), *border] if s < 70}
+        for step in range(first, end):
+            assert pattern[int(fronts.rows[step])] <= held
+
+
+def test_bisection_keeps_the_fill_small():
+    block = whole(patch(24, 24).faces, 576)
+    fronts = find_fronts(block.offsets, block.neighbours)
+    sizes, edges = np.diff(fronts.firsts.astype(int)), np.diff(fronts.starts.astype(int))
+    assert LEAF < sizes.max() <= 50 and edges.max() <= 60
+    assert (sizes * (sizes - 1) // 2 + sizes * edges).sum() < 16_000
+    assert fronts.places[-1] < 30_000
+
+
+@settings(deadline=None, max_examples=40)
+@given(soups, st.floats(1e-3, 10.0), st.integers(1, 3))
+def test_any_graph_can_be_solved(faces, shift, power):
+    block = unordered(faces, 70)
+    columns = hash_columns(70, 3)
+    shifted = dense_laplacian(block) + shift * np.eye(70)
+    expected = columns
+    for _ in range(power):
+        expected = np.linalg.solve(shifted, expected)
+    found = solve(factorize(block, shift), columns, power)
+    assert np.allclose(found, expected, rtol=1e-8, atol=1e-9 * np.abs(expected).max())
+
+
+@pytest.mark.parametrize("columns", [1, 31, 32, 33, 100])
+def test_solving_with_a_shift_for_every_row(columns):
+    block = whole(torus().faces, 960)
+    springs = 0.01 + np.abs(hash_columns(960, 1)[:, 0])
+    right = hash_columns(960, columns)
+    expected = np.linalg.solve(dense_laplacian(block) + np.diag(springs), right)
+    assert np.allclose(solve(factorize(block, springs), right, 1), expected, atol=1e-11)
+
+
+def test_a_graph_without_small_separators_is_refused_before_work_begins():
+    random = np.random.default_rng(5)
+    faces = random.integers(0, 6000, (24_000, 3)).astype(np.int32)
+    block = unordered(faces, 6000)
+    with pytest.raises(LimitError, match="too entangled"):
+        factorize(block, 0.1)
+
+
+def test_the_largest_blocks_of_surfaces_are_far_from_refused(monkeypatch):
+    monkeypatch.setattr("codec.basis.solver.fronts.WORK", WORK // 8)
+    block = whole(torus(100, 80).faces, 8000)
+    assert factorize(block, 0.1).inverse.shape == (8000,)
+
+
+def test_a_vertex_beside_all_others_and_a_complete_graph_can_be_solved():
+    fan = np.array([[0, i, i + 1] for i in range(1, 99)], np.int32)
+    complete = np.array([[i, j, (i + j) % 40] for i in range(40) for j in range(i)], np.int32)
+    for faces, size in ((fan, 100), (complete, 40)):
+        block = whole(faces, size)
+        right = hash_columns(size, 5)
+        expected = np.linalg.solve(dense_laplacian(block) + 0.125 * np.eye(size), right)
+        assert np.allclose(solve(factorize(block, 0.125), right, 1), expected, atol=1e-11)

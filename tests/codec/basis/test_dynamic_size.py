@@ -1,0 +1,46 @@
+import numpy as np
+import pytest
+
+from bsm.files.stream import inspect_stream
+from codec import EncodeOptions, Encoder, decode
+from codec.basis.dynamic_size import dynamic_size, residual_norms
+from codec.basis.orthogonal_iteration import hash_columns, onorm
+from tests.shapes import torus
+
+
+def test_the_residual_of_every_size_is_the_residual_of_the_projection():
+    positions = hash_columns(50, 3)
+    basis = onorm(hash_columns(50, 20) + 2)
+    norms = residual_norms(positions, basis.T @ positions)
+    for size in range(21):
+        left = positions - basis[:, :size] @ (basis[:, :size].T @ positions)
+        assert norms[size] == pytest.approx(np.linalg.norm(left), abs=1e-12)
+
+
+def test_the_size_grows_over_the_upper_and_shrinks_under_the_lower_threshold():
+    positions = np.zeros((10, 3))
+    positions[:, 0] = np.arange(1.0, 11.0)[::-1]
+    coefficients = positions  # the basis is the identity: residuals are tails of 10, 9, 8, ...
+    norms = residual_norms(positions, coefficients)
+    for previous in range(1, 11):
+        size = dynamic_size(positions, coefficients, previous, norms[6] - 0.1, norms[5] + 0.1)
+        assert size == min(max(previous, 5), 6)
+    assert dynamic_size(positions, coefficients, 3, 1e-9, 1e-8) == 10
+
+
+def test_sizes_follow_the_error_and_the_decoder_follows_the_sizes():
+    mesh = torus(60, 40, bumps=0.15)
+    options = {"block_size": 150, "keep": 0.5, "step": 5e-4, "smoothing": 0.0}
+    dynamic = Encoder(mesh, EncodeOptions(**options, doi=(0.02, 0.03)))
+    attempt = dynamic.attempt(5e-4)
+    assert len(set(attempt.coefficients)) > 2
+    decoded = decode(b"".join(attempt.frames))
+    error = np.abs(decoded.positions - mesh.positions[dynamic.vertex_order]).max()
+    assert error == pytest.approx(attempt.comparison.max_error * mesh.diagonal, rel=0.5)
+
+
+def test_sizes_follow_the_error_in_the_papers_mode_too():
+    options = EncodeOptions(block_size=150, keep=0.5, bits=12, doi=(0.02, 0.03))
+    encoder = Encoder(torus(60, 40, bumps=0.15), options)
+    sizes = inspect_stream(iter([encoder.encode()])).coefficients
+    assert len(set(sizes)) > 2

@@ -1,0 +1,133 @@
+import numpy as np
+import pytest
+import scipy.linalg
+
+from codec.basis.laplacian import dense_laplacian, factorize, solve
+from codec.basis.orthogonal_iteration import (
+    cosine_columns,
+    exact_basis,
+    hash_columns,
+    householder_orthonormalize,
+    onorm,
+    orthogonal_iteration,
+    resized,
+)
+from codec.blocks.overlap import Block
+from codec.geometry.graph import graph_of_faces
+from tests.shapes import grid_faces, patch, torus
+
+
+def whole(faces, size):
+    graph = graph_of_faces(faces, size)
+    return Block(np.arange(size, dtype=np.int32), graph.offsets, graph.neighbours)
+
+
+def path(size):
+    """A path: its Laplacian's eigenvectors are the cosines, its eigenvalues 2 - 2 cos(pi j / n)."""
+    offsets = np.concatenate([[0, 1], np.arange(3, 2 * size - 2, 2), [2 * size - 2]]).astype(np.int32)
+    neighbours = np.stack([np.arange(-1, size - 1), np.arange(1, size + 1)], 1).ravel()[1:-1].astype(np.int32)
+    return Block(np.arange(size, dtype=np.int32), offsets, neighbours)
+
+
+def span_distance(a, b):
+    return np.linalg.norm(a - b @ (b.T @ a))
+
+
+def test_the_laplacian_of_a_path_has_its_known_spectrum():
+    laplacian = dense_laplacian(path(30))
+    expected = 2 - 2 * np.cos(np.pi * np.arange(30) / 30)
+    assert np.allclose(np.linalg.eigvalsh(laplacian), expected, atol=1e-12)
+
+
+def test_cosines_are_eigenvectors_of_a_path():
+    columns = cosine_columns(30, 0, 12)
+    eigenvalues = 2 - 2 * np.cos(np.pi * np.arange(12) / 30)
+    assert np.allclose(dense_laplacian(path(30)) @ columns, columns * eigenvalues, atol=1e-12)
+
+
+@pytest.mark.parametrize("power", [1, 2, 4])
+def test_solving_inverts_the_shifted_laplacian(power):
+    block = whole(torus().faces, 960)
+    columns = hash_columns(960, 7)
+    shifted = dense_laplacian(block) + 0.125 * np.eye(960)
+    back = np.linalg.matrix_power(shifted, power) @ solve(factorize(block, 0.125), columns, power)
+    assert np.allclose(back, columns, atol=1e-9)
+
+
+def test_a_block_of_many_components_and_lone_vertices_can_be_solved():
+    faces = np.array([[0, 1, 2], [5, 6, 7]], np.int32)
+    block = whole(faces, 9)
+    columns = hash_columns(9, 9)
+    back = (dense_laplacian(block) + 0.5 * np.eye(9)) @ solve(factorize(block, 0.5), columns, 1)
+    assert np.allclose(back, columns, atol=1e-13)
+
+
+@pytest.mark.parametrize("decades", [0, 3, 5, 9, 13])
+def test_onorm_is_the_q_of_a_qr_factorisation_with_positive_diagonal(decades):
+    columns = hash_columns(80, 20) * np.logspace(0, -decades, 20)
+    columns[:, 1:] += columns[:, :1]
+    q = onorm(columns)
+    assert np.allclose(q.T @ q, np.eye(20), atol=1e-11)
+    r = q.T @ columns
+    assert np.all(np.diag(r) > 0)
+    assert np.allclose(np.tril(r, -1), 0, atol=1e-10)
+
+
+def test_onorm_agrees_with_householder():
+    columns = hash_columns(200, 40)
+    assert np.allclose(onorm(columns), householder_orthonormalize(columns), atol=1e-13)
+
+
+def test_onorm_is_nested():
+    columns = hash_columns(100, 30)
+    assert np.allclose(onorm(columns)[:, :11], onorm(np.ascontiguousarray(columns[:, :11])), atol=1e-13)
+
+
+def test_iterations_converge_to_the_lowest_eigenvectors():
+    mesh = patch(17, 23)
+    block = whole(mesh.faces, len(mesh.positions))
+    values, vectors = scipy.linalg.eigh(dense_laplacian(block))
+    width = 10 + int(np.argmax(np.diff(values)[9:30]))
+    subspace = orthogonal_iteration(block, cosine_columns(block.size, 0, width), shift=0.01, power=4, iterations=60)
+    assert span_distance(subspace, vectors[:, :width]) < 1e-8
+
+
+def test_the_exact_basis_does_not_depend_on_the_solver(monkeypatch):
+    # A square patch has repeated eigenvalues, within which LAPACK's drivers choose differently.
+    block = whole(grid_faces(20, 20, close_rows=True, close_columns=True), 400)
+    drivers = {}
+    for driver in ("evd", "evr"):
+        monkeypatch.setattr(np.linalg, "eigh", lambda a, d=driver: scipy.linalg.eigh(a, driver=d))
+        drivers[driver] = exact_basis(block, 57)
+    assert np.allclose(drivers["evd"], drivers["evr"], atol=1e-9)
+    assert np.allclose(drivers["evd"].T @ drivers["evd"], np.eye(57), atol=1e-12)
+
+
+def test_a_subspace_grows_by_cosines_and_shrinks_by_its_last_columns():
+    start = onorm(hash_columns(50, 8))
+    assert np.array_equal(resized(start, 5), start[:, :5])
+    grown = resized(start, 11)
+    assert np.array_equal(grown[:, :8], start)
+    assert np.array_equal(grown[:, 8:], cosine_columns(50, 8, 11))
+
+
+def test_a_truncated_start_gives_the_truncated_subspace():
+    block = whole(patch(15, 15).faces, 225)
+    wide = orthogonal_iteration(block, cosine_columns(225, 0, 30), shift=0.125, power=2, iterations=1)
+    narrow = orthogonal_iteration(block, cosine_columns(225, 0, 12), shift=0.125, power=2, iterations=1)
+    assert np.allclose(wide[:, :12], narrow, atol=1e-12)
+
+
+@pytest.mark.parametrize(("shift", "power", "width"), [(0.01, 3, 40), (1e-4, 4, 30), (1e-6, 16, 12), (1e-3, 9, 60)])
+def test_high_powers_lose_no_column(shift, power, width):
+    """However ill conditioned R^z is; the reference orthonormalises after every dense solve."""
+    mesh = patch(17, 23)
+    block = whole(mesh.faces, len(mesh.positions))
+    start = cosine_columns(block.size, 0, width)
+    found = orthogonal_iteration(block, start, shift=shift, power=power, iterations=1)
+    expected = start
+    for _ in range(power):
+        expected = np.linalg.solve(dense_laplacian(block) + shift * np.eye(block.size), expected)
+        expected = householder_orthonormalize(expected)
+    assert np.allclose(found.T @ found, np.eye(width), atol=1e-11)
+    assert np.allclose(found, expected, atol=1e-7)

@@ -1,0 +1,108 @@
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from hypothesis.extra import numpy as hnp
+
+from codec.blocks.overlap import block_size, grow_blocks
+from codec.blocks.partition import derive_partition
+from codec.geometry.graph import graph_of_faces
+from codec.signal.chain import even_interval
+from tests.shapes import grid_faces, patch, tetrahedron, together, torus
+
+soups = hnp.arrays(np.int32, st.tuples(st.integers(1, 40), st.just(3)), elements=st.integers(0, 19))
+
+
+def graph_of(mesh):
+    return graph_of_faces(mesh.faces, len(mesh.positions))
+
+
+def blocks_of(graph, parts, overlap):
+    partition = derive_partition(graph, parts)
+    return partition, grow_blocks(graph, partition, block_size(partition, overlap))
+
+
+def neighbours_of(graph, vertices):
+    return {int(w) for v in vertices for w in graph.neighbours[graph.offsets[v] : graph.offsets[v + 1]]}
+
+
+@pytest.mark.parametrize("overlap", [1.0, 1.15, 1.5])
+def test_blocks_hold_their_part_and_rings_around_it(overlap):
+    graph = graph_of(torus(50, 40))
+    partition, blocks = blocks_of(graph, 9, overlap)
+    size = block_size(partition, overlap)
+    assert sorted(blocks.chain) == list(range(9))
+    for index in range(blocks.count):
+        members = blocks.members_of(index)
+        assert len(members) == len(set(members)) == size
+        assert set(blocks.core(index)) == set(np.flatnonzero(partition.labels == blocks.chain[index]))
+        outside = np.setdiff1d(members, blocks.core(index))
+        assert set(outside) <= neighbours_of(graph, members)
+
+
+@pytest.mark.parametrize("parts", [1, 2, 13, 60])
+def test_every_block_of_a_connected_mesh_touches_one_before_it(parts):
+    graph = graph_of(torus(50, 40))
+    _, blocks = blocks_of(graph, parts, 1.0)
+    seen = set(blocks.core(0))
+    steps = 0
+    for index in range(1, parts):
+        around = neighbours_of(graph, blocks.core(index))
+        assert around & seen
+        steps += bool(around & set(blocks.core(index - 1)))
+        seen |= set(blocks.core(index))
+    assert steps >= 0.8 * (parts - 1)
+
+
+def test_the_chain_of_a_strip_walks_along_it():
+    graph = graph_of_faces(grid_faces(3, 200), 600)
+    _, blocks = blocks_of(graph, 8, 1.0)
+    places = [np.mean(blocks.core(index) % 200) for index in range(8)]
+    steps = np.abs(np.diff(places))
+    assert np.sort(steps)[:-1].max() < 40
+
+
+def test_a_component_smaller_than_a_block_stays_small():
+    _, blocks = blocks_of(graph_of(together(patch(5, 6), patch(5, 6))), 2, 1.5)
+    assert np.diff(blocks.starts).tolist() == [30, 30]
+    _, blocks = blocks_of(graph_of(together(*[tetrahedron()] * 8)), 8, 1.0)
+    assert sorted(sorted(blocks.members_of(i))[0] for i in range(8)) == list(range(0, 32, 4))
+
+
+def test_many_parts_are_chained_in_linear_time():
+    # A rule that looked at all parts, or at all of a hub's, for every step would take minutes.
+    fan = np.stack([np.zeros(99_998, int), np.arange(1, 99_999), np.arange(2, 100_000)], axis=1).astype(np.int32)
+    apart = np.arange(99_999, dtype=np.int32).reshape(-1, 3)
+    for faces in (fan, apart):
+        graph = graph_of_faces(faces, int(faces.max()) + 1)
+        _, blocks = blocks_of(graph, graph.size, 1.0)
+        assert sorted(blocks.chain) == list(range(graph.size))
+
+
+def test_blocks_do_not_grow_over_hubs():
+    wheel = np.stack([np.zeros(2000, int), np.arange(1, 2001), np.r_[np.arange(2, 2001), 1]], axis=1).astype(np.int32)
+    _, blocks = blocks_of(graph_of_faces(wheel, 2001), 20, 1.3)
+    assert sum(0 in blocks.members_of(index) for index in range(20)) == 1
+
+
+@settings(deadline=None)
+@given(soups, st.integers(1, 6), st.sampled_from([1.0, 1.5]))
+def test_a_blocks_graph_is_that_of_its_vertices(faces, parts, overlap):
+    graph = graph_of_faces(faces, 20)
+    _, blocks = blocks_of(graph, parts, overlap)
+    for index in range(parts):
+        block = blocks.block(index)
+        assert sorted(block.vertices) == sorted(blocks.members_of(index))
+        for row, v in enumerate(block.vertices):
+            local = block.neighbours[block.offsets[row] : block.offsets[row + 1]]
+            beyond = graph.neighbours[graph.offsets[v] : graph.offsets[v + 1]]
+            assert sorted(block.vertices[local]) == [w for w in beyond if w in block.vertices]
+
+
+@given(st.integers(1, 40), st.integers(1, 200))
+def test_chains_are_evened_out_without_being_more(interval, blocks):
+    even = even_interval(interval, blocks)
+    chains = -(-blocks // interval)
+    assert even <= interval and -(-blocks // even) == chains
+    assert blocks - (chains - 1) * even > 0 and even - 1 < blocks / chains
+    assert even_interval(0, blocks) == 0

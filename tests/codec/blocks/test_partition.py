@@ -1,0 +1,66 @@
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from hypothesis.extra import numpy as hnp
+
+from codec.blocks.partition import derive_partition, metis_partition, partition_of_labels
+from codec.geometry.graph import graph_of_faces
+from tests.shapes import patch, together, torus
+
+soups = hnp.arrays(np.int32, st.tuples(st.integers(1, 40), st.just(3)), elements=st.integers(0, 19))
+
+
+def graph_of(mesh):
+    return graph_of_faces(mesh.faces, len(mesh.positions))
+
+
+def cut(graph, partition):
+    source = np.repeat(np.arange(graph.size), np.diff(graph.offsets))
+    return np.count_nonzero(partition.labels[source] != partition.labels[graph.neighbours]) // 2
+
+
+@settings(deadline=None)
+@given(soups, st.integers(1, 20))
+def test_derived_parts_cover_any_graph(faces, parts):
+    graph = graph_of_faces(faces, 20)
+    partition = derive_partition(graph, parts)
+    assert partition.parts == parts
+    assert sorted(partition.order) == list(range(20))
+    assert np.diff(partition.bounds).min() >= 1
+    for part in range(parts):
+        members = partition.order[partition.bounds[part] : partition.bounds[part + 1]]
+        assert (np.diff(members) > 0).all() and (partition.labels[members] == part).all()
+
+
+@pytest.mark.parametrize("parts", [2, 7, 16, 33])
+def test_derived_parts_are_even_and_short_of_boundary(parts):
+    graph = graph_of(torus(80, 60))
+    partition = derive_partition(graph, parts)
+    share = graph.size / parts
+    sizes = np.diff(partition.bounds)
+    assert sizes.max() <= 1.03 * share + 2 and sizes.min() >= 0.9 * share
+    assert cut(graph, partition) <= 1.4 * cut(graph, metis_partition(graph, parts))
+
+
+def test_parts_of_several_components():
+    graph = graph_of(together(torus(30, 20), patch(12, 12), torus(9, 7)))
+    sizes = np.diff(derive_partition(graph, 10).bounds)
+    assert sizes.max() - sizes.min() <= 0.1 * sizes.mean()
+
+
+def test_one_part_and_as_many_as_vertices():
+    graph = graph_of(patch(8, 9))
+    assert derive_partition(graph, 1).labels.tolist() == [0] * 72
+    assert sorted(derive_partition(graph, 72).labels) == list(range(72))
+    assert metis_partition(graph, 1).parts == 1
+
+
+@settings(deadline=None)
+@given(hnp.arrays(np.int32, st.integers(1, 60), elements=st.integers(0, 9)))
+def test_labels_are_numbered_by_first_appearance(labels):
+    partition = partition_of_labels(labels)
+    _, first = np.unique(partition.labels, return_index=True)
+    assert (np.diff(first) > 0).all()
+    assert partition.parts == len(np.unique(labels))
+    assert ((labels[:, None] == labels) == (partition.labels[:, None] == partition.labels)).all()

@@ -1,0 +1,107 @@
+"""Metrics on meshes whose errors are known by hand."""
+
+import math
+
+import numpy as np
+import pytest
+
+from bitstream.errors import MeshError
+from codec.geometry.incidence import vertex_neighbours
+from codec.geometry.metrics import (
+    Reference,
+    compare,
+    geometric_laplacian,
+    kg_error,
+    mean_edge_length,
+    mnd,
+    nmsve,
+    rms_over_edge,
+    theta,
+)
+
+SQUARE = np.array([[0.0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]])
+TWO = np.array([[0, 1, 2], [0, 2, 3]], dtype=np.int32)
+
+
+def rotation_x(degrees: float) -> np.ndarray:
+    c, s = math.cos(math.radians(degrees)), math.sin(math.radians(degrees))
+    return np.array([[1, 0, 0], [0, c, -s], [0, s, c]])
+
+
+def test_equal_meshes_have_no_error() -> None:
+    result = compare(SQUARE, SQUARE, TWO)
+    assert (result.nmsve, result.theta_deg, result.rms, result.max_error) == (0, 0, 0, 0)
+    assert result.nmsve_db == -math.inf
+
+
+@pytest.mark.parametrize("degrees", [1e-6, 0.5, 30.0, 90.0, 170.0])
+def test_a_rotation_turns_every_normal_by_its_angle(degrees: float) -> None:
+    turned = SQUARE @ rotation_x(degrees).T
+    assert theta(SQUARE, turned, TWO) == pytest.approx(degrees, rel=1e-9)
+    assert mnd(SQUARE, turned, TWO) == pytest.approx(2 * math.sin(math.radians(degrees / 2)), rel=1e-6)
+
+
+def test_a_translation_costs_distance_and_no_detail() -> None:
+    moved = SQUARE + np.array([0.3, 0.0, 0.4])
+    result = compare(SQUARE, moved, TWO)
+    assert result.rms == pytest.approx(0.5)
+    assert result.max_error_relative == pytest.approx(0.5 / math.sqrt(2))
+    assert result.theta_deg == 0
+    # ||v - v~|| = sqrt(4) * 0.5, no Laplacian difference, 2n = 8, unit diagonal.
+    assert result.nmsve == pytest.approx(1.0 / 8 / math.sqrt(2))
+    assert result.nmsve_db == pytest.approx(10 * math.log10(1.0 / 8 / math.sqrt(2)))
+
+
+def test_the_laplacian_weighs_neighbours_by_inverse_distance() -> None:
+    positions = np.array([[0.0, 0, 0], [1, 0, 0], [0, 2, 0]])
+    faces = np.array([[0, 1, 2]], dtype=np.int32)
+    expected = -(np.array([1.0, 0, 0]) + 0.5 * np.array([0, 2.0, 0])) / 1.5
+    assert geometric_laplacian(positions, vertex_neighbours(faces, 3))[0] == pytest.approx(expected)
+
+
+def test_coincident_neighbours_give_the_limit_and_no_nan() -> None:
+    near, exact = SQUARE.copy(), SQUARE.copy()
+    near[1], exact[1] = [1e-9, 0, 0], [0, 0, 0]
+    assert nmsve(SQUARE, near, TWO) == pytest.approx(nmsve(SQUARE, exact, TWO), rel=1e-6)
+    collapsed = np.zeros_like(SQUARE)
+    assert math.isfinite(compare(collapsed, SQUARE, TWO).nmsve)
+    assert compare(collapsed, collapsed, TWO).rms_relative == 0
+
+
+def test_lost_faces_count_and_degenerate_originals_do_not() -> None:
+    lost = SQUARE.copy()
+    lost[1] = [0.5, 0.5, 0]
+    assert theta(SQUARE, lost, TWO) == pytest.approx(45.0)
+    assert mnd(SQUARE, lost, TWO) == pytest.approx(math.sqrt(2) / 2)
+    assert theta(lost, SQUARE, TWO) == 0
+    assert theta(np.zeros_like(SQUARE), SQUARE, TWO) == 0
+
+
+def test_the_unit_of_the_mesh_does_not_matter() -> None:
+    noise = np.random.default_rng(1).normal(0, 0.05, SQUARE.shape)
+    small, large = compare(SQUARE, SQUARE + noise, TWO), compare(SQUARE * 1e3, (SQUARE + noise) * 1e3, TWO)
+    assert large.nmsve == pytest.approx(small.nmsve)
+    assert large.rms_relative == pytest.approx(small.rms_relative)
+    assert large.rms == pytest.approx(small.rms * 1e3)
+
+
+def test_rms_over_the_mean_edge() -> None:
+    assert mean_edge_length(SQUARE, TWO) == pytest.approx((4 + math.sqrt(2)) / 5)
+    assert rms_over_edge(SQUARE, SQUARE + np.array([1.0, 0, 0]), TWO) == pytest.approx(5 / (4 + math.sqrt(2)))
+
+
+def test_kg_error_is_relative_to_the_extent() -> None:
+    square = SQUARE - SQUARE.mean(axis=0)
+    frames = np.stack([square, square + np.array([2.0, 0, 0])])  # where a frame is does not count
+    assert kg_error(frames, frames) == 0
+    offset = 0.1 * math.sqrt(np.square(square).sum() / len(square))
+    assert kg_error(frames, frames + np.array([0.0, offset, 0])) == pytest.approx(10.0)
+    points = np.zeros((2, 4, 3))
+    assert kg_error(points, points + 1) == math.inf
+    with pytest.raises(MeshError):
+        kg_error(frames, frames[:1])
+
+
+def test_wrong_shapes_are_refused() -> None:
+    with pytest.raises(MeshError, match="shape"):
+        Reference(SQUARE, TWO).compare(SQUARE[:3])

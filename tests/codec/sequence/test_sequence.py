@@ -1,0 +1,433 @@
+import math
+import tracemalloc
+from functools import cache
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from bitstream.container.packets import Gop
+from bitstream.container.reader import END_OF_STREAM, NEED_DATA, Reader, Signal
+from bitstream.container.writer import write_stream
+from bitstream.errors import BsmError, CorruptError, FormatError, LimitError, MeshError, OptionError, UnsupportedError
+from bitstream.limits import Limits
+from codec import (
+    ConnectivityEvent,
+    EndEvent,
+    FrameEvent,
+    GopLost,
+    HeaderEvent,
+    SequenceDecoder,
+    SequenceEncoder,
+    SequenceOptions,
+    decode,
+    decode_sequence,
+    encode,
+    encode_sequence,
+)
+from codec.geometry.metrics import kg_error
+from codec.sequence.targets import SequenceTarget, compare_sequences
+from tests.motion import bending, turning
+from tests.shapes import patch, tetrahedron, together, torus
+
+SMALL = {"block_size": 100, "step": 0.002, "gop": 8}
+WAYS = [{"transform": "learnt"}, {"transform": "cosine"}, {"mode": "low-delay"}]
+
+
+def options(**changes):
+    return SequenceOptions(**{**SMALL, **changes})
+
+
+def encoded(positions, faces, **changes):
+    """The stream, and the frames in the decoder's order of vertices."""
+    encoder = SequenceEncoder(faces, options(**changes), len(positions))
+    data = b"".join(encoder.chunks(positions))
+    return data, positions[:, encoder.vertex_order]
+
+
+def events_of(data, pieces=None, **settings):
+    decoder = SequenceDecoder(**settings)
+    found = []
+    for piece in pieces or [data]:
+        decoder.receive_data(piece)
+        while not isinstance(event := decoder.next_event(), Signal):
+            found.append(event)
+    decoder.receive_eof()
+    while (event := decoder.next_event()) is not END_OF_STREAM:
+        assert event is not NEED_DATA
+        found.append(event)
+    return found
+
+
+def frames_in(events):
+    return {event.index: event.positions for event in events if isinstance(event, FrameEvent)}
+
+
+def gop_spans(data):
+    """First frame, offset and length of each GOP's stream frame."""
+    reader = Reader()
+    reader.receive_data(data)
+    found = []
+    while not isinstance(packet := reader.next_packet(), Signal):
+        if isinstance(packet, Gop):
+            found.append((packet.index, reader.last_frame.offset, reader.last_frame.length))
+    return found
+
+
+def diagonal(frame):
+    return float(np.linalg.norm(np.ptp(frame, axis=0)))
+
+
+@pytest.mark.parametrize("way", WAYS)
+@pytest.mark.parametrize("weights", ["cotangent", "binary"])
+def test_the_error_is_within_what_quantization_allows(way, weights):
+    positions, faces = bending(20)
+    data, original = encoded(positions, faces, weights=weights, rounding=0.4, **way)
+    decoded, decoded_faces = decode_sequence(data)
+    assert decoded.shape == original.shape and decoded_faces.shape == faces.shape
+    error = np.linalg.norm(decoded - original)
+    # Every coefficient is off by 0.6 steps at the most; a learnt basis leaves a little of the motion out as well.
+    bound = 0.6 * SMALL["step"] * diagonal(positions[0]) * math.sqrt(original.size)
+    assert error <= bound * (2.0 if way.get("transform") == "learnt" else 1.05)
+
+
+@pytest.mark.parametrize("way", WAYS)
+def test_a_finer_step_is_closer(way):
+    positions, faces = bending(12)
+    errors = []
+    for step in (0.02, 0.002, 0.0002):
+        data, original = encoded(positions, faces, step=step, **way)
+        errors.append(kg_error(original, decode_sequence(data)[0]))
+    assert errors[0] > 4 * errors[1] > 16 * errors[2] > 0
+
+
+def test_rigid_motion_costs_little_more_than_its_basis():
+    positions, faces = turning(40)
+    data, original = encoded(positions, faces, gop=40)
+    static = len(encoded(positions[:1], faces)[0])
+    assert kg_error(original, decode_sequence(data)[0]) < 0.2
+    assert len(data) - static < 40 * 12 * 3  # 12 numbers move it, and a frame of it alone takes a thousand bytes
+
+
+def test_prediction_from_the_first_frame_pays():
+    positions, faces = bending(24)
+    moving = len(encoded(positions, faces, gop=24)[0])
+    shuffled = positions.copy()
+    # The same detail, but no frame has the first one's: nothing to predict from.
+    shuffled[1:] += 0.01 * np.random.default_rng(0).standard_normal(positions[0].shape)
+    assert moving < 0.8 * len(encoded(shuffled, faces, gop=24)[0])
+
+
+@pytest.mark.parametrize("way", WAYS)
+@pytest.mark.parametrize("pieces", [1, 7, 1000])
+def test_events_do_not_depend_on_how_bytes_are_cut(way, pieces):
+    positions, faces = bending(11)
+    data, _ = encoded(positions, faces, step=0.01, **way)
+    whole = events_of(data)
+    assert [type(event) for event in whole[:2]] == [HeaderEvent, ConnectivityEvent]
+    assert isinstance(whole[-1], EndEvent)
+    assert [event.index for event in whole[2:-1]] == list(range(11))
+    cut = events_of(data, [data[i : i + pieces] for i in range(0, len(data), pieces)])
+    assert [type(event) for event in cut] == [type(event) for event in whole]
+    for a, b in zip(whole[2:-1], cut[2:-1], strict=True):
+        assert np.array_equal(a.positions, b.positions)
+
+
+def test_whole_and_streamed_decoding_agree():
+    positions, faces = bending(21)
+    data, _ = encoded(positions, faces)
+    streamed = frames_in(events_of(data, [data[i : i + 100] for i in range(0, len(data), 100)]))
+    assert np.array_equal(np.array([streamed[i] for i in range(21)]), decode_sequence(data)[0])
+
+
+@pytest.mark.parametrize("way", WAYS)
+def test_chunks_come_as_frames_do(way):
+    positions, faces = bending(10)
+    given = []
+
+    def source():
+        for frame in positions:
+            given.append(frame)
+            yield frame
+
+    chunks = SequenceEncoder(faces, options(gop=4, **way)).chunks(source())
+    seen = [len(given) for chunk in chunks if chunk[0] & 15 == 7]
+    held = 1 if "mode" in way else 4
+    assert seen == [min(held * (k + 1), 10) for k in range(len(seen))] and seen[-1] == 10
+
+
+def peak_of(work):
+    """Most bytes held while `work` runs."""
+    tracemalloc.start()
+    try:
+        work()
+        return tracemalloc.get_traced_memory()[1]
+    finally:
+        tracemalloc.stop()
+
+
+@pytest.mark.parametrize("way", [{}, {"mode": "low-delay"}])
+def test_memory_does_not_grow_with_the_number_of_frames(way):
+    positions, faces = bending(8, 18, 10)
+
+    def frames(count):
+        for number in range(count):
+            yield positions[number % 8]
+
+    def encode_all(count):
+        for _ in SequenceEncoder(faces, options(step=0.01, threads=1, **way)).chunks(frames(count)):
+            pass
+
+    def decode_all(count):
+        decoder = SequenceDecoder(threads=1)
+        chunks = SequenceEncoder(faces, options(step=0.01, threads=1, **way)).chunks(frames(count))
+        while (event := decoder.next_event()) is not END_OF_STREAM:
+            if event is NEED_DATA:
+                chunk = next(chunks, b"")
+                decoder.receive_data(chunk) if chunk else decoder.receive_eof()
+
+    for work in (encode_all, decode_all):
+        work(8)
+        short, long = peak_of(lambda: work(16)), peak_of(lambda: work(40))  # noqa: B023  (called at once)
+        assert long < short + 8 * positions[0].nbytes
+
+
+def test_encoding_in_a_stream_differs_only_in_what_the_header_says():
+    positions, faces = bending(10)
+    unknown = b"".join(SequenceEncoder(faces, options()).chunks(iter(positions)))
+    known = encode_sequence(positions, faces, options())
+    assert next(e.header for e in events_of(unknown) if isinstance(e, HeaderEvent)).frames == 0
+    assert next(e.header for e in events_of(known) if isinstance(e, HeaderEvent)).frames == 10
+    assert np.array_equal(decode_sequence(unknown)[0], decode_sequence(known)[0])
+
+
+@pytest.mark.parametrize("way", WAYS)
+@pytest.mark.parametrize("frames", [1, 2, 3])
+def test_short_sequences(way, frames):
+    positions, faces = bending(frames)
+    data, original = encoded(positions, faces, **way)
+    assert np.abs(decode_sequence(data)[0] - original).max() < 0.02
+
+
+@pytest.mark.parametrize("way", [{}, *WAYS])
+def test_frames_that_do_not_move_cost_next_to_nothing(way):
+    mesh = torus(30, 16)
+    still = np.repeat(mesh.positions[None], 16, axis=0)
+    data, original = encoded(still, mesh.faces, gop=16, **way)
+    assert np.abs(decode_sequence(data)[0] - original).max() < 0.01
+    assert len(data) - len(encoded(still[:1], mesh.faces)[0]) < 1000
+
+
+@pytest.mark.parametrize(
+    "mesh", [tetrahedron(), together(tetrahedron(), patch(5, 4), torus(12, 8)), patch(2, 2)], ids=["one", "many", "two"]
+)
+@pytest.mark.parametrize("way", WAYS)
+def test_odd_meshes(mesh, way):
+    positions = np.array([mesh.positions * (1 + 0.1 * t) for t in range(5)])
+    data, original = encoded(positions, mesh.faces, block_size=20, **way)
+    assert np.abs(decode_sequence(data)[0] - original).max() < 0.02 * diagonal(original[0])
+
+
+def test_all_vertices_in_one_point():
+    mesh = torus(12, 8)
+    positions = np.full((3, len(mesh.positions), 3), 2.5)
+    data, original = encoded(positions, mesh.faces)
+    assert np.abs(decode_sequence(data)[0] - original).max() < 1e-2
+
+
+@pytest.mark.parametrize("way", WAYS)
+def test_motion_far_beyond_the_first_frame(way):
+    positions, faces = bending(8)
+    positions = positions + 300.0 * np.arange(8)[:, None, None]
+    data, original = encoded(positions, faces, **way)
+    assert np.abs(decode_sequence(data)[0] - original).max() < 0.05
+    with pytest.raises(OptionError, match="too fine"):
+        encode_sequence(positions * [1e4, 1, 1] + 1e6, faces, options(step=2e-6, first_step=0.001, **way))
+
+
+@pytest.mark.parametrize("way", WAYS)
+def test_very_fine_steps(way):
+    positions, faces = bending(8)
+    data, original = encoded(positions, faces, step=1e-5, **way)
+    assert np.abs(decode_sequence(data)[0] - original).max() < 1e-4
+
+
+def test_vertices_without_faces_are_left_out():
+    positions, faces = bending(3)
+    extra = np.concatenate([positions, np.zeros((3, 2, 3))], axis=1)
+    data, original = encoded(extra, faces)
+    decoded, _ = decode_sequence(data)
+    assert decoded.shape == original.shape == positions.shape
+
+
+@pytest.mark.parametrize("way", WAYS)
+def test_the_order_can_be_kept(way):
+    positions, faces = bending(4)
+    shuffled = np.random.default_rng(1).permutation(len(positions[0]))
+    positions, faces = positions[:, np.argsort(shuffled)], shuffled[faces][::-1]
+    data = encode_sequence(positions, faces, options(keep_order=True, **way))
+    decoded, decoded_faces = decode_sequence(data)
+    assert np.array_equal(decoded_faces, faces)
+    assert np.abs(decoded - positions).max() < 0.02
+
+
+@pytest.mark.parametrize("transform", ["learnt", "cosine"])
+@pytest.mark.parametrize("how", ["removed", "changed"])
+@pytest.mark.parametrize("index", [0, 1, 3])
+def test_a_lost_gop_costs_itself_only(transform, how, index):
+    positions, faces = bending(28)
+    data, _ = encoded(positions, faces, transform=transform)
+    events = events_of(damaged(data, index, how), tolerant=True)
+    lost = [event for event in events if isinstance(event, GopLost)]
+    first, count = 8 * index, min(8, 28 - 8 * index)
+    assert [(event.index, event.frames) for event in lost] == [(first, count)] and lost[0].reason
+    assert_same(frames_in(events), decode_sequence(data)[0], set(range(28)) - set(range(first, first + count)))
+    assert isinstance(events[-1], EndEvent)
+    with pytest.raises(CorruptError):
+        decode_sequence(damaged(data, index, how))
+
+
+@pytest.mark.parametrize("how", ["removed", "changed"])
+def test_a_lost_frame_costs_what_refers_to_it(how):
+    positions, faces = bending(20)
+    data, _ = encoded(positions, faces, mode="low-delay")
+    events = events_of(damaged(data, 5, how), tolerant=True)
+    assert sum(event.frames for event in events if isinstance(event, GopLost)) == 3  # frames 5, 6 and 7 of 8
+    assert_same(frames_in(events), decode_sequence(data)[0], set(range(20)) - {5, 6, 7})
+
+
+def test_losses_at_the_end_of_a_sequence_of_unknown_length():
+    positions, faces = bending(16)
+    data = b"".join(SequenceEncoder(faces, options()).chunks(positions))
+    events = events_of(damaged(data, 1, "changed"), tolerant=True)
+    assert [(e.index, e.frames) for e in events if isinstance(e, GopLost)] == [(8, 0)]
+
+
+def test_the_beginning_must_be_whole():
+    positions, faces = bending(4)
+    data, _ = encoded(positions, faces)
+    for offset in (40, 700, gop_spans(data)[0][1] - 30):
+        broken = bytearray(data)
+        broken[offset] ^= 0xFF
+        with pytest.raises(BsmError):
+            events_of(bytes(broken), tolerant=True)
+
+
+@pytest.mark.parametrize("way", WAYS)
+@pytest.mark.parametrize("start", [0, 3, 8, 13, 19, 20, 99])
+def test_seeking(way, start):
+    positions, faces = bending(20)
+    data, _ = encoded(positions, faces, **way)
+    found = frames_in(events_of(data, start=start))
+    assert_same(found, decode_sequence(data)[0], set(range(start, 20)))
+
+
+def test_a_frame_of_another_shape_or_not_finite_is_named():
+    positions, faces = bending(5)
+    with pytest.raises(MeshError, match="frame 3 "):
+        list(SequenceEncoder(faces, options()).chunks([*positions[:3], positions[3][:-1]]))
+    positions[2, 7, 1] = np.nan
+    with pytest.raises(MeshError, match="frame 2 "):
+        encode_sequence(positions, faces, options())
+    with pytest.raises(MeshError):
+        encode_sequence(positions[:0], faces, options())
+    with pytest.raises(MeshError):
+        encode_sequence(positions[0], faces, options())
+    with pytest.raises(OptionError, match="announced"):
+        list(SequenceEncoder(faces, options(), 7).chunks(bending(5)[0]))
+
+
+@pytest.mark.parametrize(("kind", "value"), [("kg", 0.2), ("theta_deg", 1.0), ("nmsve_db", -45.0), ("bpvf", 1.0)])
+def test_targets(kind, value):
+    positions, faces = bending(12)
+    target = SequenceTarget(kind, value)
+    encoder = SequenceEncoder(faces, options(target=target), len(positions))
+    data = b"".join(encoder.chunks(positions))
+    assert encoder.notes == ()
+    decoded, decoded_faces = decode_sequence(data)
+    comparison = compare_sequences(positions[:, encoder.vertex_order], decoded, decoded_faces)
+    reached = 8 * len(data) / decoded[..., 0].size if kind == "bpvf" else getattr(comparison, kind)
+    assert value - (0.2 if kind == "nmsve_db" else 0.05 * value) <= reached <= value
+
+
+def test_a_target_that_cannot_be_met_is_noted():
+    positions, faces = bending(3)
+    encoder = SequenceEncoder(faces, options(target=SequenceTarget("bpvf", 0.01)), len(positions))
+    list(encoder.chunks(positions))
+    assert "bpvf 0.01 was not met" in encoder.notes[0]
+    for kind, value in (("size", 3.0), ("kg", 0.0), ("bpvf", math.inf)):
+        with pytest.raises(OptionError):
+            SequenceTarget(kind, value)
+
+
+def test_static_meshes_and_sequences_are_told_apart():
+    positions, faces = bending(2)
+    with pytest.raises(UnsupportedError, match="sequence"):
+        decode(encoded(positions, faces)[0])
+    with pytest.raises(FormatError, match="static"):
+        decode_sequence(encode(torus(12, 8)))
+
+
+def test_limits():
+    positions, faces = bending(12)
+    data, _ = encoded(positions, faces)
+    decode_sequence(data, Limits(gop_frames=8, frames=12))
+    for limits in (Limits(gop_frames=7), Limits(frames=11), Limits(sequence_bytes=1e5), Limits(vertices=100)):
+        with pytest.raises(LimitError):
+            decode_sequence(data, limits)
+
+
+@pytest.mark.parametrize("way", WAYS)
+def test_every_truncation_is_a_typed_error(way):
+    positions, faces = bending(6)
+    data, _ = encoded(positions, faces, step=0.02, block_size=400, **way)
+    for size in range(0, len(data), 23):
+        with pytest.raises(BsmError):
+            decode_sequence(data[:size])
+
+
+@settings(max_examples=40, deadline=None)
+@given(st.data())
+def test_hostile_gops_give_typed_errors_or_frames(data):
+    packets = list(small_packets(data.draw(st.integers(0, len(WAYS) - 1))))
+    index = data.draw(st.sampled_from([k for k, packet in enumerate(packets) if isinstance(packet, Gop)]))
+    body = bytearray(packets[index].data)
+    for _ in range(data.draw(st.integers(1, 3))):
+        body[data.draw(st.integers(0, min(len(body) - 1, 40)))] = data.draw(st.integers(0, 255))
+    packets[index] = Gop(packets[index].index, bytes(body[: data.draw(st.integers(1, len(body)))]))
+    try:
+        decoded, _ = decode_sequence(write_stream(packets))
+    except BsmError:
+        return
+    assert decoded.shape == (6, 480, 3) and np.isfinite(decoded).all()
+
+
+@cache
+def small_packets(way):
+    positions, faces = bending(6)
+    return packets_of(encoded(positions, faces, step=0.02, block_size=400, **WAYS[way])[0])
+
+
+def packets_of(data):
+    reader = Reader()
+    reader.receive_data(data)
+    found = []
+    while not isinstance(packet := reader.next_packet(), Signal):
+        found.append(packet)
+    return found[:-1]
+
+
+def damaged(data, index, how):
+    _, offset, length = gop_spans(data)[index]
+    if how == "removed":
+        return data[:offset] + data[offset + length :]
+    broken = bytearray(data)
+    broken[offset + length // 2] ^= 0xFF
+    return bytes(broken)
+
+
+def assert_same(found, decoded, indices):
+    assert set(found) == indices
+    for index in indices:
+        assert np.array_equal(found[index], decoded[index])

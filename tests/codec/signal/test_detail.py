@@ -1,0 +1,70 @@
+import numpy as np
+import pytest
+
+from codec import EncodeOptions, Encoder
+from codec.blocks.overlap import Block
+from codec.geometry.graph import graph_of_faces
+from codec.signal.detail import Normals, displace, fold_details, make_surface, unfold_details
+from tests.shapes import grid_faces, torus
+
+
+def whole(mesh):
+    graph = graph_of_faces(mesh.faces, len(mesh.positions))
+    return Block(np.arange(len(mesh.positions), dtype=np.int32), graph.offsets, graph.neighbours)
+
+
+def test_normals_of_a_plane_point_out_of_it():
+    faces = grid_faces(5, 6)
+    x, y = np.meshgrid(np.arange(5.0), np.arange(6.0), indexing="ij")
+    positions = np.stack([x, y, np.zeros_like(x)], -1).reshape(-1, 3)
+    graph = graph_of_faces(faces, 30)
+    block = Block(np.arange(30, dtype=np.int32), graph.offsets, graph.neighbours)
+    normals = Normals(make_surface(faces, 30)).of(block, positions)
+    assert np.allclose(normals, [0, 0, 1], atol=1e-5)
+    assert (np.linalg.norm(normals, axis=1) < 1).all()
+
+
+def test_normals_see_only_the_faces_inside_the_block():
+    mesh = torus(12, 8)
+    inside = np.arange(40, dtype=np.int32)
+    surface = make_surface(mesh.faces, len(mesh.positions))
+    block = Block(inside, np.zeros(41, np.int32), np.zeros(0, np.int32))
+    first = Normals(surface).of(block, mesh.positions[inside])
+    kept = mesh.faces[(mesh.faces < 40).all(axis=1)]
+    second = Normals(make_surface(kept, 40)).of(block, mesh.positions[inside])
+    assert np.array_equal(first, second)
+
+
+def test_normals_of_nothing_are_zero():
+    surface = make_surface(np.array([[0, 1, 2], [1, 1, 0]], np.int32), 3)
+    block = Block(np.arange(3, dtype=np.int32), np.zeros(4, np.int32), np.zeros(0, np.int32))
+    assert not Normals(surface).of(block, np.zeros((3, 3))).any()
+
+
+def test_a_block_can_be_used_again():
+    mesh = torus(12, 8)
+    normals = Normals(make_surface(mesh.faces, len(mesh.positions)))
+    block = whole(mesh)
+    assert np.array_equal(normals.of(block, mesh.positions), normals.of(block, mesh.positions))
+
+
+def test_heights_move_along_normals():
+    positions, normals = np.zeros((4, 3)), np.eye(4)[:, :3]
+    moved = displace(positions, normals, np.eye(4), np.array([2.0, 3.0]))
+    assert moved.tolist() == [[2, 0, 0], [0, 3, 0], [0, 0, 0], [0, 0, 0]]
+
+
+@pytest.mark.parametrize("count", [0, 1, 2, 3, 7])
+def test_folding_and_unfolding(count):
+    levels = np.arange(1, count + 1, dtype=np.int32)
+    folded = fold_details(levels)
+    assert folded.shape == ((count + 2) // 3, 3)
+    assert unfold_details(folded, count).tolist() == levels.tolist()
+
+
+def test_the_detail_layer_saves_bytes_at_equal_angles():
+    mesh = torus(80, 60, bumps=0.2)
+    plain = Encoder(mesh, EncodeOptions(block_size=400, detail=0.0)).attempt(0.0012)
+    detailed = Encoder(mesh, EncodeOptions(block_size=400, detail=3.0)).attempt(0.0008)
+    assert detailed.comparison.theta_deg < plain.comparison.theta_deg
+    assert detailed.size < plain.size

@@ -1,0 +1,112 @@
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from codec import EncodeOptions, Encoder
+from codec.basis.laplacian import dense_laplacian
+from codec.basis.orthogonal_iteration import exact_basis
+from codec.blocks.overlap import Block
+from codec.geometry.graph import graph_of_faces
+from codec.signal.predict import Known, Surroundings, extend, unheld
+from tests.shapes import patch, torus
+
+
+def path(size):
+    return graph_of_faces(np.array([[i, i + 1, i] for i in range(size - 1)], np.int32), size)
+
+
+def piece(graph, vertices):
+    """The block of `vertices`, rows in the order given."""
+    number = {int(v): row for row, v in enumerate(vertices)}
+    rows = [
+        [number[int(w)] for w in graph.neighbours[graph.offsets[v] : graph.offsets[v + 1]] if int(w) in number]
+        for v in vertices
+    ]
+    offsets = np.cumsum([0, *map(len, rows)]).astype(np.int32)
+    return Block(np.array(vertices, np.int32), offsets, np.array([w for row in rows for w in row], np.int32))
+
+
+def test_between_two_ends_a_path_is_a_straight_line():
+    graph = path(12)
+    known = Known(graph, 8.0)
+    known.add(piece(graph, [0]), np.zeros((1, 3)))
+    known.add(piece(graph, [11]), np.array([[11.0, -22.0, 0.5]]))
+    middle = piece(graph, np.arange(1, 11))
+    line = np.arange(1, 11)[:, None] * np.array([1.0, -2.0, 0.5 / 11])
+    assert np.abs(extend(middle, known.around(middle)) - line).max() < 1e-2
+
+
+def test_from_one_end_a_path_stays_where_it_is():
+    graph = path(12)
+    known = Known(graph, 8.0)
+    known.add(piece(graph, [0]), np.array([[3.0, 4.0, 5.0]]))
+    rest = piece(graph, np.arange(1, 12))
+    assert extend(rest, known.around(rest)) == pytest.approx(np.tile([3.0, 4.0, 5.0], (11, 1)))
+
+
+def test_what_is_not_connected_lies_at_the_mean():
+    graph = graph_of_faces(np.array([[0, 1, 2], [3, 4, 5]], np.int32), 6)
+    known = Known(graph, 8.0)
+    known.add(piece(graph, [0]), np.array([[1.0, 2.0, 3.0]]))
+    block = piece(graph, [1, 2, 3, 4, 5])
+    assert extend(block, known.around(block)) == pytest.approx(np.tile([1.0, 2.0, 3.0], (5, 1)))
+
+
+def test_a_block_that_knows_of_nothing_is_predicted_at_zero():
+    graph = path(5)
+    block = piece(graph, np.arange(5))
+    around = Known(graph, 8.0).around(block)
+    assert not around.springs.any() and not around.pulls.any()
+    assert not extend(block, around).any()
+    assert not extend(block, unheld(block)).any()
+
+
+def test_springs_count_edges_that_leave_and_known_rows():
+    graph = graph_of_faces(torus(10, 8).faces, 80)
+    known = Known(graph, 3.0)
+    first = piece(graph, np.arange(30))
+    known.add(first, np.ones((30, 3)))
+    block = piece(graph, np.arange(28, 60))
+    around = known.around(block)
+    for row, v in enumerate(block.vertices):
+        beyond = [w for w in graph.neighbours[graph.offsets[v] : graph.offsets[v + 1]] if w < 28]
+        assert around.springs[row] == len(beyond) + (3.0 if v < 30 else 0.0)
+    assert np.allclose(around.pulls, around.springs[:, None])
+    assert np.array_equal(known.around(block).springs, around.springs)
+
+
+@settings(deadline=None)
+@given(st.integers(0, 2**32 - 1))
+def test_the_extension_is_the_equilibrium_within_the_hull_of_the_pulls(seed):
+    random = np.random.default_rng(seed)
+    graph = graph_of_faces(patch(9, 7).faces, 63)
+    block = piece(graph, random.permutation(63))
+    springs = np.where(random.random(63) < 0.2, random.integers(1, 9, 63), 0).astype(float)
+    springs[0] = 1.0
+    places = random.normal(size=(63, 3))
+    found = extend(block, Surroundings(springs, springs[:, None] * places))
+    expected = np.linalg.solve(dense_laplacian(block) + np.diag(springs), springs[:, None] * places)
+    assert np.abs(found - expected).max() < 0.05
+    held = places[springs > 0]
+    assert (found >= held.min(axis=0) - 1e-9).all() and (found <= held.max(axis=0) + 1e-9).all()
+
+
+def test_held_rows_move_little_in_the_first_columns():
+    graph = graph_of_faces(patch(15, 15).faces, 225)
+    block = piece(graph, np.arange(225))
+    springs = np.zeros(225)
+    springs[:15] = 2.0
+    first = np.abs(exact_basis(block, 6, springs)[:, 0])
+    free = np.abs(exact_basis(block, 6)[:, 0])
+    assert first[:15].max() < 0.4 * first[-15:].min()
+    assert free == pytest.approx(np.full(225, 1 / 15))
+
+
+def test_prediction_saves_bits_and_error():
+    mesh = torus(90, 60)
+    options = {"block_size": 250, "overlap": 1.0, "keep": 0.12, "key_interval": 0, "threads": 1}
+    held = Encoder(mesh, EncodeOptions(**options)).attempt(0.004)
+    loose = Encoder(mesh, EncodeOptions(**options, predict=False)).attempt(0.004)
+    assert held.size < 0.9 * loose.size
+    assert held.comparison.nmsve < loose.comparison.nmsve

@@ -1,0 +1,65 @@
+import numpy as np
+import scipy.sparse as sp
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from codec.geometry.graph import graph_of_faces
+from codec.signal.smooth import DEGREE, NODES, LocalFilter, filter_polynomial, smooth, smoothing_spectrum
+from tests.shapes import patch, torus
+
+
+def random_walk_laplacian(graph):
+    adjacency = sp.csr_matrix((np.ones(len(graph.neighbours)), graph.neighbours, graph.offsets))
+    return sp.eye(graph.size) - sp.diags(1 / np.diff(graph.offsets)) @ adjacency
+
+
+@given(st.floats(0.0, 64.0))
+def test_the_polynomial_meets_the_low_pass_at_its_nodes(amount):
+    powers = filter_polynomial(amount)
+    for x in NODES:
+        assert np.isclose(1 + sum(p * x**k for k, p in enumerate(powers, 2)), 1 / (1 + amount * x * x), atol=1e-12)
+
+
+def test_smoothing_is_the_polynomial_of_the_sparse_matrix():
+    mesh = torus()
+    graph = graph_of_faces(mesh.faces, len(mesh.positions))
+    laplacian = random_walk_laplacian(graph)
+    expected, term = mesh.positions.copy(), laplacian @ mesh.positions
+    for p in filter_polynomial(4.0):
+        term = laplacian @ term
+        expected += p * term
+    assert np.allclose(smooth(graph, mesh.positions, 4.0), expected, atol=1e-13)
+    rows = np.array([3, 500, 77])
+    part = smoothing_spectrum(graph, mesh.positions).only(rows)
+    assert np.array_equal(part.smoothed(4.0), smooth(graph, mesh.positions, 4.0)[rows])
+
+
+def test_smoothing_leaves_isolated_vertices_and_constants_alone():
+    graph = graph_of_faces(np.array([[0, 1, 2], [2, 1, 3]], np.int32), 6)
+    positions = np.tile([1.0, -2.0, 3.0], (6, 1))
+    positions[4:] = [[7.0, 8.0, 9.0], [0.1, 0.2, 0.3]]
+    assert np.allclose(smooth(graph, positions, 8.0), positions, atol=1e-14)
+    assert np.array_equal(smooth(graph, positions, 0.0), positions)
+
+
+@settings(deadline=None)
+@given(st.sets(st.integers(0, 360), max_size=40), st.floats(0.5, 32.0))
+def test_some_vertices_are_smoothed_as_all_are_and_look_no_farther_than_the_rings(chosen, amount):
+    mesh = patch(19, 19)
+    graph = graph_of_faces(mesh.faces, 361)
+    vertices = np.array(sorted(chosen), np.int32)
+    local = LocalFilter(graph, amount)
+    unknown = np.full_like(mesh.positions, np.nan)
+    near = local.around(vertices, DEGREE)
+    unknown[near] = mesh.positions[near]
+    for _ in range(2):
+        assert np.array_equal(local.smoothed(unknown, vertices), smooth(graph, mesh.positions, amount)[vertices])
+
+
+def test_rings_are_breadth_first():
+    graph = graph_of_faces(patch(9, 9).faces, 81)
+    local = LocalFilter(graph, 1.0)
+    adjacency = np.asarray((sp.eye(81) + abs(random_walk_laplacian(graph))).todense() != 0)
+    for rings in range(4):
+        reached = np.linalg.matrix_power(adjacency.astype(int), rings)[40] > 0
+        assert sorted(local.around(np.array([40], np.int32), rings)) == np.flatnonzero(reached).tolist()

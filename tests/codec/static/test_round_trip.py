@@ -1,0 +1,246 @@
+import os
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+from bitstream.container.reader import END_OF_STREAM, NEED_DATA
+from bitstream.errors import BsmError, CorruptError, LimitError, OptionError, TruncatedError
+from bitstream.limits import Limits
+from codec import (
+    BlockEvent,
+    ConnectivityEvent,
+    Decoder,
+    EncodeOptions,
+    Encoder,
+    EndEvent,
+    HeaderEvent,
+    TriangleMesh,
+    decode,
+    encode,
+)
+from codec.geometry.metrics import compare
+from tests.shapes import patch, tetrahedron, together, torus
+
+SMALL = {"block_size": 120, "keep": 0.3, "step": 0.002}
+
+
+def round_trip(mesh, **options):
+    encoder = Encoder(mesh, EncodeOptions(**options))
+    decoded = decode(encoder.encode())
+    return encoder, decoded, compare(mesh.positions[encoder.vertex_order], decoded.positions, decoded.faces)
+
+
+def events_of(data, pieces):
+    found = []
+    with Decoder() as decoder:
+        for piece in pieces(data):
+            decoder.receive_data(piece)
+            while not isinstance(event := decoder.next_event(), type(NEED_DATA)):
+                found.append(event)
+        decoder.receive_eof()
+        assert decoder.next_event() is END_OF_STREAM
+    return found
+
+
+@pytest.mark.parametrize(
+    "options",
+    [
+        {},
+        {"seed": "independent"},
+        {"basis": "svd"},
+        {"partition": "metis"},
+        {"bits": 12},
+        {"bits": 16, "blend": "uniform", "overlap": 1.3},
+        {"blend": "own", "overlap": 1.0},
+        {"key_interval": 0},
+        {"key_interval": 3, "power": 1, "iterations": 2},
+        {"predict": False, "smoothing": 0.0},
+        {"detail": 0.0},
+        {"detail": 6.0, "seed": "independent"},
+        {"detail": 1.5, "basis": "svd", "key_interval": 2},
+        {"smoothing": 4.0},
+        {"threads": 1},
+    ],
+    ids=str,
+)
+def test_a_mesh_comes_back(options):
+    mesh = torus()
+    encoder, _, result = round_trip(mesh, **{**SMALL, **options})
+    assert np.array_equal(np.sort(encoder.vertex_order), np.arange(len(mesh.positions)))
+    assert result.rms_relative < 0.006
+    assert result.theta_deg < 12
+
+
+def test_the_faces_come_back_under_the_new_numbers():
+    mesh = together(torus(), patch(20, 30))
+    encoder, decoded, _ = round_trip(mesh, **SMALL)
+    back = encoder.vertex_order[decoded.faces]
+    expected = mesh.faces[encoder.face_order]
+    turned = [np.roll(back, shift, axis=1) for shift in range(3)]
+    assert np.logical_or.reduce([(t == expected).all(axis=1) for t in turned]).all()
+
+
+def test_quality_follows_the_step_and_the_number_of_coefficients():
+    mesh = torus()
+    coarse = round_trip(mesh, **{**SMALL, "step": 0.01})[2]
+    fine = round_trip(mesh, **{**SMALL, "step": 0.0005, "keep": 0.8})[2]
+    assert fine.rms < coarse.rms / 3 and fine.theta_deg < coarse.theta_deg / 2
+
+
+def test_all_coefficients_and_a_tiny_step_give_the_mesh_back():
+    mesh = torus(20, 12)
+    options = {"block_size": 60, "keep": 1.0, "step": 1e-6, "smoothing": 0.0}
+    assert round_trip(mesh, **options)[2].max_error_relative < 1e-5
+
+
+def test_a_step_finer_than_levels_can_hold_is_refused():
+    with pytest.raises(OptionError):
+        encode(torus(), EncodeOptions(**{**SMALL, "step": 1e-8}))
+
+
+@pytest.mark.parametrize(
+    "mesh",
+    [
+        tetrahedron(),
+        TriangleMesh(np.eye(3), np.array([[0, 1, 2]])),
+        TriangleMesh(np.zeros((3, 3)), np.array([[0, 1, 2]])),
+        TriangleMesh(np.eye(3), np.array([[0, 1, 2], [0, 1, 2], [2, 1, 0], [1, 1, 2], [2, 2, 2]])),
+        together(*[tetrahedron()] * 40),
+        together(torus(12, 8), tetrahedron(), patch(4, 4)),
+        TriangleMesh(patch(9, 9).positions + 1e7, patch(9, 9).faces),
+        TriangleMesh(patch(9, 9).positions * 1e-30, patch(9, 9).faces),
+        TriangleMesh(patch(9, 9).positions * 1e200, patch(9, 9).faces),
+    ],
+    ids=["tetrahedron", "triangle", "point", "repeated", "components", "mixed", "far", "tiny", "huge"],
+)
+@pytest.mark.parametrize("options", [{}, {"bits": 12}, {"seed": "independent"}], ids=str)
+def test_small_and_strange_meshes_come_back(mesh, options):
+    encoder, decoded, _ = round_trip(mesh, block_size=50, keep=1.0, step=1e-4, smoothing=0.0, **options)
+    error = np.abs(mesh.positions[encoder.vertex_order] - decoded.positions).max()
+    assert error <= 0.01 * mesh.diagonal + 1e-9 * np.abs(mesh.positions).max()
+
+
+def test_vertices_without_faces_are_dropped_with_a_note():
+    mesh = TriangleMesh(np.arange(18.0).reshape(6, 3) ** 2, np.array([[1, 2, 4]]))
+    encoder, decoded, _ = round_trip(mesh)
+    assert sorted(encoder.vertex_order) == [1, 2, 4] and len(decoded.positions) == 3
+    assert encoder.notes == ("3 vertices that no face uses were left out",)
+
+
+@pytest.mark.parametrize("smoothing", [0.0, 3.0])
+def test_events_do_not_depend_on_how_the_bytes_come(smoothing):
+    data = encode(torus(), EncodeOptions(**SMALL, smoothing=smoothing))
+    whole = events_of(data, lambda d: [d])
+    single = events_of(data, lambda d: [d[i : i + 1] for i in range(len(d))])
+    assert [type(e) for e in whole] == [type(e) for e in single]
+    assert isinstance(whole[0], HeaderEvent) and isinstance(whole[1], ConnectivityEvent)
+    assert isinstance(whole[-1], EndEvent)
+    for one, other in zip(whole, single, strict=True):
+        if isinstance(one, BlockEvent):
+            assert one.index == other.index
+            assert np.array_equal(one.vertices, other.vertices) and np.array_equal(one.final, other.final)
+            assert np.array_equal(one.positions, other.positions)
+
+
+@pytest.mark.parametrize("smoothing", [0.0, 3.0])
+def test_every_vertex_becomes_final_once_and_stays(smoothing):
+    mesh = torus(60, 40)
+    data = encode(mesh, EncodeOptions(**SMALL, smoothing=smoothing))
+    decoded = decode(data)
+    positions = np.full_like(decoded.positions, np.nan)
+    final = np.zeros(len(positions), bool)
+    early = 0
+    blocks = [event for event in events_of(data, lambda d: [d]) if isinstance(event, BlockEvent)]
+    for number, event in enumerate(blocks):
+        assert not final[event.vertices].any()
+        assert len(np.unique(event.vertices)) == len(event.vertices)
+        positions[event.vertices] = event.positions
+        final[event.vertices[event.final]] = True
+        early += int(event.final.sum()) if number < len(blocks) - 3 else 0
+    assert final.all() and early > len(positions) / 4
+    assert np.array_equal(positions, decoded.positions)
+
+
+def test_threads_change_neither_bytes_nor_positions():
+    streams = {threads: encode(torus(), EncodeOptions(**SMALL, threads=threads)) for threads in (1, 2, 5)}
+    assert len(set(streams.values())) == 1
+    one, many = decode(streams[1], threads=1), decode(streams[1], threads=4)
+    assert np.array_equal(one.positions, many.positions)
+
+
+def test_positions_agree_between_blas_kernels_and_thread_counts(tmp_path):
+    stream = tmp_path / "torus.bsm"
+    stream.write_bytes(encode(torus(80, 60), EncodeOptions(block_size=400, key_interval=0, power=2)))
+    script = (
+        "import sys, numpy; from codec import decode; "
+        "numpy.save(sys.argv[2], decode(open(sys.argv[1], 'rb').read()).positions)"
+    )
+    results = []
+    for kernel, threads in (("Haswell", 1), ("SkylakeX", 2), ("Prescott", 1), ("Prescott", 2)):
+        target = tmp_path / f"{kernel}{threads}.npy"
+        environment = {**os.environ, "OPENBLAS_CORETYPE": kernel, "OPENBLAS_NUM_THREADS": str(threads)}
+        subprocess.run([sys.executable, "-c", script, stream, target], env=environment, check=True)
+        results.append(np.load(target))
+    diagonal = np.linalg.norm(np.ptp(results[0], axis=0))
+    for other in results[1:]:
+        assert np.abs(other - results[0]).max() < 1e-9 * diagonal
+
+
+def test_a_stream_cut_anywhere_is_reported_as_truncated():
+    data = encode(torus(20, 12), EncodeOptions(**SMALL))
+    for length in range(0, len(data), 7):
+        with pytest.raises(TruncatedError):
+            decode(data[:length])
+
+
+def test_a_changed_byte_is_a_typed_error():
+    data = encode(torus(20, 12), EncodeOptions(**SMALL))
+    for place in range(0, len(data), 5):
+        broken = bytearray(data)
+        broken[place] ^= 0x55
+        with pytest.raises(BsmError):
+            decode(bytes(broken))
+
+
+def test_bytes_behind_the_end_are_refused():
+    with pytest.raises(CorruptError):
+        decode(encode(tetrahedron()) + b"\0")
+
+
+def test_a_stream_over_the_limits_is_refused():
+    data = encode(torus(), EncodeOptions(**SMALL))
+    for limits in (Limits(vertices=959), Limits(faces=1000), Limits(block_size=99), Limits(work=1e3), Limits(blocks=2)):
+        with pytest.raises(LimitError):
+            decode(data, limits)
+
+
+def test_illegal_options_are_refused():
+    for wrong in ({"keep": 0.0}, {"bits": 1}, {"bits": 17}, {"overlap": 0.9}, {"seed": "random"}, {"step": -1.0}):
+        with pytest.raises(OptionError):
+            EncodeOptions(**wrong)
+
+
+def test_the_order_can_be_kept():
+    shuffled = np.random.default_rng(5)
+    mesh = together(torus(), patch(9, 12))
+    place = shuffled.permutation(len(mesh.positions))
+    faces = np.array([np.roll(face, k) for face, k in zip(mesh.faces, shuffled.integers(0, 3, len(mesh.faces)))])
+    mesh = TriangleMesh(mesh.positions[np.argsort(place)], shuffled.permutation(place[faces]))
+    data = encode(mesh, EncodeOptions(**SMALL, keep_order=True))
+    decoded = decode(data)
+    assert np.array_equal(decoded.faces, mesh.faces)
+    assert compare(mesh.positions, decoded.positions, mesh.faces).rms_relative < 0.006
+    seen = np.full_like(decoded.positions, np.nan)
+    for event in events_of(data, lambda d: [d]):
+        if isinstance(event, BlockEvent):
+            seen[event.vertices] = event.positions
+    assert np.array_equal(seen, decoded.positions)
+
+
+def test_encoding_a_decoded_mesh_again_gives_the_same_connectivity():
+    first = decode(encode(together(torus(), patch(9, 12)), EncodeOptions(**SMALL)))
+    again = Encoder(first, EncodeOptions(**SMALL))
+    assert np.array_equal(again.vertex_order, np.arange(len(first.positions)))
+    assert np.array_equal(decode(again.encode()).faces, first.faces)

@@ -1,0 +1,79 @@
+import math
+from dataclasses import dataclass
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from bitstream.errors import OptionError
+from codec import EncodeOptions, Encoder, Target, decode
+from codec.geometry.metrics import Comparison, compare
+from codec.static.targets import search_step
+from tests.shapes import torus
+
+
+@dataclass
+class Model:
+    """A codec whose error is proportional to a power of the step, and whose size falls with it."""
+
+    step: float
+    power: float
+    vertices: int = 1000
+
+    @property
+    def size(self):
+        return int(1e4 * (0.01 / self.step) ** self.power)
+
+    @property
+    def comparison(self):
+        error = self.step**self.power
+        return Comparison(error, 10 * math.log10(error), 1e3 * error, error, error, error, error)
+
+
+@given(
+    st.floats(1e-5, 0.05), st.floats(0.3, 1.5), st.sampled_from(["nmsve_db", "theta_deg", "max_error_relative", "size"])
+)
+def test_the_search_finds_a_step_on_the_right_side(answer, power, kind):
+    target = Target(kind, Target(kind, 1.0).reached(Model(answer, power)))
+    outcome, met = search_step(lambda step: Model(step, power), target, 0.004, 1e-6)
+    assert met and target.reached(outcome) <= target.value
+    assert -1.0 <= target.excess(outcome) <= 0.0 or (kind == "size" and outcome.size > 0.95 * target.value)
+
+
+def test_what_cannot_be_met_gives_the_best_there_is():
+    target = Target("max_error_relative", 1e-9)
+    outcome, met = search_step(lambda step: Model(step, 1.0), target, 0.004, 1e-4)
+    assert not met and outcome.step == pytest.approx(1e-4)
+
+
+@pytest.mark.parametrize(
+    ("kind", "value"),
+    [("theta_deg", 5.0), ("nmsve_db", -40.0), ("max_error_relative", 0.01), ("bpv", 8.0), ("size", 1200)],
+)
+def test_targets_are_met_by_what_the_decoder_sees(kind, value):
+    mesh = torus(50, 30)
+    encoder = Encoder(mesh, EncodeOptions(block_size=200, target=Target(kind, value)))
+    data = encoder.encode()
+    decoded = decode(data)
+    reached = {"size": len(data), "bpv": 8 * len(data) / len(mesh.positions)}
+    if kind not in reached:
+        result = compare(mesh.positions[encoder.vertex_order], decoded.positions, decoded.faces)
+        reached[kind] = getattr(result, kind)
+    assert not encoder.notes
+    assert reached[kind] <= value * (1 + 1e-9 * np.sign(value))
+    # The largest error jumps with the step; it may stay well below.
+    slack = {"nmsve_db": value - 0.1, "max_error_relative": 0.5 * value}
+    assert reached[kind] >= slack.get(kind, 0.95 * value)
+
+
+def test_an_impossible_size_is_noted():
+    encoder = Encoder(torus(20, 12), EncodeOptions(target=Target("size", 10)))
+    encoder.encode()
+    assert any("was not met" in note for note in encoder.notes)
+
+
+def test_wrong_targets_are_refused():
+    for kind, value in (("theta", 5.0), ("theta_deg", 0.0), ("size", float("nan"))):
+        with pytest.raises(OptionError):
+            Target(kind, value)

@@ -1,0 +1,86 @@
+import threading
+import time
+
+import numpy as np
+import pytest
+
+from codec import EncodeOptions, decode, encode
+from codec.basis.orthogonal_iteration import cosine_columns, orthogonal_iteration
+from codec.blocks.overlap import grow_blocks
+from codec.blocks.partition import derive_partition
+from codec.geometry.graph import graph_of_faces
+from codec.threads import Lanes, ordered_map
+from tests.shapes import patch
+
+
+@pytest.mark.parametrize("threads", [1, 2, 5])
+def test_results_come_in_order(threads):
+    def work(number):
+        time.sleep(0.002 * (number % 3))
+        return number * number
+
+    assert list(ordered_map(work, range(20), threads)) == [n * n for n in range(20)]
+
+
+def test_a_map_stays_close_to_its_consumer():
+    begun = []
+    results = ordered_map(lambda n: begun.append(n), range(1000), 2)
+    next(results)
+    assert len(begun) < 20
+    results.close()
+
+
+@pytest.mark.parametrize("threads", [1, 3])
+def test_errors_come_where_their_result_would(threads):
+    def work(number):
+        if number == 3:
+            raise ValueError("three")
+        return number
+
+    results = ordered_map(work, range(6), threads)
+    assert [next(results) for _ in range(3)] == [0, 1, 2]
+    with pytest.raises(ValueError, match="three"):
+        next(results)
+
+
+def test_a_lane_keeps_its_order_and_lanes_run_side_by_side():
+    lanes, log, meeting = Lanes(2), [], threading.Barrier(2, timeout=20)
+    for lane in (0, 1):
+        # Both must be inside at once, or the barrier breaks.
+        lanes.submit(lane, meeting.wait)
+        for step in range(30):
+            last = lanes.submit(lane, lambda lane=lane, step=step: log.append((lane, step)))
+    last.result()
+    lanes.submit(0, lambda: None).result()
+    lanes.close()
+    for lane in (0, 1):
+        assert [step for number, step in log if number == lane] == list(range(30))
+
+
+def test_threads_change_neither_bytes_nor_positions():
+    mesh = patch(60, 60)
+    streams = {encode(mesh, EncodeOptions(block_size=200, key_interval=4, threads=threads)) for threads in (1, 2, 7)}
+    assert len(streams) == 1
+    (data,) = streams
+    once = decode(data, threads=1).positions
+    for threads in (2, 7):
+        assert np.array_equal(decode(data, threads=threads).positions, once)
+
+
+def test_dictionaries_are_computed_without_the_interpreter_lock():
+    """While one thread is inside the kernel, another one gets on in Python."""
+    mesh = patch(45, 45)
+    graph = graph_of_faces(mesh.faces, 2025)
+    block = grow_blocks(graph, derive_partition(graph, 1), 2025).block(0)
+    start = cosine_columns(2025, 0, 200)
+    orthogonal_iteration(block, start[:, :2].copy(), shift=0.1, power=1, iterations=1)
+    running = threading.Thread(
+        target=orthogonal_iteration, args=(block, start), kwargs={"shift": 0.1, "power": 9, "iterations": 4}
+    )
+    running.start()
+    steps = 0
+    while running.is_alive():
+        steps += 1
+        time.sleep(0.0005)
+    running.join()
+    assert steps > 3
