@@ -20,8 +20,8 @@ from __future__ import annotations
 
 import numpy as np
 import numpy.typing as npt
-from numba import njit
 
+from bitstream import _kernels
 from bitstream.entropy.range_coder import leaf
 
 Levels = npt.NDArray[np.int32]
@@ -50,14 +50,8 @@ def point_of_level(state, level):  # type: ignore[no-untyped-def]
     return 2 * level + grid(state) if level < 0 else level
 
 
-@njit(cache=True, nogil=True)
 def points_of_levels(levels: Levels) -> Levels:
     """Coefficients of a block in half steps, shape (c, 3); levels follow each other row by row."""
-    points = np.zeros_like(levels)
-    state = 0
-    for row in range(levels.shape[0]):
-        for column in range(levels.shape[1]):
-            level = levels[row, column]
-            points[row, column] = point_of_level(state, level)
-            state = following(state, level)
+    points = np.empty_like(levels)
+    _kernels.points_of_levels(levels, points)
     return points

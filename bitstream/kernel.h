@@ -1,0 +1,50 @@
+/* What kernels share: arrays as the caller hands them in, and how they are compiled for several instruction sets.
+ *
+ * A kernel is C11 without a C library: it allocates nothing (the caller brings scratch space), calls nothing, and keeps
+ * every index inside the sizes that come with each array. The same files are compiled to WebAssembly.
+ */
+#ifndef BSM_KERNEL_H
+#define BSM_KERNEL_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+/* One and two dimensions, row-major, contiguous. */
+#define BSM_ARRAY(Name, type)                                                                                          \
+    typedef struct {                                                                                                   \
+        type *data;                                                                                                    \
+        int64_t size;                                                                                                  \
+    } Name;                                                                                                            \
+    typedef struct {                                                                                                   \
+        type *data;                                                                                                    \
+        int64_t rows, columns;                                                                                         \
+    } Name##2;                                                                                                         \
+    typedef struct {                                                                                                   \
+        const type *data;                                                                                              \
+        int64_t size;                                                                                                  \
+    } Const##Name;                                                                                                     \
+    typedef struct {                                                                                                   \
+        const type *data;                                                                                              \
+        int64_t rows, columns;                                                                                         \
+    } Const##Name##2;
+
+BSM_ARRAY(Bytes, uint8_t)
+BSM_ARRAY(Shorts, int16_t)
+BSM_ARRAY(Halves, uint16_t)
+BSM_ARRAY(Ints, int32_t)
+BSM_ARRAY(Words, uint32_t)
+BSM_ARRAY(Longs, int64_t)
+BSM_ARRAY(Doubles, double)
+
+/* KERNEL before a function compiles it once per instruction set; the loader picks the best that the processor has. */
+#if defined(__x86_64__) && defined(__linux__) && defined(__GNUC__) && !defined(__clang__) && !defined(KERNEL_ONE_TARGET)
+#define KERNEL __attribute__((target_clones("default", "arch=haswell", "arch=skylake-avx512")))
+#else
+#define KERNEL
+#endif
+#define INLINE static inline __attribute__((always_inline))
+
+INLINE int64_t least(int64_t a, int64_t b) { return a < b ? a : b; }
+INLINE int64_t largest(int64_t a, int64_t b) { return a > b ? a : b; }
+
+#endif

@@ -1,0 +1,8 @@
+#ifndef BSM_GRAPH_H
+#define BSM_GRAPH_H
+
+#include "bitstream/kernel.h"
+
+int64_t collect_edges(ConstInts2 faces, Ints offsets, Ints filled, Ints ends);
+
+#endif
