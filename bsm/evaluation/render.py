@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 import numpy.typing as npt
-from numba import njit
 
+from codec import _kernels
 from codec.geometry.mesh import Faces, Positions
 
 Image = npt.NDArray[np.float64]
@@ -65,7 +65,8 @@ def render(
     lengths = np.linalg.norm(normals, axis=1)
     normals /= np.where(lengths > 0, lengths, 1.0)[:, None]
     shade = 0.25 + 0.75 * np.abs(normals @ _LIGHT)
-    owner = _nearest_faces(pixels[faces], fine)
+    owner, depth = np.empty((fine, fine), np.int32), np.empty((fine, fine))
+    _kernels.nearest_faces(pixels[faces].reshape(-1, 9), owner, depth)
     table = np.vstack([shade[:, None] * (_BASE if colors is None else colors), np.ones(3)])
     image = table[owner]
     blocks = image.reshape(size, _SUPERSAMPLING, size, _SUPERSAMPLING, 3)
@@ -79,29 +80,3 @@ def bounds_of(
     seen = positions @ view.T
     low, high = seen.min(axis=0), seen.max(axis=0)
     return (low + high) / 2 @ view, 0.515 * float((high - low)[:2].max()) or 1.0
-
-
-@njit(cache=True, nogil=True)
-def _nearest_faces(corners: npt.NDArray[np.float64], size: int) -> npt.NDArray[np.int64]:
-    """For each pixel the face nearest to the camera, or -1; `corners` is (m, 3, 3): column, row, depth."""
-    owner = np.full((size, size), -1, dtype=np.int64)
-    depth = np.full((size, size), -np.inf)
-    for face in range(len(corners)):
-        ax, ay, az = corners[face, 0]
-        bx, by, bz = corners[face, 1]
-        cx, cy, cz = corners[face, 2]
-        area = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
-        if area == 0.0:
-            continue
-        for row in range(max(0, int(min(ay, by, cy))), min(size, int(max(ay, by, cy)) + 1)):
-            for column in range(max(0, int(min(ax, bx, cx))), min(size, int(max(ax, bx, cx)) + 1)):
-                x, y = column + 0.5, row + 0.5
-                u = ((bx - x) * (cy - y) - (by - y) * (cx - x)) / area
-                v = ((cx - x) * (ay - y) - (cy - y) * (ax - x)) / area
-                w = 1.0 - u - v
-                if u >= 0.0 and v >= 0.0 and w >= 0.0:
-                    z = u * az + v * bz + w * cz
-                    if z > depth[row, column]:
-                        depth[row, column] = z
-                        owner[row, column] = face
-    return owner

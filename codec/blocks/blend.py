@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 import numpy.typing as npt
-from numba import njit
 
+from codec import _kernels
 from codec.geometry.graph import Indices
 
 Matrix = npt.NDArray[np.float64]
@@ -27,7 +27,7 @@ class Blend:
 
     def add(self, vertices: Indices, positions: Matrix, weights: Matrix) -> None:
         """Add one copy of each vertex in `vertices`, shape (n_i,), at `positions`, shape (n_i, 3)."""
-        _add(self.sums, self.weights, vertices, positions, weights)
+        _kernels.add_copies(self.sums, self.weights, vertices, positions, weights)
 
     def known(self, vertices: Indices) -> npt.NDArray[np.bool_]:
         """Which of `vertices` have a copy that counts."""
@@ -41,12 +41,3 @@ class Blend:
 def degree_weights(degrees: Indices) -> Matrix:
     """Weight of each row: its neighbours inside the block; a row without any counts as one."""
     return np.maximum(degrees, 1).astype(np.float64)
-
-
-@njit(cache=True, nogil=True)
-def _add(sums, total, vertices, positions, weights):  # type: ignore[no-untyped-def]
-    for r in range(len(vertices)):
-        v = vertices[r]
-        total[v] += weights[r]
-        for d in range(3):
-            sums[v, d] += weights[r] * positions[r, d]

@@ -12,14 +12,11 @@ from functools import cached_property
 
 import numpy as np
 import numpy.typing as npt
-from numba import njit
 
+from codec import _kernels
 from codec.basis.solver.fronts import Fronts, find_fronts
-from codec.blocks.bisection import bisect_csr
 from codec.blocks.partition import Partition
 from codec.geometry.graph import Graph, Indices
-
-_FREE = np.uint32(0xFFFFFFFF)
 
 
 @dataclass(frozen=True, eq=False)
@@ -88,7 +85,7 @@ class Blocks:
 
     def block(self, index: int) -> Block:
         """Order the rows of one block."""
-        return Block(*_ordered(self.graph.offsets, self.graph.neighbours, self.members_of(index)))
+        return _ordered(self.graph, self.members_of(index))
 
     def core(self, index: int) -> Indices:
         """Vertices of the part that one block grew from."""
@@ -111,175 +108,39 @@ def grow_blocks(graph: Graph, partition: Partition, size: int) -> Blocks:
     A block does not grow over vertices with more than `size` neighbours, so that no mesh makes it look at many edges.
     A part whose surroundings hold fewer than `size` vertices that it may grow over stays smaller.
     """
-    chain = _chain(graph.offsets, graph.neighbours, partition.labels, partition.parts)
-    starts, members = _grow_all(graph.offsets, graph.neighbours, partition.order, partition.bounds, chain, size)
+    chain = _chain(graph, partition)
+    starts = np.empty(partition.parts + 1, np.int64)
+    members = np.empty(partition.parts * min(size, graph.size), np.int32)
+    seen = np.empty(graph.size, np.int32)
+    count = _kernels.grow_blocks(
+        graph.offsets, graph.neighbours, partition.order, partition.bounds, chain, size, seen, starts, members
+    )
     cores = np.diff(partition.bounds)[chain]
-    return Blocks(graph, chain, cores, starts, members)
+    return Blocks(graph, chain, cores, starts, members[:count].copy())
 
 
-@njit(cache=True, nogil=True)
-def _ordered(offsets, neighbours, rows):  # type: ignore[no-untyped-def]
-    local_offsets, local_neighbours = _induced(offsets, neighbours, rows)
-    order, _ = bisect_csr(local_offsets, local_neighbours, len(rows))
-    vertices = rows[order]
-    local_offsets, local_neighbours = _permuted(local_offsets, local_neighbours, order)
-    return vertices, local_offsets, local_neighbours
+def _ordered(graph: Graph, rows: Indices) -> Block:
+    """The block of some vertices, in the order of a full bisection."""
+    size, room = len(rows), 8 * len(rows)
+    vertices, offsets = np.empty(size, np.int32), np.empty(size + 1, np.int32)
+    while True:
+        neighbours = np.empty(room, np.int32)
+        scratch = np.empty(_kernels.order_scratch(size, room), np.uint32)
+        ends = _kernels.order_block(graph.offsets, graph.neighbours, rows, vertices, offsets, neighbours, scratch)
+        if ends <= room:
+            return Block(vertices, offsets, neighbours[:ends].copy())
+        room = ends
 
 
-@njit(cache=True, nogil=True)
-def _hash_slot(table, key):  # type: ignore[no-untyped-def]
-    """Slot of `key` in an open-addressed table of keys (a power of two long, `_FREE` where free)."""
-    mask = np.uint64(len(table) - 1)
-    slot = ((np.uint64(key) * np.uint64(2654435761)) >> np.uint64(7)) & mask
-    while table[slot] != key and table[slot] != _FREE:
-        slot = (slot + np.uint64(1)) & mask
-    return slot
-
-
-@njit(cache=True, nogil=True)
-def _grow_all(offsets, neighbours, order, bounds, chain, size):  # type: ignore[no-untyped-def]
-    """Breadth-first from each part, neighbours in ascending order, until `size` vertices are found."""
-    parts = len(chain)
-    seen = np.full(len(order), -1, np.int32)
-    starts = np.zeros(parts + 1, np.int64)
-    members = np.empty(parts * size, np.int32)
-    count = np.int64(0)
-    for index in range(parts):
-        head = count
-        starts[index] = count
-        full = count + size
-        for i in range(bounds[chain[index]], bounds[chain[index] + 1]):
-            members[count] = order[i]
-            seen[order[i]] = index
-            count += 1
-        while head < count and count < full:
-            v = members[head]
-            head += 1
-            for i in range(offsets[v], offsets[v + 1]):
-                w = neighbours[i]
-                if seen[w] != index and count < full and offsets[w + 1] - offsets[w] <= size:
-                    seen[w] = index
-                    members[count] = w
-                    count += 1
-    starts[parts] = count
-    return starts, members[:count].copy()
-
-
-@njit(cache=True, nogil=True)
-def _induced(offsets, neighbours, rows):  # type: ignore[no-untyped-def]
-    """Graph among the vertices `rows`, in row numbers; rows of the result are in the mesh's neighbour order."""
-    offsets, neighbours, rows = offsets.view(np.uint32), neighbours.view(np.uint32), rows.view(np.uint32)
-    n = len(rows)
-    capacity = 16
-    while capacity < 2 * n:
-        capacity *= 2
-    table = np.full(capacity, _FREE, np.uint32)
-    number = np.empty(capacity, np.int32)
-    total = 0
-    for r in range(n):
-        slot = _hash_slot(table, rows[r])
-        table[slot] = rows[r]
-        number[slot] = r
-        total += offsets[rows[r] + np.uint64(1)] - offsets[rows[r]]
-    local_offsets = np.empty(n + 1, np.int32)
-    local_neighbours = np.empty(total + 1, np.int32)
-    filled = np.uint64(0)
-    local_offsets[0] = 0
-    for r in range(n):
-        for i in range(offsets[rows[r]], offsets[rows[r] + np.uint64(1)]):
-            # Without a branch, which the processor could not predict: what is not in `rows` is overwritten.
-            slot = _hash_slot(table, neighbours[i])
-            local_neighbours[filled] = number[slot]
-            filled += np.uint64(table[slot] != _FREE)
-        local_offsets[r + 1] = filled
-    return local_offsets, local_neighbours[:filled].copy()
-
-
-@njit(cache=True, nogil=True)
-def _permuted(offsets, neighbours, order):  # type: ignore[no-untyped-def]
-    """The same graph with vertex `order[r]` called r."""
-    n = len(order)
-    rank = np.empty(n, np.int32)
-    for r in range(n):
-        rank[order[r]] = r
-    new_offsets = np.empty(n + 1, np.int32)
-    new_neighbours = np.empty(len(neighbours), np.int32)
-    filled = 0
-    new_offsets[0] = 0
-    for r in range(n):
-        for i in range(offsets[order[r]], offsets[order[r] + 1]):
-            new_neighbours[filled] = rank[neighbours[i]]
-            filled += 1
-        new_offsets[r + 1] = filled
-    return new_offsets, new_neighbours
-
-
-@njit(cache=True, nogil=True)
-def _part_graph(offsets, neighbours, labels, parts):  # type: ignore[no-untyped-def]
-    """CSR of the parts, with the number of mesh edges between each two neighbouring parts."""
-    n = len(offsets) - 1
-    crossing = 0
-    for v in range(n):
-        for i in range(offsets[v], offsets[v + 1]):
-            if labels[v] != labels[neighbours[i]]:
-                crossing += 1
-    keys = np.empty(crossing, np.int64)
-    crossing = 0
-    for v in range(n):
-        for i in range(offsets[v], offsets[v + 1]):
-            if labels[v] != labels[neighbours[i]]:
-                keys[crossing] = np.int64(labels[v]) * parts + labels[neighbours[i]]
-                crossing += 1
-    keys.sort()
-    starts = np.zeros(parts + 1, np.int64)
-    ends = np.empty(crossing, np.int32)
-    edges = np.zeros(crossing, np.int64)
-    count = 0
-    for i in range(crossing):
-        if i == 0 or keys[i] != keys[i - 1]:
-            ends[count] = keys[i] % parts
-            starts[keys[i] // parts + 1] += 1
-            count += 1
-        edges[count - 1] += 1
-    for p in range(parts):
-        starts[p + 1] += starts[p]
-    return starts, ends, edges
-
-
-@njit(cache=True, nogil=True)
-def _chain(offsets, neighbours, labels, parts):  # type: ignore[no-untyped-def]
-    starts, ends, edges = _part_graph(offsets, neighbours, labels, parts)
-    chain = np.empty(parts, np.int32)
-    visited = np.zeros(parts, np.bool_)
-    shared = np.zeros(parts, np.int64)
-    # The way back: a part leaves it once it has no unvisited neighbours, and is not looked at again.
-    trail = np.empty(parts, np.int32)
-    seen = starts[:-1].copy()
-    length = 0
-    lowest = 0
-    current = 0
-    for step in range(parts):
-        chain[step] = current
-        visited[current] = True
-        trail[length] = current
-        length += 1
-        best = -1
-        for i in range(starts[current], starts[current + 1]):
-            p = ends[i]
-            shared[p] += edges[i]
-            if not visited[p] and (best == -1 or shared[p] > shared[best]):
-                best = p
-        while best == -1 and length > 0:
-            last = trail[length - 1]
-            while seen[last] < starts[last + 1] and visited[ends[seen[last]]]:
-                seen[last] += 1
-            if seen[last] < starts[last + 1]:
-                best = ends[seen[last]]
-            else:
-                length -= 1
-        if best == -1:
-            while lowest < parts and visited[lowest]:
-                lowest += 1
-            best = lowest
-        current = best
+def _chain(graph: Graph, partition: Partition) -> Indices:
+    """The parts in the order in which they are visited."""
+    parts, labels = partition.parts, partition.labels
+    here, there = np.repeat(labels, np.diff(graph.offsets)), labels[graph.neighbours]
+    crossing = here != there
+    pairs, edges = np.unique(here[crossing].astype(np.int64) * parts + there[crossing], return_counts=True)
+    starts = np.searchsorted(pairs, np.arange(parts + 1, dtype=np.int64) * parts)
+    ends = (pairs % parts).astype(np.int32)
+    chain, trail, visited = np.empty(parts, np.int32), np.empty(parts, np.int32), np.empty(parts, np.uint8)
+    shared, seen = np.empty(parts, np.int64), np.empty(parts, np.int64)
+    _kernels.chain_parts(starts, ends, edges, shared, seen, trail, visited, chain)
     return chain

@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numba import njit
 
+from codec import _kernels
 from codec.blocks.bisection import bisect
 from codec.geometry.graph import Graph, Indices
 
@@ -54,7 +54,8 @@ def derive_partition(graph: Graph, parts: int) -> Partition:
     order, bounds = bisect(graph, parts)
     labels = np.empty(graph.size, np.int32)
     labels[order] = np.repeat(np.arange(parts, dtype=np.int32), np.diff(bounds))
-    _refine(graph.offsets, graph.neighbours, labels, parts)
+    sizes, votes = np.empty(parts, np.int64), np.empty(parts, np.int32)
+    _kernels.refine_partition(graph.offsets, graph.neighbours, labels, REFINEMENT_PASSES, sizes, votes)
     return _grouped(labels)
 
 
@@ -70,50 +71,6 @@ def metis_partition(graph: Graph, parts: int) -> Partition:
 
 
 def _grouped(labels: Indices) -> Partition:
-    counts = np.bincount(labels)
-    bounds = np.concatenate([[0], np.cumsum(counts)]).astype(np.int32)
-    return Partition(np.argsort(labels, kind="stable").astype(np.int32), bounds, labels)
-
-
-@njit(cache=True, nogil=True)
-def _refine(offsets, neighbours, labels, parts):  # type: ignore[no-untyped-def]
-    """Greedy: a vertex moves to the part that most of its neighbours have, unless that part is full.
-
-    On a draw it moves only from a larger part to one at least two smaller; a part holds at most 3 % more than its
-    share, and never less than one vertex.
-    """
-    n = len(labels)
-    sizes = np.zeros(parts, np.int64)
-    for v in range(n):
-        sizes[labels[v]] += 1
-    room = n * 103 // (parts * 100) + 1
-    votes = np.zeros(parts, np.int32)
-    for _ in range(REFINEMENT_PASSES):
-        for v in range(n):
-            own = labels[v]
-            first, last = offsets[v], offsets[v + 1]
-            inside = True
-            for i in range(first, last):
-                if labels[neighbours[i]] != own:
-                    inside = False
-                    break
-            if inside:
-                continue
-            for i in range(first, last):
-                votes[labels[neighbours[i]]] += 1
-            best = own
-            for i in range(first, last):
-                part = labels[neighbours[i]]
-                if part in (own, best) or sizes[part] >= room:
-                    continue
-                if votes[part] > votes[best] or (
-                    votes[part] == votes[best] and sizes[part] + (1 if best == own else 0) < sizes[best]
-                ):
-                    best = part
-            if best != own and sizes[own] > 1:
-                labels[v] = best
-                sizes[own] -= 1
-                sizes[best] += 1
-            votes[own] = 0
-            for i in range(first, last):
-                votes[labels[neighbours[i]]] = 0
+    order, bounds = np.empty(len(labels), np.int32), np.empty(int(labels.max()) + 2, np.int32)
+    _kernels.group_by_label(labels, bounds, order)
+    return Partition(order, bounds, labels)

@@ -9,8 +9,8 @@ from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
-from numba import njit
 
+from codec import _kernels
 from codec.geometry.graph import Indices, graph_of_faces
 from codec.geometry.mesh import Faces
 
@@ -37,7 +37,9 @@ def vertex_faces(faces: Faces, n: int) -> Rows:
     n : int
         Number of vertices.
     """
-    return Rows(*_vertex_faces(faces, n))
+    starts, members = np.empty(n + 1, np.int64), np.empty(faces.size, np.int32)
+    _kernels.vertex_faces(faces, starts, members)
+    return Rows(starts, members[: starts[n]].copy())
 
 
 def vertex_neighbours(faces: Faces, n: int) -> Rows:
@@ -59,30 +61,3 @@ def mesh_edges(faces: Faces, n: int) -> Indices:
     first = np.repeat(np.arange(n, dtype=np.int32), np.diff(starts))
     once = first < members
     return np.stack([first[once], members[once]], axis=1)
-
-
-@njit(cache=True, nogil=True)
-def _vertex_faces(faces, n):  # type: ignore[no-untyped-def]
-    starts = np.zeros(n + 1, dtype=np.int64)
-    for f in range(len(faces)):
-        a, b, c = faces[f]
-        starts[a + 1] += 1
-        if b != a:
-            starts[b + 1] += 1
-        if c != a and c != b:
-            starts[c + 1] += 1
-    for v in range(n):
-        starts[v + 1] += starts[v]
-    fill = starts[:-1].copy()
-    members = np.empty(starts[n], dtype=np.int32)
-    for f in range(len(faces)):
-        a, b, c = faces[f]
-        members[fill[a]] = f
-        fill[a] += 1
-        if b != a:
-            members[fill[b]] = f
-            fill[b] += 1
-        if c != a and c != b:
-            members[fill[c]] = f
-            fill[c] += 1
-    return starts, members

@@ -11,9 +11,9 @@ from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
-from numba import njit
 
 from bitstream.errors import MeshError
+from codec import _kernels
 from codec.geometry.incidence import Rows, mesh_edges, vertex_neighbours
 from codec.geometry.mesh import Faces, Positions
 
@@ -194,7 +194,8 @@ def decibel(value: float) -> float:
 
 def face_normals(positions: Positions, faces: Faces) -> Floats:
     """Unit normals, shape (m, 3); zero where a face has no area."""
-    normals: Floats = _unit_normals(np.ascontiguousarray(positions), faces)
+    normals = np.empty((len(faces), 3))
+    _kernels.face_normals(np.ascontiguousarray(positions, np.float64), faces, normals)
     return normals
 
 
@@ -210,7 +211,10 @@ def geometric_laplacian(positions: Positions, neighbours: Rows) -> Floats:
     neighbours : Rows
         From `codec.geometry.incidence.vertex_neighbours`.
     """
-    laplacian: Floats = _geometric_laplacian(np.ascontiguousarray(positions), neighbours.starts, neighbours.members)
+    laplacian = np.empty((len(positions), 3))
+    _kernels.geometric_laplacian(
+        np.ascontiguousarray(positions, np.float64), neighbours.starts, neighbours.members, laplacian
+    )
     return laplacian
 
 
@@ -223,74 +227,18 @@ def _scale(positions: Positions) -> float:
     return float(np.linalg.norm(np.ptp(positions, axis=0))) or 1.0
 
 
-@njit(cache=True, nogil=True)
-def _unit_normals(positions, faces):  # type: ignore[no-untyped-def]
-    normals = np.zeros((len(faces), 3))
-    for f in range(len(faces)):
-        a, b, c = positions[faces[f, 0]], positions[faces[f, 1]], positions[faces[f, 2]]
-        ux, uy, uz = b[0] - a[0], b[1] - a[1], b[2] - a[2]
-        vx, vy, vz = c[0] - a[0], c[1] - a[1], c[2] - a[2]
-        x, y, z = uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx
-        length = math.sqrt(x * x + y * y + z * z)
-        if length > 0.0:
-            normals[f, 0], normals[f, 1], normals[f, 2] = x / length, y / length, z / length
-    return normals
+def _mean_angle(original: Floats, decoded: Floats) -> float:
+    """Mean angle in degrees between unit normals, of which zeros are as `theta` says."""
+    crossed = np.cross(original, decoded)
+    # The arc tangent keeps small angles exact, where the arc cosine loses half the digits.
+    angles = np.arctan2(np.sqrt((crossed * crossed).sum(axis=1)), (original * decoded).sum(axis=1))
+    angles[~decoded.any(axis=1)] = 0.5 * math.pi
+    counted = original.any(axis=1)
+    return math.degrees(angles[counted].mean()) if counted.any() else 0.0
 
 
-@njit(cache=True, nogil=True)
-def _geometric_laplacian(positions, starts, members):  # type: ignore[no-untyped-def]
-    result = np.zeros_like(positions)
-    for i in range(len(positions)):
-        total = 0.0
-        x = y = z = 0.0
-        apart = True
-        for k in range(starts[i], starts[i + 1]):
-            j = members[k]
-            dx = positions[j, 0] - positions[i, 0]
-            dy = positions[j, 1] - positions[i, 1]
-            dz = positions[j, 2] - positions[i, 2]
-            distance = math.sqrt(dx * dx + dy * dy + dz * dz)
-            if distance == 0.0:
-                apart = False
-                break
-            weight = 1.0 / distance
-            total += weight
-            x += weight * dx
-            y += weight * dy
-            z += weight * dz
-        if apart and total > 0.0:
-            result[i, 0], result[i, 1], result[i, 2] = -x / total, -y / total, -z / total
-    return result
-
-
-@njit(cache=True, nogil=True)
-def _mean_angle(original, decoded):  # type: ignore[no-untyped-def]
-    total, count = 0.0, 0
-    for f in range(len(original)):
-        ax, ay, az = original[f, 0], original[f, 1], original[f, 2]
-        bx, by, bz = decoded[f, 0], decoded[f, 1], decoded[f, 2]
-        if ax == 0.0 and ay == 0.0 and az == 0.0:
-            continue
-        count += 1
-        if bx == 0.0 and by == 0.0 and bz == 0.0:
-            total += 0.5 * math.pi
-            continue
-        x, y, z = ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx
-        # The arc tangent keeps small angles exact, where the arc cosine loses half the digits.
-        total += math.atan2(math.sqrt(x * x + y * y + z * z), ax * bx + ay * by + az * bz)
-    return total / count * 180.0 / math.pi if count else 0.0
-
-
-@njit(cache=True, nogil=True)
-def _mean_difference(original, decoded):  # type: ignore[no-untyped-def]
-    total, count = 0.0, 0
-    for f in range(len(original)):
-        if original[f, 0] == 0.0 and original[f, 1] == 0.0 and original[f, 2] == 0.0:
-            continue
-        count += 1
-        if decoded[f, 0] == 0.0 and decoded[f, 1] == 0.0 and decoded[f, 2] == 0.0:
-            total += math.sqrt(2.0)
-            continue
-        x, y, z = original[f, 0] - decoded[f, 0], original[f, 1] - decoded[f, 1], original[f, 2] - decoded[f, 2]
-        total += math.sqrt(x * x + y * y + z * z)
-    return total / count if count else 0.0
+def _mean_difference(original: Floats, decoded: Floats) -> float:
+    lengths = np.sqrt(np.square(original - decoded).sum(axis=1))
+    lengths[~decoded.any(axis=1)] = math.sqrt(2.0)
+    counted = original.any(axis=1)
+    return float(lengths[counted].mean()) if counted.any() else 0.0

@@ -1,0 +1,148 @@
+/* Overlapping blocks in a chain, and the graph of one of them in row order (specification, M 5 and M 6). */
+#include "codec/blocks/overlap.h"
+#include "codec/blocks/bisection.h"
+
+static const uint32_t FREE = 0xFFFFFFFFu;
+
+/* Breadth-first from each part, neighbours in ascending order, until `size` vertices are found; vertices with more than
+ * `size` neighbours are left out. Returns the number of members. `seen` is scratch, one entry a vertex. */
+int64_t grow_blocks(ConstInts offsets, ConstInts neighbours, ConstInts order, ConstInts bounds, ConstInts chain,
+                    int64_t size, Ints seen, Longs starts, Ints members) {
+    int64_t count = 0;
+    for (int64_t v = 0; v < seen.size; v++) seen.data[v] = -1;
+    for (int64_t index = 0; index < chain.size; index++) {
+        int64_t head = count, full = least(count + size, members.size), part = chain.data[index];
+        starts.data[index] = count;
+        for (int64_t i = bounds.data[part]; i < bounds.data[part + 1] && count < members.size; i++) {
+            members.data[count++] = order.data[i];
+            seen.data[order.data[i]] = (int32_t)index;
+        }
+        while (head < count && count < full) {
+            int32_t v = members.data[head++];
+            for (int64_t i = offsets.data[v]; i < offsets.data[v + 1]; i++) {
+                int32_t w = neighbours.data[i];
+                if (seen.data[w] != index && count < full && offsets.data[w + 1] - offsets.data[w] <= size) {
+                    seen.data[w] = (int32_t)index;
+                    members.data[count++] = w;
+                }
+            }
+        }
+    }
+    starts.data[chain.size] = count;
+    return count;
+}
+
+static uint64_t table_size(int64_t rows) {
+    uint64_t capacity = 16;
+    while (capacity < 2 * (uint64_t)rows) capacity *= 2;
+    return capacity;
+}
+
+/* Slot of `key` in an open-addressed table of keys. */
+INLINE uint64_t slot_of(const uint32_t *table, uint64_t mask, uint32_t key) {
+    uint64_t slot = (((uint64_t)key * 2654435761u) >> 7) & mask;
+    while (table[slot] != key && table[slot] != FREE) slot = (slot + 1) & mask;
+    return slot;
+}
+
+/* Words of scratch for `order_block` with so many rows and ends of edges. */
+int64_t order_scratch(int64_t rows, int64_t edges) {
+    return 2 * (int64_t)table_size(rows) + edges + 1 + 4 * rows + 2 + bisection_scratch(rows);
+}
+
+/* The graph among the vertices `rows`, with its rows in the order of a full bisection.
+ *
+ * Returns the ends of edges that there are; where they are more than `local_neighbours` has room for, nothing else has
+ * been done. */
+int64_t order_block(ConstInts offsets, ConstInts neighbours, ConstInts rows, Ints vertices, Ints local_offsets,
+                    Ints local_neighbours, Words scratch) {
+    int64_t n = rows.size;
+    uint64_t capacity = table_size(n), mask = capacity - 1;
+    uint32_t *table = scratch.data, *number = table + capacity;
+    int32_t *first_offsets = (int32_t *)(number + capacity), *order = first_offsets + n + 1, *rank = order + n;
+    int32_t *bounds = rank + n, *first_neighbours = bounds + n + 1;
+    uint32_t *rest = (uint32_t *)(first_neighbours + local_neighbours.size + 1);
+    if (scratch.size < order_scratch(n, local_neighbours.size) || vertices.size < n || local_offsets.size < n + 1)
+        return -1;
+    for (uint64_t k = 0; k < capacity; k++) table[k] = FREE;
+    for (int64_t r = 0; r < n; r++) {
+        uint64_t slot = slot_of(table, mask, (uint32_t)rows.data[r]);
+        table[slot] = (uint32_t)rows.data[r];
+        number[slot] = (uint32_t)r;
+    }
+    int64_t filled = 0, room = local_neighbours.size;
+    first_offsets[0] = 0;
+    for (int64_t r = 0; r < n; r++) {
+        int32_t v = rows.data[r];
+        for (int64_t i = offsets.data[v]; i < offsets.data[v + 1]; i++) {
+            /* Without a branch, which the processor could not predict: what is not in `rows` is overwritten. */
+            uint64_t slot = slot_of(table, mask, (uint32_t)neighbours.data[i]);
+            first_neighbours[least(filled, room)] = (int32_t)number[slot];
+            filled += table[slot] != FREE;
+        }
+        first_offsets[r + 1] = (int32_t)filled;
+    }
+    if (filled > room) return filled;
+    Words left = {rest, bisection_scratch(n)};
+    if (!bisect((ConstInts){first_offsets, n + 1}, (ConstInts){first_neighbours, filled}, (Ints){order, n},
+                (Ints){bounds, n + 1}, left))
+        return -1;
+    for (int64_t r = 0; r < n; r++) rank[order[r]] = (int32_t)r;
+    int64_t end = 0;
+    local_offsets.data[0] = 0;
+    for (int64_t r = 0; r < n; r++) {
+        int32_t source = order[r];
+        vertices.data[r] = rows.data[source];
+        for (int64_t i = first_offsets[source]; i < first_offsets[source + 1]; i++)
+            local_neighbours.data[end++] = rank[first_neighbours[i]];
+        local_offsets.data[r + 1] = (int32_t)end;
+    }
+    return end;
+}
+
+/* The chain of parts: from part 0 on, the unvisited neighbour that shares most edges with all parts visited so far;
+ * where there is none, the lowest unvisited neighbour of the latest part that has one; else the lowest unvisited.
+ *
+ * `starts`, `ends`, `edges`: the graph of the parts in compressed rows, with the number of edges between them. The rest
+ * is scratch, one entry a part; `seen` holds the first entry of each row when it comes. */
+bool chain_parts(ConstLongs starts, ConstInts ends, ConstLongs edges, Longs shared, Longs seen, Ints trail,
+                 Bytes visited, Ints chain) {
+    int64_t parts = chain.size, length = 0, lowest = 0;
+    if (starts.size != parts + 1 || shared.size < parts || seen.size < parts || trail.size < parts ||
+        visited.size < parts || ends.size < starts.data[parts] || edges.size < starts.data[parts])
+        return false;
+    for (int64_t p = 0; p < parts; p++) {
+        shared.data[p] = 0;
+        seen.data[p] = starts.data[p];
+        visited.data[p] = 0;
+    }
+    int32_t current = 0;
+    for (int64_t step = 0; step < parts; step++) {
+        chain.data[step] = current;
+        visited.data[current] = 1;
+        trail.data[length++] = current;
+        int32_t best = -1;
+        for (int64_t i = starts.data[current]; i < starts.data[current + 1]; i++) {
+            int32_t p = ends.data[i];
+            shared.data[p] += edges.data[i];
+            if (!visited.data[p] && (best == -1 || shared.data[p] > shared.data[best])) best = p;
+        }
+        /* The way back: a part leaves it once it has no unvisited neighbours, and is not looked at again. */
+        while (best == -1 && length > 0) {
+            int32_t last = trail.data[length - 1];
+            while (seen.data[last] < starts.data[last + 1] && visited.data[ends.data[seen.data[last]]])
+                seen.data[last]++;
+            if (seen.data[last] < starts.data[last + 1]) {
+                best = ends.data[seen.data[last]];
+            } else {
+                length--;
+            }
+        }
+        if (best == -1) {
+            while (lowest < parts && visited.data[lowest]) lowest++;
+            best = (int32_t)lowest;
+        }
+        current = best;
+    }
+    return true;
+}

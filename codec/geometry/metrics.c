@@ -1,0 +1,43 @@
+/* Normals of faces, and the geometric Laplacian of NMSVE (paper, section 8). */
+#include "codec/geometry/metrics.h"
+
+/* Unit normals; zero where a face has no area. */
+void face_normals(ConstDoubles2 positions, ConstInts2 faces, Doubles2 normals) {
+    for (int64_t f = 0; f < least(faces.rows, normals.rows); f++) {
+        const int32_t *face = faces.data + 3 * f;
+        const double *a = positions.data + 3 * (int64_t)face[0];
+        const double *b = positions.data + 3 * (int64_t)face[1];
+        const double *c = positions.data + 3 * (int64_t)face[2];
+        double ux = b[0] - a[0], uy = b[1] - a[1], uz = b[2] - a[2];
+        double vx = c[0] - a[0], vy = c[1] - a[1], vz = c[2] - a[2];
+        double x = uy * vz - uz * vy, y = uz * vx - ux * vz, z = ux * vy - uy * vx;
+        double length = __builtin_sqrt(x * x + y * y + z * z);
+        double *normal = normals.data + 3 * f;
+        normal[0] = length > 0.0 ? x / length : 0.0;
+        normal[1] = length > 0.0 ? y / length : 0.0;
+        normal[2] = length > 0.0 ? z / length : 0.0;
+    }
+}
+
+/* Each vertex minus the mean of its neighbours, weighted by inverse distance; zero beside a neighbour at distance 0. */
+void geometric_laplacian(ConstDoubles2 positions, ConstLongs starts, ConstInts members, Doubles2 result) {
+    for (int64_t i = 0; i < least(positions.rows, least(starts.size - 1, result.rows)); i++) {
+        const double *own = positions.data + 3 * i;
+        double sum[3] = {0.0, 0.0, 0.0}, total = 0.0;
+        for (int64_t k = starts.data[i]; k < starts.data[i + 1]; k++) {
+            const double *other = positions.data + 3 * (int64_t)members.data[k];
+            double x = other[0] - own[0], y = other[1] - own[1], z = other[2] - own[2];
+            double distance = __builtin_sqrt(x * x + y * y + z * z);
+            if (distance == 0.0) {
+                total = 0.0;
+                break;
+            }
+            double weight = 1.0 / distance;
+            total += weight;
+            sum[0] += weight * x;
+            sum[1] += weight * y;
+            sum[2] += weight * z;
+        }
+        for (int d = 0; d < 3; d++) result.data[3 * i + d] = total > 0.0 ? -sum[d] / total : 0.0;
+    }
+}
