@@ -195,7 +195,7 @@ def decibel(value: float) -> float:
 def face_normals(positions: Positions, faces: Faces) -> Floats:
     """Unit normals, shape (m, 3); zero where a face has no area."""
     normals = np.empty((len(faces), 3))
-    _kernels.face_normals(np.ascontiguousarray(positions, np.float64), faces, normals)
+    _kernels.face_normals(np.ascontiguousarray(positions, np.float64), np.ascontiguousarray(faces, np.int32), normals)
     return normals
 
 
