@@ -6,6 +6,15 @@ extern "C" {
 #include "codec/blocks/blend.h"
 #include "codec/blocks/overlap.h"
 #include "codec/blocks/partition.h"
+#include "codec/denoise/estimate.h"
+#include "codec/denoise/filters/fast_effective.h"
+#include "codec/denoise/filters/guidance.h"
+#include "codec/denoise/filters/kernel.h"
+#include "codec/denoise/filters/non_iterative.h"
+#include "codec/denoise/filters/reach.h"
+#include "codec/denoise/filters/topology.h"
+#include "codec/denoise/filters/vertex_bilateral.h"
+#include "codec/denoise/filters/vertex_update.h"
 #include "codec/geometry/graph.h"
 #include "codec/geometry/incidence.h"
 #include "codec/geometry/metrics.h"
@@ -38,4 +47,31 @@ NB_MODULE(_kernels, m) {
           "local_neighbours"_a, "scratch"_a, Unlocked());
     m.def("add_copies", &add_copies, "sums"_a, "total"_a, "vertices"_a, "positions"_a, "weights"_a, Unlocked());
     m.def("collect_edges", &collect_edges, "faces"_a, "offsets"_a, "filled"_a, "ends"_a, Unlocked());
+    m.def("minus_mean", &minus_mean, "values"_a, "starts"_a, "members"_a, "rest"_a, Unlocked());
+    m.def("average_alike", &average_alike, "normals"_a, "starts"_a, "members"_a, "threshold"_a, "averaged"_a,
+          Unlocked());
+    m.def("patch_scores", &patch_scores, "normals"_a, "areas"_a, "starts"_a, "members"_a, "steps"_a,
+          "inner_starts"_a, "inner"_a, "scores"_a, "means"_a, Unlocked());
+    m.def("most_consistent", &most_consistent, "scores"_a, "means"_a, "starts"_a, "members"_a, "guide"_a,
+          Unlocked());
+    m.def("filter_normals", &filter_normals, "centroids"_a, "areas"_a, "normals"_a, "guide"_a, "starts"_a, "near"_a,
+          "sigma_s"_a, "sigma_r"_a, "filtered"_a, Unlocked());
+    m.def("mollify", &mollify, "positions"_a, "centroids"_a, "areas"_a, "starts"_a, "near"_a, "width"_a, "moved"_a,
+          Unlocked());
+    m.def("predict_from_planes", &predict_from_planes, "positions"_a, "centroids"_a, "areas"_a, "normals"_a,
+          "starts"_a, "near"_a, "spatial"_a, "influence"_a, "moved"_a, Unlocked());
+    m.def("reach", &reach, "centres"_a, "seed_starts"_a, "seeds"_a, "points"_a, "starts"_a, "members"_a, "radii"_a,
+          "begin"_a, "seen"_a, "reached_starts"_a, "reached"_a, Unlocked());
+    m.def("face_patches", &face_patches, "faces"_a, "around_starts"_a, "around"_a, "crowd"_a, "seen"_a, "starts"_a,
+          "members"_a, Unlocked());
+    m.def("inner_pairs", &inner_pairs, "starts"_a, "members"_a, "pairs"_a, "first"_a, "own"_a, "inside"_a,
+          "inner_starts"_a, "inner"_a, Unlocked());
+    m.def("shortest_edges", &shortest_edges, "positions"_a, "starts"_a, "members"_a, "lengths"_a, Unlocked());
+    m.def("filter_heights", &filter_heights, "positions"_a, "normals"_a, "widths"_a, "starts"_a, "near"_a, "moved"_a,
+          Unlocked());
+    m.def("face_geometry", &face_geometry, "positions"_a, "faces"_a, "centroids"_a, "areas"_a, "normals"_a,
+          Unlocked());
+    m.def("vertex_normals", &vertex_normals, "normals"_a, "starts"_a, "around"_a, "averaged"_a, Unlocked());
+    m.def("follow_normals", &follow_normals, "positions"_a, "faces"_a, "starts"_a, "around"_a, "normals"_a,
+          "iterations"_a, "free"_a, "offsets"_a, Unlocked());
 }

@@ -10,8 +10,8 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numba import njit
 
+from codec import _kernels
 from codec.denoise.filters.topology import Topology
 from codec.denoise.filters.vertex_update import Floats, face_geometry, vertex_normals
 from codec.geometry.mesh import Positions
@@ -85,20 +85,7 @@ def _split(vectors: Floats, normals: Floats) -> tuple[float, float]:
 
 def _high_pass(values: Floats, topology: Topology) -> Floats:
     for _ in range(ORDER):
-        values = _minus_mean(values, topology.neighbours.starts, topology.neighbours.members)
+        rest = np.empty_like(values)
+        _kernels.minus_mean(values, *topology.neighbours, rest)
+        values = rest
     return values
-
-
-@njit(cache=True, nogil=True)
-def _minus_mean(values, starts, members):  # type: ignore[no-untyped-def]
-    rest = np.zeros_like(values)
-    for v in range(len(values)):
-        first, last = starts[v], starts[v + 1]
-        if first == last:
-            continue
-        for axis in range(values.shape[1]):
-            total = 0.0
-            for k in range(first, last):
-                total += values[members[k], axis]
-            rest[v, axis] = values[v, axis] - total / (last - first)
-    return rest

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 from scipy import sparse
 from scipy.sparse.linalg import splu
 
@@ -63,8 +62,18 @@ def edge_stencils(faces: Faces, pairs: Indices) -> Indices:
 
     `left` belongs to the first face of the pair. Faces that share all three vertices have no crease and are left out.
     """
-    stencils: Indices = _edge_stencils(faces, pairs)
-    return stencils
+    first, second = faces[pairs[:, 0]], faces[pairs[:, 1]]
+    # A corner stands across from the common edge where the other face does not have it.
+    left = ~(first[:, :, None] == second[:, None, :]).any(axis=2)
+    k = np.flatnonzero(left.any(axis=1))
+    corner = left[k].argmax(axis=1)
+    first, second = first[k], second[k]
+    rows = np.arange(len(k))
+    a, b = first[rows, (corner + 1) % 3], first[rows, (corner + 2) % 3]
+    right = (second != a[:, None]) & (second != b[:, None])
+    found = right.any(axis=1)
+    stencils = np.stack([a, first[rows, corner], b, second[rows, right.argmax(axis=1)]], axis=1)
+    return np.ascontiguousarray(stencils[found])
 
 
 def _mean_dihedral(normals: Floats, pairs: Indices) -> float:
@@ -77,50 +86,21 @@ def _as_matrix(stencils: Indices, weights: Floats, n: int) -> sparse.csr_array:
     return sparse.csr_array((weights.ravel(), stencils.ravel(), rows), shape=(len(stencils), n))
 
 
-@njit(cache=True, nogil=True)
-def _edge_stencils(faces, pairs):  # type: ignore[no-untyped-def]
-    stencils = np.empty((len(pairs), 4), dtype=np.int32)
-    count = 0
-    for k in range(len(pairs)):
-        f, g = faces[pairs[k, 0]], faces[pairs[k, 1]]
-        for i in range(3):
-            left = f[i]
-            if left == g[0] or left == g[1] or left == g[2]:
-                continue
-            a, b = f[(i + 1) % 3], f[(i + 2) % 3]
-            for j in range(3):
-                if g[j] != a and g[j] != b:
-                    stencils[count, 0], stencils[count, 1], stencils[count, 2], stencils[count, 3] = a, left, b, g[j]
-                    count += 1
-                    break
-            break
-    return stencils[:count].copy()
-
-
-@njit(cache=True, nogil=True)
-def _dot(a, b):  # type: ignore[no-untyped-def]
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-
-
-@njit(cache=True, nogil=True)
-def _area_weights(positions, stencils):  # type: ignore[no-untyped-def]
+def _area_weights(positions: Positions, stencils: Indices) -> Floats:
     """Weights that make a function linear over both faces vanish; zero where the edge or both faces have no extent."""
-    weights = np.zeros((len(stencils), 4))
-    for k in range(len(stencils)):
-        p1, p2 = positions[stencils[k, 0]], positions[stencils[k, 1]]
-        p3, p4 = positions[stencils[k, 2]], positions[stencils[k, 3]]
-        edge, left, right = p3 - p1, p2 - p1, p4 - p1
-        square = _dot(edge, edge)
-        along_left, along_right = _dot(edge, left), _dot(edge, right)
-        area_left = np.sqrt(max(_dot(left, left) * square - along_left * along_left, 0.0))
-        area_right = np.sqrt(max(_dot(right, right) * square - along_right * along_right, 0.0))
-        total = area_left + area_right
-        if square == 0.0 or total == 0.0:
-            continue
-        # left and right weigh by the other's area; what they project on the edge is taken off its two ends.
-        weights[k, 1] = area_right / total
-        weights[k, 3] = area_left / total
-        on_b = (weights[k, 1] * along_left + weights[k, 3] * along_right) / square
-        weights[k, 0] = on_b - 1.0
-        weights[k, 2] = -on_b
-    return weights
+    origin = positions[stencils[:, 0]]
+    left, edge, right = (positions[stencils[:, k]] - origin for k in (1, 2, 3))
+    square, along_left, along_right = _dot(edge, edge), _dot(edge, left), _dot(edge, right)
+    area_left = np.sqrt(np.maximum(_dot(left, left) * square - along_left**2, 0.0))
+    area_right = np.sqrt(np.maximum(_dot(right, right) * square - along_right**2, 0.0))
+    total = area_left + area_right
+    proper = (square > 0.0) & (total > 0.0)
+    square, total = np.where(proper, square, 1.0), np.where(proper, total, 1.0)
+    # left and right weigh by the other's area; what they project on the edge is taken off its two ends.
+    at_left, at_right = area_right / total, area_left / total
+    at_b = (at_left * along_left + at_right * along_right) / square
+    return np.where(proper[:, None], np.stack([at_b - 1.0, at_left, -at_b, at_right], axis=1), 0.0)
+
+
+def _dot(a: Floats, b: Floats) -> Floats:
+    return np.einsum("ij,ij->i", a, b)

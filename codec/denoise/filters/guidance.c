@@ -1,0 +1,38 @@
+/* How consistent patches of faces are, and the mean normal of the most consistent one that holds a face. */
+#include "codec/denoise/filters/guidance.h"
+#include "codec/denoise/filters/vectors3.h"
+
+/* `steps`: distance between the normals of each pair of neighbouring faces. A low score is a consistent patch. */
+void patch_scores(ConstDoubles2 normals, ConstDoubles areas, ConstLongs starts, ConstInts members, ConstDoubles steps,
+                  ConstLongs inner_starts, ConstInts inner, Doubles scores, Doubles2 means) {
+    for (int64_t f = 0; f < normals.rows; f++) {
+        int64_t first = starts.data[f], last = starts.data[f + 1];
+        double widest = 0.0, total = 0.0, highest = 0.0;
+        Vector3 sum = {0.0, 0.0, 0.0};
+        for (int64_t k = first; k < last; k++) {
+            Vector3 normal = row_of(normals.data, members.data[k]);
+            sum = plus_scaled(sum, areas.data[members.data[k]], normal);
+            for (int64_t q = k + 1; q < last; q++) {
+                Vector3 apart = less(row_of(normals.data, members.data[q]), normal);
+                double squared = dot(apart, apart);
+                widest = squared > widest ? squared : widest;
+            }
+        }
+        for (int64_t k = inner_starts.data[f]; k < inner_starts.data[f + 1]; k++) {
+            double step = steps.data[inner.data[k]];
+            total += step;
+            highest = step > highest ? step : highest;
+        }
+        scores.data[f] = __builtin_sqrt(widest) * highest / (total + 1e-9);
+        put_row(means.data, f, direction(sum, (Vector3){0.0, 0.0, 0.0}));
+    }
+}
+
+void most_consistent(ConstDoubles scores, ConstDoubles2 means, ConstLongs starts, ConstInts members, Doubles2 guide) {
+    for (int64_t f = 0; f < scores.size; f++) {
+        int32_t best = members.data[starts.data[f]];
+        for (int64_t k = starts.data[f] + 1; k < starts.data[f + 1]; k++)
+            if (scores.data[members.data[k]] < scores.data[best]) best = members.data[k];
+        put_row(guide.data, f, row_of(means.data, best));
+    }
+}
