@@ -44,6 +44,9 @@ BSM_ARRAY(Doubles, double)
 #endif
 #define INLINE static inline __attribute__((always_inline))
 
+/* What a kernel returns that was given arrays which do not fit together: a mistake of its caller, never of a stream. */
+#define MISUSED INT64_MIN
+
 INLINE int64_t least(int64_t a, int64_t b) { return a < b ? a : b; }
 INLINE int64_t largest(int64_t a, int64_t b) { return a > b ? a : b; }
 

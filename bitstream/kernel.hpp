@@ -1,6 +1,8 @@
 // Numpy arrays to the arrays of kernel.h, checked: type, dimensions, contiguity. Nothing is copied or converted.
 #pragma once
 
+#include <tuple>
+
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>
 
@@ -60,6 +62,17 @@ template <typename Struct, typename... Arrays> struct TupleCaster {
 // A kernel runs without the interpreter's lock.
 using Unlocked = nb::call_guard<nb::gil_scoped_release>;
 
+// A kernel whose MISUSED is an exception.
+template <auto kernel> struct Checked;
+template <typename... Arguments, int64_t (*kernel)(Arguments...)> struct Checked<kernel> {
+    static int64_t call(Arguments... arguments) {
+        int64_t result = kernel(arguments...);
+        if (result == MISUSED) throw nb::value_error("arrays or numbers that do not fit together, given to a kernel");
+        return result;
+    }
+};
+template <auto kernel> constexpr auto checked = &Checked<kernel>::call;
+
 #define BSM_CASTERS(Array, type)                                                                                       \
     template <> struct nb::detail::type_caster<Array> : nb::detail::ArrayCaster<Array, type, 1> {};                    \
     template <> struct nb::detail::type_caster<Array##2> : nb::detail::ArrayCaster<Array##2, type, 2> {};                 \
@@ -73,3 +86,7 @@ BSM_CASTERS(Ints, int32_t)
 BSM_CASTERS(Words, uint32_t)
 BSM_CASTERS(Longs, int64_t)
 BSM_CASTERS(Doubles, double)
+
+// A struct of arrays, structs and numbers that Python keeps as a NamedTuple, member for member.
+#define BSM_STRUCT(Struct, ...)                                                                                        \
+    template <> struct nb::detail::type_caster<Struct> : nb::detail::TupleCaster<Struct, __VA_ARGS__> {};

@@ -2,11 +2,62 @@
 #include "bitstream/kernel.hpp"
 
 extern "C" {
+#include "bitstream/coefficients/adaptive.h"
+#include "bitstream/coefficients/matrices.h"
+#include "bitstream/coefficients/rate_distortion.h"
 #include "bitstream/coefficients/trellis.h"
+#include "bitstream/connectivity/appearance.h"
+#include "bitstream/connectivity/conquest.h"
+#include "bitstream/connectivity/halfedges.h"
+#include "bitstream/connectivity/partition.h"
+#include "bitstream/connectivity/permutation.h"
+#include "bitstream/connectivity/seams.h"
+#include "bitstream/entropy/symbols.h"
 }
+
+BSM_STRUCT(Coder, Longs, Bytes)
+BSM_STRUCT(Bank, Words, Ints2, Longs)
+BSM_STRUCT(Models, Bank, Bank, Bank, int64_t)
+BSM_STRUCT(Front, Ints2, Ints)
+BSM_STRUCT(Surface, ConstInts, ConstInts, ConstInts, ConstInts)
+BSM_STRUCT(Guide, Surface, Bytes, Ints, Ints, Ints, Ints)
+BSM_STRUCT(Conquest, Front, Longs2, Ints2, Longs)
+BSM_STRUCT(Seams, Ints, Ints, Ints, Ints, Ints)
+BSM_STRUCT(Past, Ints2, Ints2, Ints2, Longs)
 
 using namespace nb::literals;
 
 NB_MODULE(_kernels, m) {
+    m.def("code_bit", checked<code_one_bit>, "coder"_a, "probability"_a, "bit"_a);
+    m.def("code_uniform", checked<code_one_uniform>, "coder"_a, "value"_a, "count"_a);
+    m.def("code_mixed_bit", checked<code_one_mixed_bit>, "coder"_a, "bank"_a, "contexts"_a, "node"_a, "selector"_a,
+        "bit"_a);
+    m.def("code_unsigned", checked<code_one_unsigned>, "coder"_a, "bank"_a, "contexts"_a, "selector"_a, "unary"_a,
+        "value"_a, "node"_a);
+    m.def("code_signed", checked<code_one_signed>, "coder"_a, "bank"_a, "contexts"_a, "selector"_a, "unary"_a,
+        "value"_a);
+
+    m.def("match_halfedges", checked<match_halfedges>, "origin"_a, "starts"_a, "by_high"_a, "order"_a, "twin"_a,
+        Unlocked());
+    m.def("find_fans", checked<find_fans>, "origin"_a, "twin"_a, "corner"_a, "vertex"_a, Unlocked());
+    m.def("fill_loops", checked<fill_loops>, "twin"_a, "corner"_a, "leaving"_a, "full_twin"_a, "full_corner"_a,
+        Unlocked());
+    m.def("number_by_appearance", checked<number_by_appearance>, "sequence"_a, "order"_a, "number"_a, Unlocked());
+    m.def("conquer", checked<conquer>, "coder"_a, "models"_a, "guide"_a, "conquest"_a, Unlocked());
+    m.def("code_fans", checked<code_fans>, "coder"_a, "bank"_a, "known"_a, "seams"_a, Unlocked());
+    m.def("code_degenerate", checked<code_degenerate>, "coder"_a, "corners"_a, "count"_a, Unlocked());
+    m.def("code_steps", checked<code_steps>, "coder"_a, "bank"_a, "values"_a, "tree"_a, Unlocked());
+    m.def("code_turns", checked<code_turns>, "coder"_a, "bank"_a, "values"_a, Unlocked());
+    m.def("code_labels", checked<code_labels>, "coder"_a, "bank"_a, "offsets"_a, "neighbours"_a, "labels"_a, "parts"_a,
+        Unlocked());
+
     m.def("points_of_levels", &points_of_levels, "levels"_a, "points"_a, Unlocked());
+    m.def("look_at_block", checked<look_at_block>, "past"_a, "levels"_a, "inputs"_a, Unlocked());
+    m.def("bin_of_expectation", checked<bin_of_expectation>, "weights"_a, "inputs"_a);
+    m.def("code_rows", checked<code_rows>, "coder"_a, "bank"_a, "missing"_a, "width"_a, "rows"_a);
+    m.def("code_block", checked<code_block>, "coder"_a, "bank"_a, "past"_a, "expectations"_a, "levels"_a, Unlocked());
+    m.def("search_levels", checked<search_levels>, "bank"_a, "past"_a, "expectations"_a, "targets"_a, "price"_a,
+        "costs"_a, "ways"_a, "origins"_a, "levels"_a, "kept"_a, Unlocked());
+    m.def("code_matrix", checked<code_matrix>, "coder"_a, "bank"_a, "levels"_a, "reference"_a, "rows"_a, "slow"_a,
+        Unlocked());
 }

@@ -15,33 +15,17 @@ from dataclasses import dataclass, field
 
 import numpy as np
 import numpy.typing as npt
-from numba import njit
 
-from bitstream.coefficients.contexts import (
-    BINS,
-    NEIGHBOURS,
-    Past,
-    close_block,
-    expectation_bin,
-    look_around,
-    make_past,
-    note_level,
-    situation,
-)
+from bitstream import _kernels
+from bitstream.coefficients.contexts import BINS, NEIGHBOURS, Past, make_past
 from bitstream.coefficients.priors import EXPECTATIONS, NODES, SELECTORS, Experience, coordinate_experience
-from bitstream.coefficients.trellis import Levels, following, grid
+from bitstream.coefficients.trellis import Levels
 from bitstream.entropy.range_coder import (
-    ONE,
     Bank,
     Coder,
-    code_bit,
-    code_mixed_bit,
-    code_uniform,
-    code_unsigned,
     copy_bank,
     finish_reading,
     finish_writing,
-    leaf,
     make_bank,
     overran,
     start_reading,
@@ -50,15 +34,9 @@ from bitstream.entropy.range_coder import (
 )
 from bitstream.errors import CorruptError, OptionError
 
-_LARGEST_SIZE = 23
-MAX_LEVEL = (1 << _LARGEST_SIZE) - 1
+MAX_LEVEL = (1 << 23) - 1
 """Largest magnitude of a quantized coefficient."""
 
-_SIZE_NODES = 14  # magnitudes of more bits share the last
-_GRID_NODES = 2  # whether it is zero, or one, is another question on the odd grid
-_BIT_SIZES = 9  # magnitudes of more bits share the nodes of this size
-_FIRST_NODES = _SIZE_NODES + _GRID_NODES - 2
-_SECOND_NODES = _FIRST_NODES + _BIT_SIZES + 1 - 2 * 3
 _ROWS_UNARY = 8
 _ROWS_SPAN = unsigned_span(_ROWS_UNARY)
 _BYTES_PER_LEVEL = 64  # 24 decisions of at most two bytes each, and bits as they are
@@ -85,7 +63,7 @@ class CoefficientModel:
         Magnitudes of earlier blocks.
     missing : int64 array, shape (1,)
         Rows that the block before had less than `width`.
-    expectations : int64 array
+    expectations : int32 array, shape (EXPECTATIONS * SITUATIONS, NEIGHBOURS)
         Weights of the expectations.
     """
 
@@ -95,7 +73,7 @@ class CoefficientModel:
     rows: Bank = field(init=False)
     past: Past = field(init=False)
     missing: npt.NDArray[np.int64] = field(init=False)
-    expectations: npt.NDArray[np.int64] = field(init=False)
+    expectations: npt.NDArray[np.int32] = field(init=False)
 
     def __post_init__(self) -> None:
         self.bank = make_bank(EXPECTATIONS * BINS * NODES, SELECTORS * NODES, EXPECTATIONS, limit=400, rate=4)
@@ -104,7 +82,7 @@ class CoefficientModel:
         self.rows = make_bank(17 * _ROWS_SPAN, _ROWS_SPAN, 2, limit=60)
         self.past = make_past(self.width)
         self.missing = np.zeros(1, np.int64)
-        self.expectations = self.experience.expectations.astype(np.int64)
+        self.expectations = self.experience.expectations.astype(np.int32).reshape(-1, NEIGHBOURS)
 
     def copy(self) -> CoefficientModel:
         """An independent copy of the present state."""
@@ -125,7 +103,7 @@ def encode_coefficients(model: CoefficientModel, levels: Levels) -> bytes:
     """
     _check_levels(model, levels)
     coder = start_writing(_BYTES_PER_LEVEL * levels.size)
-    _code_block(coder, model.bank, model.past, model.expectations, levels.astype(np.int32))
+    _code_block(coder, model, levels.astype(np.int32))
     return finish_writing(coder)
 
 
@@ -141,7 +119,7 @@ def decode_coefficients(model: CoefficientModel, payload: bytes, count: int) -> 
         raise CorruptError(f"{count} coefficients where at most {model.width} are announced")
     levels = np.zeros((count, 3), np.int32)
     coder = start_reading(payload)
-    _code_block(coder, model.bank, model.past, model.expectations, levels)
+    _code_block(coder, model, levels)
     finish_reading(coder)
     return levels
 
@@ -157,8 +135,8 @@ def encode_blocks(model: CoefficientModel, blocks: Sequence[Levels]) -> bytes:
     coder = start_writing(sum(_BYTES_PER_LEVEL * (levels.size + 1) for levels in blocks))
     for levels in blocks:
         _check_levels(model, levels)
-        _code_rows(coder, model.rows, model.missing, model.width, len(levels))
-        _code_block(coder, model.bank, model.past, model.expectations, levels.astype(np.int32))
+        _kernels.code_rows(coder, model.rows, model.missing, model.width, len(levels))
+        _code_block(coder, model, levels.astype(np.int32))
     return finish_writing(coder)
 
 
@@ -174,7 +152,7 @@ def decode_blocks(model: CoefficientModel, payload: bytes, count: int) -> list[L
     blocks: list[Levels] = []
     for _ in range(count):
         blocks.append(np.zeros((_read_rows(coder, model, 1), 3), np.int32))
-        _code_block(coder, model.bank, model.past, model.expectations, blocks[-1])
+        _code_block(coder, model, blocks[-1])
         if overran(coder):
             break
     finish_reading(coder)
@@ -194,9 +172,9 @@ def encode_layers(model: CoefficientModel, levels: Levels, over: CoefficientMode
     _check_levels(model, levels)
     _check_levels(over, above)
     coder = start_writing(_BYTES_PER_LEVEL * (levels.size + above.size + 1))
-    _code_block(coder, model.bank, model.past, model.expectations, levels.astype(np.int32))
-    _code_rows(coder, over.rows, over.missing, over.width, len(above))
-    _code_block(coder, over.bank, over.past, over.expectations, above.astype(np.int32))
+    _code_block(coder, model, levels.astype(np.int32))
+    _kernels.code_rows(coder, over.rows, over.missing, over.width, len(above))
+    _code_block(coder, over, above.astype(np.int32))
     return finish_writing(coder)
 
 
@@ -212,15 +190,19 @@ def decode_layers(model: CoefficientModel, over: CoefficientModel, payload: byte
         raise CorruptError(f"{count} coefficients where at most {model.width} are announced")
     coder = start_reading(payload)
     levels = np.zeros((count, 3), np.int32)
-    _code_block(coder, model.bank, model.past, model.expectations, levels)
+    _code_block(coder, model, levels)
     above = np.zeros((_read_rows(coder, over, 0), 3), np.int32)
-    _code_block(coder, over.bank, over.past, over.expectations, above)
+    _code_block(coder, over, above)
     finish_reading(coder)
     return levels, above
 
 
+def _code_block(coder: Coder, model: CoefficientModel, levels: Levels) -> None:
+    _kernels.code_block(coder, model.bank, model.past, model.expectations, levels)
+
+
 def _read_rows(coder: Coder, model: CoefficientModel, least: int) -> int:
-    rows: int = _code_rows(coder, model.rows, model.missing, model.width, 0)
+    rows = _kernels.code_rows(coder, model.rows, model.missing, model.width, 0)
     if overran(coder):
         finish_reading(coder)
     if not least <= rows <= model.width:
@@ -231,85 +213,3 @@ def _read_rows(coder: Coder, model: CoefficientModel, least: int) -> int:
 def _check_levels(model: CoefficientModel, levels: Levels) -> None:
     if len(levels) > model.width or np.abs(levels.astype(np.int64)).max(initial=0) > MAX_LEVEL:
         raise OptionError(f"levels must be at most {model.width} rows of magnitudes up to {MAX_LEVEL}")
-
-
-@leaf
-def size_node(size, grid):  # type: ignore[no-untyped-def]
-    """Node of the decision whether the magnitude of a level on a grid has more than `size` bits."""
-    return _SIZE_NODES + size if grid == 1 and size < _GRID_NODES else min(size, _SIZE_NODES - 1)
-
-
-@leaf
-def first_node(size):  # type: ignore[no-untyped-def]
-    """Node of the bit below the leading one of `size` bits, from 2 on."""
-    return _FIRST_NODES + min(size, _BIT_SIZES)
-
-
-@leaf
-def second_node(size, first):  # type: ignore[no-untyped-def]
-    """Node of the bit below `first`, for `size` from 3 on."""
-    return _SECOND_NODES + 2 * min(size, _BIT_SIZES) + first
-
-
-@leaf
-def set_contexts(past, expectations, row, coordinate, inputs, contexts):  # type: ignore[no-untyped-def]
-    """Write the contexts of a coefficient; `inputs` is scratch. Returns the selector."""
-    look_around(past, row, coordinate, inputs)
-    kind = situation(past, coordinate)
-    for i in range(EXPECTATIONS):
-        contexts[i] = NODES * (BINS * i + expectation_bin(expectations[i, kind], inputs))
-    return 0 if past.blocks[0] == 0 else NODES
-
-
-@leaf
-def code_level(coder, bank, contexts, selector, grid, level):  # type: ignore[no-untyped-def]
-    """Code one level of a grid."""
-    magnitude = np.int64(abs(level))
-    size = 0
-    while size < _LARGEST_SIZE:
-        more = 1 if magnitude >> size > 0 else 0
-        if code_mixed_bit(coder, bank, contexts, size_node(size, grid), selector, more) == 0:
-            break
-        size += 1
-    if size == 0:
-        return 0
-    result = 1
-    if size > 1:
-        first = code_mixed_bit(coder, bank, contexts, first_node(size), selector, (magnitude >> (size - 2)) & 1)
-        result = 2 | first
-        if size > 2:
-            bit = (magnitude >> (size - 3)) & 1
-            result = 2 * result | code_mixed_bit(coder, bank, contexts, second_node(size, first), selector, bit)
-            if size > 3:
-                count = 1 << (size - 3)
-                result = result * count + min(code_uniform(coder, magnitude & (count - 1), count), count - 1)
-    return -result if code_bit(coder, ONE // 2, 1 if level < 0 else 0) != 0 else result
-
-
-@njit(cache=True, nogil=True)
-def _code_rows(coder, bank, missing, width, rows):  # type: ignore[no-untyped-def]
-    """Code a number of rows, as what it lacks to `width`, given the same of the block before."""
-    contexts = np.zeros(2, np.int64)
-    before, size = missing[0], 0
-    while before >> size > 0 and size < 15:
-        size += 1
-    contexts[1] = _ROWS_SPAN * (1 + size)
-    missing[0] = code_unsigned(coder, bank, contexts, 0, _ROWS_UNARY, width - rows)
-    return width - missing[0]
-
-
-@njit(cache=True, nogil=True)
-def _code_block(coder, bank, past, expectations, levels):  # type: ignore[no-untyped-def]
-    contexts = np.empty(EXPECTATIONS, np.int64)
-    inputs = np.empty(NEIGHBOURS, np.int64)
-    state = 0
-    for row in range(levels.shape[0]):
-        for coordinate in range(3):
-            selector = set_contexts(past, expectations, row, coordinate, inputs, contexts)
-            level = code_level(coder, bank, contexts, selector, grid(state), levels[row, coordinate])
-            levels[row, coordinate] = level
-            note_level(past, row, coordinate, level)
-            state = following(state, level)
-        if overran(coder):
-            break
-    close_block(past)

@@ -11,21 +11,11 @@ from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
-from numba import njit
 
-from bitstream.coefficients.adaptive import (
-    MAX_LEVEL,
-    CoefficientModel,
-    Levels,
-    first_node,
-    second_node,
-    set_contexts,
-    size_node,
-)
-from bitstream.coefficients.contexts import NEIGHBOURS, Past, note_level, take_over
-from bitstream.coefficients.priors import EXPECTATIONS
-from bitstream.coefficients.trellis import STATES, following, grid, point_of_level
-from bitstream.entropy.range_coder import ONE, leaf, mixed_probability
+from bitstream import _kernels
+from bitstream.coefficients.adaptive import MAX_LEVEL, CoefficientModel, Levels
+from bitstream.coefficients.trellis import STATES
+from bitstream.entropy.range_coder import ONE
 from bitstream.errors import OptionError
 
 TARGET_UNIT = 256
@@ -74,82 +64,11 @@ def choose_levels(model: CoefficientModel, targets: npt.NDArray[np.int64], weigh
     if len(targets) > model.width or np.abs(targets).max(initial=0) > MAX_LEVEL * TARGET_UNIT:
         raise OptionError(f"targets must be at most {model.width} rows of levels up to {MAX_LEVEL}")
     price = weight * TARGET_UNIT**2 / _BIT
-    levels, kept = _search(model.bank, model.past, model.expectations, targets, price)
+    rows = len(targets)
+    levels, kept = np.empty((rows, 3), np.int32), np.empty(rows)
+    ways, origins = np.empty((3 * rows, STATES), np.int32), np.empty((3 * rows, STATES), np.uint8)
+    _kernels.search_levels(
+        model.bank, model.past, model.expectations, targets, price, _COSTS, ways, origins, levels, kept
+    )
     dropped = np.square(targets[::-1].astype(np.float64)).sum(axis=1).cumsum()[::-1]
     return Choice(levels, 1 + int(np.argmin(kept + np.append(dropped[1:], 0.0))) if len(targets) else 0)
-
-
-@njit(cache=True, nogil=True)
-def _search(bank, past, expectations, targets, price):  # type: ignore[no-untyped-def]
-    """The best levels for all rows, and the least error and bits together up to each row."""
-    rows = targets.shape[0]
-    ways = np.zeros((rows, 3, STATES), np.int64)
-    origins = np.zeros((rows, 3, STATES), np.int64)
-    survivors = np.zeros((2, STATES, *past.current.shape), np.int64)
-    costs = np.full((2, STATES), np.inf)
-    contexts = np.empty(EXPECTATIONS, np.int64)
-    inputs = np.empty(NEIGHBOURS, np.int64)
-    new, old = 0, 1
-    costs[new, 0] = 0.0
-    kept = np.zeros(rows)
-    for row in range(rows):
-        for coordinate in range(3):
-            new, old = old, new
-            costs[new] = np.inf
-            target = abs(targets[row, coordinate])
-            for state in range(STATES):
-                if costs[old, state] == np.inf:
-                    continue
-                around = Past(survivors[old, state], past.before, past.usual, past.blocks)
-                selector = set_contexts(around, expectations, row, coordinate, inputs, contexts)
-                below = (2 * target + TARGET_UNIT * grid(state)) // (2 * TARGET_UNIT)
-                for candidate in range(3 if target > 0 else 1):  # what is zero stays zero: flat meshes stay flat
-                    level = min(below + candidate, MAX_LEVEL) if candidate < 2 else 0
-                    error = target - 0.5 * TARGET_UNIT * point_of_level(state, level)
-                    cost = error * error + price * _bits(bank, contexts, selector, grid(state), level)
-                    after = following(state, level)
-                    if costs[old, state] + cost < costs[new, after]:
-                        costs[new, after] = costs[old, state] + cost
-                        ways[row, coordinate, after] = level
-                        origins[row, coordinate, after] = state
-            for state in range(STATES):
-                if costs[new, state] < np.inf:
-                    origin = origins[row, coordinate, state]
-                    now = Past(survivors[new, state], past.before, past.usual, past.blocks)
-                    take_over(now, Past(survivors[old, origin], past.before, past.usual, past.blocks), row)
-                    note_level(now, row, coordinate, ways[row, coordinate, state])
-        kept[row] = costs[new].min()
-    levels = np.zeros((rows, 3), np.int32)
-    last = np.argmin(costs[new])
-    for row in range(rows - 1, -1, -1):
-        for coordinate in range(2, -1, -1):
-            level = ways[row, coordinate, last]
-            levels[row, coordinate] = level if targets[row, coordinate] >= 0 else -level
-            last = origins[row, coordinate, last]
-    return levels, kept
-
-
-@leaf
-def _bits(bank, contexts, selector, grid, magnitude):  # type: ignore[no-untyped-def]
-    """What `code_level` would spend on a magnitude, in 1 / _BIT bits, with the sign."""
-    size = 0
-    total = np.int64(0)
-    while magnitude >> size > 0:
-        total += _decision(bank, contexts, size_node(size, grid), selector, 1)
-        size += 1
-    total += _decision(bank, contexts, size_node(size, grid), selector, 0)
-    if size > 0:
-        total += _BIT
-    if size > 1:
-        first = (magnitude >> (size - 2)) & 1
-        total += _decision(bank, contexts, first_node(size), selector, first)
-        if size > 2:
-            bit = (magnitude >> (size - 3)) & 1
-            total += _decision(bank, contexts, second_node(size, first), selector, bit) + _BIT * (size - 3)
-    return total
-
-
-@leaf
-def _decision(bank, contexts, node, selector, bit):  # type: ignore[no-untyped-def]
-    probability = mixed_probability(bank, contexts, node, selector)
-    return _COSTS[(probability if bit != 0 else ONE - probability) >> _SHIFT]

@@ -22,32 +22,11 @@ import numpy as np
 import numpy.typing as npt
 
 from bitstream import _kernels
-from bitstream.entropy.range_coder import leaf
 
 Levels = npt.NDArray[np.int32]
 
 STATES = 8
-"""A state is the numbers of the last three grids, the latest in the lowest bit. A block begins in state 0."""
-
-
-@leaf
-def grid(state):  # type: ignore[no-untyped-def]
-    """Number of the grid that the next level is on."""
-    return state & 1
-
-
-@leaf
-def following(state, level):  # type: ignore[no-untyped-def]
-    """State after `level`."""
-    return ((state << 1) & (STATES - 1)) | ((state ^ (state >> 1) ^ (state >> 2) ^ level) & 1)
-
-
-@leaf
-def point_of_level(state, level):  # type: ignore[no-untyped-def]
-    """Point that `level` stands for."""
-    if level > 0:
-        return 2 * level - grid(state)
-    return 2 * level + grid(state) if level < 0 else level
+"""A state is the numbers of the last three grids, the latest in the lowest bit (`trellis.h`)."""
 
 
 def points_of_levels(levels: Levels) -> Levels:

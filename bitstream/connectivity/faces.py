@@ -12,8 +12,8 @@ from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
-from numba import njit
 
+from bitstream import _kernels
 from bitstream.connectivity.conquest import (
     DONE,
     NO_ROOM,
@@ -184,15 +184,8 @@ def _check_faces(faces: npt.ArrayLike, vertex_count: int) -> Ints:
     return np.ascontiguousarray(given, np.int32)
 
 
-@njit(cache=True, nogil=True)
 def _number_by_appearance(sequence: Ints, size: int) -> tuple[Ints, Ints]:
     """The distinct values, below `size`, in the order of their first appearance, and the number of each value there."""
-    order = np.empty(size, np.int32)
-    number = np.full(size, -1, np.int32)
-    count = 0
-    for value in sequence:
-        if number[value] < 0:
-            number[value] = count
-            order[count] = value
-            count += 1
+    order, number = np.empty(size, np.int32), np.empty(size, np.int32)
+    count = _kernels.number_by_appearance(sequence, order, number)
     return order[:count].copy(), number

@@ -9,15 +9,12 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
+from bitstream import _kernels
 from bitstream.entropy.range_coder import (
-    Bank,
     Coder,
-    code_mixed_bit,
-    code_signed,
     finish_reading,
     finish_writing,
     is_reading,
-    leaf,
     make_bank,
     make_room,
     overran,
@@ -92,7 +89,7 @@ def code_permutation(coder: Coder, values: Ints) -> Coder:
             raise OptionError("not a permutation of fewer than 2**24 entries, counted from 0")
         coder = make_room(coder, _STEP_BYTES * size)
     bank = make_bank((1 + _CLASSES + 2 * _CLASSES * _CLASSES) * _SPAN, _SPAN, _INPUTS)
-    legal = _code_steps(coder, bank, np.empty(_INPUTS, np.int64), values, _full_tree(size))
+    legal = _kernels.code_steps(coder, bank, values, np.empty(size + 1, np.int32))
     return _checked(coder, legal, f"a permutation of {size} entries")
 
 
@@ -103,11 +100,11 @@ def code_rotations(coder: Coder, values: Ints) -> Coder:
             raise OptionError("rotations of a triangle's corners are 0, 1 or 2")
         coder = make_room(coder, 4 * len(values))
     bank = make_bank(3 * (9 + 27), 2, 2)
-    legal = _code_rotations(coder, bank, np.empty(2, np.int64), values)
+    legal = _kernels.code_turns(coder, bank, values)
     return _checked(coder, legal, f"{len(values)} rotations")
 
 
-def _checked(coder: Coder, legal: bool, what: str) -> Coder:
+def _checked(coder: Coder, legal: int, what: str) -> Coder:
     if overran(coder):
         raise TruncatedError(f"the payload of {what} ends too early")
     if not legal:
@@ -120,92 +117,3 @@ def _is_permutation(values: Ints) -> bool:
     if size and (values.min() < 0 or values.max() >= size):
         return False
     return bool((np.bincount(values, minlength=size) == 1).all())
-
-
-def _full_tree(size: int) -> Ints:
-    """A Fenwick tree of ones: entry k counts what is left of the last (k & -k) positions up to k."""
-    k = np.arange(size + 1, dtype=np.int32)
-    return k & -k
-
-
-@leaf
-def _count_before(tree: Ints, position: int) -> int:
-    """How many of the positions before `position` are left."""
-    total = 0
-    while position > 0:
-        total += tree[position]
-        position &= position - 1
-    return total
-
-
-@leaf
-def _take(tree: Ints, rank: int) -> int:
-    """Find the position that has `rank` others left before it, and use it up."""
-    size = len(tree) - 1
-    step = 1
-    while 2 * step <= size:
-        step *= 2
-    position, rest = 0, rank
-    while step > 0:
-        if position + step <= size and tree[position + step] <= rest:
-            position += step
-            rest -= tree[position]
-        step >>= 1
-    k = position + 1
-    while k <= size:
-        tree[k] -= 1
-        k += k & -k
-    return position
-
-
-@leaf
-def _class(step: int) -> int:
-    """Sign and magnitude of a step, coarsely: 0 .. 31."""
-    magnitude, size = abs(step), 0
-    while magnitude > 0 and size < 15:
-        magnitude >>= 1
-        size += 1
-    return size if step >= 0 else 16 + size
-
-
-@leaf
-def _code_steps(coder: Coder, bank: Bank, contexts: npt.NDArray[np.int64], values: Ints, tree: Ints) -> bool:
-    size = len(values)
-    expected, repeated = 0, 0
-    last, older, oldest = 0, 0, 0
-    for i in range(size):
-        if overran(coder):
-            return False
-        rank = _count_before(tree, expected)
-        contexts[0] = 0
-        contexts[1] = _SPAN * (1 + last)
-        contexts[2] = _SPAN * (1 + _CLASSES + _CLASSES * older + last)
-        contexts[3] = _SPAN * (1 + _CLASSES + _CLASSES * _CLASSES + _CLASSES * oldest + older)
-        step = _count_before(tree, values[i]) - rank
-        if code_mixed_bit(coder, bank, contexts, _SAME, 0, 1 if step == repeated else 0) != 0:
-            step = repeated
-        else:
-            step = code_signed(coder, bank, contexts, 0, _UNARY, step)
-        if rank + step < 0 or rank + step >= size - i:
-            return False
-        values[i] = _take(tree, rank + step)
-        expected = values[i] + 1
-        last, older, oldest = _class(step), last, older
-        repeated = step
-    return True
-
-
-@leaf
-def _code_rotations(coder: Coder, bank: Bank, contexts: npt.NDArray[np.int64], values: Ints) -> bool:
-    history = 0
-    for i in range(len(values)):
-        if overran(coder):
-            return False
-        contexts[0] = 3 * (history % 9)
-        contexts[1] = 3 * (9 + history)
-        value = code_mixed_bit(coder, bank, contexts, 0, 0, 1 if values[i] > 0 else 0)
-        if value != 0:
-            value += code_mixed_bit(coder, bank, contexts, 1, 0, 1 if values[i] > 1 else 0)
-        values[i] = value
-        history = (history * 3 + value) % 27
-    return True

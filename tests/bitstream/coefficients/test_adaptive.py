@@ -19,7 +19,7 @@ from bitstream.coefficients.adaptive import (
     encode_coefficients,
     encode_layers,
 )
-from bitstream.coefficients.contexts import BINS, NEIGHBOURS, expectation_bin, look_around, make_past, note_level
+from bitstream.coefficients.contexts import BINS, NEIGHBOURS, expectation_bin, look_at_block, make_past
 from bitstream.coefficients.priors import Experience, coordinate_experience, detail_experience, shipped_experiences
 from bitstream.errors import BsmError, CorruptError, OptionError, TruncatedError
 
@@ -203,22 +203,27 @@ def test_layers_round_trip_each_with_its_own_experience() -> None:
 
 
 def test_known_neighbours() -> None:
-    past = make_past(8)
-    for row, levels in enumerate(([5, -6, 7], [1, 2, -3])):
-        for coordinate, level in enumerate(levels):
-            note_level(past, row, coordinate, level)
-    note_level(past, 2, 0, 9)
-    inputs = np.empty(NEIGHBOURS, np.int64)
-    look_around(past, 2, 1, inputs)
+    levels = np.array([[5, -6, 7], [1, 2, -3], [9, 0, 0]], np.int32)
+    inputs = look_at_block(make_past(8), levels)[7]
     np.testing.assert_array_equal(inputs[:9], [32, 96, 0, 0, 0, 144, 0, 32, 48])
     np.testing.assert_array_equal(inputs[17:], [16, 85, 113])
     assert not inputs[9:17].any()
 
 
+def test_the_block_before_and_the_usual_are_known() -> None:
+    past = make_past(8)
+    look_at_block(past, np.array([[8, 0, 0], [-4, 0, 0], [2, 1, 0]], np.int32))
+    inputs = look_at_block(past, np.zeros((2, 3), np.int32))[3]
+    np.testing.assert_array_equal(inputs[:9], np.zeros(9))
+    np.testing.assert_array_equal(inputs[9:17], [64, 80, 0, 0, 4, 64, 80, 0])
+    inputs = look_at_block(past, np.zeros((1, 3), np.int32))[0]
+    np.testing.assert_array_equal(inputs[9:17], [0, 0, 0, 0, 0, 64, 16, 0])
+
+
 def test_bins_are_thirds_of_an_octave() -> None:
-    weights = np.zeros(NEIGHBOURS, np.int64)
+    weights = np.zeros(NEIGHBOURS, np.int32)
     weights[0] = 1 << 10
-    inputs = np.zeros(NEIGHBOURS, np.int64)
+    inputs = np.zeros(NEIGHBOURS, np.int32)
 
     def bin_of(value: int) -> int:
         inputs[0] = value

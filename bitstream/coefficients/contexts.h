@@ -1,0 +1,104 @@
+/* What surrounds a coefficient, and what that lets expect (specification, M 9.3 to M 9.5, M 9.7). See contexts.py. */
+#ifndef BSM_CONTEXTS_H
+#define BSM_CONTEXTS_H
+
+#include "bitstream/kernel.h"
+
+enum {
+    NEIGHBOURS = 20,
+    SITUATIONS = 6,
+    UNIT = 16,
+    WEIGHT_BITS = 10,
+    BINS = 48,
+    CEILING = 1 << 15,
+    ABOVE = 8,  /* rows of zeros in front of the first frequency, as far as any neighbour reaches */
+    BEYOND = 3, /* and behind the last */
+    MEMORY = 8, /* blocks over which the usual magnitudes are averaged */
+};
+
+/* As Python keeps it: magnitudes in the present block and the one before, their running mean, number of blocks. */
+typedef struct {
+    Ints2 current, before, usual;
+    Longs blocks;
+} Past;
+
+/* Three magnitudes of row 0, and so on; the rows around them may be read. */
+typedef struct {
+    int32_t *now, *before, *usual;
+    int64_t width;
+    int64_t *blocks;
+} Chain;
+
+/* False for arrays that are no past, or one of fewer rows. */
+INLINE bool open_past(Chain *chain, Past past, int64_t rows) {
+    int64_t padded = past.current.rows;
+    if (past.before.rows != padded || past.usual.rows != padded || padded < ABOVE + BEYOND + rows
+        || past.current.columns != 3 || past.before.columns != 3 || past.usual.columns != 3 || past.blocks.size != 1
+        || past.blocks.data[0] < 0)
+        return false;
+    *chain = (Chain){past.current.data + 3 * ABOVE, past.before.data + 3 * ABOVE, past.usual.data + 3 * ABOVE,
+        padded - ABOVE - BEYOND, past.blocks.data};
+    return true;
+}
+
+/* Number of the weights for a coefficient. */
+INLINE int situation(const Chain *chain, int coordinate) { return coordinate + (*chain->blocks == 0 ? 3 : 0); }
+
+/* What is remembered of a level. */
+INLINE int32_t remembered(int64_t level) { return (int32_t)least(level < 0 ? -level : level, CEILING); }
+
+/* The inputs of the expectations of coefficient `d` of a row (M 9.4). `now`, `before` and `usual` are that row of three;
+ * known are all rows above it, and the coordinates before its own in its row. */
+INLINE void look_around(
+    const int32_t *now, const int32_t *before, const int32_t *usual, int64_t row, int d, int32_t *out) {
+    int e = d == 2 ? 0 : d + 1, f = d == 0 ? 2 : d - 1;
+    const int32_t *n = now, *b = before, *u = usual;
+    out[0] = 16 * n[d - 3];
+    out[1] = 16 * n[d - 6];
+    out[2] = 16 * n[d - 9];
+    out[3] = 8 * (n[d - 12] + n[d - 15]);
+    out[4] = 4 * (n[d - 18] + n[d - 21] + 2 * n[d - 24]);
+    out[5] = d > 0 ? 16 * n[d - 1] : 0;
+    out[6] = d > 1 ? 16 * n[d - 2] : 0;
+    out[7] = 8 * (n[e - 3] + n[f - 3]);
+    out[8] = 4 * (n[e - 6] + n[f - 6] + n[e - 9] + n[f - 9]);
+    out[9] = 16 * b[d];
+    out[10] = 8 * (b[d - 3] + b[d + 3]);
+    out[11] = 4 * (b[d - 6] + b[d + 6] + b[d - 9] + b[d + 9]);
+    out[12] = 8 * (b[e] + b[f]);
+    out[13] = 4 * (b[e - 3] + b[f - 3] + b[e + 3] + b[f + 3]);
+    out[14] = u[d];
+    out[15] = (u[d - 3] + u[d + 3]) >> 1;
+    out[16] = (u[e] + u[f]) >> 1;
+    out[17] = UNIT;
+    out[18] = (int32_t)(16 * UNIT / (row + 1));
+    out[19] = (int32_t)(64 * UNIT / ((row + 1) * (row + 1)));
+}
+
+/* Logarithm of an expectation, in thirds of an octave (each of them linear inside), 0 .. BINS - 1 (M 9.5). */
+INLINE int expectation_bin(const int32_t *weights, const int32_t *inputs) {
+    int64_t total = 0;
+    for (int i = 0; i < NEIGHBOURS; i++) total += (int64_t)weights[i] * inputs[i];
+    total >>= WEIGHT_BITS;
+    if (total < 1) return 0;
+    int octave = 63 - __builtin_clzll((unsigned long long)total);
+    int64_t fraction = (3 * (total - (INT64_C(1) << octave))) >> octave;
+    return (int)least(3 * octave + fraction, BINS - 1);
+}
+
+/* Make the present block the one before, and start the next (M 9.7). */
+INLINE void close_block(Chain *chain) {
+    int32_t share = (int32_t)least(*chain->blocks + 1, MEMORY);
+    for (int64_t i = 0; i < 3 * chain->width; i++) {
+        int32_t change = UNIT * chain->now[i] - chain->usual[i];
+        chain->before[i] = chain->now[i];
+        chain->usual[i] += change / share - (change % share < 0); /* rounded down */
+        chain->now[i] = 0;
+    }
+    ++*chain->blocks;
+}
+
+int64_t look_at_block(Past past, ConstInts2 levels, Ints2 inputs);
+int64_t bin_of_expectation(ConstInts weights, ConstInts inputs);
+
+#endif

@@ -1,0 +1,129 @@
+/* The closed, oriented surface of any triangle list: what C 4 of the specification cuts, and closes by dummies.
+ *
+ * Only the twins are for a decoder, too: they tell the boundary of the faces (C 7.1).
+ */
+#include "bitstream/connectivity/halfedges.h"
+
+INLINE int32_t low_end(const int32_t *origin, int32_t h) {
+    return (int32_t)least(origin[h], origin[next_halfedge(h)]);
+}
+
+INLINE int32_t high_end(const int32_t *origin, int32_t h) {
+    return (int32_t)largest(origin[h], origin[next_halfedge(h)]);
+}
+
+/* Turn counts, each in the entry behind its own, into where their items begin. */
+static void sum_up(Longs starts) {
+    for (int64_t v = 0; v + 1 < starts.size; v++) starts.data[v + 1] += starts.data[v];
+}
+
+/* Twin of each half-edge, -1 unless its edge has exactly one half-edge in each direction. Half-edges are sorted by both
+ * ends with two counting passes, so time is linear whatever the degrees. `starts` has an entry more than there are
+ * vertices; the other arrays have one for each half-edge. */
+int64_t match_halfedges(ConstInts origin, Longs starts, Ints by_high, Ints order, Ints twin) {
+    int64_t size = origin.size, vertices = starts.size - 1;
+    if (size % 3 != 0 || size > INT32_MAX || by_high.size != size || order.size != size || twin.size != size)
+        return MISUSED;
+    for (int64_t h = 0; h < size; h++)
+        if (origin.data[h] < 0 || origin.data[h] >= vertices) return MISUSED;
+
+    for (int64_t v = 0; v <= vertices; v++) starts.data[v] = 0;
+    for (int32_t h = 0; h < size; h++) starts.data[high_end(origin.data, h) + 1]++;
+    sum_up(starts);
+    for (int32_t h = 0; h < size; h++) by_high.data[starts.data[high_end(origin.data, h)]++] = h;
+    for (int64_t v = 0; v <= vertices; v++) starts.data[v] = 0;
+    for (int32_t h = 0; h < size; h++) starts.data[low_end(origin.data, h) + 1]++;
+    sum_up(starts);
+    for (int64_t i = 0; i < size; i++) {
+        int32_t h = by_high.data[i];
+        order.data[starts.data[low_end(origin.data, h)]++] = h;
+    }
+
+    for (int64_t begin = 0, end; begin < size; begin = end) {
+        int32_t first = order.data[begin];
+        int32_t low = low_end(origin.data, first), high = high_end(origin.data, first);
+        for (end = begin + 1; end < size; end++) {
+            int32_t h = order.data[end];
+            if (low_end(origin.data, h) != low || high_end(origin.data, h) != high) break;
+        }
+        for (int64_t i = begin; i < end; i++) twin.data[order.data[i]] = -1;
+        if (end == begin + 2) {
+            int32_t second = order.data[begin + 1];
+            if (origin.data[first] != origin.data[second]) {
+                twin.data[first] = second;
+                twin.data[second] = first;
+            }
+        }
+    }
+    return 0;
+}
+
+/* Whether every twin is a half-edge or -1. */
+static bool are_twins(ConstInts twin) {
+    for (int64_t h = 0; h < twin.size; h++)
+        if (twin.data[h] < -1 || twin.data[h] >= twin.size) return false;
+    return twin.size % 3 == 0;
+}
+
+/* Number the fans by first corner: the fan of each corner, and the vertex of each fan. Returns how many there are. */
+int64_t find_fans(ConstInts origin, ConstInts twin, Ints corner, Ints vertex) {
+    int64_t size = origin.size;
+    if (twin.size != size || corner.size != size || vertex.size != size || !are_twins(twin)) return MISUSED;
+    for (int64_t h = 0; h < size; h++) corner.data[h] = -1;
+    int32_t count = 0;
+    for (int32_t start = 0; start < size; start++) {
+        if (corner.data[start] >= 0) continue;
+        for (int32_t h = start; h >= 0 && corner.data[h] < 0; h = twin.data[previous_halfedge(h)])
+            corner.data[h] = count;
+        for (int32_t h = start; twin.data[h] >= 0;) {
+            h = next_halfedge(twin.data[h]);
+            if (corner.data[h] >= 0) break;
+            corner.data[h] = count;
+        }
+        vertex.data[count++] = origin.data[start];
+    }
+    return count;
+}
+
+/* Add a dummy vertex for every boundary loop, and its faces (b, a, dummy) for each boundary half-edge (a, b).
+ * `leaving` has an entry for each fan; the full arrays have room for three half-edges more for each open edge. Returns
+ * the number of dummies. */
+int64_t fill_loops(ConstInts twin, ConstInts corner, Ints leaving, Ints full_twin, Ints full_corner) {
+    int64_t size = twin.size, fans = leaving.size, open = 0;
+    if (corner.size != size || !are_twins(twin) || full_twin.size != full_corner.size) return MISUSED;
+    /* The boundary half-edge that starts at each fan: at most one. */
+    for (int64_t v = 0; v < fans; v++) leaving.data[v] = -1;
+    for (int32_t h = 0; h < size; h++) {
+        if (corner.data[h] < 0 || corner.data[h] >= fans) return MISUSED;
+        if (twin.data[h] < 0) {
+            leaving.data[corner.data[h]] = h;
+            open++;
+        }
+    }
+    if (full_twin.size != size + 3 * open || full_twin.size > INT32_MAX) return MISUSED;
+    for (int64_t h = 0; h < size; h++) {
+        full_twin.data[h] = twin.data[h];
+        full_corner.data[h] = corner.data[h];
+    }
+    int32_t dummies = 0, fill = (int32_t)size;
+    for (int32_t start = 0; start < size; start++) {
+        if (full_twin.data[start] >= 0) continue;
+        int32_t first = fill;
+        for (int32_t h = start; full_twin.data[h] < 0; h = leaving.data[corner.data[next_halfedge(h)]]) {
+            int32_t a = corner.data[h], b = corner.data[next_halfedge(h)];
+            if (leaving.data[b] < 0) return MISUSED;
+            full_corner.data[fill] = b;
+            full_corner.data[fill + 1] = a;
+            full_corner.data[fill + 2] = (int32_t)fans + dummies;
+            full_twin.data[h] = fill;
+            full_twin.data[fill] = h;
+            /* Edge (dummy, b) of this face meets edge (b, dummy) of the face over the loop's next edge. */
+            int32_t following = full_twin.data[leaving.data[b]] < 0 ? fill + 3 : first;
+            full_twin.data[fill + 2] = following + 1;
+            full_twin.data[following + 1] = fill + 2;
+            fill += 3;
+        }
+        dummies++;
+    }
+    return dummies;
+}

@@ -1,0 +1,88 @@
+/* The part of each vertex, by those of its neighbours that are known already (specification, C 10). */
+#include "bitstream/connectivity/partition.h"
+
+enum {
+    CANDIDATES = 4,
+    INPUTS = 3,
+    CONTEXTS = 16 * (CANDIDATES + 1), /* of an input, a table each */
+};
+
+typedef struct {
+    int32_t label[CANDIDATES], votes[CANDIDATES];
+    int count;     /* of candidates */
+    int64_t known; /* neighbours */
+} Poll;
+
+/* The different labels of the neighbours before v, the later neighbour first: most votes first, draws as they came. */
+static void ask_neighbours(Poll *poll, ConstInts offsets, const int32_t *neighbours, const int32_t *labels, int64_t v) {
+    poll->count = 0;
+    poll->known = 0;
+    for (int64_t i = offsets.data[v + 1]; i-- > offsets.data[v];) {
+        int32_t w = neighbours[i];
+        if (w >= v) continue;
+        poll->known++;
+        int k = 0;
+        while (k < poll->count && poll->label[k] != labels[w]) k++;
+        if (k < poll->count) {
+            poll->votes[k]++;
+        } else if (k < CANDIDATES) {
+            poll->label[k] = labels[w];
+            poll->votes[k] = 1;
+            poll->count++;
+        }
+    }
+    for (int a = 1; a < poll->count; a++)
+        for (int b = a; b > 0 && poll->votes[b] > poll->votes[b - 1]; b--) {
+            int32_t label = poll->label[b], votes = poll->votes[b];
+            poll->label[b] = poll->label[b - 1];
+            poll->votes[b] = poll->votes[b - 1];
+            poll->label[b - 1] = label;
+            poll->votes[b - 1] = votes;
+        }
+}
+
+/* Code one label, which is at most `used`; a reader ignores it. */
+INLINE int64_t code_label(
+    RangeCoder *coder, const Mixer *mixer, const Poll *poll, int64_t label, int64_t used, int64_t parts) {
+    for (int k = 0; k < poll->count; k++) {
+        int64_t others = poll->known - poll->votes[k];
+        const int64_t contexts[INPUTS] = {
+            16 * k + least(poll->known, 15),
+            CONTEXTS + 16 * k + least(poll->votes[k], 7) + (poll->count > k + 1 ? 8 : 0),
+            2 * CONTEXTS + 16 * k + least(others, 3) + 4 * (poll->count - 1),
+        };
+        if (code_mixed_bit(coder, mixer, INPUTS, contexts, 0, k, label == poll->label[k])) return poll->label[k];
+    }
+    const int64_t contexts[INPUTS] = {
+        16 * CANDIDATES,
+        CONTEXTS + 16 * CANDIDATES + poll->count,
+        2 * CONTEXTS + 16 * CANDIDATES + (used < parts),
+    };
+    bool fresh = code_mixed_bit(coder, mixer, INPUTS, contexts, 0, CANDIDATES, label == used);
+    return fresh || used == 0 ? used : code_uniform(coder, label, used);
+}
+
+/* Code all labels in place, over a graph in compressed rows. Returns how many distinct ones there are, or -1 where the
+ * data is beyond its end or has more than `parts`. */
+int64_t code_labels(Coder given, Bank bank, ConstInts offsets, ConstInts neighbours, Ints labels, int64_t parts) {
+    RangeCoder coder;
+    Mixer mixer;
+    int64_t size = labels.size, used = 0;
+    if (!open_coder(&coder, given) || !open_bank(&mixer, bank, INPUTS * CONTEXTS, CANDIDATES + 1, INPUTS)
+        || size > INT32_MAX || offsets.size != size + 1 || offsets.data[0] < 0 || offsets.data[size] > neighbours.size)
+        return MISUSED;
+    for (int64_t v = 0; v < size; v++)
+        if (offsets.data[v] > offsets.data[v + 1]) return MISUSED;
+    for (int64_t i = 0; i < neighbours.size; i++)
+        if (neighbours.data[i] < 0) return MISUSED;
+    for (int64_t v = 0; v < size && used >= 0; v++) {
+        Poll poll;
+        ask_neighbours(&poll, offsets, neighbours.data, labels.data, v);
+        int64_t label = code_label(&coder, &mixer, &poll, labels.data[v], used, parts);
+        labels.data[v] = (int32_t)label;
+        used += label == used;
+        if (used > parts || overran(&coder)) used = -1;
+    }
+    close_coder(&coder, given);
+    return used;
+}

@@ -1,0 +1,152 @@
+/* The probability model of connectivity: contexts of valences and events, and the rarer symbols (specification, C 4.1,
+ * C 6.9 to C 6.11).
+ *
+ * All functions serve both directions, by the coder they are given, and look only at what a decoder knows.
+ */
+#ifndef BSM_VALENCE_MODEL_H
+#define BSM_VALENCE_MODEL_H
+
+#include "bitstream/connectivity/front.h"
+#include "bitstream/entropy/integers.h"
+
+enum {
+    VALENCE_CONTEXTS = 14,
+    VALENCE_NODES = 16, /* slots of a context: one line of the cache */
+    LAST_UNARY = 16,    /* longer valences escape */
+    EVENT_CONTEXTS = 3,
+    EVENT_SIZE = 4096,
+    RARE_UNARY = 2,
+    RARE_SPAN = UNSIGNED_SPAN(RARE_UNARY),
+    RARE_LOOP = 0,
+    RARE_VALENCE = RARE_SPAN,
+    RARE_DUMMY = 2 * RARE_SPAN,
+    RARE_WAY = 3 * RARE_SPAN,
+    RARE_STEPS = 4 * RARE_SPAN,
+    RARE_HEADER = 5 * RARE_SPAN,
+    RARE_NODES = 6 * RARE_SPAN,
+    LEAST_HASH_BITS = 6,
+    MOST_HASH_BITS = 12,
+};
+
+/* As Python keeps it. */
+typedef struct {
+    Bank valence, event, rare;
+    int64_t bits; /* binary logarithm of the number of contexts in each hashed table of valences */
+} Models;
+
+/* What contexts see of a vertex; a row of two numbers of 64 bits in Python. */
+typedef struct {
+    int64_t sum;    /* of the known neighbours' labels less 6 each */
+    int32_t label;  /* valence up to 15, 0 for a dummy */
+    int32_t rank;   /* number among the real vertices, -1 for a dummy */
+} Vertex;
+
+enum { VERTEX_COLUMNS = sizeof(Vertex) / sizeof(int64_t) };
+
+typedef struct {
+    Mixer valence, event, rare;
+    int bits;
+    int64_t contexts[VALENCE_CONTEXTS], event_contexts[EVENT_CONTEXTS];
+} ValenceModel;
+
+INLINE bool open_models(ValenceModel *model, Models given) {
+    if (given.bits < LEAST_HASH_BITS || given.bits > MOST_HASH_BITS) return false;
+    model->bits = (int)given.bits;
+    int64_t valence_slots = ((int64_t)VALENCE_CONTEXTS << given.bits) * VALENCE_NODES;
+    return open_bank(&model->valence, given.valence, valence_slots, VALENCE_NODES, VALENCE_CONTEXTS)
+        && open_bank(&model->event, given.event, EVENT_CONTEXTS * EVENT_SIZE, 1, EVENT_CONTEXTS)
+        && open_bank(&model->rare, given.rare, RARE_NODES, RARE_NODES, 1);
+}
+
+/* Code an unsigned integer of a rare kind. */
+static inline int64_t code_rare(RangeCoder *coder, const ValenceModel *model, int kind, int64_t value) {
+    const int64_t context = 0;
+    return code_unsigned(coder, &model->rare, 1, &context, 0, RARE_UNARY, value, kind);
+}
+
+/* Code a decision of a rare kind. */
+static inline int code_rare_bit(RangeCoder *coder, const ValenceModel *model, int kind, int bit) {
+    const int64_t context = 0;
+    return code_mixed_bit(coder, &model->rare, 1, &context, kind, 0, bit);
+}
+
+/* Set the contexts for the first vertices of a component. */
+INLINE void look_nowhere(ValenceModel *model) {
+    for (int i = 0; i < VALENCE_CONTEXTS; i++) model->contexts[i] = ((int64_t)i << model->bits) * VALENCE_NODES;
+}
+
+INLINE uint64_t nibble(int64_t value) { return value < 0 ? 0 : (uint64_t)least(value, 15); }
+
+/* Set the contexts for what lies beyond the gate of node `f`.
+ *
+ * The third vertex of the triangle beyond the edge from f to n, its next node, is neighbour to both; p is the node
+ * before f. Labels (l), labels of apexes (a), free degrees (g) and sums (s) of these and of the nodes further along are
+ * the evidence, and the label of the latest vertex. */
+INLINE void look_beyond(
+    ValenceModel *model, const Polygons *front, const Vertex *vertices, int32_t latest, int32_t node) {
+    const Node *nodes = front->nodes;
+    const Node *f = nodes + node, *p = nodes + f->previous, *n = nodes + f->next;
+    const Node *pp = nodes + p->previous, *nn = nodes + n->next, *nnn = nodes + nn->next;
+    uint64_t l_f = (uint64_t)vertices[f->vertex].label, a_f = (uint64_t)vertices[f->apex].label;
+    uint64_t l_n = (uint64_t)vertices[n->vertex].label, a_n = (uint64_t)vertices[n->apex].label;
+    uint64_t l_p = (uint64_t)vertices[p->vertex].label, a_p = (uint64_t)vertices[p->apex].label;
+    uint64_t l_nn = (uint64_t)vertices[nn->vertex].label, l_pp = (uint64_t)vertices[pp->vertex].label;
+    uint64_t l_nnn = (uint64_t)vertices[nnn->vertex].label;
+    uint64_t g_f = nibble(f->free), g_n = nibble(n->free), g_p = nibble(p->free);
+    uint64_t g_nn = nibble(nn->free), g_pp = nibble(pp->free);
+    uint64_t s_f = nibble(vertices[f->vertex].sum + 7), s_n = nibble(vertices[n->vertex].sum + 7);
+    uint64_t s_p = nibble(vertices[p->vertex].sum + 7);
+    uint64_t k_f = nibble((int64_t)l_f - (int64_t)g_f), k_n = nibble((int64_t)l_n - (int64_t)g_n);
+    uint64_t k_p = nibble((int64_t)l_p - (int64_t)g_p);
+    uint64_t b = (uint64_t)(l_f == 0) << 2 | (uint64_t)(l_n == 0) << 1 | (uint64_t)(l_p == 0);
+    uint64_t m = (uint64_t)latest;
+
+    const uint64_t digits[VALENCE_CONTEXTS] = {
+        0,
+        l_f << 8 | l_n << 4 | a_f,
+        l_f << 4 | s_f,
+        l_f << 12 | l_n << 8 | a_f << 4 | s_f,
+        l_n << 8 | a_f << 4 | s_n,
+        l_p << 12 | s_p << 8 | a_p << 4 | g_f,
+        g_p << 12 | g_n << 8 | l_p << 4 | g_nn,
+        b << 8 | g_nn << 4 | l_nn,
+        b << 4 | g_pp,
+        b << 16 | a_p << 12 | k_f << 8 | l_p << 4 | g_n,
+        g_f << 16 | g_p << 12 | l_f << 8 | l_n << 4 | l_p,
+        l_p << 24 | l_nn << 20 | k_p << 16 | k_n << 12 | a_n << 8 | g_pp << 4 | l_pp,
+        a_p << 24 | s_n << 20 | m << 16 | s_f << 12 | g_f << 8 | s_p << 4 | g_nn,
+        b << 24 | g_nn << 20 | a_f << 16 | g_p << 12 | g_n << 8 | l_nnn << 4 | k_n,
+    };
+    for (int i = 0; i < VALENCE_CONTEXTS; i++) {
+        uint64_t hashed = ((digits[i] + 1) * UINT64_C(0x1E3779B97F4A7C15)) >> (64 - model->bits);
+        model->contexts[i] = (((int64_t)i << model->bits) + (int64_t)hashed) * VALENCE_NODES;
+        __builtin_prefetch(model->valence.slots + model->contexts[i], 1);
+    }
+    model->event_contexts[0] = (int64_t)(g_f << 4 | g_n);
+    model->event_contexts[1] = EVENT_SIZE + (int64_t)(g_f << 8 | g_p << 4 | g_n);
+    model->event_contexts[2] = 2 * EVENT_SIZE + (int64_t)b;
+}
+
+/* Code whether a gate leads to a new, real vertex. */
+INLINE int code_usual(RangeCoder *coder, const ValenceModel *model, int bit) {
+    return code_mixed_bit(coder, &model->event, EVENT_CONTEXTS, model->event_contexts, 0, 0, bit);
+}
+
+INLINE int code_valence_bit(RangeCoder *coder, const ValenceModel *model, int node, int bit) {
+    return code_mixed_bit(coder, &model->valence, VALENCE_CONTEXTS, model->contexts, node, 0, bit);
+}
+
+/* Code a valence, at least 2: is it 6, is it less, and then one by one away from 6. */
+static inline int64_t code_valence(RangeCoder *coder, const ValenceModel *model, int64_t valence) {
+    if (code_valence_bit(coder, model, 0, valence == 6)) return 6;
+    if (code_valence_bit(coder, model, 1, valence < 6)) {
+        for (int k = 0; k < 3; k++)
+            if (code_valence_bit(coder, model, 2 + k, valence == 5 - k)) return 5 - k;
+        return 2;
+    }
+    for (int v = 7; v <= LAST_UNARY; v++)
+        if (code_valence_bit(coder, model, v - 2, valence == v)) return v;
+    return LAST_UNARY + 1 + code_rare(coder, model, RARE_VALENCE, valence - LAST_UNARY - 1);
+}
+
+#endif

@@ -1,0 +1,65 @@
+/* Single symbols, for the few that are coded one by one (specification, C 1 to C 3). */
+#include "bitstream/entropy/symbols.h"
+
+#include "bitstream/entropy/integers.h"
+
+enum { MOST_UNARY = 1 << 10, MOST_VALUE = 1 << 25 };
+
+int64_t code_one_bit(Coder given, int64_t probability, int64_t bit) {
+    RangeCoder coder;
+    if (!open_coder(&coder, given) || probability < 1 || probability >= ONE) return MISUSED;
+    bit = code_bit(&coder, (uint32_t)probability, bit != 0);
+    close_coder(&coder, given);
+    return bit;
+}
+
+int64_t code_one_uniform(Coder given, int64_t value, int64_t count) {
+    RangeCoder coder;
+    if (!open_coder(&coder, given) || count < 1 || count > INT64_C(1) << 32) return MISUSED;
+    value = code_uniform(&coder, value, count);
+    close_coder(&coder, given);
+    return value;
+}
+
+/* Whether the slots of all contexts, and the weights, of `span` nodes are in the bank. */
+static bool open_bank_for(Mixer *mixer, Bank bank, ConstLongs contexts, int64_t selector, int64_t span) {
+    for (int64_t i = 0; i < contexts.size; i++)
+        if (contexts.data[i] < 0 || contexts.data[i] > bank.slots.size - span) return false;
+    return contexts.size <= MOST_INPUTS && selector >= 0 && selector <= bank.weights.rows - span
+        && open_bank(mixer, bank, 1, 1, (int)contexts.size);
+}
+
+int64_t code_one_mixed_bit(Coder given, Bank bank, ConstLongs contexts, int64_t node, int64_t selector, int64_t bit) {
+    RangeCoder coder;
+    Mixer mixer;
+    if (node < 0 || node > MOST_UNARY || !open_coder(&coder, given)
+        || !open_bank_for(&mixer, bank, contexts, selector, node + 1))
+        return MISUSED;
+    bit = code_mixed_bit(&coder, &mixer, (int)contexts.size, contexts.data, node, selector, bit != 0);
+    close_coder(&coder, given);
+    return bit;
+}
+
+int64_t code_one_unsigned(
+    Coder given, Bank bank, ConstLongs contexts, int64_t selector, int64_t unary, int64_t value, int64_t node) {
+    RangeCoder coder;
+    Mixer mixer;
+    if (unary < 0 || unary > MOST_UNARY || node < 0 || node > MOST_UNARY || value < 0 || value > MOST_VALUE
+        || !open_coder(&coder, given) || !open_bank_for(&mixer, bank, contexts, selector, node + UNSIGNED_SPAN(unary)))
+        return MISUSED;
+    int inputs = (int)contexts.size;
+    value = code_unsigned(&coder, &mixer, inputs, contexts.data, selector, (int)unary, value, node);
+    close_coder(&coder, given);
+    return value;
+}
+
+int64_t code_one_signed(Coder given, Bank bank, ConstLongs contexts, int64_t selector, int64_t unary, int64_t value) {
+    RangeCoder coder;
+    Mixer mixer;
+    if (unary < 0 || unary > MOST_UNARY || value < -MOST_VALUE || value > MOST_VALUE || !open_coder(&coder, given)
+        || !open_bank_for(&mixer, bank, contexts, selector, SIGNED_SPAN(unary)))
+        return MISUSED;
+    value = code_signed(&coder, &mixer, (int)contexts.size, contexts.data, selector, (int)unary, value);
+    close_coder(&coder, given);
+    return value;
+}
