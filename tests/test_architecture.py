@@ -10,7 +10,7 @@ ROOT = Path(__file__).parent.parent
 KNOW_BYTES = ("codec.static", "codec.sequence")
 FLOORS = {
     "codec": (
-        ("arrays", "choices", "threads"),
+        ("_kernels", "arrays", "choices", "threads"),
         ("geometry", "basis.solver"),
         ("blocks",),
         ("basis",),
@@ -18,9 +18,9 @@ FLOORS = {
         ("static", "denoise"),
         ("sequence",),
     ),
-    "bitstream": (("errors", "limits"), ("entropy",), ("connectivity", "coefficients"), ("container",)),
+    "bitstream": (("_kernels", "errors", "limits"), ("entropy",), ("connectivity", "coefficients"), ("container",)),
 }
-BITSTREAM_LIBRARIES = {"numpy", "numba", "msgpack", "zstandard"}
+BITSTREAM_LIBRARIES = {"numpy", "msgpack", "zstandard"}
 CODEC_LIBRARIES = {"numpy", "scipy", "numba", "llvmlite", "pymetis", "threadpoolctl"}
 
 

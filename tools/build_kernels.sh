@@ -9,6 +9,6 @@ python=$(command -v "$python")
 cmake -S . -B build/kernels -DPython_EXECUTABLE="$python" "$@" > /dev/null
 cmake --build build/kernels -j 2
 cmake --install build/kernels --prefix . > /dev/null
-for package in bitstream codec; do
+for package in bitstream codec bsm; do
     PYTHONPATH=. "$python" -m nanobind.stubgen -q -m $package._kernels -o $package/_kernels.pyi
 done

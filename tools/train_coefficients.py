@@ -15,7 +15,6 @@ from pathlib import Path
 
 import numpy as np
 import numpy.typing as npt
-from numba import njit
 from scipy.optimize import minimize
 
 from bitstream.coefficients.adaptive import (
@@ -31,11 +30,9 @@ from bitstream.coefficients.contexts import (
     SITUATIONS,
     UNIT,
     WEIGHT_BITS,
-    close_block,
-    look_around,
+    Past,
+    look_at_block,
     make_past,
-    note_level,
-    situation,
 )
 from bitstream.coefficients.priors import (
     EXPECTATIONS,
@@ -154,7 +151,7 @@ def _experience(bank: Bank, expectations: npt.NDArray[np.uint16]) -> Experience:
     return Experience(expectations, mixing.astype(np.int16), ((bank.slots >> 20 << 4) | seen).astype(np.uint16))
 
 
-def _surroundings(chain: ChainLevels) -> tuple[npt.NDArray[np.int64], ...]:
+def _surroundings(chain: ChainLevels) -> tuple[npt.NDArray[np.int32], ...]:
     """Inputs, situation and magnitude of every coefficient of a chain."""
     past = make_past(max(map(len, chain)))
     parts = [_look_at_block(past, levels) for levels in chain]
@@ -162,24 +159,12 @@ def _surroundings(chain: ChainLevels) -> tuple[npt.NDArray[np.int64], ...]:
     return inputs, kinds, magnitudes
 
 
-@njit(cache=True)
-def _look_at_block(past, levels):  # type: ignore[no-untyped-def]
-    inputs = np.empty((levels.size, NEIGHBOURS), np.int64)
-    kinds = np.empty(levels.size, np.int64)
-    magnitudes = np.empty(levels.size, np.int64)
-    at = 0
-    for row in range(levels.shape[0]):
-        for coordinate in range(3):
-            look_around(past, row, coordinate, inputs[at])
-            kinds[at] = situation(past, coordinate)
-            magnitudes[at] = abs(levels[row, coordinate])
-            note_level(past, row, coordinate, levels[row, coordinate])
-            at += 1
-    close_block(past)
-    return inputs, kinds, magnitudes
+def _look_at_block(past: Past, levels: Levels) -> tuple[npt.NDArray[np.int32], ...]:
+    kinds = np.tile(np.arange(3, dtype=np.int32) + (3 if past.blocks[0] == 0 else 0), len(levels))
+    return look_at_block(past, levels), kinds, np.abs(levels.reshape(-1))
 
 
-def _fit_geometric(inputs: npt.NDArray[np.float64], values: npt.NDArray[np.int64]) -> npt.NDArray[np.float64]:
+def _fit_geometric(inputs: npt.NDArray[np.float64], values: npt.NDArray[np.int32]) -> npt.NDArray[np.float64]:
     """Weights w >= 0 for which geometric distributions of mean `inputs @ w` make `values` most likely."""
 
     def cost(weights: npt.NDArray[np.float64]) -> tuple[float, npt.NDArray[np.float64]]:

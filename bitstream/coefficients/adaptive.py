@@ -17,7 +17,7 @@ import numpy as np
 import numpy.typing as npt
 
 from bitstream import _kernels
-from bitstream.coefficients.contexts import BINS, NEIGHBOURS, Past, make_past
+from bitstream.coefficients.contexts import BINS, NEIGHBOURS, Past, copy_past, make_past
 from bitstream.coefficients.priors import EXPECTATIONS, NODES, SELECTORS, Experience, coordinate_experience
 from bitstream.coefficients.trellis import Levels
 from bitstream.entropy.range_coder import (
@@ -88,7 +88,7 @@ class CoefficientModel:
         """An independent copy of the present state."""
         twin = CoefficientModel(self.width, self.experience)
         twin.bank, twin.rows = copy_bank(self.bank), copy_bank(self.rows)
-        twin.past = Past(*(array.copy() for array in self.past))
+        twin.past = copy_past(self.past)
         twin.missing = self.missing.copy()
         return twin
 

@@ -53,7 +53,12 @@ class Past(NamedTuple):
 def make_past(width: int) -> Past:
     """The past of a chain that has none, for blocks of at most `width` rows."""
     shape = (_ABOVE + width + _BEYOND, 3)
-    return Past(*(np.zeros(shape, np.int32) for _ in range(3)), np.zeros(1, np.int64))
+    return Past(np.zeros(shape, np.int32), np.zeros(shape, np.int32), np.zeros(shape, np.int32), np.zeros(1, np.int64))
+
+
+def copy_past(past: Past) -> Past:
+    """An independent copy."""
+    return Past(past.current.copy(), past.before.copy(), past.usual.copy(), past.blocks.copy())
 
 
 def look_at_block(past: Past, levels: Magnitudes) -> Magnitudes:

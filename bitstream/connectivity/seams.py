@@ -71,7 +71,6 @@ def _make_seams(after: Ints) -> Seams:
     return Seams(vertex, after, before, sibling, latest)
 
 
-
 def code_degenerate(coder: Coder, corners: Ints, count: int) -> int:
     """Code the corners of degenerate faces, shape (3 * k,), each a vertex below `count` or the next new one.
 

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 import numpy.typing as npt
-from numba import njit
+
+from bsm import _kernels
 
 
-@njit(cache=True, nogil=True)
 def walk_rows(
     raw: npt.NDArray[np.uint8], offset: int, count: int, widths: npt.NDArray[np.int64], place: int, big_endian: bool
 ) -> tuple[npt.NDArray[np.int64], npt.NDArray[np.int64], int]:
@@ -33,27 +33,8 @@ def walk_rows(
     starts, sizes : ndarray of int64, shape (count,)
         Where the items of each wanted list begin, and how many there are.
     end : int
-        Where the last row ends; negative, minus the offset of its row, if a list runs over the end.
+        Where the last row ends; negative, minus the offset where the walk stopped, if a list runs over the end.
     """
-    starts = np.zeros(count, dtype=np.int64)
-    sizes = np.zeros(count, dtype=np.int64)
-    cursor = offset
-    for row in range(count):
-        for i in range(len(widths)):
-            length_width, item_width = widths[i]
-            size = 1
-            if length_width:
-                if cursor + length_width > len(raw):
-                    return starts, sizes, -cursor
-                size = 0
-                for j in range(length_width):
-                    byte = int(raw[cursor + (j if big_endian else length_width - 1 - j)])
-                    size = size * 256 + byte
-                cursor += length_width
-            if i == place:
-                starts[row] = cursor
-                sizes[row] = size
-            if size > len(raw) or cursor + size * item_width > len(raw):
-                return starts, sizes, -cursor
-            cursor += size * item_width
-    return starts, sizes, cursor
+    starts, sizes = np.zeros(count, np.int64), np.zeros(count, np.int64)
+    end = _kernels.walk_rows(raw, offset, widths, place, big_endian, starts, sizes)
+    return starts, sizes, end

@@ -235,7 +235,9 @@ def test_a_full_buffer_is_an_error_and_not_a_crash() -> None:
         finish_writing(coder)
 
 
-@pytest.mark.parametrize("arguments", [(0, 1, 1), (1, 0, 1), (1, 1, 0), (1, 1, 17), (1, 1, 1, 0), (1, 1, 1, 1024), (1, 1, 1, 9, 0)])
+@pytest.mark.parametrize(
+    "arguments", [(0, 1, 1), (1, 0, 1), (1, 1, 0), (1, 1, 17), (1, 1, 1, 0), (1, 1, 1, 1024), (1, 1, 1, 9, 0)]
+)
 def test_bad_sizes_of_a_bank_are_refused(arguments: tuple[int, ...]) -> None:
     with pytest.raises(OptionError):
         make_bank(*arguments)
@@ -278,7 +280,7 @@ def _one_bank(slots: int = 40, selectors: int = 40) -> Bank:
         lambda coder: code_signed(coder, _one_bank(), np.array([0]), 0, 0, -(1 << 62)),
         lambda coder: code_bit(coder._replace(state=coder.state[:4]), 5, 1),
         lambda coder: code_bit(coder._replace(state=np.zeros(5, np.int64)), 5, 1),
-        lambda coder: code_bit(coder._replace(state=coder.state + [0, 0, 999, 0, 0]), 5, 1),
+        lambda coder: code_bit(coder._replace(state=coder.state + np.array([0, 0, 999, 0, 0])), 5, 1),
     ],
 )
 def test_what_is_outside_a_bank_or_a_coder_is_refused(call: Callable[[entropy.Coder], int]) -> None:

@@ -1,0 +1,13 @@
+// The kernels of `bsm` as functions of Python: one line each.
+#include "bitstream/kernel.hpp"
+
+extern "C" {
+#include "bsm/files/walk.h"
+}
+
+using namespace nb::literals;
+
+NB_MODULE(_kernels, m) {
+    m.def("walk_rows", checked<walk_rows>, "raw"_a, "offset"_a, "widths"_a, "place"_a, "big_endian"_a, "starts"_a,
+        "sizes"_a, Unlocked());
+}
