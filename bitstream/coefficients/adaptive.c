@@ -50,7 +50,7 @@ int64_t code_rows(Coder given, Bank bank, Longs missing, int64_t width, int64_t 
 }
 
 /* Code the levels of a block in place, or stop where the data is beyond its end. */
-int64_t code_block(Coder given, Bank bank, Past past, ConstInts2 expectations, Ints2 levels) {
+KERNEL int64_t code_block(Coder given, Bank bank, Past past, ConstInts2 expectations, Ints2 levels) {
     RangeCoder coder;
     Mixer mixer;
     Chain chain;

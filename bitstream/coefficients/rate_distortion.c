@@ -42,7 +42,7 @@ INLINE int64_t decision_cost(Prices *prices, int node, int bit) {
 }
 
 /* What code_level would spend on a magnitude, with the sign. */
-static int64_t level_cost(Prices *prices, int grid, int32_t magnitude) {
+INLINE int64_t level_cost(Prices *prices, int grid, int32_t magnitude) {
     int size = 0;
     int64_t total = 0;
     for (; magnitude >> size > 0; size++) total += decision_cost(prices, size_node(size, grid), 1);
@@ -75,7 +75,7 @@ static void trace_back(const Survivor *last, ConstLongs2 targets, Ints2 ways, By
  *
  * Targets are in 1 / TARGET_UNIT of a step. `costs` are of probabilities, see COST_SHIFT; `ways` and `origins` are scratch
  * with a row of STATES for each coefficient. */
-int64_t search_levels(Bank bank, Past past, ConstInts2 expectations, ConstLongs2 targets, double price,
+KERNEL int64_t search_levels(Bank bank, Past past, ConstInts2 expectations, ConstLongs2 targets, double price,
     ConstLongs costs, Ints2 ways, Bytes2 origins, Ints2 levels, Doubles kept) {
     Mixer mixer;
     Chain chain;
