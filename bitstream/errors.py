@@ -72,5 +72,9 @@ class OptionError(BsmError, ValueError):
     """An option outside its legal range, or options that exclude each other."""
 
 
+class ArgumentError(BsmError, TypeError):
+    """An argument of a type that is not understood, or a keyword that does not exist."""
+
+
 class DependencyError(BsmError, ImportError):
     """An optional package is needed for this and is not installed."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from bitstream.errors import (
+    ArgumentError,
     BsmError,
     CorruptError,
     DependencyError,
@@ -28,7 +29,7 @@ class Exit:
 
 
 UNEXPECTED = Exit(1, "unexpected error: please report it")
-USAGE = Exit(2, "wrong usage or option", (OptionError,))
+USAGE = Exit(2, "wrong usage or option", (OptionError, ArgumentError))
 # The first row that fits an error counts.
 EXITS = (
     Exit(0, "done"),

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
+
+from bsm import options
 
 if TYPE_CHECKING:
     from codec import EncodeOptions
@@ -112,14 +114,12 @@ def given_options(args: argparse.Namespace) -> dict[str, Any]:
     return given
 
 
+def given_targets(args: argparse.Namespace) -> dict[str, float]:
+    """The targets that were given on the command line, by their keywords."""
+    values = {name.replace("-", "_"): getattr(args, f"target_{kind}") for name, kind, _, _ in TARGET_FLAGS}
+    return {keyword: value for keyword, value in values.items() if value is not None}
+
+
 def encode_options(args: argparse.Namespace) -> EncodeOptions:
     """The options that the command line asks for: a preset, what was given on top of it, and a target."""
-    from codec import PRESETS as OPTIONS
-    from codec import Target
-
-    given = given_options(args)
-    for _, kind, _, _ in TARGET_FLAGS:
-        value = getattr(args, f"target_{kind}")
-        if value is not None:
-            given["target"] = Target(kind, value)
-    return replace(OPTIONS[args.preset], **given)
+    return options.encode_options(preset=args.preset, **given_options(args), **given_targets(args))

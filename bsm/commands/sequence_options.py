@@ -3,18 +3,15 @@
 from __future__ import annotations
 
 import argparse
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from bitstream.errors import OptionError
-from bsm.commands.encode_options import TARGET_FLAGS, given_options
+from bsm import options
+from bsm.commands.encode_options import given_options, given_targets
 
 if TYPE_CHECKING:
     from codec import SequenceOptions
 
-SHARED_FIELDS = ("step", "keep", "block_size", "keep_order", "threads")
-"""Fields of `EncodeOptions` that mean the same for sequences."""
-SHARED_TARGETS = ("theta_deg", "nmsve_db")
-PRESET_STEPS = {"small": 0.006, "balanced": 0.002, "fine": 0.0007}
 _OWN = ("kg", "bpvf", "gop", "low_delay", "frame_rate")
 
 
@@ -46,27 +43,8 @@ def sequence_options(args: argparse.Namespace) -> SequenceOptions:
 
     Raises
     ------
-    OptionError
+    ArgumentError, OptionError
         If a flag does not go with sequences, or there are two targets.
     """
-    from codec import SequenceOptions
-    from codec.sequence.targets import SequenceTarget
-
-    given: dict[str, Any] = {"step": PRESET_STEPS[args.preset], **given_options(args)}
-    foreign = [name for name in given if name not in SHARED_FIELDS]
-    foreign += [name for _, name, _, _ in TARGET_FLAGS if name not in SHARED_TARGETS and _target(args, name)]
-    if foreign:
-        raise OptionError(f"{foreign[0].replace('_', ' ')} cannot be chosen for a sequence")
-    wanted = {kind: _target(args, kind) for kind in SHARED_TARGETS} | {"kg": args.kg, "bpvf": args.bpvf}
-    targets = [SequenceTarget(kind, value) for kind, value in wanted.items() if value is not None]
-    if len(targets) > 1:
-        raise OptionError("one target at a time")
-    given["target"] = targets[0] if targets else None
-    given["mode"] = "low-delay" if args.low_delay else "gop"
-    given |= {name: getattr(args, name) for name in ("gop", "frame_rate") if getattr(args, name) is not None}
-    return SequenceOptions(**given)
-
-
-def _target(args: argparse.Namespace, kind: str) -> float | None:
-    value: float | None = getattr(args, f"target_{kind}")
-    return value
+    own = {name: getattr(args, name) for name in _OWN if getattr(args, name) is not None}
+    return options.sequence_options(preset=args.preset, **given_options(args), **given_targets(args), **own)

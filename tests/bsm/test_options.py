@@ -1,0 +1,82 @@
+"""Options by keyword: what Python and the command line share."""
+
+from dataclasses import fields
+
+import numpy as np
+import pytest
+
+from bitstream.errors import ArgumentError, OptionError
+from bsm.commands.encode_options import TARGET_FLAGS
+from bsm.options import SEQUENCE_STEPS, TARGETS, denoise_options, encode_options, sequence_options
+from codec import PRESETS, EncodeOptions, SequenceOptions, Target
+from codec.denoise import DenoiseOptions
+from codec.sequence.targets import SequenceTarget
+
+
+def test_without_keywords_everything_is_the_default():
+    assert encode_options() == EncodeOptions()
+    assert sequence_options() == SequenceOptions()
+    assert denoise_options() is None
+
+
+@pytest.mark.parametrize("preset", PRESETS)
+def test_presets(preset):
+    assert encode_options(preset=preset) == PRESETS[preset]
+    assert sequence_options(preset=preset).step == SEQUENCE_STEPS[preset]
+
+
+def test_keywords_are_put_on_top_of_a_preset():
+    options = encode_options(preset="fine", step=np.float32(0.5), block_size=np.int64(300), keep_order=True)
+    assert (options.step, options.block_size, options.keep_order) == (0.5, 300, True)
+    assert options.power == PRESETS["fine"].power
+    assert encode_options(doi=[1, 2]).doi == (1.0, 2.0)
+    assert denoise_options(fine="l0", iterations=3) == DenoiseOptions(fine="l0", iterations=3)
+
+
+@pytest.mark.parametrize(("keyword", "kind"), TARGETS.items())
+def test_targets(keyword, kind):
+    assert encode_options(**{keyword: 7}).target == Target(kind, 7.0)
+    assert encode_options(target=Target(kind, 7.0)).target == Target(kind, 7.0)
+
+
+def test_the_command_line_has_the_same_targets():
+    assert {name.replace("-", "_"): kind for name, kind, _, _ in TARGET_FLAGS} == TARGETS
+
+
+def test_sequences():
+    options = sequence_options(kg=0.1, low_delay=True, overlap=1.2)
+    assert options.target == SequenceTarget("kg", 0.1)
+    assert (options.mode, options.overlap) == ("low-delay", 1.2)
+
+
+@pytest.mark.parametrize("name", [field.name for field in fields(EncodeOptions)])
+def test_a_value_of_the_wrong_type_is_named(name):
+    with pytest.raises(TypeError, match=f"{name} must be .*, not <object"):
+        encode_options(**{name: object()})
+
+
+@pytest.mark.parametrize(
+    ("keywords", "error", "words"),
+    [
+        ({"stepp": 1}, ArgumentError, "did you mean step?"),
+        ({"thetta": 1}, ArgumentError, "did you mean theta?"),
+        ({"elephant": 1}, ArgumentError, "there are basis, bits"),
+        ({"kg": 1}, ArgumentError, "no option kg for a mesh"),
+        ({"bits": 2.5}, ArgumentError, "a whole number or None, not 2.5"),
+        ({"step": True}, ArgumentError, "a number, not True"),
+        ({"predict": 1}, ArgumentError, "True or False"),
+        ({"doi": (1, 2, 3)}, ArgumentError, "doi"),
+        ({"step": 2.0}, OptionError, "outside"),
+        ({"preset": "best"}, OptionError, "small, balanced, fine"),
+        ({"theta": 5, "size": 100}, OptionError, "one target at a time"),
+        ({"theta": 5, "target": Target("bpv", 2)}, OptionError, "one target at a time"),
+    ],
+)
+def test_what_is_refused(keywords, error, words):
+    with pytest.raises(error, match=words):
+        encode_options(**keywords)
+
+
+def test_a_sequence_has_fewer_options():
+    with pytest.raises(ArgumentError, match="no option power for a sequence"):
+        sequence_options(power=3)
