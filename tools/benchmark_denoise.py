@@ -19,8 +19,9 @@ from pathlib import Path
 
 import numpy as np
 
-from bsm.files.mesh import read_bytes, read_mesh
+from bsm.files.mesh import read_mesh
 from bsm.files.npz import read_arrays
+from bsm.files.pipes import read_bytes
 from bsm.paper.sequences import noisy_frames, time_sequence
 from codec.denoise.automatic import denoise_automatically
 from codec.denoise.coarse import CoarseFilter

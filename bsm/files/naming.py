@@ -15,16 +15,34 @@ def default_output(path: str, suffix: str) -> str:
     Raises
     ------
     OptionError
-        If the name would be the input's own.
+        If the name would be the input's own, or the input has none.
     """
     if path == "-":
         return "-"
-    if glob.has_magic(path) and not Path(path).exists():
-        raise OptionError(f"{path} names many files; name the output with -o")
-    output = Path(path).with_suffix(suffix)
+    output = _with_suffix(path, suffix)
     if output == Path(path):
         raise OptionError(f"the output would replace the input {path}; name another with -o")
     return str(output)
+
+
+def output_inside(folder: str, path: str, suffix: str) -> str:
+    """The name that the output of `path` has in a folder.
+
+    Raises
+    ------
+    OptionError
+        If the input has no name.
+    """
+    return str(Path(folder, _with_suffix(path, suffix).name))
+
+
+def _with_suffix(path: str, suffix: str) -> Path:
+    if glob.has_magic(path) and not Path(path).exists():
+        raise OptionError(f"{path} names many files; name the output with -o")
+    name = Path(path).name
+    if name in ("", "-", "..") or path.startswith("/dev/"):
+        raise OptionError(f"{path} gives the output no name; name it with -o")
+    return Path(path).with_suffix(suffix)
 
 
 def refuse_terminal(path: str) -> None:

@@ -16,6 +16,9 @@ import numpy.typing as npt
 from bitstream.errors import CorruptError, FormatError, LimitError, MeshError
 from codec.geometry.mesh import Faces, Positions, TriangleMesh
 
+ARRAYS = ("positions", "faces")
+"""What a mesh and a sequence are made of."""
+
 _MAX_BYTES = 1 << 32
 
 
@@ -36,6 +39,12 @@ def read_arrays(data: bytes, *names: str) -> tuple[npt.NDArray[Any], ...]:
             return tuple(_read_array(archive, name) for name in names)
     except (zipfile.BadZipFile, NotImplementedError, RuntimeError, UnicodeDecodeError) as error:
         raise FormatError(f"this is not an npz file: {error}") from error
+
+
+def array_names(data: bytes) -> list[str]:
+    """The names of all arrays of an npz that `read_arrays` has read from."""
+    with zipfile.ZipFile(io.BytesIO(data)) as archive:
+        return [name.removesuffix(".npy") for name in archive.namelist()]
 
 
 def _read_array(archive: zipfile.ZipFile, name: str) -> npt.NDArray[Any]:

@@ -7,7 +7,7 @@ import os
 import zipfile
 import zlib
 from collections.abc import Iterator
-from typing import IO, Any
+from typing import IO, Any, BinaryIO, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
@@ -15,12 +15,15 @@ import numpy.typing as npt
 from bitstream.errors import CorruptError, FormatError, MeshError
 from codec.geometry.mesh import Positions
 
+Archive: TypeAlias = "str | os.PathLike[str] | BinaryIO"
+"""A path, or a seekable binary file."""
+
 Array = npt.NDArray[Any]
 
 _DAMAGE = (EOFError, OSError, zipfile.BadZipFile, zlib.error, lzma.LZMAError)
 
 
-def npz_shape(path: str | os.PathLike[str]) -> tuple[int, ...]:
+def npz_shape(archive: Archive) -> tuple[int, ...]:
     """Shape of the array `positions` of an npz, (T, n, 3) for a sequence.
 
     Raises
@@ -32,19 +35,19 @@ def npz_shape(path: str | os.PathLike[str]) -> tuple[int, ...]:
     CorruptError
         If its header cannot be read.
     """
-    with _Array(path, "positions") as positions:
+    with _Array(archive, "positions") as positions:
         return positions.shape
 
 
-def npz_faces(path: str | os.PathLike[str]) -> Array:
+def npz_faces(archive: Archive) -> Array:
     """The array `faces` of an npz; errors as `npz_shape`."""
-    with _Array(path, "faces") as faces:
+    with _Array(archive, "faces") as faces:
         return faces.read(faces.shape)
 
 
-def npz_frames(path: str | os.PathLike[str]) -> Iterator[Positions]:
+def npz_frames(archive: Archive) -> Iterator[Positions]:
     """The frames of a sequence as float64 arrays, shape (n, 3), read as they are asked for; errors as `npz_shape`."""
-    with _Array(path, "positions") as positions:
+    with _Array(archive, "positions") as positions:
         for _ in range(positions.shape[0]):
             yield positions.read(positions.shape[1:]).astype(np.float64)
 
@@ -52,10 +55,10 @@ def npz_frames(path: str | os.PathLike[str]) -> Iterator[Positions]:
 class _Array:
     """An array of an npz, read from its beginning on."""
 
-    def __init__(self, path: str | os.PathLike[str], name: str) -> None:
+    def __init__(self, archive: Archive, name: str) -> None:
         self._name = name
         try:
-            self._archive = zipfile.ZipFile(path)
+            self._archive = zipfile.ZipFile(archive)
         except (zipfile.BadZipFile, NotImplementedError, UnicodeDecodeError) as error:
             raise FormatError(f"this is not an npz file: {error}") from error
         try:

@@ -5,17 +5,20 @@ from __future__ import annotations
 import re
 
 from bitstream.errors import FormatError, MeshError
-from bsm.files.census import Census, Rows, point_row, require_lines, text_table, without_comments
+from bsm.files.polygons import Polygons
+from bsm.files.rows import Rows, point_row, require_lines, text_table, without_comments
 from codec.geometry.mesh import TriangleMesh
 
 _OFF_HEADER = re.compile(
-    rb"\s*(?:ST|C|N)*(?P<dimension>4?n?)OFF(?P<binary>[ \t]+BINARY)?"
+    rb"\s*(?P<extras>(?:ST|C|N)*)(?P<dimension>4?n?)OFF(?P<binary>[ \t]+BINARY)?"
     rb"\s*(?P<vertices>\d{1,18})\s+(?P<faces>\d{1,18})(?:[ \t]+-?\d+)?[ \t]*(?:[\r\n]|\Z)"
 )
 
+_EXTRAS = {b"N": "normals", b"C": "colours", b"ST": "texture coordinates"}
 
-def census_off(data: bytes) -> Census:
-    """Read a text OFF, with normals and colours (left out) or without."""
+
+def read_off(data: bytes) -> Polygons:
+    """Read a text OFF."""
     text = without_comments(data)
     header = _OFF_HEADER.match(text)
     if header is None:
@@ -30,8 +33,11 @@ def census_off(data: bytes) -> Census:
     points = Rows(lines[:vertices], "vertex")
     polygons = Rows(lines[vertices : vertices + faces], "face")
     sizes, corners = polygons.lists(0)
-    plain = data.startswith((b"OFF\n", b"OFF\r\n")) and text is data and len(lines) == vertices + faces
-    return Census(points.columns(0, 3), sizes, corners, plain and bool((points.counts == 3).all()))
+    dropped = {name: key in header["extras"] for key, name in _EXTRAS.items()}
+    dropped["colours"] |= bool((polygons.counts > 1 + sizes).any())
+    if not header["extras"] and (points.counts > 3).any():
+        dropped["numbers behind the coordinates"] = True
+    return Polygons(points.columns(0, 3), sizes, corners, dropped=tuple(name for name, held in dropped.items() if held))
 
 
 def write_off(mesh: TriangleMesh) -> bytes:

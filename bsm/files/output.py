@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import errno
 import os
+import re
 import signal
 import sys
 import tempfile
@@ -14,14 +15,23 @@ from pathlib import Path
 from types import FrameType
 from typing import BinaryIO
 
+_TEMPORARY = ".part"
+# What the shell has opened: `>(...)`, or `> file`.
+_DESCRIPTOR = re.compile(r"/dev/fd/(\d+)|/proc/(?:self|thread-self)/fd/(\d+)")
+_STANDARD = {"/dev/stdout": "/dev/fd/1", "/dev/stderr": "/dev/fd/2"}
+
+
+class Terminated(SystemExit):
+    """SIGTERM came."""
+
 
 @contextmanager
 def open_output(path: str | os.PathLike[str], *, overwrite: bool = False) -> Iterator[BinaryIO]:
     """Open a file for writing whose name appears only when the `with` block has ended well.
 
     The bytes go to a temporary file in the same folder, which is flushed to the disk and then renamed; any error,
-    Ctrl-C and SIGTERM remove it. "-" is standard output, where nothing can be taken back; neither can it in a device
-    or a named pipe.
+    Ctrl-C and SIGTERM remove it. "-" is standard output, where nothing can be taken back; neither can it in a device,
+    a named pipe, or what the shell has opened (``/dev/stdout``, ``>(...)``), wherever that leads.
 
     Raises
     ------
@@ -34,17 +44,18 @@ def open_output(path: str | os.PathLike[str], *, overwrite: bool = False) -> Ite
         yield sys.stdout.buffer
         sys.stdout.buffer.flush()
         return
-    # Through a symbolic link the file behind it is replaced, not the link.
-    target = Path(os.path.realpath(path))
-    if target.exists() and not target.is_file():
-        if target.is_dir():
-            raise IsADirectoryError(errno.EISDIR, "the output is a folder", os.fspath(path))
-        with open(target, "wb") as device:
+    if os.path.isdir(path):
+        raise IsADirectoryError(errno.EISDIR, "the output is a folder", os.fspath(path))
+    if not _can_be_replaced(path):
+        descriptor = _descriptor(path)
+        with open(path if descriptor is None else os.dup(descriptor), "wb") as device:
             yield device
         return
+    # Through a symbolic link the file behind it is replaced, not the link.
+    target = Path(os.path.realpath(path))
     refuse_to_overwrite(path, overwrite)
-    with _termination_as_exception():
-        handle, name = tempfile.mkstemp(prefix=f".{target.name[:200]}.", suffix=".part", dir=target.parent)
+    with termination_as_exception(), _by_its_own_name(path):
+        handle, name = tempfile.mkstemp(prefix=f".{target.name[:200]}.", suffix=_TEMPORARY, dir=target.parent)
         try:
             with os.fdopen(handle, "wb") as file:
                 yield file
@@ -63,8 +74,32 @@ def open_output(path: str | os.PathLike[str], *, overwrite: bool = False) -> Ite
 
 def refuse_to_overwrite(path: str | os.PathLike[str], overwrite: bool) -> None:
     """Raise `FileExistsError` if `path` is a file and `overwrite` is false; ask before long work."""
-    if not overwrite and os.fspath(path) != "-" and Path(path).is_file():
+    if not overwrite and os.fspath(path) != "-" and os.path.isfile(path) and _can_be_replaced(path):
         raise FileExistsError(errno.EEXIST, "the output exists already; -f overwrites it", os.fspath(path))
+
+
+def _descriptor(path: str | os.PathLike[str]) -> int | None:
+    """The number of the open file that a path stands for, if it does."""
+    name = os.fspath(path)
+    match = _DESCRIPTOR.fullmatch(_STANDARD.get(name, name))
+    return int(match[1] or match[2]) if match else None
+
+
+def _can_be_replaced(path: str | os.PathLike[str]) -> bool:
+    """Whether a file can be put in this place: there is one, or nothing. Links are not followed by hand: what is
+    behind /dev/fd/63 may have no name."""
+    return _descriptor(path) is None and (os.path.isfile(path) or not os.path.exists(path))
+
+
+@contextmanager
+def _by_its_own_name(path: str | os.PathLike[str]) -> Iterator[None]:
+    """Let errors about the temporary file name the one that is wanted."""
+    try:
+        yield
+    except OSError as error:
+        if str(error.filename).endswith(_TEMPORARY):
+            error.filename, error.filename2 = os.fspath(path), None
+        raise
 
 
 def _permissions(target: Path) -> int:
@@ -91,11 +126,11 @@ def _rename_unless_present(name: str, target: Path) -> None:
 
 
 @contextmanager
-def _termination_as_exception() -> Iterator[None]:
+def termination_as_exception() -> Iterator[None]:
     """Let SIGTERM unwind the stack, as Ctrl-C does; signals reach the main thread only."""
 
     def stop(number: int, frame: FrameType | None) -> None:
-        raise SystemExit(128 + number)
+        raise Terminated(128 + number)
 
     if threading.current_thread() is not threading.main_thread():
         yield

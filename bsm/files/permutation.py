@@ -10,8 +10,9 @@ import numpy as np
 import numpy.typing as npt
 
 from bitstream.errors import FormatError, MeshError
-from bsm.files.mesh import read_bytes
 from bsm.files.output import open_output
+from bsm.files.pipes import read_bytes
+from bsm.files.sequence import write_npy
 from codec.geometry.mesh import Faces, Positions, TriangleMesh
 
 if TYPE_CHECKING:
@@ -23,7 +24,7 @@ Order = npt.NDArray[np.int64]
 def write_permutation(path: str | os.PathLike[str], order: npt.NDArray[np.integer], *, overwrite: bool) -> None:
     """Write `vertex_order` (the decoder's vertex j is the input's vertex order[j]) as an npy file."""
     with open_output(path, overwrite=overwrite) as file:
-        np.save(file, order.astype(np.int64))
+        write_npy(file, order.astype(np.int64))
 
 
 def read_permutation(path: str | os.PathLike[str]) -> Order:

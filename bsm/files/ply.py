@@ -10,7 +10,8 @@ import numpy as np
 import numpy.typing as npt
 
 from bitstream.errors import FormatError, MeshError, TruncatedError
-from bsm.files.census import Census, Ints, Rows, as_integers, ranges, require_lines, single_suffices
+from bsm.files.polygons import Polygons
+from bsm.files.rows import Ints, Rows, as_integers, ranges, require_lines, single_suffices
 from codec.geometry.mesh import TriangleMesh
 
 _TYPES = {
@@ -22,14 +23,15 @@ _ORDERS = {"ascii": "", "binary_little_endian": "<", "binary_big_endian": ">"}
 _LIST_NAMES = ("vertex_indices", "vertex_index")
 _MAX_ELEMENTS = 64
 
-# The header that most tools write. openmesh hangs on or crashes over many that differ from it.
-_PLAIN = re.compile(
-    rb"ply\nformat (?:ascii|binary_little_endian|binary_big_endian) 1\.0\n(?:comment [ -~]*\n)*element vertex \d+\n"
-    rb"property (?P<type>float|float32|double|float64) x\nproperty (?P=type) y\nproperty (?P=type) z\n"
-    rb"(?:property (?P=type) nx\nproperty (?P=type) ny\nproperty (?P=type) nz\n)?"
-    rb"(?:property (?:uchar|uint8) (?:red|green|blue|alpha)\n)*element face \d+\n"
-    rb"property list (?:uchar|uint8) (?:int|uint|int32|uint32) vertex_(?:indices|index)\nend_header\n"
-)
+_KNOWN = {
+    "nx": "normals", "ny": "normals", "nz": "normals",
+    "red": "colours", "green": "colours", "blue": "colours", "alpha": "colours",
+    "diffuse_red": "colours", "diffuse_green": "colours", "diffuse_blue": "colours",
+    "s": "texture coordinates", "t": "texture coordinates", "u": "texture coordinates", "v": "texture coordinates",
+    "texture_u": "texture coordinates", "texture_v": "texture coordinates", "texcoord": "texture coordinates",
+    "texnumber": "materials", "material_index": "materials",
+}  # fmt: skip
+"""What properties beside coordinates and corners hold; others are called by their own names."""
 
 
 @dataclass(frozen=True)
@@ -56,15 +58,27 @@ class Element:
 
 @dataclass(frozen=True)
 class Header:
-    """The order of the bytes ("" for text), the elements, where the body begins, and whether it is `_PLAIN`."""
+    """The order of the bytes ("" for text), the elements, and where the body begins."""
 
     order: str
     elements: tuple[Element, ...]
     size: int
-    plain: bool
+
+    @property
+    def dropped(self) -> tuple[str, ...]:
+        """What the elements hold beside points and faces."""
+        needed = {"vertex": ("x", "y", "z"), "face": _LIST_NAMES}
+        found = [
+            _KNOWN.get(column.name, column.name)
+            for element in self.elements
+            for column in element.properties
+            if element.name in needed and column.name not in needed[element.name]
+        ]
+        others = [element.name for element in self.elements if element.name not in needed and element.count]
+        return tuple(dict.fromkeys(found + others))
 
 
-def census_ply(data: bytes) -> Census:
+def read_ply(data: bytes) -> Polygons:
     """Read a PLY with points and faces, of any byte order."""
     header = parse_header(data)
     names = [element.name for element in header.elements]
@@ -73,7 +87,7 @@ def census_ply(data: bytes) -> Census:
     if "vertex" not in names or "face" not in names:
         raise MeshError("this PLY file has no faces; point clouds are not supported")
     body = data[header.size :]
-    return _census_binary(header, body) if header.order else _census_text(header, body)
+    return _read_binary(header, body) if header.order else _read_text(header, body)
 
 
 def parse_header(data: bytes) -> Header:
@@ -107,7 +121,7 @@ def parse_header(data: bytes) -> Header:
             raise FormatError(f"the PLY header has a line that makes no sense: {line[:80]!r}") from None
     if order is None or len(elements) > _MAX_ELEMENTS:
         raise FormatError("the PLY header names no format, or too many elements")
-    return Header(order, tuple(elements), end.end(), _PLAIN.fullmatch(data[: end.end()]) is not None)
+    return Header(order, tuple(elements), end.end())
 
 
 def _count(text: str) -> int:
@@ -138,7 +152,7 @@ def _corner_list(element: Element) -> int:
 # --------------------------------------------------------------------------------------------------------------- text
 
 
-def _census_text(header: Header, body: bytes) -> Census:
+def _read_text(header: Header, body: bytes) -> Polygons:
     """Elements as text: one row, one line."""
     lines = [line for line in body.splitlines() if line.strip()]
     require_lines(len(lines), sum(element.count for element in header.elements))
@@ -152,15 +166,13 @@ def _census_text(header: Header, body: bytes) -> Census:
     if any(column.length for column in face.properties[:before]):
         raise MeshError("the faces of this PLY file have another list before vertex_indices")
     sizes, corners = polygons.lists(before)
-    exact = bool((points.counts == 3).all() and (polygons.counts == 1 + sizes).all()) and len(lines) == ends[-1]
-    digits_only = not b"".join(face_lines).translate(None, b"0123456789 \t")
-    return Census(positions, sizes, corners, plain=header.plain and exact and digits_only)
+    return Polygons(positions, sizes, corners, dropped=header.dropped)
 
 
 # ------------------------------------------------------------------------------------------------------------- binary
 
 
-def _census_binary(header: Header, body: bytes) -> Census:
+def _read_binary(header: Header, body: bytes) -> Polygons:
     """Elements as bytes, one behind the other."""
     positions, faces, offset = np.empty((0, 3)), None, 0
     for element in header.elements:
@@ -184,7 +196,7 @@ def _census_binary(header: Header, body: bytes) -> Census:
     if faces is None:
         _corner_list(next(element for element in header.elements if element.name == "face"))
         raise MeshError("the faces of this PLY file are not lists")
-    return Census(positions, faces.sizes, faces.items, plain=header.plain and offset == len(body))
+    return Polygons(positions, faces.sizes, faces.items(), dropped=header.dropped)
 
 
 @dataclass(frozen=True)

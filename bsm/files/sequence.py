@@ -16,21 +16,30 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, BinaryIO, cast
+from typing import Any, BinaryIO, Protocol
 
 import numpy as np
 import numpy.typing as npt
 
 from bitstream.errors import FormatError, MeshError, OptionError, TruncatedError
-from bsm.files.mesh import MESH_FORMATS, format_mesh, format_of_bytes, format_of_name, read_mesh
+from bsm.files.mesh import MESH_FORMATS, format_mesh, format_of_name, read_mesh
 from bsm.files.npz import open_npz_sequence
-from bsm.files.npz_frames import npz_faces, npz_frames, npz_shape
+from bsm.files.npz_frames import Archive, npz_faces, npz_frames, npz_shape
 from bsm.files.output import open_output
+from bsm.files.pipes import Source, as_input, is_pipe
 from codec.geometry.mesh import Faces, Positions, TriangleMesh
 
 NPY = b"\x93NUMPY"
+ZIP = b"PK\x03\x04"
 SEQUENCE_FORMATS = ("npz", "npy", *(name for name in MESH_FORMATS if name != "npz"))
 """What `bsm decode` can make of a sequence: an npz, a pipe of npy arrays, or a folder of mesh files."""
+
+
+class Readable(Protocol):
+    """What arrays are read from."""
+
+    def read(self, size: int = ..., /) -> bytes:
+        """The next bytes, as many as asked for unless the end comes before."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,40 +60,45 @@ class Frames:
     frames: Iterator[Positions]
 
 
-def open_sequence(path: str, file_format: str | None = None) -> Frames | None:
-    """The sequence that `path` names, or None if it is not one but perhaps a mesh.
+def open_sequence(source: Source, file_format: str | None = None, reader: str | None = None) -> Frames | None:
+    """The sequence that `source` names, or None if it is not one but perhaps a mesh.
+
+    Nothing is taken from an `Input` that is none; the path of a pipe is not looked at, unless `file_format` is "npy".
 
     Parameters
     ----------
-    path : str
-        A folder, a pattern, a file, or "-" for standard input (with `file_format` "npy" only).
+    source : path, buffer or binary file
+        A path may be that of a folder, a pattern, or "-" for standard input.
     file_format : str, optional
         Of the file or of the frames' files.
+    reader : str, optional
+        Of the frames' files, see `read_mesh`.
 
     Raises
     ------
     FormatError, MeshError, TruncatedError
         If it is one, but cannot be read; also later, while the frames are read.
     """
-    if path == "-":
-        return _arrays(cast(BinaryIO, sys.stdin.buffer)) if file_format == "npy" else None
-    if Path(path).is_dir() or (glob.has_magic(path) and not Path(path).exists()):
-        return _files(_frame_files(path), file_format)
+    if is_pipe(source) and file_format != "npy":
+        return None
+    given = as_input(source)
+    if os.path.isdir(given.name) or (glob.has_magic(given.name) and not os.path.exists(given.name)):
+        return _files(_frame_files(given.name), file_format, reader)
     if file_format not in (None, "npz", "npy"):
         return None
-    with open(path, "rb") as file:
-        head = file.read(len(NPY))
-    if head == NPY:
-        return _arrays(open(path, "rb"))
-    if format_of_bytes(head) != "npz":
+    head = given.peek(len(NPY))
+    if head == NPY or file_format == "npy":
+        return _arrays(given)
+    if not head.startswith(ZIP):
         return None
-    shape = npz_shape(path)
+    archive: Archive = given.name if given.is_file else io.BytesIO(given.peek(1 << 32))
+    shape = npz_shape(archive)
     if len(shape) != 3:
         return None
     if shape[0] == 0:
         raise MeshError("this npz file holds a sequence without frames")
-    mesh = TriangleMesh(next(npz_frames(path)), npz_faces(path))
-    return Frames(mesh.faces, shape[0], npz_frames(path))
+    mesh = TriangleMesh(next(npz_frames(archive)), npz_faces(archive))
+    return Frames(mesh.faces, shape[0], npz_frames(archive))
 
 
 @contextmanager
@@ -140,13 +154,13 @@ def _frame_files(path: str) -> list[str]:
     return sorted(found, key=lambda name: [int(p) if p.isdigit() else p for p in re.split(r"(\d+)", name)])
 
 
-def _files(names: list[str], file_format: str | None) -> Frames:
-    first = read_mesh(names[0], file_format).mesh
+def _files(names: list[str], file_format: str | None, reader: str | None) -> Frames:
+    first = read_mesh(names[0], file_format, reader=reader).mesh
 
     def frames() -> Iterator[Positions]:
         yield first.positions
         for number, name in enumerate(names[1:], 1):
-            mesh = read_mesh(name, file_format).mesh
+            mesh = read_mesh(name, file_format, reader=reader).mesh
             if mesh.positions.shape != first.positions.shape or not np.array_equal(mesh.faces, first.faces):
                 raise MeshError(f"frame {number}, {name}, has other faces than the first one, {names[0]}")
             yield mesh.positions
@@ -154,7 +168,7 @@ def _files(names: list[str], file_format: str | None) -> Frames:
     return Frames(first.faces, len(names), frames())
 
 
-def _arrays(file: BinaryIO) -> Frames:
+def _arrays(file: Readable) -> Frames:
     """npy arrays, one behind the other: faces, frame, frame, ..."""
     faces = read_npy(file)
     if faces is None or faces.ndim != 2 or faces.shape[1] != 3 or faces.dtype.kind not in "iu":
@@ -169,7 +183,7 @@ def _arrays(file: BinaryIO) -> Frames:
     return Frames(faces.astype(np.int32), 0, frames())
 
 
-def read_npy(file: BinaryIO) -> npt.NDArray[np.generic] | None:
+def read_npy(file: Readable) -> npt.NDArray[np.generic] | None:
     """The next array, or None at the end; never unpickles."""
     magic = file.read(len(NPY))
     if not magic:

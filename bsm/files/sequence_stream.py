@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from bitstream.container.packets import Header
-from bitstream.container.reader import NEED_DATA, Reader
+from bitstream.container.reader import END_OF_STREAM, NEED_DATA, Reader
 from bitstream.errors import BsmError, TruncatedError
 from codec.geometry.mesh import Faces, Positions, TriangleMesh
 
@@ -69,8 +69,6 @@ class SequenceStream:
     def _next(self) -> tuple[int, Positions] | None:
         """The next frame; None at the end, and when the faces have come."""
         from codec import ConnectivityEvent, FrameEvent, GopLost, HeaderEvent
-        from codec.sequence.decoder import END_OF_STREAM
-        from codec.sequence.decoder import NEED_DATA as MORE
 
         while (event := self._decoder.next_event()) is not END_OF_STREAM:
             match event:
@@ -85,7 +83,7 @@ class SequenceStream:
                     assert self._note is not None
                     what = f"frames {index} to {index + frames - 1} are" if frames else f"what follows frame {index} is"
                     self._note(f"{what} lost: {reason}")
-                case signal if signal is MORE:
+                case signal if signal is NEED_DATA:
                     chunk = next(self._chunks, b"")
                     self._decoder.receive_data(chunk) if chunk else self._decoder.receive_eof()
         return None

@@ -7,13 +7,14 @@ import re
 import numpy as np
 
 from bitstream.errors import FormatError, MeshError, TruncatedError
-from bsm.files.census import Census, Doubles, Rows, single_suffices
+from bsm.files.polygons import Polygons
+from bsm.files.rows import Doubles, Rows, single_suffices
 from codec.geometry.mesh import TriangleMesh
 
 _RECORD = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
 
 
-def census_stl(data: bytes) -> Census:
+def read_stl(data: bytes) -> Polygons:
     """Read a binary or a text STL; corners with exactly equal coordinates are one vertex, in order of appearance."""
     soup = _soup_binary(data) if _is_binary_stl(data) else _soup_text(data)
     soup = soup + 0.0  # so that -0 equals 0 byte by byte too
@@ -29,7 +30,7 @@ def census_stl(data: bytes) -> Census:
     corners = np.empty(len(soup), dtype=np.int64)
     corners[order] = rank[np.cumsum(fresh) - 1]
     note = f"STL knows no vertices: {len(soup)} corners with equal coordinates were joined to {len(first)} vertices"
-    return Census(soup[first[by_appearance]], np.full(len(soup) // 3, 3), lambda: corners, plain=True, notes=(note,))
+    return Polygons(soup[first[by_appearance]], np.full(len(soup) // 3, 3), corners, notes=(note,))
 
 
 def _is_binary_stl(data: bytes) -> bool:

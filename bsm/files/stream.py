@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections import Counter
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
@@ -13,10 +12,11 @@ import numpy.typing as npt
 
 from bitstream.container import packets
 from bitstream.container.gop import parse_gop_body
-from bitstream.container.reader import Reader, read_packets
+from bitstream.container.reader import END_OF_STREAM, NEED_DATA, Reader, read_packets
 from bitstream.container.wire import MAGIC
 from bitstream.errors import MeshError, OptionError
 from bitstream.limits import DEFAULT_LIMITS, Limits
+from bsm.files.pipes import Source, as_input, is_pipe
 
 if TYPE_CHECKING:
     from codec import TriangleMesh
@@ -24,12 +24,9 @@ if TYPE_CHECKING:
 Progress = Callable[[int, int], None]
 
 
-def is_stream(path: str | os.PathLike[str]) -> bool:
-    """Whether a file begins like a stream (standard input is not asked)."""
-    if os.fspath(path) == "-":
-        return False
-    with open(path, "rb") as file:
-        return file.read(len(MAGIC)) == MAGIC
+def is_stream(source: Source) -> bool:
+    """Whether something begins like a stream; nothing is taken from an `Input`, and the path of a pipe is not asked."""
+    return not is_pipe(source) and as_input(source).peek(len(MAGIC)) == MAGIC
 
 
 @dataclass(frozen=True)
@@ -143,11 +140,11 @@ def inspect_stream(chunks: Iterator[bytes], limits: Limits = DEFAULT_LIMITS) -> 
     )
 
 
-def decode_whole(chunks: Iterator[bytes]) -> TriangleMesh:
+def decode_whole(chunks: Iterator[bytes], limits: Limits = DEFAULT_LIMITS, threads: int | None = None) -> TriangleMesh:
     """Decode a stream to its end."""
     from codec import Decoder
 
-    with Decoder() as decoder:
+    with Decoder(limits, threads) as decoder:
         for chunk in chunks:
             decoder.receive_data(chunk)
         return decoder.finish()
@@ -164,7 +161,6 @@ def decode_blocks(chunks: Iterator[bytes], count: int, progress: Progress) -> Tr
         If the stream ends or is damaged before that.
     """
     from codec import BlockEvent, ConnectivityEvent, Decoder, EndEvent, HeaderEvent
-    from codec.static.decoder import NEED_DATA
 
     if count < 1:
         raise OptionError("at least one block must be decoded")
@@ -208,7 +204,6 @@ def decode_what_is_left(chunks: Iterator[bytes], report: Callable[[str], None]) 
         If the damage is before the first block.
     """
     from codec import BlockEvent, ConnectivityEvent, Decoder, EndEvent, HeaderEvent, LossEvent
-    from codec.static.decoder import END_OF_STREAM
 
     faces: npt.NDArray[np.int32] = np.empty((0, 3), np.int32)
     positions, known = np.empty((0, 3)), np.empty(0, np.bool_)

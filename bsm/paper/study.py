@@ -13,8 +13,9 @@ import numpy.typing as npt
 from bitstream.errors import OptionError
 from bsm.evaluation.render import DEFAULT_VIEW, view_matrix
 from bsm.evaluation.sample import knot
-from bsm.files.mesh import read_bytes, read_mesh
+from bsm.files.mesh import read_mesh
 from bsm.files.npz import read_arrays
+from bsm.files.pipes import read_bytes
 from bsm.paper.shapes import ball, box, swaying
 from codec.denoise.noise import gaussian_along_normals
 from codec.geometry.mesh import Faces, Positions, TriangleMesh

@@ -16,8 +16,7 @@ BYTES = 1 << 30
 PROGRAM = f"""
 import json, os, signal, sys
 from bitstream.errors import BsmError
-from bsm.files.mesh import import_openmesh, read_mesh
-import_openmesh()
+from bsm.files.mesh import read_mesh
 for path in sys.argv[1:]:
     child = os.fork()
     if child == 0:

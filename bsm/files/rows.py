@@ -1,10 +1,9 @@
-"""What a mesh file says, read from its own bytes before any library sees it."""
+"""Tables of numbers in text files."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from collections.abc import Sequence
 from itertools import chain
 from typing import Any
 
@@ -15,31 +14,6 @@ from bitstream.errors import MeshError, TruncatedError
 
 Ints = npt.NDArray[np.int64]
 Doubles = npt.NDArray[np.float64]
-
-
-@dataclass(frozen=True, eq=False)
-class Census:
-    """The coordinates of a file in full precision, and how many faces with how many corners it has.
-
-    Parameters
-    ----------
-    positions : ndarray of float64, shape (n, 3)
-    sizes : ndarray of int64, shape (m,)
-        Number of corners of each face.
-    corners : callable
-        Reads the vertex indices of all faces, one after the other: int64, shape (sum(sizes),). Called only where
-        they are needed.
-    plain : bool
-        Every byte of the file has been understood, so it is safe to hand it to a library.
-    notes : tuple of str
-        What was changed or left out.
-    """
-
-    positions: Doubles
-    sizes: Ints
-    corners: Callable[[], Ints]
-    plain: bool
-    notes: tuple[str, ...] = ()
 
 
 class Rows:
@@ -73,22 +47,22 @@ class Rows:
     def columns(self, first: int, count: int) -> Doubles:
         """The numbers `first` to `first + count` of every line, shape (lines, count)."""
         self.require(first + count)
-        return self.values[self.starts[:, None] + np.arange(first, first + count)]
+        columns: Doubles = self.values[self.starts[:, None] + np.arange(first, first + count)]
+        return columns
 
-    def lists(self, before: int) -> tuple[Ints, Callable[[], Ints]]:
-        """The lists that follow `before` numbers of each line: their lengths, and a function that gives their items."""
+    def lists(self, before: int) -> tuple[Ints, Ints]:
+        """The lists that follow `before` numbers of each line: their lengths, and their items one after the other."""
         sizes = as_integers(self.columns(before, 1)[:, 0], f"the number of corners of a {self.what}")
         if (sizes < 0).any():
             raise MeshError(f"{self.what} {int(np.argmax(sizes < 0))} has a negative number of corners")
         self.require(before + 1 + sizes)
-        first = self.starts + before + 1
-        return sizes, lambda: as_integers(self.values[ranges(first, sizes)], "a vertex index")
+        return sizes, as_integers(self.values[ranges(self.starts + before + 1, sizes)], "a vertex index")
 
 
 def ranges(starts: Ints, sizes: Ints) -> Ints:
     """The indices start, start + 1, ..., start + size - 1 of each pair, one pair after the other."""
     ends = np.cumsum(sizes)
-    return np.arange(ends[-1] if len(ends) else 0) + np.repeat(starts - (ends - sizes), sizes)
+    return np.arange(ends[-1] if len(ends) else 0, dtype=np.int64) + np.repeat(starts - (ends - sizes), sizes)
 
 
 def as_integers(values: npt.NDArray[Any], what: str) -> Ints:
