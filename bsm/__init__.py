@@ -1,1 +1,101 @@
-"""The codec as people meet it: one name to import, one command."""
+"""BSM: a streaming spectral codec and denoiser for triangle meshes, static and animated.
+
+A mesh is compressed to bytes and restored from them; what it takes and what it may cost is said by keyword, as on the
+command line:
+
+>>> import bsm
+>>> corners = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]
+>>> mesh = bsm.TriangleMesh(corners, [(0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2)])
+>>> data = bsm.encode(mesh, theta=5)
+>>> bsm.decode(data).faces.shape
+(4, 3)
+>>> bsm.compare(mesh, data).theta_deg < 5
+True
+
+Instead of a `TriangleMesh` there may be a mesh of trimesh, pyvista, Open3D or meshio, a pair (positions, faces), or the
+name of a file; instead of bytes any buffer, the name of a file, or a binary file. `load` and `save` know every format
+by its suffix, .bsm included. A stream that is still arriving is decoded block by block:
+
+>>> with bsm.Decoder() as decoder:
+...     decoder.receive_data(data)
+...     decoder.receive_eof()
+...     while (event := decoder.next_event()) is not bsm.END_OF_STREAM:
+...         if isinstance(event, bsm.BlockEvent):
+...             print(len(event.vertices), "vertices")
+4 vertices
+
+Every error is a `BsmError`. Only what is listed here is promised to stay; the packages `codec` and `bitstream` are
+where it lives.
+"""
+
+from __future__ import annotations
+
+import importlib
+from typing import TYPE_CHECKING, Any
+
+# What type checkers see; the same names as below.
+# fmt: off
+# isort: off
+if TYPE_CHECKING:
+    from bitstream.container.reader import END_OF_STREAM as END_OF_STREAM, NEED_DATA as NEED_DATA, Signal as Signal
+    from bitstream.errors import (
+        ArgumentError as ArgumentError, BsmError as BsmError, CorruptError as CorruptError,
+        DependencyError as DependencyError, FormatError as FormatError, LimitError as LimitError,
+        MeshError as MeshError, NumericError as NumericError, OptionError as OptionError,
+        TruncatedError as TruncatedError, UnsupportedError as UnsupportedError,
+    )
+    from bitstream.limits import Limits as Limits
+    from bsm.api import (
+        compare as compare, decode as decode, decode_sequence as decode_sequence, denoise as denoise, encode as encode,
+        encode_sequence as encode_sequence, load as load, save as save,
+    )
+    from bsm.files.mesh import read_mesh as read_mesh
+    from bsm.files.polygons import MeshFile as MeshFile
+    from codec import (
+        PRESETS as PRESETS, BlockEvent as BlockEvent, ConnectivityEvent as ConnectivityEvent, Decoder as Decoder,
+        EncodeOptions as EncodeOptions, Encoder as Encoder, EndEvent as EndEvent, FrameEvent as FrameEvent,
+        GopLost as GopLost, HeaderEvent as HeaderEvent, LossEvent as LossEvent, SequenceDecoder as SequenceDecoder,
+        SequenceEncoder as SequenceEncoder, SequenceOptions as SequenceOptions, Target as Target,
+        TriangleMesh as TriangleMesh,
+    )
+    from codec.denoise import DenoiseOptions as DenoiseOptions
+    from codec.geometry.metrics import Comparison as Comparison
+    from codec.sequence.targets import SequenceTarget as SequenceTarget
+# isort: on
+# fmt: on
+
+__version__ = "0.1.0"
+
+# Where each name lives, loaded when it is first asked for: numba and scipy take a second.
+_ROOMS = {
+    "bitstream.container.reader": "END_OF_STREAM NEED_DATA Signal",
+    "bitstream.errors": (
+        "ArgumentError BsmError CorruptError DependencyError FormatError LimitError MeshError NumericError "
+        "OptionError TruncatedError UnsupportedError"
+    ),
+    "bitstream.limits": "Limits",
+    "bsm.api": "compare decode decode_sequence denoise encode encode_sequence load save",
+    "bsm.files.mesh": "read_mesh",
+    "bsm.files.polygons": "MeshFile",
+    "codec": (
+        "PRESETS BlockEvent ConnectivityEvent Decoder EncodeOptions Encoder EndEvent FrameEvent GopLost "
+        "HeaderEvent LossEvent SequenceDecoder SequenceEncoder SequenceOptions Target TriangleMesh"
+    ),
+    "codec.denoise": "DenoiseOptions",
+    "codec.geometry.metrics": "Comparison",
+    "codec.sequence.targets": "SequenceTarget",
+}
+_HOMES = {name: room for room, names in _ROOMS.items() for name in names.split()}
+
+__all__ = ["__version__", *_HOMES]
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _HOMES:
+        raise AttributeError(f"module 'bsm' has no attribute {name!r}")
+    value = globals()[name] = getattr(importlib.import_module(_HOMES[name]), name)
+    return value
+
+
+def __dir__() -> list[str]:
+    return sorted(__all__)

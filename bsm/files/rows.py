@@ -62,7 +62,8 @@ class Rows:
 def ranges(starts: Ints, sizes: Ints) -> Ints:
     """The indices start, start + 1, ..., start + size - 1 of each pair, one pair after the other."""
     ends = np.cumsum(sizes)
-    return np.arange(ends[-1] if len(ends) else 0, dtype=np.int64) + np.repeat(starts - (ends - sizes), sizes)
+    begin: Ints = np.repeat(starts - (ends - sizes), sizes)
+    return begin + np.arange(len(begin))
 
 
 def as_integers(values: npt.NDArray[Any], what: str) -> Ints:

@@ -45,17 +45,17 @@ def read_with_trimesh(data: bytes, path: str | None, kind: str, limits: Limits) 
         )
     try:
         scene = trimesh.load_scene(path or io.BytesIO(data), file_type=kind, process=False)
-        return _joined(scene, trimesh.Trimesh, limits)
+        return joined(scene, limits)
     except (BsmError, MemoryError):
         raise
     except Exception as error:  # it promises nothing about what damaged files raise
         raise FormatError(f"trimesh cannot read this file: {type(error).__name__}: {error}") from error
 
 
-def _joined(scene: Any, surface: type, limits: Limits) -> Polygons:
+def joined(scene: Any, limits: Limits) -> Polygons:
     """The surfaces of a scene as one, each as often and where the scene has it."""
     places = [scene.graph[node] for node in scene.graph.nodes_geometry]
-    parts = [(matrix, scene.geometry[name]) for matrix, name in places if isinstance(scene.geometry[name], surface)]
+    parts = [(matrix, scene.geometry[name]) for matrix, name in places if hasattr(scene.geometry[name], "faces")]
     limits.check("vertices", sum(len(part.vertices) for _, part in parts))
     limits.check("faces", sum(len(part.faces) for _, part in parts))
     positions, faces, first = [np.empty((0, 3))], [np.empty((0, 3), np.int64)], 0

@@ -1,0 +1,229 @@
+"""The functions of `import bsm`: one call each, on whatever is at hand."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, TypeVar
+
+from bitstream.errors import ArgumentError, OptionError
+from bitstream.limits import DEFAULT_LIMITS, Limits
+from bsm import options as keywords_to
+from bsm.files.mesh import MESH_FORMATS, format_mesh, format_of_name
+from bsm.files.output import open_output
+from bsm.files.permutation import in_order_of
+from bsm.files.pipes import Input, Source, read_bytes, read_chunks
+from bsm.files.stream import decode_whole
+from bsm.meshes import as_mesh, read_any
+from codec.geometry.mesh import Faces, Positions, TriangleMesh
+
+if TYPE_CHECKING:
+    import numpy.typing as npt
+
+    from codec import EncodeOptions, SequenceOptions
+    from codec.denoise import DenoiseOptions
+    from codec.geometry.metrics import Comparison
+
+_Options = TypeVar("_Options")
+
+
+def encode(mesh: Any, options: EncodeOptions | None = None, /, **keywords: Any) -> bytes:
+    """Compress a mesh.
+
+    Parameters
+    ----------
+    mesh : mesh, pair of arrays, or path
+        A `TriangleMesh`; a mesh of trimesh, pyvista, Open3D or meshio; ``(positions, faces)``; or a file's name.
+    options : EncodeOptions, optional
+        Instead of keywords.
+    **keywords
+        As on the command line: `preset` ("small", "balanced", "fine"), one target (`theta`, `nmsve_db`, `max_error`,
+        `bpv`, `size`), and fields of `EncodeOptions` (`step`, `block_size`, `keep_order`, `threads`, ...).
+
+    Returns
+    -------
+    bytes
+        A stream. Vertices and faces are in the coder's order in it unless `keep_order` is true; `Encoder.vertex_order`
+        tells that order.
+
+    Raises
+    ------
+    ArgumentError
+        If this is no mesh, there is no such keyword, or its value is of the wrong type.
+    BsmError
+        `MeshError`, `OptionError`, ...: see what they say.
+    """
+    from codec import EncodeOptions
+    from codec import encode as encode_mesh
+
+    return encode_mesh(as_mesh(mesh), _chosen(options, EncodeOptions, keywords, keywords_to.encode_options))
+
+
+def decode(stream: Source, *, limits: Limits = DEFAULT_LIMITS, threads: int | None = None) -> TriangleMesh:
+    """Restore a mesh.
+
+    Parameters
+    ----------
+    stream : bytes, any buffer, path or binary file
+        A file need not be seekable; it is read to its end.
+    limits : Limits
+        What the stream may ask for.
+    threads : int, optional
+        None: one per core.
+
+    Raises
+    ------
+    ArgumentError
+        If this is no stream.
+    BsmError
+        `FormatError`, `UnsupportedError`, `CorruptError`, `TruncatedError`, `LimitError` or `NumericError`, with the
+        place in the stream.
+    """
+    return decode_whole(read_chunks(stream), limits, threads)
+
+
+def encode_sequence(
+    positions: npt.ArrayLike, faces: npt.ArrayLike, options: SequenceOptions | None = None, /, **keywords: Any
+) -> bytes:
+    """Compress an animated mesh.
+
+    Parameters
+    ----------
+    positions : array_like, shape (T, n, 3)
+    faces : array_like of int, shape (m, 3)
+    options : SequenceOptions, optional
+        Instead of keywords.
+    **keywords
+        As on the command line: `preset`, `low_delay`, one target (`kg`, `bpvf`, `theta`, `nmsve_db`), and fields of
+        `SequenceOptions` (`step`, `gop`, `frame_rate`, ...).
+    """
+    from codec import SequenceOptions
+    from codec import encode_sequence as encode_frames
+
+    chosen = _chosen(options, SequenceOptions, keywords, keywords_to.sequence_options)
+    return encode_frames(positions, faces, chosen)
+
+
+def decode_sequence(
+    stream: Source, *, limits: Limits = DEFAULT_LIMITS, threads: int | None = None
+) -> tuple[Positions, Faces]:
+    """Restore an animated mesh: positions, shape (T, n, 3), and faces, shape (m, 3); arguments as those of `decode`."""
+    from codec import decode_sequence as decode_frames
+
+    return decode_frames(read_bytes(stream), limits, threads)
+
+
+def load(source: Source, *, limits: Limits = DEFAULT_LIMITS, reader: str | None = None) -> TriangleMesh:
+    """Read a mesh, from a mesh file or a stream, whatever it is.
+
+    `read_mesh` also tells what was changed and left out on reading.
+
+    Parameters
+    ----------
+    source : path, or anything else that `decode` takes
+        OBJ, OFF, PLY, STL, npz and BSM; with trimesh installed (``pip install 'bsm-codec[formats]'``) also GLB, glTF,
+        3MF, DAE and others.
+    limits : Limits
+    reader : str, optional
+        "openmesh" or "trimesh": read with that library, instead of ourselves where we know the format.
+    """
+    return read_any(Input(source), limits=limits, reader=reader)
+
+
+def save(mesh: Any, path: str | os.PathLike[str], *, overwrite: bool = True, **keywords: Any) -> None:
+    """Write a mesh to a file, as a whole or not at all, in the format of its name.
+
+    Parameters
+    ----------
+    mesh : mesh, pair of arrays, or path
+        As `encode` takes it.
+    path : path
+        With the suffix .bsm, .npz, .obj, .off, .ply or .stl.
+    overwrite : bool
+        Whether a file of this name is replaced.
+    **keywords
+        Of `encode`, for .bsm only.
+
+    Raises
+    ------
+    OptionError
+        If the name tells no format, or one that has no options.
+    FileExistsError
+        If the file exists and `overwrite` is false.
+    """
+    if not isinstance(path, (str, os.PathLike)):
+        raise ArgumentError(f"the path of a file is expected, not {type(path).__name__}")
+    suffix = Path(path).suffix.lower()
+    kind = format_of_name(path)
+    if suffix == ".bsm":
+        data = encode(mesh, **keywords)
+    elif kind is None:
+        raise OptionError(f"{path}: the name tells no format; use one of .bsm, .{', .'.join(MESH_FORMATS)}")
+    elif keywords:
+        raise OptionError(f"{path}: {next(iter(keywords))} is an option of .bsm files only")
+    else:
+        data = format_mesh(as_mesh(mesh), kind)
+    with open_output(path, overwrite=overwrite) as file:
+        file.write(data)
+
+
+def denoise(mesh: Any, options: DenoiseOptions | None = None, /, **keywords: Any) -> TriangleMesh:
+    """Remove noise from the positions of a mesh; the faces stay.
+
+    Parameters
+    ----------
+    mesh : mesh, pair of arrays, or path
+        As `encode` takes it.
+    options : DenoiseOptions, optional
+        Instead of keywords.
+    **keywords
+        Fields of `DenoiseOptions`; without any of them everything is chosen from the noise of the mesh.
+    """
+    from codec.denoise import DenoiseOptions
+    from codec.denoise import denoise as denoise_mesh
+
+    return denoise_mesh(as_mesh(mesh), _chosen(options, DenoiseOptions, keywords, keywords_to.denoise_options))
+
+
+def compare(original: Any, decoded: Any, *, order: npt.ArrayLike | None = None) -> Comparison:
+    """How far a mesh is from another of the same faces.
+
+    Parameters
+    ----------
+    original, decoded : mesh, pair of arrays, path, or stream
+        As `encode` takes a mesh, or `decode` a stream. Vertices that no face uses are left out.
+    order : int array, optional
+        Vertex j of `decoded` is vertex order[j] of `original`: `Encoder.vertex_order`. Without it the order may be the
+        same, or the decoder's.
+
+    Raises
+    ------
+    MeshError
+        If they have different faces.
+    """
+    import numpy as np
+
+    from codec.geometry.metrics import compare as compare_positions
+
+    first, second = (as_mesh(_opened(mesh)).without_isolated_vertices()[0] for mesh in (original, decoded))
+    positions = in_order_of(first, second, None if order is None else np.asarray(order, np.int64))
+    return compare_positions(first.positions, positions, first.faces)
+
+
+def _opened(mesh: Any) -> Any:
+    """Streams and files as `Input`; anything else as it is."""
+    return Input(mesh) if isinstance(mesh, (bytes, bytearray, memoryview)) or hasattr(mesh, "read") else mesh
+
+
+def _chosen(
+    options: _Options | None, kind: type[_Options], keywords: dict[str, Any], build: Callable[..., _Options | None]
+) -> _Options | None:
+    """The options that were given, or those that keywords ask for."""
+    if options is None:
+        return build(**keywords)
+    if not isinstance(options, kind):
+        raise ArgumentError(f"{kind.__name__} is expected, not {type(options).__name__}; or give options by keyword")
+    if keywords:
+        raise ArgumentError(f"give {kind.__name__}, or keywords such as {next(iter(keywords))}; not both")
+    return options

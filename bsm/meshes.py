@@ -1,0 +1,125 @@
+"""What other libraries call a mesh, as ours."""
+
+from __future__ import annotations
+
+import os
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from bitstream.errors import ArgumentError, MeshError
+from bitstream.limits import DEFAULT_LIMITS
+from bsm.files.mesh import read_mesh
+from bsm.files.pipes import Input
+from bsm.files.polygons import MeshFile, Polygons
+from bsm.files.rows import Ints, ranges
+from bsm.files.stream import decode_whole, is_stream
+from bsm.files.with_trimesh import joined
+from codec.geometry.mesh import TriangleMesh
+
+_POINTS = ("vertices", "points", "positions")
+_FACES = ("faces", "triangles")
+_SURFACES = ("triangle", "quad", "polygon")
+_NO_SURFACES = ("vertex", "line")
+
+
+def as_mesh(mesh: Any) -> TriangleMesh:
+    """A mesh of any kind as one of triangles.
+
+    Parameters
+    ----------
+    mesh : mesh, pair of arrays, or path
+        A `TriangleMesh`; an object with vertices or points, and faces (trimesh, pyvista, Open3D) or cells (meshio); a
+        scene of trimesh, whose parts are joined; a pair (positions, faces); or the path of a mesh file or stream. Faces
+        are an integer array of shape (m, 3), a larger number of columns or lists of different lengths for polygons,
+        which are cut into triangles, or flat as VTK has them: a count, so many indices, a count, ...
+
+    Raises
+    ------
+    ArgumentError
+        If it is nothing of all this.
+    MeshError
+        If it is no mesh of triangles or polygons.
+    """
+    if isinstance(mesh, TriangleMesh):
+        return mesh
+    if isinstance(mesh, MeshFile):
+        return mesh.mesh
+    if isinstance(mesh, (str, os.PathLike, Input)):
+        return read_any(mesh if isinstance(mesh, Input) else Input(mesh))
+    if isinstance(mesh, (tuple, list)) and len(mesh) == 2:
+        return _mesh_of_arrays(*mesh)
+    points, faces = _attribute(mesh, _POINTS), _attribute(mesh, _FACES)
+    if points is not None and faces is not None:
+        return _mesh_of_arrays(points, faces)
+    if points is not None and hasattr(mesh, "cells_dict"):
+        return _mesh_of_cells(points, mesh.cells_dict)
+    if hasattr(mesh, "graph") and hasattr(mesh, "geometry"):
+        return joined(mesh, DEFAULT_LIMITS).checked(DEFAULT_LIMITS).mesh
+    raise ArgumentError(
+        "a mesh is expected: an object with vertices (or points) and faces, a pair of arrays (positions, faces), or a "
+        f"path; not {type(mesh).__name__}"
+    )
+
+
+def read_any(source: Input, **reading: Any) -> TriangleMesh:
+    """The mesh in a stream or a mesh file; `reading` are arguments of `read_mesh`."""
+    if is_stream(source):
+        return decode_whole(source.chunks(), reading.get("limits", DEFAULT_LIMITS))
+    return read_mesh(source, **reading).mesh
+
+
+def _attribute(mesh: Any, names: tuple[str, ...]) -> Any:
+    """The first of the attributes that there is, methods left aside."""
+    values = (getattr(mesh, name, None) for name in names)
+    return next((value for value in values if value is not None and not callable(value)), None)
+
+
+def _mesh_of_arrays(positions: Any, faces: Any) -> TriangleMesh:
+    try:
+        table = np.asarray(faces)
+    except ValueError:  # lists of different lengths
+        rows = [np.asarray(face).reshape(-1) for face in faces]
+        return _mesh_of_polygons(positions, np.array([len(row) for row in rows]), np.concatenate(rows))
+    if table.ndim == 1 and table.size and table.dtype.kind in "iu":
+        return _mesh_of_polygons(positions, *_split(table.astype(np.int64)))
+    if table.ndim == 2 and table.shape[1] > 3:
+        return _mesh_of_polygons(positions, np.full(len(table), table.shape[1]), table.reshape(-1))
+    return TriangleMesh(positions, table)
+
+
+def _mesh_of_cells(points: Any, cells: dict[str, npt.NDArray[Any]]) -> TriangleMesh:
+    """The surface of a meshio mesh; its lines and single vertices are left out."""
+    solid = [name for name in cells if name not in (*_SURFACES, *_NO_SURFACES)]
+    if solid:
+        raise MeshError(f"cells of the type {solid[0]} are not triangles or polygons; take the surface of the mesh")
+    tables = [np.asarray(cells[name]) for name in _SURFACES if name in cells]
+    sizes = [np.full(len(table), table.shape[1]) for table in tables]
+    nothing = np.empty(0, np.int64)
+    corners = [table.reshape(-1) for table in tables]
+    return _mesh_of_polygons(points, np.concatenate([nothing, *sizes]), np.concatenate([nothing, *corners]))
+
+
+def _mesh_of_polygons(positions: Any, sizes: Ints, corners: npt.NDArray[Any]) -> TriangleMesh:
+    points = np.asarray(positions, np.float64)
+    if points.ndim != 2 or points.shape[1] != 3:
+        raise MeshError(f"positions must have shape (n, 3), not {points.shape}")
+    if corners.dtype.kind not in "iu":
+        raise MeshError(f"faces must be integers, not {corners.dtype}")
+    return Polygons(points, sizes.astype(np.int64), corners.astype(np.int64)).checked(DEFAULT_LIMITS).mesh
+
+
+def _split(flat: Ints) -> tuple[Ints, Ints]:
+    """Sizes and corners of polygons that follow each other, each behind the number of its corners."""
+    # Where the next polygon would begin if one began at each place; twice as many steps in each round.
+    jump = np.append(np.minimum(np.arange(1, len(flat) + 1) + np.maximum(flat, 0), len(flat)), len(flat))
+    starts = np.zeros(1, np.int64)
+    while jump[0] < len(flat):
+        starts = np.append(starts, jump[starts])
+        jump = jump[jump]
+    starts = np.unique(np.append(starts, jump[starts]))[:-1]
+    sizes = flat[starts]
+    if (sizes < 0).any() or starts[-1] + 1 + sizes[-1] != len(flat):
+        raise MeshError("flat faces must be made of a count and so many vertices, again and again")
+    return sizes, flat[ranges(starts + 1, sizes)]
