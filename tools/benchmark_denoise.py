@@ -21,7 +21,6 @@ import numpy as np
 
 from bsm.files.mesh import read_mesh
 from bsm.files.npz import read_arrays
-from bsm.files.pipes import read_bytes
 from bsm.paper.sequences import noisy_frames, time_sequence
 from codec.denoise.automatic import denoise_automatically
 from codec.denoise.coarse import CoarseFilter
@@ -169,7 +168,7 @@ def sequences_table(folder: Path) -> None:
     """One dictionary for all frames against one for each."""
     print("coarse step, ms a frame    shared   one by one   iterations anew   dictionaries anew   all anew   less by")
     for name in ("samba", "dance", "horse_gallop"):
-        positions, faces = read_arrays(read_bytes(folder / "dynamic" / f"{name}.npz"), "positions", "faces")
+        positions, faces = read_arrays(folder / "dynamic" / f"{name}.npz", "positions", "faces")
         faces = faces.astype(np.int32)
         times, _ = time_sequence(noisy_frames(positions[:48].astype(np.float64), faces), faces, 5)
         expect(f"frames of {name} in one product agree with single ones to 1e-10", times.difference < 1e-10)

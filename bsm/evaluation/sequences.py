@@ -102,7 +102,7 @@ def speed(positions: Positions, faces: Faces, options: SequenceOptions) -> dict[
 
 def measure(path: Path, every: int) -> dict[str, Any]:
     """All points of one sequence."""
-    positions, faces = read_arrays(path.read_bytes(), "positions", "faces")
+    positions, faces = read_arrays(path, "positions", "faces")
     frames = positions.astype(np.float64)
     faces = TriangleMesh(frames[0], faces).faces
     options = SequenceOptions(gop=max(len(frames), 1))

@@ -19,7 +19,7 @@ from typing import BinaryIO, cast
 from bitstream.container.wire import MAGIC
 from bitstream.errors import CorruptError, FormatError, MeshError, OptionError, TruncatedError
 from bitstream.limits import DEFAULT_LIMITS, Limits
-from bsm.files.npz import ARRAYS, array_names, read_arrays, write_npz
+from bsm.files.npz import other_arrays, read_arrays, write_npz
 from bsm.files.obj import read_obj, write_obj
 from bsm.files.off import read_off, write_off
 from bsm.files.output import open_output
@@ -103,12 +103,12 @@ def read_mesh(
 
 
 def _read_npz(data: bytes, limits: Limits) -> MeshFile:
-    positions, faces = read_arrays(data, *ARRAYS)
+    positions, faces = read_arrays(io.BytesIO(data), "positions", "faces")
     if positions.ndim == 3:
         raise MeshError(f"this npz file holds a sequence of {len(positions)} frames, not one mesh")
     limits.check("vertices", positions.size // 3)
     limits.check("faces", faces.size // 3)
-    dropped = tuple(name for name in array_names(data) if name not in ARRAYS)
+    dropped = other_arrays(io.BytesIO(data))
     notes = (f"left out: {', '.join(dropped)}",) if dropped else ()
     return MeshFile(TriangleMesh(positions, faces), notes, dropped)
 

@@ -4,70 +4,124 @@ from __future__ import annotations
 
 import io
 import lzma
+import os
 import zipfile
 import zlib
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from typing import IO, Any, BinaryIO
+from typing import BinaryIO, TypeAlias
 
 import numpy as np
-import numpy.typing as npt
 
 from bitstream.errors import CorruptError, FormatError, LimitError, MeshError
+from bsm.files.npy import Array, read_header, size_of
 from codec.geometry.mesh import Faces, Positions, TriangleMesh
 
-ARRAYS = ("positions", "faces")
-"""What a mesh and a sequence are made of."""
+Archive: TypeAlias = "str | os.PathLike[str] | BinaryIO"
+"""A path, or a seekable binary file."""
 
 _MAX_BYTES = 1 << 32
+_NO_ARCHIVE = (zipfile.BadZipFile, NotImplementedError, RuntimeError, UnicodeDecodeError)
+_DAMAGE = (EOFError, OSError, zipfile.BadZipFile, zlib.error, lzma.LZMAError)
 
 
-def read_arrays(data: bytes, *names: str) -> tuple[npt.NDArray[Any], ...]:
-    """The arrays called `names` of an npz; never unpickles, never allocates more than the archive declares.
+class NpzArray:
+    """An array of an npz, read from its beginning on; the archive is open until the end of the `with` block.
 
     Raises
     ------
     FormatError
-        If it is no npz, or lacks one of the arrays.
+        If it is no npz, or has no such array.
+    MeshError
+        If the array does not hold numbers.
     CorruptError
-        If an array contradicts its own header.
-    LimitError
-        If an array takes more than 4 GiB.
+        If it contradicts its own header; also while reading.
     """
-    try:
-        with zipfile.ZipFile(io.BytesIO(data)) as archive:
-            return tuple(_read_array(archive, name) for name in names)
-    except (zipfile.BadZipFile, NotImplementedError, RuntimeError, UnicodeDecodeError) as error:
-        raise FormatError(f"this is not an npz file: {error}") from error
+
+    def __init__(self, archive: Archive, name: str) -> None:
+        self._name = name
+        try:
+            self._archive = zipfile.ZipFile(archive)
+        except _NO_ARCHIVE as error:
+            raise FormatError(f"this is not an npz file: {error}") from error
+        try:
+            self._entry = self._archive.open(f"{name}.npy")
+            self.shape, self._fortran, self._kind = read_header(self._entry)
+        except BaseException as error:
+            self._archive.close()
+            if isinstance(error, KeyError):
+                raise FormatError(f"the npz file has no array {name}; it needs positions and faces") from None
+            if isinstance(error, _DAMAGE):
+                raise CorruptError(f"the array {name} cannot be read: {error}") from error
+            if isinstance(error, _NO_ARCHIVE):
+                raise FormatError(f"this is not an npz file that can be read: {error}") from error
+            raise
+
+    def __enter__(self) -> NpzArray:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._entry.close()
+        self._archive.close()
+
+    @property
+    def others(self) -> list[str]:
+        """The names of all arrays of the archive."""
+        return [name.removesuffix(".npy") for name in self._archive.namelist()]
+
+    def whole(self) -> Array:
+        """All numbers; `LimitError` beyond 4 GiB. Nothing is allocated for what is only claimed."""
+        size = size_of(self.shape, self._kind)
+        if size > _MAX_BYTES:
+            raise LimitError(f"the array {self._name} takes {size} bytes; the limit is {_MAX_BYTES}")
+        data = self._read(size + 1)
+        if len(data) != size:
+            raise CorruptError(f"the array {self._name} should take {size} bytes, not {len(data)}")
+        return np.frombuffer(data, self._kind).reshape(self.shape, order="F" if self._fortran else "C")
+
+    def frames(self) -> Iterator[Positions]:
+        """The first index' parts one after the other, as float64, without ever holding all of them."""
+        if self._fortran:
+            raise MeshError(f"the array {self._name} is in Fortran's order; save it with numpy.ascontiguousarray")
+        size = size_of(self.shape[1:], self._kind)
+        for number in range(self.shape[0]):
+            data = self._read(size)
+            if len(data) < size:
+                raise CorruptError(f"the array {self._name} ends early, in frame {number} of {self.shape[0]}")
+            yield np.frombuffer(data, self._kind).reshape(self.shape[1:]).astype(np.float64)
+
+    def _read(self, size: int) -> bytes:
+        try:
+            return self._entry.read(size)
+        except _DAMAGE as error:
+            raise CorruptError(f"the array {self._name} cannot be read: {error}") from error
 
 
-def array_names(data: bytes) -> list[str]:
-    """The names of all arrays of an npz that `read_arrays` has read from."""
-    with zipfile.ZipFile(io.BytesIO(data)) as archive:
-        return [name.removesuffix(".npy") for name in archive.namelist()]
+def npz_shape(archive: Archive) -> tuple[int, ...]:
+    """Shape of the array `positions`, (T, n, 3) for a sequence; errors as those of `NpzArray`."""
+    with NpzArray(archive, "positions") as positions:
+        return positions.shape
 
 
-def _read_array(archive: zipfile.ZipFile, name: str) -> npt.NDArray[Any]:
-    try:
-        entry = archive.getinfo(f"{name}.npy")
-    except KeyError:
-        raise FormatError(f"the npz file has no array {name}; it needs positions and faces") from None
-    if entry.file_size > _MAX_BYTES:
-        raise LimitError(f"the array {name} takes {entry.file_size} bytes; the limit is {_MAX_BYTES}")
-    try:
-        with archive.open(entry) as file:
-            version = np.lib.format.read_magic(file)
-            read = np.lib.format.read_array_header_1_0 if version == (1, 0) else np.lib.format.read_array_header_2_0
-            shape, fortran, kind = read(file)
-            body = file.read()
-    except (ValueError, EOFError, OSError, zipfile.BadZipFile, zlib.error, lzma.LZMAError) as error:
-        raise CorruptError(f"the array {name} cannot be read: {error}") from error
-    if kind.hasobject or kind.kind not in "iuf":
-        raise MeshError(f"the array {name} holds {kind}, not numbers")
-    count = int(np.prod([int(side) for side in shape], dtype=object))
-    if min(shape, default=0) < 0 or len(body) != count * kind.itemsize:
-        raise CorruptError(f"the array {name} should take {count * kind.itemsize} bytes, not {len(body)}")
-    return np.frombuffer(body, kind).reshape(shape, order="F" if fortran else "C")
+def npz_frames(archive: Archive) -> Iterator[Positions]:
+    """The frames of a sequence, shape (n, 3), read as they are asked for; errors as those of `NpzArray`."""
+    with NpzArray(archive, "positions") as positions:
+        yield from positions.frames()
+
+
+def read_arrays(archive: Archive, *names: str) -> tuple[Array, ...]:
+    """The arrays called `names`; errors as those of `NpzArray`, and `LimitError` beyond 4 GiB."""
+    found = []
+    for name in names:
+        with NpzArray(archive, name) as array:
+            found.append(array.whole())
+    return tuple(found)
+
+
+def other_arrays(archive: Archive) -> tuple[str, ...]:
+    """The names of the arrays that neither a mesh nor a sequence needs."""
+    with NpzArray(archive, "positions") as positions:
+        return tuple(name for name in positions.others if name not in ("positions", "faces"))
 
 
 def write_npz(mesh: TriangleMesh) -> bytes:
@@ -84,37 +138,27 @@ def open_npz_sequence(file: BinaryIO, faces: Faces, count: int) -> Iterator[Call
     With `count` > 0 frames, as many must come, and none is kept in memory; with 0, all are.
     """
     kept: list[Positions] = []
+    taken = 0
+
+    def write(frame: Positions) -> None:
+        nonlocal taken
+        if taken == 0:
+            header = {"descr": "<f8", "fortran_order": False, "shape": (count, *frame.shape)}
+            np.lib.format.write_array_header_1_0(entry, header)
+        entry.write(np.ascontiguousarray(frame, "<f8").tobytes())
+        taken += 1
+
     with zipfile.ZipFile(file, "w", zipfile.ZIP_DEFLATED) as archive:
         with archive.open("faces.npy", "w") as entry:
             np.lib.format.write_array(entry, faces)
-        if count:
-            with archive.open("positions.npy", "w", force_zip64=True) as entry:
-                taken = _FrameEntry(entry, count)
-                yield taken.write
-                taken.finish()
-        else:
+        known = count > 0
+        if not known:
             yield kept.append
-            with archive.open("positions.npy", "w", force_zip64=True) as entry:
-                np.lib.format.write_array(entry, np.array(kept))
-
-
-class _FrameEntry:
-    """The array `positions` of an npz that is being written."""
-
-    def __init__(self, entry: IO[bytes], count: int) -> None:
-        self._entry = entry
-        self._count = count
-        self._taken = 0
-
-    def write(self, frame: Positions) -> None:
-        """Append one frame; the first one tells the number of vertices."""
-        if self._taken == 0:
-            header = {"descr": "<f8", "fortran_order": False, "shape": (self._count, *frame.shape)}
-            np.lib.format.write_array_header_1_0(self._entry, header)
-        self._entry.write(np.ascontiguousarray(frame, "<f8").tobytes())
-        self._taken += 1
-
-    def finish(self) -> None:
-        """Check that all frames came."""
-        if self._taken != self._count:
-            raise CorruptError(f"{self._taken} of {self._count} frames came")
+            count = len(kept)
+        with archive.open("positions.npy", "w", force_zip64=True) as entry:
+            for frame in kept:
+                write(frame)
+            if known:
+                yield write
+            if taken != count:
+                raise CorruptError(f"{taken} of {count} frames came")

@@ -10,9 +10,9 @@ import numpy as np
 import numpy.typing as npt
 
 from bitstream.errors import FormatError, MeshError
+from bsm.files.npy import write_npy
 from bsm.files.output import open_output
 from bsm.files.pipes import read_bytes
-from bsm.files.sequence import write_npy
 from codec.geometry.mesh import Faces, Positions, TriangleMesh
 
 if TYPE_CHECKING:

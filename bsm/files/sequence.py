@@ -16,30 +16,20 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, BinaryIO, Protocol
 
 import numpy as np
-import numpy.typing as npt
 
-from bitstream.errors import FormatError, MeshError, OptionError, TruncatedError
+from bitstream.errors import FormatError, MeshError, OptionError
 from bsm.files.mesh import MESH_FORMATS, format_mesh, format_of_name, read_mesh
-from bsm.files.npz import open_npz_sequence
-from bsm.files.npz_frames import Archive, npz_faces, npz_frames, npz_shape
+from bsm.files.npy import NPY, Readable, read_npy, write_npy
+from bsm.files.npz import Archive, npz_frames, npz_shape, open_npz_sequence, read_arrays
 from bsm.files.output import open_output
 from bsm.files.pipes import Source, as_input, is_pipe
 from codec.geometry.mesh import Faces, Positions, TriangleMesh
 
-NPY = b"\x93NUMPY"
 ZIP = b"PK\x03\x04"
 SEQUENCE_FORMATS = ("npz", "npy", *(name for name in MESH_FORMATS if name != "npz"))
 """What `bsm decode` can make of a sequence: an npz, a pipe of npy arrays, or a folder of mesh files."""
-
-
-class Readable(Protocol):
-    """What arrays are read from."""
-
-    def read(self, size: int = ..., /) -> bytes:
-        """The next bytes, as many as asked for unless the end comes before."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -97,7 +87,7 @@ def open_sequence(source: Source, file_format: str | None = None, reader: str | 
         return None
     if shape[0] == 0:
         raise MeshError("this npz file holds a sequence without frames")
-    mesh = TriangleMesh(next(npz_frames(archive)), npz_faces(archive))
+    mesh = TriangleMesh(next(npz_frames(archive)), *read_arrays(archive, "faces"))
     return Frames(mesh.faces, shape[0], npz_frames(archive))
 
 
@@ -130,14 +120,6 @@ def sequence_writer(
             raise FileExistsError(17, "the folder is not empty; -f writes into it", path)
         numbers = iter(range(sys.maxsize))
         yield lambda frame: _write_frame(folder / f"{next(numbers):05d}.{kind}", TriangleMesh(frame, faces), kind)
-
-
-def write_npy(file: BinaryIO, array: npt.NDArray[Any]) -> None:
-    """Write an npy array so that whoever reads a pipe has it at once."""
-    buffer = io.BytesIO()  # numpy would ask a pipe for its position
-    np.save(buffer, array)
-    file.write(buffer.getvalue())
-    file.flush()
 
 
 def _write_frame(path: Path, mesh: TriangleMesh, kind: str) -> None:
@@ -176,35 +158,11 @@ def _arrays(file: Readable) -> Frames:
 
     def frames() -> Iterator[Positions]:
         while (frame := read_npy(file)) is not None:
-            if frame.ndim != 2 or frame.shape[1] != 3 or frame.dtype.kind not in "iuf":
+            if frame.ndim != 2 or frame.shape[1] != 3:
                 raise FormatError(f"an array of {frame.dtype} and shape {frame.shape} is no frame; (n, 3) numbers are")
             yield frame.astype(np.float64)
 
     return Frames(faces.astype(np.int32), 0, frames())
-
-
-def read_npy(file: Readable) -> npt.NDArray[np.generic] | None:
-    """The next array, or None at the end; never unpickles."""
-    magic = file.read(len(NPY))
-    if not magic:
-        return None
-    try:
-        if magic != NPY:
-            raise FormatError("this is not a sequence of npy arrays")
-        major, _ = file.read(2)
-        read = np.lib.format.read_array_header_1_0 if major == 1 else np.lib.format.read_array_header_2_0
-        shape, fortran, kind = read(file)
-        if kind.hasobject:
-            raise FormatError("an npy array holds objects, not numbers")
-        size = int(np.prod([int(side) for side in shape], dtype=object)) * kind.itemsize
-        data = file.read(size)
-    except ValueError as error:
-        if isinstance(error, FormatError):
-            raise
-        raise TruncatedError(f"an npy array ends in its header or has none: {error}") from error
-    if len(data) < size:
-        raise TruncatedError(f"an npy array has {len(data)} of {size} bytes")
-    return np.frombuffer(data, kind).reshape(shape, order="F" if fortran else "C")
 
 
 def sequence_kind(path: str, file_format: str | None) -> str:

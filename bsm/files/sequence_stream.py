@@ -9,8 +9,9 @@ import numpy as np
 import numpy.typing as npt
 
 from bitstream.container.packets import Header
-from bitstream.container.reader import END_OF_STREAM, NEED_DATA, Reader
+from bitstream.container.reader import NEED_DATA, Reader
 from bitstream.errors import BsmError, TruncatedError
+from bsm.files.stream import events
 from codec.geometry.mesh import Faces, Positions, TriangleMesh
 
 Note = Callable[[str], None]
@@ -51,42 +52,33 @@ class SequenceStream:
     """
 
     def __init__(self, chunks: Iterator[bytes], note: Note | None = None, start: int = 0) -> None:
-        from codec import SequenceDecoder
+        from codec import ConnectivityEvent, HeaderEvent, SequenceDecoder
 
         self.header: Header
         self.faces: Faces
-        self._chunks = chunks
         self._note = note
-        self._decoder = SequenceDecoder(tolerant=note is not None, start=start)
-        if self._next() is not None or not hasattr(self, "faces"):
-            raise TruncatedError("the stream ends before its faces")
+        decoder = SequenceDecoder(tolerant=note is not None, start=start)
+        self._events = events(decoder, chunks)
+        for event in self._events:
+            if isinstance(event, HeaderEvent):
+                self.header = event.header
+            elif isinstance(event, ConnectivityEvent):
+                self.faces = event.faces
+                return
+        raise TruncatedError("the stream ends before its faces")
 
     def frames(self) -> Iterator[tuple[int, Positions]]:
         """Number and positions, shape (n, 3), of one frame after the other."""
-        while (frame := self._next()) is not None:
-            yield frame
+        from codec import FrameEvent, GopLost
 
-    def _next(self) -> tuple[int, Positions] | None:
-        """The next frame; None at the end, and when the faces have come."""
-        from codec import ConnectivityEvent, FrameEvent, GopLost, HeaderEvent
-
-        while (event := self._decoder.next_event()) is not END_OF_STREAM:
+        for event in self._events:
             match event:
-                case HeaderEvent(header):
-                    self.header = header
-                case ConnectivityEvent(faces):
-                    self.faces = faces
-                    return None
                 case FrameEvent(index, positions):
-                    return index, positions
+                    yield index, positions
                 case GopLost(index, frames, reason):
                     assert self._note is not None
                     what = f"frames {index} to {index + frames - 1} are" if frames else f"what follows frame {index} is"
                     self._note(f"{what} lost: {reason}")
-                case signal if signal is NEED_DATA:
-                    chunk = next(self._chunks, b"")
-                    self._decoder.receive_data(chunk) if chunk else self._decoder.receive_eof()
-        return None
 
 
 def numbered(faces: Faces, vertices: int) -> TriangleMesh:

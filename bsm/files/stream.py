@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 import numpy.typing as npt
@@ -160,32 +160,23 @@ def decode_blocks(chunks: Iterator[bytes], count: int, progress: Progress) -> Tr
     BsmError
         If the stream ends or is damaged before that.
     """
-    from codec import BlockEvent, ConnectivityEvent, Decoder, EndEvent, HeaderEvent
+    from codec import BlockEvent, Decoder, HeaderEvent
 
     if count < 1:
         raise OptionError("at least one block must be decoded")
-    faces: npt.NDArray[np.int32] = np.empty((0, 3), np.int32)
-    positions, known = np.empty((0, 3)), np.empty(0, np.bool_)
+    part = _Part()
     wanted, done = count, 0
     with Decoder() as decoder:
-        while done < wanted:
-            match decoder.next_event():
-                case HeaderEvent(header):
-                    positions, known = np.zeros((header.vertices, 3)), np.zeros(header.vertices, np.bool_)
-                    wanted = min(count, header.blocks)
-                case ConnectivityEvent(faces):
-                    pass
-                case BlockEvent() as block:
-                    positions[block.vertices] = block.positions
-                    known[block.vertices] = True
-                    done += 1
-                    progress(done, wanted)
-                case EndEvent():
-                    break
-                case signal if signal is NEED_DATA:
-                    chunk = next(chunks, b"")
-                    decoder.receive_data(chunk) if chunk else decoder.receive_eof()
-    return _known_part(positions, faces, known)
+        for event in events(decoder, chunks):
+            part.take(event)
+            if isinstance(event, HeaderEvent):
+                wanted = min(count, event.header.blocks)
+            elif isinstance(event, BlockEvent):
+                done += 1
+                progress(done, wanted)
+            if done == wanted:
+                break
+    return part.mesh()
 
 
 def decode_what_is_left(chunks: Iterator[bytes], report: Callable[[str], None]) -> TriangleMesh:
@@ -203,39 +194,66 @@ def decode_what_is_left(chunks: Iterator[bytes], report: Callable[[str], None]) 
     BsmError
         If the damage is before the first block.
     """
-    from codec import BlockEvent, ConnectivityEvent, Decoder, EndEvent, HeaderEvent, LossEvent
+    from codec import Decoder, EndEvent, LossEvent
 
-    faces: npt.NDArray[np.int32] = np.empty((0, 3), np.int32)
-    positions, known = np.empty((0, 3)), np.empty(0, np.bool_)
+    part = _Part()
     with Decoder(tolerant=True) as decoder:
-        for chunk in chunks:
-            decoder.receive_data(chunk)
-        decoder.receive_eof()
-        while (event := decoder.next_event()) is not END_OF_STREAM:
+        for event in events(decoder, chunks):
+            part.take(event)
             match event:
-                case HeaderEvent(header):
-                    positions, known = np.zeros((header.vertices, 3)), np.zeros(header.vertices, np.bool_)
-                case ConnectivityEvent(faces):
-                    pass
-                case BlockEvent() as block:
-                    positions[block.vertices] = block.positions
-                    known[block.vertices] = True
                 case LossEvent(_, error):
                     report(f"lost: {error}")
                 case EndEvent(losses) if len(losses.missing) or len(losses.degraded):
                     report(
                         f"{len(losses.missing)} vertices are missing, {len(losses.degraded)} less good than they were"
                     )
-    return _known_part(positions, faces, known)
+    return part.mesh()
 
 
-def _known_part(
-    positions: npt.NDArray[np.float64], faces: npt.NDArray[np.int32], known: npt.NDArray[np.bool_]
-) -> TriangleMesh:
-    from codec import TriangleMesh
+class _Receiver(Protocol):
+    """What the decoders of meshes and sequences have in common."""
 
-    complete = faces[known[faces].all(axis=1)]
-    if len(complete) == 0:
-        raise MeshError("no face is complete in the blocks that are there")
-    positions = np.where(known[:, None], positions, 0.0)
-    return TriangleMesh(positions, complete).without_isolated_vertices()[0]
+    def receive_data(self, data: bytes) -> None: ...
+    def receive_eof(self) -> None: ...
+    def next_event(self) -> Any: ...
+
+
+def events(decoder: _Receiver, chunks: Iterator[bytes]) -> Iterator[Any]:
+    """What a decoder says while it is given bytes as it needs them, until the end of the stream."""
+    while (event := decoder.next_event()) is not END_OF_STREAM:
+        if event is not NEED_DATA:
+            yield event
+        elif chunk := next(chunks, b""):
+            decoder.receive_data(chunk)
+        else:
+            decoder.receive_eof()
+
+
+class _Part:
+    """What is known of a mesh while its blocks arrive."""
+
+    def __init__(self) -> None:
+        self._faces: npt.NDArray[np.int32] = np.empty((0, 3), np.int32)
+        self._positions, self._known = np.empty((0, 3)), np.empty(0, np.bool_)
+
+    def take(self, event: Any) -> None:
+        """Add what an event tells."""
+        from codec import BlockEvent, ConnectivityEvent, HeaderEvent
+
+        match event:
+            case HeaderEvent(header):
+                self._positions, self._known = np.zeros((header.vertices, 3)), np.zeros(header.vertices, np.bool_)
+            case ConnectivityEvent(faces):
+                self._faces = faces
+            case BlockEvent() as block:
+                self._positions[block.vertices] = block.positions
+                self._known[block.vertices] = True
+
+    def mesh(self) -> TriangleMesh:
+        """The faces whose vertices are known."""
+        from codec import TriangleMesh
+
+        complete = self._faces[self._known[self._faces].all(axis=1)]
+        if len(complete) == 0:
+            raise MeshError("no face is complete in the blocks that are there")
+        return TriangleMesh(self._positions, complete).without_isolated_vertices()[0]

@@ -15,7 +15,6 @@ from bsm.evaluation.render import DEFAULT_VIEW, view_matrix
 from bsm.evaluation.sample import knot
 from bsm.files.mesh import read_mesh
 from bsm.files.npz import read_arrays
-from bsm.files.pipes import read_bytes
 from bsm.paper.shapes import ball, box, swaying
 from codec.denoise.noise import gaussian_along_normals
 from codec.geometry.mesh import Faces, Positions, TriangleMesh
@@ -231,7 +230,7 @@ class Study:
         path = self.folder / "dynamic" / f"{MOVING.clean}.npz"
         if not path.exists():
             raise OptionError(f"there is no {path}")
-        positions, faces = read_arrays(read_bytes(path), "positions", "faces")
+        positions, faces = read_arrays(path, "positions", "faces")
         frames = positions[: self.effort.frames].astype(np.float64)
         return Model(MOVING.clean, MOVING, frames[0], frames[0], faces.astype(np.int32), MOVING.view), frames
 

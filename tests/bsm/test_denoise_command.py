@@ -11,7 +11,7 @@ import pytest
 from bitstream.errors import CorruptError, FormatError, MeshError
 from bsm.commands.denoise import FINE, HAND_OVERS
 from bsm.files.mesh import read_mesh, write_mesh
-from bsm.files.npz_frames import npz_frames, npz_shape
+from bsm.files.npz import npz_frames, npz_shape
 from codec.denoise import FINE_STEPS, DenoiseOptions, FrameDenoiser, denoise_automatically
 from codec.denoise import HAND_OVERS as LIBRARY_HAND_OVERS
 from codec.denoise.frames import GROUP

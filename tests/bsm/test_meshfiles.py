@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from bitstream.errors import BsmError, CorruptError, DependencyError, FormatError, LimitError, MeshError, TruncatedError
+from bitstream.errors import BsmError, CorruptError, FormatError, LimitError, MeshError, TruncatedError
 from bitstream.limits import Limits
 from bsm.files.mesh import MESH_FORMATS, format_mesh, read_mesh, write_mesh
 from codec.geometry.mesh import TriangleMesh
@@ -17,7 +17,7 @@ from codec.geometry.mesh import TriangleMesh
 TETRAHEDRON = TriangleMesh(
     np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]), np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]])
 )
-# Each of these edges and faces makes openmesh duplicate vertices or leave faces out.
+# Each of these edges and faces makes some reader duplicate vertices or leave faces out.
 AWKWARD = TriangleMesh(
     np.arange(18.0).reshape(6, 3) ** 1.5,
     np.array([[0, 1, 2], [0, 1, 3], [1, 0, 4], [0, 1, 2], [2, 1, 0], [5, 5, 4], [3, 3, 3]]),
@@ -71,7 +71,7 @@ def test_faces_and_their_corners_keep_their_order(kind, mesh, tmp_path):
     source = read_mesh(path)
     assert np.array_equal(source.mesh.faces, mesh.faces)
     assert source.mesh.positions == pytest.approx(mesh.positions, rel=1e-7)
-    assert bool(source.notes) == (mesh is AWKWARD), "a note says where openmesh was passed by"
+    assert source.notes == source.dropped == ()
 
 
 def test_stl_joins_equal_corners(tmp_path):
@@ -167,26 +167,12 @@ def test_standard_input(kind, monkeypatch):
     assert len(read_mesh("-").mesh.faces) == 4
 
 
-def test_the_reader_of_plain_files_is_openmesh(tmp_path, monkeypatch):
-    import openmesh
-
-    read = []
-    original = openmesh.read_polymesh
-    monkeypatch.setattr(openmesh, "read_polymesh", lambda name: read.append(name) or original(name))
-    for kind in ("obj", "off", "ply", "stl"):
-        write_mesh(tmp_path / f"a.{kind}", TETRAHEDRON)
-        read_mesh(tmp_path / f"a.{kind}")
-    assert len(read) == 4
-
-
-def test_a_missing_openmesh_is_named_only_where_it_is_needed(tmp_path, monkeypatch):
-    for kind in MESH_FORMATS:
-        write_mesh(tmp_path / f"a.{kind}", TETRAHEDRON)
-    monkeypatch.setitem(sys.modules, "openmesh", None)
-    for kind in ("obj", "off", "ply", "stl"):
-        with pytest.raises(DependencyError, match=r"pip install \"bsm-codec\[files\]\""):
-            read_mesh(tmp_path / f"a.{kind}")
-    assert len(read_mesh(tmp_path / "a.npz").mesh.faces) == 4
+@pytest.mark.parametrize("kind", MESH_FORMATS)
+def test_no_library_is_needed_for_our_formats(kind, tmp_path, monkeypatch):
+    write_mesh(tmp_path / f"a.{kind}", TETRAHEDRON)
+    for library in ("openmesh", "trimesh"):
+        monkeypatch.setitem(sys.modules, library, None)
+    assert len(read_mesh(tmp_path / f"a.{kind}").mesh.faces) == 4
 
 
 NUMBER = "{} 0 0\n1 0 0\n1 1 0\n0 1 0\n"

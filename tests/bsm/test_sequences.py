@@ -8,7 +8,8 @@ import pytest
 
 from bitstream.errors import CorruptError, FormatError, MeshError, OptionError, TruncatedError
 from bsm.cli import main
-from bsm.files.sequence import open_sequence, read_npy, sequence_kind, sequence_writer
+from bsm.files.npy import read_npy
+from bsm.files.sequence import open_sequence, sequence_kind, sequence_writer
 from tests.motion import bending
 
 FRAMES = 6
@@ -189,7 +190,7 @@ def arrays(*items):
         (arrays(np.zeros((4, 3), int), np.zeros((5, 3)))[:-1], TruncatedError),
         (arrays(np.zeros((4, 3), int))[:20], TruncatedError),
         (arrays(np.zeros((4, 3), int)) + b"something else", FormatError),
-        (arrays(np.array([None, {}], object)), FormatError),
+        (arrays(np.array([None, {}], object)), MeshError),
     ],
 )
 def test_damaged_arrays(tmp_path, data, error):
