@@ -102,7 +102,10 @@ def _mesh_of_cells(points: Any, cells: dict[str, npt.NDArray[Any]]) -> TriangleM
 
 
 def _mesh_of_polygons(positions: Any, sizes: Ints, corners: npt.NDArray[Any]) -> TriangleMesh:
-    points = np.asarray(positions, np.float64)
+    try:
+        points = np.asarray(positions, np.float64)
+    except (TypeError, ValueError) as error:
+        raise MeshError(f"positions is not an array of numbers: {error}") from error
     if points.ndim != 2 or points.shape[1] != 3:
         raise MeshError(f"positions must have shape (n, 3), not {points.shape}")
     if corners.dtype.kind not in "iu":

@@ -37,7 +37,7 @@ class TriangleMesh:
     faces: Faces
 
     def __post_init__(self) -> None:
-        positions = _as_array(self.positions, "positions").astype(np.float64)
+        positions = _as_array(self.positions, "positions", np.float64)
         faces = _as_array(self.faces, "faces")
         if positions.ndim != 2 or positions.shape[1] != 3:
             raise MeshError(f"positions must have shape (n, 3), not {positions.shape}")
@@ -76,8 +76,8 @@ class TriangleMesh:
         return TriangleMesh(self.positions[kept], renumber[self.faces]), kept
 
 
-def _as_array(values: Any, name: str) -> npt.NDArray[Any]:
+def _as_array(values: Any, name: str, kind: type[np.float64] | None = None) -> npt.NDArray[Any]:
     try:
-        return np.array(values)
+        return np.array(values, dtype=kind)
     except (TypeError, ValueError) as error:
-        raise MeshError(f"{name} is not an array: {error}") from error
+        raise MeshError(f"{name} is not an array of numbers: {error}") from error

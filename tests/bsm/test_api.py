@@ -1,0 +1,233 @@
+"""The façade: real meshes in, bytes out, and back."""
+
+import io
+import mmap
+import os
+import subprocess
+import sys
+import threading
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import bsm
+from tests.motion import bending
+from tests.shapes import torus
+
+ROOT = Path(__file__).parents[2]
+QUICK = {"block_size": 150, "threads": 1}
+
+
+@pytest.fixture(scope="module")
+def mesh():
+    return torus(20, 12)
+
+
+@pytest.fixture(scope="module")
+def stream(mesh):
+    return bsm.encode(mesh, **QUICK)
+
+
+@pytest.fixture(scope="module")
+def decoded(stream):
+    return bsm.decode(stream)
+
+
+def same(a, b):
+    return np.array_equal(a.positions, b.positions) and np.array_equal(a.faces, b.faces)
+
+
+# ------------------------------------------------------------------------------------------------------- round trips
+
+
+def test_a_mesh_of_trimesh(mesh, stream):
+    trimesh = pytest.importorskip("trimesh")
+    theirs = trimesh.Trimesh(mesh.positions, mesh.faces, process=False)
+    assert bsm.encode(theirs, **QUICK) == stream
+    assert bsm.encode((theirs.vertices, theirs.faces), **QUICK) == stream
+
+
+def test_options_are_those_of_the_command_line(mesh, tmp_path):
+    bsm.save(mesh, tmp_path / "a.ply")
+    given = ["--theta", "4", "--preset", "small", "--block-size", "150", "--no-predict"]
+    command = [sys.executable, "-m", "bsm.cli", "encode", str(tmp_path / "a.ply"), "-q", *given]
+    subprocess.run(command, cwd=ROOT, check=True, timeout=120)
+    keywords = {"theta": 4, "preset": "small", "block_size": 150, "predict": False}
+    assert bsm.encode(tmp_path / "a.ply", **keywords) == (tmp_path / "a.bsm").read_bytes()
+    assert bsm.compare(tmp_path / "a.ply", tmp_path / "a.bsm").theta_deg <= 4.1
+
+
+def test_options_as_an_object(mesh, stream):
+    assert bsm.encode(mesh, bsm.EncodeOptions(**QUICK)) == stream
+    with pytest.raises(bsm.ArgumentError, match="not both"):
+        bsm.encode(mesh, bsm.EncodeOptions(), step=0.1)
+    with pytest.raises(bsm.ArgumentError, match="EncodeOptions is expected, not SequenceOptions"):
+        bsm.encode(mesh, bsm.SequenceOptions())
+    with pytest.raises(TypeError, match="did you mean theta"):
+        bsm.encode(mesh, thetta=5)
+
+
+def test_every_kind_of_buffer(stream, decoded):
+    read_only = np.frombuffer(stream, np.uint8)
+    for buffer in (bytearray(stream), memoryview(stream), read_only, np.repeat(read_only, 2)[::2]):
+        assert same(bsm.decode(buffer), decoded)
+
+
+def test_every_kind_of_file(stream, decoded, tmp_path):
+    path = tmp_path / "a.bsm"
+    path.write_bytes(stream)
+    assert same(bsm.decode(path), decoded) and same(bsm.decode(str(path)), decoded)
+    with open(path, "rb") as file:
+        assert same(bsm.decode(file), decoded)
+        assert not file.closed
+        with mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ) as mapped:
+            assert same(bsm.decode(mapped), decoded)
+    with open(path, "rb", buffering=0) as raw:
+        assert same(bsm.decode(raw), decoded)
+
+
+def test_a_file_that_cannot_seek(stream, decoded):
+    class Trickle(io.RawIOBase):
+        """Gives a few bytes at a time, as a connection does."""
+
+        def __init__(self, data):
+            self.rest = data
+
+        def readable(self):
+            return True
+
+        def read(self, size=-1):
+            piece, self.rest = self.rest[:7], self.rest[7:]
+            return piece
+
+    assert same(bsm.decode(Trickle(stream)), decoded)
+    assert same(bsm.load(Trickle(stream)), decoded)
+
+
+def test_a_pipe_and_a_named_pipe(stream, decoded, tmp_path):
+    os.mkfifo(tmp_path / "fifo")
+    for target in (os.fdopen, None):
+        if target:
+            reading, writing = os.pipe()
+            source, writer = os.fdopen(reading, "rb"), lambda end=writing: os.fdopen(end, "wb")
+        else:
+            source, writer = tmp_path / "fifo", lambda: open(tmp_path / "fifo", "wb")
+
+        def feed(writer=writer):
+            with writer() as file:
+                file.write(stream)
+
+        thread = threading.Thread(target=feed)
+        thread.start()
+        assert same(bsm.load(source), decoded)
+        thread.join()
+        if target:
+            source.close()
+
+
+def test_decoding_with_limits(stream):
+    with pytest.raises(bsm.LimitError):
+        bsm.decode(stream, limits=bsm.Limits(vertices=10))
+    with pytest.raises(bsm.LimitError):
+        bsm.load(stream, limits=bsm.Limits(vertices=10))
+
+
+def test_events(stream, decoded):
+    positions = np.zeros_like(decoded.positions)
+    file = io.BytesIO(stream)
+    with bsm.Decoder() as decoder:
+        while (event := decoder.next_event()) is not bsm.END_OF_STREAM:
+            if event is bsm.NEED_DATA:
+                chunk = file.read(100)
+                decoder.receive_data(chunk) if chunk else decoder.receive_eof()
+            elif isinstance(event, bsm.BlockEvent):
+                positions[event.vertices] = event.positions
+    assert isinstance(event, bsm.Signal)
+    assert np.array_equal(positions, decoded.positions)
+
+
+def test_sequences():
+    positions, faces = bending(5)
+    data = bsm.encode_sequence(positions, faces, step=0.001, keep_order=True, threads=1)
+    again, same_faces = bsm.decode_sequence(io.BytesIO(data))
+    assert np.array_equal(same_faces, faces)
+    assert np.abs(again - positions).max() < 0.01
+    with pytest.raises(bsm.ArgumentError, match="power"):
+        bsm.encode_sequence(positions, faces, power=3)
+    with pytest.raises(bsm.UnsupportedError):
+        bsm.decode(data)
+    with pytest.raises(bsm.FormatError):
+        bsm.decode_sequence(bsm.encode(torus(6, 5)))
+
+
+# ------------------------------------------------------------------------------------------------------------- files
+
+
+@pytest.mark.parametrize("suffix", ["npz", "obj", "off", "ply", "stl", "bsm", "PLY", "BSM"])
+def test_save_and_load(mesh, suffix, tmp_path):
+    path = tmp_path / f"a.{suffix}"
+    options = QUICK | {"keep_order": True, "step": 0.0005} if suffix.lower() == "bsm" else {}
+    bsm.save(mesh, path, **options)
+    assert [file.name for file in tmp_path.iterdir()] == [path.name]
+    back = bsm.load(path)
+    expected = mesh.positions[mesh.faces]
+    tolerance = 0.02 if suffix.lower() == "bsm" else 1e-6
+    assert back.positions[back.faces] == pytest.approx(expected, abs=tolerance)
+
+
+def test_what_cannot_be_saved(mesh, tmp_path):
+    with pytest.raises(bsm.OptionError, match=r"use one of \.bsm, \.npz"):
+        bsm.save(mesh, tmp_path / "a.glb")
+    with pytest.raises(bsm.OptionError, match=r"step is an option of \.bsm files"):
+        bsm.save(mesh, tmp_path / "a.ply", step=1)
+    with pytest.raises(bsm.ArgumentError, match="the path of a file is expected, not TriangleMesh"):
+        bsm.save(tmp_path / "a.ply", mesh)
+    bsm.save(mesh, tmp_path / "a.ply")
+    with pytest.raises(FileExistsError):
+        bsm.save(mesh, tmp_path / "a.ply", overwrite=False)
+    with pytest.raises(FileNotFoundError) as caught:
+        bsm.save(mesh, tmp_path / "no" / "a.ply")
+    assert caught.value.filename == str(tmp_path / "no" / "a.ply")
+
+
+@pytest.mark.parametrize("read", [bsm.load, bsm.read_mesh, bsm.decode, bsm.decode_sequence, bsm.encode])
+def test_folders_and_missing_files(read, tmp_path):
+    with pytest.raises(bsm.FormatError, match="is a folder"):
+        read(tmp_path)
+    with pytest.raises(FileNotFoundError, match="none"):
+        read(tmp_path / "none")
+
+
+@pytest.mark.parametrize("read", [bsm.load, bsm.decode, bsm.decode_sequence])
+@pytest.mark.parametrize("source", [None, 3, 1.5, io.StringIO("ply"), object()])
+def test_what_is_no_stream_is_named(read, source):
+    with pytest.raises(bsm.ArgumentError, match="expected, not"):
+        read(source)
+
+
+# ------------------------------------------------------------------------------------------------ compare and denoise
+
+
+def test_compare_takes_all_kinds(mesh, stream, decoded, tmp_path):
+    (tmp_path / "a.bsm").write_bytes(stream)
+    expected = bsm.compare(mesh, decoded)
+    assert 0 < expected.max_error_relative < 0.05
+    for other in (stream, io.BytesIO(stream), tmp_path / "a.bsm", (decoded.positions, decoded.faces)):
+        assert bsm.compare(mesh, other) == expected
+    encoder = bsm.Encoder(mesh, bsm.EncodeOptions(**QUICK))
+    assert bsm.compare(mesh, decoded, order=encoder.vertex_order) == expected
+    assert bsm.compare(mesh, mesh).rms == 0
+    with pytest.raises(bsm.MeshError):
+        bsm.compare(mesh, torus(9, 8))
+
+
+def test_denoise():
+    clean = torus(24, 16, bumps=0.0)
+    noise = np.random.default_rng(1).normal(0, 0.02, clean.positions.shape)
+    noisy = bsm.TriangleMesh(clean.positions + noise, clean.faces)
+    before = bsm.compare(clean, noisy).theta_deg
+    assert bsm.compare(clean, bsm.denoise((noisy.positions, noisy.faces))).theta_deg < before
+    assert same(bsm.denoise(noisy, bsm.DenoiseOptions(iterations=2)), bsm.denoise(noisy, iterations=2))
+    with pytest.raises(bsm.OptionError):
+        bsm.denoise(noisy, fine="elephant")

@@ -1,0 +1,76 @@
+"""`import bsm`: the one supported name."""
+
+import ast
+import doctest
+import inspect
+import subprocess
+import sys
+import tomllib
+from pathlib import Path
+
+import pytest
+
+import bsm
+
+ROOT = Path(__file__).parents[2]
+
+
+def run(program):
+    return subprocess.run(
+        [sys.executable, "-c", program], capture_output=True, text=True, timeout=120, cwd=ROOT, check=True
+    ).stdout
+
+
+def test_it_loads_nothing_that_takes_time():
+    loaded = set(run("import sys, bsm; bsm.__version__; dir(bsm); print(*sys.modules)").split())
+    assert not {"numpy", "scipy", "numba", "codec", "codec.denoise", "bitstream.container"} & loaded
+
+
+def test_a_name_loads_no_more_than_it_needs():
+    loaded = set(run("import sys, bsm; bsm.Limits(), bsm.MeshError; print(*sys.modules)").split())
+    assert "bitstream.limits" in loaded
+    assert not {"numpy", "codec"} & loaded
+
+
+def test_help_lists_everything():
+    text = run("import bsm; help(bsm)")
+    for name in bsm.__all__[1:]:
+        assert name in text
+    assert "theta=5" in text and "BSM: a streaming spectral codec" in text
+
+
+def test_every_name_is_there_and_has_a_docstring():
+    for name in bsm.__all__:
+        value = getattr(bsm, name)
+        if inspect.isclass(value) or inspect.isfunction(value):
+            assert inspect.getdoc(value), name
+    assert set(bsm.__all__) == set(dir(bsm))
+    with pytest.raises(AttributeError, match="elephant"):
+        _ = bsm.elephant
+
+
+def test_every_error_of_the_project_is_there():
+    import bitstream.errors
+
+    errors = [name for name, value in vars(bitstream.errors).items() if inspect.isclass(value)]
+    assert set(errors) <= set(bsm.__all__)
+
+
+def test_type_checkers_see_the_same_names():
+    tree = ast.parse(Path(bsm.__file__).read_text())
+    imports = [node for node in ast.walk(tree) if isinstance(node, ast.ImportFrom) and node.module != "__future__"]
+    seen = {alias.asname: node.module for node in imports for alias in node.names if alias.asname}
+    assert seen == bsm._HOMES
+    assert list(seen) == bsm.__all__[1:]
+
+
+def test_the_example_of_the_docstring():
+    assert doctest.testmod(bsm).attempted > 0
+    assert doctest.testmod(bsm).failed == 0
+
+
+def test_the_version_is_written_once():
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text())
+    assert project["project"]["dynamic"] == ["version"]
+    assert project["tool"]["scikit-build"]["metadata"]["version"]["input"] == "bsm/__init__.py"
+    assert bsm.__version__.split(".")[0].isdigit()
