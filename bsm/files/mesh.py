@@ -82,6 +82,8 @@ def read_mesh(
     """
     given = as_input(source)
     path, name = (given.name if given.is_file else None), given.name
+    if reader not in (None, *READERS):
+        raise OptionError(f"a reader must be one of {', '.join(READERS)}, not {reader!r}")
     data = given.read_all()
     if data.startswith(b"\x1f\x8b"):
         path, name, data = None, name.removesuffix(".gz"), _unzipped(data)
@@ -90,9 +92,9 @@ def read_mesh(
     if data.startswith(MAGIC):
         raise FormatError("this is a BSM stream, not a mesh file; decode it first")
     kind = file_format or format_of_name(name) or format_of_bytes(data) or Path(name).suffix[1:].lower()
+    if (reader == "openmesh" and kind not in _READERS) or (reader == "bsm" and kind not in MESH_FORMATS):
+        raise OptionError(f"{reader} does not read {f'.{kind}' if kind else 'this'}; the default reader may")
     if reader == "trimesh" or kind not in MESH_FORMATS:
-        if reader not in (None, "trimesh"):
-            raise OptionError(f"{reader} does not read {f'.{kind}' if kind else 'this'}; the default reader may")
         return read_with_trimesh(data, path, kind, limits).checked(limits)
     if kind == "npz":
         return _read_npz(data, limits)

@@ -6,6 +6,7 @@ import os
 import subprocess
 import sys
 import threading
+from contextlib import contextmanager
 from pathlib import Path
 
 import numpy as np
@@ -107,23 +108,25 @@ def test_a_file_that_cannot_seek(stream, decoded):
 
 def test_a_pipe_and_a_named_pipe(stream, decoded, tmp_path):
     os.mkfifo(tmp_path / "fifo")
-    for target in (os.fdopen, None):
-        if target:
-            reading, writing = os.pipe()
-            source, writer = os.fdopen(reading, "rb"), lambda end=writing: os.fdopen(end, "wb")
-        else:
-            source, writer = tmp_path / "fifo", lambda: open(tmp_path / "fifo", "wb")
-
-        def feed(writer=writer):
-            with writer() as file:
-                file.write(stream)
-
-        thread = threading.Thread(target=feed)
-        thread.start()
+    reading, writing = os.pipe()
+    with open(reading, "rb") as source, fed(writing, stream):
         assert same(bsm.load(source), decoded)
-        thread.join()
-        if target:
-            source.close()
+    with fed(tmp_path / "fifo", stream):
+        assert same(bsm.load(tmp_path / "fifo"), decoded)
+
+
+@contextmanager
+def fed(target, data):
+    """Write into a pipe meanwhile."""
+
+    def feed():
+        with open(target, "wb") as file:
+            file.write(data)
+
+    thread = threading.Thread(target=feed)
+    thread.start()
+    yield
+    thread.join()
 
 
 def test_decoding_with_limits(stream):

@@ -1,0 +1,280 @@
+"""What mesh files hold beside positions and faces, and who can be asked to read them."""
+
+import gzip
+import json
+import struct
+import sys
+
+import numpy as np
+import pytest
+
+from bitstream.errors import (
+    CorruptError,
+    DependencyError,
+    FormatError,
+    LimitError,
+    MeshError,
+    OptionError,
+    TruncatedError,
+)
+from bitstream.limits import Limits
+from bsm.files.mesh import format_mesh, read_mesh, write_mesh
+from codec.geometry.mesh import TriangleMesh
+from tests.shapes import tetrahedron, torus
+
+SQUARE = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n"
+OURS = ("obj", "off", "ply", "stl")
+
+
+# ---------------------------------------------------------------------------------------------- attributes left behind
+
+
+@pytest.mark.parametrize(
+    ("lines", "dropped"),
+    [
+        ("", ()),
+        ("vn 0 0 1\n", ("normals",)),
+        ("vt 0 0\nvt 1 0\n", ("texture coordinates",)),
+        ("mtllib a.mtl\nusemtl red\n", ("materials",)),
+        ("g left\no body\ns 1\n", ("groups", "names of objects")),
+        ("l 1 2\np 3\n", ("lines", "points")),
+        ("v 0 0 1 0.5 0.5 0.5\n", ("colours",)),
+    ],
+)
+def test_what_an_obj_loses(lines, dropped):
+    source = read_mesh(f"v 0 0 0\nv 1 0 0\nv 0 1 0\n{lines}f 1 2 3\n".encode())
+    assert source.dropped == dropped
+    assert source.notes == ((f"left out: {', '.join(dropped)}",) if dropped else ())
+
+
+@pytest.mark.parametrize(
+    ("vertex", "face", "other", "dropped"),
+    [
+        ("", "", "", ()),
+        ("nx ny nz", "", "", ("normals",)),
+        ("red green blue", "red green blue", "", ("colours",)),
+        ("s t quality", "", "", ("texture coordinates", "quality")),
+        ("", "flags", "element edge 1\nproperty int vertex1\n", ("flags", "edge")),
+    ],
+)
+def test_what_a_ply_loses(vertex, face, other, dropped):
+    extra = {
+        name: "".join(f"property float {item}\n" for item in words.split())
+        for name, words in (("vertex", vertex), ("face", face))
+    }
+    header = (
+        "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+        f"{extra['vertex']}element face 1\nproperty list uchar int vertex_indices\n{extra['face']}{other}end_header\n"
+    )
+    rows = "".join(f"{row}{' 0' * len(vertex.split())}\n" for row in SQUARE.splitlines())
+    body = f"{rows}4 0 1 2 3{' 0' * len(face.split())}\n{'1' if other else ''}\n"
+    assert read_mesh((header + body).encode()).dropped == dropped
+
+
+@pytest.mark.parametrize(
+    ("head", "behind", "colours", "dropped"),
+    [
+        ("OFF", "", "", ()),
+        ("OFF", "", " 255 0 0", ("colours",)),
+        ("NOFF", " 0 0 1", "", ("normals",)),
+        ("STCNOFF", " 0 0 1 9 9 9 1 0 0", "", ("normals", "colours", "texture coordinates")),
+        ("OFF", " 7 8 9", "", ("numbers behind the coordinates",)),
+    ],
+)
+def test_what_an_off_loses(head, behind, colours, dropped):
+    rows = "".join(f"{row}{behind}\n" for row in SQUARE.splitlines())
+    assert read_mesh(f"{head}\n4 1 0\n{rows}4 0 1 2 3{colours}\n".encode()).dropped == dropped
+
+
+def test_what_an_npz_loses(tmp_path):
+    mesh = tetrahedron()
+    np.savez(tmp_path / "a.npz", positions=mesh.positions, faces=mesh.faces, colours=np.zeros(4), uv=np.zeros(2))
+    assert read_mesh(tmp_path / "a.npz").dropped == ("colours", "uv")
+
+
+@pytest.mark.real
+@pytest.mark.parametrize(
+    ("name", "dropped"),
+    [
+        ("fuze_colours.ply", ("colours", "texture coordinates")),
+        ("cortex_sulc.ply", ("sulc",)),
+        ("robot_hand.obj", ("normals", "materials")),
+        ("spot_uv.obj", ("texture coordinates",)),
+    ],
+)
+def test_what_real_files_lose(meshes, name, dropped):
+    assert read_mesh(meshes / "assets" / name).dropped == dropped
+
+
+# --------------------------------------------------------------------------------------------------------------- gzip
+
+
+@pytest.mark.parametrize("kind", [*OURS, "npz"])
+def test_compressed_files(kind, tmp_path):
+    (tmp_path / f"a.{kind}.gz").write_bytes(gzip.compress(format_mesh(tetrahedron(), kind)))
+    assert len(read_mesh(tmp_path / f"a.{kind}.gz").mesh.faces) == 4
+
+
+def test_damaged_compressed_files():
+    whole = gzip.compress(format_mesh(torus(), "ply"))
+    with pytest.raises(TruncatedError, match="cut short"):
+        read_mesh(whole[:-20])
+    with pytest.raises(CorruptError, match="damaged"):
+        read_mesh(whole[:-6] + bytes(6))
+
+
+# ----------------------------------------------------------------------------------------------------------- openmesh
+
+
+@pytest.fixture
+def openmesh():
+    return pytest.importorskip("openmesh")
+
+
+@pytest.mark.parametrize("kind", OURS)
+def test_openmesh_reads_what_we_read(openmesh, kind, tmp_path):
+    write_mesh(tmp_path / f"a.{kind}", torus())
+    ours, theirs = (read_mesh(tmp_path / f"a.{kind}", reader=reader).mesh for reader in (None, "openmesh"))
+    assert np.array_equal(ours.faces, theirs.faces)
+    assert np.array_equal(ours.positions.astype(np.float32), theirs.positions)
+
+
+@pytest.mark.real
+@pytest.mark.parametrize("name", ["bunny_34834", "c3d_spot", "fandisk_6475", "cgal_elephant_with_holes"])
+def test_openmesh_reads_real_meshes_as_we_do(openmesh, meshes, name):
+    path = meshes / "static" / f"{name}.ply"
+    ours, theirs = read_mesh(path).mesh, read_mesh(path, reader="openmesh").mesh
+    assert np.array_equal(ours.faces, theirs.faces)
+    assert np.array_equal(ours.positions, theirs.positions)
+
+
+def test_what_openmesh_changes_is_said(openmesh):
+    fin = TriangleMesh(np.eye(5)[:, :3], [[0, 1, 2], [0, 1, 3], [0, 1, 4]])
+    source = read_mesh(format_mesh(fin, "ply"), reader="openmesh")
+    assert len(source.mesh.positions) > 5
+    assert "vertices of the 5 of the file" in source.notes[0]
+
+
+def test_openmesh_is_given_nothing_that_we_refuse(openmesh, capfd):
+    with pytest.raises(MeshError, match="not finite"):
+        read_mesh(b"v nan 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", reader="openmesh")
+    assert capfd.readouterr() == ("", "")
+
+
+def test_openmesh_reads_only_its_formats(openmesh):
+    for data in (b"glTF", format_mesh(tetrahedron(), "npz")):
+        with pytest.raises(OptionError, match="openmesh does not read"):
+            read_mesh(data, reader="openmesh")
+
+
+# ------------------------------------------------------------------------------------------------------------ trimesh
+
+
+@pytest.fixture
+def trimesh():
+    return pytest.importorskip("trimesh")
+
+
+def gltf(folder):
+    """A glTF of one triangle whose numbers are in a file beside it, shown twice: once moved, once mirrored."""
+    numbers = struct.pack("<9f3H", 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 1, 2)
+    (folder / "numbers.bin").write_bytes(numbers)
+    scene = {
+        "asset": {"version": "2.0"},
+        "scene": 0,
+        "scenes": [{"nodes": [0, 1]}],
+        "nodes": [{"mesh": 0, "translation": [5, 0, 0]}, {"mesh": 0, "scale": [-1, 1, 1]}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
+        "buffers": [{"uri": "numbers.bin", "byteLength": len(numbers)}],
+        "bufferViews": [{"buffer": 0, "byteLength": 36}, {"buffer": 0, "byteOffset": 36, "byteLength": 6}],
+        "accessors": [
+            {"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]},
+            {"bufferView": 1, "componentType": 5123, "count": 3, "type": "SCALAR"},
+        ],
+    }
+    (folder / "a.gltf").write_text(json.dumps(scene))
+    return folder / "a.gltf"
+
+
+def test_a_scene_becomes_one_mesh(trimesh, tmp_path):
+    source = read_mesh(gltf(tmp_path))
+    triangles = sorted(source.mesh.positions[source.mesh.faces].tolist())
+    mirrored = [[0, 1, 0], [-1, 0, 0], [0, 0, 0]]
+    assert triangles == [mirrored, [[5, 0, 0], [6, 0, 0], [5, 1, 0]]], "what is mirrored is not inside out"
+    assert "2 parts were joined to one mesh" in source.notes
+
+
+def test_limits_hold_before_parts_are_joined(trimesh, tmp_path):
+    with pytest.raises(LimitError):
+        read_mesh(gltf(tmp_path), limits=Limits(vertices=5))
+    with pytest.raises(LimitError):
+        read_mesh(gltf(tmp_path), limits=Limits(faces=1))
+
+
+@pytest.mark.parametrize("kind", ["glb", "3mf", "dae"])
+def test_formats_that_trimesh_writes(trimesh, kind, tmp_path):
+    for needed in {"3mf": ("networkx", "lxml"), "dae": ("collada",)}.get(kind, ()):
+        pytest.importorskip(needed)
+    trimesh.Trimesh(*torus_arrays(), process=False).export(tmp_path / f"a.{kind}")
+    mesh = read_mesh(tmp_path / f"a.{kind}").mesh
+    positions, faces = torus_arrays()
+    assert mesh.positions[mesh.faces] == pytest.approx(positions[faces], abs=1e-5)
+    assert len(mesh.positions) == len(positions), "neither merged nor split"
+
+
+def torus_arrays():
+    mesh = torus(10, 8)
+    return mesh.positions, mesh.faces
+
+
+def test_glb_from_a_pipe(trimesh):
+    data = trimesh.Trimesh(*torus_arrays(), process=False).export(file_type="glb")
+    assert len(read_mesh(data).mesh.positions) == 80
+
+
+def test_trimesh_can_be_asked_for_our_formats(trimesh, tmp_path):
+    write_mesh(tmp_path / "a.ply", torus())
+    ours, theirs = (read_mesh(tmp_path / "a.ply", reader=reader).mesh for reader in ("bsm", "trimesh"))
+    assert np.array_equal(ours.faces, theirs.faces)
+
+
+@pytest.mark.parametrize("data", [b"glTF", b"glTF\2\0\0\0\xff\xff\xff\xff\0\0\0\0JSON{}", b"glTF" + bytes(100)])
+def test_damaged_scenes(trimesh, data, tmp_path):
+    (tmp_path / "a.glb").write_bytes(data)
+    with pytest.raises((FormatError, MeshError), match=r"trimesh cannot read this file|no faces"):
+        read_mesh(tmp_path / "a.glb")
+
+
+def test_formats_that_nobody_knows(trimesh, tmp_path):
+    (tmp_path / "a.xyz9").write_bytes(b"1 2 3\n")
+    with pytest.raises(FormatError, match=r"\.xyz9 is no mesh format that is known here"):
+        read_mesh(tmp_path / "a.xyz9")
+
+
+def test_where_trimesh_is_missing_the_way_out_is_said(tmp_path, monkeypatch):
+    monkeypatch.setitem(sys.modules, "trimesh", None)
+    (tmp_path / "a.glb").write_bytes(b"glTF and more")
+    with pytest.raises(DependencyError, match=r"\.glb files are read with trimesh; run: pip install 'bsm-codec\[form"):
+        read_mesh(tmp_path / "a.glb")
+
+
+def test_where_openmesh_is_missing_the_way_out_is_said(monkeypatch):
+    monkeypatch.setitem(sys.modules, "openmesh", None)
+    with pytest.raises(DependencyError, match=r"pip install 'bsm-codec\[openmesh\]'"):
+        read_mesh(format_mesh(tetrahedron(), "ply"), reader="openmesh")
+
+
+@pytest.mark.real
+@pytest.mark.parametrize(
+    ("name", "vertices", "faces", "dropped"),
+    [
+        ("Duck.glb", 2399, 4212, ("normals", "texture coordinates", "materials")),
+        ("BoxTextured.glb", 24, 12, ("normals", "texture coordinates", "materials")),
+        ("cubevc.glb", 54, 48, ("normals", "colours")),
+        ("monkey.glb", 1966, 968, ("normals",)),
+    ],
+)
+def test_real_scenes(trimesh, meshes, name, vertices, faces, dropped):
+    source = read_mesh(meshes / "assets" / name)
+    assert (len(source.mesh.positions), len(source.mesh.faces)) == (vertices, faces)
+    assert source.dropped == dropped
