@@ -114,7 +114,7 @@ def given_options(args: argparse.Namespace) -> dict[str, Any]:
     return given
 
 
-def given_targets(args: argparse.Namespace) -> dict[str, float]:
+def given_targets(args: argparse.Namespace) -> dict[str, Any]:
     """The targets that were given on the command line, by their keywords."""
     values = {name.replace("-", "_"): getattr(args, f"target_{kind}") for name, kind, _, _ in TARGET_FLAGS}
     return {keyword: value for keyword, value in values.items() if value is not None}
