@@ -107,7 +107,7 @@ class Input:
         """What comes next, waiting for it if need be; nothing at the end."""
         if self._file is None:
             if os.path.isdir(self.name):
-                raise FormatError(f"{self.name} is a folder, not a file")
+                raise FormatError("this is a folder, not a file")
             self._opened = self.name != "-"
             # Closed at its end, or where `chunks` ends.
             self._file = open(self.name, "rb") if self._opened else cast(BinaryIO, sys.stdin.buffer)  # noqa: SIM115
