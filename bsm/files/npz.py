@@ -13,7 +13,7 @@ from typing import BinaryIO, TypeAlias
 
 import numpy as np
 
-from bitstream.errors import CorruptError, FormatError, LimitError, MeshError
+from bitstream.errors import BsmError, CorruptError, FormatError, LimitError, MeshError
 from bsm.files.npy import Array, read_header, size_of
 from codec.geometry.mesh import Faces, Positions, TriangleMesh
 
@@ -21,8 +21,9 @@ Archive: TypeAlias = "str | os.PathLike[str] | BinaryIO"
 """A path, or a seekable binary file."""
 
 _MAX_BYTES = 1 << 32
-_NO_ARCHIVE = (zipfile.BadZipFile, NotImplementedError, RuntimeError, UnicodeDecodeError)
-_DAMAGE = (EOFError, OSError, zipfile.BadZipFile, zlib.error, lzma.LZMAError)
+# A damaged archive may send zipfile to places before the beginning of the file: ValueError.
+_NO_ARCHIVE = (zipfile.BadZipFile, NotImplementedError, RuntimeError, ValueError)
+_DAMAGE = (EOFError, OSError, ValueError, zipfile.BadZipFile, zlib.error, lzma.LZMAError)
 
 
 class NpzArray:
@@ -49,6 +50,8 @@ class NpzArray:
             self.shape, self._fortran, self._kind = read_header(self._entry)
         except BaseException as error:
             self._archive.close()
+            if isinstance(error, BsmError):
+                raise
             if isinstance(error, KeyError):
                 raise FormatError(f"the npz file has no array {name}; it needs positions and faces") from None
             if isinstance(error, _DAMAGE):

@@ -243,9 +243,10 @@ def test_failures_have_codes_and_say_what_is_wrong(name, folder, tmp_path, capsy
     assert {path.name for path in tmp_path.iterdir()} == before
 
 
-def test_a_missing_package_has_its_code(folder, monkeypatch, capsys):
-    monkeypatch.setitem(sys.modules, "openmesh", None)
-    assert main(["compare", str(folder / "sample.ply"), str(folder / "sample.bsm")]) == 8
+def test_a_missing_package_has_its_code(folder, tmp_path, monkeypatch, capsys):
+    monkeypatch.setitem(sys.modules, "trimesh", None)
+    (tmp_path / "a.glb").write_bytes(b"glTF and more")
+    assert main(["compare", str(tmp_path / "a.glb"), str(folder / "sample.bsm")]) == 8
     assert "pip install" in capsys.readouterr().err
 
 
