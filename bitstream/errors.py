@@ -76,5 +76,9 @@ class ArgumentError(BsmError, TypeError):
     """An argument of a type that is not understood, or a keyword that does not exist."""
 
 
+class TargetError(BsmError, ValueError):
+    """A quality or a size that cannot be reached; the message says the best that can be had."""
+
+
 class DependencyError(BsmError, ImportError):
     """An optional package is needed for this and is not installed."""

@@ -83,7 +83,7 @@ class SequenceEncoder:
     face_order : int64 array, shape (m,)
         The decoder's face i is face `face_order[i]`.
     notes : tuple of str
-        What could not be met.
+        What was changed on the way in.
     """
 
     def __init__(self, faces: npt.ArrayLike, options: SequenceOptions | None = None, frames: int = 0) -> None:
@@ -112,17 +112,14 @@ class SequenceEncoder:
             yield from self.search([np.asarray(frame, np.float64) for frame in frames]).chunks
 
     def search(self, frames: Sequence[Matrix]) -> SequenceAttempt:
-        """Look for the step that meets the options' target; what cannot be met is noted."""
+        """Look for the step that meets the options' target; `TargetError` says what can be had where none does."""
         target = self.options.target
         if target is None:
             raise OptionError("there is no target to search for")
         finest = max(FINEST_STEP, self._finest_step(frames))
-        attempt, met = search_step(  # type: ignore[type-var]  # a sequence's target knows a sequence's outcome
+        return search_step(  # type: ignore[type-var]  # a sequence's target knows a sequence's outcome
             lambda step: self.attempt(frames, step), target, self.options.step, finest
         )
-        if not met:
-            self.notes += (f"{target.kind} {target.value:g} was not met: the best is {target.reached(attempt):g}",)
-        return attempt
 
     def _finest_step(self, frames: Sequence[Matrix]) -> float:
         """A step whose levels can be coded however the motion falls into one component."""

@@ -173,7 +173,7 @@ class Encoder:
     Attributes
     ----------
     notes : tuple of str
-        What was changed on the way in, or could not be met.
+        What was changed on the way in.
     vertex_order : int64 array, shape (n,)
         The decoder's vertex j is vertex `vertex_order[j]` of `mesh`.
     face_order : int64 array, shape (m,)
@@ -224,15 +224,12 @@ class Encoder:
             yield from self.search(progress).frames
 
     def search(self, progress: Progress | None = None) -> Attempt:
-        """Look for the step that meets the options' target; what cannot be met is noted."""
+        """Look for the step that meets the options' target; `TargetError` says what can be had where none does."""
         target = self.options.target
         if target is None:
             raise OptionError("there is no target to search for")
         finest = smallest_step(self._size)
-        attempt, met = search_step(lambda step: self.attempt(step, progress), target, self.options.step, finest)
-        if not met:
-            self.notes += (f"{target.kind} {target.value:g} was not met: the best is {target.reached(attempt):g}",)
-        return attempt
+        return search_step(lambda step: self.attempt(step, progress), target, self.options.step, finest)
 
     def attempt(self, step: float, progress: Progress | None = None) -> Attempt:
         """Encode with a given quantization step, and see what the decoder will."""

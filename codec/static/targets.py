@@ -7,10 +7,20 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Protocol, TypeVar
 
-from bitstream.errors import OptionError
+from bitstream.errors import OptionError, TargetError
 from codec.geometry.metrics import Comparison
 
 KINDS = ("nmsve_db", "theta_deg", "max_error_relative", "bpv", "size")
+UNITS = {
+    "nmsve_db": "a visual error of {:.6g} dB",
+    "theta_deg": "a mean angle of {:.6g} degrees",
+    "max_error_relative": "a largest error of {:.6g} diagonals",
+    "bpv": "{:.6g} bits per vertex",
+    "size": "{:.0f} bytes",
+    "kg": "a KG error of {:.6g} %",
+    "bpvf": "{:.6g} bits per vertex and frame",
+}
+"""What is said of a value, of a mesh's targets and of a sequence's."""
 TOLERANCE = 0.02
 TOLERANCE_DB = 0.1
 COARSEST_STEP = 0.1
@@ -74,6 +84,10 @@ class Target:
             return (value - self.value) / TOLERANCE_DB
         return math.log(max(value, 1e-300) / self.value) / TOLERANCE
 
+    def worded(self, value: float) -> str:
+        """A value of what the target is about, in words."""
+        return UNITS[self.kind].format(value)
+
     @property
     def shrinks_with_step(self) -> bool:
         """Whether a coarser step lowers the value (a size) instead of raising it (an error)."""
@@ -83,7 +97,7 @@ class Target:
 Found = TypeVar("Found", bound=Outcome)
 
 
-def search_step(attempt: Callable[[float], Found], target: Target, first: float, finest: float) -> tuple[Found, bool]:
+def search_step(attempt: Callable[[float], Found], target: Target, first: float, finest: float) -> Found:
     """Find a step whose outcome meets the target.
 
     Parameters
@@ -99,22 +113,25 @@ def search_step(attempt: Callable[[float], Found], target: Target, first: float,
     Returns
     -------
     outcome
-        The one that meets the target, or is on the right side of it and closest, or, where none is, the closest.
-    met : bool
-        Whether it is on the right side of the target, or within the tolerance of it.
+        The one on the right side of the target and closest to it, within the tolerance if there is any.
+
+    Raises
+    ------
+    TargetError
+        If no step that was tried meets the target.
     """
     low, high = math.log(finest), math.log(COARSEST_STEP)
     sign = -1.0 if target.shrinks_with_step else 1.0
     under: tuple[float, float] | None = None  # step and signed excess on the fine side
     over: tuple[float, float] | None = None
     right: tuple[float, Found] | None = None
-    nearest: tuple[float, Found] | None = None
+    best: float | None = None
     at = min(max(math.log(first), low), high)
     for _ in range(_TRIES):
-        outcome = attempt(math.exp(at))
+        outcome = attempt(max(math.exp(at), finest))
         excess = target.excess(outcome)
-        if nearest is None or abs(excess) < abs(nearest[0]):
-            nearest = excess, outcome
+        value = target.reached(outcome)
+        best = value if best is None else min(best, value)
         if excess <= 0 and (right is None or excess > right[0]):
             right = excess, outcome
         if -1.0 <= excess <= 0.0:
@@ -128,10 +145,12 @@ def search_step(attempt: Callable[[float], Found], target: Target, first: float,
         if abs(following - at) < 1e-4:
             break
         at = following
-    assert nearest is not None
-    if right is not None:
-        return right[1], True
-    return nearest[1], abs(nearest[0]) <= 1.0
+    if right is None:
+        assert best is not None
+        raise TargetError(
+            f"{target.worded(target.value)} at most cannot be reached; the best that can be had is {target.worded(best)}"
+        )
+    return right[1]
 
 
 def _next_try(under: tuple[float, float] | None, over: tuple[float, float] | None, low: float, high: float) -> float:

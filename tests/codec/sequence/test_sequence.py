@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from bitstream.container.packets import Gop
 from bitstream.container.reader import END_OF_STREAM, NEED_DATA, Reader, Signal
 from bitstream.container.writer import write_stream
-from bitstream.errors import BsmError, CorruptError, FormatError, LimitError, MeshError, OptionError, UnsupportedError
+from bitstream.errors import BsmError, CorruptError, FormatError, LimitError, MeshError, OptionError, TargetError, UnsupportedError
 from bitstream.limits import Limits
 from codec import (
     ConnectivityEvent,
@@ -351,11 +351,11 @@ def test_targets(kind, value):
     assert value - (0.2 if kind == "nmsve_db" else 0.05 * value) <= reached <= value
 
 
-def test_a_target_that_cannot_be_met_is_noted():
+def test_a_target_that_cannot_be_met_is_an_error():
     positions, faces = bending(3)
     encoder = SequenceEncoder(faces, options(target=SequenceTarget("bpvf", 0.01)), len(positions))
-    list(encoder.chunks(positions))
-    assert "bpvf 0.01 was not met" in encoder.notes[0]
+    with pytest.raises(TargetError, match="0.01 bits per vertex and frame at most cannot be reached"):
+        list(encoder.chunks(positions))
     for kind, value in (("size", 3.0), ("kg", 0.0), ("bpvf", math.inf)):
         with pytest.raises(OptionError):
             SequenceTarget(kind, value)

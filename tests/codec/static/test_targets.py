@@ -1,4 +1,5 @@
 import math
+import re
 from dataclasses import dataclass
 
 import numpy as np
@@ -6,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from bitstream.errors import OptionError
+from bitstream.errors import OptionError, TargetError
 from codec import EncodeOptions, Encoder, Target, decode
 from codec.geometry.metrics import Comparison, compare
 from codec.static.targets import search_step
@@ -36,15 +37,22 @@ class Model:
 )
 def test_the_search_finds_a_step_on_the_right_side(answer, power, kind):
     target = Target(kind, Target(kind, 1.0).reached(Model(answer, power)))
-    outcome, met = search_step(lambda step: Model(step, power), target, 0.004, 1e-6)
-    assert met and target.reached(outcome) <= target.value
+    outcome = search_step(lambda step: Model(step, power), target, 0.004, 1e-6)
+    assert target.reached(outcome) <= target.value
     assert -1.0 <= target.excess(outcome) <= 0.0 or (kind == "size" and outcome.size > 0.95 * target.value)
 
 
-def test_what_cannot_be_met_gives_the_best_there_is():
-    target = Target("max_error_relative", 1e-9)
-    outcome, met = search_step(lambda step: Model(step, 1.0), target, 0.004, 1e-4)
-    assert not met and outcome.step == pytest.approx(1e-4)
+@pytest.mark.parametrize("finest", [1e-4, 1.7e-5, 3.3e-6, 2e-9])
+def test_what_cannot_be_met_is_an_error_that_says_the_best_there_is(finest):
+    steps = []
+
+    def attempt(step):
+        steps.append(step)
+        return Model(step, 1.0)
+
+    with pytest.raises(TargetError, match=f"that can be had is a largest error of {finest:.6g} diagonals"):
+        search_step(attempt, Target("max_error_relative", 0.99 * finest), 0.004, finest)
+    assert finest <= min(steps) <= 1.0001 * finest, "the finest, and not a hair finer"
 
 
 @pytest.mark.parametrize(
@@ -67,10 +75,14 @@ def test_targets_are_met_by_what_the_decoder_sees(kind, value):
     assert reached[kind] >= slack.get(kind, 0.95 * value)
 
 
-def test_an_impossible_size_is_noted():
-    encoder = Encoder(torus(20, 12), EncodeOptions(target=Target("size", 10)))
-    encoder.encode()
-    assert any("was not met" in note for note in encoder.notes)
+def test_an_impossible_size_is_an_error():
+    with pytest.raises(TargetError, match="10 bytes at most cannot be reached") as refused:
+        Encoder(torus(20, 12), EncodeOptions(target=Target("size", 10))).encode()
+    best = int(re.search(r"had is (\d+) bytes", str(refused.value)).group(1))
+    data = Encoder(torus(20, 12), EncodeOptions(target=Target("size", best))).encode()
+    assert len(data) <= best, "the best can be had"
+    with pytest.raises(TargetError):
+        Encoder(torus(20, 12), EncodeOptions(target=Target("size", 0.99 * best))).encode()
 
 
 def test_wrong_targets_are_refused():
