@@ -3,116 +3,120 @@
 from __future__ import annotations
 
 import argparse
-import gc
 import importlib
-import os
 import sys
 from collections.abc import Sequence
-from typing import NoReturn
 
-from bitstream.errors import BsmError
 from bsm.console import Console
-from bsm.exits import exit_of, exit_table, is_expected
+from bsm.exits import USAGE, behind, exit_of, exit_table, is_expected, tell
+from bsm.files.output import Terminated
+from bsm.usage import Parser, suggestion
 
 COMMANDS = {
-    "encode": "compress a mesh",
-    "decode": "restore a mesh",
-    "info": "show what a stream holds",
+    "encode": "compress meshes",
+    "decode": "restore meshes",
+    "info": "show what streams hold",
     "compare": "measure the error of a mesh",
-    "verify": "check a stream",
-    "denoise": "remove noise from a mesh or a sequence",
+    "verify": "check streams",
+    "denoise": "remove noise from meshes and sequences",
     "noise": "add noise to a mesh",
     "demo": "compress a sample and show what became of it",
     "curve": "measure rate against error and draw it",
-    "boundary": "measure the error at the boundaries of blocks",
     "bench": "measure speed against exact solvers and Draco",
-    "figures": "measure the figures of the README again",
     "paper": "measure the tables and figures of the paper again",
+    "completion": "print what makes a shell complete commands and options",
 }
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run a command; the return value is the exit code of the table in `bsm.exits`."""
-    words = sys.argv[1:] if arguments is None else arguments
-    subject = None
+    words = list(sys.argv[1:] if arguments is None else arguments)
     try:
-        args = _parser(words).parse_args(words)
-        subject = getattr(args, "input", None)
+        if not words or words[0] not in COMMANDS:
+            return _no_command(words)
+        parser = command_parser(words[0])
+        args = parser.parse_command(words[1:])
         # Not at the top: it imports numba, and help should come at once.
         from bsm.compilation import announced_compilation
 
         console = Console(quiet=args.quiet)
         with announced_compilation(console.note):
-            args.run(args, console)
+            code: int | None = args.run(args, console)
         sys.stdout.flush()
-    except (Exception, KeyboardInterrupt) as raised:
-        error = _behind(raised)
+        return code or 0
+    except (Exception, KeyboardInterrupt, Terminated) as raised:
+        error = behind(raised)
         if not is_expected(error):
             raise
-        _report(error, subject)
+        tell(error)
         return exit_of(error).code
-    return 0
 
 
-def _behind(error: BaseException) -> BaseException:
-    """The Ctrl-C behind an error, if there is one: a compiler or a loader that it hits may raise something else."""
-    cause: BaseException | None = error
-    while cause is not None:
-        if isinstance(cause, KeyboardInterrupt):
-            return cause
-        cause = cause.__cause__ or cause.__context__
-    return error
+def command_parser(name: str) -> Parser:
+    """The parser of one command."""
+    return _complete(Parser(prog=f"bsm {name}", parents=[_common()], description=_sentence(name)), name)
 
 
-def _report(error: BaseException, subject: str | None) -> None:
-    """Say what went wrong, without a traceback."""
-    if isinstance(error, BrokenPipeError):
-        # Nobody reads what is left in the buffer; flushing it at exit would fail once more.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-    elif isinstance(error, KeyboardInterrupt):
-        _say("interrupted")
-    elif isinstance(error, BsmError):
-        _say(f"{subject}: {error}" if subject else str(error))
-    elif isinstance(error, OSError):
-        _say(f"{error.filename}: {error.strerror}" if error.filename else str(error.strerror or error))
-    else:
-        _say(f"not enough memory: {error}")
-
-
-def _say(text: str) -> None:
-    print(f"bsm: {text}", file=sys.stderr)
-
-
-def _parser(words: Sequence[str]) -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(
+def program_parser(*, complete: bool = False) -> Parser:
+    """The parser of the program, which knows its commands; with `complete`, also what each takes."""
+    parser = Parser(
         prog="bsm",
         description="Compress triangle meshes to a stream that is decoded block by block.",
-        epilog=f"exit codes:\n{exit_table()}",
+        epilog=f"exit codes (of many inputs, that of the first failure):\n{exit_table()}",
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
-    common = argparse.ArgumentParser(add_help=False)
-    common.add_argument("-f", "--force", action="store_true", help="overwrite files")
-    common.add_argument("-q", "--quiet", action="store_true", help="say nothing but results and errors")
-    commands = parser.add_subparsers(metavar="COMMAND", required=True)
-    for name, about in COMMANDS.items():
-        command = commands.add_parser(name, parents=[common], help=about, description=f"{about.capitalize()}.")
-        if name in words:
-            # The others are not imported: most of the time to start goes into that.
-            module = importlib.import_module(f"bsm.commands.{name}")
-            module.add_arguments(command)
-            command.set_defaults(run=module.run)
+    parser.add_argument("--version", action="store_true", help="show the version and exit")
+    commands = parser.add_subparsers(metavar="COMMAND")
+    for name, summary in COMMANDS.items():
+        command = commands.add_parser(name, parents=[_common()], help=summary, description=_sentence(name))
+        if complete:
+            _complete(command, name)
     return parser
 
 
-def run() -> NoReturn:
-    """Run as a program."""
-    # Looking for cycles among the objects of all modules, while they load and again at the end, would take longer than
-    # decoding a small mesh.
-    gc.set_threshold(100_000)
-    code = main()
-    gc.freeze()
-    sys.exit(code)
+def version() -> str:
+    """The version that is installed; that of the checkout where nothing is."""
+    from importlib.metadata import PackageNotFoundError
+    from importlib.metadata import version as installed
+
+    try:
+        return installed("bsm-codec")
+    except PackageNotFoundError:
+        return "0+unknown"
+
+
+def _no_command(words: list[str]) -> int:
+    """What is said without a command: help, the version, or what may have been meant."""
+    parser = program_parser()
+    if words and not words[0].startswith("-"):
+        parser.error(f"there is no command {words[0]}{suggestion(words[0], COMMANDS)}")
+    if parser.parse_args(words).version:
+        print(f"bsm {version()}")
+        return 0
+    parser.print_help(sys.stderr)
+    return USAGE.code
+
+
+def _common() -> Parser:
+    common = Parser(add_help=False)
+    common.add_argument("-f", "--force", action="store_true", help="overwrite files")
+    common.add_argument("-q", "--quiet", action="store_true", help="say nothing but results and errors")
+    return common
+
+
+def _sentence(name: str) -> str:
+    return f"{COMMANDS[name].capitalize()}."
+
+
+def _complete(parser: Parser, name: str) -> Parser:
+    """Add what a command takes; only its own module is imported, since most of the time to start goes into that."""
+    module = importlib.import_module(f"bsm.commands.{name}")
+    module.add_arguments(parser)
+    parser.set_defaults(run=module.run)
+    return parser
 
 
 if __name__ == "__main__":
+    from bsm.__main__ import run
+
     run()

@@ -1,7 +1,11 @@
-"""The exit codes of the command line: one table, which the program obeys and its help prints."""
+"""The exit codes of the command line, one table, which the program obeys and its help prints; how errors are told."""
 
 from __future__ import annotations
 
+import os
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 
 from bitstream.errors import (
@@ -14,9 +18,12 @@ from bitstream.errors import (
     MeshError,
     NumericError,
     OptionError,
+    TargetError,
     TruncatedError,
     UnsupportedError,
 )
+from bsm.console import say
+from bsm.files.output import Terminated
 
 
 @dataclass(frozen=True)
@@ -41,11 +48,14 @@ EXITS = (
     Exit(6, "the input asks for more memory or work than allowed", (LimitError, MemoryError)),
     Exit(7, "the mathematics broke down", (NumericError,)),
     Exit(8, "an optional package is missing", (DependencyError,)),
+    Exit(10, "the quality or size asked for cannot be reached", (TargetError,)),
     Exit(130, "interrupted", (KeyboardInterrupt,)),
     Exit(141, "the reader of a pipe went away", (BrokenPipeError,)),
     Exit(9, "a file cannot be read or written", (OSError,)),
-    Exit(143, "terminated"),
+    Exit(143, "terminated", (Terminated,)),
 )
+# A compiler or a loader that they hit may raise something else on top of them.
+_SIGNALS = (KeyboardInterrupt, Terminated)
 
 
 def exit_of(error: BaseException) -> Exit:
@@ -61,3 +71,39 @@ def is_expected(error: BaseException) -> bool:
 def exit_table() -> str:
     """The table as text."""
     return "\n".join(f"  {row.code:>3}  {row.meaning}" for row in sorted(EXITS, key=lambda row: row.code))
+
+
+def behind(error: BaseException) -> BaseException:
+    """The signal behind an error, if there is one; otherwise the error."""
+    cause: BaseException | None = error
+    while cause is not None:
+        if isinstance(cause, _SIGNALS):
+            return cause
+        cause = cause.__cause__ or cause.__context__
+    return error
+
+
+@contextmanager
+def about(path: str) -> Iterator[None]:
+    """Put the name of the file that it is about before the message of whatever is raised inside."""
+    try:
+        yield
+    except BsmError as error:
+        error.message = f"{path}: {error.message}"
+        raise
+
+
+def tell(error: BaseException) -> None:
+    """Say what went wrong, without a traceback."""
+    if isinstance(error, BrokenPipeError):
+        # Nobody reads what is left in the buffer; flushing it at exit would fail once more.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    elif isinstance(error, _SIGNALS):
+        say(f"bsm: {exit_of(error).meaning}")
+    elif isinstance(error, OSError):
+        reason = error.strerror or str(error)
+        say(f"bsm: {error.filename}: {reason}" if error.filename else f"bsm: {reason}")
+    elif isinstance(error, MemoryError):
+        say(f"bsm: not enough memory: {error}")
+    else:
+        say(f"bsm: {error}")

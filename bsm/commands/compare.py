@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import argparse
-import math
 from dataclasses import asdict
 
-from bsm.console import Console, print_json
+from bsm.console import Console, finite, print_json
+from bsm.exits import about
 from bsm.files.mesh import read_mesh
 from bsm.files.permutation import in_order_of, read_permutation
 from bsm.files.pipes import read_chunks
@@ -41,8 +41,7 @@ def run(args: argparse.Namespace, console: Console) -> None:
     if args.surface:
         result |= _surface(original, positions)
     if args.json:
-        # JSON has no infinity; equal meshes have no decibels.
-        print_json({name: value if math.isfinite(value) else None for name, value in result.items()})
+        print_json({name: finite(value) for name, value in result.items()})
     else:
         print("\n".join(f"{name:<19}{value:.6g}" for name, value in result.items()))
 
@@ -65,9 +64,10 @@ def _surface(original: TriangleMesh, positions: Positions) -> dict[str, float]:
 
 def _load(path: str, console: Console) -> TriangleMesh:
     """A mesh file or a stream, without the vertices that no face uses."""
-    if is_stream(path):
-        return decode_whole(read_chunks(path))
-    source = read_mesh(path)
+    with about(path):
+        if is_stream(path):
+            return decode_whole(read_chunks(path))
+        source = read_mesh(path)
     for note in source.notes:
         console.note(f"{path}: {note}")
     return source.mesh.without_isolated_vertices()[0]

@@ -1,15 +1,17 @@
-"""bsm decode: a stream to a mesh file."""
+"""bsm decode: streams to mesh files."""
 
 from __future__ import annotations
 
 import argparse
 import time
+from pathlib import Path
 
 from bitstream.errors import OptionError
+from bsm.batch import Facts, add_inputs, came_to, plan, run_jobs, size_of
 from bsm.commands import sequence_decode
-from bsm.console import Console, print_json
+from bsm.console import Console
 from bsm.files.mesh import MESH_FORMATS, format_mesh, format_of_name
-from bsm.files.naming import default_output, refuse_terminal
+from bsm.files.naming import output_inside, refuse_terminal
 from bsm.files.output import open_output, refuse_to_overwrite
 from bsm.files.permutation import read_permutation, reorder
 from bsm.files.pipes import read_chunks
@@ -20,12 +22,11 @@ from bsm.files.stream import decode_blocks, decode_what_is_left, decode_whole
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare what the command takes."""
-    parser.add_argument("input", metavar="IN", help="stream, or - for standard input")
-    parser.add_argument(
-        "-o",
-        "--output",
-        metavar="OUT",
-        help="mesh file (default: IN with .ply; - for a pipe); for a sequence an npz (default) or a folder",
+    add_inputs(
+        parser,
+        "stream, or - for standard input",
+        "mesh file, or folder for any number of inputs (default: IN with .ply; - for a pipe); for a sequence an npz "
+        "(default), or a folder for its frames",
     )
     parser.add_argument("--format", choices=SEQUENCE_FORMATS, help="format of the output (default: by its name; ply)")
     parser.add_argument("--blocks", type=int, metavar="N", help="stop after N blocks, and write the part that is there")
@@ -37,28 +38,37 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         action="store_true",
         help="go on behind damage; what is lost, blocks or frames, is named and left out",
     )
-    parser.add_argument("--json", action="store_true", help="print the result as JSON")
     sequence_decode.add_flags(parser)
 
 
-def run(args: argparse.Namespace, console: Console) -> None:
-    """Decode one stream."""
-    header, chunks = peek_header(read_chunks(args.input))
-    if header is not None and header.gop_frames:
-        sequence_decode.decode_sequence(args, console, chunks)
-        return
-    sequence_decode.refuse_flags(args)
-    output = args.output or default_output(args.input, f".{args.format or 'ply'}")
-    kind = args.format or ("ply" if output == "-" else format_of_name(output))
-    if kind not in MESH_FORMATS:
-        raise OptionError(f"{output}: the name tells no mesh format; use --format, one of {', '.join(MESH_FORMATS)}")
-    if output == "-" and args.json:
+def run(args: argparse.Namespace, console: Console) -> int:
+    """Decode all inputs."""
+    jobs = plan(args.inputs, args.output, lambda _: f".{args.format or 'ply'}", sole_folder=True)
+    if jobs[0].output == "-" and args.json:
         raise OptionError("--json and -o - would both write to standard output")
+    if args.permutation and len(jobs) > 1:
+        raise OptionError("--permutation is for one input")
     if args.permutation and (args.blocks is not None or args.tolerant):
         raise OptionError("--permutation orders whole meshes; leave out --blocks and --tolerant")
     if args.blocks is not None and args.tolerant:
         raise OptionError("--blocks stops early and --tolerant goes on: choose one")
-    refuse_terminal(output)
+    refuse_terminal(jobs[0].output)
+    args.given, args.many = args.output, len(jobs) > 1
+    return run_jobs(args, console, decode_one, jobs)
+
+
+def decode_one(args: argparse.Namespace, console: Console) -> Facts:
+    """Decode one stream and say what came out."""
+    header, chunks = peek_header(read_chunks(args.input))
+    if header is not None and header.gop_frames:
+        return sequence_decode.decode_sequence(args, console, chunks)
+    sequence_decode.refuse_flags(args)
+    output = args.output
+    if Path(output).is_dir():
+        output = output_inside(output, args.input, f".{args.format or 'ply'}")
+    kind = args.format or ("ply" if output == "-" else format_of_name(output))
+    if kind not in MESH_FORMATS:
+        raise OptionError(f"{output}: the name tells no mesh format; use --format, one of {', '.join(MESH_FORMATS)}")
     refuse_to_overwrite(output, args.force)
     begin = time.perf_counter()
     if args.tolerant:
@@ -72,9 +82,16 @@ def run(args: argparse.Namespace, console: Console) -> None:
     if args.permutation:
         mesh = reorder(mesh, read_permutation(args.permutation))
     with open_output(output, overwrite=args.force) as file:
-        file.write(format_mesh(mesh, kind))
+        written = file.write(format_mesh(mesh, kind))
     vertices, faces = len(mesh.positions), len(mesh.faces)
-    if args.json:
-        print_json({"input": args.input, "output": output, "vertices": vertices, "faces": faces, "seconds": seconds})
-    else:
-        console.note(f"{args.input} -> {output}: {vertices} vertices, {faces} faces, {seconds:.2f} s")
+    taken = size_of(args.input)
+    console.note(f"{args.input} -> {output}: {vertices} vertices, {faces} faces, {came_to(taken, written)}, {seconds:.2f} s")
+    return {
+        "input": args.input,
+        "output": output,
+        "vertices": vertices,
+        "faces": faces,
+        "input_bytes": taken,
+        "output_bytes": written,
+        "seconds": seconds,
+    }

@@ -7,12 +7,14 @@ import time
 from collections.abc import Iterator
 from dataclasses import asdict
 from itertools import chain
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from bitstream.errors import OptionError
-from bsm.console import Console, Progress, print_json
+from bsm.batch import Facts, add_inputs, plan, run_jobs, size_of
+from bsm.console import Console, Progress
 from bsm.files.mesh import MESH_FORMATS, format_mesh, format_of_name, read_mesh
-from bsm.files.naming import refuse_terminal
+from bsm.files.naming import output_inside, refuse_terminal
 from bsm.files.output import open_output, refuse_to_overwrite
 from bsm.files.sequence import Frames, open_sequence, sequence_kind, sequence_writer
 from codec.geometry.mesh import Positions, TriangleMesh
@@ -27,16 +29,12 @@ _OPTIONS = ("fine", "hand_over", "iterations", "keep", "block_size")
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare what the command takes."""
-    parser.add_argument(
-        "input",
-        metavar="IN",
-        help="mesh file (OBJ, OFF, PLY, STL, npz), - for standard input, or a sequence: npz, folder, or pattern",
-    )
-    parser.add_argument(
-        "-o", "--output", metavar="OUT", required=True, help="where to write, in the format of its name"
+    add_inputs(
+        parser,
+        "mesh file (OBJ, OFF, PLY, STL, npz), - for standard input, or a sequence: npz, folder, or quoted pattern",
+        "file, in the format of its name, or folder for any number of inputs",
     )
     parser.add_argument("--format", choices=(*MESH_FORMATS, "npy"), help="format of the input, and of a piped output")
-    parser.add_argument("--json", action="store_true", help="print what was done as JSON")
     ways = parser.add_argument_group(
         "instead of the automatic mode",
         "with none of these everything is chosen from the noise of the mesh (of the first frame); "
@@ -72,18 +70,33 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def run(args: argparse.Namespace, console: Console) -> None:
-    """Denoise one mesh or one sequence."""
-    if args.output == "-" and args.json:
+def run(args: argparse.Namespace, console: Console) -> int:
+    """Denoise all inputs."""
+    if args.output is None:
+        raise OptionError("say with -o where to write")
+    jobs = plan(args.inputs, args.output, _suffix, sole_folder=True)
+    if jobs[0].output == "-" and args.json:
         raise OptionError("--json and -o - would both write to standard output")
-    refuse_terminal(args.output)
+    refuse_terminal(jobs[0].output)
+    return run_jobs(args, console, denoise_one, jobs)
+
+
+def denoise_one(args: argparse.Namespace, console: Console) -> Facts:
+    """Denoise one mesh or one sequence."""
     options = _options(args)
     if sequence := open_sequence(args.input, args.format):
         result = _denoise_sequence(args, console, sequence, options)
     else:
+        if Path(args.output).is_dir():
+            args.output = output_inside(args.output, args.input, _suffix(args.input))
         result = _denoise_mesh(args, console, options)
-    if args.json:
-        print_json({"input": args.input, "output": args.output, **result})
+    sizes = {"input_bytes": size_of(args.input), "output_bytes": size_of(args.output)}
+    return {"input": args.input, "output": args.output, **sizes, **result}
+
+
+def _suffix(name: str) -> str:
+    """The input's own, or what holds a sequence."""
+    return f".{format_of_name(name) or ('npz' if Path(name).is_dir() else 'ply')}"
 
 
 def _options(args: argparse.Namespace) -> DenoiseOptions | None:
@@ -132,7 +145,7 @@ def _denoise_sequence(
     _tell(console, denoiser.choice)
     count = 0
     writer = sequence_writer(args.output, kind, source.faces, source.count, overwrite=args.force)
-    with writer as write, console.progress("denoising") as progress:
+    with writer as write, console.progress("denoising", "frames") as progress:
         for frame in denoiser(_counted(chain([first], source.frames), source.count, progress)):
             write(frame)
             count += 1

@@ -1,17 +1,17 @@
-"""bsm encode: a mesh file to a stream."""
+"""bsm encode: mesh files to streams."""
 
 from __future__ import annotations
 
 import argparse
 import time
-from typing import Any
 
 from bitstream.errors import OptionError
+from bsm.batch import Facts, add_inputs, came_to, plan, refuse_collisions, run_jobs, size_of
 from bsm.commands.encode_options import add_encode_flags, encode_options
 from bsm.commands.sequence_options import add_sequence_flags, refuse_sequence_flags
-from bsm.console import Console, print_json
+from bsm.console import Console, finite
 from bsm.files.mesh import MESH_FORMATS, read_mesh
-from bsm.files.naming import default_output, refuse_terminal
+from bsm.files.naming import refuse_terminal
 from bsm.files.output import open_output, refuse_to_overwrite
 from bsm.files.permutation import write_permutation
 from bsm.files.sequence import open_sequence
@@ -19,30 +19,39 @@ from bsm.files.sequence import open_sequence
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare what the command takes."""
-    parser.add_argument(
-        "input",
-        metavar="IN",
-        help="mesh file (OBJ, OFF, PLY, STL, npz), - for standard input, or a sequence: npz, folder, or pattern",
+    add_inputs(
+        parser,
+        "mesh file (OBJ, OFF, PLY, STL, npz), - for standard input, or a sequence: npz, folder, or quoted pattern",
+        "file, or folder for any number of inputs (default: IN with .bsm; - for a pipe)",
     )
-    parser.add_argument("-o", "--output", metavar="OUT", help="where to write (default: IN with .bsm; - for a pipe)")
     parser.add_argument(
         "--format", choices=(*MESH_FORMATS, "npy"), help="format of the input (default: by its name or content)"
     )
     parser.add_argument(
         "--permutation", metavar="FILE.npy", help="also write which input vertex each decoded vertex is"
     )
-    parser.add_argument("--json", action="store_true", help="print the result as JSON")
     add_encode_flags(parser)
     add_sequence_flags(parser)
 
 
-def run(args: argparse.Namespace, console: Console) -> None:
-    """Encode one mesh."""
-    output = args.output or default_output(args.input, ".bsm")
-    if output == "-" and args.json:
+def run(args: argparse.Namespace, console: Console) -> int:
+    """Encode all inputs."""
+    jobs = plan(args.inputs, args.output, lambda _: ".bsm")
+    if args.permutation:
+        if len(jobs) > 1:
+            raise OptionError("--permutation is for one input")
+        refuse_collisions(args.inputs, [jobs[0].output, args.permutation])
+    if jobs[0].output == "-" and args.json:
         raise OptionError("--json and -o - would both write to standard output")
-    refuse_terminal(output)
-    for path in filter(None, (output, args.permutation)):
+    refuse_terminal(jobs[0].output)
+    if args.jobs != 1 and len(jobs) > 1 and not hasattr(args, "threads"):
+        args.threads = 1
+    return run_jobs(args, console, encode_one, jobs)
+
+
+def encode_one(args: argparse.Namespace, console: Console) -> Facts:
+    """Encode one input and say what came out."""
+    for path in filter(None, (args.output, args.permutation)):
         refuse_to_overwrite(path, args.force)
 
     from codec import Encoder
@@ -50,36 +59,41 @@ def run(args: argparse.Namespace, console: Console) -> None:
     if sequence := open_sequence(args.input, args.format):
         from bsm.commands.sequence_encode import encode_sequence
 
-        encode_sequence(args, console, sequence, output)
-        return
+        return encode_sequence(args, console, sequence)
     refuse_sequence_flags(args)
     options = encode_options(args)
     source = read_mesh(args.input, args.format)
     begin = time.perf_counter()
     encoder = Encoder(source.mesh, options)
-    with open_output(output, overwrite=args.force) as file, console.progress("encoding") as progress:
-        size = sum(file.write(chunk) for chunk in encoder.chunks(progress))
+    with open_output(args.output, overwrite=args.force) as file, console.progress("encoding") as progress:
+        attempt = encoder.search(progress) if options.target else encoder.attempt(options.step, progress)
+        for chunk in attempt.frames:
+            file.write(chunk)
     seconds = time.perf_counter() - begin
     notes = (*source.notes, *encoder.notes)
     for note in notes:
         console.note(f"{args.input}: {note}")
     if args.permutation:
         write_permutation(args.permutation, encoder.vertex_order, overwrite=args.force)
-    vertices, faces = len(encoder.mesh.positions), len(encoder.mesh.faces)
-    result: dict[str, Any] = {
+    vertices, faces, size, error = attempt.vertices, len(encoder.mesh.faces), attempt.size, attempt.comparison
+    taken = size_of(args.input)
+    console.note(
+        f"{args.input} -> {args.output}: {vertices} vertices, {faces} faces, {came_to(taken, size)}, "
+        f"{8 * size / vertices:.2f} bits per vertex; normals {error.theta_deg:.2f} degrees off, largest error "
+        f"{100 * error.max_error_relative:.3g} % of the diagonal, {error.nmsve_db:.2f} dB; {seconds:.2f} s"
+    )
+    return {
         "input": args.input,
-        "output": output,
+        "output": args.output,
         "vertices": vertices,
         "faces": faces,
+        "input_bytes": taken,
+        "output_bytes": size,
         "bytes": size,
         "bpv_total": 8 * size / vertices,
+        "theta_deg": error.theta_deg,
+        "nmsve_db": finite(error.nmsve_db),
+        "max_error_relative": error.max_error_relative,
         "seconds": seconds,
         "notes": list(notes),
     }
-    if args.json:
-        print_json(result)
-    else:
-        console.note(
-            f"{args.input}: {vertices} vertices, {faces} faces -> {output}: {size} bytes, "
-            f"{result['bpv_total']:.2f} bits per vertex, {seconds:.2f} s"
-        )

@@ -7,24 +7,25 @@ from dataclasses import asdict
 from typing import Any
 
 from bitstream.container.wire import VERSION
-from bsm.console import Console, print_json
+from bsm.batch import Facts, Job, add_inputs, run_jobs
+from bsm.console import Console
 from bsm.files.pipes import read_chunks
 from bsm.files.stream import StreamInfo, inspect_stream
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare what the command takes."""
-    parser.add_argument("input", metavar="IN", help="stream, or - for standard input")
-    parser.add_argument("--json", action="store_true", help="print it as JSON")
+    add_inputs(parser, "stream, or - for standard input")
 
 
-def run(args: argparse.Namespace, console: Console) -> None:
+def run(args: argparse.Namespace, console: Console) -> int:
+    """Describe all inputs."""
+    return run_jobs(args, console, info_of_one, [Job(name) for name in args.inputs], _worded)
+
+
+def info_of_one(args: argparse.Namespace, console: Console) -> Facts:
     """Describe one stream."""
-    summary = summarise(inspect_stream(read_chunks(args.input)))
-    if args.json:
-        print_json(summary)
-    else:
-        print("\n".join(_lines(summary)))
+    return {"input": args.input, **summarise(inspect_stream(read_chunks(args.input)))}
 
 
 def summarise(info: StreamInfo) -> dict[str, Any]:
@@ -58,11 +59,11 @@ def summarise(info: StreamInfo) -> dict[str, Any]:
     }
 
 
-def _lines(summary: dict[str, Any]) -> list[str]:
+def _worded(summary: Facts) -> str:
     coefficients = summary["coefficients"] or [0]
     total = summary["bytes"]["total"]
     shares = [f"  {name:<13}{size:>12}  {100 * size / total:5.1f} %" for name, size in summary["bytes"].items()]
-    return [
+    lines = [
         f"version {summary['version']}: {summary['vertices']} vertices, {summary['faces']} faces",
         f"{summary['blocks']} blocks of {summary['block_size']} vertices, "
         f"{min(coefficients)} to {max(coefficients)} coefficients",
@@ -73,6 +74,7 @@ def _lines(summary: dict[str, Any]) -> list[str]:
         f"{summary['bpv_paper']:.3f} by the paper's formula",
         *(f"{name}: {value}" for name, value in summary["metadata"].items()),
     ]
+    return "\n".join(lines)
 
 
 def _sequence_lines(summary: dict[str, Any]) -> list[str]:

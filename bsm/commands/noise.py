@@ -6,7 +6,9 @@ import argparse
 from collections.abc import Callable
 
 from bitstream.errors import OptionError
+from bsm.batch import refuse_collisions
 from bsm.console import Console, print_json
+from bsm.exits import about
 from bsm.files.mesh import MESH_FORMATS, format_mesh, format_of_name, read_mesh
 from bsm.files.naming import refuse_terminal
 from bsm.files.output import open_output, refuse_to_overwrite
@@ -49,7 +51,9 @@ def run(args: argparse.Namespace, console: Console) -> None:
 
     from codec.geometry.metrics import rms_over_edge
 
-    mesh = read_mesh(args.input, args.format).mesh
+    refuse_collisions([args.input], [args.output])
+    with about(args.input):
+        mesh = read_mesh(args.input, args.format).mesh
     noisy = move(mesh)
     with open_output(args.output, overwrite=args.force) as file:
         file.write(format_mesh(TriangleMesh(noisy, mesh.faces), kind))

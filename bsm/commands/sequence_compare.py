@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import argparse
-import math
 from dataclasses import asdict
 from pathlib import Path
 
 import numpy as np
 
 from bitstream.errors import MeshError
-from bsm.console import print_json
+from bsm.console import finite, print_json
+from bsm.exits import about
 from bsm.files.permutation import in_order_of, read_permutation
 from bsm.files.pipes import read_chunks
 from bsm.files.sequence import open_sequence
@@ -51,9 +51,14 @@ def compare_loaded(args: argparse.Namespace, original: Sequence, decoded: Sequen
     if _is_stream(args.decoded):
         result["bpvf_total"] = 8 * Path(args.decoded).stat().st_size / second[..., 0].size
     if args.json:
-        print_json({name: value if math.isfinite(value) else None for name, value in result.items()})
+        print_json({name: finite(value) for name, value in result.items()})
     else:
         print("\n".join(f"{name:<19}{value:.6g}" for name, value in result.items()))
+
+
+def _loaded(path: str) -> Sequence | None:
+    with about(path):
+        return load_sequence(path)
 
 
 def compare_if_sequences(args: argparse.Namespace) -> bool:
@@ -64,10 +69,11 @@ def compare_if_sequences(args: argparse.Namespace) -> bool:
     MeshError
         If one is a sequence and the other a mesh.
     """
-    original, decoded = load_sequence(args.original), load_sequence(args.decoded)
+    original, decoded = _loaded(args.original), _loaded(args.decoded)
     if original is None and decoded is None:
         return False
     if original is None or decoded is None:
-        raise MeshError("one of them is a sequence and the other a mesh")
+        one, other = (args.decoded, args.original) if original is None else (args.original, args.decoded)
+        raise MeshError(f"{one} is a sequence and {other} one mesh")
     compare_loaded(args, original, decoded)
     return True

@@ -8,8 +8,9 @@ import time
 from collections.abc import Iterator
 
 from bitstream.errors import OptionError
-from bsm.console import Console, print_json
-from bsm.files.naming import default_output, refuse_terminal
+from bsm.batch import Facts, size_of
+from bsm.console import Console
+from bsm.files.naming import default_output, output_inside
 from bsm.files.output import refuse_to_overwrite
 from bsm.files.permutation import read_permutation, reorder
 from bsm.files.sequence import sequence_kind, sequence_writer
@@ -28,15 +29,12 @@ def refuse_flags(args: argparse.Namespace) -> None:
         raise OptionError("--frames is for sequences, and this is one mesh")
 
 
-def decode_sequence(args: argparse.Namespace, console: Console, chunks: Iterator[bytes]) -> None:
+def decode_sequence(args: argparse.Namespace, console: Console, chunks: Iterator[bytes]) -> Facts:
     """Decode one sequence; every frame is written as soon as it is known."""
     if args.blocks is not None:
         raise OptionError("--blocks is for meshes, and this is a sequence")
-    output = args.output or default_output(args.input, ".npz")
+    output = _output(args)
     kind = sequence_kind(output, args.format)
-    if output == "-" and args.json:
-        raise OptionError("--json and -o - would both write to standard output")
-    refuse_terminal(output)
     refuse_to_overwrite(output, args.force)
     begin = time.perf_counter()
     first, last = _range(args.frames)
@@ -51,7 +49,7 @@ def decode_sequence(args: argparse.Namespace, console: Console, chunks: Iterator
     count = 0
     with (
         sequence_writer(output, kind, faces, expected, overwrite=args.force) as write,
-        console.progress("decoding") as progress,
+        console.progress("decoding", "frames") as progress,
     ):
         for number, frame in stream.frames():
             if number >= last:
@@ -64,13 +62,19 @@ def decode_sequence(args: argparse.Namespace, console: Console, chunks: Iterator
             raise OptionError("the stream has none of these frames")
     seconds = time.perf_counter() - begin
     facts = {"frames": count, "vertices": header.vertices, "faces": header.faces, "frame_rate": header.frame_rate}
-    if args.json:
-        print_json({"input": args.input, "output": output, **facts, "seconds": seconds})
-    else:
-        console.note(
-            f"{args.input} -> {output}: {count} frames of {header.vertices} vertices, {header.faces} faces, "
-            f"{seconds:.2f} s"
-        )
+    console.note(
+        f"{args.input} -> {output}: {count} frames of {header.vertices} vertices, {header.faces} faces, {seconds:.2f} s"
+    )
+    sizes = {"input_bytes": size_of(args.input), "output_bytes": size_of(output)}
+    return {"input": args.input, "output": output, **facts, **sizes, "seconds": seconds}
+
+
+def _output(args: argparse.Namespace) -> str:
+    """Where a sequence goes: an npz, or a folder for frames of a format of meshes, if nothing else was said."""
+    suffix = f".{args.format or 'npz'}" if args.format in (None, "npz", "npy") else ""
+    if args.given is None:
+        return default_output(args.input, suffix)
+    return output_inside(args.given, args.input, suffix) if args.many else str(args.output)
 
 
 def _range(text: str | None) -> tuple[int, int]:

@@ -3,61 +3,101 @@
 from __future__ import annotations
 
 import argparse
+import math
 import time
+from collections import deque
 from collections.abc import Iterator
+from dataclasses import dataclass, field
 
+import numpy as np
+
+from bsm.batch import Facts, came_to, size_of
 from bsm.commands.sequence_options import sequence_options
-from bsm.console import Console, print_json
+from bsm.console import Console, finite
 from bsm.files.output import open_output
 from bsm.files.permutation import write_permutation
 from bsm.files.sequence import Frames
 from codec.geometry.mesh import Positions
 
 
-def encode_sequence(args: argparse.Namespace, console: Console, source: Frames, output: str) -> None:
+def encode_sequence(args: argparse.Namespace, console: Console, source: Frames) -> Facts:
     """Encode one sequence; every GOP is written as soon as its frames are there."""
     from codec import SequenceEncoder
 
     begin = time.perf_counter()
     encoder = SequenceEncoder(source.faces, sequence_options(args), source.count)
-    taken = 0
-    with open_output(output, overwrite=args.force) as file, console.progress("encoding") as progress:
-
-        def counted() -> Iterator[Positions]:
-            nonlocal taken
-            for frame in source.frames:
-                yield frame
-                taken += 1
-                if source.count:
-                    progress(taken, source.count)
-
-        size = 0
-        for chunk in encoder.chunks(counted()):
+    heard = Echo()
+    size = 0
+    with open_output(args.output, overwrite=args.force) as file, console.progress("encoding") as progress:
+        for chunk in encoder.chunks(heard.taken(source.frames), progress):
             size += file.write(chunk)
             file.flush()
+            if not args.quiet or args.json:
+                heard.compare(chunk, encoder.vertex_order)
     seconds = time.perf_counter() - begin
     for note in encoder.notes:
         console.note(f"{args.input}: {note}")
     if args.permutation:
         write_permutation(args.permutation, encoder.vertex_order, overwrite=args.force)
-    vertices, faces = len(encoder.vertex_order), len(encoder.face_order)
-    bpvf = 8 * size / (vertices * taken)
-    if args.json:
-        print_json(
-            {
-                "input": args.input,
-                "output": output,
-                "frames": taken,
-                "vertices": vertices,
-                "faces": faces,
-                "bytes": size,
-                "bpvf_total": bpvf,
-                "seconds": seconds,
-                "notes": list(encoder.notes),
-            }
-        )
-    else:
-        console.note(
-            f"{args.input}: {taken} frames of {vertices} vertices, {faces} faces -> {output}: {size} bytes, "
-            f"{bpvf:.3f} bits per vertex and frame, {seconds:.2f} s"
-        )
+    vertices, faces, frames = len(encoder.vertex_order), len(encoder.face_order), heard.frames
+    bpvf = 8 * size / (vertices * frames)
+    taken = size_of(args.input)
+    console.note(
+        f"{args.input} -> {args.output}: {frames} frames of {vertices} vertices, {faces} faces, "
+        f"{came_to(taken, size)}, {bpvf:.3f} bits per vertex and frame; KG error {heard.kg:.3g} %, {seconds:.2f} s"
+    )
+    return {
+        "input": args.input,
+        "output": args.output,
+        "frames": frames,
+        "vertices": vertices,
+        "faces": faces,
+        "input_bytes": taken,
+        "output_bytes": size,
+        "bytes": size,
+        "bpvf_total": bpvf,
+        "kg": finite(heard.kg),
+        "seconds": seconds,
+        "notes": list(encoder.notes),
+    }
+
+
+@dataclass
+class Echo:
+    """Hears what a decoder makes of a stream while it is written, and holds only the frames that are not out yet."""
+
+    frames: int = 0
+    _waiting: deque[Positions] = field(default_factory=deque)
+    _squares: float = 0.0
+    _extent: float = 0.0
+
+    def __post_init__(self) -> None:
+        from codec import SequenceDecoder
+
+        self._decoder = SequenceDecoder()
+
+    def taken(self, frames: Iterator[Positions]) -> Iterator[Positions]:
+        """The frames, which are also kept."""
+        for frame in frames:
+            self.frames += 1
+            self._waiting.append(frame)
+            yield frame
+
+    def compare(self, chunk: bytes, order: np.ndarray) -> None:
+        """Decode a piece of the stream and add up the error of its frames; vertex j of a decoded one is `order[j]`."""
+        from bitstream.container.reader import Signal
+        from codec import FrameEvent
+
+        self._decoder.receive_data(chunk)
+        while not isinstance(event := self._decoder.next_event(), Signal):
+            if isinstance(event, FrameEvent):
+                frame = self._waiting.popleft()[order]
+                self._squares += float(np.square(event.positions - frame).sum())
+                self._extent += float(np.square(frame - frame.mean(axis=0)).sum())
+
+    @property
+    def kg(self) -> float:
+        """Karni and Gotsman's error so far, in percent, see `codec.geometry.metrics.kg_error`."""
+        if self._squares == 0.0:
+            return 0.0
+        return 100.0 * math.sqrt(self._squares / self._extent) if self._extent else math.inf

@@ -144,7 +144,11 @@ def _files(names: list[str], file_format: str | None, reader: str | None) -> Fra
         for number, name in enumerate(names[1:], 1):
             mesh = read_mesh(name, file_format, reader=reader).mesh
             if mesh.positions.shape != first.positions.shape or not np.array_equal(mesh.faces, first.faces):
-                raise MeshError(f"frame {number}, {name}, has other faces than the first one, {names[0]}")
+                raise MeshError(
+                    f"these are different meshes, not the frames of one animation: {name} (frame {number}) has other "
+                    f"faces than {names[0]}; to work on each by itself, name the files and write to a folder, "
+                    "-o FOLDER/"
+                )
             yield mesh.positions
 
     return Frames(first.faces, len(names), frames())

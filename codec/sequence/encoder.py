@@ -29,7 +29,7 @@ from codec.sequence.row_prediction import LARGEST_LEVEL
 from codec.sequence.targets import SequenceComparison, compare_sequences
 from codec.signal.quantize import smallest_step
 from codec.static.decoder import CONNECTIVITY_METHOD, ORDER_METHOD, chain_rules
-from codec.static.encoder import STIFFNESS, ChainEncoder, CodedBlock
+from codec.static.encoder import STIFFNESS, ChainEncoder, CodedBlock, Progress
 from codec.static.encoder import _frame_of_reference as frame_of_reference
 from codec.static.options import EncodeOptions
 from codec.static.targets import search_step
@@ -94,12 +94,14 @@ class SequenceEncoder:
         self._faces = faces
         self._count = frames
 
-    def chunks(self, frames: Iterable[npt.ArrayLike]) -> Iterator[bytes]:
+    def chunks(self, frames: Iterable[npt.ArrayLike], progress: Progress | None = None) -> Iterator[bytes]:
         """The stream, stream frame by stream frame; each GOP is given as soon as its frames are there.
 
         Parameters
         ----------
         frames : iterable of array_like, shape (n, 3)
+        progress : callable, optional
+            Called with the number of blocks done and of all blocks of all GOPs, once for every attempt at a target.
 
         Raises
         ------
@@ -107,18 +109,18 @@ class SequenceEncoder:
             If a frame is not finite or has another shape than the first, or there is no frame.
         """
         if self.options.target is None:
-            yield from self._chunks(frames, self.options)
+            yield from self._chunks(frames, self.options, progress)
         else:
-            yield from self.search([np.asarray(frame, np.float64) for frame in frames]).chunks
+            yield from self.search([np.asarray(frame, np.float64) for frame in frames], progress).chunks
 
-    def search(self, frames: Sequence[Matrix]) -> SequenceAttempt:
+    def search(self, frames: Sequence[Matrix], progress: Progress | None = None) -> SequenceAttempt:
         """Look for the step that meets the options' target; `TargetError` says what can be had where none does."""
         target = self.options.target
         if target is None:
             raise OptionError("there is no target to search for")
         finest = max(FINEST_STEP, self._finest_step(frames))
         return search_step(  # type: ignore[type-var]  # a sequence's target knows a sequence's outcome
-            lambda step: self.attempt(frames, step), target, self.options.step, finest
+            lambda step: self.attempt(frames, step, progress), target, self.options.step, finest
         )
 
     def _finest_step(self, frames: Sequence[Matrix]) -> float:
@@ -128,19 +130,24 @@ class SequenceEncoder:
         values = 3 * min(self.options.gop, len(frames)) * 2 * self.options.block_size
         return 2.0 * reach * np.sqrt(values) / LARGEST_LEVEL
 
-    def attempt(self, frames: Sequence[Matrix], step: float) -> SequenceAttempt:
+    def attempt(self, frames: Sequence[Matrix], step: float, progress: Progress | None = None) -> SequenceAttempt:
         """Encode with a given step, and see what the decoder will."""
-        chunks = tuple(self._chunks(frames, replace(self.options, step=step)))
+        chunks = tuple(self._chunks(frames, replace(self.options, step=step), progress))
         decoded, faces = decode_sequence(b"".join(chunks), threads=self.options.threads)
         original = np.array([frame[self.vertex_order] for frame in frames])
         return SequenceAttempt(chunks, decoded.size // 3, compare_sequences(original, decoded, faces))
 
-    def _chunks(self, frames: Iterable[npt.ArrayLike], options: SequenceOptions) -> Iterator[bytes]:
+    def _chunks(
+        self, frames: Iterable[npt.ArrayLike], options: SequenceOptions, progress: Progress | None
+    ) -> Iterator[bytes]:
         source = iter(frames)
         first = next(source, None)
         if first is None:
             raise MeshError("a sequence needs at least one frame")
-        opening = OpeningEncoder(TriangleMesh(np.asarray(first), np.asarray(self._faces)), options, self._count)
+        gops = -(-self._count // (options.gop if options.mode == "gop" else 1))
+        tell = _Rounds(progress if gops else None, 1 + gops)
+        mesh = TriangleMesh(np.asarray(first), np.asarray(self._faces))
+        opening = OpeningEncoder(mesh, options, self._count, tell)
         self.vertex_order, self.face_order = opening.vertex_order, opening.face_order
         writer = Writer()
         yield writer.start()
@@ -154,7 +161,7 @@ class SequenceEncoder:
         number = 0
         checked = self._checked(chain([first], source), np.shape(first), opening)
         while group := list(_taken(checked, opening.header.gop_frames)):
-            body = encoder.encode(np.array(group), number)
+            body = encoder.encode(np.array(group), number, tell)
             yield writer.write(packets.Gop(number, write_gop_body(body)))
             number += len(group)
         if self._count and number != self._count:
@@ -178,7 +185,7 @@ class SequenceEncoder:
 class OpeningEncoder:
     """Everything before the GOPs: connectivity, and the first frame, coded as a static mesh is."""
 
-    def __init__(self, mesh: TriangleMesh, options: SequenceOptions, frames: int) -> None:
+    def __init__(self, mesh: TriangleMesh, options: SequenceOptions, frames: int, progress: Progress) -> None:
         used, kept = mesh.without_isolated_vertices()
         connectivity = encode_connectivity(used.faces, len(kept))
         self.connectivity = packets.Connectivity(CONNECTIVITY_METHOD, connectivity.payload)
@@ -200,7 +207,10 @@ class OpeningEncoder:
         self.header = self._header(partition.parts, frames)
         coder = ChainEncoder(self.header, chain_rules(self.header), self._blocks, EncodeOptions())
         positions = self.in_units(ordered.positions)
-        self.coded: list[CodedBlock] = [coder.encode(index, positions) for index in range(self._blocks.count)]
+        self.coded: list[CodedBlock] = []
+        for index in range(self._blocks.count):
+            self.coded.append(coder.encode(index, positions))
+            progress(len(self.coded), self._blocks.count)
 
     def in_units(self, positions: Matrix) -> Matrix:
         """Positions in BSM units."""
@@ -235,6 +245,20 @@ class OpeningEncoder:
             gop_frames=options.gop if options.mode == "gop" else 1,
             weights=("binary", "cotangent").index(options.weights),
         )
+
+
+class _Rounds:
+    """Tells of rounds over the same blocks, the first frame's and one for each GOP, as of one large piece of work."""
+
+    def __init__(self, progress: Progress | None, rounds: int) -> None:
+        self._progress = progress
+        self._rounds = rounds
+        self._done = 0
+
+    def __call__(self, done: int, blocks: int) -> None:
+        if self._progress is not None:
+            self._progress(self._done * blocks + done, self._rounds * blocks)
+        self._done += done == blocks
 
 
 def encode_sequence(positions: npt.ArrayLike, faces: npt.ArrayLike, options: SequenceOptions | None = None) -> bytes:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
@@ -15,6 +16,7 @@ from codec.sequence.row_prediction import Loop, cosine_basis, quantize_basis, tr
 from codec.sequence.temporal import WORTH, bits_estimate, learn_basis, projection
 
 Matrix = npt.NDArray[np.float64]
+Progress = Callable[[int, int], None]
 
 
 class GopEncoder:
@@ -26,13 +28,13 @@ class GopEncoder:
         self._step = float(np.float32(options.step))
         self._history: FrameHistory | None = None
 
-    def encode(self, frames: Matrix, number: int) -> GopBody:
+    def encode(self, frames: Matrix, number: int, progress: Progress) -> GopBody:
         """Encode frames, shape (T, n, 3), in BSM units, from frame `number` of the sequence on."""
         if self._options.mode == "low-delay":
-            return self._single(frames[0], key=number % self._options.gop == 0)
-        return self._transformed(trajectories(frames))
+            return self._single(frames[0], number % self._options.gop == 0, progress)
+        return self._transformed(trajectories(frames), progress)
 
-    def _single(self, wanted: Matrix, key: bool) -> GopBody:
+    def _single(self, wanted: Matrix, key: bool, progress: Progress) -> GopBody:
         history = self._history
         if key or history is None:
             history = self._history = FrameHistory(self._setting.first)
@@ -45,12 +47,13 @@ class GopEncoder:
             levels.append(coded)
             coefficients.append(base + change)
             part.place(frame, coefficients[k])
+            progress(len(levels), len(self._setting.parts))
         payload = encode_levels(history.bank, levels, history.levels)
         history.commit(levels, coefficients)
         method = GopMethod.KEY_FRAME if key else GopMethod.NEXT_FRAME
         return GopBody(method, 1, self._step, 3, np.empty(0, np.int32), b"", payload)
 
-    def _transformed(self, motion: Matrix) -> GopBody:
+    def _transformed(self, motion: Matrix, progress: Progress) -> GopBody:
         """Encode trajectories, shape (n, 3T)."""
         candidates = []
         if self._options.transform != "cosine":
@@ -58,7 +61,7 @@ class GopEncoder:
         if self._options.transform != "learnt":
             candidates.append(self._cosines(motion))
         body = min(candidates, key=lambda candidate: self._cost(motion, candidate)) if candidates[1:] else candidates[0]
-        return self._coded(motion, body)
+        return self._coded(motion, body, progress)
 
     def _learnt(self, motion: Matrix) -> GopBody:
         basis = learn_basis(motion, self._step, MAX_EXPONENT)
@@ -78,7 +81,7 @@ class GopEncoder:
         components = motion @ projection(decode_basis(body))
         return bits_estimate(components, self._step) + 8.0 * len(body.basis)
 
-    def _coded(self, motion: Matrix, body: GopBody) -> GopBody:
+    def _coded(self, motion: Matrix, body: GopBody, progress: Progress) -> GopBody:
         """The GOP with the levels of its blocks."""
         wanted = motion @ projection(decode_basis(body))
         field = np.zeros_like(wanted)
@@ -88,5 +91,6 @@ class GopEncoder:
             coded, decoded = Loop(3, body.components).encode(first, target, self._step, self._options.rounding)
             part.place(field, decoded)
             levels.append(coded)
+            progress(len(levels), len(self._setting.parts))
         payload = encode_levels(make_level_bank(), levels, level_references(levels, body.components))
         return replace(body, levels=payload)

@@ -148,7 +148,8 @@ def search_step(attempt: Callable[[float], Found], target: Target, first: float,
     if right is None:
         assert best is not None
         raise TargetError(
-            f"{target.worded(target.value)} at most cannot be reached; the best that can be had is {target.worded(best)}"
+            f"{target.worded(target.value)} at most cannot be reached; the best that can be had is "
+            f"{target.worded(best)}"
         )
     return right[1]
 

@@ -23,7 +23,7 @@ SMALL = ["--block-size", "150", "--threads", "1"]
 def bsm(*arguments, **keywords):
     """Run the program as a user does, in a process of its own."""
     return subprocess.run(
-        [sys.executable, "-m", "bsm.cli", *map(str, arguments)],
+        [sys.executable, "-m", "bsm", *map(str, arguments)],
         capture_output=True,
         timeout=120,
         cwd=ROOT,
@@ -271,7 +271,7 @@ def test_the_reader_of_a_pipe_goes_away(folder):
     reading, writing = os.pipe()
     os.close(reading)
     done = subprocess.run(
-        [sys.executable, "-m", "bsm.cli", "decode", folder / "sample.bsm", "-o", "-"],
+        [sys.executable, "-m", "bsm", "decode", folder / "sample.bsm", "-o", "-"],
         stdout=writing,
         stderr=subprocess.PIPE,
         timeout=60,
@@ -299,7 +299,7 @@ def test_the_help_prints_the_table_of_codes_and_starts_fast(folder):
     assert done.returncode == 0
     text = done.stdout.decode()
     assert all(f"{row.code:>3}  {row.meaning}" in text for row in EXITS)
-    assert all(f"    {name} " in text for name in COMMANDS)
+    assert all(f"    {name}" in text for name in COMMANDS)
     program = "import sys; from bsm.cli import main; main(['info', sys.argv[1]]); sys.exit('codec' in sys.modules)"
     done = subprocess.run([sys.executable, "-c", program, folder / "sample.bsm"], cwd=ROOT, timeout=60, check=False)
     assert done.returncode == 0, "bsm info needs no mathematics"

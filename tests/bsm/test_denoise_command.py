@@ -30,7 +30,7 @@ FEW = ("--iterations", "2", "--block-size", "200")
 def bsm(*arguments):
     """Run the program as a user does, in a process of its own."""
     return subprocess.run(
-        [sys.executable, "-m", "bsm.cli", *map(str, arguments)],
+        [sys.executable, "-m", "bsm", *map(str, arguments)],
         capture_output=True,
         text=True,
         timeout=120,
@@ -113,7 +113,7 @@ def test_frames_come_and_go_through_pipes(frames, tmp_path):
         for frame in frames[:3]:
             np.save(file, frame)
     with open(tmp_path / "in.npy", "rb") as source, open(tmp_path / "out.npy", "wb") as sink:
-        command = [sys.executable, "-m", "bsm.cli", "denoise", "-", "-o", "-", "--format", "npy", "-q", *FEW]
+        command = [sys.executable, "-m", "bsm", "denoise", "-", "-o", "-", "--format", "npy", "-q", *FEW]
         subprocess.run(command, stdin=source, stdout=sink, timeout=120, cwd=ROOT, check=True)
     expected = FrameDenoiser(frames[0], CLEAN.faces, DenoiseOptions(iterations=2, block_size=200))(frames[:3])
     with open(tmp_path / "out.npy", "rb") as file:

@@ -16,7 +16,7 @@ from bsm.files.mesh import read_mesh, write_mesh
 from tools.vectors.store import FOLDER as VECTORS
 
 ROOT = Path(__file__).parents[2]
-BSM = [sys.executable, "-m", "bsm.cli"]
+BSM = [sys.executable, "-m", "bsm"]
 
 
 @pytest.fixture(scope="module")

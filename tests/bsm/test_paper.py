@@ -86,7 +86,7 @@ def quick(tmp_path_factory) -> tuple[str, dict]:
     """A quick report, and the data it printed."""
     path = tmp_path_factory.mktemp("paper") / "report.html"
     ran = subprocess.run(
-        [sys.executable, "-m", "bsm.cli", "paper", "-o", str(path), "--quick", "--json"],
+        [sys.executable, "-m", "bsm", "paper", "-o", str(path), "--quick", "--json"],
         capture_output=True,
         text=True,
         timeout=120,

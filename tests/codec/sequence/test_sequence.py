@@ -10,7 +10,16 @@ from hypothesis import strategies as st
 from bitstream.container.packets import Gop
 from bitstream.container.reader import END_OF_STREAM, NEED_DATA, Reader, Signal
 from bitstream.container.writer import write_stream
-from bitstream.errors import BsmError, CorruptError, FormatError, LimitError, MeshError, OptionError, TargetError, UnsupportedError
+from bitstream.errors import (
+    BsmError,
+    CorruptError,
+    FormatError,
+    LimitError,
+    MeshError,
+    OptionError,
+    TargetError,
+    UnsupportedError,
+)
 from bitstream.limits import Limits
 from codec import (
     ConnectivityEvent,
@@ -354,7 +363,7 @@ def test_targets(kind, value):
 def test_a_target_that_cannot_be_met_is_an_error():
     positions, faces = bending(3)
     encoder = SequenceEncoder(faces, options(target=SequenceTarget("bpvf", 0.01)), len(positions))
-    with pytest.raises(TargetError, match="0.01 bits per vertex and frame at most cannot be reached"):
+    with pytest.raises(TargetError, match=r"0\.01 bits per vertex and frame at most cannot be reached"):
         list(encoder.chunks(positions))
     for kind, value in (("size", 3.0), ("kg", 0.0), ("bpvf", math.inf)):
         with pytest.raises(OptionError):

@@ -1,0 +1,56 @@
+"""Wrong usage: one line on what is wrong and what may have been meant, one on how it is right."""
+
+from __future__ import annotations
+
+import argparse
+import difflib
+from collections.abc import Iterable, Iterator, Sequence
+from typing import NoReturn
+
+FILES = ("IN", "OUT", "FILE", "FILE.npy", "FILE.json", "REPORT.html", "MESH", "FOLDER", "A", "B")
+"""What files and folders are called in the help."""
+
+
+def suggestion(word: str, known: Iterable[str]) -> str:
+    """A question whether something similar was meant; "" if there is nothing."""
+    found = difflib.get_close_matches(word, list(known), n=1, cutoff=0.6)
+    return f"; did you mean {found[0]}?" if found else ""
+
+
+class Parser(argparse.ArgumentParser):
+    """An argument parser that is short about errors and takes options anywhere between inputs."""
+
+    def parse_command(self, words: Sequence[str]) -> argparse.Namespace:
+        """Parse the words behind a command.
+
+        Raises
+        ------
+        SystemExit
+            With code 2, after a line on what is wrong, where they are wrong; with code 0 after help.
+        """
+        # argparse forgets a "--" between the two passes that mixed words take it.
+        parse = self.parse_known_args if "--" in words else self.parse_known_intermixed_args
+        args, unknown = parse(words)
+        if unknown:
+            word = next((word for word in unknown if word.startswith("-")), unknown[0])
+            name = word.partition("=")[0]
+            if not name.startswith("-"):
+                self.error(f"{word}: one input too many")
+            self.error(f"there is no option {name}{suggestion(name, self._option_string_actions)}")
+        return args
+
+    def error(self, message: str) -> NoReturn:
+        """Say what is wrong, and one line of usage; exit with code 2."""
+        inputs = [action for action in self._actions if not action.option_strings and action.nargs != argparse.PARSER]
+        names = "".join(f" {action.metavar}{'...' if action.nargs in ('+', '*') else ''}" for action in inputs)
+        what = f"{names} [options]" if inputs else " COMMAND ..."
+        self.exit(2, f"{self.prog}: {message}\nusage: {self.prog}{what}; {self.prog} --help tells more\n")
+
+    def file_arguments(self) -> Iterator[argparse.Action]:
+        """All that are names of files, those of commands included."""
+        for action in self._actions:
+            if action.nargs == argparse.PARSER and isinstance(action.choices, dict):
+                for command in action.choices.values():
+                    yield from command.file_arguments()
+            elif action.metavar in FILES:
+                yield action
