@@ -20,7 +20,7 @@ from bitstream.errors import OptionError
 from bsm.console import Console, print_json
 from bsm.exits import about, behind, exit_of, is_expected, tell
 from bsm.files.naming import default_output, output_inside
-from bsm.files.output import termination_as_exception
+from bsm.files.output import Terminated, termination_as_exception
 
 Facts = dict[str, Any]
 """What came of an input, ready for JSON; `input_bytes`, `output_bytes` are summed up."""
@@ -217,7 +217,11 @@ def _submitted(
 
 
 def _silent_outcome(work: Work, args: argparse.Namespace) -> Outcome:
-    return _outcome(work, args, Console(args.quiet, kept=[]))
+    try:
+        return _outcome(work, args, Console(args.quiet, kept=[]))
+    except Terminated:
+        # What was begun is cleared away; nothing else is to be taken up.
+        os._exit(exit_of(Terminated()).code)
 
 
 def _outcome(work: Work, args: argparse.Namespace, console: Console) -> Outcome:

@@ -85,7 +85,9 @@ def decode_one(args: argparse.Namespace, console: Console) -> Facts:
         written = file.write(format_mesh(mesh, kind))
     vertices, faces = len(mesh.positions), len(mesh.faces)
     taken = size_of(args.input)
-    console.note(f"{args.input} -> {output}: {vertices} vertices, {faces} faces, {came_to(taken, written)}, {seconds:.2f} s")
+    console.note(
+        f"{args.input} -> {output}: {vertices} vertices, {faces} faces, {came_to(taken, written)}, {seconds:.2f} s"
+    )
     return {
         "input": args.input,
         "output": output,

@@ -1,0 +1,228 @@
+"""Many inputs: what is written where, what is said, and what is left of interrupted work."""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+from bitstream.errors import OptionError
+from bsm.batch import plan
+from bsm.cli import main
+from bsm.evaluation.sample import knot
+from bsm.files.mesh import read_mesh, write_mesh
+
+ROOT = Path(__file__).parents[2]
+SMALL = ["--block-size", "150", "--threads", "1"]
+
+
+def bsm(*arguments, **keywords):
+    """Run the program as a user does, in a process of its own."""
+    return subprocess.run(
+        [sys.executable, "-m", "bsm", *map(str, arguments)],
+        capture_output=True,
+        timeout=120,
+        cwd=ROOT,
+        check=False,
+        text=True,
+        **keywords,
+    )
+
+
+@pytest.fixture(scope="module")
+def meshes(tmp_path_factory):
+    """A folder with a.npz, b.npz and c.npz, of different meshes."""
+    folder = tmp_path_factory.mktemp("meshes")
+    for name, size in (("a", 400), ("b", 500), ("c", 600)):
+        write_mesh(folder / f"{name}.npz", knot(size))
+    return folder
+
+
+@pytest.fixture(scope="module")
+def streams(meshes, tmp_path_factory):
+    folder = tmp_path_factory.mktemp("streams")
+    assert main(["encode", "-q", *map(str, sorted(meshes.iterdir())), "-o", str(folder), *SMALL]) == 0
+    return folder
+
+
+def names(folder):
+    return sorted(path.name for path in folder.iterdir())
+
+
+@pytest.mark.parametrize("jobs", [1, 2])
+def test_there_and_back(meshes, tmp_path, jobs):
+    inputs = sorted(meshes.iterdir())
+    done = bsm("encode", *inputs, "-o", f"{tmp_path}/new/", "-j", jobs, "--json", *SMALL)
+    assert done.returncode == 0, done.stderr
+    files = json.loads(done.stdout)["files"]
+    assert [file["input"] for file in files] == list(map(str, inputs))
+    for file in files:
+        assert file["bytes"] == os.path.getsize(file["output"])
+        assert file["input_bytes"] == os.path.getsize(file["input"])
+        assert 0 < file["theta_deg"] < 30
+    taken, given = (sum(file[key] for file in files) for key in ("input_bytes", "output_bytes"))
+    *each, summary = done.stderr.splitlines()
+    assert [line.partition(" ->")[0] for line in each if " -> " in line] == list(map(str, inputs))
+    assert summary.startswith(f"3 of 3 files, {taken} -> {given} bytes ({taken / given:.1f} : 1), ")
+    assert (
+        bsm("decode", *(file["output"] for file in files), "-j", jobs, "-o", tmp_path, "--format", "npz").stdout == ""
+    )
+    assert names(tmp_path) == ["a.npz", "b.npz", "c.npz", "new"]
+    for path in inputs:
+        assert len(read_mesh(tmp_path / path.name).mesh.faces) == len(read_mesh(path).mesh.faces)
+
+
+def test_processes_write_the_same_bytes(meshes, streams, tmp_path):
+    assert (
+        bsm("encode", "-q", *sorted(meshes.iterdir()), "-j", 3, "-o", tmp_path, "--block-size", "150").returncode == 0
+    )
+    assert names(tmp_path) == names(streams)
+    assert all((tmp_path / name).read_bytes() == (streams / name).read_bytes() for name in names(tmp_path))
+
+
+@pytest.mark.parametrize("jobs", ["1", "2"])
+def test_failures_are_told_and_the_others_go_on(streams, tmp_path, jobs):
+    (tmp_path / "cut.bsm").write_bytes((streams / "a.bsm").read_bytes()[:-10])
+    inputs = [streams / "a.bsm", tmp_path / "cut.bsm", tmp_path / "none.bsm", streams / "b.bsm"]
+    done = bsm("verify", *inputs, "--json", "-j", jobs)
+    assert done.returncode == 4, "the code of the first failure"
+    assert [file.get("exit") for file in json.loads(done.stdout)["files"]] == [None, 4, 9, None]
+    said = done.stderr.splitlines()
+    assert f"bsm: {tmp_path / 'cut.bsm'}: " in said[1] and f"bsm: {tmp_path / 'none.bsm'}: No such file" in said[2]
+    assert said[-1].startswith("2 of 4 files")
+
+
+def test_a_sole_input_into_a_folder(meshes, tmp_path):
+    assert main(["encode", "-q", str(meshes / "a.npz"), "-o", f"{tmp_path}/x/", *SMALL]) == 0
+    assert main(["decode", "-q", str(tmp_path / "x" / "a.bsm"), "-o", f"{tmp_path}/y/", "--format", "npz"]) == 0
+    assert names(tmp_path / "x") == ["a.bsm"] and names(tmp_path / "y") == ["a.npz"]
+
+
+def test_info_of_many(streams, capsys):
+    assert main(["info", *(str(streams / name) for name in names(streams))]) == 0
+    text = capsys.readouterr().out
+    assert [line for line in text.splitlines() if line.endswith(":") and "bsm" in line] == [
+        f"{streams / name}:" for name in names(streams)
+    ]
+
+
+def test_denoise_many(meshes, tmp_path):
+    inputs = [str(meshes / "a.npz"), str(meshes / "b.npz")]
+    assert main(["denoise", "-q", *inputs, "-o", str(tmp_path), "--iterations", "2"]) == 0
+    assert names(tmp_path) == ["a.npz", "b.npz"]
+
+
+# ---------------------------------------------------------------------------------------------------- what is refused
+
+
+def test_outputs_that_would_replace_something(tmp_path):
+    for name in ("a.ply", "a.obj", "b.ply"):
+        (tmp_path / name).write_bytes(b"x")
+    (tmp_path / "link.ply").symlink_to(tmp_path / "a.ply")
+    os.link(tmp_path / "a.ply", tmp_path / "hard.ply")
+    a, b, obj = (str(tmp_path / name) for name in ("a.ply", "b.ply", "a.obj"))
+
+    def to_bsm(_):
+        return ".bsm"
+
+    def to_ply(_):
+        return ".ply"
+
+    for output in (a, str(tmp_path / "link.ply"), str(tmp_path / "hard.ply")):
+        with pytest.raises(OptionError, match="replace the input"):
+            plan([a], output, to_bsm)
+    with pytest.raises(OptionError, match="replace the input"):
+        plan([a, b], str(tmp_path), to_ply)
+    with pytest.raises(OptionError, match="two outputs"):
+        plan([a, obj], None, to_bsm)
+    with pytest.raises(OptionError, match="to a folder"):
+        plan([a, b], str(tmp_path / "c.bsm"), to_bsm)
+    with pytest.raises(OptionError, match="pipe"):
+        plan([a, "-"], None, to_bsm)
+    assert [job.output for job in plan([a, b], None, to_bsm)] == [str(tmp_path / "a.bsm"), str(tmp_path / "b.bsm")]
+
+
+@pytest.mark.parametrize("output", ["a.npz", "link.npz", "hard.npz"])
+def test_no_input_is_replaced_even_by_force(output, meshes, tmp_path):
+    mesh = (meshes / "a.npz").read_bytes()
+    (tmp_path / "a.npz").write_bytes(mesh)
+    (tmp_path / "link.npz").symlink_to("a.npz")
+    os.link(tmp_path / "a.npz", tmp_path / "hard.npz")
+    for words in (["encode"], ["denoise"], ["noise", "--sigma", "0.1"]):
+        done = bsm(*words, "-f", tmp_path / "a.npz", "-o", tmp_path / output)
+        assert (done.returncode, done.stderr.count("\n")) == (2, 1)
+    assert (tmp_path / "a.npz").read_bytes() == mesh
+
+
+def test_different_meshes_are_no_animation(meshes, tmp_path):
+    for name in (str(meshes), f"{meshes}/*.npz"):
+        done = bsm("encode", name, "-o", tmp_path / "x.bsm")
+        assert done.returncode == 3
+        assert "different meshes, not the frames of one animation" in done.stderr and "b.npz" in done.stderr
+    assert names(tmp_path) == []
+
+
+def test_a_folder_without_a_name(tmp_path):
+    done = bsm("encode", ".")
+    assert (done.returncode, done.stderr) == (2, "bsm: . gives the output no name; name it with -o\n")
+
+
+# ------------------------------------------------------------------------------------------------------------ signals
+
+
+@pytest.mark.parametrize(("number", "code"), [(signal.SIGTERM, 143), (signal.SIGINT, 130)])
+@pytest.mark.parametrize("jobs", ["1", "2"])
+def test_a_signal_leaves_no_half_file_and_no_process(number, code, jobs, tmp_path):
+    for name in ("a", "b", "c"):
+        write_mesh(tmp_path / f"{name}.npz", knot(40_000))
+    output = tmp_path / "out"
+    command = [sys.executable, "-m", "bsm", "encode", *sorted(tmp_path.iterdir()), "-o", f"{output}/", "-j", jobs]
+    with subprocess.Popen(
+        [*command, "--block-size", "300", "--keep", "1"], cwd=ROOT, stderr=subprocess.PIPE, start_new_session=True
+    ) as process:
+        while not (output.exists() and list(output.iterdir())):
+            assert process.poll() is None
+            time.sleep(0.05)
+        os.killpg(process.pid, number) if number == signal.SIGINT else process.send_signal(number)
+        said = process.communicate(timeout=60)[1].decode()
+    assert process.returncode == code, said
+    assert "Traceback" not in said
+    assert names(output) == []
+    with pytest.raises(ProcessLookupError):
+        for _ in range(100):
+            os.killpg(process.pid, 0)
+            time.sleep(0.1)
+
+
+INTERRUPTED = """
+import os, signal, sys
+
+class Finder:
+    def find_spec(self, name, *_):
+        if name == sys.argv[0]:
+            os.kill(os.getpid(), signal.SIGINT)
+
+sys.meta_path.insert(0, Finder())
+sys.argv = sys.argv[1:]
+from bsm.__main__ import run
+run()
+"""
+
+
+@pytest.mark.parametrize(
+    "module", ["bsm.cli", "argparse", "bsm.exits", "bsm.commands.encode", "numpy", "codec", "scipy"]
+)
+def test_an_interrupt_in_the_first_moments(module, meshes):
+    """Wherever it hits the imports, it is an interrupt and no traceback."""
+    done = subprocess.run(
+        [sys.executable, "-c", INTERRUPTED, module, "encode", meshes / "a.npz", "-o", "-"],
+        cwd=ROOT,
+        capture_output=True,
+        timeout=60,
+        check=False,
+    )
+    assert (done.returncode, done.stderr) == (130, b"bsm: interrupted\n")

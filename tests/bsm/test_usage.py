@@ -1,0 +1,91 @@
+"""Wrong words, and what is said about them; completion."""
+
+import shutil
+import subprocess
+
+import pytest
+
+from bsm.cli import COMMANDS, main, program_parser
+from tests.bsm.test_batch import bsm
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["encdoe"], "bsm: there is no command encdoe; did you mean encode?"),
+        (["quux"], "bsm: there is no command quux"),
+        (["encode", "a.ply", "--tehta", "5"], "bsm encode: there is no option --tehta; did you mean --theta?"),
+        (["encode", "a.ply", "--kep=5"], "bsm encode: there is no option --kep; did you mean --keep?"),
+        (["encode", "--theta", "x", "a.ply"], "bsm encode: argument --theta: invalid float value: 'x'"),
+        (["encode"], "bsm encode: the following arguments are required: IN"),
+        (["compare", "a", "b", "c"], "bsm compare: c: one input too many"),
+    ],
+)
+def test_wrong_words(words, said, capsys):
+    with pytest.raises(SystemExit) as stop:
+        main(words)
+    assert stop.value.code == 2
+    first, usage = capsys.readouterr().err.splitlines()
+    assert first == said
+    assert usage.startswith("usage: bsm") and "--help" in usage
+
+
+def test_no_words_are_wrong_usage(capsys):
+    assert main([]) == 2
+    assert "COMMAND" in capsys.readouterr().err
+
+
+def test_the_version():
+    from importlib.metadata import version
+
+    done = bsm("--version")
+    assert (done.returncode, done.stdout) == (0, f"bsm {version('bsm-codec')}\n")
+
+
+def test_options_between_inputs(tmp_path, capsys):
+    words = ["verify", str(tmp_path / "a"), "--quick", str(tmp_path / "b")]
+    assert main(words) == 9
+    assert capsys.readouterr().err.count("No such file") == 2
+    assert main(["verify", "--", "-a"]) == 9
+    assert capsys.readouterr().err == "bsm: -a: No such file or directory\n"
+
+
+def test_compare_says_which_file_is_wrong(tmp_path, capsys):
+    (tmp_path / "a.off").write_text("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")
+    (tmp_path / "b.off").write_text("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 7\n")
+    for words in (["a.off", "b.off"], ["b.off", "a.off"]):
+        assert main(["compare", *(str(tmp_path / word) for word in words)]) == 3
+        assert capsys.readouterr().err.startswith(f"bsm: {tmp_path / 'b.off'}: a face refers to vertex 7")
+
+
+def test_a_target_out_of_reach_has_its_code(tmp_path, capsys):
+    main(["demo", "-q", "--vertices", "400", "-o", str(tmp_path)])
+    main(["decode", "-q", str(tmp_path / "bsm_demo.bsm"), "-o", str(tmp_path / "a.npz")])
+    for words in (["--theta", "0.0001"], ["--size", "20"]):
+        assert main(["encode", str(tmp_path / "a.npz"), "-o", str(tmp_path / "b.bsm"), *words]) == 10
+        assert "at most cannot be reached; the best that can be had is" in capsys.readouterr().err
+        assert not (tmp_path / "b.bsm").exists()
+
+
+@pytest.mark.parametrize("shell", ["bash", "zsh", "fish"])
+def test_completion_knows_commands_and_options(shell, capsys):
+    pytest.importorskip("shtab")
+    assert main(["completion", shell]) == 0
+    script = capsys.readouterr().out
+    assert all(name in script for name in COMMANDS) and "keep-order" in script
+    if shutil.which(shell):
+        subprocess.run([shell, "-n"], input=script.encode(), timeout=60, check=True)
+
+
+def test_bash_completes(tmp_path):
+    pytest.importorskip("shtab")
+    script = bsm("completion", "bash").stdout + (
+        "\nCOMP_WORDS=(bsm encode --the); COMP_CWORD=2; _shtab_bsm bsm --the encode; echo ${COMPREPLY[@]}\n"
+    )
+    done = subprocess.run(["bash"], input=script, capture_output=True, text=True, timeout=60, check=False)
+    assert done.stdout.split() == ["--theta"]
+
+
+def test_every_command_says_what_it_takes_for_files():
+    files = [action.dest for action in program_parser(complete=True).file_arguments()]
+    assert {"inputs", "output", "original", "decoded", "permutation"} <= set(files)
