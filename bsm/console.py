@@ -70,7 +70,9 @@ class Progress:
             from tqdm import tqdm
 
             tqdm.monitor_interval = 0
-            self._bar = tqdm(desc=self._what, unit=f" {self._unit}", total=total, delay=_PATIENCE, leave=False)
+            self._bar = tqdm(
+                desc=self._what, unit=f" {self._unit}", total=total, delay=_PATIENCE, leave=False, miniters=0
+            )
         if done < self._last:
             self._round += 1
             self._bar.set_description(f"{self._what}, attempt {self._round + 1}", refresh=False)

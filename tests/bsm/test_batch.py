@@ -5,9 +5,11 @@ import os
 import signal
 import subprocess
 import sys
+import termios
 import time
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from bitstream.errors import OptionError
@@ -226,3 +228,85 @@ def test_an_interrupt_in_the_first_moments(module, meshes):
         check=False,
     )
     assert (done.returncode, done.stderr) == (130, b"bsm: interrupted\n")
+
+
+# -------------------------------------------------------------------------------------------------------------- pipes
+
+
+def shell(script, *arguments):
+    """Run a script of bash, whose $B is the program."""
+    environment = {**os.environ, "B": f"{sys.executable} -m bsm", "PYTHONPATH": str(ROOT)}
+    return subprocess.run(
+        ["bash", "-c", f"set -eo pipefail; {script}", "bash", *map(str, arguments)],
+        capture_output=True,
+        timeout=120,
+        cwd=arguments[-1],
+        env=environment,
+        check=False,
+        text=True,
+    )
+
+
+@pytest.mark.parametrize(
+    "script",
+    [
+        "mkfifo p.npz; cat $1 > p.npz & $B encode p.npz -q -o x.bsm --block-size 150 --threads 1",
+        "cat $1 | $B encode /dev/stdin -q -o x.bsm --block-size 150 --threads 1",
+        "$B encode <(cat $1) -q -o x.bsm --block-size 150 --threads 1",
+        "$B encode $1 -q -o /dev/stdout --block-size 150 --threads 1 | cat > x.bsm",
+        "$B encode $1 -q -o >(cat > y.bsm) --block-size 150 --threads 1; while [ ! -s y.bsm ]; do sleep 0.1; done; mv y.bsm x.bsm",
+        "$B encode $1 -q -o - --block-size 150 --threads 1 > x.bsm",
+    ],
+)
+def test_pipes_of_all_kinds(script, meshes, streams, tmp_path):
+    done = shell(script, meshes / "a.npz", tmp_path)
+    assert (done.returncode, done.stderr) == (0, "")
+    assert (tmp_path / "x.bsm").read_bytes() == (streams / "a.bsm").read_bytes()
+
+
+def test_a_pipe_without_a_name_wants_one(meshes, tmp_path):
+    done = shell("$B encode <(cat $1)", meshes / "a.npz", tmp_path)
+    assert done.returncode == 2 and "name it with -o" in done.stderr
+
+
+# --------------------------------------------------------------------------------------------------------------- bars
+
+
+def on_a_terminal(*arguments):
+    """What the program shows on a terminal."""
+    ours, theirs = os.openpty()
+    termios.tcsetwinsize(theirs, (24, 120))
+    with subprocess.Popen(
+        [sys.executable, "-m", "bsm", *map(str, arguments)], cwd=ROOT, stdout=subprocess.PIPE, stderr=theirs
+    ) as process:
+        os.close(theirs)
+        shown = b""
+        try:
+            while piece := os.read(ours, 4096):
+                shown += piece
+        except OSError:  # the other end is closed
+            pass
+        assert process.wait(timeout=120) == 0, shown
+    os.close(ours)
+    return shown.decode()
+
+
+def test_one_bar_for_a_search_with_the_time_left(tmp_path):
+    write_mesh(tmp_path / "a.npz", knot(50_000))
+    words = ["encode", tmp_path / "a.npz", "-o", tmp_path / "a.bsm", "--block-size", "300", "--threads", "1"]
+    shown = on_a_terminal(*words, "--theta", "3")
+    assert "encoding, attempt 2" in shown and "<00:" in shown and "blocks/s" in shown
+    *frames, result = shown.replace("\r\n", "\n").rstrip("\n").split("\r")
+    shares = [int(frame.partition("%")[0].rpartition(":")[2]) for frame in frames if "%|" in frame]
+    assert len(shares) > 3 and shares[0] < shares[-1]
+    assert result.strip().startswith(str(tmp_path)), "the bar is gone"
+    assert on_a_terminal(*words, "-f", "-q") == ""
+
+
+def test_a_bar_for_sequences(tmp_path):
+    positions, faces = knot(6_000).positions, knot(6_000).faces
+    frames = np.array([positions * (1 + 0.1 * np.sin(t / 3)) for t in range(12)])
+    np.savez(tmp_path / "a.npz", positions=frames, faces=faces)
+    words = ["encode", tmp_path / "a.npz", "-o", tmp_path / "a.bsm", "--keep", "1", "--block-size", "200"]
+    shown = on_a_terminal(*words, "--threads", "1")
+    assert "encoding:" in shown and "blocks/s" in shown and "KG error" in shown
