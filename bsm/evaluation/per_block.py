@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from bsm.evaluation.codecs import paper_options
 from bsm.evaluation.tables import number, table
 from bsm.files.stream import StreamInfo, inspect_stream
 from codec import EncodeOptions, Encoder, TriangleMesh, decode
@@ -126,3 +127,35 @@ def _deviations(error: Floats, labels: npt.NDArray[np.int32], parts: int) -> Flo
     distance = np.square(error - means[number[labels]]).sum(axis=1)
     deviations: Floats = np.sqrt(np.bincount(labels, distance, parts)[present] / counts[present])
     return deviations
+
+
+def block_size_for(mesh: TriangleMesh, blocks: int) -> int:
+    """The option `block_size` that cuts a mesh into so many blocks."""
+    return round(len(mesh.positions) / blocks)
+
+
+def dynamic_comparison(mesh: TriangleMesh, block_size: int, keep: float = 0.10) -> dict[str, list[dict[str, float]]]:
+    """Errors along the chain for a fixed size and for one that follows the error, at about the same rate.
+
+    The thresholds are a narrow band around one residual, found by bisection so that both keep about as many
+    coefficients.
+
+    Returns
+    -------
+    dict
+        ``fixed`` and ``dynamic``: what `errors_along_chain` returns.
+    """
+    settings: dict[str, Any] = {"block_size": block_size, "power": 2}
+    fixed = errors_along_chain(view_blocks(mesh, paper_options(**settings, keep=keep)))
+    wanted = sum(block["coefficients"] for block in fixed)
+    low, high = 1e-4, 10.0
+    dynamic = fixed
+    for _ in range(12):
+        middle = float(np.sqrt(low * high))
+        options = paper_options(**settings, keep=min(1.0, 5 * keep), doi=(0.9 * middle, middle))
+        dynamic = errors_along_chain(view_blocks(mesh, options))
+        kept = sum(block["coefficients"] for block in dynamic)
+        if abs(kept / wanted - 1) < 0.01:
+            break
+        low, high = (middle, high) if kept > wanted else (low, middle)
+    return {"fixed": fixed, "dynamic": dynamic}

@@ -1,4 +1,4 @@
-"""Sequences against Draco frame by frame and against principal components: `python -m bsm.evaluation.sequences`.
+"""What Draco, frame by frame, and principal components make of sequences.
 
 Rates are those of whole files, connectivity and first frame included. Draco is asked for every `every`-th frame, which
 is exact for codecs that know of one frame only; its files are compared with ours at its own KG error.
@@ -6,29 +6,20 @@ is exact for codecs that know of one frame only; its files are compared with our
 
 from __future__ import annotations
 
-import argparse
-import json
-import time
 from collections.abc import Iterator
-from dataclasses import asdict, replace
-from pathlib import Path
+from dataclasses import asdict
 from typing import Any
 
 import numpy as np
 
 from bitstream.connectivity.faces import encode_connectivity
 from bsm.evaluation.draco import decode_draco, encode_draco, positions_in_order
-from bsm.files.npz import read_arrays
-from bsm.files.output import open_output
-from codec import SequenceEncoder, SequenceOptions, TriangleMesh
+from codec import TriangleMesh
 from codec.geometry.mesh import Faces, Positions
-from codec.sequence.decoder import END_OF_STREAM, SequenceDecoder
-from codec.sequence.targets import SequenceTarget, compare_sequences
+from codec.sequence.targets import compare_sequences
 
 Point = dict[str, Any]
 
-DRACO_BITS = (8, 10)
-KG_GOAL = 0.15
 PCA_BITS = (6, 8, 10, 12, 14)
 
 
@@ -41,7 +32,7 @@ def draco_point(positions: Positions, faces: Faces, bits: int, every: int) -> Po
         data = encode_draco(mesh, bits, 10)
         size += len(data)
         decoded.append(positions_in_order(mesh, decode_draco(data), bits))
-    return _point(f"Draco qp {bits}", size, chosen, np.array(decoded), faces)
+    return point_of(f"Draco qp {bits}", size, chosen, np.array(decoded), faces)
 
 
 def pca_point(positions: Positions, faces: Faces, kg: float) -> Point:
@@ -68,70 +59,12 @@ def pca_point(positions: Positions, faces: Faces, kg: float) -> Point:
             error = 100 * float(np.linalg.norm(decoded - matrix)) / extent
             if error <= kg:
                 size = connectivity + 4 * u[:, :count].size + (_entropy(levels) + _entropy(base)) / 8
-                points.append(_point(f"PCA {count}", int(size), positions, decoded.reshape(positions.shape), faces))
+                points.append(point_of(f"PCA {count}", int(size), positions, decoded.reshape(positions.shape), faces))
                 break
     return min(points, key=lambda point: float(point["bpvf"]), default={"codec": "PCA", "bpvf": None})
 
 
-def our_point(positions: Positions, faces: Faces, options: SequenceOptions, kg: float) -> Point:
-    """Ours, at most at the KG error `kg`."""
-    encoder = SequenceEncoder(faces, replace(options, target=SequenceTarget("kg", kg)), len(positions))
-    attempt = encoder.search(list(positions))
-    name = f"ours, {options.mode}"
-    size = sum(map(len, attempt.chunks))
-    return {"codec": name, "bytes": size, "bpvf": attempt.bpvf, **asdict(attempt.comparison)}
-
-
-def speed(positions: Positions, faces: Faces, options: SequenceOptions) -> dict[str, float]:
-    """Seconds for what is done once, and frames per second for the rest, on one thread (BLAS is up to the caller)."""
-    options = replace(options, threads=1)
-    list(SequenceEncoder(faces, options, 2).chunks(positions[:2]))  # compiles
-    once, _ = _timed(lambda: list(SequenceEncoder(faces, options, 1).chunks(positions[:1])))
-    whole, chunks = _timed(lambda: list(SequenceEncoder(faces, options, len(positions)).chunks(positions)))
-    data = b"".join(chunks)
-    opening, _ = _timed(lambda: _decode(data, start=len(positions)))
-    decoding, _ = _timed(lambda: _decode(data, start=0))
-    count = len(positions)
-    return {
-        "encode_once_s": once,
-        "encode_fps": (count - 1) / (whole - once),
-        "decode_once_s": opening,
-        "decode_fps": count / (decoding - opening),
-    }
-
-
-def measure(path: Path, every: int) -> dict[str, Any]:
-    """All points of one sequence."""
-    positions, faces = read_arrays(path, "positions", "faces")
-    frames = positions.astype(np.float64)
-    faces = TriangleMesh(frames[0], faces).faces
-    options = SequenceOptions(gop=max(len(frames), 1))
-    result: dict[str, Any] = {"frames": len(frames), "vertices": frames.shape[1], "at_draco": []}
-    for bits in DRACO_BITS:
-        draco = draco_point(frames, faces, bits, every)
-        ours = our_point(frames, faces, options, draco["kg"])
-        low_delay = our_point(frames, faces, replace(options, mode="low-delay"), draco["kg"])
-        pca = pca_point(frames, faces, draco["kg"])
-        result["at_draco"].append({"draco": draco, "ours": ours, "low_delay": low_delay, "pca": pca})
-        _say(path.stem, draco, ours, low_delay, pca)
-    result["goal"] = our_point(frames, faces, options, KG_GOAL)
-    result["speed"] = speed(frames, faces, options)
-    _say(path.stem, result["goal"])
-    print(f"{path.stem}: {result['speed']}", flush=True)
-    return result
-
-
-def _say(name: str, *points: Point) -> None:
-    for point in points:
-        if point["bpvf"] is not None:
-            print(
-                f"{name:14} {point['codec']:18} {point['bpvf']:8.4f} bits per vertex and frame, "
-                f"KG {point['kg']:.4f} %, theta {point['theta_deg']:.2f}, 1/{points[0]['bpvf'] / point['bpvf']:.1f}",
-                flush=True,
-            )
-
-
-def _point(name: str, size: int, original: Positions, decoded: Positions, faces: Faces) -> Point:
+def point_of(name: str, size: int, original: Positions, decoded: Positions, faces: Faces) -> Point:
     comparison = compare_sequences(original, decoded, faces)
     return {"codec": name, "bytes": size, "bpvf": 8 * size / original[..., 0].size, **asdict(comparison)}
 
@@ -151,40 +84,3 @@ def _entropy(levels: Positions) -> float:
         _, counts = np.unique(row, return_counts=True)
         total -= float((counts * np.log2(counts / counts.sum())).sum())
     return total
-
-
-def _decode(data: bytes, start: int) -> None:
-    decoder = SequenceDecoder(threads=1, start=start)
-    decoder.receive_data(data)
-    decoder.receive_eof()
-    while decoder.next_event() is not END_OF_STREAM:
-        pass
-
-
-def _timed(work: Any) -> tuple[float, Any]:
-    begin = time.perf_counter()
-    result = work()
-    return time.perf_counter() - begin, result
-
-
-def _files(folder: Path, names: list[str]) -> Iterator[Path]:
-    for path in sorted(folder.glob("*.npz")):
-        if not names or path.stem in names:
-            yield path
-
-
-def main() -> None:
-    """Measure every npz of a folder and write one JSON file."""
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("folder", type=Path, help="of npz sequences")
-    parser.add_argument("names", nargs="*", help="of files without suffix (default: all)")
-    parser.add_argument("-o", "--output", metavar="FILE.json", required=True)
-    parser.add_argument("--every", type=int, default=8, help="frames of Draco: one in so many (default 8)")
-    args = parser.parse_args()
-    results = {path.stem: measure(path, args.every) for path in _files(args.folder, args.names)}
-    with open_output(args.output, overwrite=True) as file:
-        file.write(json.dumps(results, indent=1).encode() + b"\n")
-
-
-if __name__ == "__main__":
-    main()

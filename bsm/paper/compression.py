@@ -5,8 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from bsm.evaluation.codecs import PAPER_KEEPS, Curve, paper_curves, paper_options
-from bsm.evaluation.figures import block_size_for, dynamic_comparison
-from bsm.evaluation.per_block import boundary_table, quartiles, spread
+from bsm.evaluation.per_block import block_size_for, boundary_table, dynamic_comparison, quartiles, spread
 from bsm.evaluation.plots import draw_boxes, draw_paper_figure, draw_per_block
 from bsm.evaluation.run import run_curve
 from bsm.paper.exhibit import Cell, Column, Exhibit, Table

@@ -234,8 +234,8 @@ def test_an_interrupt_in_the_first_moments(module, meshes):
 
 
 def shell(script, *arguments):
-    """Run a script of bash, whose $B is the program."""
-    environment = {**os.environ, "B": f"{sys.executable} -m bsm", "PYTHONPATH": str(ROOT)}
+    """Run a script of bash, whose $B is the program and $S options for small meshes."""
+    environment = {**os.environ, "B": f"{sys.executable} -m bsm", "S": " ".join(SMALL), "PYTHONPATH": str(ROOT)}
     return subprocess.run(
         ["bash", "-c", f"set -eo pipefail; {script}", "bash", *map(str, arguments)],
         capture_output=True,
@@ -250,12 +250,12 @@ def shell(script, *arguments):
 @pytest.mark.parametrize(
     "script",
     [
-        "mkfifo p.npz; cat $1 > p.npz & $B encode p.npz -q -o x.bsm --block-size 150 --threads 1",
-        "cat $1 | $B encode /dev/stdin -q -o x.bsm --block-size 150 --threads 1",
-        "$B encode <(cat $1) -q -o x.bsm --block-size 150 --threads 1",
-        "$B encode $1 -q -o /dev/stdout --block-size 150 --threads 1 | cat > x.bsm",
-        "$B encode $1 -q -o >(cat > y.bsm) --block-size 150 --threads 1; while [ ! -s y.bsm ]; do sleep 0.1; done; mv y.bsm x.bsm",
-        "$B encode $1 -q -o - --block-size 150 --threads 1 > x.bsm",
+        "mkfifo p.npz; cat $1 > p.npz & $B encode p.npz -q -o x.bsm $S",
+        "cat $1 | $B encode /dev/stdin -q -o x.bsm $S",
+        "$B encode <(cat $1) -q -o x.bsm $S",
+        "$B encode $1 -q -o /dev/stdout $S | cat > x.bsm",
+        "$B encode $1 -q -o >(cat > y.bsm) $S; while [ ! -s y.bsm ]; do sleep 0.1; done; mv y.bsm x.bsm",
+        "$B encode $1 -q -o - $S > x.bsm",
     ],
 )
 def test_pipes_of_all_kinds(script, meshes, streams, tmp_path):

@@ -270,25 +270,6 @@ class TestCommands:
         assert main(["curve", str(tmp_path / "torus.npz"), "-o", str(tmp_path), "--codecs", "mp3"]) == 2
         assert "no codec is called mp3" in capsys.readouterr().err
 
-    def test_boundary(self, tmp_path, capsys):
-        write_mesh(tmp_path / "torus.npz", torus())
-        assert main(["boundary", str(tmp_path / "torus.npz"), "--block-size", "150", "--json"]) == 0
-        rows = json.loads(capsys.readouterr().out)["rows"]
-        assert [(row["case"], row["where"]) for row in rows] == [
-            (case, where)
-            for case in ("no overlap", "simple average", "weighted average")
-            for where in ("inside", "boundary")
-        ]
-        assert all(0 < row["lower"] <= row["median"] <= row["upper"] for row in rows)
-
-    def test_figures_knows_its_names(self, tmp_path, capsys):
-        assert main(["figures", str(tmp_path), "--only", "nothing"]) == 2
-        assert "no figure is called nothing" in capsys.readouterr().err
-
-    def test_figures_says_which_mesh_is_missing(self, tmp_path, capsys):
-        assert main(["figures", str(tmp_path), "--only", "order"]) == 2
-        assert "holds no bunny_34834" in capsys.readouterr().err
-
 
 def test_memory_and_time_of_both_directions(tmp_path):
     mesh = torus(30, 30)

@@ -12,8 +12,14 @@ import numpy as np
 
 from bitstream.errors import DependencyError, OptionError
 from bsm.evaluation.codecs import Spectral, draco_curve, our_curve, paper_options
-from bsm.evaluation.connectivity import HEADINGS, connectivity_row
-from bsm.evaluation.per_block import boundary_rows, boundary_table, errors_along_chain, quartiles, spread, view_blocks
+from bsm.evaluation.per_block import (
+    block_size_for,
+    boundary_rows,
+    boundary_table,
+    dynamic_comparison,
+    quartiles,
+    spread,
+)
 from bsm.evaluation.plots import draw_per_block
 from bsm.evaluation.rates import compare_curves, rate_curve_of, scaled
 from bsm.evaluation.resources import measure_resources
@@ -24,6 +30,7 @@ from bsm.files.mesh import read_mesh
 from bsm.files.output import open_output
 from codec import TriangleMesh
 from codec.geometry.metrics import Reference
+from tools.figures.connectivity import HEADINGS, connectivity_row
 
 BLOCKS = {
     "bunny_34834": 70,
@@ -117,11 +124,6 @@ class Figure:
     title: str
     expectation: str
     text: str
-
-
-def block_size_for(mesh: TriangleMesh, blocks: int) -> int:
-    """The option `block_size` that cuts a mesh into so many blocks."""
-    return round(len(mesh.positions) / blocks)
 
 
 def basis_figure(source: Source) -> Figure:
@@ -313,33 +315,6 @@ def dynamic_figure(source: Source) -> Figure:
         "at most half of the fixed size's",
         table(("mesh", "sum of c", "c", "rms error, thousandths", "spread"), rows),
     )
-
-
-def dynamic_comparison(mesh: TriangleMesh, block_size: int, keep: float = 0.10) -> dict[str, list[dict[str, float]]]:
-    """Errors along the chain for a fixed size and for one that follows the error, at about the same rate.
-
-    The thresholds are a narrow band around one residual, found by bisection so that both keep about as many
-    coefficients.
-
-    Returns
-    -------
-    dict
-        ``fixed`` and ``dynamic``: what `errors_along_chain` returns.
-    """
-    settings: dict[str, Any] = {"block_size": block_size, "power": 2}
-    fixed = errors_along_chain(view_blocks(mesh, paper_options(**settings, keep=keep)))
-    wanted = sum(block["coefficients"] for block in fixed)
-    low, high = 1e-4, 10.0
-    dynamic = fixed
-    for _ in range(12):
-        middle = float(np.sqrt(low * high))
-        options = paper_options(**settings, keep=min(1.0, 5 * keep), doi=(0.9 * middle, middle))
-        dynamic = errors_along_chain(view_blocks(mesh, options))
-        kept = sum(block["coefficients"] for block in dynamic)
-        if abs(kept / wanted - 1) < 0.01:
-            break
-        low, high = (middle, high) if kept > wanted else (low, middle)
-    return {"fixed": fixed, "dynamic": dynamic}
 
 
 def write_chains(chains: dict[str, list[dict[str, float]]], stem: Path) -> Path:

@@ -1,0 +1,65 @@
+"""The tools that measure the README's figures: what they print, and how they fail."""
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+
+from bsm.files.mesh import write_mesh
+from tests.shapes import torus
+
+ROOT = Path(__file__).parents[2]
+
+
+def tool(name, *arguments):
+    return subprocess.run(
+        [sys.executable, "-m", f"tools.{name}", *map(str, arguments)],
+        capture_output=True,
+        text=True,
+        timeout=300,
+        cwd=ROOT,
+        check=False,
+    )
+
+
+def test_boundary(tmp_path):
+    write_mesh(tmp_path / "torus.npz", torus())
+    done = tool("boundary", tmp_path / "torus.npz", "--block-size", "150", "--json", "-o", tmp_path / "box")
+    rows = json.loads(done.stdout)["rows"]
+    assert [(row["case"], row["where"]) for row in rows] == [
+        (case, where)
+        for case in ("no overlap", "simple average", "weighted average")
+        for where in ("inside", "boundary")
+    ]
+    assert all(0 < row["lower"] <= row["median"] <= row["upper"] for row in rows)
+    assert (tmp_path / "box.png").read_bytes().startswith(b"\x89PNG")
+
+
+def test_figures_knows_its_names(tmp_path):
+    done = tool("figures", tmp_path, "--only", "nothing")
+    assert done.returncode == 2 and "no figure is called nothing" in done.stderr
+
+
+def test_figures_says_which_mesh_is_missing(tmp_path):
+    done = tool("figures", tmp_path, "--only", "order")
+    assert done.returncode == 2 and "holds no bunny_34834" in done.stderr
+
+
+def test_a_figure(tmp_path):
+    write_mesh(tmp_path / "bunny_34834.npz", torus(60, 40))
+    done = tool("figures", tmp_path, "--only", "boundary")
+    assert done.returncode == 0, done.stderr
+    assert "`python -m tools.figures FOLDER --only boundary`" in done.stdout and "weighted average" in done.stdout
+
+
+def test_sequences(tmp_path):
+    mesh = torus(20, 16)
+    frames = np.array([mesh.positions * (1 + 0.05 * t) for t in range(6)])
+    np.savez(tmp_path / "swelling.npz", positions=frames, faces=mesh.faces)
+    done = tool("sequences", tmp_path, "-o", tmp_path / "a.json", "--every", "2")
+    assert done.returncode == 0, done.stderr
+    result = json.loads((tmp_path / "a.json").read_text())["swelling"]
+    assert [point["ours"]["kg"] <= point["draco"]["kg"] for point in result["at_draco"]] == [True, True]
+    assert result["goal"]["kg"] <= 0.15
