@@ -42,7 +42,7 @@ if TYPE_CHECKING:
         ArgumentError as ArgumentError, BsmError as BsmError, CorruptError as CorruptError,
         DependencyError as DependencyError, FormatError as FormatError, LimitError as LimitError,
         MeshError as MeshError, NumericError as NumericError, OptionError as OptionError,
-        TruncatedError as TruncatedError, UnsupportedError as UnsupportedError,
+        TargetError as TargetError, TruncatedError as TruncatedError, UnsupportedError as UnsupportedError,
     )
     from bitstream.limits import Limits as Limits
     from bsm.api import (
@@ -71,7 +71,7 @@ _ROOMS = {
     "bitstream.container.reader": "END_OF_STREAM NEED_DATA Signal",
     "bitstream.errors": (
         "ArgumentError BsmError CorruptError DependencyError FormatError LimitError MeshError NumericError "
-        "OptionError TruncatedError UnsupportedError"
+        "OptionError TargetError TruncatedError UnsupportedError"
     ),
     "bitstream.limits": "Limits",
     "bsm.api": "compare decode decode_sequence denoise encode encode_sequence load save",

@@ -7,6 +7,7 @@ import importlib
 import sys
 from collections.abc import Sequence
 
+from bsm import __version__
 from bsm.console import Console
 from bsm.exits import USAGE, behind, exit_of, exit_table, is_expected, tell
 from bsm.files.output import Terminated
@@ -74,24 +75,13 @@ def program_parser(*, complete: bool = False) -> Parser:
     return parser
 
 
-def version() -> str:
-    """The version that is installed; that of the checkout where nothing is."""
-    from importlib.metadata import PackageNotFoundError
-    from importlib.metadata import version as installed
-
-    try:
-        return installed("bsm-codec")
-    except PackageNotFoundError:
-        return "0+unknown"
-
-
 def _no_command(words: list[str]) -> int:
     """What is said without a command: help, the version, or what may have been meant."""
     parser = program_parser()
     if words and not words[0].startswith("-"):
         parser.error(f"there is no command {words[0]}{suggestion(words[0], COMMANDS)}")
     if parser.parse_args(words).version:
-        print(f"bsm {version()}")
+        print(f"bsm {__version__}")
         return 0
     parser.print_help(sys.stderr)
     return USAGE.code

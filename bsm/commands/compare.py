@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 from dataclasses import asdict
 
+from bsm.commands.reader import add_reader_flag
 from bsm.console import Console, finite, print_json
 from bsm.exits import about
 from bsm.files.mesh import read_mesh
@@ -24,6 +25,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         action="store_true",
         help="of meshes also the mean normal difference, the rms error over the mean edge, and the Hausdorff distance",
     )
+    add_reader_flag(parser)
     parser.add_argument("--json", action="store_true", help="print it as JSON")
 
 
@@ -34,7 +36,7 @@ def run(args: argparse.Namespace, console: Console) -> None:
 
     if compare_if_sequences(args):
         return
-    original, decoded = (_load(path, console) for path in (args.original, args.decoded))
+    original, decoded = (_load(path, args.reader, console) for path in (args.original, args.decoded))
     order = read_permutation(args.permutation) if args.permutation else None
     positions = in_order_of(original, decoded, order)
     result = asdict(compare(original.positions, positions, original.faces))
@@ -62,12 +64,12 @@ def _surface(original: TriangleMesh, positions: Positions) -> dict[str, float]:
     }
 
 
-def _load(path: str, console: Console) -> TriangleMesh:
+def _load(path: str, reader: str | None, console: Console) -> TriangleMesh:
     """A mesh file or a stream, without the vertices that no face uses."""
     with about(path):
         if is_stream(path):
             return decode_whole(read_chunks(path))
-        source = read_mesh(path)
+        source = read_mesh(path, reader=reader)
     for note in source.notes:
         console.note(f"{path}: {note}")
     return source.mesh.without_isolated_vertices()[0]

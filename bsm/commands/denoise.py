@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 from bitstream.errors import OptionError
 from bsm.batch import Facts, add_inputs, plan, run_jobs, size_of
+from bsm.commands.reader import add_reader_flag
 from bsm.console import Console, Progress
 from bsm.files.mesh import MESH_FORMATS, format_mesh, format_of_name, read_mesh
 from bsm.files.naming import output_inside, refuse_terminal
@@ -35,6 +36,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "file, in the format of its name, or folder for any number of inputs",
     )
     parser.add_argument("--format", choices=(*MESH_FORMATS, "npy"), help="format of the input, and of a piped output")
+    add_reader_flag(parser)
     ways = parser.add_argument_group(
         "instead of the automatic mode",
         "with none of these everything is chosen from the noise of the mesh (of the first frame); "
@@ -84,7 +86,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
 def denoise_one(args: argparse.Namespace, console: Console) -> Facts:
     """Denoise one mesh or one sequence."""
     options = _options(args)
-    if sequence := open_sequence(args.input, args.format):
+    if sequence := open_sequence(args.input, args.format, args.reader):
         result = _denoise_sequence(args, console, sequence, options)
     else:
         if Path(args.output).is_dir():
@@ -117,7 +119,7 @@ def _denoise_mesh(args: argparse.Namespace, console: Console, options: DenoiseOp
 
     from codec.denoise import FrameDenoiser
 
-    source = read_mesh(args.input, args.format)
+    source = read_mesh(args.input, args.format, reader=args.reader)
     for note in source.notes:
         console.note(f"{args.input}: {note}")
     mesh = source.mesh

@@ -8,6 +8,7 @@ import time
 from bitstream.errors import OptionError
 from bsm.batch import Facts, add_inputs, came_to, plan, refuse_collisions, run_jobs, size_of
 from bsm.commands.encode_options import add_encode_flags, encode_options
+from bsm.commands.reader import add_reader_flag
 from bsm.commands.sequence_options import add_sequence_flags, refuse_sequence_flags
 from bsm.console import Console, finite
 from bsm.files.mesh import MESH_FORMATS, read_mesh
@@ -30,6 +31,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--permutation", metavar="FILE.npy", help="also write which input vertex each decoded vertex is"
     )
+    add_reader_flag(parser)
     add_encode_flags(parser)
     add_sequence_flags(parser)
 
@@ -56,13 +58,13 @@ def encode_one(args: argparse.Namespace, console: Console) -> Facts:
 
     from codec import Encoder
 
-    if sequence := open_sequence(args.input, args.format):
+    if sequence := open_sequence(args.input, args.format, args.reader):
         from bsm.commands.sequence_encode import encode_sequence
 
         return encode_sequence(args, console, sequence)
     refuse_sequence_flags(args)
     options = encode_options(args)
-    source = read_mesh(args.input, args.format)
+    source = read_mesh(args.input, args.format, reader=args.reader)
     begin = time.perf_counter()
     encoder = Encoder(source.mesh, options)
     with open_output(args.output, overwrite=args.force) as file, console.progress("encoding") as progress:

@@ -7,6 +7,7 @@ from collections.abc import Callable
 
 from bitstream.errors import OptionError
 from bsm.batch import refuse_collisions
+from bsm.commands.reader import add_reader_flag
 from bsm.console import Console, print_json
 from bsm.exits import about
 from bsm.files.mesh import MESH_FORMATS, format_mesh, format_of_name, read_mesh
@@ -33,6 +34,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--fraction", type=float, metavar="P", help="share of the vertices, impulsive only (0.5)")
     parser.add_argument("--seed", type=int, default=0, metavar="N", help="the same seed gives the same noise (0)")
+    add_reader_flag(parser)
     parser.add_argument("--json", action="store_true", help="print what was done as JSON")
 
 
@@ -53,7 +55,7 @@ def run(args: argparse.Namespace, console: Console) -> None:
 
     refuse_collisions([args.input], [args.output])
     with about(args.input):
-        mesh = read_mesh(args.input, args.format).mesh
+        mesh = read_mesh(args.input, args.format, reader=args.reader).mesh
     noisy = move(mesh)
     with open_output(args.output, overwrite=args.force) as file:
         file.write(format_mesh(TriangleMesh(noisy, mesh.faces), kind))

@@ -22,7 +22,7 @@ from codec.sequence.targets import compare_sequences
 Sequence = tuple[Positions, Faces]
 
 
-def load_sequence(path: str) -> Sequence | None:
+def load_sequence(path: str, reader: str | None = None) -> Sequence | None:
     """The frames, shape (T, n, 3), and faces of a file, folder or stream; None if it is a mesh."""
     if _is_stream(path):
         header, chunks = peek_header(read_chunks(path))
@@ -30,7 +30,7 @@ def load_sequence(path: str) -> Sequence | None:
             return None
         stream = SequenceStream(chunks)
         return all_frames(stream), stream.faces
-    source = open_sequence(path)
+    source = open_sequence(path, reader=reader)
     return None if source is None else (np.array(list(source.frames)), source.faces)
 
 
@@ -56,9 +56,9 @@ def compare_loaded(args: argparse.Namespace, original: Sequence, decoded: Sequen
         print("\n".join(f"{name:<19}{value:.6g}" for name, value in result.items()))
 
 
-def _loaded(path: str) -> Sequence | None:
+def _loaded(path: str, reader: str | None) -> Sequence | None:
     with about(path):
-        return load_sequence(path)
+        return load_sequence(path, reader)
 
 
 def compare_if_sequences(args: argparse.Namespace) -> bool:
@@ -69,7 +69,7 @@ def compare_if_sequences(args: argparse.Namespace) -> bool:
     MeshError
         If one is a sequence and the other a mesh.
     """
-    original, decoded = _loaded(args.original), _loaded(args.decoded)
+    original, decoded = _loaded(args.original, args.reader), _loaded(args.decoded, args.reader)
     if original is None and decoded is None:
         return False
     if original is None or decoded is None:

@@ -5,6 +5,7 @@ import subprocess
 
 import pytest
 
+from bsm import __version__
 from bsm.cli import COMMANDS, main, program_parser
 from tests.bsm.test_batch import bsm
 
@@ -36,10 +37,8 @@ def test_no_words_are_wrong_usage(capsys):
 
 
 def test_the_version():
-    from importlib.metadata import version
-
     done = bsm("--version")
-    assert (done.returncode, done.stdout) == (0, f"bsm {version('bsm-codec')}\n")
+    assert (done.returncode, done.stdout) == (0, f"bsm {__version__}\n")
 
 
 def test_options_between_inputs(tmp_path, capsys):

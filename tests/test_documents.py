@@ -1,0 +1,179 @@
+"""What README, CONTRIBUTING and the specification tell people to type: every block and every command is run.
+
+Commands stand in blocks (lines indented by four) or between backticks. What needs a folder of meshes is asked for its
+help always, and run as it stands where there are real meshes and time (`-m long`).
+"""
+
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from bsm.evaluation.sample import knot
+from bsm.files.mesh import write_mesh
+from codec import TriangleMesh
+from codec.denoise.noise import gaussian_along_normals
+
+ROOT = Path(__file__).parents[1]
+DOCUMENTS = ("README.md", "CONTRIBUTING.md", "spec/README.md")
+PROGRAMS = r"(?:bsm|python3?|pytest|ruff|\.ci/run|\.venv|eval|cat)"
+BY_CI = r"\.ci/run|\.venv/bin/|^pytest|^ruff|^bsm --help$"
+"""What .ci/run itself does, or is."""
+NEEDS_FOLDER = r"MESHES|SEQUENCES|FOLDER|MESH\.\.\.|bsm bench"
+HELP_ONLY = r"tools\.vectors|tools\.train_coefficients"
+"""What would change the repository, and does so in tests of its own."""
+PLACES = {"MESH": "bunny.ply", "spec/": f"{ROOT}/spec/", "IN.bsm": "bunny.bsm", "OUT.npz": "reference.npz", " N": " 1"}
+
+
+SETTING = """
+from bsm.files.mesh import read_mesh
+mesh = read_mesh("bunny.ply").mesh
+positions, faces = mesh.positions, mesh.faces
+data = open("bunny.bsm", "rb").read()
+chunks = [data[i : i + 100] for i in range(0, len(data), 100)]
+"""
+"""What a snippet speaks of without making it."""
+
+
+def blocks(name):
+    """The indented blocks of a document."""
+    text = (ROOT / name).read_text()
+    found = re.findall(r"(?:^|\n\n)((?: {4}[^\n]*(?:\n|$)|\n(?= {4}))+)", text)
+    return [re.sub(r"^ {4}", "", block, flags=re.MULTILINE).strip("\n") + "\n" for block in found]
+
+
+def commands(name):
+    """The commands between backticks."""
+    spans = re.findall(r"`([^`\n]+)`", (ROOT / name).read_text())
+    return [span for span in dict.fromkeys(spans) if re.match(rf"{PROGRAMS}(?: |$)", span) and " " in span]
+
+
+def is_python(block):
+    return re.match(r"(?:from|import) ", block) is not None
+
+
+BLOCKS = [(name, block) for name in DOCUMENTS for block in blocks(name)]
+COMMANDS = [(name, command) for name in DOCUMENTS for command in commands(name)]
+
+
+@pytest.fixture(scope="module", params=["made", pytest.param("real", marks=pytest.mark.real)])
+def folder(request, tmp_path_factory):
+    """A folder with the meshes that the documents speak of, and programs that they call."""
+    if request.param == "real":
+        mesh = _small_real_mesh(request.getfixturevalue("meshes"))
+    else:
+        mesh = knot(1200)
+    folder = tmp_path_factory.mktemp(request.param)
+    for name in ("bunny.ply", "a.ply", "b.obj", "c.stl"):
+        write_mesh(folder / name, mesh)
+    noisy = gaussian_along_normals(mesh.positions, mesh.faces, 0.2, 0)
+    write_mesh(folder / "scan.ply", TriangleMesh(noisy, mesh.faces))
+    frames = np.array([mesh.positions * (1 + 0.1 * np.sin(t)) for t in range(6)])
+    np.savez(folder / "dance.npz", positions=frames, faces=mesh.faces)
+    programs = {
+        "bsm": f'exec "{sys.executable}" -m bsm "$@"',
+        "python": f'exec "{sys.executable}" "$@"',
+        "viewer": "cat",
+    }
+    (folder / "bin").mkdir()
+    for name, line in programs.items():
+        (folder / "bin" / name).write_text(f"#!/bin/sh\n{line}\n")
+        (folder / "bin" / name).chmod(0o755)
+    assert run(folder, "bsm encode -q bunny.ply").returncode == 0
+    return folder
+
+
+def _small_real_mesh(meshes):
+    from bsm.files.mesh import read_mesh
+
+    smallest = min((meshes / "static").glob("*.ply"), key=lambda path: path.stat().st_size)
+    return read_mesh(smallest).mesh.without_isolated_vertices()[0]
+
+
+def run(folder, script, timeout=300):
+    """Run a script in the folder, as somebody would who works there with this checkout."""
+    environment = {**os.environ, "PATH": f"{folder}/bin:{os.environ['PATH']}", "PYTHONPATH": str(ROOT)}
+    return subprocess.run(
+        ["bash", "-c", f"set -eo pipefail\n{script}"],
+        cwd=folder,
+        env=environment,
+        capture_output=True,
+        text=True,
+        errors="replace",
+        timeout=timeout,
+        check=False,
+    )
+
+
+def passed(done):
+    assert done.returncode == 0, done.stderr[-2000:]
+    assert "Traceback" not in done.stderr
+
+
+def filled(command):
+    for placeholder, value in PLACES.items():
+        command = command.replace(placeholder, value)
+    return command
+
+
+@pytest.mark.parametrize(("name", "block"), BLOCKS, ids=[f"{n}-{b[:30]}" for n, b in BLOCKS])
+def test_blocks(name, block, folder):
+    if re.search(BY_CI, block):
+        assert block.strip() in _run_by_ci()
+    elif is_python(block):
+        (folder / "snippet.py").write_text(SETTING + block)
+        passed(run(folder, "python snippet.py"))
+    elif not re.match(PROGRAMS, block):
+        pytest.skip("not a command")
+    else:
+        (folder / "bunny.bsm").unlink()
+        try:
+            passed(run(folder, block))
+        finally:
+            run(folder, "bsm encode -fq bunny.ply")
+
+
+def _run_by_ci():
+    """The commands that CI takes out of the README: .ci/run prints them when it is asked to."""
+    done = subprocess.run([ROOT / ".ci" / "run", "--list"], capture_output=True, text=True, timeout=60, check=True)
+    return done.stdout.splitlines()
+
+
+@pytest.mark.parametrize(("name", "command"), COMMANDS)
+def test_commands(name, command, folder):
+    if re.search(BY_CI, command):
+        pytest.skip("run by CI itself")
+    if re.search(f"{NEEDS_FOLDER}|{HELP_ONLY}", command):
+        program = re.match(r"bsm \w+|python -m [\w.]+", command).group()
+        done = run(folder, f"{program} --help")
+        passed(done)
+        for option in re.findall(r" (--[a-z-]+|-[a-z])\b", command[len(program) :]):
+            assert option in done.stdout, f"{program} has no {option}"
+        if only := re.search(r"--only (\w+)", command):
+            assert only.group(1) in done.stdout
+    else:
+        passed(run(folder, filled(command)))
+
+
+@pytest.mark.long
+@pytest.mark.real
+@pytest.mark.parametrize(
+    ("name", "command"), [(n, c) for n, c in COMMANDS if re.search(NEEDS_FOLDER, c) and not re.search(HELP_ONLY, c)]
+)
+def test_commands_on_real_meshes(name, command, folder, meshes):
+    places = {"MESHES": meshes / "static", "SEQUENCES": meshes / "dynamic", "FOLDER": meshes, "MESH...": "bunny.ply"}
+    if "denoise" in command:
+        places["MESHES"] = meshes
+    for placeholder, value in places.items():
+        command = command.replace(placeholder, str(value))
+    passed(run(folder, command.replace("bunny_34834.ply", f"{meshes}/static/bunny_34834.ply"), timeout=7200))
+
+
+def test_something_is_found():
+    assert len(BLOCKS) >= 5 and len(COMMANDS) >= 15
+    assert sum(is_python(block) for _, block in BLOCKS) >= 1
+    assert any("tools.fuzz" in command for _, command in COMMANDS)
