@@ -74,7 +74,8 @@ def positions_in_order(mesh: TriangleMesh, decoded: TriangleMesh, position_bits:
 def _with_three_corners(faces: npt.NDArray[np.int32]) -> npt.NDArray[np.int32]:
     """Without faces that name a vertex twice; edgebreaker leaves them out."""
     a, b, c = faces.T
-    return faces[(a != b) & (b != c) & (c != a)]
+    kept: npt.NDArray[np.int32] = faces[(a != b) & (b != c) & (c != a)]
+    return kept
 
 
 def _canonical(faces: npt.NDArray[np.integer]) -> Triangles:
@@ -93,4 +94,5 @@ def _draco() -> ModuleType:
         import DracoPy
     except ImportError as error:
         raise DependencyError("Draco needs the package DracoPy: pip install 'bsm-codec[eval]'") from error
-    return DracoPy
+    module: ModuleType = DracoPy
+    return module

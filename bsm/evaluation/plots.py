@@ -201,7 +201,7 @@ def _draw_figure(draw: Callable[[Any], None], stem: Path) -> list[Path]:
 
 
 def _slowest_first(result: Result) -> float:
-    return -max(point["decode_seconds"] for point in result["points"])
+    return -max(float(point["decode_seconds"]) for point in result["points"])
 
 
 def _styles() -> list[str]:

@@ -48,7 +48,8 @@ def _periodic_triangles(places: Doubles) -> npt.NDArray[np.int32]:
     triangles = near[Delaunay(copies[near] * (_ASPECT, 1.0)).simplices[:, ::-1]]
     center = copies[triangles].mean(axis=1)
     inside = ((center >= 0.0) & (center < 1.0)).all(axis=1)
-    return (triangles[inside] % len(places)).astype(np.int32)
+    wrapped: npt.NDArray[np.int32] = (triangles[inside] % len(places)).astype(np.int32)
+    return wrapped
 
 
 def _tube(along: Doubles, around: Doubles) -> Doubles:

@@ -64,7 +64,9 @@ def _shifted(laplacian: Matrix) -> csc_matrix:
 
 
 def _arpack(laplacian: Matrix, width: int) -> Matrix:
-    return eigsh(csc_matrix(laplacian), width, sigma=-SHIFT, which="LM", v0=hash_columns(len(laplacian), 1)[:, 0])[1]
+    start = hash_columns(len(laplacian), 1)[:, 0]
+    vectors: Matrix = eigsh(csc_matrix(laplacian), width, sigma=-SHIFT, which="LM", v0=start)[1]
+    return vectors
 
 
 def _lobpcg(laplacian: Matrix, width: int) -> Matrix:
@@ -74,7 +76,8 @@ def _lobpcg(laplacian: Matrix, width: int) -> Matrix:
     with warnings.catch_warnings():
         # It says so where it does not get below `tol`, and where it takes a dense solver (more than n / 5 columns).
         warnings.simplefilter("ignore", UserWarning)
-        return lobpcg(csc_matrix(laplacian), start, M=preconditioner, tol=1e-4, maxiter=60, largest=False)[1]
+        vectors: Matrix = lobpcg(csc_matrix(laplacian), start, M=preconditioner, tol=1e-4, maxiter=60, largest=False)[1]
+        return vectors
 
 
 EXACT = (

@@ -63,7 +63,8 @@ class Role:
     @property
     def view(self) -> npt.NDArray[np.float64]:
         """The camera for our file, see `bsm.evaluation.render`."""
-        return view_matrix(self.azimuth, 15.0) @ _UPRIGHT
+        view: npt.NDArray[np.float64] = view_matrix(self.azimuth, 15.0) @ _UPRIGHT
+        return view
 
 
 ROLES = {
