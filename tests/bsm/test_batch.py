@@ -7,7 +7,7 @@ import subprocess
 import sys
 import termios
 import time
-from pathlib import Path
+from functools import partial
 
 import numpy as np
 import pytest
@@ -17,22 +17,11 @@ from bsm.batch import plan
 from bsm.cli import main
 from bsm.evaluation.sample import knot
 from bsm.files.mesh import read_mesh, write_mesh
+from tests.bsm import program
 
-ROOT = Path(__file__).parents[2]
+ROOT = program.ROOT
 SMALL = ["--block-size", "150", "--threads", "1"]
-
-
-def bsm(*arguments, **keywords):
-    """Run the program as a user does, in a process of its own."""
-    return subprocess.run(
-        [sys.executable, "-m", "bsm", *map(str, arguments)],
-        capture_output=True,
-        timeout=120,
-        cwd=ROOT,
-        check=False,
-        text=True,
-        **keywords,
-    )
+bsm = partial(program.bsm, text=True)
 
 
 @pytest.fixture(scope="module")

@@ -15,21 +15,9 @@ from bsm.commands.encode_options import ENCODE_FLAGS
 from bsm.evaluation.sample import knot
 from bsm.exits import EXITS
 from bsm.files.mesh import read_mesh, write_mesh
+from tests.bsm.program import ROOT, bsm
 
-ROOT = Path(__file__).parents[2]
 SMALL = ["--block-size", "150", "--threads", "1"]
-
-
-def bsm(*arguments, **keywords):
-    """Run the program as a user does, in a process of its own."""
-    return subprocess.run(
-        [sys.executable, "-m", "bsm", *map(str, arguments)],
-        capture_output=True,
-        timeout=120,
-        cwd=ROOT,
-        check=False,
-        **keywords,
-    )
 
 
 @pytest.fixture(scope="module")
