@@ -76,7 +76,7 @@ class Input:
                 self._held = b""
                 yield piece
         finally:
-            self._close()
+            self.close()
 
     def read(self, size: int = _MAX_BYTES) -> bytes:
         """The next `size` bytes; fewer at the end."""
@@ -116,10 +116,11 @@ class Input:
         if isinstance(piece, str):
             raise ArgumentError("a binary file is expected, not one of text; open it with mode 'rb'")
         if not piece:
-            self._close()
+            self.close()
         return bytes(piece or b"")
 
-    def _close(self) -> None:
+    def close(self) -> None:
+        """Close what was opened here; nothing more is read."""
         if self._opened and self._file is not None:
             self._file.close()
             self._file, self._opened = io.BytesIO(), False

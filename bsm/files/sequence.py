@@ -13,7 +13,7 @@ import os
 import re
 import sys
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import ExitStack, closing, contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -21,10 +21,10 @@ import numpy as np
 
 from bitstream.errors import FormatError, MeshError, OptionError
 from bsm.files.mesh import MESH_FORMATS, format_mesh, format_of_name, read_mesh
-from bsm.files.npy import NPY, Readable, read_npy, write_npy
+from bsm.files.npy import NPY, read_npy, write_npy
 from bsm.files.npz import Archive, npz_frames, npz_shape, open_npz_sequence, read_arrays
 from bsm.files.output import open_output
-from bsm.files.pipes import Source, as_input, is_pipe
+from bsm.files.pipes import Input, Source, as_input, is_pipe
 from codec.geometry.mesh import Faces, Positions, TriangleMesh
 
 ZIP = b"PK\x03\x04"
@@ -154,17 +154,23 @@ def _files(names: list[str], file_format: str | None, reader: str | None) -> Fra
     return Frames(first.faces, len(names), frames())
 
 
-def _arrays(file: Readable) -> Frames:
+def _arrays(given: Input) -> Frames:
     """npy arrays, one behind the other: faces, frame, frame, ..."""
-    faces = read_npy(file)
-    if faces is None or faces.ndim != 2 or faces.shape[1] != 3 or faces.dtype.kind not in "iu":
-        raise FormatError("the first array must be the faces: integers of shape (m, 3)")
+    with ExitStack() as unread:
+        unread.callback(given.close)
+        faces = read_npy(given)
+        if faces is None or faces.ndim != 2 or faces.shape[1] != 3 or faces.dtype.kind not in "iu":
+            raise FormatError("the first array must be the faces: integers of shape (m, 3)")
+        unread.pop_all()
 
     def frames() -> Iterator[Positions]:
-        while (frame := read_npy(file)) is not None:
-            if frame.ndim != 2 or frame.shape[1] != 3:
-                raise FormatError(f"an array of {frame.dtype} and shape {frame.shape} is no frame; (n, 3) numbers are")
-            yield frame.astype(np.float64)
+        with closing(given):
+            while (frame := read_npy(given)) is not None:
+                if frame.ndim != 2 or frame.shape[1] != 3:
+                    raise FormatError(
+                        f"an array of {frame.dtype} and shape {frame.shape} is no frame; (n, 3) numbers are"
+                    )
+                yield frame.astype(np.float64)
 
     return Frames(faces.astype(np.int32), 0, frames())
 
