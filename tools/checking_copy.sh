@@ -1,0 +1,14 @@
+# checking_copy NAME CMAKE_OPTIONS...: build the kernels with these options, for the Python in $python, into a copy of the
+# sources under build/, and go there. The kernels of the checkout stay as they are.
+checking_copy() {
+    local name=$1 copy="build/$1"
+    shift
+    cmake -S . -B "build/$name-kernels" -DPython_EXECUTABLE="$python" "$@" > /dev/null
+    cmake --build "build/$name-kernels" -j 2 > /dev/null
+    mkdir -p "$copy"
+    rm -rf "$copy"/{bitstream,codec,bsm,tools,spec}
+    cp -r bitstream codec bsm tools spec "$copy"
+    find "$copy" -name '_kernels.*.so' -delete
+    cmake --install "build/$name-kernels" --prefix "$copy" > /dev/null
+    cd "$copy"
+}
