@@ -1,5 +1,5 @@
 """Attacking the decoders: coverage-guided fuzzing with atheris, and mutation that keeps checksums right.
 
-Compiled kernels are not instrumented, so coverage is that of the Python code around them; they run with the bounds of
-every array index checked (NUMBA_BOUNDSCHECK), which turns a read or write outside an array into a finding.
+Compiled kernels are instrumented, too: libFuzzer follows their coverage, and AddressSanitizer and traps turn a read or
+write outside an array, and undefined behaviour, into a finding.
 """

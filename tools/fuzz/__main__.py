@@ -3,22 +3,24 @@
 from __future__ import annotations
 
 import argparse
-import hashlib
 import os
 import re
+import shlex
+import shutil
 import subprocess
 import sys
-import tempfile
 import time
 from dataclasses import dataclass
 from pathlib import Path
 
-from tools.fuzz.targets import SLOW, TARGETS, seeds
-from tools.fuzz.worker import VECTORS
+import atheris
+
+from tools.fuzz.targets import SLOW, TARGETS, VECTORS, seeds
 
 ROOT = Path(__file__).parents[2]
 MEMORY_MIB = 2048
-"""Of a whole process, the interpreter, the compiler and the corpus included."""
+"""Of a whole process, the interpreter, the sanitizer and the corpus included."""
+_OPTIONS = "-DBSM_FUZZ=ON -DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++"
 HANG_SECONDS = 30
 """After which libFuzzer ends a process; the second that an execution may take is watched by the worker."""
 
@@ -48,8 +50,9 @@ def main() -> int:
     args = parser.parse_args()
     shares = {name: 2.0 if name in SLOW else 1.0 for name in args.targets}
     outcomes = []
+    sources, corpus = instrumented(), args.corpus.resolve()
     for name, share in shares.items():
-        outcome = attack(name, args.seconds * share / sum(shares.values()), args.corpus)
+        outcome = attack(name, args.seconds * share / sum(shares.values()), corpus, sources)
         outcomes.append(outcome)
         found = f", FOUND {', '.join(map(str, outcome.found))}" if outcome.found else ""
         print(
@@ -65,7 +68,7 @@ def main() -> int:
     return 1 if bad else 0
 
 
-def attack(name: str, seconds: float, corpus: Path) -> Outcome:
+def attack(name: str, seconds: float, corpus: Path, sources: Path) -> Outcome:
     """Run one worker; at least one pass over its seeds."""
     kept, findings = corpus / name, corpus / f"{name}-findings"
     for folder in (kept, findings):
@@ -79,7 +82,9 @@ def attack(name: str, seconds: float, corpus: Path) -> Outcome:
         *(f"-artifact_prefix={findings}/", "-print_final_stats=1", "-max_len=65535", "-verbosity=1"),
     ]
     begin = time.monotonic()
-    done = subprocess.run(command, capture_output=True, text=True, errors="replace", env=environment(), check=False)
+    done = subprocess.run(
+        command, cwd=sources, capture_output=True, text=True, errors="replace", env=environment(), check=False
+    )
     new = tuple(sorted(set(findings.iterdir()) - before))
     log = done.stdout + done.stderr
     if done.returncode and not new:
@@ -95,16 +100,24 @@ def trouble(log: str) -> str:
     return log[begin : begin + 3000] if begin >= 0 else log[-3000:]
 
 
+def instrumented() -> Path:
+    """A copy of the sources with kernels that report coverage and check themselves; needs clang."""
+    if not shutil.which("clang") or not shutil.which("clang++"):
+        raise SystemExit("fuzzing compiles the kernels with clang, which is not here: install it (apt install clang)")
+    script = f"set -e; python={shlex.quote(sys.executable)}; . tools/checking_copy.sh; checking_copy fuzzed {_OPTIONS}"
+    subprocess.run(["bash", "-c", script], cwd=ROOT, check=True)
+    return ROOT / "build" / "fuzzed"
+
+
 def environment() -> dict[str, str]:
-    """Compiled code that checks every index, kept for these sources alone; one thread for BLAS."""
-    digest = hashlib.sha256()
-    for path in sorted(path for package in ("bitstream", "codec") for path in (ROOT / package).rglob("*.py")):
-        digest.update(path.read_bytes())
-    kernels = Path(tempfile.gettempdir()) / f"bsm-fuzz-kernels-{os.getuid()}" / digest.hexdigest()[:16]
+    """The sanitizer with libFuzzer that atheris brings, loaded before everything else; one thread for BLAS."""
+    standard = subprocess.run(
+        ["clang++", "-print-file-name=libstdc++.so.6"], capture_output=True, text=True, check=True
+    ).stdout.strip()
     return {
         **os.environ,
-        "NUMBA_BOUNDSCHECK": "1",
-        "NUMBA_CACHE_DIR": str(kernels),
+        "LD_PRELOAD": f"{Path(atheris.path()) / 'asan_with_fuzzer.so'} {standard}",
+        "ASAN_OPTIONS": "detect_leaks=0",
         "OMP_NUM_THREADS": "1",
         "OPENBLAS_NUM_THREADS": "1",
     }

@@ -1,4 +1,4 @@
-"""`python -m tools.fuzz.sweep --seconds N`: every target on its seeds and mutations of them, then encoders on bad meshes.
+"""`python -m tools.fuzz.sweep --seconds N`: every target on its seeds and mutations; encoders on bad meshes.
 
 Always the same inputs in the same order, without coverage and without atheris: for builds of the kernels that check
 themselves, see `tools/sanitize.sh`. What goes wrong there ends the process with a report.
@@ -26,9 +26,8 @@ from bitstream.errors import BsmError
 from bsm.files.mesh import read_mesh
 from codec.geometry.graph import graph_of_faces
 from tools.fuzz.mutate import mutate_stream
-from tools.fuzz.targets import TARGETS, WHOLE_STREAMS, Finding, run, seeds
+from tools.fuzz.targets import TARGETS, VECTORS, WHOLE_STREAMS, Finding, run, seeds
 
-VECTORS = Path(__file__).parents[2] / "spec" / "vectors"
 Ints = npt.NDArray[np.int32]
 
 

@@ -29,6 +29,8 @@ from codec.static.decoder import BlockEvent, Decoder, decode
 
 Target = Callable[[bytes], None]
 
+VECTORS = Path(__file__).parents[2] / "spec" / "vectors"
+
 LIMITS = Limits(
     vertices=1 << 13,
     faces=1 << 14,
