@@ -89,8 +89,9 @@ KERNEL int64_t search_levels(Bank bank, Past past, ConstInts2 expectations, Cons
         if (targets.data[i] > MAX_LEVEL * INT64_C(256) || targets.data[i] < -MAX_LEVEL * INT64_C(256)) return MISUSED;
 
     Prices prices = {&mixer, costs.data, level_selector(&chain), {0}, {0}};
-    Survivor survivors[2][STATES] = {0}, *old = survivors[1], *new = survivors[0];
+    Survivor survivors[2][STATES], *old = survivors[1], *new = survivors[0];
     for (int s = 0; s < STATES; s++) new[s].cost = s == 0 ? 0.0 : NEVER;
+    for (int k = 0; k < NEAR; k++) new[0].near[k] = 0;
     for (int64_t i = 0; i < 3 * rows; i++) {
         int64_t row = i / 3;
         int d = (int)(i - 3 * row);
