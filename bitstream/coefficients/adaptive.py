@@ -103,7 +103,7 @@ def encode_coefficients(model: CoefficientModel, levels: Levels) -> bytes:
     """
     _check_levels(model, levels)
     coder = start_writing(_BYTES_PER_LEVEL * levels.size)
-    _code_block(coder, model, levels.astype(np.int32))
+    _code_block(coder, model, np.array(levels, np.int32, order="C"))
     return finish_writing(coder)
 
 
@@ -136,7 +136,7 @@ def encode_blocks(model: CoefficientModel, blocks: Sequence[Levels]) -> bytes:
     for levels in blocks:
         _check_levels(model, levels)
         _kernels.code_rows(coder, model.rows, model.missing, model.width, len(levels))
-        _code_block(coder, model, levels.astype(np.int32))
+        _code_block(coder, model, np.array(levels, np.int32, order="C"))
     return finish_writing(coder)
 
 
@@ -172,9 +172,9 @@ def encode_layers(model: CoefficientModel, levels: Levels, over: CoefficientMode
     _check_levels(model, levels)
     _check_levels(over, above)
     coder = start_writing(_BYTES_PER_LEVEL * (levels.size + above.size + 1))
-    _code_block(coder, model, levels.astype(np.int32))
+    _code_block(coder, model, np.array(levels, np.int32, order="C"))
     _kernels.code_rows(coder, over.rows, over.missing, over.width, len(above))
-    _code_block(coder, over, above.astype(np.int32))
+    _code_block(coder, over, np.array(above, np.int32, order="C"))
     return finish_writing(coder)
 
 

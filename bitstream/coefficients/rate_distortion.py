@@ -64,7 +64,7 @@ def choose_levels(model: CoefficientModel, targets: npt.NDArray[np.int64], weigh
     if len(targets) > model.width or np.abs(targets).max(initial=0) > MAX_LEVEL * TARGET_UNIT:
         raise OptionError(f"targets must be at most {model.width} rows of levels up to {MAX_LEVEL}")
     price = weight * TARGET_UNIT**2 / _BIT
-    rows = len(targets)
+    rows, targets = len(targets), np.ascontiguousarray(targets, np.int64)
     levels, kept = np.empty((rows, 3), np.int32), np.empty(rows)
     ways, origins = np.empty((3 * rows, STATES), np.int32), np.empty((3 * rows, STATES), np.uint8)
     _kernels.search_levels(

@@ -24,7 +24,7 @@ def encode_labels(offsets: Indices, neighbours: Indices, labels: Indices, parts:
     """Code `labels`, numbered by first appearance, over the graph (CSR) that the decoder will have."""
     coder = start_writing(8 * len(labels) + 64)
     bank = make_bank(_INPUTS * _CONTEXTS, _CANDIDATES + 1, _INPUTS)
-    _kernels.code_labels(coder, bank, offsets, neighbours, labels.astype(np.int32), parts)
+    _kernels.code_labels(coder, bank, offsets, neighbours, np.array(labels, np.int32, order="C"), parts)
     return finish_writing(coder)
 
 

@@ -231,3 +231,11 @@ def test_bins_are_thirds_of_an_octave() -> None:
 
     assert [bin_of(v) for v in (0, 1, 2, 3, 4, 5, 6, 7, 8)] == [0, 0, 3, 4, 6, 6, 7, 8, 9]
     assert bin_of(1 << 30) == BINS - 1
+
+
+def test_levels_of_any_layout_are_coded() -> None:
+    levels = spectrum(np.random.default_rng(3), 12)
+    payload = encode_coefficients(CoefficientModel(12), levels)
+    levels.setflags(write=False)
+    for other in (levels, np.asfortranarray(levels), np.repeat(levels, 2, axis=0)[::2], levels.astype(np.int64)):
+        assert encode_coefficients(CoefficientModel(12), other) == payload
