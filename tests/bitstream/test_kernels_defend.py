@@ -1,0 +1,100 @@
+"""Kernels that are given an array too short refuse it, or need no more than they are given."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from bitstream import _kernels
+from bitstream.coefficients import adaptive, contexts, matrices, rate_distortion, trellis
+from bitstream.coefficients.adaptive import CoefficientModel
+from bitstream.connectivity import conquest, faces, halfedges, partition, permutation, seams
+from bitstream.connectivity.faces import decode_connectivity, encode_connectivity
+from bitstream.connectivity.order import decode_arrangement, encode_arrangement
+from bitstream.connectivity.partition import decode_labels, encode_labels
+from bitstream.entropy import range_coder
+from codec.geometry.graph import graph_of_faces
+
+MODULES = (
+    *(adaptive, contexts, matrices, rate_distortion, trellis),
+    *(conquest, faces, halfedges, partition, permutation, seams, range_coder),
+)
+
+
+def copied(value: Any) -> Any:
+    """Arguments with arrays of their own."""
+    if isinstance(value, tuple):
+        items = [copied(item) for item in value]
+        return type(value)(*items) if hasattr(value, "_fields") else tuple(items)
+    return value.copy() if isinstance(value, np.ndarray) else value
+
+
+def shortened(value: Any) -> Iterator[Any]:
+    """Copies of arguments, in each of which one array lacks its last row."""
+    if isinstance(value, np.ndarray) and len(value):
+        yield value[:-1].copy()
+    if isinstance(value, tuple):
+        for place, item in enumerate(value):
+            for short in shortened(item):
+                items = [*map(copied, value[:place]), short, *map(copied, value[place + 1 :])]
+                yield type(value)(*items) if hasattr(value, "_fields") else tuple(items)
+
+
+def defended(name: str, refusals: dict[str, int]) -> Callable[..., Any]:
+    """A kernel that is called with every array too short before it is called as it should be."""
+    kernel = getattr(_kernels, name)
+
+    def call(*arguments: Any) -> Any:
+        if refusals.setdefault(name, 0) < 40:
+            for short in shortened(arguments):
+                try:
+                    kernel(*short)
+                except ValueError:
+                    refusals[name] += 1
+        return kernel(*arguments)
+
+    return call
+
+
+@pytest.fixture
+def refusals(monkeypatch: pytest.MonkeyPatch) -> dict[str, int]:
+    counts: dict[str, int] = {}
+    names = [name for name in vars(_kernels) if not name.startswith("_")]
+    wrapped = SimpleNamespace(**{name: defended(name, counts) for name in names})
+    for module in MODULES:
+        monkeypatch.setattr(module, "_kernels", wrapped)
+    return counts
+
+
+def test_every_kernel_defends_itself(refusals: dict[str, int]) -> None:
+    given = np.random.default_rng(1).integers(0, 30, (60, 3), dtype=np.int32)
+    given = np.unique(given, return_inverse=True)[1].reshape(-1, 3).astype(np.int32)
+    vertices = int(given.max()) + 1
+    encoded = encode_connectivity(given, vertices)
+    decoded = decode_connectivity(encoded.payload, vertices, len(given))
+    order = decode_arrangement(encode_arrangement(given, encoded), decoded, vertices)
+    np.testing.assert_array_equal(order.faces, given)
+    graph = graph_of_faces(decoded, vertices)
+    labels = (np.arange(vertices) // 8).astype(np.int32)
+    payload = encode_labels(graph.offsets, graph.neighbours, labels, int(labels[-1]) + 1)
+    np.testing.assert_array_equal(decode_labels(payload, graph.offsets, graph.neighbours, int(labels[-1]) + 1), labels)
+
+    levels = rate_distortion.choose_levels(CoefficientModel(60), 300 * given.astype(np.int64), 0.1).levels
+    payload = adaptive.encode_blocks(CoefficientModel(60), [levels])
+    np.testing.assert_array_equal(adaptive.decode_blocks(CoefficientModel(60), payload, 1)[0], levels)
+    payload = matrices.encode_levels(matrices.make_level_bank(), [levels], [levels])
+    matrix = np.zeros_like(levels)
+    matrices.decode_levels(matrices.make_level_bank(), payload, [matrix], [levels])
+    np.testing.assert_array_equal(matrix, levels)
+    contexts.look_at_block(contexts.make_past(60), levels)
+    contexts.expectation_bin(np.ones(20, np.int32), np.ones(20, np.int32))
+    trellis.points_of_levels(levels)
+
+    single = {"code_bit", "code_uniform", "code_mixed_bit", "code_signed", "points_of_levels"}
+    names = {name for name in vars(_kernels) if not name.startswith("_")}
+    assert not names - set(refusals) - single, "kernels that this test does not reach"
+    assert not {name for name, count in refusals.items() if count == 0} - single, "kernels that refuse nothing"
