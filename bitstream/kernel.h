@@ -43,6 +43,16 @@ BSM_ARRAY(Doubles, double)
 #else
 #define KERNEL
 #endif
+
+/* A file *.simd.c is compiled as a whole for each level of x86-64, with a name of its own for what others call, since
+ * the shape of its vectors depends on the level; `levels.c` chooses when the program runs. */
+#ifdef KERNEL_LEVEL
+#define LEVEL_OF(name, level) name##_v##level
+#define LEVEL_NAME(name, level) LEVEL_OF(name, level)
+#define LEVEL(name) LEVEL_NAME(name, KERNEL_LEVEL)
+#else
+#define LEVEL(name) name
+#endif
 #define INLINE static inline __attribute__((always_inline))
 
 /* What a kernel returns that was given arrays which do not fit together: a mistake of its caller, never of a stream. */

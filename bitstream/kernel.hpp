@@ -6,6 +6,9 @@
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>
 
+#include <tuple>
+#include <utility>
+
 extern "C" {
 #include "bitstream/kernel.h"
 }

@@ -2,6 +2,10 @@
 #include "bitstream/kernel.hpp"
 
 extern "C" {
+#include "codec/basis/cosines.h"
+#include "codec/basis/orthogonal_iteration.h"
+#include "codec/basis/solver/solver.h"
+#include "codec/basis/weighted.h"
 #include "codec/blocks/bisection.h"
 #include "codec/blocks/blend.h"
 #include "codec/blocks/overlap.h"
@@ -20,7 +24,20 @@ extern "C" {
 #include "codec/geometry/metrics.h"
 #include "codec/geometry/raster.h"
 #include "codec/geometry/surface_distance.h"
+#include "codec/sequence/row_prediction.h"
+#include "codec/signal/detail.h"
+#include "codec/signal/predict.h"
+#include "codec/signal/smooth.h"
+#include "codec/signal/transform.h"
 }
+
+template <>
+struct nb::detail::type_caster<Fronts>
+    : nb::detail::TupleCaster<Fronts, ConstWords, ConstWords, ConstWords, ConstWords, ConstWords, ConstWords, ConstWords> {};
+
+template <>
+struct nb::detail::type_caster<PredictionRules>
+    : nb::detail::TupleCaster<PredictionRules, double, double, double, double, int64_t, int64_t> {};
 
 using namespace nb::literals;
 
@@ -74,4 +91,33 @@ NB_MODULE(_kernels, m) {
     m.def("vertex_normals", &vertex_normals, "normals"_a, "starts"_a, "around"_a, "averaged"_a, Unlocked());
     m.def("follow_normals", &follow_normals, "positions"_a, "faces"_a, "starts"_a, "around"_a, "normals"_a,
           "iterations"_a, "free"_a, "offsets"_a, Unlocked());
+    m.def("dissect", &dissect, "offsets"_a, "neighbours"_a, "leaf"_a, "cuts"_a, "rows"_a, "firsts"_a, Unlocked());
+    m.def("find_borders", &find_borders, "offsets"_a, "neighbours"_a, "rows"_a, "firsts"_a, "most_work"_a, "scratch"_a,
+          "steps"_a, "owners"_a, "starts"_a, "borders"_a, "places"_a, Unlocked());
+    m.def("factorize_fronts", &factorize_fronts, "offsets"_a, "neighbours"_a, "diagonal"_a, "fronts"_a, "column"_a,
+          "scratch"_a, "values"_a, "inverse"_a, Unlocked());
+    m.def("solve_columns", &solve_columns, "fronts"_a, "values"_a, "inverse"_a, "columns"_a, "power"_a, "scratch"_a,
+          "solution"_a, Unlocked());
+    m.def("cosines", &cosines, "first"_a, "table"_a, "columns"_a, Unlocked());
+    m.def("iteration_space", &iteration_space, "n"_a, "c"_a);
+    m.def("iterate", &iterate, "fronts"_a, "values"_a, "inverse"_a, "start"_a, "power"_a, "iterations"_a, "once"_a,
+          "scratch"_a, "subspace"_a, Unlocked());
+    m.def("cholesky_onorm", &cholesky_onorm, "columns"_a, "once"_a, "scratch"_a, "subspace"_a, Unlocked());
+    m.def("project", &project, "subspace"_a, "values"_a, "coefficients"_a, Unlocked());
+    m.def("reconstruct", &reconstruct, "subspace"_a, "coefficients"_a, "values"_a, Unlocked());
+    m.def("look_around", &look_around, "offsets"_a, "neighbours"_a, "vertices"_a, "inside"_a, "sums"_a, "weights"_a,
+          "stiffness"_a, "springs"_a, "pulls"_a, Unlocked());
+    m.def("block_normals", &block_normals, "faces"_a, "starts"_a, "members"_a, "vertices"_a, "place"_a, "positions"_a,
+          "softness"_a, "least_length"_a, "normals"_a, Unlocked());
+    m.def("apply_powers", &apply_powers, "offsets"_a, "neighbours"_a, "terms"_a, "degree"_a, Unlocked());
+    m.def("combine_powers", &combine_powers, "positions"_a, "terms"_a, "weights"_a, "smoothed"_a, Unlocked());
+    m.def("find_rings", &find_rings, "offsets"_a, "neighbours"_a, "number"_a, "vertices"_a, "rows"_a, "starts"_a,
+          Unlocked());
+    m.def("filter_rows", &filter_rows, "offsets"_a, "neighbours"_a, "number"_a, "positions"_a, "weights"_a, "rows"_a,
+          "starts"_a, "current"_a, "following"_a, "smoothed"_a, Unlocked());
+    m.def("cotangents", &cotangents, "offsets"_a, "neighbours"_a, "faces"_a, "positions"_a, "weights"_a, Unlocked());
+    m.def("hold", &hold, "offsets"_a, "neighbours"_a, "weights"_a, "vertices"_a, "rank"_a, "matrix"_a, "rows"_a,
+          "outer"_a, "stiffness"_a, Unlocked());
+    m.def("follow_rows", &follow_rows, "known"_a, "targets"_a, "levels"_a, "decoded"_a, "moments"_a, "step"_a,
+          "rounding"_a, "encoding"_a, "rules"_a, "factor"_a, "row"_a, "expected"_a, Unlocked());
 }

@@ -9,18 +9,17 @@ from __future__ import annotations
 
 import numpy as np
 import numpy.typing as npt
-from numba import njit
 
 from bitstream.errors import NumericError
-from codec.basis.laplacian import dense_laplacian, factorize, solve, solve_panels
-from codec.basis.solver.panels import factorize_gram, gram, invert_triangle, multiply, pack, unpack
+from codec import _kernels
+from codec.basis.laplacian import check_rows, dense_laplacian, factorize, solve
 from codec.blocks.overlap import Block
 from codec.threads import SINGLE_BLAS_THREAD
 
 Matrix = npt.NDArray[np.float64]
 
 ONCE, TWICE = 1e-3, 1e-11
-"""Independence of the columns (see `codec.basis.solver.panels.factorize_gram`) from which Cholesky QR is orthogonal to
+"""Independence of the columns (`factorize_gram` of solver/cholesky_qr.c) from which Cholesky QR is orthogonal to
 1e-12 after one pass, and to working precision after two."""
 
 CLUSTER_GAP = 1e-6
@@ -32,7 +31,9 @@ def cosine_columns(rows: int, first: int, last: int) -> Matrix:
 
     Column j is cos(pi j (2 r + 1) / (2 n)), the eigenvectors of a path of n vertices, orthogonal to each other.
     """
-    return _cosines(rows, first, last)
+    columns, table = np.empty((rows, last - first)), np.empty(rows + 8)
+    _kernels.cosines(first, table, columns)
+    return columns
 
 
 def onorm(columns: Matrix) -> Matrix:
@@ -46,8 +47,9 @@ def onorm(columns: Matrix) -> Matrix:
     NumericError
         If a value is not finite.
     """
-    q, safe = _cholesky_onorm(np.ascontiguousarray(columns))
-    return q if safe else householder_orthonormalize(columns)
+    q, scratch = np.empty(columns.shape), np.empty(_kernels.iteration_space(*columns.shape))
+    independence = _kernels.cholesky_onorm(np.ascontiguousarray(columns), ONCE, scratch, q)
+    return q if independence >= TWICE else householder_orthonormalize(columns)
 
 
 def householder_orthonormalize(columns: Matrix) -> Matrix:
@@ -79,8 +81,12 @@ def orthogonal_iteration(block: Block, start: Matrix, *, shift: float | Matrix, 
     """
     factor = factorize(block, shift)
     start = np.ascontiguousarray(start)
-    subspace, safe = _iterate(factor.fronts, factor.values, factor.inverse, start, power, iterations)
-    if not safe:
+    check_rows(factor, len(start))
+    subspace, scratch = np.empty(start.shape), np.empty(_kernels.iteration_space(*start.shape))
+    independence = _kernels.iterate(
+        factor.fronts, factor.values, factor.inverse, start, power, iterations, ONCE, scratch, subspace
+    )
+    if independence < TWICE:
         # R^z has all but lost the higher columns. Orthonormalised after every R they stay, and the subspaces of the
         # first columns, which is all that Q depends on, are the same.
         subspace = start
@@ -138,63 +144,3 @@ def hash_columns(rows: int, columns: int) -> Matrix:
         z = (z ^ (z >> np.uint64(27))) * np.uint64(0x94D049BB133111EB)
         z = z ^ (z >> np.uint64(31))
     return (z >> np.uint64(11)).astype(np.float64) * 2.0**-52 - 1.0
-
-
-@njit(cache=True, nogil=True)
-def _iterate(fronts, values, inverse, start, power, iterations):  # type: ignore[no-untyped-def]
-    """Compiled body of `orthogonal_iteration`, and whether Cholesky QR was safe throughout."""
-    c = start.shape[1]
-    panels = pack(start, fronts.rows)
-    safe = True
-    for _ in range(iterations):
-        solve_panels(fronts, values, inverse, panels, power)
-        panels, independence = _cholesky_qr(panels, c)
-        if independence < ONCE:
-            safe = safe and independence >= TWICE
-            panels, _ = _cholesky_qr(panels, c)
-    return unpack(panels, fronts.rows, c), safe
-
-
-@njit(cache=True, nogil=True)
-def _cholesky_onorm(columns):  # type: ignore[no-untyped-def]
-    """Compiled body of `onorm`, and whether it was safe."""
-    n, c = columns.shape
-    order = np.arange(n)
-    panels, independence = _cholesky_qr(pack(columns, order), c)
-    if ONCE > independence >= TWICE:
-        panels, _ = _cholesky_qr(panels, c)
-    return unpack(panels, order, c), independence >= TWICE
-
-
-@njit(cache=True, nogil=True)
-def _cholesky_qr(panels, c):  # type: ignore[no-untyped-def]
-    """One pass of Cholesky QR, Q = X C^-1 with X^T X = C^T C, and how independent the columns are (0 to 1)."""
-    triangle = gram(panels)
-    independence = factorize_gram(triangle, c)
-    if independence == 0.0:
-        return panels, 0.0
-    return multiply(panels, invert_triangle(triangle, c)), independence
-
-
-@njit(cache=True, nogil=True)
-def _cosines(rows, first, last):  # type: ignore[no-untyped-def]
-    """Compiled body of `cosine_columns`: the same to the last bit on every machine, which libraries are not."""
-    table = np.empty(rows + 1)
-    for k in range(rows + 1):
-        # cos(pi k / (2 n)) by the series of the cosine or sine of an angle of at most pi / 4.
-        small = 2 * k <= rows
-        x = (k if small else rows - k) * (np.pi / (2 * rows))
-        value = 1.0
-        for i in range(20 if small else 21, 1, -2):
-            value = 1.0 - value * x * x / (i * (i - 1))
-        table[k] = value if small else value * x
-    columns = np.empty((rows, last - first))
-    for r in range(rows):
-        angle = (2 * r + 1) * first % (4 * rows)
-        for j in range(last - first):
-            fold = min(angle, 4 * rows - angle)
-            columns[r, j] = table[fold] if fold <= rows else -table[2 * rows - fold]
-            angle += 2 * r + 1
-            if angle >= 4 * rows:
-                angle -= 4 * rows
-    return columns

@@ -16,8 +16,8 @@ from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
-from numba import njit
 
+from codec import _kernels
 from codec.geometry.graph import Graph, Indices
 from codec.geometry.mesh import Faces, Positions
 
@@ -32,8 +32,11 @@ def cotangent_weights(graph: Graph, faces: Faces, positions: Positions) -> Matri
 
     A triangle without area counts nothing. The result does not depend on the unit of `positions`, shape (n, 3).
     """
-    weights: Matrix = _cotangents(graph.offsets, graph.neighbours, faces, np.ascontiguousarray(positions))
-    return weights
+    if positions.shape != (graph.size, 3):
+        raise ValueError(f"positions of shape {positions.shape} for {graph.size} vertices")
+    weights = np.zeros(len(graph.neighbours))
+    _kernels.cotangents(graph.offsets, graph.neighbours, faces, np.ascontiguousarray(positions), weights)
+    return np.minimum(np.maximum(weights, SMALLEST_WEIGHT), LARGEST_WEIGHT)
 
 
 def binary_weights(graph: Graph) -> Matrix:
@@ -75,73 +78,10 @@ def held_laplacian(graph: Graph, weights: Matrix, vertices: Indices, rank: Indic
     rank : int32 array, shape (n,)
         When the part of each vertex becomes known.
     """
-    return HeldLaplacian(*_held(graph.offsets, graph.neighbours, weights, vertices, rank))
-
-
-@njit(cache=True, nogil=True)
-def _entry(offsets, neighbours, v, w):  # type: ignore[no-untyped-def]
-    """Index of w among the neighbours of v."""
-    low, high = offsets[v], offsets[v + 1] - 1
-    while low < high:
-        middle = (low + high) // 2
-        if neighbours[middle] < w:
-            low = middle + 1
-        else:
-            high = middle
-    return low
-
-
-@njit(cache=True, nogil=True)
-def _cotangents(offsets, neighbours, faces, positions):  # type: ignore[no-untyped-def]
-    weights = np.zeros(len(neighbours))
-    for f in range(len(faces)):
-        for corner in range(3):
-            a, b, c = faces[f, corner], faces[f, (corner + 1) % 3], faces[f, (corner + 2) % 3]
-            if a in (b, c) or b == c:
-                continue
-            ux, uy, uz = (
-                positions[b, 0] - positions[a, 0],
-                positions[b, 1] - positions[a, 1],
-                positions[b, 2] - positions[a, 2],
-            )
-            vx, vy, vz = (
-                positions[c, 0] - positions[a, 0],
-                positions[c, 1] - positions[a, 1],
-                positions[c, 2] - positions[a, 2],
-            )
-            x, y, z = uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx
-            area = np.sqrt(x * x + y * y + z * z)
-            if area > 0.0:
-                half = 0.5 * (ux * vx + uy * vy + uz * vz) / area
-                weights[_entry(offsets, neighbours, b, c)] += half
-                weights[_entry(offsets, neighbours, c, b)] += half
-    return np.minimum(np.maximum(weights, SMALLEST_WEIGHT), LARGEST_WEIGHT)
-
-
-@njit(cache=True, nogil=True)
-def _held(offsets, neighbours, weights, vertices, rank):  # type: ignore[no-untyped-def]
-    n = len(vertices)
-    own = rank[vertices[0]]
-    matrix = np.zeros((n, n))
-    springs = 0
-    for v in vertices:
-        for i in range(offsets[v], offsets[v + 1]):
-            if rank[neighbours[i]] < own:
-                springs += 1
-    rows = np.empty(springs, np.int32)
-    outer = np.empty(springs, np.int32)
-    stiffness = np.empty(springs, np.float64)
-    springs = 0
-    for r in range(n):
-        v = vertices[r]
-        for i in range(offsets[v], offsets[v + 1]):
-            w = neighbours[i]
-            if rank[w] > own:
-                continue
-            matrix[r, r] += weights[i]
-            if rank[w] == own:
-                matrix[r, np.searchsorted(vertices, w)] -= weights[i]
-            else:
-                rows[springs], outer[springs], stiffness[springs] = r, w, weights[i]
-                springs += 1
-    return matrix, rows, outer, stiffness
+    if len(weights) != len(graph.neighbours) or len(rank) != graph.size or len(vertices) == 0:
+        raise ValueError(f"{len(weights)} weights, {len(rank)} ranks and a part of {len(vertices)} vertices")
+    matrix = np.zeros((len(vertices), len(vertices)))
+    room = int((graph.offsets[vertices + 1] - graph.offsets[vertices]).sum())
+    rows, outer, stiffness = np.empty(room, np.int32), np.empty(room, np.int32), np.empty(room)
+    count = _kernels.hold(graph.offsets, graph.neighbours, weights, vertices, rank, matrix, rows, outer, stiffness)
+    return HeldLaplacian(matrix, rows[:count], outer[:count], stiffness[:count])

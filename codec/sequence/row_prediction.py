@@ -14,9 +14,9 @@ from __future__ import annotations
 
 import numpy as np
 import numpy.typing as npt
-from numba import njit
 
 from bitstream.errors import NumericError, OptionError
+from codec import _kernels
 from codec.basis.orthogonal_iteration import cosine_columns
 
 Matrix = npt.NDArray[np.float64]
@@ -129,6 +129,7 @@ class Loop:
         NumericError
             If the levels reconstruct to something that is not finite.
         """
+        levels = np.array(levels, np.int32, order="C")
         decoded = self._run(known, np.zeros(levels.shape), levels, step, 0.0, False)
         if not np.isfinite(decoded).all():
             raise NumericError("the levels reconstruct to coefficients that are not finite")
@@ -138,52 +139,21 @@ class Loop:
         self, known: Matrix, targets: Matrix, levels: Levels, step: float, rounding: float, encoding: bool
     ) -> Matrix:
         decoded = np.empty(targets.shape)
-        _follow(np.ascontiguousarray(known), targets, levels, decoded, self._moments, step, rounding, encoding)
+        size, width = self._moments.shape
+        if known.shape != (len(targets), self._known) or targets.shape[1] != width - self._known:
+            raise ValueError(f"{known.shape} known and {targets.shape} unknown columns, of {width}")
+        _kernels.follow_rows(
+            np.ascontiguousarray(known),
+            targets,
+            levels,
+            decoded,
+            self._moments,
+            step,
+            rounding,
+            encoding,
+            (FORGETTING, RIDGE, NOISE, float(LARGEST_LEVEL), DENSE_ROWS, RENEWAL),
+            np.zeros((size, width)),
+            np.empty(width),
+            np.empty(width),
+        )
         return decoded
-
-
-@njit(cache=True, nogil=True)
-def _factorize(moments, factor):  # type: ignore[no-untyped-def]
-    """Rows of the Cholesky factor of moments + RIDGE I, extended over all columns."""
-    size = moments.shape[0]
-    for a in range(size):
-        row = factor[a]
-        row[a:] = moments[a, a:]
-        row[a] += RIDGE
-        for k in range(a):
-            row[a:] -= factor[k, a] * factor[k, a:]
-        row[a:] /= np.sqrt(row[a])
-
-
-@njit(cache=True, nogil=True)
-def _follow(known, targets, levels, decoded, moments, step, rounding, encoding):  # type: ignore[no-untyped-def]
-    rows = len(targets)
-    count = known.shape[1]
-    size, width = moments.shape
-    factor = np.zeros((size, width))
-    row = np.empty(width)
-    expected = np.empty(width)
-    for j in range(rows):
-        if j < DENSE_ROWS or j % RENEWAL == 0:
-            _factorize(moments, factor)
-        expected[:] = 0.0
-        energy = NOISE * step * step
-        for b in range(width):
-            if b < count:
-                row[b] = known[j, b]
-            else:
-                i = b - count
-                if encoding:
-                    scaled = (targets[j, i] - expected[b]) / step
-                    magnitude = min(np.floor(abs(scaled) + (rounding if j > 0 else 0.5)), LARGEST_LEVEL)
-                    levels[j, i] = magnitude if scaled > 0 else -magnitude
-                row[b] = expected[b] + levels[j, i] * step
-                decoded[j, i] = row[b]
-            energy += row[b] * row[b]
-            if b < size:
-                surprise = (row[b] - expected[b]) / factor[b, b]
-                expected[b + 1 :] += surprise * factor[b, b + 1 :]
-        if j > 0:
-            weight = 1.0 / energy
-            for a in range(size):
-                moments[a, a:] = FORGETTING * moments[a, a:] + (weight * row[a]) * row[a:]

@@ -13,8 +13,8 @@ from typing import TypeVar
 
 import numpy as np
 import numpy.typing as npt
-from numba import njit
 
+from codec import _kernels
 from codec.blocks.overlap import Block
 from codec.geometry.graph import Indices
 from codec.geometry.incidence import vertex_faces
@@ -61,9 +61,21 @@ class Normals:
         `SOFTNESS` times the root mean square of |s| over the block, f is `LEAST`. Zero where nothing has an area.
         """
         surface = self._surface
-        return np.asarray(
-            _normals(surface.faces, surface.starts, surface.members, block.vertices, self._place, positions)
+        if positions.shape != (block.size, 3):
+            raise ValueError(f"positions of shape {positions.shape} for a block of {block.size} vertices")
+        normals, places = np.empty((block.size, 3)), self._place
+        _kernels.block_normals(
+            surface.faces,
+            surface.starts,
+            surface.members,
+            block.vertices,
+            places,
+            np.ascontiguousarray(positions),
+            SOFTNESS,
+            LEAST,
+            normals,
         )
+        return normals
 
 
 def displace(positions: Matrix, normals: Matrix, subspace: Matrix, coefficients: Matrix) -> Matrix:
@@ -82,38 +94,3 @@ def fold_details(levels: npt.NDArray[Number]) -> npt.NDArray[Number]:
 def unfold_details(rows: Levels, limit: int) -> Levels:
     """Twin of `fold_details`; at most `limit` levels."""
     return rows.reshape(-1)[:limit]
-
-
-@njit(cache=True, nogil=True)
-def _difference(positions, a, b):  # type: ignore[no-untyped-def]
-    return positions[a, 0] - positions[b, 0], positions[a, 1] - positions[b, 1], positions[a, 2] - positions[b, 2]
-
-
-@njit(cache=True, nogil=True)
-def _normals(faces, starts, members, vertices, place, positions):  # type: ignore[no-untyped-def]
-    n = len(vertices)
-    for r in range(n):
-        place[vertices[r]] = r + 1
-    sums = np.zeros((n, 3))
-    total = 0.0
-    for r in range(n):
-        x, y, z = 0.0, 0.0, 0.0
-        for k in range(starts[vertices[r]], starts[vertices[r] + 1]):
-            f = members[k]
-            a, b, c = place[faces[f, 0]] - 1, place[faces[f, 1]] - 1, place[faces[f, 2]] - 1
-            if a >= 0 and b >= 0 and c >= 0:
-                ux, uy, uz = _difference(positions, b, a)
-                vx, vy, vz = _difference(positions, c, a)
-                x += uy * vz - uz * vy
-                y += uz * vx - ux * vz
-                z += ux * vy - uy * vx
-        sums[r, 0], sums[r, 1], sums[r, 2] = x, y, z
-        total += x * x + y * y + z * z
-    soft = SOFTNESS * SOFTNESS * total / n + LEAST * LEAST
-    for r in range(n):
-        length = np.sqrt(sums[r, 0] ** 2 + sums[r, 1] ** 2 + sums[r, 2] ** 2 + soft)
-        for d in range(3):
-            sums[r, d] /= length
-    for r in range(n):
-        place[vertices[r]] = 0
-    return sums

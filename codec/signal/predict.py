@@ -13,8 +13,8 @@ from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
-from numba import njit
 
+from codec import _kernels
 from codec.basis.laplacian import factorize, solve
 from codec.blocks.blend import Blend, degree_weights
 from codec.blocks.overlap import Block
@@ -59,7 +59,7 @@ class Known:
         self._graph = graph
         self._stiffness = stiffness
         self._blend = Blend(graph.size)
-        self._inside = np.zeros(graph.size, np.bool_)
+        self._inside = np.zeros(graph.size, np.uint8)
 
     def add(self, block: Block, positions: Matrix) -> None:
         """Remember one copy of a block's vertices, shape (n_i, 3)."""
@@ -68,17 +68,19 @@ class Known:
     def around(self, block: Block) -> Surroundings:
         """What holds `block`."""
         graph, blend = self._graph, self._blend
-        return Surroundings(
-            *_look_around(
-                graph.offsets,
-                graph.neighbours,
-                block.vertices,
-                self._inside,
-                blend.sums,
-                blend.weights,
-                self._stiffness,
-            )
+        found = Surroundings(np.empty(block.size), np.empty((block.size, 3)))
+        _kernels.look_around(
+            graph.offsets,
+            graph.neighbours,
+            block.vertices,
+            self._inside,
+            blend.sums,
+            blend.weights,
+            self._stiffness,
+            found.springs,
+            found.pulls,
         )
+        return found
 
 
 def unheld(block: Block) -> Surroundings:
@@ -94,29 +96,3 @@ def extend(block: Block, around: Surroundings) -> Matrix:
     mean = around.pulls.sum(axis=0) / total
     factor = factorize(block, around.springs + TETHER)
     return mean + solve(factor, around.pulls - around.springs[:, None] * mean, 1)
-
-
-@njit(cache=True, nogil=True)
-def _look_around(offsets, neighbours, vertices, inside, sums, weights, stiffness):  # type: ignore[no-untyped-def]
-    springs = np.zeros(len(vertices))
-    pulls = np.zeros((len(vertices), 3))
-    for v in vertices:
-        inside[v] = True
-    for r in range(len(vertices)):
-        v = vertices[r]
-        if weights[v] > 0.0:
-            _hang(springs, pulls, r, stiffness, sums[v], weights[v])
-        for i in range(offsets[v], offsets[v + 1]):
-            w = neighbours[i]
-            if not inside[w] and weights[w] > 0.0:
-                _hang(springs, pulls, r, 1.0, sums[w], weights[w])
-    for v in vertices:
-        inside[v] = False
-    return springs, pulls
-
-
-@njit(cache=True, nogil=True)
-def _hang(springs, pulls, row, stiffness, total, weight):  # type: ignore[no-untyped-def]
-    springs[row] += stiffness
-    for d in range(3):
-        pulls[row, d] += stiffness * (total[d] / weight)

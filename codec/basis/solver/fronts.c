@@ -1,0 +1,114 @@
+/* Which rows of a block are eliminated when: nested dissection along its bisection, and what each front leads to.
+ *
+ * A. George, "Nested dissection of a regular finite element mesh", 1973; fronts.py says what a front is.
+ */
+#include "codec/basis/solver/front.h"
+
+#define NONE UINT32_MAX
+
+/* Elimination order of a graph whose rows are in bisection order: `rows` and, at the end of `firsts`, the first step of
+ * each front. Returns the number of fronts; `cuts`, one entry a row, is scratch, `firsts` has room for one more. */
+int64_t dissect(ConstInts offsets, ConstInts neighbours, int64_t leaf, Ints cuts, Words rows, Words firsts) {
+    int64_t n = offsets.size - 1;
+    /* The widest cut between a row and its farthest later neighbour has the row in its separator. */
+    for (int64_t r = 0; r < n; r++) {
+        int64_t top = r, first = 0, last = n;
+        for (int64_t i = offsets.data[r]; i < offsets.data[r + 1]; i++) top = largest(top, neighbours.data[i]);
+        cuts.data[r] = 0;
+        while (top > r && last - first > leaf) {
+            int64_t middle = (first + last) / 2;
+            if (r < middle && middle <= top) {
+                cuts.data[r] = (int32_t)middle;
+                break;
+            }
+            if (r < middle)
+                last = middle;
+            else
+                first = middle;
+        }
+    }
+    /* Post-order, written from the back: a separator, before it the right half, before that the left one. The stack
+     * holds one part of each level, of which there are as many as n has binary digits, and one more. */
+    int64_t stack[66][2] = {{0, n}};
+    int64_t depth = 1, count = n, filled_from = n;
+    firsts.data[count] = (uint32_t)n;
+    while (depth > 0) {
+        int64_t first = stack[--depth][0], last = stack[depth][1], cut = 0;
+        if (last - first > leaf) {
+            cut = (first + last) / 2;
+            stack[depth][0] = first;
+            stack[depth++][1] = cut;
+            stack[depth][0] = cut;
+            stack[depth++][1] = last;
+        }
+        int64_t before = filled_from;
+        for (int64_t r = (cut > 0 ? cut : last) - 1; r >= first; r--)
+            if (cuts.data[r] == cut) rows.data[--filled_from] = (uint32_t)r;
+        if (filled_from < before) firsts.data[--count] = (uint32_t)filled_from;
+    }
+    return n - count;
+}
+
+/* Insert into the ascending values that begin at `begin` and end before `end`. */
+static void insert(uint32_t *values, int64_t begin, int64_t end, uint32_t value) {
+    for (; end > begin && values[end - 1] > value; end--) values[end] = values[end - 1];
+    values[end] = value;
+}
+
+/* The borders of the fronts that `dissect` found, and all else that `Fronts` holds.
+ *
+ * Returns the size of `borders`; -1 if there is no room for them; -2 if a factorisation takes more operations than
+ * `most_work`. `scratch` has room for n + 2 t, `starts` and `places` for t + 1.
+ */
+int64_t find_borders(ConstInts offsets, ConstInts neighbours, ConstWords rows, ConstWords firsts, double most_work,
+                     Words scratch, Words steps, Words owners, Words starts, Words borders, Words places) {
+    int64_t n = rows.size, count = firsts.size - 1;
+    /* Fronts whose borders begin in the same front, as linked lists. */
+    uint32_t *mark = scratch.data, *child = mark + n, *sibling = child + count;
+    for (int64_t i = 0; i < scratch.size; i++) scratch.data[i] = NONE;
+    for (int64_t t = 0; t < count; t++) {
+        for (int64_t k = firsts.data[t]; k < firsts.data[t + 1]; k++) {
+            steps.data[rows.data[k]] = (uint32_t)k;
+            owners.data[k] = (uint32_t)t;
+        }
+    }
+    int64_t size = 0, place = 0;
+    double work = 0.0;
+    starts.data[0] = places.data[0] = 0;
+    for (int64_t t = 0; t < count; t++) {
+        int64_t first = firsts.data[t], end = firsts.data[t + 1], begin = size;
+        if (borders.size < size + n + 2) return -1;
+        for (int64_t k = first; k < end; k++) {
+            for (int64_t i = offsets.data[rows.data[k]]; i < offsets.data[rows.data[k] + 1]; i++) {
+                uint32_t step = steps.data[neighbours.data[i]];
+                if (step >= end && mark[step] != t) {
+                    mark[step] = (uint32_t)t;
+                    insert(borders.data, begin, size++, step);
+                }
+            }
+        }
+        for (uint32_t c = child[t]; c != NONE; c = sibling[c]) {
+            for (int64_t i = starts.data[c]; i < starts.data[c + 1]; i++) {
+                uint32_t step = borders.data[i];
+                if (step >= end && step < n && mark[step] != t) {
+                    mark[step] = (uint32_t)t;
+                    insert(borders.data, begin, size++, step);
+                }
+            }
+        }
+        if (size > begin) {
+            uint32_t owner = owners.data[borders.data[begin]];
+            sibling[t] = child[owner];
+            child[owner] = (uint32_t)t;
+            if ((size - begin) % 2 > 0) borders.data[size++] = (uint32_t)n;
+        }
+        double own = (double)(end - first), width = own + (double)(size - begin);
+        work += own * width * width;
+        place += (end - first) * whole_vectors(end - first + size - begin);
+        if (work > most_work) return -2;
+        if (place > UINT32_MAX) return -2;
+        starts.data[t + 1] = (uint32_t)size;
+        places.data[t + 1] = (uint32_t)place;
+    }
+    return size;
+}

@@ -1,0 +1,47 @@
+/* Which of the compiled levels of a kernel runs: the best that the processor has. */
+#ifdef KERNEL_LEVELS
+
+#include "codec/basis/cosines.h"
+#include "codec/basis/orthogonal_iteration.h"
+#include "codec/basis/solver/solver.h"
+#include "codec/signal/transform.h"
+
+#define CHOOSE(result, name, parameters, arguments)                                                                    \
+    result name##_v1 parameters;                                                                                       \
+    result name##_v3 parameters;                                                                                       \
+    result name##_v4 parameters;                                                                                       \
+    result name parameters {                                                                                           \
+        if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&                                 \
+            __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw"))                                  \
+            return name##_v4 arguments;                                                                                \
+        if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi2"))         \
+            return name##_v3 arguments;                                                                                \
+        return name##_v1 arguments;                                                                                    \
+    }
+
+CHOOSE(void, cosines, (int64_t first, Doubles table, Doubles2 columns), (first, table, columns))
+CHOOSE(int64_t, iteration_space, (int64_t n, int64_t c), (n, c))
+CHOOSE(double, iterate,
+       (Fronts fronts, Doubles values, ConstDoubles inverse, ConstDoubles2 start, int64_t power, int64_t iterations,
+        double once, Doubles scratch, Doubles2 subspace),
+       (fronts, values, inverse, start, power, iterations, once, scratch, subspace))
+CHOOSE(double, cholesky_onorm, (ConstDoubles2 columns, double once, Doubles scratch, Doubles2 subspace),
+       (columns, once, scratch, subspace))
+CHOOSE(void, factorize_fronts,
+       (ConstInts offsets, ConstInts neighbours, ConstDoubles diagonal, Fronts fronts, Words column, Doubles scratch,
+        Doubles values, Doubles inverse),
+       (offsets, neighbours, diagonal, fronts, column, scratch, values, inverse))
+CHOOSE(void, solve_columns,
+       (Fronts fronts, Doubles values, ConstDoubles inverse, ConstDoubles2 columns, int64_t power, Doubles scratch,
+        Doubles2 solution),
+       (fronts, values, inverse, columns, power, scratch, solution))
+CHOOSE(void, project, (ConstDoubles2 subspace, ConstDoubles2 values, Doubles2 coefficients),
+       (subspace, values, coefficients))
+CHOOSE(void, reconstruct, (ConstDoubles2 subspace, ConstDoubles2 coefficients, Doubles2 values),
+       (subspace, coefficients, values))
+
+#else
+
+typedef int one_level_needs_no_choice;
+
+#endif

@@ -1,0 +1,36 @@
+/* Vertex normals of a block from the faces inside it (specification, M 11.3). */
+#include "codec/signal/detail.h"
+
+/* Normals at the rows of the block of `vertices`, from its own `positions`. `members` are the faces around each vertex;
+ * `place`, one entry a vertex of the mesh, is scratch: zero before and after. */
+void block_normals(ConstInts2 faces, ConstLongs starts, ConstInts members, ConstInts vertices, Ints place,
+                   ConstDoubles2 positions, double softness, double least_length, Doubles2 normals) {
+    int64_t n = vertices.size;
+    for (int64_t r = 0; r < n; r++) place.data[vertices.data[r]] = (int32_t)r + 1;
+    double total = 0.0;
+    for (int64_t r = 0; r < n; r++) {
+        double x = 0.0, y = 0.0, z = 0.0;
+        for (int64_t k = starts.data[vertices.data[r]]; k < starts.data[vertices.data[r] + 1]; k++) {
+            const int32_t *face = faces.data + 3 * (int64_t)members.data[k];
+            int64_t a = place.data[face[0]], b = place.data[face[1]], c = place.data[face[2]];
+            if (a == 0 || b == 0 || c == 0) continue;
+            const double *p = positions.data + 3 * (a - 1), *q = positions.data + 3 * (b - 1);
+            const double *s = positions.data + 3 * (c - 1);
+            double ux = q[0] - p[0], uy = q[1] - p[1], uz = q[2] - p[2];
+            double vx = s[0] - p[0], vy = s[1] - p[1], vz = s[2] - p[2];
+            x += uy * vz - uz * vy;
+            y += uz * vx - ux * vz;
+            z += ux * vy - uy * vx;
+        }
+        double *normal = normals.data + 3 * r;
+        normal[0] = x, normal[1] = y, normal[2] = z;
+        total += x * x + y * y + z * z;
+    }
+    double soft = softness * softness * total / (double)n + least_length * least_length;
+    for (int64_t r = 0; r < n; r++) {
+        double *normal = normals.data + 3 * r;
+        double length = __builtin_sqrt(normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2] + soft);
+        for (int d = 0; d < 3; d++) normal[d] /= length;
+    }
+    for (int64_t r = 0; r < n; r++) place.data[vertices.data[r]] = 0;
+}

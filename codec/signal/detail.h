@@ -1,0 +1,9 @@
+#ifndef BSM_DETAIL_H
+#define BSM_DETAIL_H
+
+#include "bitstream/kernel.h"
+
+void block_normals(ConstInts2 faces, ConstLongs starts, ConstInts members, ConstInts vertices, Ints place,
+                   ConstDoubles2 positions, double softness, double least_length, Doubles2 normals);
+
+#endif

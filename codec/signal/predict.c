@@ -1,0 +1,25 @@
+/* What holds a block: the springs of the specification's M 7.3, summed over the rows' neighbours in their order. */
+#include "codec/signal/predict.h"
+
+static void hang(Doubles springs, Doubles2 pulls, int64_t row, double stiffness, const double *sum, double weight) {
+    springs.data[row] += stiffness;
+    for (int d = 0; d < 3; d++) pulls.data[3 * row + d] += stiffness * (sum[d] / weight);
+}
+
+/* Stiffnesses and pulls at the rows of the block of `vertices`. A vertex whose copies weigh anything is known, and is at
+ * `sums` over `weights`. `inside`, one entry a vertex of the mesh, is zero before and after. */
+void look_around(ConstInts offsets, ConstInts neighbours, ConstInts vertices, Bytes inside, ConstDoubles2 sums,
+                 ConstDoubles weights, double stiffness, Doubles springs, Doubles2 pulls) {
+    for (int64_t r = 0; r < vertices.size; r++) inside.data[vertices.data[r]] = 1;
+    for (int64_t r = 0; r < vertices.size; r++) {
+        int64_t v = vertices.data[r];
+        springs.data[r] = 0.0;
+        for (int d = 0; d < 3; d++) pulls.data[3 * r + d] = 0.0;
+        if (weights.data[v] > 0.0) hang(springs, pulls, r, stiffness, sums.data + 3 * v, weights.data[v]);
+        for (int64_t i = offsets.data[v]; i < offsets.data[v + 1]; i++) {
+            int64_t w = neighbours.data[i];
+            if (!inside.data[w] && weights.data[w] > 0.0) hang(springs, pulls, r, 1.0, sums.data + 3 * w, weights.data[w]);
+        }
+    }
+    for (int64_t r = 0; r < vertices.size; r++) inside.data[vertices.data[r]] = 0;
+}

@@ -1,0 +1,95 @@
+/* A polynomial of K = I - D^-1 A on positions (specification, M 12.2): sums over neighbours in ascending order. */
+#include "codec/signal/smooth.h"
+
+/* A position, and the number behind it. */
+typedef double Four __attribute__((vector_size(32)));
+typedef double UnalignedFour __attribute__((vector_size(32), aligned(8), may_alias));
+
+/* K^1 V to K^degree V behind V, each of 3 n numbers, in `terms`, which has room for one number more. */
+KERNEL void apply_powers(ConstInts offsets, ConstInts neighbours, Doubles terms, int64_t degree) {
+    int64_t n = offsets.size - 1;
+    for (int64_t k = 0; k < degree; k++) {
+        const double *values = terms.data + 3 * n * k;
+        double *result = terms.data + 3 * n * (k + 1);
+        for (int64_t v = 0; v < n; v++) {
+            int64_t first = offsets.data[v], last = offsets.data[v + 1];
+            Four sum = {0.0, 0.0, 0.0, 0.0};
+            for (int64_t i = first; i < last; i++) sum += *(const UnalignedFour *)(values + 3 * (int64_t)neighbours.data[i]);
+            double share = 1.0 / (double)largest(last - first, 1);
+            Four moved = *(const UnalignedFour *)(values + 3 * v) - share * sum;
+            if (last == first) moved = (Four){0.0, 0.0, 0.0, 0.0};
+            /* The fourth number is overwritten by the next vertex. */
+            *(UnalignedFour *)(result + 3 * v) = moved;
+        }
+    }
+}
+
+/* V + the sum of weights[k] times term k, the terms one after the other. */
+KERNEL void combine_powers(ConstDoubles2 positions, ConstDoubles terms, ConstDoubles weights, Doubles2 smoothed) {
+    int64_t size = 3 * positions.rows;
+    for (int64_t i = 0; i < size; i++) {
+        double value = positions.data[i];
+        for (int64_t k = 0; k < weights.size; k++) value += weights.data[k] * terms.data[k * size + i];
+        smoothed.data[i] = value;
+    }
+}
+
+/* `vertices` and the rings around them; ring k ends before starts[k]; `number` becomes their place in the list `rows`,
+ * which has room for all vertices, and is -1 everywhere before. Returns how many they are. */
+int64_t find_rings(ConstInts offsets, ConstInts neighbours, Ints number, ConstInts vertices, Ints rows, Longs starts) {
+    int64_t count = 0, head = 0;
+    for (int64_t i = 0; i < vertices.size; i++) {
+        int32_t v = vertices.data[i];
+        if (number.data[v] >= 0) continue;
+        number.data[v] = (int32_t)count;
+        rows.data[count++] = v;
+    }
+    starts.data[0] = count;
+    for (int64_t ring = 1; ring < starts.size; ring++) {
+        for (int64_t end = count; head < end; head++) {
+            int32_t v = rows.data[head];
+            for (int64_t i = offsets.data[v]; i < offsets.data[v + 1]; i++) {
+                int32_t w = neighbours.data[i];
+                if (number.data[w] >= 0) continue;
+                number.data[w] = (int32_t)count;
+                rows.data[count++] = w;
+            }
+        }
+        starts.data[ring] = count;
+    }
+    return count;
+}
+
+/* The filter on the innermost of the rings `rows`; each power of K is known on one ring less than the last. `current`
+ * has a row for each of `rows`, `following` for all but those of the outermost ring. */
+void filter_rows(ConstInts offsets, ConstInts neighbours, ConstInts number, ConstDoubles2 positions, ConstDoubles weights,
+                 ConstInts rows, ConstLongs starts, Doubles2 current, Doubles2 following, Doubles2 smoothed) {
+    int64_t degree = starts.size - 1, inner = starts.data[0];
+    for (int64_t r = 0; r < rows.size; r++)
+        for (int d = 0; d < 3; d++) current.data[3 * r + d] = positions.data[3 * (int64_t)rows.data[r] + d];
+    for (int64_t i = 0; i < 3 * inner; i++) smoothed.data[i] = current.data[i];
+    double *from = current.data, *to = following.data;
+    for (int64_t k = 0; k < degree; k++) {
+        for (int64_t r = 0; r < starts.data[degree - 1 - k]; r++) {
+            int64_t first = offsets.data[rows.data[r]], last = offsets.data[rows.data[r] + 1];
+            double x = 0.0, y = 0.0, z = 0.0;
+            for (int64_t i = first; i < last; i++) {
+                const double *beside = from + 3 * (int64_t)number.data[neighbours.data[i]];
+                x += beside[0];
+                y += beside[1];
+                z += beside[2];
+            }
+            double share = last > first ? 1.0 / (double)(last - first) : 0.0;
+            double *result = to + 3 * r;
+            const double *own = from + 3 * r;
+            result[0] = last > first ? own[0] - share * x : 0.0;
+            result[1] = last > first ? own[1] - share * y : 0.0;
+            result[2] = last > first ? own[2] - share * z : 0.0;
+        }
+        double *other = from;
+        from = to;
+        to = other;
+        if (k == 0) continue;
+        for (int64_t i = 0; i < 3 * inner; i++) smoothed.data[i] += weights.data[k - 1] * from[i];
+    }
+}

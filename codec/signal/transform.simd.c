@@ -1,0 +1,79 @@
+/* E = U^T V and V = U E (paper, section 4; specification, M 10.2).
+ *
+ * Every number is the sum of its terms in the order of rows, or of columns, each product rounded before it is added.
+ */
+#include "codec/signal/transform.h"
+
+#include "codec/basis/solver/vectors.h"
+
+/* A vector from the end of an array, the lanes behind which are zero. */
+INLINE Vector load_last(const double *from, int64_t left) {
+    Vector vector = zeros();
+    EACH(i, PARTS) EACH(j, REGISTER) if (i * REGISTER + j < left) vector.part[i][j] = from[i * REGISTER + j];
+    return vector;
+}
+
+/* Coefficients of columns j to j + `vectors` WIDTH and of `axes` axes from d on, of which the first `columns` count. */
+INLINE void project_tile(const int vectors, const int axes, ConstDoubles2 subspace, ConstDoubles2 values, int64_t j,
+                         int64_t columns, int64_t d, Doubles2 coefficients) {
+    Vector sums[3][VECTORS];
+    EACH(a, axes) EACH(v, vectors) sums[a][v] = zeros();
+    /* What is read beyond the columns is in the next row, but for the last rows. */
+    int64_t size = subspace.rows * subspace.columns;
+    for (int64_t r = 0; r < subspace.rows; r++) {
+        int64_t first = r * subspace.columns + j;
+        Vector row[VECTORS];
+        if (first + vectors * WIDTH <= size)
+            EACH(v, vectors) row[v] = load(subspace.data + first + v * WIDTH);
+        else
+            EACH(v, vectors) row[v] = load_last(subspace.data + first + v * WIDTH, size - first - v * WIDTH);
+        EACH(a, axes) {
+            double value = values.data[r * values.columns + d + a];
+            EACH(v, vectors) sums[a][v] = sum_of(sums[a][v], scaled(row[v], value));
+        }
+    }
+    EACH(a, axes) EACH(v, vectors) EACH(i, WIDTH) {
+        int64_t column = v * WIDTH + i;
+        if (column < columns) coefficients.data[(j + column) * coefficients.columns + d + a] = sums[a][v].part[i / REGISTER][i % REGISTER];
+    }
+}
+
+/* E = U^T V, for as many columns U of `subspace` as there are rows of `coefficients`. */
+void LEVEL(project)(ConstDoubles2 subspace, ConstDoubles2 values, Doubles2 coefficients) {
+    int64_t count = coefficients.rows;
+    for (int64_t j = 0; j < count; j += 2 * WIDTH) {
+        int64_t columns = least(count - j, 2 * WIDTH), d = 0;
+        for (; d + 3 <= values.columns; d += 3) project_tile(2, 3, subspace, values, j, columns, d, coefficients);
+        for (; d < values.columns; d++) project_tile(2, 1, subspace, values, j, columns, d, coefficients);
+    }
+}
+
+/* Rows r to r + WIDTH, the last one again and again beyond the end, of `axes` axes from d on. */
+INLINE void reconstruct_tile(const int axes, ConstDoubles2 subspace, ConstDoubles2 coefficients, int64_t r, int64_t d,
+                             Doubles2 values) {
+    const double *rows[WIDTH];
+    EACH(i, WIDTH) rows[i] = subspace.data + least(r + i, subspace.rows - 1) * subspace.columns;
+    Vector sums[3];
+    EACH(a, axes) sums[a] = zeros();
+    for (int64_t q = 0; q < coefficients.rows; q++) {
+        Vector column;
+        EACH(i, PARTS) {
+            Part part = spread(0.0);
+            EACH(j, REGISTER) part[j] = rows[i * REGISTER + j][q];
+            column.part[i] = part;
+        }
+        EACH(a, axes) sums[a] = sum_of(sums[a], scaled(column, coefficients.data[q * coefficients.columns + d + a]));
+    }
+    EACH(a, axes) EACH(i, WIDTH)
+        if (r + i < subspace.rows)
+            values.data[(r + i) * values.columns + d + a] = sums[a].part[i / REGISTER][i % REGISTER];
+}
+
+/* V = U E, for as many columns U of `subspace` as there are rows of `coefficients`. */
+void LEVEL(reconstruct)(ConstDoubles2 subspace, ConstDoubles2 coefficients, Doubles2 values) {
+    for (int64_t r = 0; r < subspace.rows; r += WIDTH) {
+        int64_t d = 0;
+        for (; d + 3 <= values.columns; d += 3) reconstruct_tile(3, subspace, coefficients, r, d, values);
+        for (; d < values.columns; d++) reconstruct_tile(1, subspace, coefficients, r, d, values);
+    }
+}
