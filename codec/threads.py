@@ -27,6 +27,13 @@ def _controller() -> Any:
     return ThreadpoolController()
 
 
+def _take_control() -> None:
+    """Let this thread set the limit: threadpoolctl lets only one do so, and for the others silently does nothing."""
+    from threadpoolctl import OpenBLASController
+
+    OpenBLASController.clear_controlling_thread(force=True)
+
+
 class _SingleBlasThread:
     """Limits BLAS to one thread while anybody is inside; entering is counted, since the limit is the process's."""
 
@@ -39,12 +46,14 @@ class _SingleBlasThread:
         with self._lock:
             self._inside += 1
             if self._inside == 1:
+                _take_control()
                 self._limiter = _controller().limit(limits=1)
 
     def __exit__(self, *_: object) -> None:
         with self._lock:
             self._inside -= 1
             if self._inside == 0:
+                _take_control()
                 self._limiter.restore_original_limits()
 
 
@@ -53,26 +62,30 @@ SINGLE_BLAS_THREAD = _SingleBlasThread()
 
 
 def ordered_map(work: Callable[[Item], Result], items: Iterable[Item], threads: int | None) -> Iterator[Result]:
-    """`map(work, items)` on `threads` threads (None: one per core), with one BLAS thread each.
+    """`map(work, items)` on `threads` threads (None: one per core), each piece of work with one BLAS thread.
 
     Works a few items ahead of the consumer, so that results do not pile up.
     """
     count = threads or available_threads()
-    with SINGLE_BLAS_THREAD:
-        if count == 1:
-            yield from map(work, items)
-            return
-        pool = ThreadPoolExecutor(count)
-        pending: deque[Future[Result]] = deque()
-        try:
-            for item in items:
-                pending.append(pool.submit(work, item))
-                if len(pending) > 2 * count:
-                    yield pending.popleft().result()
-            while pending:
+
+    def limited(item: Item) -> Result:
+        with SINGLE_BLAS_THREAD:
+            return work(item)
+
+    if count == 1:
+        yield from map(limited, items)
+        return
+    pool = ThreadPoolExecutor(count)
+    pending: deque[Future[Result]] = deque()
+    try:
+        for item in items:
+            pending.append(pool.submit(limited, item))
+            if len(pending) > 2 * count:
                 yield pending.popleft().result()
-        finally:
-            pool.shutdown(cancel_futures=True)
+        while pending:
+            yield pending.popleft().result()
+    finally:
+        pool.shutdown(cancel_futures=True)
 
 
 class Pending(Generic[Result]):

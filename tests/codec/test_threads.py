@@ -1,8 +1,10 @@
 import threading
 import time
+from dataclasses import replace
 
 import numpy as np
 import pytest
+from threadpoolctl import threadpool_info
 
 from codec import EncodeOptions, decode, encode
 from codec.basis.orthogonal_iteration import cosine_columns, orthogonal_iteration
@@ -43,6 +45,20 @@ def test_errors_come_where_their_result_would(threads):
         next(results)
 
 
+def test_a_piece_of_work_has_one_blas_thread_and_its_consumer_all_of_them():
+    def blas_threads(_=None):
+        return max(info["num_threads"] for info in threadpool_info() if info["user_api"] == "blas")
+
+    before = blas_threads()
+    for threads in (1, 2, 1):
+        results = ordered_map(blas_threads, range(12), threads)
+        assert next(results) == 1
+        if threads == 1:
+            assert blas_threads() == before
+        assert [*results] == [1] * 11
+        assert blas_threads() == before
+
+
 def test_a_lane_keeps_its_order_and_lanes_run_side_by_side():
     lanes, log, meeting = Lanes(2), [], threading.Barrier(2, timeout=20)
     for lane in (0, 1):
@@ -57,9 +73,11 @@ def test_a_lane_keeps_its_order_and_lanes_run_side_by_side():
         assert [step for number, step in log if number == lane] == list(range(30))
 
 
-def test_threads_change_neither_bytes_nor_positions():
+@pytest.mark.parametrize("basis", ["oi", "svd"])
+def test_threads_change_neither_bytes_nor_positions(basis):
     mesh = patch(60, 60)
-    streams = {encode(mesh, EncodeOptions(block_size=200, key_interval=4, threads=threads)) for threads in (1, 2, 7)}
+    options = EncodeOptions(block_size=200, key_interval=4, basis=basis)
+    streams = {encode(mesh, replace(options, threads=threads)) for threads in (1, 2, 7)}
     assert len(streams) == 1
     (data,) = streams
     once = decode(data, threads=1).positions
