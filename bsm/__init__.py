@@ -54,7 +54,7 @@ if TYPE_CHECKING:
     from codec import (
         PRESETS as PRESETS, BlockEvent as BlockEvent, ConnectivityEvent as ConnectivityEvent, Decoder as Decoder,
         EncodeOptions as EncodeOptions, Encoder as Encoder, EndEvent as EndEvent, FrameEvent as FrameEvent,
-        GopLost as GopLost, HeaderEvent as HeaderEvent, LossEvent as LossEvent, SequenceDecoder as SequenceDecoder,
+        HeaderEvent as HeaderEvent, LossEvent as LossEvent, SequenceDecoder as SequenceDecoder,
         SequenceEncoder as SequenceEncoder, SequenceOptions as SequenceOptions, Target as Target,
         TriangleMesh as TriangleMesh,
     )
@@ -78,7 +78,7 @@ _ROOMS = {
     "bsm.files.mesh": "read_mesh",
     "bsm.files.polygons": "MeshFile",
     "codec": (
-        "PRESETS BlockEvent ConnectivityEvent Decoder EncodeOptions Encoder EndEvent FrameEvent GopLost "
+        "PRESETS BlockEvent ConnectivityEvent Decoder EncodeOptions Encoder EndEvent FrameEvent "
         "HeaderEvent LossEvent SequenceDecoder SequenceEncoder SequenceOptions Target TriangleMesh"
     ),
     "codec.denoise": "DenoiseOptions",

@@ -1,19 +1,12 @@
 """A streaming spectral codec for triangle meshes: static and animated, and the mathematics they share."""
 
 from codec.geometry.mesh import TriangleMesh
-from codec.sequence.decoder import FrameEvent, GopLost, SequenceDecoder, decode_sequence
+from codec.sequence.decoder import FrameEvent, SequenceDecoder, decode_sequence
 from codec.sequence.encoder import SequenceEncoder, encode_sequence
 from codec.sequence.options import SequenceOptions
-from codec.static.decoder import (
-    BlockEvent,
-    ConnectivityEvent,
-    Decoder,
-    EndEvent,
-    HeaderEvent,
-    LossEvent,
-    decode,
-)
-from codec.static.encoder import Encoder, encode, encode_chunks
+from codec.static.decoder import Decoder, decode
+from codec.static.encoder import Encoder, encode
+from codec.static.events import BlockEvent, ConnectivityEvent, EndEvent, HeaderEvent, LossEvent
 from codec.static.options import PRESETS, EncodeOptions
 from codec.static.targets import Target
 
@@ -26,7 +19,6 @@ __all__ = [
     "Encoder",
     "EndEvent",
     "FrameEvent",
-    "GopLost",
     "HeaderEvent",
     "LossEvent",
     "SequenceDecoder",
@@ -37,6 +29,5 @@ __all__ = [
     "decode",
     "decode_sequence",
     "encode",
-    "encode_chunks",
     "encode_sequence",
 ]

@@ -47,9 +47,10 @@ from bitstream.container.header import Header
 from bitstream.container.reader import Reader, Signal
 from bitstream.entropy.range_coder import Bank, make_bank
 from bsm.files.mesh import read_mesh
-from codec.static.decoder import chain_rules, detail_rows
+from codec.static.coding import detail_rows
 from codec.static.encoder import encode
 from codec.static.options import EncodeOptions
+from codec.static.rules import chain_rules
 
 TRAINING_MESHES = (
     "c3d_spot",
@@ -100,7 +101,7 @@ def chains_of_stream(data: bytes) -> Iterator[tuple[ChainLevels, ChainLevels]]:
                     yield coarse, details
                 coarse, details = [], []
                 model = CoefficientModel(header.coefficients)
-                over = CoefficientModel(detail_rows(header), detail_experience())
+                over = CoefficientModel(detail_rows(header.details), detail_experience())
             if header.details:
                 levels, above = decode_layers(model, over, packet.data, packet.coefficients)
                 details.append(above)

@@ -69,16 +69,17 @@ class SequenceStream:
 
     def frames(self) -> Iterator[tuple[int, Positions]]:
         """Number and positions, shape (n, 3), of one frame after the other."""
-        from codec import FrameEvent, GopLost
+        from codec import FrameEvent, LossEvent
 
         for event in self._events:
             match event:
                 case FrameEvent(index, positions):
                     yield index, positions
-                case GopLost(index, frames, reason):
+                case LossEvent(_, error, frames):
                     assert self._note is not None
-                    what = f"frames {index} to {index + frames - 1} are" if frames else f"what follows frame {index} is"
-                    self._note(f"{what} lost: {reason}")
+                    first, last = frames.start, frames.stop - 1
+                    what = f"frames {first} to {last} are" if frames else f"what follows frame {first} is"
+                    self._note(f"{what} lost: {error}")
 
 
 def numbered(faces: Faces, vertices: int) -> TriangleMesh:

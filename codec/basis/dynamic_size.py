@@ -9,15 +9,14 @@ residual for all of them is one cumulative sum: the search costs no further iter
 from __future__ import annotations
 
 import numpy as np
-import numpy.typing as npt
 
-Matrix = npt.NDArray[np.float64]
+from codec.arrays import Matrix
 
 
 def residual_norms(positions: Matrix, coefficients: Matrix) -> Matrix:
     """The error that a subspace of every size leaves.
 
-    Equation 4 adds the residuals of x, y and z before it takes the norm, so that errors of opposite sign cancel; this
+    Equation 6 adds the residuals of x, y and z before it takes the norm, so that errors of opposite sign cancel; this
     is the norm over all three.
 
     Parameters
@@ -62,3 +61,24 @@ def dynamic_size(positions: Matrix, coefficients: Matrix, previous: int, lowest:
         while size > 1 and norms[size] < lowest and norms[size - 1] <= highest:
             size -= 1
     return size
+
+
+class DynamicSize:
+    """c_i of one block of a chain after the other.
+
+    Parameters
+    ----------
+    lowest, highest : float
+        eps_l and eps_h.
+    first : int
+        What the first block starts from.
+    """
+
+    def __init__(self, lowest: float, highest: float, first: int) -> None:
+        self._thresholds = lowest, highest
+        self._size = first
+
+    def follow(self, positions: Matrix, coefficients: Matrix) -> int:
+        """`dynamic_size` from the block before."""
+        self._size = dynamic_size(positions, coefficients, self._size, *self._thresholds)
+        return self._size

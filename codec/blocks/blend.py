@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 import numpy as np
-import numpy.typing as npt
 
 from codec import _kernels
-from codec.geometry.graph import Indices
-
-Matrix = npt.NDArray[np.float64]
+from codec.arrays import Indices, Mask, Matrix
+from codec.blocks.overlap import Block, Blocks
 
 
 class Blend:
@@ -29,7 +27,7 @@ class Blend:
         """Add one copy of each vertex in `vertices`, shape (n_i,), at `positions`, shape (n_i, 3)."""
         _kernels.add_copies(self.sums, self.weights, vertices, positions, weights)
 
-    def known(self, vertices: Indices) -> npt.NDArray[np.bool_]:
+    def known(self, vertices: Indices) -> Mask:
         """Which of `vertices` have a copy that counts."""
         return self.weights[vertices] > 0
 
@@ -41,3 +39,12 @@ class Blend:
 def degree_weights(degrees: Indices) -> Matrix:
     """Weight of each row: its neighbours inside the block; a row without any counts as one."""
     return np.maximum(degrees, 1).astype(np.float64)
+
+
+def copy_weights(how: str, blocks: Blocks, index: int, block: Block) -> Matrix:
+    """Weight of each row of block `index`: "degree" (the paper's), "uniform", or "own": only those of its part."""
+    if how == "degree":
+        return degree_weights(block.degrees)
+    if how == "uniform":
+        return np.ones(block.size)
+    return np.isin(block.vertices, blocks.core(index)).astype(np.float64)

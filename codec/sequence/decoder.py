@@ -8,37 +8,23 @@ from dataclasses import dataclass
 from typing import TypeAlias
 
 import numpy as np
-import numpy.typing as npt
 
-from bitstream.connectivity.faces import decode_connectivity
-from bitstream.connectivity.order import Arrangement, decode_arrangement
-from bitstream.connectivity.partition import decode_labels
 from bitstream.container import packets
 from bitstream.container.gop import GopBody, GopMethod, parse_gop_body
 from bitstream.container.header import Header
-from bitstream.container.reader import END_OF_STREAM, NEED_DATA, Reader, Signal
-from bitstream.container.tolerant import TolerantReader
+from bitstream.container.reader import END_OF_STREAM, Signal
 from bitstream.container.wire import FrameType
 from bitstream.errors import BsmError, CorruptError, FormatError, UnsupportedError
 from bitstream.limits import DEFAULT_LIMITS, Limits
+from codec.arrays import Faces, Matrix, Positions
 from codec.blocks.blend import Blend
-from codec.blocks.overlap import grow_blocks
-from codec.blocks.partition import Partition, derive_partition, partition_of_labels
-from codec.geometry.graph import graph_of_faces
-from codec.geometry.mesh import Faces, Positions
-from codec.sequence.gop_decoder import GopDecoder, Setting, make_setting
-from codec.static.decoder import (
-    CONNECTIVITY_METHOD,
-    ORDER_METHOD,
-    ChainDecoder,
-    ConnectivityEvent,
-    EndEvent,
-    HeaderEvent,
-    chain_rules,
-)
+from codec.sequence.gop import GopDecoder, make_setting
+from codec.static.block_coder import ChainDecoder
+from codec.static.events import ConnectivityEvent, EndEvent, HeaderEvent, LossEvent, unreadable
+from codec.static.preamble import Beginning, Body, Structure
+from codec.static.rules import chain_rules
+from codec.static.stages import Arrival, Ended, Stage, StreamDecoder, misplaced
 from codec.static.work import Allowance, check_work
-
-Matrix = npt.NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,19 +35,164 @@ class FrameEvent:
     positions: Positions
 
 
+Event: TypeAlias = HeaderEvent | ConnectivityEvent | FrameEvent | LossEvent | EndEvent | Signal
+Item: TypeAlias = Event | Iterator[FrameEvent]
+
+
 @dataclass(frozen=True)
-class GopLost:
-    """Frames that cannot be decoded (tolerant mode): `frames` of them from number `index` on, 0 if not known."""
+class Wishes:
+    """What the user of a `SequenceDecoder` has asked for; see there."""
 
-    index: int
-    frames: int
-    reason: str
-
-
-Event: TypeAlias = HeaderEvent | ConnectivityEvent | FrameEvent | GopLost | EndEvent | Signal
+    limits: Limits
+    threads: int | None
+    tolerant: bool
+    start: int
 
 
-class SequenceDecoder:
+class FirstFrame:
+    """The faces are known; blocks of the first frame come, which is coded as a static mesh is."""
+
+    def __init__(self, structure: Structure, wishes: Wishes) -> None:
+        self._structure = structure
+        self._wishes = wishes
+        self._blend = Blend(structure.header.vertices)
+        self._allowance = Allowance(wishes.limits)
+        self._chain = ChainDecoder(structure.scheme, 0, self._allowance)
+        self._next = 0
+
+    def accept(self, arrival: Arrival, queue: deque[Item]) -> Stage[Item]:
+        count = self._structure.scheme.blocks.count
+        match arrival:
+            case packets.Block():
+                self._add(arrival)
+                return self
+            case packets.Damaged() if self._next < count:
+                raise unreadable(arrival)
+        if self._next < count:
+            raise CorruptError(f"the first frame ends after {self._next} of {count} blocks")
+        everything = np.arange(self._structure.header.vertices, dtype=np.int32)
+        return Gops(self._structure, self._blend.positions(everything), self._wishes).accept(arrival, queue)
+
+    def _add(self, packet: packets.Block) -> None:
+        """Decode the next block."""
+        if packet.index != self._next:
+            raise CorruptError(f"block {packet.index} of the first frame where block {self._next} belongs")
+        scheme = self._structure.scheme
+        if scheme.chain_of(packet.index) != self._chain.number:
+            self._chain = ChainDecoder(scheme, scheme.chain_of(packet.index), self._allowance)
+        decoded = self._chain.decode(packet)
+        self._blend.add(decoded.vertices, decoded.positions, decoded.weights)
+        self._next += 1
+
+
+class Gops:
+    """The first frame is known, shape (n, 3), in BSM units; GOPs come."""
+
+    def __init__(self, structure: Structure, first_frame: Matrix, wishes: Wishes) -> None:
+        header = structure.header
+        self._structure = structure
+        self._wishes = wishes
+        setting = make_setting(
+            structure.scheme.blocks,
+            structure.faces,
+            first_frame,
+            width=header.coefficients,
+            cotangent=header.weights == 1,
+            threads=wishes.threads,
+        )
+        self._decoder = GopDecoder(setting)
+        self._next = 0  # the frame that comes next in the stream
+        self._skipped: list[GopBody] = []  # low-delay frames since the latest key frame, not decoded
+        self._damage: list[BsmError] = []  # since the latest GOP that was whole
+        self._lossy = False  # whether a loss was reported, so that an END that counts more frames is no news
+        self._ended = False
+
+    def accept(self, arrival: Arrival, queue: deque[Item]) -> Stage[Item]:
+        match arrival:
+            case packets.Gop():
+                self._accept_gop(arrival, queue)
+            case packets.Damaged():
+                if arrival.type is not FrameType.END or not self._lossy:
+                    self._lose(unreadable(arrival))
+            case packets.End():
+                pass  # what may come behind it, damaged, is a loss that belongs before the end
+            case Signal.END_OF_STREAM:
+                self._end(queue)
+                return Ended()
+            case _:
+                raise misplaced(arrival)
+        return self
+
+    def _accept_gop(self, packet: packets.Gop, queue: deque[Item]) -> None:
+        if packet.index > self._next:
+            self._report_loss(packet.index - self._next, queue)
+        try:
+            body = self._parsed(packet)
+            frames = self._decoded(body)
+        except BsmError as error:
+            if not self._wishes.tolerant:
+                raise
+            self._lose(error)
+            return
+        queue.append(self._events(self._next, frames))
+        self._next += body.frames
+
+    def _parsed(self, packet: packets.Gop) -> GopBody:
+        header, limits = self._structure.header, self._wishes.limits
+        if packet.index < self._next:
+            raise CorruptError(f"frame {packet.index} comes again behind frame {self._next - 1}")
+        body = parse_gop_body(packet.data, header.gop_frames)
+        columns = 3 * body.frames if body.method is GopMethod.COSINES else body.components
+        limits.check("sequence_bytes", 16.0 * columns * (header.vertices + 3 * body.frames))
+        last = packet.index + body.frames - 1
+        if 0 < header.frames <= last:
+            raise CorruptError(f"frames {packet.index} to {last} of {header.frames}")
+        return body
+
+    def _decoded(self, body: GopBody) -> Iterator[Matrix]:
+        """Frames of a GOP, or nothing of it where no frame of it is wanted and none that is depends on it."""
+        if body.method is not GopMethod.NEXT_FRAME:
+            self._skipped.clear()
+        if self._next + body.frames <= self._wishes.start:
+            if body.method >= GopMethod.KEY_FRAME:
+                self._skipped.append(body)
+            return iter(())
+        for earlier in self._skipped:
+            self._decoder.decode(earlier)
+        self._skipped.clear()
+        return self._decoder.decode(body)
+
+    def _events(self, first: int, frames: Iterator[Matrix]) -> Iterator[FrameEvent]:
+        for index, frame in enumerate(frames, first):
+            if index >= self._wishes.start:
+                yield FrameEvent(index, self._structure.numbering.arranged(self._structure.units.back(frame)))
+
+    def _lose(self, error: BsmError) -> None:
+        """Take note that frames are lost; how many is known when the next ones come."""
+        self._damage.append(error)
+        self._skipped.clear()
+        self._decoder.forget()
+
+    def _report_loss(self, frames: int, queue: deque[Item]) -> None:
+        if not self._wishes.tolerant:
+            raise CorruptError(f"{frames} frames from number {self._next} on are missing")
+        error = self._damage[0] if self._damage else CorruptError("a GOP is missing")
+        queue.append(LossEvent(None, error, range(self._next, self._next + frames)))
+        self._decoder.forget()
+        self._skipped.clear()
+        self._damage.clear()
+        self._next += frames
+        self._lossy = True
+
+    def _end(self, queue: deque[Item]) -> None:
+        announced = self._structure.header.frames
+        missing = announced - self._next if announced else 0
+        if missing or (self._damage and not announced):
+            self._report_loss(missing, queue)
+        queue.append(EndEvent())
+
+
+class SequenceDecoder(StreamDecoder[Item]):
     """Takes the bytes of a sequence's stream as they come, and gives events as soon as they can be known.
 
     Memory is bounded by one GOP. An error is raised by `next_event` after the events before it, and by every later
@@ -74,43 +205,31 @@ class SequenceDecoder:
     threads : int, optional
         None: one per core.
     tolerant : bool
-        Go on behind a GOP that is lost or broken, and give a `GopLost` for it, instead of raising. What comes before
-        the GOPs must be whole in any case.
+        Report a GOP that is lost or broken as `LossEvent`, and go on behind it. What comes before the GOPs must be
+        whole in any case.
     start : int
         Give no frame before this one; GOPs that it does not need are not decoded.
     """
 
     def __init__(
-        self, limits: Limits = DEFAULT_LIMITS, threads: int | None = None, tolerant: bool = False, start: int = 0
+        self,
+        limits: Limits = DEFAULT_LIMITS,
+        threads: int | None = None,
+        *,
+        tolerant: bool = False,
+        start: int = 0,
     ) -> None:
-        self._limits = limits
-        self._threads = threads
-        self._tolerant = tolerant
-        self._start = start
-        self._reader = TolerantReader(limits) if tolerant else Reader(limits)
-        self._queue: deque[Event] = deque()
-        self._frames: Iterator[Positions] = iter(())
-        self._error: BsmError | None = None
-        self._ended = False
-        self._header: Header | None = None
-        self._faces: Faces | None = None
-        self._arrangement: Arrangement | None = None
-        self._partition: Partition | None = None
-        self._opening: Opening | None = None
-        self._gops: GopDecoder | None = None
-        self._next_frame = 0  # the frame that comes next in the stream
-        self._given = 0  # the frame that is given next
-        self._skipped: list[GopBody] = []  # low-delay frames since the latest key frame, not decoded
-        self._lost: str | None = None
-        self._lossy = False  # whether a loss was reported, so that an END that counts more frames is no news
+        wishes = Wishes(limits, threads, tolerant, start)
+        body = Body(
+            limits,
+            check=lambda header: check_header(header, limits),
+            begin=lambda structure: FirstFrame(structure, wishes),
+        )
+        super().__init__(Beginning(body), limits, tolerant=tolerant)
 
-    def receive_data(self, data: bytes | bytearray | memoryview) -> None:
-        """Take more bytes of the stream."""
-        self._reader.receive_data(data)
-
-    def receive_eof(self) -> None:
-        """Take note that no more bytes will come."""
-        self._reader.receive_eof()
+    def close(self) -> None:
+        """Give up what was not asked for."""
+        self._queue.clear()
 
     def next_event(self) -> Event:
         """The next event, or `NEED_DATA`; `END_OF_STREAM` after `EndEvent` and `receive_eof`.
@@ -120,220 +239,38 @@ class SequenceDecoder:
         BsmError
             One of the stream's errors, with its place.
         """
-        while True:
-            if self._queue:
-                return self._queue.popleft()
-            positions = next(self._frames, None)
-            if positions is not None:
-                self._given += 1
-                if self._given > self._start:
-                    return FrameEvent(self._given - 1, self._arranged(positions))
+        while self._queue or self._read():
+            if not self._queue:
                 continue
-            if self._ended:
-                return END_OF_STREAM
-            if self._error is not None:
-                raise self._error
-            if not self._read():
-                return NEED_DATA
+            item = self._queue[0]
+            event = self._next_frame(item) if isinstance(item, Iterator) else item
+            if not isinstance(event, FrameEvent):
+                self._queue.popleft()
+            if event is not None:
+                return event
+        return self._signal()
 
-    def _read(self) -> bool:
-        """Read one packet, if it is there."""
+    def _next_frame(self, frames: Iterator[FrameEvent]) -> FrameEvent | None:
         try:
-            packet = self._reader.next_packet()
-            if packet is NEED_DATA:
-                return False
-            if packet is END_OF_STREAM:
-                self._finish()
-            else:
-                self._accept(packet)
+            return next(frames, None)
         except BsmError as error:
-            span = self._reader.last_frame
-            self._error = error.located(offset=span.offset, frame=span.number) if span else error
-        return True
-
-    def _accept(self, packet: object) -> None:
-        match packet:
-            case Header():
-                self._accept_header(packet)
-            case packets.Connectivity():
-                self._accept_connectivity(packet)
-            case packets.Partition():
-                self._accept_partition(packet)
-            case packets.Order():
-                self._accept_order(packet)
-            case packets.Block():
-                self._opened().add(packet)
-            case packets.Gop():
-                self._accept_gop(packet)
-            case packets.Damaged():
-                self._accept_damage(packet)
-
-    def _accept_header(self, header: Header) -> None:
-        if not header.gop_frames:
-            raise FormatError("this is a static mesh and no sequence; decode it with codec.Decoder")
-        if header.smoothing or header.details:
-            raise UnsupportedError("smoothing and details of sequences are unknown to this decoder")
-        solves = chain_rules(header).solves
-        check_work(self._limits, header.blocks, header.block_size, header.coefficients, solves, exact=True)
-        self._limits.check("sequence_bytes", 8.0 * header.blocks * header.block_size * header.coefficients)
-        self._header = header
-        self._queue.append(HeaderEvent(header))
-
-    def _accept_connectivity(self, packet: packets.Connectivity) -> None:
-        assert self._header is not None
-        if packet.method != CONNECTIVITY_METHOD:
-            raise UnsupportedError(f"connectivity method {packet.method} is unknown to this decoder")
-        self._faces = decode_connectivity(packet.data, self._header.vertices, self._header.faces, self._limits)
-
-    def _accept_partition(self, packet: packets.Partition) -> None:
-        assert self._header is not None and self._faces is not None
-        if packet.method != 0:
-            raise UnsupportedError(f"partition method {packet.method} is unknown to this decoder")
-        graph = graph_of_faces(self._faces, self._header.vertices)
-        self._partition = partition_of_labels(
-            decode_labels(packet.data, graph.offsets, graph.neighbours, self._header.blocks)
-        )
-
-    def _accept_order(self, packet: packets.Order) -> None:
-        assert self._header is not None and self._faces is not None
-        if packet.method != ORDER_METHOD:
-            raise UnsupportedError(f"order method {packet.method} is unknown to this decoder")
-        self._arrangement = decode_arrangement(packet.data, self._faces, self._header.vertices)
-
-    def _arranged(self, positions: Positions) -> Positions:
-        """Positions in the order that the vertices had before coding, if that was kept."""
-        if self._arrangement is None:
-            return positions
-        arranged = np.empty_like(positions)
-        arranged[self._arrangement.vertex_order] = positions
-        return arranged
-
-    def _opened(self) -> Opening:
-        if self._opening is None:
-            assert self._header is not None and self._faces is not None
-            self._opening = Opening(self._header, self._faces, self._partition, self._limits)
-            self._queue.append(ConnectivityEvent(self._arrangement.faces if self._arrangement else self._faces))
-        return self._opening
-
-    def _gop_decoder(self) -> GopDecoder:
-        if self._gops is None:
-            self._gops = GopDecoder(self._opened().setting(self._threads))
-        return self._gops
-
-    def _accept_gop(self, packet: packets.Gop) -> None:
-        assert self._header is not None
-        decoder = self._gop_decoder()
-        if packet.index > self._next_frame:
-            self._report_loss(packet.index - self._next_frame)
-        try:
-            if packet.index < self._next_frame:
-                raise CorruptError(f"frame {packet.index} comes again behind frame {self._next_frame - 1}")
-            body = parse_gop_body(packet.data, self._header.gop_frames)
-            columns = 3 * body.frames if body.method is GopMethod.COSINES else body.components
-            self._limits.check("sequence_bytes", 16.0 * columns * (self._header.vertices + 3 * body.frames))
-            if 0 < self._header.frames < packet.index + body.frames:
-                raise CorruptError(
-                    f"frames {packet.index} to {packet.index + body.frames - 1} of {self._header.frames}"
-                )
-            self._given = self._next_frame
-            self._frames = self._decoded(decoder, body)
-            self._next_frame += body.frames
-        except BsmError as error:
-            if not self._tolerant:
-                raise
-            self._lose(error.message)
-
-    def _decoded(self, decoder: GopDecoder, body: GopBody) -> Iterator[Positions]:
-        """Frames of a GOP, or nothing of it where no frame of it is wanted and none that is depends on it."""
-        if body.method is not GopMethod.NEXT_FRAME:
-            self._skipped.clear()
-        if self._next_frame + body.frames <= self._start:
-            if body.method >= GopMethod.KEY_FRAME:
-                self._skipped.append(body)
-            return iter(())
-        for earlier in self._skipped:
-            decoder.decode(earlier)
-        self._skipped.clear()
-        return decoder.decode(body)
-
-    def _accept_damage(self, packet: packets.Damaged) -> None:
-        if self._opening is None or not self._opening.complete:
-            raise CorruptError(f"the beginning of a sequence must be whole: {packet.reason}")
-        if packet.type is not FrameType.END or not self._lossy:
-            self._lose(packet.reason)
-
-    def _lose(self, reason: str) -> None:
-        """Take note that frames are lost; how many is known when the next ones come."""
-        self._lost = self._lost or reason
-        self._skipped.clear()
-        self._gop_decoder().forget()
-
-    def _report_loss(self, frames: int) -> None:
-        reason = self._lost or "a GOP is missing"
-        if not self._tolerant:
-            raise CorruptError(f"{frames} frames from number {self._next_frame} on are missing")
-        self._queue.append(GopLost(self._next_frame, frames, reason))
-        self._gop_decoder().forget()
-        self._skipped.clear()
-        self._next_frame += frames
-        self._lost = None
-        self._lossy = True
-
-    def _finish(self) -> None:
-        assert self._header is not None
-        if not self._opened().complete:
-            raise CorruptError("the stream ends before its first frame is complete")
-        missing = self._header.frames - self._next_frame if self._header.frames else 0
-        if missing or (self._lost and not self._header.frames):
-            self._report_loss(missing)
-        self._ended = True
-        self._queue.append(EndEvent())
+            raise self._fail(error) from None
 
 
-class Opening:
-    """The first frame, coded as a static mesh is: what every GOP builds upon."""
-
-    def __init__(self, header: Header, faces: Faces, partition: Partition | None, limits: Limits) -> None:
-        graph = graph_of_faces(faces, header.vertices)
-        partition = partition or derive_partition(graph, header.blocks)
-        largest = int(np.diff(partition.bounds).max())
-        if largest > header.block_size:
-            raise CorruptError(f"a part of {largest} vertices in blocks of {header.block_size}")
-        self._header = header
-        self._faces = faces
-        self._blocks = grow_blocks(graph, partition, header.block_size)
-        self._blend = Blend(header.vertices)
-        self._allowance = Allowance(limits)
-        self._chain: ChainDecoder | None = None
-        self._next_index = 0
-
-    @property
-    def complete(self) -> bool:
-        """Whether all blocks are there."""
-        return self._next_index == self._blocks.count
-
-    def add(self, packet: packets.Block) -> None:
-        """Decode the next block."""
-        if packet.index != self._next_index:
-            raise CorruptError(f"block {packet.index} of the first frame where block {self._next_index} belongs")
-        rules = chain_rules(self._header)
-        if self._chain is None or packet.index % rules.chain_length(self._blocks.count) == 0:
-            self._chain = ChainDecoder(self._header, rules, self._blocks, packet.index, self._allowance)
-        decoded = self._chain.decode(packet)
-        self._blend.add(decoded.vertices, decoded.positions, decoded.weights)
-        self._next_index += 1
-
-    def setting(self, threads: int | None) -> Setting:
-        """What the GOPs are decoded with."""
-        if not self.complete:
-            raise CorruptError(f"GOPs begin after {self._next_index} of {self._blocks.count} blocks of the first frame")
-        first = self._blend.positions(np.arange(self._header.vertices, dtype=np.int32))
-        return make_setting(self._header, self._faces, self._blocks, first, threads)
+def check_header(header: Header, limits: Limits) -> None:
+    """Raise what is wrong with the header of a sequence, or beyond `limits`, before anything is done for it."""
+    if not header.gop_frames:
+        raise FormatError("this is a static mesh and no sequence; decode it with codec.Decoder")
+    if header.smoothing or header.details:
+        raise UnsupportedError("smoothing and details of sequences are unknown to this decoder")
+    solves = chain_rules(header).solves
+    check_work(limits, header.blocks, header.block_size, header.coefficients, solves, exact=True)
+    limits.check("sequence_bytes", 8.0 * header.blocks * header.block_size * header.coefficients)
 
 
 def decode_sequence(
     data: bytes, limits: Limits = DEFAULT_LIMITS, threads: int | None = None
-) -> tuple[npt.NDArray[np.float64], Faces]:
+) -> tuple[Positions, Faces]:
     """Decode a complete sequence.
 
     Returns
@@ -346,18 +283,18 @@ def decode_sequence(
     BsmError
         `FormatError`, `UnsupportedError`, `CorruptError`, `TruncatedError`, `LimitError` or `NumericError`.
     """
-    decoder = SequenceDecoder(limits, threads)
-    decoder.receive_data(data)
-    decoder.receive_eof()
     frames: list[Positions] = []
     faces = np.zeros((0, 3), np.int32)
     vertices = 0
-    while (event := decoder.next_event()) is not END_OF_STREAM:
-        match event:
-            case HeaderEvent(header):
-                vertices = header.vertices
-            case ConnectivityEvent(received):
-                faces = received
-            case FrameEvent(_, positions):
-                frames.append(positions)
+    with SequenceDecoder(limits, threads) as decoder:
+        decoder.receive_data(data)
+        decoder.receive_eof()
+        while (event := decoder.next_event()) is not END_OF_STREAM:
+            match event:
+                case HeaderEvent(header):
+                    vertices = header.vertices
+                case ConnectivityEvent(received):
+                    faces = received
+                case FrameEvent(_, positions):
+                    frames.append(positions)
     return np.array(frames).reshape(-1, vertices, 3), faces

@@ -4,41 +4,47 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from itertools import chain
+from itertools import chain, islice
 
 import numpy as np
 import numpy.typing as npt
 
-from bitstream.connectivity.faces import encode_connectivity
-from bitstream.connectivity.order import encode_arrangement
 from bitstream.container import packets
 from bitstream.container.gop import write_gop_body
 from bitstream.container.header import Header
 from bitstream.container.writer import Writer
 from bitstream.errors import MeshError, OptionError
-from codec.blocks.blend import Blend
-from codec.blocks.overlap import block_size, grow_blocks
-from codec.blocks.partition import derive_partition
-from codec.geometry.graph import graph_of_faces
-from codec.geometry.mesh import Faces, TriangleMesh
+from codec.arrays import Matrix, Order
+from codec.geometry.mesh import TriangleMesh
 from codec.sequence.decoder import decode_sequence
-from codec.sequence.gop_decoder import Setting, make_setting
-from codec.sequence.gop_encoder import GopEncoder
+from codec.sequence.gop import GopEncoder, Setting, make_setting
 from codec.sequence.options import SequenceOptions
 from codec.sequence.row_prediction import LARGEST_LEVEL
 from codec.sequence.targets import SequenceComparison, compare_sequences
+from codec.signal.chain import ChainRules
 from codec.signal.quantize import smallest_step
-from codec.static.decoder import CONNECTIVITY_METHOD, ORDER_METHOD, chain_rules
-from codec.static.encoder import STIFFNESS, ChainEncoder, CodedBlock, Progress
-from codec.static.encoder import _frame_of_reference as frame_of_reference
-from codec.static.options import EncodeOptions
+from codec.static.assembly import blended
+from codec.static.block_coder import CodedBlock, Progress, encode_blocks
+from codec.static.coding import Adaptive
+from codec.static.preamble import Prepared, prepare
+from codec.static.rules import STIFFNESS, Scheme
 from codec.static.targets import search_step
-
-Matrix = npt.NDArray[np.float64]
-
+from codec.static.units import single
 
 FINEST_STEP = 2e-5
 """Below, a search for a target does not look."""
+
+FIRST_FRAME = ChainRules(
+    exact=True,
+    independent=False,
+    key_interval=0,
+    power=2,
+    iterations=1,
+    key_iterations=8,
+    shift=2.0**-5,
+    stiffness=STIFFNESS,
+)
+"""The first frame is one chain of exact dictionaries; what iterations would be made is not looked at."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -88,8 +94,8 @@ class SequenceEncoder:
 
     def __init__(self, faces: npt.ArrayLike, options: SequenceOptions | None = None, frames: int = 0) -> None:
         self.options = options or SequenceOptions()
-        self.vertex_order: npt.NDArray[np.int64] = np.empty(0, np.int64)
-        self.face_order: npt.NDArray[np.int64] = np.empty(0, np.int64)
+        self.vertex_order: Order = np.empty(0, np.int64)
+        self.face_order: Order = np.empty(0, np.int64)
         self.notes: tuple[str, ...] = ()
         self._faces = faces
         self._count = frames
@@ -146,21 +152,18 @@ class SequenceEncoder:
             raise MeshError("a sequence needs at least one frame")
         gops = -(-self._count // (options.gop if options.mode == "gop" else 1))
         tell = _Rounds(progress if gops else None, 1 + gops)
-        mesh = TriangleMesh(np.asarray(first), np.asarray(self._faces))
-        opening = OpeningEncoder(mesh, options, self._count, tell)
-        self.vertex_order, self.face_order = opening.vertex_order, opening.face_order
+        given = TriangleMesh(np.asarray(first), np.asarray(self._faces))
+        prepared = prepare(given, part_size=options.block_size, overlap=options.overlap, keep_order=options.keep_order)
+        self.vertex_order, self.face_order = prepared.vertex_order, prepared.face_order
+        opening = open_sequence(prepared, options, self._count, tell)
         writer = Writer()
         yield writer.start()
-        yield writer.write(opening.header)
-        yield writer.write(opening.connectivity)
-        if opening.order is not None:
-            yield writer.write(opening.order)
-        for block in opening.coded:
-            yield writer.write(block.packet)
-        encoder = GopEncoder(opening.setting(), options)
+        for packet in (opening.header, *prepared.packets, *(block.packet for block in opening.blocks)):
+            yield writer.write(packet)
+        encoder = GopEncoder(opening.setting, options)
         number = 0
-        checked = self._checked(chain([first], source), np.shape(first), opening)
-        while group := list(_taken(checked, opening.header.gop_frames)):
+        checked = _checked(chain([first], source), np.shape(first), prepared)
+        while group := list(islice(checked, opening.header.gop_frames)):
             body = encoder.encode(np.array(group), number, tell)
             yield writer.write(packets.Gop(number, write_gop_body(body)))
             number += len(group)
@@ -168,83 +171,69 @@ class SequenceEncoder:
             raise OptionError(f"{self._count} frames were announced and {number} came")
         yield writer.end()
 
-    def _checked(
-        self, frames: Iterable[npt.ArrayLike], shape: tuple[int, ...], opening: OpeningEncoder
-    ) -> Iterator[Matrix]:
-        """Frames in BSM units, in the decoder's order of vertices."""
-        for number, frame in enumerate(frames):
-            positions = np.asarray(frame, np.float64)
-            if positions.shape != shape:
-                raise MeshError(f"frame {number} has shape {positions.shape}, the first one {shape}")
-            positions = positions[opening.coding_order]
-            if not np.isfinite(positions).all():
-                raise MeshError(f"frame {number} has a coordinate that is not finite; remove or repair it")
-            yield opening.in_units(positions)
+
+@dataclass(frozen=True, eq=False)
+class Opening:
+    """Everything before the GOPs but the connectivity: the first frame, coded as a static mesh is.
+
+    Parameters
+    ----------
+    header : Header
+    blocks : list of CodedBlock
+    setting : Setting
+        What the decoder will have when the first frame is complete.
+    """
+
+    header: Header
+    blocks: list[CodedBlock]
+    setting: Setting
 
 
-class OpeningEncoder:
-    """Everything before the GOPs: connectivity, and the first frame, coded as a static mesh is."""
+def open_sequence(prepared: Prepared, options: SequenceOptions, frames: int, progress: Progress) -> Opening:
+    """Code the first frame, which all others build upon; `frames` as for `SequenceEncoder`.
 
-    def __init__(self, mesh: TriangleMesh, options: SequenceOptions, frames: int, progress: Progress) -> None:
-        used, kept = mesh.without_isolated_vertices()
-        connectivity = encode_connectivity(used.faces, len(kept))
-        self.connectivity = packets.Connectivity(CONNECTIVITY_METHOD, connectivity.payload)
-        self.coding_order: npt.NDArray[np.int64] = kept[connectivity.vertex_order]
-        self.vertex_order = self.coding_order
-        self.face_order: npt.NDArray[np.int64] = connectivity.face_order.astype(np.int64)
-        self.order: packets.Order | None = None
-        if options.keep_order:
-            self.order = packets.Order(ORDER_METHOD, encode_arrangement(used.faces, connectivity))
-            self.vertex_order, self.face_order = kept, np.arange(len(used.faces))
-        self._faces: Faces = connectivity.faces
-        self._options = options
-        ordered = TriangleMesh(mesh.positions[self.coding_order], connectivity.faces)
-        self._center, self._scale = frame_of_reference(ordered)
-        graph = graph_of_faces(connectivity.faces, len(kept))
-        partition = derive_partition(graph, max(1, round(len(kept) / options.block_size)))
-        self._size = block_size(partition, options.overlap)
-        self._blocks = grow_blocks(graph, partition, self._size)
-        self.header = self._header(partition.parts, frames)
-        coder = ChainEncoder(self.header, chain_rules(self.header), self._blocks, EncodeOptions())
-        positions = self.in_units(ordered.positions)
-        self.coded: list[CodedBlock] = []
-        for index in range(self._blocks.count):
-            self.coded.append(coder.encode(index, positions))
-            progress(len(self.coded), self._blocks.count)
+    Raises
+    ------
+    OptionError
+        If the options' first step is too fine.
+    """
+    finest = smallest_step(prepared.size)
+    step = options.first_step or max(options.step / 2, finest)
+    if step < finest:
+        raise OptionError(f"first_step = {step:g} is too fine for blocks of {prepared.size}, try {finest:.1e}")
+    width, cotangent = max(1, round(options.keep * prepared.size)), options.weights == "cotangent"
+    scheme = Scheme(prepared.blocks, FIRST_FRAME, Adaptive(width, single(step)), "degree")
+    blocks = encode_blocks(scheme, prepared.positions, threads=options.threads, progress=progress)
+    header = Header(
+        vertices=prepared.graph.size,
+        faces=len(prepared.mesh.faces),
+        block_size=prepared.size,
+        coefficients=width,
+        center=prepared.units.center,
+        scale=prepared.units.scale,
+        frames=frames,
+        frame_rate=single(options.frame_rate),
+        gop_frames=options.gop if options.mode == "gop" else 1,
+        weights=int(cotangent),
+        **scheme.fields(),
+    )
+    positions = blended(prepared.graph.size, (block.decoded for block in blocks))
+    setting = make_setting(
+        prepared.blocks, prepared.mesh.faces, positions, width=width, cotangent=cotangent, threads=options.threads
+    )
+    return Opening(header, blocks, setting)
 
-    def in_units(self, positions: Matrix) -> Matrix:
-        """Positions in BSM units."""
-        return (positions - self._center) / self._scale
 
-    def setting(self) -> Setting:
-        """What the decoder will have when the first frame is complete."""
-        blend = Blend(self.header.vertices)
-        for block in self.coded:
-            blend.add(block.vertices, block.positions, block.weights)
-        first = blend.positions(np.arange(self.header.vertices, dtype=np.int32))
-        return make_setting(self.header, self._faces, self._blocks, first, self._options.threads)
-
-    def _header(self, parts: int, frames: int) -> Header:
-        options, finest = self._options, smallest_step(self._size)
-        step = options.first_step or max(options.step / 2, finest)
-        if step < finest:
-            raise OptionError(f"first_step = {step:g} is too fine for blocks of {self._size}, try {finest:.1e}")
-        return Header(
-            vertices=len(self.vertex_order),
-            faces=len(self._faces),
-            blocks=parts,
-            block_size=self._size,
-            coefficients=max(1, round(options.keep * self._size)),
-            basis=1,
-            step=float(np.float32(step)),
-            center=tuple(self._center),
-            scale=self._scale,
-            prediction=(STIFFNESS,),
-            frames=frames,
-            frame_rate=float(np.float32(options.frame_rate)),
-            gop_frames=options.gop if options.mode == "gop" else 1,
-            weights=("binary", "cotangent").index(options.weights),
-        )
+def _checked(frames: Iterable[npt.ArrayLike], shape: tuple[int, ...], prepared: Prepared) -> Iterator[Matrix]:
+    """Frames in BSM units, in the order of coding."""
+    for number, frame in enumerate(frames):
+        positions = np.asarray(frame, np.float64)
+        if positions.shape != shape:
+            raise MeshError(f"frame {number} has shape {positions.shape}, the first one {shape}")
+        positions = positions[prepared.coding_order]
+        if not np.isfinite(positions).all():
+            raise MeshError(f"frame {number} has a coordinate that is not finite; remove or repair it")
+        yield prepared.units.into(positions)
 
 
 class _Rounds:
@@ -267,11 +256,3 @@ def encode_sequence(positions: npt.ArrayLike, faces: npt.ArrayLike, options: Seq
     if frames.ndim != 3 or frames.shape[2] != 3 or len(frames) == 0:
         raise MeshError(f"the positions of a sequence must have shape (T, n, 3), T > 0, not {frames.shape}")
     return b"".join(SequenceEncoder(faces, options, len(frames)).chunks(frames))
-
-
-def _taken(frames: Iterator[Matrix], count: int) -> Iterator[Matrix]:
-    for _ in range(count):
-        frame = next(frames, None)
-        if frame is None:
-            return
-        yield frame

@@ -8,15 +8,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-import numpy as np
-import numpy.typing as npt
-
+from codec.arrays import Matrix
 from codec.basis.orthogonal_iteration import cosine_columns, exact_basis, orthogonal_iteration, resized
 from codec.blocks.overlap import Block
 from codec.geometry.graph import Graph
 from codec.signal.predict import Known, Surroundings, unheld
-
-Matrix = npt.NDArray[np.float64]
 
 
 @dataclass(frozen=True)
@@ -54,6 +50,11 @@ class ChainRules:
     def chain_starts(self, blocks: int) -> range:
         """Indices of the key blocks among `blocks` blocks."""
         return range(0, blocks, self.chain_length(blocks))
+
+    def chains(self, blocks: int) -> list[range]:
+        """Indices of the blocks of each chain."""
+        length = self.chain_length(blocks)
+        return [range(first, min(first + length, blocks)) for first in self.chain_starts(blocks)]
 
     def chain_length(self, blocks: int) -> int:
         """Blocks in a chain (the last one may be shorter)."""

@@ -15,15 +15,12 @@ import numpy as np
 import numpy.typing as npt
 
 from codec import _kernels
+from codec.arrays import Faces, Indices, Matrix, Order
 from codec.blocks.overlap import Block
-from codec.geometry.graph import Indices
 from codec.geometry.incidence import vertex_faces
-from codec.geometry.mesh import Faces
 from codec.signal.transform import reconstruct
 
-Matrix = npt.NDArray[np.float64]
-Levels = npt.NDArray[np.int32]
-Number = TypeVar("Number", bound=np.integer)
+Number = TypeVar("Number", bound=np.generic)
 
 SOFTNESS = 2.0**-10
 """Below this share of the usual length of a sum of face normals, as where they cancel, a normal is shorter than 1."""
@@ -37,7 +34,7 @@ class Surface:
     """Faces, and which of them are around each vertex."""
 
     faces: Faces
-    starts: npt.NDArray[np.int64]
+    starts: Order
     members: Indices
 
 
@@ -91,6 +88,6 @@ def fold_details(levels: npt.NDArray[Number]) -> npt.NDArray[Number]:
     return folded
 
 
-def unfold_details(rows: Levels, limit: int) -> Levels:
-    """Twin of `fold_details`; at most `limit` levels."""
+def unfold_details(rows: npt.NDArray[Number], limit: int) -> npt.NDArray[Number]:
+    """Twin of `fold_details`, for levels or what they stand for; at most `limit` of them."""
     return rows.reshape(-1)[:limit]

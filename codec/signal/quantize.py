@@ -1,14 +1,19 @@
-"""Uniform quantization of coefficients: levels are whole numbers, a level times the step is a coefficient."""
+"""Quantization of coefficients: levels are whole numbers, a level times the step is a coefficient."""
 
 from __future__ import annotations
 
 import numpy as np
 import numpy.typing as npt
 
-Matrix = npt.NDArray[np.float64]
-Levels = npt.NDArray[np.int32]
+from codec.arrays import Integers, Levels, Matrix
 
 LARGEST_LEVEL = (1 << 23) - 1
+BIT_WORTH = 0.13
+"""Squared steps of error that a bit is worth.
+
+A finely quantized coefficient has a mean squared error of step^2 / 12, which a bit more divides by four: the slope is
+step^2 ln(2) / 6 = 0.1155 step^2 per bit. Measured on real meshes, angles between normals ask for slightly more.
+"""
 
 
 def quantize(coefficients: Matrix, step: float) -> Levels:
@@ -16,7 +21,7 @@ def quantize(coefficients: Matrix, step: float) -> Levels:
     return np.rint(coefficients / step).astype(np.int32)
 
 
-def dequantize(levels: npt.NDArray[np.signedinteger], step: float) -> Matrix:
+def dequantize(levels: Integers, step: float) -> Matrix:
     """Coefficients of `levels`."""
     return np.asarray(levels * step, dtype=np.float64)
 
@@ -50,7 +55,7 @@ def quantize_packed(coefficients: Matrix, step: float, coarser: int) -> Levels:
     return levels
 
 
-def levels_to_unsigned(levels: Levels, bits: int, coarser: int) -> npt.NDArray[np.uint32]:
+def levels_to_unsigned(levels: Integers, bits: int, coarser: int) -> npt.NDArray[np.uint32]:
     """Levels of `quantize_packed` as unsigned integers of `bits` bits."""
     stored = levels.copy()
     stored[0] >>= coarser
@@ -63,3 +68,9 @@ def unsigned_to_levels(values: npt.NDArray[np.uint32], bits: int, coarser: int) 
     levels = (values.astype(np.int64) - (1 << (bits - 1))).reshape(-1, 3)
     levels[0] <<= coarser
     return levels
+
+
+def targets(coefficients: Matrix, step: float, unit: int, largest: int) -> npt.NDArray[np.int64]:
+    """Coefficients, shape (c, 3), in whole multiples of `step` / `unit`, cut to `largest` steps."""
+    scaled = np.rint(coefficients * (unit / step))
+    return np.clip(scaled, -largest * unit, largest * unit).astype(np.int64)

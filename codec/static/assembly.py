@@ -2,20 +2,19 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from collections.abc import Iterable
+from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
 
-from bitstream.errors import NumericError
+from codec.arrays import Indices, Matrix
 from codec.blocks.blend import Blend
 from codec.blocks.overlap import Blocks
-from codec.geometry.graph import Graph
-from codec.geometry.mesh import Positions
+from codec.geometry.mesh import TriangleMesh
 from codec.signal.smooth import DEGREE, LocalFilter, smooth
-
-Matrix = npt.NDArray[np.float64]
-Indices = npt.NDArray[np.int32]
+from codec.static.events import Changes, Losses
+from codec.static.preamble import Numbering
+from codec.static.units import Units
 
 
 @dataclass(frozen=True, eq=False)
@@ -28,44 +27,12 @@ class DecodedBlock:
     weights: Matrix
 
 
-@dataclass(frozen=True, eq=False)
-class Frame:
-    """Where positions in BSM units lie in the mesh's: position * scale + center."""
-
-    center: tuple[float, ...]
-    scale: float
-
-
-@dataclass(frozen=True, eq=False)
-class Changes:
-    """What a block changed: vertices, their positions in the mesh's unit, and which of them are final."""
-
-    vertices: Indices
-    positions: Positions
-    final: npt.NDArray[np.bool_]
-
-
-@dataclass(frozen=True, eq=False)
-class Losses:
-    """Vertices without any copy, and vertices that lack a copy or lie in the filter's reach of one that is missing."""
-
-    missing: Indices = field(default_factory=lambda: np.empty(0, np.int32))
-    degraded: Indices = field(default_factory=lambda: np.empty(0, np.int32))
-
-
-def in_mesh_units(positions: Matrix, center: tuple[float, ...], scale: float) -> Positions:
-    """Positions in BSM units as the mesh has them.
-
-    Raises
-    ------
-    NumericError
-        If one is beyond the range of numbers.
-    """
-    with np.errstate(over="ignore", invalid="ignore"):
-        moved = positions * scale + np.array(center)
-    if not np.isfinite(moved).all():
-        raise NumericError("positions are not finite in the unit of the mesh")
-    return moved
+def blended(size: int, blocks: Iterable[DecodedBlock]) -> Matrix:
+    """Positions of all `size` vertices, in BSM units, from all blocks."""
+    blend = Blend(size)
+    for block in blocks:
+        blend.add(block.vertices, block.positions, block.weights)
+    return blend.positions(np.arange(size, dtype=np.int32))
 
 
 class Assembly:
@@ -73,21 +40,20 @@ class Assembly:
 
     Parameters
     ----------
-    graph : Graph
     blocks : Blocks
     smoothing : float
         Amount of the decoder's filter.
-    frame : Frame
-    order : int32 array, shape (n,), optional
-        Number that the user knows each vertex by; None: its own.
+    units : Units
+    numbering : Numbering
     """
 
-    def __init__(self, graph: Graph, blocks: Blocks, smoothing: float, frame: Frame, order: Indices | None) -> None:
+    def __init__(self, blocks: Blocks, smoothing: float, units: Units, numbering: Numbering) -> None:
+        graph = blocks.graph
         self._graph = graph
         self._blocks = blocks
         self._smoothing = smoothing
-        self._frame = frame
-        self._order = order
+        self._units = units
+        self._numbering = numbering
         self._blend = Blend(graph.size)
         self._missing = np.bincount(blocks.members, minlength=graph.size)
         self._blended = np.zeros((graph.size, 3))
@@ -103,15 +69,11 @@ class Assembly:
         """Take note that a block will not come."""
         self._lost.append(index)
 
-    def positions(self) -> Positions:
-        """All positions, in the mesh's unit, once every block is in."""
+    def mesh(self) -> TriangleMesh:
+        """The mesh in its own unit, once every block is in."""
         everything = np.arange(self._graph.size, dtype=np.int32)
-        decoded = self._in_mesh_units(smooth(self._graph, self._blend.positions(everything), self._smoothing))
-        if self._order is None:
-            return decoded
-        arranged = np.empty_like(decoded)
-        arranged[self._order] = decoded
-        return arranged
+        decoded = self._units.back(smooth(self._graph, self._blend.positions(everything), self._smoothing))
+        return TriangleMesh(self._numbering.arranged(decoded), self._numbering.faces)
 
     def changes(self, block: DecodedBlock) -> Changes:
         """Blend one block in and say what it changed."""
@@ -124,8 +86,8 @@ class Assembly:
         moved = seen[~self._final[seen]]
         done = self._filter.smoothed(self._blended, finished)
         changed = np.concatenate([moved, finished])
-        positions = self._in_mesh_units(np.concatenate([self._blended[moved], done]))
-        return Changes(self._numbered(changed), positions, np.arange(len(changed)) >= len(moved))
+        positions = self._units.back(np.concatenate([self._blended[moved], done]))
+        return Changes(self._numbering.of(changed), positions, np.arange(len(changed)) >= len(moved))
 
     def losses(self) -> Losses:
         """What the blocks that were lost leave missing or less good."""
@@ -136,7 +98,7 @@ class Assembly:
         reach = DEGREE if self._smoothing else 0
         around = self._filter.around(touched, reach)
         degraded = around[self._blend.known(around)]
-        return Losses(self._numbered(touched[~known]), self._numbered(np.sort(degraded)))
+        return Losses(self._numbering.of(touched[~known]), self._numbering.of(np.sort(degraded)))
 
     def _finished(self, complete: Indices) -> Indices:
         """Vertices that become final when all copies of `complete` have come: none that the filter sees is missing."""
@@ -146,9 +108,3 @@ class Assembly:
         waiting = self._filter.around(around[self._missing[around] > 0], DEGREE)
         candidates = self._filter.around(complete, DEGREE)
         return np.setdiff1d(candidates[~self._final[candidates]], waiting)
-
-    def _numbered(self, vertices: Indices) -> Indices:
-        return vertices if self._order is None else self._order[vertices]
-
-    def _in_mesh_units(self, positions: Matrix) -> Positions:
-        return in_mesh_units(positions, self._frame.center, self._frame.scale)

@@ -5,12 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass, fields
 
 from bitstream.errors import OptionError
+from codec.static.rules import BASES, BLENDS, SEEDS
 from codec.static.targets import Target
 
 CHOICES = {
-    "basis": ("oi", "svd"),
-    "seed": ("previous", "independent"),
-    "blend": ("degree", "uniform", "own"),
+    "basis": BASES,
+    "seed": SEEDS,
+    "blend": BLENDS,
     "partition": ("derived", "metis"),
 }
 RANGES: dict[str, tuple[float, float]] = {
@@ -134,6 +135,11 @@ class EncodeOptions:
             return self.detail
         distance = self.target is not None and self.target.kind in ("nmsve_db", "max_error_relative")
         return 0.0 if distance or self.bits is not None or self.doi is not None else DETAIL_RATIO
+
+    @property
+    def fixed_smoothing(self) -> float | None:
+        """The amount of smoothing, if it is not to be chosen by trying."""
+        return 0.0 if self.bits is not None and self.smoothing is None else self.smoothing
 
 
 DETAIL_RATIO = 3.0

@@ -1,4 +1,4 @@
-"""Everything that both sides derive from the decoded faces and a few numbers of the header, before any coefficient."""
+"""How much work a stream asks for, and how much it may."""
 
 from __future__ import annotations
 
@@ -7,9 +7,7 @@ from threading import Lock
 import numpy as np
 
 from bitstream.limits import Limits
-from codec.blocks.overlap import Block, Blocks, grow_blocks
-from codec.blocks.partition import Partition
-from codec.geometry.graph import Graph
+from codec.blocks.overlap import Block
 
 
 def dictionary_work(blocks: int, block_size: int, coefficients: int, solves: int) -> float:
@@ -63,8 +61,3 @@ class Allowance:
         with self._lock:
             self._spent += work
             self._limits.check("work", self._spent)
-
-
-def build_blocks(graph: Graph, partition: Partition, size: int) -> Blocks:
-    """Blocks of a partition, grown to n_d = `size`."""
-    return grow_blocks(graph, partition, size)

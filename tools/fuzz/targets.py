@@ -25,7 +25,8 @@ from bitstream.limits import Limits
 from bsm.files.mesh import MESH_FORMATS, read_mesh
 from codec.geometry.graph import graph_of_faces
 from codec.sequence.decoder import FrameEvent, SequenceDecoder
-from codec.static.decoder import BlockEvent, Decoder, decode
+from codec.static.decoder import Decoder, decode
+from codec.static.events import BlockEvent
 
 Target = Callable[[bytes], None]
 

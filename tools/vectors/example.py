@@ -19,7 +19,7 @@ from codec.blocks.overlap import grow_blocks
 from codec.blocks.partition import derive_partition
 from codec.geometry.graph import graph_of_faces
 from codec.signal.chain import Chain
-from codec.static.decoder import chain_rules
+from codec.static.rules import chain_rules
 from tools.surgery import frames_of, header_entries
 from tools.vectors.store import FOLDER
 

@@ -1,0 +1,23 @@
+"""The kinds of arrays that the mathematics is about, by name; what shape they have is said where they are used."""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+
+Matrix = npt.NDArray[np.float64]
+"""Real numbers, of any shape."""
+Positions = npt.NDArray[np.float64]
+"""Coordinates of vertices, shape (n, 3), or of frames, shape (T, n, 3)."""
+Faces = npt.NDArray[np.int32]
+"""Vertices of triangles, shape (m, 3)."""
+Indices = npt.NDArray[np.int32]
+"""Numbers of vertices, rows, parts, or faces."""
+Order = npt.NDArray[np.int64]
+"""The same in the width that numpy's own index arrays have."""
+Levels = npt.NDArray[np.int32]
+"""Quantized coefficients, in steps."""
+Integers = npt.NDArray[np.signedinteger]
+"""Whole numbers of any width."""
+Mask = npt.NDArray[np.bool_]
+"""What holds for which vertex."""

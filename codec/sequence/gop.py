@@ -1,0 +1,240 @@
+"""GOPs: what every one of them builds upon, and the coders of their frames, one for each direction.
+
+Positions are in BSM units throughout.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from bitstream.coefficients.matrices import decode_levels, encode_levels, make_level_bank
+from bitstream.container.gop import MAX_EXPONENT, GopBody, GopMethod
+from bitstream.entropy.range_coder import Bank
+from bitstream.errors import CorruptError
+from codec.arrays import Faces, Levels, Matrix
+from codec.blocks.overlap import Blocks
+from codec.sequence.dictionaries import Part, build_dictionaries, differences
+from codec.sequence.options import SequenceOptions
+from codec.sequence.row_prediction import (
+    Loop,
+    cosine_basis,
+    dequantize_basis,
+    frames_of,
+    quantize_basis,
+    trajectories,
+)
+from codec.sequence.temporal import WORTH, bits_estimate, learn_basis, projection
+from codec.static.block_coder import Progress
+
+BATCH = 16
+"""Frames that are reconstructed at a time."""
+
+
+@dataclass(frozen=True, eq=False)
+class Setting:
+    """What every GOP of a sequence is coded with.
+
+    Parameters
+    ----------
+    vertices : int
+    parts : tuple of Part
+    first : list of float64 arrays, shapes (c_i, 3)
+        The decoded first frame, each part as its difference from what the parts before let expect.
+    """
+
+    vertices: int
+    parts: tuple[Part, ...]
+    first: list[Matrix]
+
+    def empty_levels(self, columns: int) -> list[Levels]:
+        """Levels of all parts, to be read."""
+        return [np.zeros((part.basis.shape[1], columns), np.int32) for part in self.parts]
+
+
+def make_setting(
+    blocks: Blocks, faces: Faces, first_frame: Matrix, *, width: int, cotangent: bool, threads: int | None
+) -> Setting:
+    """Build the dictionaries from the decoded first frame, shape (n, 3); see `build_dictionaries`."""
+    parts = build_dictionaries(blocks, faces, first_frame, width, cotangent, threads)
+    return Setting(len(first_frame), parts, differences(parts, first_frame))
+
+
+def level_references(matrices: list[Levels], columns: int) -> list[Levels]:
+    """What the levels of each block are expected to resemble within a GOP: those of the block before."""
+    return [np.zeros((0, columns), np.int32), *matrices[:-1]]
+
+
+def decode_basis(body: GopBody) -> Matrix:
+    """Temporal basis of a GOP, shape (3T, r)."""
+    if body.method is GopMethod.COSINES:
+        return np.ascontiguousarray(cosine_basis(body.frames)[:, : body.components])
+    levels = np.zeros((3, body.frames, body.components), np.int32)
+    decode_levels(make_level_bank(), body.basis, list(levels), level_references(list(levels), body.components))
+    return dequantize_basis(levels, body.exponents)
+
+
+class FrameHistory:
+    """What low-delay frames of one block after another refer to; starts anew with every key frame.
+
+    Attributes
+    ----------
+    bank : Bank
+        Adaptive state of the entropy coder.
+    levels : list of int32 arrays
+        Of the latest frame.
+    """
+
+    def __init__(self, first: list[Matrix]) -> None:
+        self.bank: Bank = make_level_bank()
+        self.levels = [np.zeros((len(matrix), 3), np.int32) for matrix in first]
+        self.loops = [Loop(9, 3) for _ in first]
+        self._first = first
+        self._latest = first
+        self._before = first
+
+    def known(self, block: int) -> Matrix:
+        """What predicts a block's next change, shape (c_i, 9)."""
+        latest = self._latest[block]
+        return np.concatenate([self._first[block], latest, latest - self._before[block]], axis=1)
+
+    def base(self, block: int) -> Matrix:
+        """Coefficients that the change is added to."""
+        return self._latest[block]
+
+    def commit(self, levels: list[Levels], coefficients: list[Matrix]) -> None:
+        """Make a frame the latest."""
+        self.levels = levels
+        self._latest, self._before = coefficients, self._latest
+
+
+class GopEncoder:
+    """Encodes one GOP after the other; the twin of `GopDecoder`."""
+
+    def __init__(self, setting: Setting, options: SequenceOptions) -> None:
+        self._setting = setting
+        self._options = options
+        self._step = float(np.float32(options.step))
+        self._history = FrameHistory(setting.first)
+
+    def encode(self, frames: Matrix, number: int, progress: Progress) -> GopBody:
+        """Encode frames, shape (T, n, 3), from frame `number` of the sequence on."""
+        if self._options.mode == "low-delay":
+            return self._single(frames[0], number % self._options.gop == 0, progress)
+        return self._transformed(trajectories(frames), progress)
+
+    def _single(self, wanted: Matrix, key: bool, progress: Progress) -> GopBody:
+        if key:
+            self._history = FrameHistory(self._setting.first)
+        history = self._history
+        frame = np.zeros_like(wanted)
+        levels, coefficients = [], []
+        for k, part in enumerate(self._setting.parts):
+            target = part.basis.T @ wanted[part.vertices] - part.extend(frame) - history.base(k)
+            coded, change = history.loops[k].encode(history.known(k), target, self._step, self._options.rounding)
+            levels.append(coded)
+            coefficients.append(history.base(k) + change)
+            part.place(frame, coefficients[k])
+            progress(len(levels), len(self._setting.parts))
+        payload = encode_levels(history.bank, levels, history.levels)
+        history.commit(levels, coefficients)
+        method = GopMethod.KEY_FRAME if key else GopMethod.NEXT_FRAME
+        return GopBody(method, 1, self._step, 3, np.empty(0, np.int32), b"", payload)
+
+    def _transformed(self, motion: Matrix, progress: Progress) -> GopBody:
+        """Encode trajectories, shape (n, 3T)."""
+        candidates = []
+        if self._options.transform != "cosine":
+            candidates.append(self._learnt(motion))
+        if self._options.transform != "learnt":
+            candidates.append(self._cosines(motion))
+        body = min(candidates, key=lambda candidate: self._cost(motion, candidate)) if candidates[1:] else candidates[0]
+        return self._coded(motion, body, progress)
+
+    def _learnt(self, motion: Matrix) -> GopBody:
+        basis = learn_basis(motion, self._step, MAX_EXPONENT)
+        levels = quantize_basis(basis.columns, basis.exponents, self._options.rounding)
+        columns = basis.columns.shape[1]
+        coded = encode_levels(make_level_bank(), list(levels), level_references(list(levels), columns))
+        return GopBody(GopMethod.LEARNT, levels.shape[1], self._step, columns, basis.exponents, coded, b"")
+
+    def _cosines(self, motion: Matrix) -> GopBody:
+        frames = motion.shape[1] // 3
+        energies = np.square(motion @ cosine_basis(frames)).sum(axis=0)
+        worth = np.flatnonzero(energies > WORTH * self._step**2)
+        columns = int(np.max(worth, initial=0)) + 1
+        return GopBody(GopMethod.COSINES, frames, self._step, columns, np.empty(0, np.int32), b"", b"")
+
+    def _cost(self, motion: Matrix, body: GopBody) -> float:
+        components = motion @ projection(decode_basis(body))
+        return bits_estimate(components, self._step) + 8.0 * len(body.basis)
+
+    def _coded(self, motion: Matrix, body: GopBody, progress: Progress) -> GopBody:
+        """The GOP with the levels of its blocks."""
+        wanted = motion @ projection(decode_basis(body))
+        field = np.zeros_like(wanted)
+        levels = []
+        for part, first in zip(self._setting.parts, self._setting.first):
+            target = part.basis.T @ wanted[part.vertices] - part.extend(field)
+            coded, decoded = Loop(3, body.components).encode(first, target, self._step, self._options.rounding)
+            part.place(field, decoded)
+            levels.append(coded)
+            progress(len(levels), len(self._setting.parts))
+        payload = encode_levels(make_level_bank(), levels, level_references(levels, body.components))
+        return replace(body, levels=payload)
+
+
+class GopDecoder:
+    """Decodes one GOP after the other."""
+
+    def __init__(self, setting: Setting) -> None:
+        self._setting = setting
+        self._history: FrameHistory | None = None
+
+    def forget(self) -> None:
+        """Take note that frames are missing here."""
+        self._history = None
+
+    def decode(self, body: GopBody) -> Iterator[Matrix]:
+        """The frames of a GOP, shape (n, 3); all that its levels can have wrong is raised before the first of them."""
+        if body.method <= GopMethod.COSINES:
+            self.forget()
+            return self._transformed(body)
+        return iter([self._single(body)])
+
+    def _single(self, body: GopBody) -> Matrix:
+        if body.method is GopMethod.KEY_FRAME:
+            self._history = FrameHistory(self._setting.first)
+        history, self._history = self._history, None  # until all has gone well
+        if history is None:
+            raise CorruptError("a frame refers to one that is not there")
+        levels = self._setting.empty_levels(3)
+        decode_levels(history.bank, body.levels, levels, history.levels)
+        frame = np.zeros((self._setting.vertices, 3))
+        coefficients = []
+        for k, part in enumerate(self._setting.parts):
+            change = history.loops[k].decode(history.known(k), levels[k], body.step)
+            coefficients.append(history.base(k) + change)
+            part.place(frame, coefficients[k])
+        history.commit(levels, coefficients)
+        self._history = history
+        return frame
+
+    def _transformed(self, body: GopBody) -> Iterator[Matrix]:
+        setting, columns = self._setting, body.components
+        basis = decode_basis(body)
+        levels = setting.empty_levels(columns)
+        decode_levels(make_level_bank(), body.levels, levels, level_references(levels, columns))
+        field = np.zeros((setting.vertices, columns))
+        for part, matrix, first in zip(setting.parts, levels, setting.first):
+            part.place(field, Loop(3, columns).decode(first, matrix, body.step))
+        return _batches(field, basis.reshape(3, body.frames, columns))
+
+
+def _batches(field: Matrix, basis: Matrix) -> Iterator[Matrix]:
+    """The frames of components, shape (n, r), over a basis, shape (3, T, r), a few at a time."""
+    for start in range(0, basis.shape[1], BATCH):
+        part = basis[:, start : start + BATCH]
+        yield from frames_of(field @ part.reshape(3 * part.shape[1], -1 if part.size else 0).T)

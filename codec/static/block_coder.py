@@ -1,0 +1,132 @@
+"""One block after the other: around, dictionary, prediction, code, commit; the same steps on both sides."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from bitstream.container import packets
+from bitstream.errors import BsmError, CorruptError, NumericError
+from codec.arrays import Matrix
+from codec.basis.dynamic_size import DynamicSize
+from codec.signal.chain import Chain
+from codec.signal.predict import extend
+from codec.static.assembly import DecodedBlock
+from codec.static.coding import Ground
+from codec.static.rules import Scheme
+from codec.static.work import Allowance, block_work
+from codec.threads import ordered_map
+
+Progress = Callable[[int, int], None]
+
+
+@dataclass(frozen=True, eq=False)
+class CodedBlock:
+    """A block as the stream will hold it, and as the decoder will see it."""
+
+    packet: packets.Block
+    decoded: DecodedBlock
+
+
+class ChainEncoder:
+    """Encodes the blocks of one chain, in their order; the twin of `ChainDecoder`.
+
+    Parameters
+    ----------
+    scheme : Scheme
+    doi : (float, float), optional
+        eps_l and eps_h of dynamic orthogonal iterations; None: a block gets as many coefficients as pay.
+    """
+
+    def __init__(self, scheme: Scheme, doi: tuple[float, float] | None = None) -> None:
+        self._scheme = scheme
+        self._sizes = None if doi is None else DynamicSize(*doi, scheme.coding.width)
+        self._chain = Chain(scheme.rules, scheme.blocks.graph)
+        self._coding = scheme.coding.begin()
+
+    def encode(self, index: int, positions: Matrix) -> CodedBlock:
+        """Encode the chain's next block; `positions`, shape (n, 3), are the whole mesh's, in BSM units."""
+        scheme, chain, coding = self._scheme, self._chain, self._coding
+        block = scheme.blocks.block(index)
+        around = chain.around(block)
+        dictionary = chain.dictionary(block, around, coding.width)
+        ground = Ground(block, extend(block, around), dictionary)
+        levels = coding.choose(ground, positions[block.vertices], self._sizes)
+        decoded = coding.positions(ground, levels)
+        chain.commit(block, np.ascontiguousarray(dictionary[:, : levels.width]), decoded)
+        packet = packets.Block(index, len(levels.coordinates), coding.write(levels))
+        return CodedBlock(packet, DecodedBlock(index, block.vertices, decoded, scheme.weights(index, block)))
+
+
+class ChainDecoder:
+    """Decodes the blocks of chain `number`, in their order."""
+
+    def __init__(self, scheme: Scheme, number: int, allowance: Allowance) -> None:
+        self.number = number
+        self._scheme = scheme
+        self._allowance = allowance
+        self._next = number * scheme.rules.chain_length(scheme.blocks.count)
+        self._chain = Chain(scheme.rules, scheme.blocks.graph)
+        self._coding = scheme.coding.begin()
+
+    def decode(self, packet: packets.Block) -> DecodedBlock:
+        """Decode the chain's next block; once one is missing or broken, the rest of the chain cannot be decoded."""
+        try:
+            if packet.index != self._next:
+                raise CorruptError(f"the block depends on block {self._next}, which is lost")
+            decoded = self._decode(packet)
+        except BsmError as error:
+            raise error.located(block=packet.index) from None
+        self._next += 1
+        return decoded
+
+    def _decode(self, packet: packets.Block) -> DecodedBlock:
+        scheme, chain, coding = self._scheme, self._chain, self._coding
+        block = scheme.blocks.block(packet.index)
+        if not 1 <= packet.coefficients <= block.size:
+            raise CorruptError(f"{packet.coefficients} coefficients for a block of {block.size} vertices")
+        levels = coding.read(packet.data, packet.coefficients, block.size)
+        around = chain.around(block)
+        self._allowance.spend(block_work(block, levels.width, scheme.rules.solves, scheme.rules.exact))
+        dictionary = chain.dictionary(block, around, levels.width)
+        ground = Ground(block, extend(block, around), dictionary)
+        decoded = coding.positions(ground, levels)
+        chain.commit(block, dictionary, decoded)
+        if not np.isfinite(decoded).all():
+            raise NumericError("the coefficients reconstruct to positions that are not finite")
+        return DecodedBlock(packet.index, block.vertices, decoded, scheme.weights(packet.index, block))
+
+
+def encode_blocks(
+    scheme: Scheme,
+    positions: Matrix,
+    *,
+    threads: int | None,
+    doi: tuple[float, float] | None = None,
+    progress: Progress | None = None,
+) -> list[CodedBlock]:
+    """All blocks of a mesh at `positions`, shape (n, 3), in BSM units; chains are encoded side by side.
+
+    Parameters
+    ----------
+    scheme, doi
+        See `ChainEncoder`.
+    positions : float64 array, shape (n, 3)
+    threads : int, optional
+        None: one per core.
+    progress : callable, optional
+        Told the number of blocks done and of all blocks.
+    """
+
+    def encode_chain(indices: range) -> list[CodedBlock]:
+        chain = ChainEncoder(scheme, doi)
+        return [chain.encode(index, positions) for index in indices]
+
+    coded: list[CodedBlock] = []
+    for chain in ordered_map(encode_chain, scheme.chains, threads):
+        coded.extend(chain)
+        if progress:
+            progress(len(coded), scheme.blocks.count)
+    return coded

@@ -1,0 +1,116 @@
+"""What the decoders of meshes and of sequences report."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from bitstream.container.header import Header
+from bitstream.container.packets import Damaged
+from bitstream.errors import BsmError, CorruptError
+from codec.arrays import Faces, Indices, Mask, Positions
+
+
+@dataclass(frozen=True)
+class HeaderEvent:
+    """The header has arrived."""
+
+    header: Header
+
+
+@dataclass(frozen=True, eq=False)
+class ConnectivityEvent:
+    """The faces have arrived, shape (m, 3), with all that is needed to decode blocks.
+
+    Where the stream stores the order that the mesh had, faces and all vertex numbers are in that order.
+    """
+
+    faces: Faces
+
+
+@dataclass(frozen=True, eq=False)
+class Changes:
+    """What a block changed: vertices, their positions in the mesh's unit, and which of them are final."""
+
+    vertices: Indices
+    positions: Positions
+    final: Mask
+
+
+@dataclass(frozen=True, eq=False)
+class BlockEvent:
+    """A block has been decoded.
+
+    Parameters
+    ----------
+    index : int
+        Of the block.
+    changes : Changes
+        Vertices that this block moved or finished, their positions in the mesh's unit, and which of them no later
+        block will move.
+    """
+
+    index: int
+    changes: Changes
+
+    @property
+    def vertices(self) -> Indices:
+        """Vertices that this block moved or finished, shape (v,)."""
+        return self.changes.vertices
+
+    @property
+    def positions(self) -> Positions:
+        """Where they are now, in the mesh's unit, shape (v, 3)."""
+        return self.changes.positions
+
+    @property
+    def final(self) -> Mask:
+        """Which of them no later block will move, shape (v,)."""
+        return self.changes.final
+
+
+@dataclass(frozen=True)
+class LossEvent:
+    """A tolerant decoder could not decode something, and goes on.
+
+    Parameters
+    ----------
+    block : int, optional
+        The block of a static mesh that is lost; None for bytes that belong to no block that is known.
+    error : BsmError
+        Why, and where in the stream.
+    frames : range
+        The frames of a sequence that are lost; empty, but with a start, where their number is not known.
+    """
+
+    block: int | None
+    error: BsmError
+    frames: range = range(0)
+
+
+@dataclass(frozen=True, eq=False)
+class Losses:
+    """Vertices without any copy, and vertices that lack a copy or lie in the filter's reach of one that is missing."""
+
+    missing: Indices = field(default_factory=lambda: np.empty(0, np.int32))
+    degraded: Indices = field(default_factory=lambda: np.empty(0, np.int32))
+
+
+@dataclass(frozen=True, eq=False)
+class EndEvent:
+    """The stream has come to its end.
+
+    Parameters
+    ----------
+    losses : Losses
+        Vertices that are missing or less good; none, and the checksum of the stream right, unless the decoder is
+        tolerant.
+    """
+
+    losses: Losses = field(default_factory=Losses)
+
+
+def unreadable(damage: Damaged) -> CorruptError:
+    """What a tolerant decoder reports, and a preamble raises, where bytes were damaged."""
+    return CorruptError(f"{damage.length} bytes cannot be read: {damage.reason}", offset=damage.offset)

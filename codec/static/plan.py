@@ -1,0 +1,154 @@
+"""How a mesh is going to be coded, by the encoder's options and by what is measured on the mesh."""
+
+from __future__ import annotations
+
+from functools import cached_property
+
+import numpy as np
+
+from bitstream.errors import OptionError
+from codec.arrays import Faces, Indices, Matrix
+from codec.geometry.metrics import Reference
+from codec.signal.bandwidth import MeasuredSpectrum
+from codec.signal.chain import Chain, ChainRules, even_interval
+from codec.signal.detail import Surface, make_surface
+from codec.signal.quantize import packed_range, smallest_step
+from codec.signal.smooth import smoothing_spectrum
+from codec.signal.transform import project
+from codec.static.coding import Adaptive, Coding, Layered, Packed
+from codec.static.options import EncodeOptions
+from codec.static.preamble import Prepared
+from codec.static.rules import STIFFNESS, Scheme
+from codec.static.units import single
+from codec.threads import ordered_map
+
+PAPER_FRACTION = 0.10
+"""Coefficients of a block, as a fraction of its vertices, with a fixed number of bits."""
+BASE_REACH = 4.0
+"""With a detail layer, x, y and z go as far as they would pay at a step so many times that of the details."""
+DETAIL_REACH = 0.9
+"""Details go as far as would pay at a step so many times their own."""
+SMOOTHING_FACES = 1 << 17
+"""On more faces than these, smoothing is not tried."""
+SMOOTHING_STEPS = tuple(2.0**k for k in range(-3, 7))
+
+
+class Planner:
+    """Makes the plan for one step after another; what is measured on the mesh alone is measured once."""
+
+    def __init__(self, prepared: Prepared, options: EncodeOptions) -> None:
+        self._prepared = prepared
+        self._options = options
+
+    def scheme(self, step: float) -> Scheme:
+        """How blocks are coded at a step.
+
+        Raises
+        ------
+        OptionError
+            If the step is too fine for levels to hold.
+        """
+        rules = self._rules()
+        coding = self._coding(step) if self._options.bits is None else self._packed(self._options.bits, rules)
+        return Scheme(self._prepared.blocks, rules, coding, self._options.blend)
+
+    def smoothing(self, blended: Matrix) -> float:
+        """The amount of smoothing that lowers what the options are after most, for a decoded mesh before it."""
+        vertices, reference = self._sample
+        spectrum = smoothing_spectrum(self._prepared.graph, blended).only(vertices)
+        best, least = 0.0, self._badness(reference, spectrum.smoothed(0.0))
+        for amount in SMOOTHING_STEPS:
+            badness = self._badness(reference, spectrum.smoothed(amount))
+            if badness >= least:
+                break
+            best, least = amount, badness
+        return best
+
+    def _rules(self) -> ChainRules:
+        options = self._options
+        predicted = options.predict and options.seed == "previous" and options.bits is None
+        return ChainRules(
+            exact=options.basis == "svd",
+            independent=options.seed == "independent",
+            key_interval=even_interval(options.key_interval, self._prepared.blocks.count),
+            power=options.power,
+            iterations=options.iterations,
+            key_iterations=options.key_iterations,
+            shift=single(options.shift),
+            stiffness=STIFFNESS if predicted else None,
+        )
+
+    def _coding(self, step: float) -> Coding:
+        size, ratio = self._prepared.size, self._options.detail_ratio
+        if step < smallest_step(size):
+            raise OptionError(f"step = {step:g} is too fine for blocks of {size}, try {smallest_step(size):.1e}")
+        if not ratio:
+            return Adaptive(self._width(step), single(step))
+        details = min(self._spectrum.worthwhile_size(DETAIL_REACH * step), size)
+        base = Adaptive(self._width(BASE_REACH * step), single(step * ratio))
+        return Layered(base, details, single(step), self._surface)
+
+    def _width(self, step: float) -> int:
+        """c: what the options say, or as many coefficients as are worth coding at this step."""
+        options, size = self._options, self._prepared.size
+        if options.coefficients is not None:
+            return min(options.coefficients, size)
+        if options.keep is not None:
+            return min(max(1, round(options.keep * size)), size)
+        return min(self._spectrum.worthwhile_size(step), size)
+
+    def _packed(self, bits: int, rules: ChainRules) -> Packed:
+        """With the step that makes the most of a fixed number of bits: it takes a pass over all blocks."""
+        blocks, positions, size = self._prepared.blocks, self._prepared.positions, self._prepared.size
+        width = min(self._options.coefficients or max(1, round((self._options.keep or PAPER_FRACTION) * size)), size)
+
+        def largest(indices: range) -> Matrix:
+            """Largest coefficient in the first row of any block, and in all others."""
+            chain, found = Chain(rules, blocks.graph), np.zeros(2)
+            for index in indices:
+                block = blocks.block(index)
+                dictionary = chain.dictionary(block, chain.around(block), width)
+                coefficients = np.abs(project(dictionary, positions[block.vertices], dictionary.shape[1]))
+                chain.commit(block, dictionary, positions[block.vertices])
+                found = np.maximum(found, [coefficients[:1].max(), coefficients[1:].max(initial=0.0)])
+            return found
+
+        chains = ordered_map(largest, rules.chains(blocks.count), self._options.threads)
+        first, others = np.max(list(chains), axis=0)
+        return Packed(width, bits, *packed_range(first, others, bits))
+
+    @cached_property
+    def _spectrum(self) -> MeasuredSpectrum:
+        return MeasuredSpectrum(self._prepared.blocks, self._prepared.positions, shift=self._options.shift)
+
+    @cached_property
+    def _surface(self) -> Surface:
+        return make_surface(self._prepared.mesh.faces, len(self._prepared.positions))
+
+    @cached_property
+    def _sample(self) -> tuple[Indices, Reference]:
+        """Vertices on which smoothing is tried, and the original there: all of them, unless they are very many."""
+        positions = self._prepared.positions
+        faces = _spread(self._prepared.mesh.faces, SMOOTHING_FACES)
+        used = np.zeros(len(positions), np.bool_)
+        used[faces] = True
+        vertices = np.flatnonzero(used).astype(np.int32)
+        number = np.cumsum(used) - 1
+        return vertices, Reference(positions[vertices], number[faces])
+
+    def _badness(self, reference: Reference, decoded: Matrix) -> float:
+        """What smoothing shall lower: the target's own measure, or else theta and NMSVE together."""
+        target = self._options.target
+        if target is not None and target.kind == "theta_deg":
+            return reference.theta(decoded)
+        if target is not None and target.kind == "nmsve_db":
+            return reference.nmsve(decoded)
+        return reference.theta(decoded) * reference.nmsve(decoded)
+
+
+def _spread(faces: Faces, most: int) -> Faces:
+    """All faces if they are at most `most`; otherwise so many, in sixteen runs of successive ones."""
+    if len(faces) <= most:
+        return faces
+    starts = np.linspace(0, len(faces) - most // 16, 16).astype(np.int64)
+    return np.concatenate([faces[start : start + most // 16] for start in starts])

@@ -1,0 +1,89 @@
+"""What a header says about blocks, as the mathematics takes it, and back."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from bitstream.container.header import Header
+from codec.arrays import Faces, Matrix
+from codec.blocks.blend import copy_weights
+from codec.blocks.overlap import Block, Blocks
+from codec.signal.chain import ChainRules
+from codec.static.coding import Coding, coding_of
+
+BASES = ("oi", "svd")
+SEEDS = ("previous", "independent")
+BLENDS = ("degree", "uniform", "own")
+"""Names of the methods that a header numbers."""
+
+STIFFNESS = 8.0
+"""Of the springs on which a block hangs, in streams of this encoder."""
+
+
+@dataclass(frozen=True, eq=False)
+class Scheme:
+    """All that both sides know before the first block.
+
+    Parameters
+    ----------
+    blocks : Blocks
+    rules : ChainRules
+    coding : Coding
+        As it is where a chain begins.
+    blend : str
+        One of `BLENDS`.
+    """
+
+    blocks: Blocks
+    rules: ChainRules
+    coding: Coding
+    blend: str
+
+    @property
+    def chains(self) -> list[range]:
+        """Indices of the blocks of each chain."""
+        return self.rules.chains(self.blocks.count)
+
+    def chain_of(self, index: int) -> int:
+        """The chain that a block belongs to."""
+        return index // self.rules.chain_length(self.blocks.count)
+
+    def weights(self, index: int, block: Block) -> Matrix:
+        """Weight of each row of block `index` in the blend."""
+        return copy_weights(self.blend, self.blocks, index, block)
+
+    def fields(self) -> dict[str, Any]:
+        """Twin of `scheme_of`: what the header has to say."""
+        rules = self.rules
+        return self.coding.fields | {
+            "blocks": self.blocks.count,
+            "basis": int(rules.exact),
+            "seeding": int(rules.independent),
+            "key_interval": rules.key_interval,
+            "power": rules.power,
+            "iterations": rules.iterations,
+            "key_iterations": rules.key_iterations,
+            "shift": rules.shift,
+            "prediction": () if rules.stiffness is None else (rules.stiffness,),
+            "blend": BLENDS.index(self.blend),
+        }
+
+
+def scheme_of(header: Header, faces: Faces, blocks: Blocks) -> Scheme:
+    """What the header says; `faces`, shape (m, 3), as the decoder numbers them."""
+    return Scheme(blocks, chain_rules(header), coding_of(header, faces), BLENDS[header.blend])
+
+
+def chain_rules(header: Header) -> ChainRules:
+    """What a header says about chains and dictionaries."""
+    return ChainRules(
+        exact=header.basis == 1,
+        independent=header.seeding == 1,
+        key_interval=header.key_interval,
+        power=header.power,
+        iterations=header.iterations,
+        key_iterations=header.key_iterations,
+        shift=header.shift,
+        stiffness=header.prediction[0] if header.prediction else None,
+    )

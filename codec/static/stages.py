@@ -1,0 +1,125 @@
+"""The frame of both decoders: bytes come, a stage takes the packets in, events go.
+
+Where a decoder stands is the type of its stage: the preamble's (`codec.static.preamble`), then those of blocks or of
+frames, and `Ended` or `Failed`. Whatever a stream may consist of behind its faces is one more of them.
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections import deque
+from dataclasses import dataclass
+from types import TracebackType
+from typing import Any, Generic, Protocol, TypeAlias, TypeVar
+
+from bitstream.container.packets import Damaged, Metadata, Packet
+from bitstream.container.reader import END_OF_STREAM, NEED_DATA, Reader, Signal
+from bitstream.container.tolerant import TolerantReader
+from bitstream.errors import BsmError, CorruptError
+from bitstream.limits import DEFAULT_LIMITS, Limits
+
+Item = TypeVar("Item")
+Self = TypeVar("Self", bound="StreamDecoder[Any]")
+Arrival: TypeAlias = Packet | Damaged | Signal
+"""What a stage takes in; of the signals only `END_OF_STREAM`, once."""
+
+
+class Stage(Protocol[Item]):
+    """Where a decoder stands."""
+
+    def accept(self, arrival: Arrival, queue: deque[Item]) -> Stage[Item]:
+        """Take in what comes next, queue what follows from it, and say where the decoder stands then.
+
+        Raises
+        ------
+        BsmError
+            If it may not come here, or is wrong.
+        """
+
+
+class Ended:
+    """Everything was there."""
+
+    def accept(self, arrival: Arrival, queue: deque[Any]) -> Stage[Any]:
+        raise misplaced(arrival)
+
+
+@dataclass(frozen=True, eq=False)
+class Failed:
+    """The first error; it is raised when the events before it were taken, and then by every call."""
+
+    error: BsmError
+
+    def accept(self, arrival: Arrival, queue: deque[Any]) -> Stage[Any]:
+        raise self.error
+
+
+def misplaced(arrival: Arrival) -> CorruptError:
+    """The error for what may not come where it does."""
+    if arrival is END_OF_STREAM:
+        return CorruptError("the stream ends before its first block")
+    return CorruptError(f"{type(arrival).__name__} may not come here")
+
+
+class StreamDecoder(ABC, Generic[Item]):
+    """Takes the bytes of a stream as they come, and queues what follows from them.
+
+    A context manager: leaving it stops its threads.
+    """
+
+    def __init__(self, first: Stage[Item], limits: Limits = DEFAULT_LIMITS, *, tolerant: bool = False) -> None:
+        self._tolerant = tolerant
+        self._reader = TolerantReader(limits) if tolerant else Reader(limits)
+        self._queue: deque[Item] = deque()
+        self._stage = first
+
+    def __enter__(self: Self) -> Self:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.close()
+
+    @abstractmethod
+    def close(self) -> None:
+        """Stop the threads; what was not asked for is given up."""
+
+    def receive_data(self, data: bytes | bytearray | memoryview) -> None:
+        """Take more bytes of the stream."""
+        self._reader.receive_data(data)
+
+    def receive_eof(self) -> None:
+        """Take note that no more bytes will come."""
+        self._reader.receive_eof()
+
+    def _read(self) -> bool:
+        """Take one packet in; False where there is none, or none can be any more."""
+        if isinstance(self._stage, Ended | Failed):
+            return False
+        try:
+            packet = self._reader.next_packet()
+            if packet is NEED_DATA:
+                return False
+            if not isinstance(packet, Metadata):
+                self._stage = self._stage.accept(packet, self._queue)
+        except BsmError as error:
+            span = self._reader.last_frame
+            self._stage = Failed(error.located(offset=span.offset, frame=span.number) if span else error)
+        return True
+
+    def _signal(self) -> Signal:
+        """Why there is no event, or the error in place of it."""
+        match self._stage:
+            case Failed(error):
+                raise error
+            case Ended():
+                return END_OF_STREAM
+            case _:
+                return NEED_DATA
+
+    def _fail(self, error: BsmError) -> BsmError:
+        """Give up; returns the error, to be raised."""
+        self._queue.clear()
+        self._stage = Failed(error)
+        return error

@@ -1,0 +1,65 @@
+"""BSM units, in which every mesh is about one long, and the way back to the unit of the mesh."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from bitstream.errors import NumericError
+from codec.arrays import Matrix, Positions
+from codec.geometry.mesh import TriangleMesh
+
+
+@dataclass(frozen=True)
+class Units:
+    """Where BSM units lie in the mesh's.
+
+    Parameters
+    ----------
+    center : tuple of float
+        Their origin, in the mesh's unit.
+    scale : float
+        One of them in the mesh's unit.
+    """
+
+    center: tuple[float, ...]
+    scale: float
+
+    def into(self, positions: Positions) -> Matrix:
+        """Positions of the mesh in BSM units."""
+        return (positions - np.array(self.center)) / self.scale
+
+    def back(self, positions: Matrix) -> Positions:
+        """Positions in BSM units as the mesh has them.
+
+        Raises
+        ------
+        NumericError
+            If one is beyond the range of numbers.
+        """
+        with np.errstate(over="ignore", invalid="ignore"):
+            moved = positions * self.scale + np.array(self.center)
+        if not np.isfinite(moved).all():
+            raise NumericError("positions are not finite in the unit of the mesh")
+        return moved
+
+
+def units_of(mesh: TriangleMesh) -> Units:
+    """Centre and diagonal of the bounding box, in single precision where that is exact enough."""
+    low, high = mesh.positions.min(axis=0), mesh.positions.max(axis=0)
+    center, diagonal = low / 2 + high / 2, mesh.diagonal
+    if not diagonal > 0.0:
+        return Units(tuple(center), 1.0)
+    with np.errstate(over="ignore"):
+        coarse = center.astype(np.float32).astype(np.float64)
+        # Rounded up, so that positions stay within half a unit of the centre.
+        scale = float(np.nextafter(np.float32(diagonal * (1 + 4e-6)), np.float32(np.inf)))
+    if np.abs(coarse - center).max() < 1e-6 * diagonal:
+        center = coarse
+    return Units(tuple(center), scale if 1e-30 < scale < np.inf else diagonal)
+
+
+def single(value: float) -> float:
+    """The nearest number of single precision, which a header stores in half the bytes."""
+    return float(np.float32(value))
