@@ -11,7 +11,7 @@ KNOW_BYTES = ("codec.static", "codec.sequence")
 FLOORS = {
     "codec": (
         ("_kernels", "arrays", "choices", "threads"),
-        ("geometry", "basis.solver"),
+        ("geometry",),
         ("blocks",),
         ("basis",),
         ("signal",),

@@ -9,6 +9,7 @@ import numpy.typing as npt
 from scipy.sparse import csr_matrix
 
 from codec import EncodeOptions, TriangleMesh
+from codec.basis.laplacian import Laplacian, laplacian_of
 from codec.blocks.blend import Blend, degree_weights
 from codec.blocks.overlap import Block, Blocks, block_size, grow_blocks
 from codec.blocks.partition import derive_partition
@@ -17,35 +18,33 @@ from codec.geometry.metrics import Reference
 from codec.signal.chain import Chain, ChainRules
 from codec.signal.predict import unheld
 
-RowOrder = Callable[[Blocks, int], Block]
+RowOrder = Callable[[Blocks, int], Laplacian]
 
 
-def in_bisection_order(blocks: Blocks, index: int) -> Block:
-    """The block as the codec has it."""
-    return blocks.block(index)
+def in_bisection_order(blocks: Blocks, index: int) -> Laplacian:
+    """That of the block as the codec has it."""
+    return laplacian_of(blocks.block(index))
 
 
-def in_breadth_first_order(blocks: Blocks, index: int) -> Block:
-    """The block with its rows as growing found them: its part in mesh order, then ring after ring."""
+def in_breadth_first_order(blocks: Blocks, index: int) -> Laplacian:
+    """That of the block with its rows as growing found them: its part in mesh order, then ring after ring."""
     block = blocks.block(index)
     found = blocks.members_of(index)
     by_vertex = np.argsort(block.vertices)
-    return permuted(block, by_vertex[np.searchsorted(block.vertices, found, sorter=by_vertex)])
+    return permuted(laplacian_of(block), by_vertex[np.searchsorted(block.vertices, found, sorter=by_vertex)])
 
 
-def permuted(block: Block, rows: npt.NDArray[np.integer]) -> Block:
-    """The same block with its row `rows[r]` as row r."""
+def permuted(laplacian: Laplacian, rows: npt.NDArray[np.integer]) -> Laplacian:
+    """That of the same block with its row `rows[r]` as row r."""
+    block, fronts = laplacian.block, laplacian.fronts
     entries = np.ones(len(block.neighbours), np.int8)
     graph = csr_matrix((entries, block.neighbours, block.offsets), shape=(block.size, block.size))
     graph = graph[rows][:, rows]
     graph.sort_indices()
-    result = Block(block.vertices[rows], graph.indptr.astype(np.int32), graph.indices.astype(np.int32))
+    other = Block(block.vertices[rows], graph.indptr.astype(np.int32), graph.indices.astype(np.int32))
     # The order of elimination is the same: fronts found from rows in another order than bisection's would be huge.
     places = np.argsort(rows).astype(np.uint32)
-    vars(result)["fronts"] = block.fronts._replace(
-        rows=places[block.fronts.rows], steps=block.fronts.steps[rows].astype(np.uint32)
-    )
-    return result
+    return Laplacian(other, fronts._replace(rows=places[fronts.rows], steps=fronts.steps[rows].astype(np.uint32)))
 
 
 def nmsve_db_of(mesh: TriangleMesh, options: EncodeOptions, keep: float, row_order: RowOrder) -> float:
@@ -77,8 +76,9 @@ def nmsve_db_of(mesh: TriangleMesh, options: EncodeOptions, keep: float, row_ord
     )
     chain, blend = Chain(rules, graph), Blend(graph.size)
     for index in range(blocks.count):
-        block = row_order(blocks, index)
-        subspace = chain.dictionary(block, unheld(block), max(1, round(keep * block.size)))
+        laplacian = row_order(blocks, index)
+        block = laplacian.block
+        subspace = chain.dictionary(unheld(laplacian), max(1, round(keep * block.size)))
         positions = subspace @ (subspace.T @ mesh.positions[block.vertices])
         chain.commit(block, subspace, positions)
         blend.add(block.vertices, positions, degree_weights(block.degrees))

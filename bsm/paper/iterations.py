@@ -71,8 +71,9 @@ def coarse_in_order(model: Model, blocks: Blocks, order: RowOrder) -> Positions:
     """The coarse step with one orthogonal iteration of R^1, c = 10 %, and the rows of blocks in a given order."""
     chain, blend = Chain(replace(RULES, power=1, iterations=1, key_interval=0), blocks.graph), Blend(model.size)
     for index in range(blocks.count):
-        block = order(blocks, index)
-        subspace = chain.dictionary(block, unheld(block), max(1, round(KEEP * block.size)))
+        laplacian = order(blocks, index)
+        block = laplacian.block
+        subspace = chain.dictionary(unheld(laplacian), max(1, round(KEEP * block.size)))
         positions = subspace @ (subspace.T @ model.noisy[block.vertices])
         chain.commit(block, subspace, positions)
         blend.add(block.vertices, positions, degree_weights(block.degrees))

@@ -11,7 +11,8 @@ from bsm.paper.exhibit import Cell, Column, Exhibit, Table
 from bsm.paper.iterations import fastest
 from bsm.paper.pictures import portrait
 from bsm.paper.study import Study
-from codec.blocks.overlap import Block, block_size, grow_blocks
+from codec.basis.laplacian import Laplacian, laplacian_of
+from codec.blocks.overlap import block_size, grow_blocks
 from codec.blocks.partition import metis_partition
 from codec.denoise.coarse import BLOCK_SIZE, KEEP, OVERLAP, RULES, CoarseFilter
 from codec.denoise.frames import GROUP, Frames, filter_frames
@@ -26,11 +27,12 @@ SIGMA = 0.2
 SHOWN = 3
 
 
-def iterate(blocks: Iterable[Block], graph: Graph, width: int, rules: ChainRules) -> None:
+def iterate(laplacians: Iterable[Laplacian], graph: Graph, width: int, rules: ChainRules) -> None:
     """Orthogonal iterations for all blocks, as a frame needs them that shares no dictionary."""
     chain = Chain(rules, graph)
-    for block in blocks:
-        chain.commit(block, chain.dictionary(block, unheld(block), width), np.zeros((block.size, 3)))
+    for laplacian in laplacians:
+        positions = np.zeros((laplacian.block.size, 3))
+        chain.commit(laplacian.block, chain.dictionary(unheld(laplacian), width), positions)
 
 
 @dataclass(frozen=True)
@@ -71,7 +73,12 @@ def time_sequence(noisy: Frames, faces: Faces, repeats: int) -> tuple[SequenceTi
     graph = graph_of_faces(faces, n)
     partition = metis_partition(graph, max(1, round(n / BLOCK_SIZE)))
     grown = grow_blocks(graph, partition, block_size(partition, OVERLAP))
-    prepared = [grown.block(index) for index in range(grown.count)]
+    prepared = [laplacian_of(grown.block(index)) for index in range(grown.count)]
+
+    def remake() -> None:
+        made = (laplacian_of(grown.block(index)) for index in range(grown.count))
+        iterate(made, graph, width, rules)
+
     width = max(1, round(KEEP * filter_.size))
     rules = replace(RULES, key_interval=0)
     iterate(prepared, graph, width, rules)
@@ -82,7 +89,7 @@ def time_sequence(noisy: Frames, faces: Faces, repeats: int) -> tuple[SequenceTi
         shared=fastest(lambda: [filter_frames(filter_, group, KEEP) for group in groups], repeats) / count,
         single=single,
         iterations=single + fastest(lambda: iterate(prepared, graph, width, rules), repeats),
-        remade=single + fastest(lambda: iterate(map(grown.block, range(grown.count)), graph, width, rules), repeats),
+        remade=single + fastest(remake, repeats),
         whole=single + fastest(lambda: CoarseFilter(faces, n), repeats),
     )
     return times, batched

@@ -1,6 +1,6 @@
 """The binary Laplacian of a block, L = D - A, and the solver behind R = (L + delta I)^-1 (paper, sections 3 and 4).
 
-Equation 1 of the paper weighs edges by geometry; the decoder has only connectivity, so the weights here are one.
+Equation 2 of the paper weighs edges by geometry; the decoder has only connectivity, so the weights here are one.
 Sparse Cholesky factorisation front by front (`codec.basis.solver.fronts`), then forward and back substitution for all
 columns of a subspace at once.
 """
@@ -10,16 +10,40 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
 
 from codec import _kernels
-from codec.basis.solver.fronts import Fronts
+from codec.arrays import Matrix
+from codec.basis.solver.fronts import Fronts, find_fronts
 from codec.blocks.overlap import Block
-
-Matrix = npt.NDArray[np.float64]
 
 PADDING = 7
 """Doubles more than a kernel uses of an array that it begins where a cache line does."""
+
+
+@dataclass(frozen=True, eq=False)
+class Laplacian:
+    """L of a block, and how it is factorised whatever is added to its diagonal.
+
+    Parameters
+    ----------
+    block : Block
+    fronts : Fronts
+        Found once for all factorisations.
+    """
+
+    block: Block
+    fronts: Fronts
+
+
+def laplacian_of(block: Block) -> Laplacian:
+    """L of a block whose rows are in the order of a recursive bisection.
+
+    Raises
+    ------
+    LimitError
+        If factorising it would take too long, see `codec.basis.solver.fronts.find_fronts`.
+    """
+    return Laplacian(block, find_fronts(block.offsets, block.neighbours))
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,9 +65,9 @@ class Factor:
     inverse: Matrix
 
 
-def factorize(block: Block, shift: float | Matrix) -> Factor:
-    """Factorise L + delta I of a block; `shift` is delta > 0, or one for every row, shape (n,)."""
-    fronts, n = block.fronts, block.size
+def factorize(laplacian: Laplacian, shift: float | Matrix) -> Factor:
+    """Factorise L + delta I; `shift` is delta > 0, or one for every row, shape (n,)."""
+    block, fronts, n = laplacian.block, laplacian.fronts, laplacian.block.size
     values, inverse = np.empty(int(fronts.places[-1]) + PADDING), np.empty(n)
     column, scratch = np.empty(n + 1, np.uint32), np.empty(2 * (n + 16) + PADDING)
     diagonal: Matrix = block.degrees.astype(np.float64) + shift

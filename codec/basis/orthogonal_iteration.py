@@ -8,15 +8,13 @@ first c columns do not depend on later ones.
 from __future__ import annotations
 
 import numpy as np
-import numpy.typing as npt
 
 from bitstream.errors import NumericError
 from codec import _kernels
-from codec.basis.laplacian import check_rows, dense_laplacian, factorize, solve
+from codec.arrays import Matrix
+from codec.basis.laplacian import Laplacian, check_rows, dense_laplacian, factorize, solve
 from codec.blocks.overlap import Block
 from codec.threads import SINGLE_BLAS_THREAD
-
-Matrix = npt.NDArray[np.float64]
 
 ONCE, TWICE = 1e-3, 1e-11
 """Independence of the columns (`factorize_gram` of solver/cholesky_qr.c) from which Cholesky QR is orthogonal to
@@ -61,13 +59,15 @@ def householder_orthonormalize(columns: Matrix) -> Matrix:
     return np.ascontiguousarray(q * np.where(np.diag(r) < 0, -1.0, 1.0))
 
 
-def orthogonal_iteration(block: Block, start: Matrix, *, shift: float | Matrix, power: int, iterations: int) -> Matrix:
+def orthogonal_iteration(
+    laplacian: Laplacian, start: Matrix, *, shift: float | Matrix, power: int, iterations: int
+) -> Matrix:
     """U(t) = Onorm(R^z U(t-1)), `iterations` times (Algorithm 1).
 
     Parameters
     ----------
-    block : Block
-        Of n rows.
+    laplacian : Laplacian
+        Of a block of n rows.
     start : float64 array, shape (n, c)
         U(0); need not be orthonormal.
     shift : float, or float64 array, shape (n,)
@@ -79,7 +79,7 @@ def orthogonal_iteration(block: Block, start: Matrix, *, shift: float | Matrix, 
     -------
     float64 array, shape (n, c), C-contiguous
     """
-    factor = factorize(block, shift)
+    factor = factorize(laplacian, shift)
     start = np.ascontiguousarray(start)
     check_rows(factor, len(start))
     subspace, scratch = np.empty(start.shape), np.empty(_kernels.iteration_space(*start.shape))

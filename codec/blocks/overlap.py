@@ -14,7 +14,6 @@ import numpy as np
 import numpy.typing as npt
 
 from codec import _kernels
-from codec.basis.solver.fronts import Fronts, find_fronts
 from codec.blocks.partition import Partition
 from codec.geometry.graph import Graph, Indices
 
@@ -44,11 +43,6 @@ class Block:
     def degrees(self) -> Indices:
         """Neighbours of each row inside the block: the weights of the blend."""
         return np.diff(self.offsets)
-
-    @cached_property
-    def fronts(self) -> Fronts:
-        """How matrices with the block's pattern are factorised."""
-        return find_fronts(self.offsets, self.neighbours)
 
 
 @dataclass(frozen=True, eq=False)

@@ -18,7 +18,6 @@ from codec.blocks.partition import metis_partition
 from codec.geometry.graph import Indices, graph_of_faces
 from codec.geometry.mesh import Faces
 from codec.signal.chain import Chain, ChainRules
-from codec.signal.predict import unheld
 from codec.threads import ordered_map
 
 Floats = npt.NDArray[np.float64]
@@ -135,7 +134,7 @@ def _dictionaries(blocks: Blocks, width: int, rules: ChainRules) -> Iterator[tup
         found = []
         for index in range(first, min(first + rules.chain_length(blocks.count), blocks.count)):
             block = blocks.block(index)
-            dictionary = chain.dictionary(block, unheld(block), width)
+            dictionary = chain.dictionary(chain.around(block), width)
             chain.commit(block, dictionary, np.zeros((block.size, 3)))
             found.append((block, dictionary))
         return found

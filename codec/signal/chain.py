@@ -9,6 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from codec.arrays import Matrix
+from codec.basis.laplacian import laplacian_of
 from codec.basis.orthogonal_iteration import cosine_columns, exact_basis, orthogonal_iteration, resized
 from codec.blocks.overlap import Block
 from codec.geometry.graph import Graph
@@ -76,11 +77,12 @@ class Chain:
 
     def around(self, block: Block) -> Surroundings:
         """What the chain knows around a block."""
-        return unheld(block) if self._known is None else self._known.around(block)
+        laplacian = laplacian_of(block)
+        return unheld(laplacian) if self._known is None else self._known.around(laplacian)
 
-    def dictionary(self, block: Block, around: Surroundings, width: int) -> Matrix:
+    def dictionary(self, around: Surroundings, width: int) -> Matrix:
         """U of a block with `width` columns (at most its rows), a function of connectivity and earlier widths only."""
-        rules = self._rules
+        rules, block = self._rules, around.laplacian.block
         width = min(width, block.size)
         if rules.exact:
             return exact_basis(block, width, around.springs)
@@ -92,7 +94,7 @@ class Chain:
             start = cosine_columns(block.size, 0, width)
         iterations = rules.iterations if follows or rules.independent else rules.key_iterations
         shift = around.springs + rules.shift
-        return orthogonal_iteration(block, start, shift=shift, power=rules.power, iterations=iterations)
+        return orthogonal_iteration(around.laplacian, start, shift=shift, power=rules.power, iterations=iterations)
 
     def commit(self, block: Block, subspace: Matrix, positions: Matrix) -> None:
         """Make a block, its subspace and its decoded positions, shape (n_i, 3), the predecessor's."""

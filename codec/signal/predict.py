@@ -12,15 +12,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
 
 from codec import _kernels
-from codec.basis.laplacian import factorize, solve
+from codec.arrays import Matrix
+from codec.basis.laplacian import Laplacian, factorize, solve
 from codec.blocks.blend import Blend, degree_weights
 from codec.blocks.overlap import Block
 from codec.geometry.graph import Graph
-
-Matrix = npt.NDArray[np.float64]
 
 MAX_STIFFNESS = 2.0**16
 """Largest stiffness that a stream may ask for."""
@@ -34,12 +32,15 @@ class Surroundings:
 
     Parameters
     ----------
+    laplacian : Laplacian
+        Of the block, which the springs are added to.
     springs : float64 array, shape (n,)
         Sum of the stiffnesses at each row.
     pulls : float64 array, shape (n, 3)
         Sum of stiffness times known position at each row.
     """
 
+    laplacian: Laplacian
     springs: Matrix
     pulls: Matrix
 
@@ -65,10 +66,10 @@ class Known:
         """Remember one copy of a block's vertices, shape (n_i, 3)."""
         self._blend.add(block.vertices, positions, degree_weights(block.degrees))
 
-    def around(self, block: Block) -> Surroundings:
-        """What holds `block`."""
-        graph, blend = self._graph, self._blend
-        found = Surroundings(np.empty(block.size), np.empty((block.size, 3)))
+    def around(self, laplacian: Laplacian) -> Surroundings:
+        """What holds a block."""
+        graph, blend, block = self._graph, self._blend, laplacian.block
+        found = Surroundings(laplacian, np.empty(block.size), np.empty((block.size, 3)))
         _kernels.look_around(
             graph.offsets,
             graph.neighbours,
@@ -83,16 +84,17 @@ class Known:
         return found
 
 
-def unheld(block: Block) -> Surroundings:
+def unheld(laplacian: Laplacian) -> Surroundings:
     """Surroundings of a block that knows of nothing."""
-    return Surroundings(np.zeros(block.size), np.zeros((block.size, 3)))
+    size = laplacian.block.size
+    return Surroundings(laplacian, np.zeros(size), np.zeros((size, 3)))
 
 
-def extend(block: Block, around: Surroundings) -> Matrix:
-    """Positions of a block that continue what is known, shape (n, 3); zero where nothing is known."""
+def extend(around: Surroundings) -> Matrix:
+    """Positions of a block of n rows that continue what is known, shape (n, 3); zero where nothing is known."""
     total = around.springs.sum()
     if total == 0.0:
-        return np.zeros((block.size, 3))
+        return np.zeros_like(around.pulls)
     mean = around.pulls.sum(axis=0) / total
-    factor = factorize(block, around.springs + TETHER)
+    factor = factorize(around.laplacian, around.springs + TETHER)
     return mean + solve(factor, around.pulls - around.springs[:, None] * mean, 1)

@@ -51,8 +51,8 @@ class ChainEncoder:
         scheme, chain, coding = self._scheme, self._chain, self._coding
         block = scheme.blocks.block(index)
         around = chain.around(block)
-        dictionary = chain.dictionary(block, around, coding.width)
-        ground = Ground(block, extend(block, around), dictionary)
+        dictionary = chain.dictionary(around, coding.width)
+        ground = Ground(block, extend(around), dictionary)
         levels = coding.choose(ground, positions[block.vertices], self._sizes)
         decoded = coding.positions(ground, levels)
         chain.commit(block, np.ascontiguousarray(dictionary[:, : levels.width]), decoded)
@@ -89,9 +89,9 @@ class ChainDecoder:
             raise CorruptError(f"{packet.coefficients} coefficients for a block of {block.size} vertices")
         levels = coding.read(packet.data, packet.coefficients, block.size)
         around = chain.around(block)
-        self._allowance.spend(block_work(block, levels.width, scheme.rules.solves, scheme.rules.exact))
-        dictionary = chain.dictionary(block, around, levels.width)
-        ground = Ground(block, extend(block, around), dictionary)
+        self._allowance.spend(block_work(around.laplacian, levels.width, scheme.rules.solves, scheme.rules.exact))
+        dictionary = chain.dictionary(around, levels.width)
+        ground = Ground(block, extend(around), dictionary)
         decoded = coding.positions(ground, levels)
         chain.commit(block, dictionary, decoded)
         if not np.isfinite(decoded).all():

@@ -107,7 +107,7 @@ class Planner:
             chain, found = Chain(rules, blocks.graph), np.zeros(2)
             for index in indices:
                 block = blocks.block(index)
-                dictionary = chain.dictionary(block, chain.around(block), width)
+                dictionary = chain.dictionary(chain.around(block), width)
                 coefficients = np.abs(project(dictionary, positions[block.vertices], dictionary.shape[1]))
                 chain.commit(block, dictionary, positions[block.vertices])
                 found = np.maximum(found, [coefficients[:1].max(), coefficients[1:].max(initial=0.0)])

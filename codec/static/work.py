@@ -7,7 +7,7 @@ from threading import Lock
 import numpy as np
 
 from bitstream.limits import Limits
-from codec.blocks.overlap import Block
+from codec.basis.laplacian import Laplacian
 
 
 def dictionary_work(blocks: int, block_size: int, coefficients: int, solves: int) -> float:
@@ -33,19 +33,19 @@ def check_work(limits: Limits, blocks: int, block_size: int, coefficients: int, 
     limits.check("work", work)
 
 
-def block_work(block: Block, columns: int, solves: int, exact: bool) -> float:
+def block_work(laplacian: Laplacian, columns: int, solves: int, exact: bool) -> float:
     """Floating point operations that one block takes, about: two factorisations, solutions, orthonormalisation.
 
     `dictionary_work` supposes surfaces; in the graph of a hostile list of faces everything may be beside everything,
     and the factors are as dense.
     """
-    fronts = block.fronts
+    fronts, size = laplacian.fronts, laplacian.block.size
     own = np.diff(fronts.firsts.astype(np.float64))
     width = own + np.diff(fronts.starts.astype(np.float64))
     factorisation, entries = float((own * width**2).sum()), float((own * width).sum())
     if exact:
-        return factorisation + 30.0 * block.size**3
-    return 2.0 * factorisation + solves * columns * (4.0 * entries + 8.0 * block.size * columns)
+        return factorisation + 30.0 * size**3
+    return 2.0 * factorisation + solves * columns * (4.0 * entries + 8.0 * size * columns)
 
 
 class Allowance:

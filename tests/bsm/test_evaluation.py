@@ -229,9 +229,10 @@ class TestBlocks:
     def test_reordered_rows_are_the_same_block(self):
         view = view_blocks(torus(), SMALL)
         blocks = view.blocks()
-        block, other = in_bisection_order(blocks, 1), in_breadth_first_order(blocks, 1)
+        block, found = in_bisection_order(blocks, 1).block, in_breadth_first_order(blocks, 1)
+        other = found.block
         assert other.vertices.tolist() == blocks.members_of(1).tolist()
-        back = permuted(other, np.argsort(other.vertices)[np.argsort(np.argsort(block.vertices))])
+        back = permuted(found, np.argsort(other.vertices)[np.argsort(np.argsort(block.vertices))]).block
         assert back.vertices.tolist() == block.vertices.tolist()
         assert edges(back) == edges(block)
 

@@ -82,7 +82,7 @@ def _numbers(stream: bytes) -> list[str]:
     payload = frames_of(stream)[2][1]
     levels = decode_coefficients(CoefficientModel(header.coefficients), payload[2:], payload[1])
     chain = Chain(chain_rules(header), graph)
-    subspace = chain.dictionary(block, chain.around(block), payload[1])
+    subspace = chain.dictionary(chain.around(block), payload[1])
     coefficients = points_of_levels(levels) * (header.step / 2)
     return [
         "The faces are " + ", ".join(f"({a} {b} {c})" for a, b, c in mesh.faces.tolist()) + ".",

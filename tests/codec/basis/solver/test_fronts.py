@@ -5,7 +5,7 @@ from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 
 from bitstream.errors import LimitError
-from codec.basis.laplacian import dense_laplacian, factorize, solve
+from codec.basis.laplacian import dense_laplacian, factorize, laplacian_of, solve
 from codec.basis.orthogonal_iteration import hash_columns
 from codec.basis.solver.fronts import LEAF, WORK, find_fronts
 from codec.blocks.overlap import Block, grow_blocks
@@ -75,7 +75,7 @@ def test_any_graph_can_be_solved(faces, shift, power):
     expected = columns
     for _ in range(power):
         expected = np.linalg.solve(shifted, expected)
-    found = solve(factorize(block, shift), columns, power)
+    found = solve(factorize(laplacian_of(block), shift), columns, power)
     assert np.allclose(found, expected, rtol=1e-8, atol=1e-9 * np.abs(expected).max())
 
 
@@ -85,7 +85,7 @@ def test_solving_with_a_shift_for_every_row(columns):
     springs = 0.01 + np.abs(hash_columns(960, 1)[:, 0])
     right = hash_columns(960, columns)
     expected = np.linalg.solve(dense_laplacian(block) + np.diag(springs), right)
-    assert np.allclose(solve(factorize(block, springs), right, 1), expected, atol=1e-11)
+    assert np.allclose(solve(factorize(laplacian_of(block), springs), right, 1), expected, atol=1e-11)
 
 
 def test_a_graph_without_small_separators_is_refused_before_work_begins():
@@ -93,13 +93,13 @@ def test_a_graph_without_small_separators_is_refused_before_work_begins():
     faces = random.integers(0, 6000, (24_000, 3)).astype(np.int32)
     block = unordered(faces, 6000)
     with pytest.raises(LimitError, match="too entangled"):
-        factorize(block, 0.1)
+        factorize(laplacian_of(block), 0.1)
 
 
 def test_the_largest_blocks_of_surfaces_are_far_from_refused(monkeypatch):
     monkeypatch.setattr("codec.basis.solver.fronts.WORK", WORK // 8)
     block = whole(torus(100, 80).faces, 8000)
-    assert factorize(block, 0.1).inverse.shape == (8000,)
+    assert factorize(laplacian_of(block), 0.1).inverse.shape == (8000,)
 
 
 def test_a_vertex_beside_all_others_and_a_complete_graph_can_be_solved():
@@ -109,4 +109,4 @@ def test_a_vertex_beside_all_others_and_a_complete_graph_can_be_solved():
         block = whole(faces, size)
         right = hash_columns(size, 5)
         expected = np.linalg.solve(dense_laplacian(block) + 0.125 * np.eye(size), right)
-        assert np.allclose(solve(factorize(block, 0.125), right, 1), expected, atol=1e-11)
+        assert np.allclose(solve(factorize(laplacian_of(block), 0.125), right, 1), expected, atol=1e-11)
