@@ -1,110 +1,80 @@
+"""Putting blocks together by hand: averages, units, numbering, what is final, and what is missing."""
+
+from __future__ import annotations
+
 import numpy as np
 import pytest
 
-from bitstream.container.packets import Block
-from bitstream.container.reader import END_OF_STREAM, Reader, Signal
-from bitstream.errors import BsmError, CorruptError
-from codec import BlockEvent, Decoder, EncodeOptions, EndEvent, LossEvent, decode, encode
-from tests.shapes import torus
+from bitstream.errors import NumericError
+from codec.blocks.overlap import Blocks
+from codec.geometry.graph import graph_of_faces
+from codec.static.assembly import Assembly, DecodedBlock, blended
+from codec.static.preamble import Numbering
+from codec.static.units import Units
 
-SMALL = {"block_size": 100, "keep": 0.3, "step": 0.003}
-KEY_INTERVAL = 4
-
-
-def stream(**options):
-    return encode(torus(48, 32), EncodeOptions(**{**SMALL, "key_interval": KEY_INTERVAL, **options}))
+FACES = np.array([[0, 1, 2], [1, 2, 3], [2, 3, 4]], np.int32)
+PLAIN = Units((0.0, 0.0, 0.0), 1.0)
 
 
-def spans(data):
-    """Offset and length of each block's frame."""
-    reader = Reader()
-    reader.receive_data(data)
-    found = {}
-    while not isinstance(packet := reader.next_packet(), Signal):
-        if isinstance(packet, Block):
-            found[packet.index] = (reader.last_frame.offset, reader.last_frame.length)
-    return found
+def strip() -> Blocks:
+    """A strip of three triangles in two blocks, 0 1 2 and 2 3 4."""
+    return Blocks(
+        graph_of_faces(FACES, 5),
+        np.array([0, 1], np.int32),
+        np.array([3, 2], np.int32),
+        np.array([0, 3, 6]),
+        np.array([0, 1, 2, 3, 4, 2], np.int32),
+    )
 
 
-def recover(data):
-    with Decoder(tolerant=True) as decoder:
-        decoder.receive_data(data)
-        decoder.receive_eof()
-        events = []
-        while (event := decoder.next_event()) is not END_OF_STREAM:
-            events.append(event)
-    return events
+def block(index: int, vertices: list[int], x: list[float], weights: list[float]) -> DecodedBlock:
+    positions = np.stack([np.array(x), np.zeros(len(x)), np.ones(len(x))], axis=1)
+    return DecodedBlock(index, np.array(vertices, np.int32), positions, np.array(weights, np.float64))
 
 
-def damaged(data, index, how):
-    offset, length = spans(data)[index]
-    if how == "removed":
-        return data[:offset] + data[offset + length :]
-    broken = bytearray(data)
-    broken[offset + length // 2] ^= 0xFF
-    return bytes(broken)
+FIRST, SECOND = block(0, [0, 1, 2], [0, 1, 2], [1, 1, 3]), block(1, [2, 3, 4], [6, 3, 4], [1, 2, 1])
 
 
-def lost_blocks(events):
-    return sorted({event.block for event in events if isinstance(event, LossEvent) and event.block is not None})
+def test_copies_are_averaged_by_their_weights() -> None:
+    assert blended(5, [FIRST, SECOND])[:, 0].tolist() == [0, 1, 3, 3, 4]
 
 
-@pytest.mark.parametrize("how", ["removed", "changed"])
-@pytest.mark.parametrize("index", [0, 1, 5, 6, 7, 14])
-def test_a_lost_block_costs_its_chain_at_the_most(index, how):
-    data = stream()
-    events = recover(damaged(data, index, how))
-    chain_end = min((index // KEY_INTERVAL + 1) * KEY_INTERVAL, len(spans(data)))
-    assert lost_blocks(events) == list(range(index, chain_end))
-    assert isinstance(events[-1], EndEvent)
+def test_a_mesh_in_its_own_unit_and_numbers() -> None:
+    order = np.array([4, 3, 2, 1, 0], np.int32)
+    assembly = Assembly(strip(), 0.0, Units((10.0, 20.0, 30.0), 2.0), Numbering(order[FACES], order))
+    assembly.add(FIRST)
+    assembly.add(SECOND)
+    mesh = assembly.mesh()
+    assert mesh.positions.tolist() == [[x, 20, 32] for x in (18, 16, 16, 12, 10)]
+    assert mesh.faces.tolist() == [[4, 3, 2], [3, 2, 1], [2, 1, 0]]
 
 
-@pytest.mark.parametrize("smoothing", [0.0, 2.0])
-def test_an_independent_stream_loses_the_block_alone_and_says_what_is_missing(smoothing):
-    data = stream(seed="independent", smoothing=smoothing)
-    whole = decode(data).positions
-    events = recover(damaged(data, 5, "changed"))
-    assert lost_blocks(events) == [5]
-    positions, final = np.full_like(whole, np.nan), np.zeros(len(whole), bool)
-    for event in events:
-        if isinstance(event, BlockEvent):
-            positions[event.vertices] = event.positions
-            final[event.vertices[event.final]] = True
-    losses = events[-1].losses
-    assert len(losses.missing) > 0 and np.isnan(positions[losses.missing]).all()
-    sound = np.setdiff1d(np.arange(len(whole)), np.concatenate([losses.missing, losses.degraded]))
-    assert np.array_equal(positions[sound], whole[sound])
-    assert final[sound].all()
-    assert np.isfinite(positions[losses.degraded]).all()
+def test_a_vertex_is_final_when_its_last_copy_has_come() -> None:
+    assembly = Assembly(strip(), 0.0, PLAIN, Numbering(FACES))
+    first = assembly.changes(FIRST)
+    assert dict(zip(first.vertices.tolist(), first.final.tolist())) == {0: True, 1: True, 2: False}
+    second = assembly.changes(SECOND)
+    assert second.final.all() and sorted(second.vertices.tolist()) == [2, 3, 4]
+    assert dict(zip(second.vertices.tolist(), second.positions[:, 0].tolist())) == {2: 3.0, 3: 3.0, 4: 4.0}
 
 
-def test_a_strict_decoder_raises_on_what_a_tolerant_one_reports():
-    data = stream()
-    for how in ("removed", "changed"):
-        with pytest.raises(CorruptError):
-            decode(damaged(data, 6, how))
+def test_a_lost_block_leaves_vertices_missing_and_others_less_good() -> None:
+    assembly = Assembly(strip(), 0.0, PLAIN, Numbering(FACES))
+    assembly.changes(FIRST)
+    assembly.lose(1)
+    losses = assembly.losses()
+    assert losses.missing.tolist() == [3, 4] and losses.degraded.tolist() == [2]
 
 
-def test_a_stream_cut_short_gives_the_blocks_that_came():
-    data = stream()
-    offset, length = spans(data)[9]
-    events = recover(data[: offset + length])
-    assert [event.index for event in events if isinstance(event, BlockEvent)] == list(range(10))
-    assert lost_blocks(events) == list(range(10, len(spans(data))))
-    assert isinstance(events[-1], EndEvent) and len(events[-1].losses.missing) > 0
+def test_with_smoothing_nothing_is_final_while_its_surroundings_are_not_there() -> None:
+    assembly = Assembly(strip(), 1.0, PLAIN, Numbering(FACES))
+    assert not assembly.changes(FIRST).final.any()
+    assert sorted(assembly.changes(SECOND).vertices.tolist()) == [0, 1, 2, 3, 4]
 
 
-def test_a_whole_stream_loses_nothing():
-    events = recover(stream())
-    assert not any(isinstance(event, LossEvent) for event in events)
-    assert len(events[-1].losses.missing) == len(events[-1].losses.degraded) == 0
-
-
-def test_damage_before_the_first_block_is_raised():
-    data = stream(partition="metis")
-    first = spans(data)[0][0]
-    for place in range(5, first, 11):
-        broken = bytearray(data)
-        broken[place] ^= 0x55
-        with pytest.raises(BsmError):
-            recover(bytes(broken))
+def test_positions_beyond_the_range_of_numbers_are_an_error() -> None:
+    assembly = Assembly(strip(), 0.0, Units((0.0, 0.0, 0.0), 1e308), Numbering(FACES))
+    assembly.add(FIRST)
+    assembly.add(SECOND)
+    with pytest.raises(NumericError):
+        assembly.mesh()

@@ -1,0 +1,56 @@
+"""The measured spectrum, where it is known beforehand."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from codec.basis.laplacian import laplacian_of
+from codec.basis.orthogonal_iteration import cosine_columns, orthogonal_iteration
+from codec.blocks.overlap import Blocks, grow_blocks
+from codec.blocks.partition import derive_partition
+from codec.geometry.graph import graph_of_faces
+from codec.signal.bandwidth import MeasuredSpectrum
+from tests.shapes import patch
+
+SHIFT = 2.0**-5
+
+
+def blocks_of(side: int, parts: int) -> Blocks:
+    mesh = patch(side, side)
+    graph = graph_of_faces(mesh.faces, side * side)
+    return grow_blocks(graph, derive_partition(graph, parts), side * side // parts + 40)
+
+
+def waves(blocks: Blocks, count: int, amplitude: float) -> np.ndarray:
+    """Positions of a single block whose first `count` coefficients in x, y and z are all `amplitude`, and no others."""
+    block = blocks.block(0)
+    start = cosine_columns(block.size, 0, count)
+    subspace = orthogonal_iteration(laplacian_of(block), start, shift=SHIFT, power=1, iterations=1)
+    positions = np.zeros((block.size, 3))
+    positions[block.vertices] = amplitude * subspace.sum(axis=1)[:, None]
+    return positions
+
+
+@pytest.mark.parametrize("count", [9, 40, 200])
+def test_what_has_so_many_frequencies_is_worth_so_many_coefficients(count: int) -> None:
+    blocks = blocks_of(22, 1)
+    spectrum = MeasuredSpectrum(blocks, waves(blocks, count, 0.01), shift=SHIFT)
+    blur = 2 + (count + 4) // 8  # frequencies are averaged with an eighth of them around
+    assert abs(spectrum.worthwhile_size(0.005) - count) <= blur
+    assert spectrum.worthwhile_size(0.1) == 1
+
+
+def test_a_point_is_worth_one_coefficient() -> None:
+    blocks = blocks_of(22, 1)
+    assert MeasuredSpectrum(blocks, np.zeros((484, 3)), shift=SHIFT).worthwhile_size(1e-9) == 1
+
+
+def test_noise_is_worth_them_all_and_a_finer_step_no_fewer() -> None:
+    blocks = blocks_of(24, 3)
+    positions = np.random.default_rng(1).normal(size=(576, 3))
+    spectrum = MeasuredSpectrum(blocks, positions, shift=SHIFT)
+    largest = int(np.diff(blocks.starts).max())
+    assert spectrum.worthwhile_size(0.01) == largest
+    sizes = [spectrum.worthwhile_size(step) for step in (3.0, 1.0, 0.3, 0.1)]
+    assert sizes == sorted(sizes)
