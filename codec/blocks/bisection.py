@@ -13,7 +13,8 @@ import numpy as np
 
 from bitstream.errors import OptionError
 from codec import _kernels
-from codec.geometry.graph import Graph, Indices
+from codec.arrays import Indices
+from codec.geometry.graph import Graph
 
 
 def bisect(graph: Graph, parts: int) -> tuple[Indices, Indices]:

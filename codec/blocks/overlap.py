@@ -11,11 +11,11 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-import numpy.typing as npt
 
 from codec import _kernels
+from codec.arrays import Indices, Order
 from codec.blocks.partition import Partition
-from codec.geometry.graph import Graph, Indices
+from codec.geometry.graph import Graph
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,7 +65,7 @@ class Blocks:
     graph: Graph
     chain: Indices
     cores: Indices
-    starts: npt.NDArray[np.int64]
+    starts: Order
     members: Indices
 
     @property

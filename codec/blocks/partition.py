@@ -7,8 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from codec import _kernels
+from codec.arrays import Indices
 from codec.blocks.bisection import bisect
-from codec.geometry.graph import Graph, Indices
+from codec.geometry.graph import Graph
 
 REFINEMENT_PASSES = 2
 """How often the derived partition goes over its boundaries; part of the format."""

@@ -9,11 +9,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
 
 from codec import _kernels
-
-Indices = npt.NDArray[np.int32]
+from codec.arrays import Indices
 
 
 @dataclass(frozen=True, eq=False)

@@ -8,11 +8,10 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-import numpy.typing as npt
 
 from codec import _kernels
-from codec.geometry.graph import Indices, graph_of_faces
-from codec.geometry.mesh import Faces
+from codec.arrays import Faces, Indices, Order
+from codec.geometry.graph import graph_of_faces
 
 
 class Rows(NamedTuple):
@@ -24,7 +23,7 @@ class Rows(NamedTuple):
     members : ndarray of int32, shape (starts[-1],)
     """
 
-    starts: npt.NDArray[np.int64]
+    starts: Order
     members: Indices
 
 

@@ -10,9 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from bitstream.errors import MeshError
-
-Positions = npt.NDArray[np.float64]
-Faces = npt.NDArray[np.int32]
+from codec.arrays import Faces, Order, Positions
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,7 +63,7 @@ class TriangleMesh:
         """Length of the bounding box's diagonal."""
         return math.hypot(*np.ptp(self.positions, axis=0))
 
-    def without_isolated_vertices(self) -> tuple[TriangleMesh, npt.NDArray[np.int64]]:
+    def without_isolated_vertices(self) -> tuple[TriangleMesh, Order]:
         """The mesh of the vertices that some face uses, and their indices here, ascending."""
         used = np.zeros(len(self.positions), dtype=bool)
         used[self.faces] = True

@@ -10,14 +10,13 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
 
 from bitstream.errors import MeshError
 from codec import _kernels
+from codec.arrays import Faces, Matrix, Positions
 from codec.geometry.incidence import Rows, mesh_edges, vertex_neighbours
-from codec.geometry.mesh import Faces, Positions
 
-Floats = npt.NDArray[np.float64]
+Floats = Matrix
 
 
 @dataclass(frozen=True)

@@ -9,12 +9,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
 
 from codec import _kernels
-from codec.geometry.mesh import Faces, Positions
+from codec.arrays import Faces, Matrix, Positions
 
-Floats = npt.NDArray[np.float64]
+Floats = Matrix
 
 SAMPLES = 100_000
 

@@ -14,19 +14,16 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
-import numpy.typing as npt
 
+from codec.arrays import Faces, Indices, Matrix, Positions
 from codec.basis.orthogonal_iteration import canonical_eigenvectors
 from codec.basis.weighted import binary_weights, cotangent_weights, held_laplacian
 from codec.blocks.overlap import Blocks
-from codec.geometry.graph import Indices
-from codec.geometry.mesh import Faces, Positions
 from codec.threads import ordered_map
 
 if TYPE_CHECKING:
     from scipy.sparse import csr_matrix
 
-Matrix = npt.NDArray[np.float64]
 
 FREE = 1e-8
 """A column whose eigenvalue is below hangs on nothing, and is not extended."""

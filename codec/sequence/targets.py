@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from bitstream.errors import OptionError
-from codec.geometry.mesh import Faces, Positions
+from codec.arrays import Faces, Positions
 from codec.geometry.metrics import Reference, kg_error
 from codec.static.targets import Target
 

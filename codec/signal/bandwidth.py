@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 import numpy as np
-import numpy.typing as npt
 
+from codec.arrays import Matrix
 from codec.basis.laplacian import laplacian_of
 from codec.basis.orthogonal_iteration import cosine_columns, orthogonal_iteration
 from codec.blocks.overlap import Blocks
 from codec.signal.transform import project
-
-Matrix = npt.NDArray[np.float64]
 
 SAMPLES = 2
 WORTHWHILE = 0.75

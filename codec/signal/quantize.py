@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-from codec.arrays import Integers, Levels, Matrix
+from codec.arrays import Integers, Levels, Matrix, Order
 
 LARGEST_LEVEL = (1 << 23) - 1
 BIT_WORTH = 0.13
@@ -63,14 +63,14 @@ def levels_to_unsigned(levels: Integers, bits: int, coarser: int) -> npt.NDArray
     return np.clip(stored + half, 0, 2 * half - 1).astype(np.uint32)
 
 
-def unsigned_to_levels(values: npt.NDArray[np.uint32], bits: int, coarser: int) -> npt.NDArray[np.int64]:
+def unsigned_to_levels(values: npt.NDArray[np.uint32], bits: int, coarser: int) -> Integers:
     """Twin of `levels_to_unsigned`, shape (c, 3); magnitudes up to 2^61."""
     levels = (values.astype(np.int64) - (1 << (bits - 1))).reshape(-1, 3)
     levels[0] <<= coarser
     return levels
 
 
-def targets(coefficients: Matrix, step: float, unit: int, largest: int) -> npt.NDArray[np.int64]:
+def targets(coefficients: Matrix, step: float, unit: int, largest: int) -> Order:
     """Coefficients, shape (c, 3), in whole multiples of `step` / `unit`, cut to `largest` steps."""
     scaled = np.rint(coefficients * (unit / step))
     return np.clip(scaled, -largest * unit, largest * unit).astype(np.int64)
