@@ -125,9 +125,7 @@ class SequenceEncoder:
         if target is None:
             raise OptionError("there is no target to search for")
         finest = max(FINEST_STEP, self._finest_step(frames))
-        return search_step(  # type: ignore[type-var]  # a sequence's target knows a sequence's outcome
-            lambda step: self.attempt(frames, step, progress), target, self.options.step, finest
-        )
+        return search_step(lambda step: self.attempt(frames, step, progress), target, self.options.step, finest)
 
     def _finest_step(self, frames: Sequence[Matrix]) -> float:
         """A step whose levels can be coded however the motion falls into one component."""

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 
-from bitstream.errors import OptionError
+from codec.choices import check_options
 from codec.sequence.targets import SequenceTarget
 
 CHOICES = {
@@ -80,13 +80,4 @@ class SequenceOptions:
     target: SequenceTarget | None = None
 
     def __post_init__(self) -> None:
-        for item in fields(self):
-            value = getattr(self, item.name)
-            if value is None:
-                continue
-            if item.name in CHOICES and value not in CHOICES[item.name]:
-                raise OptionError(f"{item.name} must be one of {', '.join(CHOICES[item.name])}, not {value!r}")
-            if item.name in RANGES:
-                low, high = RANGES[item.name]
-                if not low <= value <= high:
-                    raise OptionError(f"{item.name} = {value:g} is outside {low:g}..{high:g}")
+        check_options(self, CHOICES, RANGES)

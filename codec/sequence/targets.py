@@ -4,16 +4,13 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any
+from typing import ClassVar
 
 import numpy as np
 
-from bitstream.errors import OptionError
 from codec.arrays import Faces, Positions
 from codec.geometry.metrics import Reference, kg_error
 from codec.static.targets import Target
-
-SEQUENCE_KINDS = ("kg", "theta_deg", "nmsve_db", "bpvf")
 
 
 @dataclass(frozen=True)
@@ -69,17 +66,4 @@ class SequenceTarget(Target):
         If there is no such target.
     """
 
-    def __post_init__(self) -> None:
-        if self.kind not in SEQUENCE_KINDS:
-            raise OptionError(f"a target must be one of {', '.join(SEQUENCE_KINDS)}, not {self.kind!r}")
-        if not math.isfinite(self.value) or (self.kind != "nmsve_db" and self.value <= 0):
-            raise OptionError(f"{self.kind} cannot be {self.value:g}")
-
-    def reached(self, outcome: Any) -> float:
-        """The outcome's value of what the target is about."""
-        return float(outcome.bpvf if self.kind == "bpvf" else getattr(outcome.comparison, self.kind))
-
-    @property
-    def shrinks_with_step(self) -> bool:
-        """Whether a coarser step lowers the value (a size) instead of raising it (an error)."""
-        return self.kind == "bpvf"
+    KINDS: ClassVar[tuple[str, ...]] = ("kg", "theta_deg", "nmsve_db", "bpvf")

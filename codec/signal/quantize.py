@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-from codec.arrays import Integers, Levels, Matrix, Order
+from codec.arrays import Integers, Levels, Matrix
 
 LARGEST_LEVEL = (1 << 23) - 1
 BIT_WORTH = 0.13
@@ -70,7 +70,7 @@ def unsigned_to_levels(values: npt.NDArray[np.uint32], bits: int, coarser: int) 
     return levels
 
 
-def targets(coefficients: Matrix, step: float, unit: int, largest: int) -> Order:
+def targets(coefficients: Matrix, step: float, unit: int, largest: int) -> npt.NDArray[np.int64]:
     """Coefficients, shape (c, 3), in whole multiples of `step` / `unit`, cut to `largest` steps."""
     scaled = np.rint(coefficients * (unit / step))
     return np.clip(scaled, -largest * unit, largest * unit).astype(np.int64)

@@ -66,9 +66,9 @@ class Attempt:
         return sum(map(len, self.frames))
 
     @property
-    def vertices(self) -> int:
-        """Number of vertices."""
-        return self.header.vertices
+    def bpv(self) -> float:
+        """Bits of the whole stream per vertex."""
+        return 8.0 * self.size / self.header.vertices
 
 
 class Encoder:

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 
 from bitstream.errors import OptionError
+from codec.choices import check_options
 from codec.static.rules import BASES, BLENDS, SEEDS
 from codec.static.targets import Target
 
@@ -111,16 +112,7 @@ class EncodeOptions:
     threads: int | None = None
 
     def __post_init__(self) -> None:
-        for item in fields(self):
-            value = getattr(self, item.name)
-            if value is None:
-                continue
-            if item.name in CHOICES and value not in CHOICES[item.name]:
-                raise OptionError(f"{item.name} must be one of {', '.join(CHOICES[item.name])}, not {value!r}")
-            if item.name in RANGES:
-                low, high = RANGES[item.name]
-                if not low <= value <= high:
-                    raise OptionError(f"{item.name} = {value:g} is outside {low:g}..{high:g}")
+        check_options(self, CHOICES, RANGES)
         if self.detail_ratio and (self.bits is not None or self.doi is not None):
             raise OptionError("a detail layer excludes a fixed number of bits and dynamic subspaces")
         if self.doi is not None and not 0.0 < self.doi[0] < self.doi[1]:

@@ -5,12 +5,11 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Protocol, TypeVar
+from typing import Any, ClassVar, Protocol, TypeVar
 
 from bitstream.errors import OptionError, TargetError
-from codec.geometry.metrics import Comparison
 
-KINDS = ("nmsve_db", "theta_deg", "max_error_relative", "bpv", "size")
+SIZES = ("bpv", "bpvf", "size")
 UNITS = {
     "nmsve_db": "a visual error of {:.6g} dB",
     "theta_deg": "a mean angle of {:.6g} degrees",
@@ -28,19 +27,11 @@ _TRIES = 24
 
 
 class Outcome(Protocol):
-    """What an attempt to encode came to."""
+    """What an attempt to encode came to; sizes that may be targets are attributes of it, errors of its comparison."""
 
     @property
-    def size(self) -> int:
-        """Bytes of the whole file."""
-
-    @property
-    def vertices(self) -> int:
-        """Number of vertices."""
-
-    @property
-    def comparison(self) -> Comparison:
-        """The decoded mesh against the original."""
+    def comparison(self) -> Any:
+        """What is decoded against the original."""
 
 
 @dataclass(frozen=True)
@@ -60,22 +51,20 @@ class Target:
         If there is no such target.
     """
 
+    KINDS: ClassVar[tuple[str, ...]] = ("nmsve_db", "theta_deg", "max_error_relative", "bpv", "size")
+
     kind: str
     value: float
 
     def __post_init__(self) -> None:
-        if self.kind not in KINDS:
-            raise OptionError(f"a target must be one of {', '.join(KINDS)}, not {self.kind!r}")
+        if self.kind not in self.KINDS:
+            raise OptionError(f"a target must be one of {', '.join(self.KINDS)}, not {self.kind!r}")
         if not math.isfinite(self.value) or (self.kind != "nmsve_db" and self.value <= 0):
             raise OptionError(f"{self.kind} cannot be {self.value:g}")
 
     def reached(self, outcome: Outcome) -> float:
         """The outcome's value of what the target is about."""
-        if self.kind == "size":
-            return float(outcome.size)
-        if self.kind == "bpv":
-            return 8.0 * outcome.size / outcome.vertices
-        return float(getattr(outcome.comparison, self.kind))
+        return float(getattr(outcome if self.kind in SIZES else outcome.comparison, self.kind))
 
     def excess(self, outcome: Outcome) -> float:
         """How far over the target an outcome is, in units of the tolerance; in -1 .. 0 it is met."""
@@ -91,7 +80,7 @@ class Target:
     @property
     def shrinks_with_step(self) -> bool:
         """Whether a coarser step lowers the value (a size) instead of raising it (an error)."""
-        return self.kind in ("bpv", "size")
+        return self.kind in SIZES
 
 
 Found = TypeVar("Found", bound=Outcome)

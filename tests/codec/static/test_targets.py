@@ -20,7 +20,6 @@ class Model:
 
     step: float
     power: float
-    vertices: int = 1000
 
     @property
     def size(self):
