@@ -77,7 +77,7 @@ def encode_one(args: argparse.Namespace, console: Console) -> Facts:
         console.note(f"{args.input}: {note}")
     if args.permutation:
         write_permutation(args.permutation, encoder.vertex_order, overwrite=args.force)
-    vertices, faces, size, error = attempt.vertices, len(encoder.mesh.faces), attempt.size, attempt.comparison
+    vertices, faces, size, error = attempt.header.vertices, len(encoder.mesh.faces), attempt.size, attempt.comparison
     taken = size_of(args.input)
     console.note(
         f"{args.input} -> {args.output}: {vertices} vertices, {faces} faces, {came_to(taken, size)}, "
