@@ -15,13 +15,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
 
 from codec import _kernels
-from codec.geometry.graph import Graph, Indices
-from codec.geometry.mesh import Faces, Positions
-
-Matrix = npt.NDArray[np.float64]
+from codec.arrays import Faces, Indices, Matrix, Positions
+from codec.geometry.graph import Graph
 
 SMALLEST_WEIGHT = 0.05
 LARGEST_WEIGHT = 10.0

@@ -17,10 +17,8 @@ import numpy.typing as npt
 
 from bitstream.errors import NumericError, OptionError
 from codec import _kernels
+from codec.arrays import Levels, Matrix
 from codec.basis.orthogonal_iteration import cosine_columns
-
-Matrix = npt.NDArray[np.float64]
-Levels = npt.NDArray[np.int32]
 
 LEADING = 24
 """Columns of a row that help to predict the columns behind them."""

@@ -13,9 +13,8 @@ import numpy as np
 import numpy.typing as npt
 
 from codec import _kernels
-from codec.geometry.graph import Graph, Indices
-
-Matrix = npt.NDArray[np.float64]
+from codec.arrays import Indices, Matrix, Order
+from codec.geometry.graph import Graph
 
 DEGREE = 5
 NODES = (0.4, 0.9, 1.4, 1.8)
@@ -126,7 +125,7 @@ class LocalFilter:
         self._number[rows] = -1
         return smoothed
 
-    def _rings(self, vertices: Indices, rings: int) -> tuple[Indices, npt.NDArray[np.int64]]:
+    def _rings(self, vertices: Indices, rings: int) -> tuple[Indices, Order]:
         """`vertices` and the rings around them, ring k ending before entry k of the second array.
 
         `_number` becomes the place of each in the list.

@@ -9,11 +9,9 @@ from __future__ import annotations
 import math
 
 import numpy as np
-import numpy.typing as npt
 
 from codec import _kernels
-
-Matrix = npt.NDArray[np.float64]
+from codec.arrays import Matrix
 
 
 def project(subspace: Matrix, values: Matrix, count: int) -> Matrix:
