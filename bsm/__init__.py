@@ -66,7 +66,7 @@ if TYPE_CHECKING:
 
 __version__ = "0.1.0"
 
-# Where each name lives, loaded when it is first asked for: numba and scipy take a second.
+# Where each name lives, loaded when it is first asked for.
 _ROOMS = {
     "bitstream.container.reader": "END_OF_STREAM NEED_DATA Signal",
     "bitstream.errors": (

@@ -37,12 +37,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
             return _no_command(words)
         parser = command_parser(words[0])
         args = parser.parse_command(words[1:])
-        # Not at the top: it imports numba, and help should come at once.
-        from bsm.compilation import announced_compilation
-
-        console = Console(quiet=args.quiet)
-        with announced_compilation(console.note):
-            code: int | None = args.run(args, console)
+        code: int | None = args.run(args, Console(quiet=args.quiet))
         sys.stdout.flush()
         return code or 0
     except (Exception, KeyboardInterrupt, Terminated) as raised:

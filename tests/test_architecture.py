@@ -21,7 +21,7 @@ FLOORS = {
     "bitstream": (("_kernels", "errors", "limits"), ("entropy",), ("connectivity", "coefficients"), ("container",)),
 }
 BITSTREAM_LIBRARIES = {"numpy", "msgpack", "zstandard"}
-CODEC_LIBRARIES = {"numpy", "scipy", "numba", "llvmlite", "pymetis", "threadpoolctl"}
+CODEC_LIBRARIES = {"numpy", "scipy", "pymetis", "threadpoolctl"}
 
 
 def module_name(path: Path) -> str:

@@ -19,7 +19,6 @@ from scipy.optimize import minimize
 
 from bitstream.coefficients.adaptive import (
     CoefficientModel,
-    Levels,
     decode_coefficients,
     decode_layers,
     encode_coefficients,
@@ -42,6 +41,7 @@ from bitstream.coefficients.priors import (
     detail_experience,
     shipped_experiences,
 )
+from bitstream.coefficients.trellis import Levels
 from bitstream.container import packets
 from bitstream.container.header import Header
 from bitstream.container.reader import Reader, Signal

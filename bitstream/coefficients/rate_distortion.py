@@ -13,8 +13,8 @@ import numpy as np
 import numpy.typing as npt
 
 from bitstream import _kernels
-from bitstream.coefficients.adaptive import MAX_LEVEL, CoefficientModel, Levels
-from bitstream.coefficients.trellis import STATES
+from bitstream.coefficients.adaptive import MAX_LEVEL, CoefficientModel
+from bitstream.coefficients.trellis import STATES, Levels
 from bitstream.entropy.range_coder import ONE
 from bitstream.errors import OptionError
 
