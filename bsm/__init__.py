@@ -51,16 +51,21 @@ if TYPE_CHECKING:
     )
     from bsm.files.mesh import read_mesh as read_mesh
     from bsm.files.polygons import MeshFile as MeshFile
-    from codec import (
-        PRESETS as PRESETS, BlockEvent as BlockEvent, ConnectivityEvent as ConnectivityEvent, Decoder as Decoder,
-        EncodeOptions as EncodeOptions, Encoder as Encoder, EndEvent as EndEvent, FrameEvent as FrameEvent,
-        HeaderEvent as HeaderEvent, LossEvent as LossEvent, SequenceDecoder as SequenceDecoder,
-        SequenceEncoder as SequenceEncoder, SequenceOptions as SequenceOptions, Target as Target,
-        TriangleMesh as TriangleMesh,
-    )
     from codec.denoise import DenoiseOptions as DenoiseOptions
+    from codec.geometry.mesh import TriangleMesh as TriangleMesh
     from codec.geometry.metrics import Comparison as Comparison
+    from codec.sequence.decoder import FrameEvent as FrameEvent, SequenceDecoder as SequenceDecoder
+    from codec.sequence.encoder import SequenceEncoder as SequenceEncoder
+    from codec.sequence.options import SequenceOptions as SequenceOptions
     from codec.sequence.targets import SequenceTarget as SequenceTarget
+    from codec.static.decoder import Decoder as Decoder
+    from codec.static.encoder import Encoder as Encoder
+    from codec.static.events import (
+        BlockEvent as BlockEvent, ConnectivityEvent as ConnectivityEvent, EndEvent as EndEvent,
+        HeaderEvent as HeaderEvent, LossEvent as LossEvent,
+    )
+    from codec.static.options import PRESETS as PRESETS, EncodeOptions as EncodeOptions
+    from codec.static.targets import Target as Target
 # isort: on
 # fmt: on
 
@@ -77,13 +82,18 @@ _ROOMS = {
     "bsm.api": "compare decode decode_sequence denoise encode encode_sequence load save",
     "bsm.files.mesh": "read_mesh",
     "bsm.files.polygons": "MeshFile",
-    "codec": (
-        "PRESETS BlockEvent ConnectivityEvent Decoder EncodeOptions Encoder EndEvent FrameEvent "
-        "HeaderEvent LossEvent SequenceDecoder SequenceEncoder SequenceOptions Target TriangleMesh"
-    ),
     "codec.denoise": "DenoiseOptions",
+    "codec.geometry.mesh": "TriangleMesh",
     "codec.geometry.metrics": "Comparison",
+    "codec.sequence.decoder": "FrameEvent SequenceDecoder",
+    "codec.sequence.encoder": "SequenceEncoder",
+    "codec.sequence.options": "SequenceOptions",
     "codec.sequence.targets": "SequenceTarget",
+    "codec.static.decoder": "Decoder",
+    "codec.static.encoder": "Encoder",
+    "codec.static.events": "BlockEvent ConnectivityEvent EndEvent HeaderEvent LossEvent",
+    "codec.static.options": "PRESETS EncodeOptions",
+    "codec.static.targets": "Target",
 }
 _HOMES = {name: room for room, names in _ROOMS.items() for name in names.split()}
 

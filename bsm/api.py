@@ -21,9 +21,10 @@ from codec.geometry.mesh import Faces, Positions, TriangleMesh
 if TYPE_CHECKING:
     import numpy.typing as npt
 
-    from codec import EncodeOptions, SequenceOptions
     from codec.denoise import DenoiseOptions
     from codec.geometry.metrics import Comparison
+    from codec.sequence.options import SequenceOptions
+    from codec.static.options import EncodeOptions
 
 _Options = TypeVar("_Options")
 
@@ -54,8 +55,8 @@ def encode(mesh: Any, options: EncodeOptions | None = None, /, **keywords: Any) 
     BsmError
         `MeshError`, `OptionError`, ...: see what they say.
     """
-    from codec import EncodeOptions
-    from codec import encode as encode_mesh
+    from codec.static.encoder import encode as encode_mesh
+    from codec.static.options import EncodeOptions
 
     return encode_mesh(as_mesh(mesh), _chosen(options, EncodeOptions, keywords, keywords_to.encode_options))
 
@@ -98,8 +99,8 @@ def encode_sequence(
         As on the command line: `preset`, `low_delay`, one target (`kg`, `bpvf`, `theta`, `nmsve_db`), and fields of
         `SequenceOptions` (`step`, `gop`, `frame_rate`, ...).
     """
-    from codec import SequenceOptions
-    from codec import encode_sequence as encode_frames
+    from codec.sequence.encoder import encode_sequence as encode_frames
+    from codec.sequence.options import SequenceOptions
 
     chosen = _chosen(options, SequenceOptions, keywords, keywords_to.sequence_options)
     return encode_frames(positions, faces, chosen)
@@ -109,7 +110,7 @@ def decode_sequence(
     stream: Source, *, limits: Limits = DEFAULT_LIMITS, threads: int | None = None
 ) -> tuple[Positions, Faces]:
     """Restore an animated mesh: positions, shape (T, n, 3), and faces, shape (m, 3); arguments as those of `decode`."""
-    from codec import decode_sequence as decode_frames
+    from codec.sequence.decoder import decode_sequence as decode_frames
 
     return decode_frames(read_bytes(stream), limits, threads)
 

@@ -4,23 +4,23 @@ from __future__ import annotations
 
 import argparse
 import glob
-import multiprocessing
 import os
 import signal
 import time
 from collections.abc import Callable, Generator, Iterator, Sequence
-from concurrent.futures import Future, ProcessPoolExecutor
-from concurrent.futures.process import BrokenProcessPool
 from contextlib import closing, suppress
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from bitstream.errors import OptionError
 from bsm.console import Console, print_json
 from bsm.exits import about, behind, exit_of, is_expected, tell
 from bsm.files.naming import default_output, output_inside
 from bsm.files.output import Terminated, termination_as_exception
+
+if TYPE_CHECKING:
+    from concurrent.futures import Future, ProcessPoolExecutor
 
 Facts = dict[str, Any]
 """What came of an input, ready for JSON; `input_bytes`, `output_bytes` are summed up."""
@@ -190,6 +190,11 @@ def _outcomes(args: argparse.Namespace, console: Console, work: Work, jobs: Sequ
         for job in jobs:
             yield _outcome(work, _for_job(args, job), console)
         return
+    # Where there is one input there is one process, and no need to load this.
+    import multiprocessing
+    from concurrent.futures import ProcessPoolExecutor
+    from concurrent.futures.process import BrokenProcessPool
+
     # Not forked: threads of this process may hold locks.
     pool = ProcessPoolExecutor(processes, multiprocessing.get_context("spawn"))
     with pool, termination_as_exception():

@@ -12,8 +12,10 @@ from typing import TYPE_CHECKING, Any, NoReturn, Union, get_args, get_origin, ge
 from bitstream.errors import ArgumentError, OptionError
 
 if TYPE_CHECKING:
-    from codec import EncodeOptions, SequenceOptions, Target
     from codec.denoise import DenoiseOptions
+    from codec.sequence.options import SequenceOptions
+    from codec.static.options import EncodeOptions
+    from codec.static.targets import Target
 
 TARGETS = {
     "nmsve_db": "nmsve_db",
@@ -48,7 +50,8 @@ def encode_options(*, preset: str = "balanced", **keywords: Any) -> EncodeOption
     OptionError
         If a value is outside its range, or options exclude each other.
     """
-    from codec import PRESETS, EncodeOptions, Target
+    from codec.static.options import PRESETS, EncodeOptions
+    from codec.static.targets import Target
 
     given = _fields("a mesh", EncodeOptions, keywords, TARGETS, Target)
     base: EncodeOptions = _named("preset", PRESETS, preset)
@@ -60,7 +63,7 @@ def sequence_options(*, preset: str = "balanced", low_delay: bool = False, **key
 
     Raises as `encode_options`.
     """
-    from codec import SequenceOptions
+    from codec.sequence.options import SequenceOptions
     from codec.sequence.targets import SequenceTarget
 
     given = _fields("a sequence", SequenceOptions, keywords, SEQUENCE_TARGETS, SequenceTarget)

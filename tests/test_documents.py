@@ -15,8 +15,8 @@ import pytest
 
 from bsm.evaluation.sample import knot
 from bsm.files.mesh import write_mesh
-from codec import TriangleMesh
 from codec.denoise.noise import gaussian_along_normals
+from codec.geometry.mesh import TriangleMesh
 
 ROOT = Path(__file__).parents[1]
 DOCUMENTS = ("README.md", "CONTRIBUTING.md", "spec/README.md")

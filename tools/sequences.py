@@ -20,8 +20,10 @@ from bitstream.container.reader import END_OF_STREAM
 from bsm.evaluation.sequences import Point, draco_point, pca_point
 from bsm.files.npz import read_arrays
 from bsm.files.output import open_output
-from codec import SequenceDecoder, SequenceEncoder, SequenceOptions, TriangleMesh
-from codec.geometry.mesh import Faces, Positions
+from codec.geometry.mesh import Faces, Positions, TriangleMesh
+from codec.sequence.decoder import SequenceDecoder
+from codec.sequence.encoder import SequenceEncoder
+from codec.sequence.options import SequenceOptions
 from codec.sequence.targets import SequenceTarget
 
 DRACO_BITS = (8, 10)

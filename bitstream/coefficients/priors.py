@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cache
-from importlib.resources import files
+from pathlib import Path
 
 import numpy as np
 import numpy.typing as npt
@@ -97,7 +97,7 @@ def shipped_experiences() -> tuple[Experience, ...]:
         If the installation lacks the file.
     """
     try:
-        data = files("bitstream.coefficients").joinpath(_FILE).read_bytes()
+        data = Path(__file__).with_name(_FILE).read_bytes()
         size = len(data) // 2
         return Experience.from_bytes(data[:size]), Experience.from_bytes(data[size:])
     except (OSError, ValueError) as error:

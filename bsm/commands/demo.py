@@ -15,7 +15,7 @@ from bsm.console import Console, print_json
 from bsm.files.output import open_output, refuse_to_overwrite
 
 if TYPE_CHECKING:
-    from codec import TriangleMesh
+    from codec.geometry.mesh import TriangleMesh
     from codec.geometry.metrics import Comparison
 
 _PLAIN_BYTES = (12, 12)
@@ -38,8 +38,10 @@ def run(args: argparse.Namespace, console: Console) -> None:
     Path(args.output).mkdir(parents=True, exist_ok=True)
 
     from bsm.evaluation.sample import knot
-    from codec import Encoder, TriangleMesh, decode
+    from codec.geometry.mesh import TriangleMesh
     from codec.geometry.metrics import compare
+    from codec.static.decoder import decode
+    from codec.static.encoder import Encoder
 
     sample = knot(args.vertices)
     vertices, faces = len(sample.positions), len(sample.faces)

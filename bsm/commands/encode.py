@@ -56,7 +56,7 @@ def encode_one(args: argparse.Namespace, console: Console) -> Facts:
     for path in filter(None, (args.output, args.permutation)):
         refuse_to_overwrite(path, args.force)
 
-    from codec import Encoder
+    from codec.static.encoder import Encoder
 
     if sequence := open_sequence(args.input, args.format, args.reader):
         from bsm.commands.sequence_encode import encode_sequence

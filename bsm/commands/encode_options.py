@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 from bsm import options
 
 if TYPE_CHECKING:
-    from codec import EncodeOptions
+    from codec.static.options import EncodeOptions
 
 
 @dataclass(frozen=True)

@@ -22,7 +22,7 @@ from codec.geometry.mesh import Positions
 
 def encode_sequence(args: argparse.Namespace, console: Console, source: Frames) -> Facts:
     """Encode one sequence; every GOP is written as soon as its frames are there."""
-    from codec import SequenceEncoder
+    from codec.sequence.encoder import SequenceEncoder
 
     begin = time.perf_counter()
     encoder = SequenceEncoder(source.faces, sequence_options(args), source.count)
@@ -72,7 +72,7 @@ class Echo:
     _extent: float = 0.0
 
     def __post_init__(self) -> None:
-        from codec import SequenceDecoder
+        from codec.sequence.decoder import SequenceDecoder
 
         self._decoder = SequenceDecoder()
 
@@ -86,7 +86,7 @@ class Echo:
     def compare(self, chunk: bytes, order: np.ndarray) -> None:
         """Decode a piece of the stream and add up the error of its frames; vertex j of a decoded one is `order[j]`."""
         from bitstream.container.reader import Signal
-        from codec import FrameEvent
+        from codec.sequence.decoder import FrameEvent
 
         self._decoder.receive_data(chunk)
         while not isinstance(event := self._decoder.next_event(), Signal):

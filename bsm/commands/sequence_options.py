@@ -10,7 +10,7 @@ from bsm import options
 from bsm.commands.encode_options import given_options, given_targets
 
 if TYPE_CHECKING:
-    from codec import SequenceOptions
+    from codec.sequence.options import SequenceOptions
 
 _OWN = ("kg", "bpvf", "gop", "low_delay", "frame_rate")
 

@@ -17,7 +17,10 @@ from bsm.evaluation.resources import measure_resources
 from bsm.evaluation.solvers import Timing, time_solvers
 from bsm.evaluation.tables import number, table
 from bsm.files.mesh import format_mesh, read_mesh
-from codec import EncodeOptions, TriangleMesh, decode, encode
+from codec.geometry.mesh import TriangleMesh
+from codec.static.decoder import decode
+from codec.static.encoder import encode
+from codec.static.options import EncodeOptions
 
 KEEPS = (0.10, 0.15, 0.20, 0.25)
 DRACO_BITS, DRACO_LEVEL = 9, 10

@@ -10,8 +10,10 @@ import numpy as np
 
 from bsm.evaluation.draco import decode_draco, encode_draco, positions_in_order
 from bsm.files.stream import inspect_stream
-from codec import EncodeOptions, Encoder, TriangleMesh, decode
-from codec.geometry.mesh import Positions
+from codec.geometry.mesh import Positions, TriangleMesh
+from codec.static.decoder import decode
+from codec.static.encoder import Encoder
+from codec.static.options import EncodeOptions
 
 
 @dataclass(frozen=True, eq=False)

@@ -13,8 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from bitstream.errors import DependencyError, MeshError
-from codec import TriangleMesh
-from codec.geometry.mesh import Positions
+from codec.geometry.mesh import Positions, TriangleMesh
 
 Triangles = npt.NDArray[np.int64]
 

@@ -12,10 +12,13 @@ import numpy.typing as npt
 from bsm.evaluation.codecs import paper_options
 from bsm.evaluation.tables import number, table
 from bsm.files.stream import StreamInfo, inspect_stream
-from codec import EncodeOptions, Encoder, TriangleMesh, decode
 from codec.blocks.overlap import Blocks, grow_blocks
 from codec.blocks.partition import Partition, derive_partition
 from codec.geometry.graph import Graph, graph_of_faces
+from codec.geometry.mesh import TriangleMesh
+from codec.static.decoder import decode
+from codec.static.encoder import Encoder
+from codec.static.options import EncodeOptions
 
 Floats = npt.NDArray[np.float64]
 

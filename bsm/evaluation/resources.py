@@ -20,7 +20,8 @@ from typing import TypeVar
 from bsm.evaluation.sample import knot
 from bsm.files.mesh import read_mesh
 from bsm.files.stream import inspect_stream
-from codec import decode, encode
+from codec.static.decoder import decode
+from codec.static.encoder import encode
 
 Result = TypeVar("Result")
 

@@ -8,15 +8,16 @@ import numpy as np
 import numpy.typing as npt
 from scipy.sparse import csr_matrix
 
-from codec import EncodeOptions, TriangleMesh
 from codec.basis.laplacian import Laplacian, laplacian_of
 from codec.blocks.blend import Blend, degree_weights
 from codec.blocks.overlap import Block, Blocks, block_size, grow_blocks
 from codec.blocks.partition import derive_partition
 from codec.geometry.graph import graph_of_faces
+from codec.geometry.mesh import TriangleMesh
 from codec.geometry.metrics import Reference
 from codec.signal.chain import Chain, ChainRules
 from codec.signal.predict import unheld
+from codec.static.options import EncodeOptions
 
 RowOrder = Callable[[Blocks, int], Laplacian]
 

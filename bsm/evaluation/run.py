@@ -14,7 +14,7 @@ from bitstream.errors import CorruptError
 from bsm.evaluation.codecs import Codec, Curve
 from bsm.evaluation.sample import knot
 from bsm.files.output import open_output
-from codec import TriangleMesh
+from codec.geometry.mesh import TriangleMesh
 from codec.geometry.metrics import Reference
 
 SCHEMA = 1

@@ -18,13 +18,13 @@ from scipy.sparse import csc_matrix
 from scipy.sparse.linalg import LinearOperator, eigsh, lobpcg, splu
 
 from bitstream.errors import NumericError
-from codec import TriangleMesh
 from codec.basis.laplacian import dense_laplacian, laplacian_of
 from codec.basis.orthogonal_iteration import cosine_columns, hash_columns, orthogonal_iteration
 from codec.blocks.blend import Blend, degree_weights
 from codec.blocks.overlap import Block, Blocks, block_size, grow_blocks
 from codec.blocks.partition import derive_partition
 from codec.geometry.graph import graph_of_faces
+from codec.geometry.mesh import TriangleMesh
 from codec.geometry.metrics import Reference
 from codec.threads import SINGLE_BLAS_THREAD
 

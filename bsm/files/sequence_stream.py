@@ -52,7 +52,8 @@ class SequenceStream:
     """
 
     def __init__(self, chunks: Iterator[bytes], note: Note | None = None, start: int = 0) -> None:
-        from codec import ConnectivityEvent, HeaderEvent, SequenceDecoder
+        from codec.sequence.decoder import SequenceDecoder
+        from codec.static.events import ConnectivityEvent, HeaderEvent
 
         self.header: Header
         self.faces: Faces
@@ -69,7 +70,8 @@ class SequenceStream:
 
     def frames(self) -> Iterator[tuple[int, Positions]]:
         """Number and positions, shape (n, 3), of one frame after the other."""
-        from codec import FrameEvent, LossEvent
+        from codec.sequence.decoder import FrameEvent
+        from codec.static.events import LossEvent
 
         for event in self._events:
             match event:

@@ -19,7 +19,7 @@ from bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.files.pipes import Source, as_input, is_pipe
 
 if TYPE_CHECKING:
-    from codec import TriangleMesh
+    from codec.geometry.mesh import TriangleMesh
 
 Progress = Callable[[int, int], None]
 
@@ -142,7 +142,7 @@ def inspect_stream(chunks: Iterator[bytes], limits: Limits = DEFAULT_LIMITS) -> 
 
 def decode_whole(chunks: Iterator[bytes], limits: Limits = DEFAULT_LIMITS, threads: int | None = None) -> TriangleMesh:
     """Decode a stream to its end."""
-    from codec import Decoder
+    from codec.static.decoder import Decoder
 
     with Decoder(limits, threads) as decoder:
         for chunk in chunks:
@@ -160,7 +160,8 @@ def decode_blocks(chunks: Iterator[bytes], count: int, progress: Progress) -> Tr
     BsmError
         If the stream ends or is damaged before that.
     """
-    from codec import BlockEvent, Decoder, HeaderEvent
+    from codec.static.decoder import Decoder
+    from codec.static.events import BlockEvent, HeaderEvent
 
     if count < 1:
         raise OptionError("at least one block must be decoded")
@@ -194,7 +195,8 @@ def decode_what_is_left(chunks: Iterator[bytes], report: Callable[[str], None]) 
     BsmError
         If the damage is before the first block.
     """
-    from codec import Decoder, EndEvent, LossEvent
+    from codec.static.decoder import Decoder
+    from codec.static.events import EndEvent, LossEvent
 
     part = _Part()
     with Decoder(tolerant=True) as decoder:
@@ -238,7 +240,7 @@ class _Part:
 
     def take(self, event: Any) -> None:
         """Add what an event tells."""
-        from codec import BlockEvent, ConnectivityEvent, HeaderEvent
+        from codec.static.events import BlockEvent, ConnectivityEvent, HeaderEvent
 
         match event:
             case HeaderEvent(header):
@@ -251,7 +253,7 @@ class _Part:
 
     def mesh(self) -> TriangleMesh:
         """The faces whose vertices are known."""
-        from codec import TriangleMesh
+        from codec.geometry.mesh import TriangleMesh
 
         complete = self._faces[self._known[self._faces].all(axis=1)]
         if len(complete) == 0:

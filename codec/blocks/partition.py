@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from bitstream.errors import DependencyError
 from codec import _kernels
 from codec.arrays import Indices
 from codec.blocks.bisection import bisect
@@ -62,8 +63,10 @@ def derive_partition(graph: Graph, parts: int) -> Partition:
 
 def metis_partition(graph: Graph, parts: int) -> Partition:
     """METIS k-way partition; its labels differ between builds, so a stream has to carry them."""
-    import pymetis
-
+    try:
+        import pymetis
+    except ImportError:
+        raise DependencyError("METIS is not installed: pip install 'bsm-codec[paper]'") from None
     if parts == 1:
         return partition_of_labels(np.zeros(graph.size, np.int32))
     adjacency = pymetis.CSRAdjacency(graph.offsets, graph.neighbours)

@@ -302,7 +302,7 @@ def test_every_command_has_help(capsys):
 
 
 def test_the_flags_are_fields_and_show_their_defaults():
-    from codec import EncodeOptions
+    from codec.static.options import EncodeOptions
 
     defaults = {field.name: field.default for field in fields(EncodeOptions)}
     assert MISSING not in defaults.values()

@@ -24,10 +24,11 @@ from bsm.evaluation.row_order import in_bisection_order, in_breadth_first_order,
 from bsm.evaluation.run import measure, read_results, run_curve, write_result
 from bsm.evaluation.tables import table
 from bsm.files.mesh import read_mesh, write_mesh
-from codec import EncodeOptions, TriangleMesh
 from codec.blocks.partition import partition_of_labels
 from codec.geometry.graph import graph_of_faces
+from codec.geometry.mesh import TriangleMesh
 from codec.geometry.metrics import Reference
+from codec.static.options import EncodeOptions
 from tests.shapes import patch, torus
 
 POINT_KEYS = {

@@ -8,9 +8,11 @@ import pytest
 from bitstream.errors import ArgumentError, OptionError
 from bsm.commands.encode_options import TARGET_FLAGS
 from bsm.options import SEQUENCE_STEPS, TARGETS, denoise_options, encode_options, sequence_options
-from codec import PRESETS, EncodeOptions, SequenceOptions, Target
 from codec.denoise import DenoiseOptions
+from codec.sequence.options import SequenceOptions
 from codec.sequence.targets import SequenceTarget
+from codec.static.options import PRESETS, EncodeOptions
+from codec.static.targets import Target
 
 
 def test_without_keywords_everything_is_the_default():

@@ -44,7 +44,8 @@ def test_the_permutation_is_used(order):
 
 
 def test_the_numbering_of_the_decoder_is_recognised():
-    from codec import EncodeOptions, Encoder
+    from codec.static.encoder import Encoder
+    from codec.static.options import EncodeOptions
 
     encoder = Encoder(SAMPLE, EncodeOptions(block_size=100, threads=1))
     decoded = TriangleMesh(SAMPLE.positions[encoder.vertex_order], np.argsort(encoder.vertex_order)[SAMPLE.faces])

@@ -6,12 +6,14 @@ import numpy as np
 import pytest
 from threadpoolctl import threadpool_info
 
-from codec import EncodeOptions, decode, encode
 from codec.basis.laplacian import laplacian_of
 from codec.basis.orthogonal_iteration import cosine_columns, orthogonal_iteration
 from codec.blocks.overlap import grow_blocks
 from codec.blocks.partition import derive_partition
 from codec.geometry.graph import graph_of_faces
+from codec.static.decoder import decode
+from codec.static.encoder import encode
+from codec.static.options import EncodeOptions
 from codec.threads import Lanes, ordered_map
 from tests.shapes import patch
 

@@ -11,8 +11,10 @@ import pytest
 from bitstream import errors
 from bitstream.container.reader import END_OF_STREAM, Reader, read_packets
 from bsm.files.mesh import read_mesh
-from codec import Decoder, EncodeOptions, decode, encode
 from codec.sequence.decoder import decode_sequence
+from codec.static.decoder import Decoder, decode
+from codec.static.encoder import encode
+from codec.static.options import EncodeOptions
 from tools.vectors.__main__ import try_command, try_product
 from tools.vectors.bad import BAD
 from tools.vectors.bad_sequences import BAD_SEQUENCES

@@ -10,7 +10,7 @@ from bitstream.container.wire import write_preamble
 from bitstream.errors import BsmError, CorruptError, FormatError
 from bitstream.limits import DEFAULT_LIMITS
 from bsm.files.mesh import format_mesh, read_mesh
-from codec import Decoder
+from codec.static.decoder import Decoder
 from tools.fuzz.mutate import mutate_stream
 from tools.fuzz.targets import TARGETS, Finding, run, seeds
 from tools.surgery import frames_of, stream_of, with_header

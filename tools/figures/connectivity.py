@@ -11,7 +11,7 @@ import numpy as np
 from bitstream.connectivity.faces import decode_connectivity, encode_connectivity
 from bitstream.errors import CorruptError
 from bsm.evaluation.draco import decode_draco, encode_draco
-from codec import TriangleMesh
+from codec.geometry.mesh import TriangleMesh
 
 Result = TypeVar("Result")
 

@@ -28,7 +28,7 @@ from bsm.evaluation.run import measure, run_curve, write_result
 from bsm.evaluation.tables import number, percent, table
 from bsm.files.mesh import read_mesh
 from bsm.files.output import open_output
-from codec import TriangleMesh
+from codec.geometry.mesh import TriangleMesh
 from codec.geometry.metrics import Reference
 from tools.figures.connectivity import HEADINGS, connectivity_row
 

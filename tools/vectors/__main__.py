@@ -21,8 +21,8 @@ from pathlib import Path
 import numpy as np
 
 from bitstream.errors import BsmError
-from codec import decode
 from codec.sequence.decoder import decode_sequence
+from codec.static.decoder import decode
 from tools.vectors.example import example
 from tools.vectors.store import Vector, read_manifest, write_vectors
 

@@ -16,8 +16,9 @@ from bitstream.connectivity.partition import encode_labels
 from bitstream.container.header import HEADER_FIELDS
 from bitstream.container.maps import write_map
 from bitstream.container.wire import FrameType, write_frame, write_preamble, write_varint
-from codec import EncodeOptions, encode
 from codec.geometry.graph import graph_of_faces
+from codec.static.encoder import encode
+from codec.static.options import EncodeOptions
 from tools.surgery import Frames, frames_of, header_entries, stream_of, with_header, with_payload
 from tools.vectors.good import BASE
 from tools.vectors.meshes import patch, shuffled, together, torus

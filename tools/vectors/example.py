@@ -14,11 +14,11 @@ from bitstream.container.maps import write_map
 from bitstream.container.packets import Header
 from bitstream.container.reader import Reader
 from bitstream.container.wire import FrameType, write_frame, write_preamble, write_varint
-from codec import decode
 from codec.blocks.overlap import grow_blocks
 from codec.blocks.partition import derive_partition
 from codec.geometry.graph import graph_of_faces
 from codec.signal.chain import Chain
+from codec.static.decoder import decode
 from codec.static.rules import chain_rules
 from tools.surgery import frames_of, header_entries
 from tools.vectors.store import FOLDER

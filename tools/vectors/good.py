@@ -9,7 +9,9 @@ import numpy as np
 
 from bitstream.coefficients.packed import pack_coefficients
 from bitstream.container.wire import FrameType
-from codec import EncodeOptions, TriangleMesh, encode
+from codec.geometry.mesh import TriangleMesh
+from codec.static.encoder import encode
+from codec.static.options import EncodeOptions
 from tools.surgery import frames_of, stream_of, with_header
 from tools.vectors.meshes import hub, patch, shuffled, tangled, tetrahedron, together, torus, triangle
 

@@ -21,22 +21,14 @@ from bitstream.errors import (
     UnsupportedError,
 )
 from bitstream.limits import Limits
-from codec import (
-    ConnectivityEvent,
-    EndEvent,
-    FrameEvent,
-    HeaderEvent,
-    LossEvent,
-    SequenceDecoder,
-    SequenceEncoder,
-    SequenceOptions,
-    decode,
-    decode_sequence,
-    encode,
-    encode_sequence,
-)
 from codec.geometry.metrics import kg_error
+from codec.sequence.decoder import FrameEvent, SequenceDecoder, decode_sequence
+from codec.sequence.encoder import SequenceEncoder, encode_sequence
+from codec.sequence.options import SequenceOptions
 from codec.sequence.targets import SequenceTarget, compare_sequences
+from codec.static.decoder import decode
+from codec.static.encoder import encode
+from codec.static.events import ConnectivityEvent, EndEvent, HeaderEvent, LossEvent
 from tests.motion import bending, turning
 from tests.shapes import patch, tetrahedron, together, torus
 

@@ -1,10 +1,11 @@
 import numpy as np
 import pytest
 
-from codec import EncodeOptions, Encoder
 from codec.blocks.overlap import Block
 from codec.geometry.graph import graph_of_faces
 from codec.signal.detail import Normals, displace, fold_details, make_surface, unfold_details
+from codec.static.encoder import Encoder
+from codec.static.options import EncodeOptions
 from tests.shapes import grid_faces, torus
 
 

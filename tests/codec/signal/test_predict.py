@@ -3,12 +3,13 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from codec import EncodeOptions, Encoder
 from codec.basis.laplacian import dense_laplacian, laplacian_of
 from codec.basis.orthogonal_iteration import exact_basis
 from codec.blocks.overlap import Block
 from codec.geometry.graph import graph_of_faces
 from codec.signal.predict import Known, Surroundings, extend, unheld
+from codec.static.encoder import Encoder
+from codec.static.options import EncodeOptions
 from tests.shapes import patch, torus
 
 

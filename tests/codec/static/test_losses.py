@@ -4,7 +4,10 @@ import pytest
 from bitstream.container.packets import Block
 from bitstream.container.reader import END_OF_STREAM, Reader, Signal
 from bitstream.errors import BsmError, CorruptError
-from codec import BlockEvent, Decoder, EncodeOptions, EndEvent, LossEvent, decode, encode
+from codec.static.decoder import Decoder, decode
+from codec.static.encoder import encode
+from codec.static.events import BlockEvent, EndEvent, LossEvent
+from codec.static.options import EncodeOptions
 from tests.shapes import torus
 
 SMALL = {"block_size": 100, "keep": 0.3, "step": 0.003}

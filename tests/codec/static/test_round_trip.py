@@ -8,19 +8,12 @@ import pytest
 from bitstream.container.reader import END_OF_STREAM, NEED_DATA
 from bitstream.errors import BsmError, CorruptError, LimitError, OptionError, TruncatedError
 from bitstream.limits import Limits
-from codec import (
-    BlockEvent,
-    ConnectivityEvent,
-    Decoder,
-    EncodeOptions,
-    Encoder,
-    EndEvent,
-    HeaderEvent,
-    TriangleMesh,
-    decode,
-    encode,
-)
+from codec.geometry.mesh import TriangleMesh
 from codec.geometry.metrics import compare
+from codec.static.decoder import Decoder, decode
+from codec.static.encoder import Encoder, encode
+from codec.static.events import BlockEvent, ConnectivityEvent, EndEvent, HeaderEvent
+from codec.static.options import EncodeOptions
 from tests.shapes import patch, tetrahedron, together, torus
 
 SMALL = {"block_size": 120, "keep": 0.3, "step": 0.002}

@@ -8,9 +8,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from bitstream.errors import OptionError, TargetError
-from codec import EncodeOptions, Encoder, Target, decode
 from codec.geometry.metrics import Comparison, compare
-from codec.static.targets import search_step
+from codec.static.decoder import decode
+from codec.static.encoder import Encoder
+from codec.static.options import EncodeOptions
+from codec.static.targets import Target, search_step
 from tests.shapes import torus
 
 

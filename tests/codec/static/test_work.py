@@ -5,7 +5,10 @@ import pytest
 
 from bitstream.errors import LimitError
 from bitstream.limits import DEFAULT_LIMITS, Limits
-from codec import EncodeOptions, TriangleMesh, decode, encode
+from codec.geometry.mesh import TriangleMesh
+from codec.static.decoder import decode
+from codec.static.encoder import encode
+from codec.static.options import EncodeOptions
 from codec.static.work import Allowance, dictionary_work
 
 
