@@ -11,10 +11,12 @@ enum {
     GUESSES = 4 * 2 * VALENCES,
     LEARNERS = GUESSES + 4 * STEPS,
     WORDS_SEARCHED = 4,
+    TERMS = 7,
+    HINTS = 4,
 };
 
 /* How meshes deviate from parallelograms, as vectors in 1/16 (V 8.4). */
-enum { LENGTH, SKEW, TURN, WIDE, FOLD, SHAPES };
+enum { LENGTH, SKEW, TURN, FOLD, SHAPES };
 
 /* If a vertex lies in a plane, its coded axes tell the others (V 8.3). */
 typedef struct {
@@ -70,12 +72,6 @@ INLINE int64_t unused(const Plane *p) { return p->square - p->used + (p->square 
 /* Where axis j is, if the vertex lies in the plane. */
 INLINE int32_t tilt(const Plane *p, int j) { return within(-p->normal[j] * p->dot / unused(p), -MOST_TERM, MOST_TERM); }
 
-/* Share of the error of axis j that lies in the plane, 0 .. 7. */
-INLINE int32_t freedom(const Plane *p, int j) {
-    if (p->square == 0) return 7;
-    return within((p->square - p->used - (int64_t)p->normal[j] * p->normal[j]) * 8 / unused(p), 0, 7);
-}
-
 INLINE void pass_axis(Plane *p, int j, int32_t error) {
     p->dot += (int64_t)p->normal[j] * error;
     p->used += (int64_t)p->normal[j] * p->normal[j];
@@ -93,13 +89,11 @@ static void add_shape(const Corners *corners, const int32_t *x, int32_t v, Flap 
         square += (int64_t)along[j] * along[j];
     }
     int32_t skew = square > 0 ? within(-dot * 16 / square, -384, 384) : 0; /* 1/256 */
-    int32_t valence_a = faces_at(corners, flap.a), valence_b = faces_at(corners, flap.b);
-    int32_t turn = within(valence_a - valence_b, -8, 8), wide = within(valence_a + valence_b - 12, -8, 8);
+    int32_t turn = within(faces_at(corners, flap.a) - faces_at(corners, flap.b), -8, 8);
     for (int j = 0; j < AXES; j++) {
         shape[LENGTH][j] += out[j];
         shape[SKEW][j] += skew * along[j] >> 4;
         shape[TURN][j] += turn * along[j] * 4;
-        shape[WIDE][j] += wide * out[j] >> 2;
     }
     for (int side = 0; side < 2; side++) { /* how the parallelograms over the other two edges of the face fail */
         int32_t k = side == 0 ? previous_corner(flap.corner) : next_corner(flap.corner);
@@ -220,21 +214,18 @@ static bool code_axis(RangeCoder *coder, const ValueModel *model, Grid *g, int32
     int32_t most = g->largest.data[j], far = FINE * most, base = p->base[j], mean = p->mean[j];
     int32_t *x = g->values.data, tilted = tilt(&p->whole, j);
     const Flap *best = r->flap;
-    int32_t tip_gap = flaps > 0 ? g->gaps.data[AXES * (int64_t)best->c + j] : 0;
 
     int32_t term[TERMS] = {tilted, mean - base, p->closing[j], p->shape[LENGTH][j], p->shape[SKEW][j],
-        p->shape[TURN][j], p->shape[WIDE][j], p->shape[FOLD][j]};
+        p->shape[TURN][j], p->shape[FOLD][j]};
     for (int i = 0; i < TERMS; i++) term[i] = within(term[i], -MOST_TERM, MOST_TERM);
     Learner *learners = (Learner *)g->learners.data;
     Learner *guess = learners + (flaps * 2 + (step == 2)) * VALENCES + p->valence;
     Learner *size = learners + GUESSES + flaps * STEPS + step;
-    int32_t shift = foretell(guess, term, far);
+    int32_t shift = foretell(guess, TERMS, term, far);
 
-    int32_t all_near = (int32_t)least((int64_t)p->error_near[0] + p->error_near[1] + p->error_near[2], MOST_TERM);
-    int32_t hint[TERMS] = {p->error_near[j], all_near, p->apart[j], p->apart[0] + p->apart[1] + p->apart[2],
-        size_of(tip_gap), size_of(p->shape[FOLD][j]), *first_gap, size_of(shift - tilted)};
-    for (int i = 0; i < TERMS; i++) hint[i] = (int32_t)least(hint[i], MOST_TERM);
-    int32_t typical = flaps > 0 ? within(foretell(size, hint, far), hint[0] / 8 + 1, far) : (3 * hint[0] + all_near / 3) / 4;
+    int32_t hint[HINTS] = {p->error_near[j], p->apart[j], *first_gap, size_of(shift - tilted)};
+    for (int i = 0; i < HINTS; i++) hint[i] = (int32_t)least(hint[i], MOST_TERM);
+    int32_t typical = flaps > 0 ? within(foretell(size, HINTS, hint, far), hint[0] / 8 + 1, far) : hint[0];
     int32_t bucket = size_class(typical >> 1), unit = typical / 2 + 4;
 
     int32_t in_first = flaps > 0 ? p->across[0][j] + tilt(&p->plane[0], j) : mean;
@@ -254,7 +245,8 @@ static bool code_axis(RangeCoder *coder, const ValueModel *model, Grid *g, int32
 
     int kind = flaps * STEPS + step;
     e.scale = typical;
-    e.scale_context = bucket * 8 + freedom(&p->whole, j);
+    e.asks = MOST_ASKS;
+    e.scale_context = bucket;
     e.hit_context = (step == 0 ? 0 : *hits != 0 ? 2 : 1) * 8 + flaps * 2 + (p->error_near[j] < FINE);
     e.context[0] = bucket * 12 + kind;
     e.context[1] = three_classes(off[0], off[1], off[2], FINE / 2, FINE / 2);
@@ -263,10 +255,11 @@ static bool code_axis(RangeCoder *coder, const ValueModel *model, Grid *g, int32
     e.context[4] = 0;
     if (flaps > 0) {
         const int32_t *gaps = g->gaps.data + j;
-        e.context[4] = three_classes(gaps[AXES * (int64_t)best->a], gaps[AXES * (int64_t)best->b], tip_gap, unit, unit);
+        int64_t a = AXES * (int64_t)best->a, b = AXES * (int64_t)best->b, c = AXES * (int64_t)best->c;
+        e.context[4] = three_classes(gaps[a], gaps[b], gaps[c], unit, unit);
     }
     e.context[5] = step == 0 ? 0 : *hits + (step << PREDICTIONS);
-    e.set = kind * 2 + (typical < 24);
+    e.set = step;
 
     int32_t value = code_value(coder, model, &e, coder->reading ? 0 : x[AXES * (int64_t)v + j]);
     if (value < 0 || value > most) return false;
@@ -278,8 +271,8 @@ static bool code_axis(RangeCoder *coder, const ValueModel *model, Grid *g, int32
     if (step == 0) *first_gap = size_of(gap);
     pass_axis(&p->whole, j, error);
     for (int i = 0; i < 2 && i < r->flaps; i++) pass_axis(&p->plane[i], j, value * FINE - p->across[i][j]);
-    learn(guess, term, error, typical);
-    learn(size, hint, (int32_t)least(size_of(gap), 8 * (int64_t)typical + 64), typical);
+    learn(guess, TERMS, term, error, typical);
+    learn(size, HINTS, hint, (int32_t)least(size_of(gap), 8 * (int64_t)typical + 64), typical);
     return true;
 }
 

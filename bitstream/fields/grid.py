@@ -147,5 +147,5 @@ def _start_of_learners() -> npt.NDArray[np.int64]:
     """Weights at the start: of the guesses, then of the sizes of their errors (V 9)."""
     start = np.zeros((4 * 2 * 6 + 4 * AXES, TERMS), np.int64)
     start[:48, 0] = 49152
-    start[48:, :3] = 32768, 5461, 8192
+    start[48:, :2] = 49152, 8192
     return start

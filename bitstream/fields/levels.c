@@ -7,6 +7,7 @@ enum {
     MOST_AXES = 3,
     MOST_LEVEL = 1 << 20,
     LEARNERS = 4 * MOST_AXES,
+    TERMS = 8,
 };
 
 typedef struct { /* what is known of a vertex before its axes */
@@ -58,7 +59,7 @@ static bool code_axis(RangeCoder *coder, const ValueModel *model, Levels *l, int
     Learner *learner = (Learner *)l->learners.data + 4 * j + p->flaps;
     int32_t before = j > 0 ? l->levels.data[axes * v + j - 1] * FINE : 0;
     int32_t term[TERMS] = {mean, flap - mean, tip - mean, late * FINE - mean, early * FINE - mean, off, around - mean, before};
-    int32_t guess = foretell(learner, term, FINE * MOST_LEVEL);
+    int32_t guess = foretell(learner, TERMS, term, FINE * MOST_LEVEL);
 
     Expectation e;
     e.prediction[0] = 0;
@@ -71,8 +72,9 @@ static bool code_axis(RangeCoder *coder, const ValueModel *model, Levels *l, int
     int32_t a = (int32_t)least(size_class(typical), 23), s = (int32_t)least(size_class(error_near), 19);
     int32_t b = (int32_t)least(size_class(p->busy), 23), o = (int32_t)least(size_class(*own * 4), 11);
     e.scale = error_near + 4;
+    e.asks = 0; /* most are 0, and found at once without */
     e.scale_context = a * 20 + s;
-    e.hit_context = (j > 0) * 16 + (p->flaps > 1) * 8 + (a < 2 ? 0 : a < 5 ? 1 : a < 7 ? 2 : 3) * 2 + (*own > 0);
+    e.hit_context = 0;
     e.context[0] = (j * 24 + a) * 4 + p->flaps;
     e.context[1] = (s * 3 + j) * 4 + p->flaps;
     e.context[2] = j > 0 ? b * 12 + o
@@ -80,7 +82,7 @@ static bool code_axis(RangeCoder *coder, const ValueModel *model, Levels *l, int
     e.context[3] = j > 0 ? ((int32_t)least(a, 11) * 12 + o) * 3 + j : (within(guess + 96, 0, 191) >> 2) * 8 + p->valence;
     e.context[4] = three_classes(flap, mean, tip, FINE, FINE);
     e.context[5] = ((int32_t)least(near, 5) * 6 + (int32_t)least(p->valence, 5)) * 3 + j + 108 * (int32_t)least(a, 3);
-    e.set = (p->flaps * 3 + j) * 2 + (typical < 8);
+    e.set = j;
 
     int32_t value = code_value(coder, model, &e, coder->reading ? 0 : x[axes * v]);
     if (value < -MOST_LEVEL || value > MOST_LEVEL) return false;
@@ -88,7 +90,7 @@ static bool code_axis(RangeCoder *coder, const ValueModel *model, Levels *l, int
     l->gaps.data[axes * v + j] = value * FINE - guess;
     l->means.data[axes * v + j] = divided((sum + value) * FINE, near + 1);
     *own = size_of(value) + (*own >> 1);
-    learn(learner, term, value * FINE, e.scale);
+    learn(learner, TERMS, term, value * FINE, e.scale);
     return true;
 }
 

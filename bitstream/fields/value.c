@@ -4,12 +4,11 @@
 #include "bitstream/fields/tables.h"
 
 enum {
-    RATE = 9,         /* of the mixing weights */
+    RATE = 9,        /* of the mixing weights */
     SLOT_LIMIT = 400, /* uses after which a slot learns at a constant rate */
     HIT_LIMIT = 60,
     SCALE_LIMIT = 255,
     MOST_ODDS = 2047,
-    MOST_ASKS = 3,
     ASK_FROM = (1 << SLOT_BITS) / 6, /* hit rate from which a prediction is asked for */
     REACH = 1 << 22,                 /* where the classes of the distance end */
 };
@@ -94,7 +93,7 @@ INLINE int32_t find_scales(Work *w) {
 INLINE bool ask(Work *w, int32_t *value, int32_t *asked, int *asks) {
     const Expectation *e = w->e;
     int open = (1 << PREDICTIONS) - 1;
-    for (*asks = 0; *asks < MOST_ASKS && open != 0;) {
+    for (*asks = 0; *asks < e->asks && open != 0;) {
         int best = 0;
         uint32_t rate = 0;
         for (int j = 0; j < PREDICTIONS; j++) {

@@ -15,7 +15,9 @@ enum {
     CONTEXT_SIZE = 512, /* values of a context */
     SCALE_CONTEXTS = 512,
     HIT_CONTEXTS = 32,
-    WEIGHT_SETS = 24,
+    WEIGHT_SETS = 3,
+    KINDS = 6, /* of decisions */
+    MOST_ASKS = 3,
     VALUE_INPUTS = PREDICTIONS + CONTEXTS + 1,
     /* Nodes of the decisions, by kind. */
     ASK_NODE = 0,
@@ -23,7 +25,6 @@ enum {
     CLASS_NODE = SIDE_NODE + 4,
     PLACE_NODE = CLASS_NODE + 2 * 15,
     VALUE_NODES = PLACE_NODE + 2 * 9,
-    KINDS = 6,
     VALUE_BYTES = 160, /* more than a value can take */
 };
 
@@ -38,6 +39,7 @@ typedef struct {
 typedef struct { /* filled by the front-end */
     int32_t prediction[PREDICTIONS]; /* below 2^28 in magnitude; the last is the best guess */
     int32_t scale;                   /* what to expect of the size of its error, in 1/16; 0 .. 2^28 */
+    int32_t asks;                    /* predictions that may be asked for, at most MOST_ASKS */
     int32_t scale_context, hit_context, context[CONTEXTS], set;
 } Expectation;
 
