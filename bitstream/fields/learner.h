@@ -6,7 +6,7 @@
 #include "bitstream/fields/value.h"
 
 enum {
-    MOST_TERMS = 8,
+    MOST_TERMS = 7,
     MEMORY = 11,            /* a sample is forgotten after about 2^MEMORY others */
     RIDGE = 1 << 19,        /* pulls weights towards where they started */
     MOST_WEIGHT = 1 << 18,  /* 1.0 is 2^16 */

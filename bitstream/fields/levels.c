@@ -7,7 +7,7 @@ enum {
     MOST_AXES = 3,
     MOST_LEVEL = 1 << 20,
     LEARNERS = 4 * MOST_AXES,
-    TERMS = 8,
+    TERMS = 6,
 };
 
 typedef struct { /* what is known of a vertex before its axes */
@@ -36,29 +36,28 @@ static bool code_axis(RangeCoder *coder, const ValueModel *model, Levels *l, int
     const Around *r = &p->around;
     int64_t axes = l->levels.columns;
     int32_t *x = l->levels.data + j, near = r->neighbours;
-    int64_t sum = 0, size = 0, drift = 0, error = 0, second = 0, across = 0, tips = 0;
+    int64_t sum = 0, size = 0, gaps = 0, errors = 0, means = 0, across = 0, tips = 0;
     for (int i = 0; i < near; i++) {
         int64_t at = axes * r->neighbour[i];
         int32_t gap = l->gaps.data[at + j];
-        sum += x[at], size += size_of(x[at]), drift += gap, error += size_of(gap), second += l->means.data[at + j];
+        sum += x[at], size += size_of(x[at]), gaps += gap, errors += size_of(gap), means += l->means.data[at + j];
     }
     for (int i = 0; i < r->flaps; i++) {
         Flap f = r->flap[i];
         tips += x[axes * f.c];
         across += (int64_t)x[axes * f.a] + x[axes * f.b] - x[axes * f.c];
     }
-    int32_t mean = 0, typical = 2 * FINE, off = 0, error_near = 2 * FINE, around = 0, late = 0, early = 0;
+    int32_t mean = 0, typical = 2 * FINE, drift = 0, error_near = 2 * FINE, ring = 0, late = 0, early = 0;
     if (near > 0) {
         mean = divided(sum * FINE, near), typical = divided(size * FINE, near);
-        off = divided(drift, near), error_near = divided(error, near), around = divided(second, near);
+        drift = divided(gaps, near), error_near = divided(errors, near), ring = divided(means, near);
         late = x[axes * p->latest], early = x[axes * p->earliest];
     }
     int32_t flap = r->flaps > 0 ? divided(across * FINE, r->flaps) : mean;
     int32_t tip = r->flaps > 0 ? divided(tips * FINE, r->flaps) : mean;
 
     Learner *learner = (Learner *)l->learners.data + 4 * j + p->flaps;
-    int32_t before = j > 0 ? l->levels.data[axes * v + j - 1] * FINE : 0;
-    int32_t term[TERMS] = {mean, flap - mean, tip - mean, late * FINE - mean, early * FINE - mean, off, around - mean, before};
+    int32_t term[TERMS] = {mean, flap - mean, tip - mean, early * FINE - mean, drift, ring - mean};
     int32_t guess = foretell(learner, TERMS, term, FINE * MOST_LEVEL);
 
     Expectation e;

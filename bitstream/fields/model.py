@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 PREDICTIONS = 7
-TERMS = 8
+TERMS = 7
 
 _CONTEXTS = 6
 _CONTEXT_SIZE = 512
