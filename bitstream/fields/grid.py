@@ -13,6 +13,7 @@ from bitstream.errors import MeshError, OptionError
 from bitstream.fields.chunks import Progress
 from bitstream.fields.corners import BYTES_PER_FACE, BYTES_PER_VERTEX, corners_of, traverse
 from bitstream.fields.model import MODEL_BYTES, TERMS, make_learners, make_model
+from bitstream.limits import DEFAULT_LIMITS, Limits
 
 Ints = npt.NDArray[np.int32]
 
@@ -109,7 +110,7 @@ class GridEncoder(_GridCoder):
 
 
 class GridDecoder(_GridCoder):
-    """Twin of `GridEncoder`; compare `grid_charge` with what may be spent before making one.
+    """Twin of `GridEncoder`.
 
     Parameters
     ----------
@@ -117,9 +118,21 @@ class GridDecoder(_GridCoder):
     vertices : int
         Their number n.
     largest : integers, shape (3,)
+    limits : Limits
+        `field_bytes` bounds `grid_charge`.
+
+    Raises
+    ------
+    MeshError, OptionError
+        As `GridEncoder`.
+    LimitError
+        Before anything is allocated.
     """
 
-    def __init__(self, faces: npt.ArrayLike, vertices: int, largest: npt.ArrayLike) -> None:
+    def __init__(
+        self, faces: npt.ArrayLike, vertices: int, largest: npt.ArrayLike, limits: Limits = DEFAULT_LIMITS
+    ) -> None:
+        limits.check("field_bytes", grid_charge(vertices, len(np.asarray(faces))))
         super().__init__(faces, vertices, largest)
 
     def chunk(self, payload: bytes, count: int) -> tuple[Ints, Ints]:

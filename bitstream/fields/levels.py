@@ -13,6 +13,7 @@ from bitstream.errors import MeshError, OptionError
 from bitstream.fields.chunks import Progress
 from bitstream.fields.corners import BYTES_PER_FACE, BYTES_PER_VERTEX, corners_of
 from bitstream.fields.model import MODEL_BYTES, TERMS, make_learners, make_model
+from bitstream.limits import DEFAULT_LIMITS, Limits
 
 Ints = npt.NDArray[np.int32]
 
@@ -93,7 +94,7 @@ class LevelsEncoder(_LevelsCoder):
 
 
 class LevelsDecoder(_LevelsCoder):
-    """Twin of `LevelsEncoder`; compare `levels_charge` with what may be spent before making one.
+    """Twin of `LevelsEncoder`.
 
     Parameters
     ----------
@@ -102,9 +103,19 @@ class LevelsDecoder(_LevelsCoder):
         Their number n.
     axes : int
         Levels per vertex, 1 or 3.
+    limits : Limits
+        `field_bytes` bounds `levels_charge`.
+
+    Raises
+    ------
+    MeshError, OptionError
+        As `LevelsEncoder`.
+    LimitError
+        Before anything is allocated.
     """
 
-    def __init__(self, faces: npt.ArrayLike, vertices: int, axes: int) -> None:
+    def __init__(self, faces: npt.ArrayLike, vertices: int, axes: int, limits: Limits = DEFAULT_LIMITS) -> None:
+        limits.check("field_bytes", levels_charge(vertices, len(np.asarray(faces)), axes))
         super().__init__(faces, vertices, axes)
 
     def chunk(self, payload: bytes, count: int) -> tuple[Ints, Ints]:
