@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import operator
 from dataclasses import MISSING, dataclass, field, fields
-from typing import Any
+from typing import Any, TypeAlias
 
 from bitstream.errors import CorruptError, OptionError, UnsupportedError
 
 FIRST_IGNORABLE_KEY = 64
 COUNT = 2**31 - 1
 METHODS = 255
+Kind: TypeAlias = type[Any]
 MOST_GRID = 2**20 - 1
 
 
@@ -28,7 +29,7 @@ class Field:
     high: float
     reserved: float = 0
     lengths: tuple[int, int] = (0, 0)
-    item: type = float
+    item: Kind = float
 
     def normalise(self, value: Any) -> Any:
         """`value` as a plain int, float or tuple of these; `TypeError` or `ValueError` if it is none."""
@@ -53,7 +54,7 @@ class Field:
         return type(value) is self.type
 
 
-def _plain(kind: type, value: Any) -> int | float:
+def _plain(kind: Kind, value: Any) -> int | float:
     return operator.index(value) if kind is int else float(value)
 
 

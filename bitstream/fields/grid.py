@@ -45,7 +45,9 @@ class _GridCoder:
     def __init__(self, faces: npt.ArrayLike, vertices: int, largest: npt.ArrayLike) -> None:
         top = np.array(largest, np.int64)
         if top.shape != (AXES,) or top.min() < 0 or top.max() > MOST_LARGEST:
-            raise OptionError(f"the largest values of a grid must be {AXES} from 0 to {MOST_LARGEST}, not {largest}")
+            raise OptionError(
+                f"the largest values of a grid must be {AXES} from 0 to {MOST_LARGEST}, not {top.tolist()}"
+            )
         corners = corners_of(faces, vertices)
         order = traverse(corners)
         model = make_model()

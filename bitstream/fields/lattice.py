@@ -56,7 +56,7 @@ def find_lattice(values: npt.ArrayLike, cells: int) -> tuple[npt.NDArray[np.int3
     return _nearest(given, count, cells).astype(np.int32), (cells, count)
 
 
-def _nearest(values: npt.NDArray[np.int64], count: npt.ArrayLike, cells: int) -> npt.NDArray[np.int64]:
+def _nearest(values: npt.NDArray[np.int64], count: npt.NDArray[np.int64] | int, cells: int) -> npt.NDArray[np.int64]:
     return (2 * values * count + cells) // (2 * cells)
 
 
