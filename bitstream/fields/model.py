@@ -1,4 +1,4 @@
-"""The adaptive state that all fields share: what codes one integer (`value.h`), and learnt sums of terms (`learner.h`)."""
+"""The adaptive state that all fields share: of what codes an integer (`value.h`), and of learnt sums (`learner.h`)."""
 
 from __future__ import annotations
 
