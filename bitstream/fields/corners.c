@@ -3,9 +3,9 @@
 
 enum { MOST_CORNERS = 1 << 30, QUEUES = 4 };
 
-bool fits_corners(Corners c) {
-    return c.faces.columns == 3 && c.faces.rows <= MOST_CORNERS / 3 && c.starts.size >= 1
-        && c.corners.size == 3 * c.faces.rows && c.opposite.size == c.corners.size && c.rank.size == c.starts.size - 1;
+bool fits_corners(const Corners *c) {
+    return c->faces.columns == 3 && c->faces.rows <= MOST_CORNERS / 3 && c->starts.size >= 1
+        && c->corners.size == 3 * c->faces.rows && c->opposite.size == c->corners.size && c->rank.size == c->starts.size - 1;
 }
 
 /* The corners of each vertex, in order. */
@@ -47,7 +47,7 @@ static void pair_corners(Corners c, int32_t v, int32_t *waiting, int32_t *below)
 /* Fill starts, corners and opposite; scratch: n + 3 m. Checks the faces. */
 int64_t link_corners(Corners c, Ints scratch) {
     int64_t n = c.rank.size;
-    if (!fits_corners(c) || scratch.size < n + c.corners.size) return MISUSED;
+    if (!fits_corners(&c) || scratch.size < n + c.corners.size) return MISUSED;
     for (int64_t k = 0; k < c.corners.size; k++) {
         if (c.faces.data[k] < 0 || c.faces.data[k] >= n) return MISUSED;
         c.opposite.data[k] = -1;
@@ -111,7 +111,7 @@ static void complete(const Corners *c, Waiting *w, int32_t v) {
  * has had them for longest; where none waits, the one of lowest number. scratch: 3 x n. */
 int64_t order_vertices(Corners c, Ints order, Ints2 scratch) {
     int64_t n = c.rank.size;
-    if (!fits_corners(c) || order.size != n || scratch.rows != 3 || scratch.columns != n) return MISUSED;
+    if (!fits_corners(&c) || order.size != n || scratch.rows != 3 || scratch.columns != n) return MISUSED;
     Waiting w = {.next = scratch.data, .previous = scratch.data + n, .queue = scratch.data + 2 * n};
     for (int q = 0; q < QUEUES; q++) w.first[q] = w.last[q] = -1;
     for (int64_t v = 0; v < n; v++) c.rank.data[v] = w.queue[v] = -1;

@@ -30,7 +30,7 @@ INLINE int32_t next_corner(int32_t k) { return k % 3 == 2 ? k - 2 : k + 1; }
 INLINE int32_t previous_corner(int32_t k) { return k % 3 == 0 ? k + 2 : k - 1; }
 INLINE int32_t faces_at(const Corners *c, int32_t v) { return c->starts.data[v + 1] - c->starts.data[v]; }
 
-bool fits_corners(Corners corners);
+bool fits_corners(const Corners *corners);
 void gather_around(const Corners *corners, int32_t v, Around *around);
 
 int64_t link_corners(Corners corners, Ints scratch);

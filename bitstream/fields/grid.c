@@ -54,17 +54,16 @@ static void sort_flaps(const Grid *g, Around *r) {
     }
 }
 
-static Plane make_plane(const int64_t *normal) {
-    Plane p = {.square = 0, .used = 0, .dot = 0};
+static void start_plane(Plane *p, const int64_t *normal) {
+    p->square = p->used = p->dot = 0;
     int64_t most = 0;
     int shift = 0;
     for (int j = 0; j < AXES; j++) most = largest(most, normal[j] < 0 ? -normal[j] : normal[j]);
     while (most >> shift >= 1 << 14) shift++;
     for (int j = 0; j < AXES; j++) {
-        p.normal[j] = (int32_t)(normal[j] >> shift);
-        p.square += (int64_t)p.normal[j] * p.normal[j];
+        p->normal[j] = (int32_t)(normal[j] >> shift);
+        p->square += (int64_t)p->normal[j] * p->normal[j];
     }
-    return p;
 }
 
 INLINE int64_t unused(const Plane *p) { return p->square - p->used + (p->square >> 6) + 1; }
@@ -149,7 +148,6 @@ static void average(const Grid *g, int32_t last, Place *p) {
 /* Planes of the two best flaps and of all; the axis nearest to the normal of all comes last. */
 static void span_planes(const Grid *g, Place *p) {
     int64_t normal[AXES] = {0, 0, 0};
-    p->plane[0] = p->plane[1] = make_plane(normal);
     for (int i = 0; i < p->around.flaps; i++) {
         Flap flap = p->around.flap[i];
         const int32_t *x = g->values.data, *a = x + AXES * (int64_t)flap.a, *b = x + AXES * (int64_t)flap.b;
@@ -160,9 +158,9 @@ static void span_planes(const Grid *g, Place *p) {
             own[j] = (int64_t)(b[s] - a[s]) * (c[t] - a[t]) - (int64_t)(b[t] - a[t]) * (c[s] - a[s]);
             normal[j] += own[j];
         }
-        if (i < 2) p->plane[i] = make_plane(own);
+        if (i < 2) start_plane(&p->plane[i], own);
     }
-    p->whole = make_plane(normal);
+    start_plane(&p->whole, normal);
     for (int i = 0; i < STEPS; i++) {
         int k = i;
         for (; k > 0 && size_of(p->whole.normal[p->axis[k - 1]]) > size_of(p->whole.normal[i]); k--)
@@ -304,7 +302,7 @@ static bool fits_grid(const Corners *corners, const Grid *g) {
  * Returns how many. */
 int64_t code_grid(Coder given, ValueModel model, Corners corners, Grid grid, int64_t first, int64_t count) {
     RangeCoder coder;
-    if (!open_coder(&coder, given) || !fits_values(model) || !fits_corners(corners) || !fits_grid(&corners, &grid)
+    if (!open_coder(&coder, given) || !fits_values(&model) || !fits_corners(&corners) || !fits_grid(&corners, &grid)
         || first < 0 || count < 0 || first > grid.order.size - count)
         return MISUSED;
     int64_t done = 0;

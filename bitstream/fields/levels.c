@@ -114,7 +114,7 @@ static bool fits_levels(const Corners *corners, const Levels *l) {
  * Returns how many. */
 int64_t code_levels(Coder given, ValueModel model, Corners corners, Levels levels, int64_t first, int64_t count) {
     RangeCoder coder;
-    if (!open_coder(&coder, given) || !fits_values(model) || !fits_corners(corners) || !fits_levels(&corners, &levels)
+    if (!open_coder(&coder, given) || !fits_values(&model) || !fits_corners(&corners) || !fits_levels(&corners, &levels)
         || first < 0 || count < 0 || first > corners.rank.size - count)
         return MISUSED;
     int64_t done = 0;

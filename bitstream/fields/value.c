@@ -21,10 +21,10 @@ typedef struct { /* a value under way */
     int32_t input[VALUE_INPUTS];
 } Work;
 
-bool fits_values(ValueModel model) {
-    return model.slots.size == CONTEXTS * CONTEXT_SIZE * VALUE_NODES && model.hits.size == PREDICTIONS * HIT_CONTEXTS
-        && model.weights.rows == VALUE_NODES + WEIGHT_SETS * KINDS && model.weights.columns == VALUE_INPUTS
-        && model.scales.rows == PREDICTIONS * SCALE_CONTEXTS && model.scales.columns == 2;
+bool fits_values(const ValueModel *model) {
+    return model->slots.size == CONTEXTS * CONTEXT_SIZE * VALUE_NODES && model->hits.size == PREDICTIONS * HIT_CONTEXTS
+        && model->weights.rows == VALUE_NODES + WEIGHT_SETS * KINDS && model->weights.columns == VALUE_INPUTS
+        && model->scales.rows == PREDICTIONS * SCALE_CONTEXTS && model->scales.columns == 2;
 }
 
 /* -ln of the probability that an error exceeds `distance` (1/16), in 2^-16 nat (V 4.1). */

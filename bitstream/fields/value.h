@@ -74,7 +74,7 @@ INLINE int32_t hits_of(const Expectation *e, int32_t value) {
     return hits;
 }
 
-bool fits_values(ValueModel model);
+bool fits_values(const ValueModel *model);
 /* Codes an integer less than 2^21 away from the best guess; what a reader returns may be 2^24 away. */
 int32_t code_value(RangeCoder *coder, const ValueModel *model, const Expectation *e, int32_t value);
 
