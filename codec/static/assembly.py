@@ -87,7 +87,8 @@ class Assembly:
         done = self._filter.smoothed(self._blended, finished)
         changed = np.concatenate([moved, finished])
         positions = self._units.back(np.concatenate([self._blended[moved], done]))
-        return Changes(self._numbering.of(changed), positions, np.arange(len(changed)) >= len(moved))
+        numbers, rows = self._numbering.spread(changed)
+        return Changes(numbers, positions[rows], (np.arange(len(changed)) >= len(moved))[rows])
 
     def losses(self) -> Losses:
         """What the blocks that were lost leave missing or less good."""
