@@ -9,9 +9,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from scipy import sparse
+from scipy.sparse.csgraph import connected_components
 
 from codec import _kernels
-from codec.arrays import Indices
+from codec.arrays import Indices, Order
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,3 +42,11 @@ def graph_of_faces(faces: Indices, size: int) -> Graph:
     offsets, filled, ends = np.empty(size + 1, np.int32), np.empty(size, np.int32), np.empty(6 * len(faces), np.int32)
     kept = _kernels.collect_edges(np.ascontiguousarray(faces, np.int32), offsets, filled, ends)
     return Graph(offsets, ends[:kept].copy())
+
+
+def component_sizes(graph: Graph) -> Order:
+    """Vertices of each connected component, in the order of their first vertices."""
+    rows = sparse.csr_array(
+        (np.ones(len(graph.neighbours), np.int8), graph.neighbours, graph.offsets), shape=(graph.size, graph.size)
+    )
+    return np.bincount(connected_components(rows, directed=False)[1]).astype(np.int64)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from typing import ClassVar
 
 import numpy as np
 
@@ -40,16 +41,18 @@ class Changes:
 
 @dataclass(frozen=True, eq=False)
 class BlockEvent:
-    """A block has been decoded.
+    """A block, or of a mesh on a grid a chunk, has been decoded: layer 0.
 
     Parameters
     ----------
     index : int
-        Of the block.
+        Of the block or chunk.
     changes : Changes
         Vertices that this block moved or finished, their positions in the mesh's unit, and which of them no later
-        block will move.
+        block will move (a layer of refinement may).
     """
+
+    layer: ClassVar[int] = 0
 
     index: int
     changes: Changes
@@ -68,6 +71,25 @@ class BlockEvent:
     def final(self) -> Mask:
         """Which of them no later block will move, shape (v,)."""
         return self.changes.final
+
+
+@dataclass(frozen=True, eq=False)
+class RefinementEvent:
+    """Levels of a layer of refinement have been decoded; they come when all blocks have.
+
+    Parameters
+    ----------
+    layer : int
+        1 for the first layer of refinement.
+    vertices : int32 array, shape (v,)
+        What was moved.
+    positions : float64 array, shape (v, 3)
+        Where that is now, in the mesh's unit.
+    """
+
+    layer: int
+    vertices: Indices
+    positions: Positions
 
 
 @dataclass(frozen=True)

@@ -26,7 +26,7 @@ from bitstream.limits import Limits
 from codec.arrays import Faces, Indices, Matrix, Order, Positions
 from codec.blocks.overlap import Blocks, block_size, grow_blocks
 from codec.blocks.partition import Partition, derive_partition, metis_partition, partition_of_labels
-from codec.geometry.graph import Graph, graph_of_faces
+from codec.geometry.graph import Graph, component_sizes, graph_of_faces
 from codec.geometry.mesh import TriangleMesh
 from codec.static.events import ConnectivityEvent, HeaderEvent, LossEvent, unreadable
 from codec.static.rules import Scheme, scheme_of
@@ -82,6 +82,11 @@ class Prepared:
     def positions(self) -> Matrix:
         """Of `mesh`, in BSM units, shape (n, 3)."""
         return self.units.into(self.mesh.positions)
+
+    @cached_property
+    def component_sizes(self) -> Order:
+        """Vertices of each connected component."""
+        return component_sizes(self.graph)
 
     @cached_property
     def partition(self) -> Partition:

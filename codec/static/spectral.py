@@ -1,0 +1,115 @@
+"""Drafts of blocks: a base, and layers of refinement on it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+
+from bitstream.container.header import Header, Layer
+from codec.arrays import Levels, Matrix
+from codec.signal.frames import displaced, in_frames, local_frames
+from codec.signal.smooth import smooth
+from codec.static.assembly import blended
+from codec.static.block_coder import Progress, encode_blocks
+from codec.static.draft import Draft
+from codec.static.options import EncodeOptions
+from codec.static.plan import Planner
+from codec.static.preamble import Prepared
+from codec.static.refinement import encode_layer
+from codec.static.units import single
+
+
+@dataclass(frozen=True, eq=False)
+class Base:
+    """Blocks, coded.
+
+    Parameters
+    ----------
+    prepared : Prepared
+    draft : Draft
+        Of the blocks alone.
+    positions : float64 array, shape (n, 3)
+        As decoded, in BSM units.
+    """
+
+    prepared: Prepared
+    draft: Draft
+    positions: Matrix
+
+    @cached_property
+    def frames(self) -> Matrix:
+        """The frames that levels are in, shape (n, 9)."""
+        return local_frames(self.positions, self.prepared.mesh.faces)
+
+    @cached_property
+    def offsets(self) -> Matrix:
+        """What is missing, in these frames: along normals and tangents, shape (n, 3)."""
+        return self.offsets_of(self.positions)
+
+    def offsets_of(self, positions: Matrix) -> Matrix:
+        """What is missing where the base was moved to `positions`, in the same frames."""
+        return in_frames(self.prepared.positions - positions, self.frames)
+
+    def layer(self, step: float, ratio: float) -> Layer:
+        """A layer whose numbers a header can hold."""
+        return Layer(single(step), single(ratio))
+
+    def moved(self, layer: Layer, levels: Levels, positions: Matrix | None = None) -> Matrix:
+        """Where levels bring the base, or other positions, in BSM units."""
+        return displaced(self.positions if positions is None else positions, self.frames, levels, layer.step, layer.ratio)
+
+    def refined(self, *added: tuple[Layer, Levels]) -> Draft:
+        """With layers of levels, shapes (n, axes)."""
+        positions = self.positions
+        body = self.draft.body
+        for number, (layer, levels) in enumerate(added):
+            positions = self.moved(layer, levels, positions)
+            body += tuple(encode_layer(self.prepared.mesh.faces, number, levels))
+        numbers = tuple(number for layer, _ in added for number in (layer.step, layer.ratio))
+        header = replace(self.draft.header, refinements=numbers)
+        return Draft(header, body, self.prepared.units.back(positions))
+
+
+class Spectral:
+    """Codes a mesh in blocks.
+
+    Parameters
+    ----------
+    prepared : Prepared
+    options : EncodeOptions
+    """
+
+    def __init__(self, prepared: Prepared, options: EncodeOptions) -> None:
+        self._prepared = prepared
+        self._options = options
+        self._planner = Planner(prepared, options)
+
+    def base(self, step: float, progress: Progress | None = None) -> Base:
+        """The blocks at a step.
+
+        Parameters
+        ----------
+        step : float
+        progress : callable, optional
+            Called with the number of blocks done and of all blocks.
+        """
+        prepared, options = self._prepared, self._options
+        scheme = self._planner.scheme(step)
+        blocks = encode_blocks(scheme, prepared.positions, threads=options.threads, doi=options.doi, progress=progress)
+        positions = blended(prepared.graph.size, (block.decoded for block in blocks))
+        smoothing = options.fixed_smoothing
+        header = Header(
+            vertices=prepared.graph.size,
+            faces=len(prepared.mesh.faces),
+            block_size=prepared.size,
+            coefficients=max(block.packet.coefficients for block in blocks),
+            center=prepared.units.center,
+            scale=prepared.units.scale,
+            smoothing=self._planner.smoothing(positions) if smoothing is None else single(smoothing),
+            **scheme.fields(),
+        )
+        decoded = smooth(prepared.graph, positions, header.smoothing)
+        body = (*prepared.packets, *(block.packet for block in blocks))
+        return Base(prepared, Draft(header, body, prepared.units.back(decoded)), np.ascontiguousarray(decoded))
