@@ -15,7 +15,7 @@ import numpy as np
 
 from bitstream.container.header import Layer
 from bitstream.errors import TargetError
-from codec.arrays import Levels
+from codec.arrays import Levels, Matrix
 from codec.geometry.closeness import Closeness, Original
 from codec.static.block_coder import Progress
 from codec.static.contract import ANY_ANGLE, Contract
@@ -34,6 +34,8 @@ SMALL_COMPONENT = 150
 """Vertices; a component of fewer has none either."""
 LATTICES = 3
 """Successive powers of two that are tried for the grid: models made on one cost half as much there."""
+MANY_OUTLIERS = 0.01
+"""Of this many vertices out of reach, more are cheaper to bring back along all axes of a layer that all have."""
 SLACK = 0.03
 """How far below a bound on angles the search for a step may stay."""
 COARSEST = 0.05
@@ -194,13 +196,17 @@ class Fulfilment:
             layers = [*layers, (layer, wanted)]
         return base.refined(*layers) if layers else base.draft
 
+    def _outliers(self, positions: Matrix) -> int:
+        """How many vertices are out of reach."""
+        return int((np.square(positions - self._prepared.positions).sum(axis=1) > self._reach**2).sum())
+
     def _refined(self, base: Base) -> Iterator[Draft]:
         """A base with heights along the normals, if these can bring normals right; with all axes if not."""
         angle = self._contract.angle
         heights = base.positions + base.frames[:, :3] * base.offsets[:, :1]
         ratio = 0.0 if self._original.angle(heights) <= angle else 6.0
         best = self._refinement(base, ratio)
-        if best is None and not ratio:
+        if not ratio and (best is None or self._outliers(base.moved(*best.found)) > MANY_OUTLIERS * len(heights)):
             best = self._refinement(base, 6.0)
         if best is not None:
             yield self._with_outliers(base, [best.found])
