@@ -13,6 +13,7 @@ from bitstream.container.header import Header
 from bitstream.container.reader import Signal
 from bitstream.errors import BsmError, CorruptError
 from bitstream.fields.grid import GridDecoder, GridEncoder
+from bitstream.fields.lattice import spread
 from codec.arrays import Indices, Levels, Positions
 from codec.geometry.mesh import TriangleMesh
 from codec.static.events import BlockEvent, Changes, Losses, LossEvent, unreadable
@@ -45,11 +46,7 @@ class Grid:
 
     def positions(self, coded: Levels) -> Positions:
         """Of coded values, shape (n, 3), in the mesh's unit."""
-        cells = coded.astype(np.int64)
-        if self.lattice:
-            count, points = self.lattice
-            cells = (2 * cells * count + points) // (2 * points)
-        return cells * self.step + np.array(self.origin)
+        return spread(coded, self.lattice) * self.step + np.array(self.origin)
 
     @property
     def fields(self) -> dict[str, Any]:

@@ -7,6 +7,7 @@ import numpy as np
 from bitstream.container.header import Header
 from bitstream.errors import TargetError
 from bitstream.fields.grid import MOST_LARGEST
+from bitstream.fields.lattice import find_lattice
 from codec.arrays import Levels, Matrix, Positions
 from codec.static.draft import Draft
 from codec.static.grid import Grid, encode_grid
@@ -50,35 +51,8 @@ def rounded(prepared: Prepared, bits: int) -> Draft:
 
 def latticed(origin: tuple[float, ...], step: float, places: Matrix, cells: int) -> tuple[Grid, Levels]:
     """The grid of places, on a coarser lattice where they all are on one."""
-    largest = tuple(int(value) for value in places.max(axis=0))
-    points = find_lattice(places, cells)
-    if points is None:
-        return Grid(origin, step, largest), places.astype(np.int32)
-    coded = (2 * places * points + cells) // (2 * cells)
-    return Grid(origin, step, tuple(int(value) for value in coded.max(axis=0)), (cells, points)), coded.astype(np.int32)
-
-
-def find_lattice(places: Matrix, cells: int) -> int | None:
-    """The least number of points such that every place is the nearest to a whole multiple of cells / points.
-
-    None where that would not save a bit. `places` are integers from 0 to `cells`.
-    """
-    values = np.unique(places)
-    candidates = np.arange(1, cells // 2 + 1, dtype=np.int64)
-    for count in (4, 32, len(values)):
-        some = values[:: max(1, len(values) // count)]
-        pieces = np.array_split(candidates, 1 + len(candidates) * len(some) // 1_000_000)
-        candidates = np.concatenate([piece[_on_lattice(some, piece, cells)] for piece in pieces])
-        if not len(candidates):
-            return None
-    return int(candidates[0])
-
-
-def _on_lattice(values: Matrix, points: Matrix, cells: int) -> Matrix:
-    """For which numbers of points all values are on the lattice."""
-    points = points[:, None]
-    nearest = (2 * values * points + cells) // (2 * cells)
-    return np.asarray(((2 * nearest * cells + points) // (2 * points) == values).all(axis=1))
+    points, lattice = find_lattice(places, cells)
+    return Grid(origin, step, tuple(int(value) for value in points.max(axis=0)), lattice), points
 
 
 class Shaped:
