@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Generic, TypeVar
 
 import numpy as np
@@ -32,10 +33,20 @@ FEW_VERTICES = 300
 """Meshes of fewer have no low frequencies worth speaking of."""
 SMALL_COMPONENT = 150
 """Vertices; a component of fewer has none either."""
+WIDEST = 140
+"""Columns of a dictionary: wider ones cost more time, for every decoder, than the bytes they save are worth."""
+FLAT = 0.2
+"""Share of frequencies worth coding at a coarse step from which on a grid is smaller than blocks."""
 LATTICES = 3
-"""Successive powers of two that are tried for the grid: models made on one cost half as much there."""
+"""Successive powers of two that may be tried for the grid: models made on one cost half as much there."""
+GRID_SHARE = 0.5
+"""Of the entropy of second differences on a rounded grid: what a shaped one costs at least."""
+LATTICE_GAIN = 0.75
+"""A finer grid whose entropy is below so much of the coarser one's is one that the model was made on."""
 MANY_OUTLIERS = 0.01
 """Of this many vertices out of reach, more are cheaper to bring back along all axes of a layer that all have."""
+COARSE = 0.016
+"""The coarsest step of blocks that are refined, in BSM units."""
 SLACK = 0.03
 """How far below a bound on angles the search for a step may stay."""
 COARSEST = 0.05
@@ -166,21 +177,27 @@ class Fulfilment:
     def _has_low_frequencies(self) -> bool:
         """Whether most vertices are in components large enough to have any."""
         sizes = self._prepared.component_sizes
-        return self._prepared.graph.size >= FEW_VERTICES and sizes[sizes >= SMALL_COMPONENT].sum() > 0.9 * sizes.sum()
+        if self._prepared.graph.size < FEW_VERTICES or sizes[sizes >= SMALL_COMPONENT].sum() < 0.9 * sizes.sum():
+            return False
+        return self._blocks.flatness(COARSE) < FLAT
+
+    @cached_property
+    def _blocks(self) -> Spectral:
+        return Spectral(self._prepared, self._options, WIDEST)
 
     def _spectral(self, progress: Progress | None) -> Iterator[Draft]:
         angle = self._contract.angle
         if self._contract.angle >= ANY_ANGLE and self._reach < 0.001:
             return  # a grid is smaller
         if angle >= PLAIN_ANGLE:
-            base = Spectral(self._prepared, self._options).base(self._options.first_step, progress)
+            base = self._blocks.base(self._options.first_step, progress)
             draft = self._with_outliers(base, [])
             if self._original.angle(self._prepared.units.into(draft.decoded)) <= angle:
                 yield draft
                 return
         plain = replace(self._options, detail=0.0)
-        step = 0.016 if angle >= 5.0 else 0.008 if angle >= 2.5 else 0.004
-        base = Spectral(self._prepared, plain).base(step, progress)
+        step = COARSE if angle >= 5.0 else 0.008 if angle >= 2.5 else 0.004
+        base = Spectral(self._prepared, plain, WIDEST).base(step, progress)
         yield from self._refined(base)
 
     def _with_outliers(self, base: Base, layers: list[tuple[Layer, Levels]]) -> Draft:
@@ -231,8 +248,18 @@ class Fulfilment:
     # Grids.
 
     def _grid_may_win(self, size: int) -> bool:
-        """Whether a grid could be smaller than `size`; some bits more than one can hope for."""
-        return True
+        """Whether a grid could be smaller than `size`."""
+        return len(self._prepared.connectivity.data) + GRID_SHARE * self._entropy(self._first_cell) < size
+
+    def _entropy(self, step: float) -> float:
+        """Bytes of the second differences of positions rounded to a grid, each by itself."""
+        low = self._prepared.positions.min(axis=0)
+        return self._shaper.entropy(np.rint((self._prepared.positions - low) / step).astype(np.int32)) / 8.0
+
+    @property
+    def _first_cell(self) -> float:
+        """The step of a grid that should be about right."""
+        return min(4.0 * math.radians(self._contract.angle) * self._edge, 1.6 * self._reach, COARSEST)
 
     def _grids(self) -> Iterator[Draft]:
         shaped = Shaped(self._prepared, self._shaper)
@@ -243,25 +270,24 @@ class Fulfilment:
             yield shaped.draft(held, places)
             return
         most = min(1.6 * self._reach, COARSEST)
-        first = 4.0 * math.radians(angle) * self._edge
         best = widest_step(
-            lambda step: self._on_grid(shaped, step, 0.4), first, angle, self._reach, tries=5, most=most
+            lambda step: self._on_grid(shaped, step, 0.4), self._first_cell, angle, self._reach, tries=5, most=most
         )
         if best is not None:
             yield shaped.draft(*best.found)
-        yield from self._lattices(shaped, min(most, 2.0 * first))
+        yield from self._lattices(shaped, self._first_cell if best is None else best.step)
 
-    def _lattices(self, shaped: Shaped, most: float) -> Iterator[Draft]:
-        """Grids of powers of two along the longest side."""
-        bits = max(1, math.ceil(math.log2(shaped.extent / most + 1.0)))
-        left = LATTICES
-        for number in range(bits, 20):
-            trial = self._on_grid(shaped, shaped.extent / ((1 << number) - 1), 0.8)
+    def _lattices(self, shaped: Shaped, step: float) -> Iterator[Draft]:
+        """Grids of powers of two along the longest side, from about a step on, where a model seems to be made on one."""
+        bits = max(1, math.floor(math.log2(shaped.extent / step + 1.0)))
+        least = self._entropy(step)
+        for number in range(bits, min(bits + LATTICES + 1, 20)):
+            cell = shaped.extent / ((1 << number) - 1)
+            if self._entropy(cell) > LATTICE_GAIN * least and self._prepared.graph.size > FEW_VERTICES:
+                continue
+            trial = self._on_grid(shaped, cell, 0.8)
             if self._within(trial.closeness):
                 yield shaped.draft(*trial.found)
-                left -= 1
-            if not left:
-                return
 
     def _on_grid(self, shaped: Shaped, step: float, worth: float) -> Trial[tuple[float, Levels]]:
         step = max(step, shaped.finest)

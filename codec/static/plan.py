@@ -9,7 +9,7 @@ import numpy as np
 from bitstream.errors import OptionError
 from codec.arrays import Faces, Indices, Matrix
 from codec.geometry.metrics import Reference
-from codec.signal.bandwidth import MeasuredSpectrum
+from codec.signal.bandwidth import FIRST_LOOK, MeasuredSpectrum
 from codec.signal.chain import Chain, ChainRules, even_interval
 from codec.signal.detail import Surface, make_surface
 from codec.signal.quantize import packed_range, smallest_step
@@ -34,11 +34,20 @@ SMOOTHING_STEPS = tuple(2.0**k for k in range(-3, 7))
 
 
 class Planner:
-    """Makes the plan for one step after another; what is measured on the mesh alone is measured once."""
+    """Makes the plan for one step after another; what is measured on the mesh alone is measured once.
 
-    def __init__(self, prepared: Prepared, options: EncodeOptions) -> None:
+    Parameters
+    ----------
+    prepared : Prepared
+    options : EncodeOptions
+    widest : int, optional
+        Columns of a dictionary that are not exceeded even where more would pay; None: there are no more than rows.
+    """
+
+    def __init__(self, prepared: Prepared, options: EncodeOptions, widest: int | None = None) -> None:
         self._prepared = prepared
         self._options = options
+        self._widest = prepared.size if widest is None else min(widest, prepared.size)
 
     def scheme(self, step: float) -> Scheme:
         """How blocks are coded at a step.
@@ -51,6 +60,12 @@ class Planner:
         rules = self._rules()
         coding = self._coding(step) if self._options.bits is None else self._packed(self._options.bits, rules)
         return Scheme(self._prepared.blocks, rules, coding, self._options.blend)
+
+    def flatness(self, step: float) -> float:
+        """Share of frequencies that are worth coding at a step; 1 where more are than were looked at."""
+        looked = FIRST_LOOK - FIRST_LOOK // 8
+        size = self._spectrum.worthwhile_size(step, looked)
+        return 1.0 if size >= min(looked, self._prepared.size) else size / self._prepared.size
 
     def smoothing(self, blended: Matrix) -> float:
         """The amount of smoothing that lowers what the options are after most, for a decoded mesh before it."""
@@ -84,7 +99,7 @@ class Planner:
             raise OptionError(f"step = {step:g} is too fine for blocks of {size}, try {smallest_step(size):.1e}")
         if not ratio:
             return Adaptive(self._width(step), single(step))
-        details = min(self._spectrum.worthwhile_size(DETAIL_REACH * step), size)
+        details = self._spectrum.worthwhile_size(DETAIL_REACH * step, self._widest)
         base = Adaptive(self._width(BASE_REACH * step), single(step * ratio))
         return Layered(base, details, single(step), self._surface)
 
@@ -95,7 +110,7 @@ class Planner:
             return min(options.coefficients, size)
         if options.keep is not None:
             return min(max(1, round(options.keep * size)), size)
-        return min(self._spectrum.worthwhile_size(step), size)
+        return self._spectrum.worthwhile_size(step, self._widest)
 
     def _packed(self, bits: int, rules: ChainRules) -> Packed:
         """With the step that makes the most of a fixed number of bits: it takes a pass over all blocks."""

@@ -23,6 +23,9 @@ PULL = 0.8
 RATES = np.log1p(np.arange(4096.0))
 """Bits, but for a factor, of a place on a grid that is so far from where a parallelogram would have it."""
 
+MOST_FLAPS, MOST_BEND = 1 << 16, 1 << 10
+"""What entropy is measured on: so many second differences, and so large ones."""
+
 
 class Aim(NamedTuple):
     """What shaping is after.
@@ -112,6 +115,18 @@ class Shaper:
             np.ascontiguousarray(bends), RATES, axes, self._open,
         )  # fmt: skip
         return chosen
+
+    def entropy(self, places: Levels) -> float:
+        """Bits of places on a grid, shape (n, 3), if each took what a second difference takes, by their histogram."""
+        flaps = self._flaps[0]
+        some = flaps[:: max(1, len(flaps) // MOST_FLAPS)]
+        if not len(some):
+            return 0.0
+        bends = places[some[:, 0]] + places[some[:, 1]] - places[some[:, 2]] - places[some[:, 3]]
+        shares = [np.bincount(np.minimum(np.abs(axis), MOST_BEND)) / len(some) for axis in bends.T]
+        magnitudes = sum(float(-(share[share > 0] * np.log2(share[share > 0])).sum()) for share in shares)
+        signs = sum(1.0 - float(share[0]) for share in shares)
+        return len(places) * (magnitudes + signs)
 
     def _aim(self, aim: Aim, share: int) -> tuple[float, float, int]:
         return aim.worth / (share * len(self._open)), float(aim.reach), aim.sweeps

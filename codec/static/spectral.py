@@ -79,12 +79,18 @@ class Spectral:
     ----------
     prepared : Prepared
     options : EncodeOptions
+    widest : int, optional
+        Columns of a dictionary that are not exceeded; None: as many as pay.
     """
 
-    def __init__(self, prepared: Prepared, options: EncodeOptions) -> None:
+    def __init__(self, prepared: Prepared, options: EncodeOptions, widest: int | None = None) -> None:
         self._prepared = prepared
         self._options = options
-        self._planner = Planner(prepared, options)
+        self._planner = Planner(prepared, options, widest)
+
+    def flatness(self, step: float) -> float:
+        """Share of frequencies that are worth coding at a step."""
+        return self._planner.flatness(step)
 
     def base(self, step: float, progress: Progress | None = None) -> Base:
         """The blocks at a step.
