@@ -48,13 +48,10 @@ class Original:
     def __init__(self, positions: Positions, faces: Faces) -> None:
         self.positions: Positions = np.ascontiguousarray(positions, np.float64)
         self.faces: Indices = np.ascontiguousarray(faces, np.int32)
-        a, b, c = (self.positions[self.faces[:, corner]] for corner in range(3))
-        across: Floats = np.cross(b - a, c - a)
-        areas = np.sqrt(np.square(across).sum(axis=1))
-        counted = areas > 0.0
-        self.normals = across / np.where(counted, areas, 1.0)[:, None]
+        areas, self.normals = np.empty(len(self.faces)), np.empty((len(self.faces), 3))
+        _kernels.face_geometry(self.positions, self.faces, np.empty((len(self.faces), 3)), areas, self.normals)
         total = areas.sum()
-        self.weights = areas / total if total > 0.0 else np.zeros(len(areas))
+        self.weights: Floats = areas / total if total > 0.0 else np.zeros(len(areas))
 
     def angle(self, decoded: Positions) -> float:
         """Mean angle between corresponding normals, degrees; a face that lost its area counts as 90."""

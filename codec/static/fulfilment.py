@@ -39,7 +39,7 @@ FLAT = 0.2
 """Share of frequencies worth coding at a coarse step from which on a grid is smaller than blocks."""
 LATTICES = 3
 """Successive powers of two that may be tried for the grid: models made on one cost half as much there."""
-GRID_SHARE = 0.5
+GRID_SHARE = 0.55
 """Of the entropy of second differences on a rounded grid: what a shaped one costs at least."""
 LATTICE_GAIN = 0.75
 """A finer grid whose entropy is below so much of the coarser one's is one that the model was made on."""
@@ -249,7 +249,8 @@ class Fulfilment:
 
     def _grid_may_win(self, size: int) -> bool:
         """Whether a grid could be smaller than `size`."""
-        return len(self._prepared.connectivity.data) + GRID_SHARE * self._entropy(self._first_cell) < size
+        entropy = min(self._entropy(step) for step in (self._first_cell, *self._cells(self._first_cell)))
+        return len(self._prepared.connectivity.data) + GRID_SHARE * entropy < size
 
     def _entropy(self, step: float) -> float:
         """Bytes of the second differences of positions rounded to a grid, each by itself."""
@@ -259,7 +260,8 @@ class Fulfilment:
     @property
     def _first_cell(self) -> float:
         """The step of a grid that should be about right."""
-        return min(4.0 * math.radians(self._contract.angle) * self._edge, 1.6 * self._reach, COARSEST)
+        angle = self._contract.angle
+        return min(4.9 * angle**-0.35 * math.radians(angle) * self._edge, 1.6 * self._reach, COARSEST)
 
     def _grids(self) -> Iterator[Draft]:
         shaped = Shaped(self._prepared, self._shaper)
@@ -279,15 +281,19 @@ class Fulfilment:
 
     def _lattices(self, shaped: Shaped, step: float) -> Iterator[Draft]:
         """Grids of powers of two along the longest side, from about a step on, where a model seems to be made on one."""
-        bits = max(1, math.floor(math.log2(shaped.extent / step + 1.0)))
         least = self._entropy(step)
-        for number in range(bits, min(bits + LATTICES + 1, 20)):
-            cell = shaped.extent / ((1 << number) - 1)
+        for cell in self._cells(step):
             if self._entropy(cell) > LATTICE_GAIN * least and self._prepared.graph.size > FEW_VERTICES:
                 continue
             trial = self._on_grid(shaped, cell, 0.8)
             if self._within(trial.closeness):
                 yield shaped.draft(*trial.found)
+
+    def _cells(self, step: float) -> list[float]:
+        """Steps of grids of powers of two from about a step on."""
+        extent = float(np.ptp(self._prepared.positions, axis=0).max())
+        bits = max(1, math.floor(math.log2(extent / step + 1.0)))
+        return [extent / ((1 << number) - 1) for number in range(bits, min(bits + LATTICES + 1, 20))]
 
     def _on_grid(self, shaped: Shaped, step: float, worth: float) -> Trial[tuple[float, Levels]]:
         step = max(step, shaped.finest)

@@ -81,11 +81,6 @@ class Shaped:
         """The least step, in BSM units, that a grid can have."""
         return float((self._prepared.positions - self._low).max()) / (MOST_LARGEST - 4)
 
-    @property
-    def extent(self) -> float:
-        """The longest side of the bounding box, in BSM units."""
-        return float(np.ptp(self._prepared.positions, axis=0).max())
-
     def places(self, step: float, aim: Aim, axes: int = 2) -> tuple[float, Levels, Positions]:
         """The step as a header holds it, in the mesh's unit; places; and the positions there, in the mesh's unit."""
         unit = self._prepared.units.scale
