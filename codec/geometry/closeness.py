@@ -22,7 +22,7 @@ class Closeness:
     farthest : float
         Largest distance of a vertex from its place, in the unit of the positions.
     angle : float
-        Mean angle between corresponding normals, degrees; every face counts by its area in the original.
+        Mean angle between corresponding normals, degrees.
     """
 
     farthest: float
@@ -36,22 +36,25 @@ class Original:
     ----------
     positions : float64 array, shape (n, 3)
     faces : int32 array, shape (m, 3)
+    by_area : bool
+        Faces count by their area, and not alike.
 
     Attributes
     ----------
     normals : float64 array, shape (m, 3)
         Unit normals; zero where a face has no area.
     weights : float64 array, shape (m,)
-        Share of each face in the area; all zero where there is none.
+        How much each face counts, 1 in all; one without area does not.
     """
 
-    def __init__(self, positions: Positions, faces: Faces) -> None:
+    def __init__(self, positions: Positions, faces: Faces, *, by_area: bool = True) -> None:
         self.positions: Positions = np.ascontiguousarray(positions, np.float64)
         self.faces: Indices = np.ascontiguousarray(faces, np.int32)
         areas, self.normals = np.empty(len(self.faces)), np.empty((len(self.faces), 3))
         _kernels.face_geometry(self.positions, self.faces, np.empty((len(self.faces), 3)), areas, self.normals)
-        total = areas.sum()
-        self.weights: Floats = areas / total if total > 0.0 else np.zeros(len(areas))
+        counts = areas if by_area else (areas > 0.0).astype(np.float64)
+        total = counts.sum()
+        self.weights: Floats = counts / total if total > 0.0 else np.zeros(len(areas))
 
     def angle(self, decoded: Positions) -> float:
         """Mean angle between corresponding normals, degrees; a face that lost its area counts as 90."""

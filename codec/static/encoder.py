@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 
 from bitstream.container.header import Header
-from bitstream.errors import OptionError
+from bitstream.errors import OptionError, TargetError
 from codec.arrays import Order
+from codec.geometry.closeness import Original
 from codec.geometry.mesh import TriangleMesh
 from codec.geometry.metrics import Comparison, Reference
 from codec.signal.quantize import smallest_step
@@ -18,11 +19,17 @@ from codec.static.block_coder import Progress
 from codec.static.draft import Draft
 from codec.static.fulfilment import Fulfilment
 from codec.static.joining import Joined, join
+from codec.static.ladders import WIDEST, Blocks, Grids, Ladder, Refined
 from codec.static.lattices import rounded
 from codec.static.options import EncodeOptions
 from codec.static.preamble import Parts, Prepared, prepare
+from codec.static.shaping import Shaper
 from codec.static.spectral import Spectral
 from codec.static.targets import search_step
+
+
+DETAILED_ANGLE = 4.5
+"""Below this mean angle of normals, blocks alone are larger than refined ones."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -138,17 +145,56 @@ class Encoder:
             return Fulfilment(self._prepared, options, options.promise).draft(progress)
         return self._spectral.base(options.first_step, progress).draft
 
+    def result(self, progress: Progress | None = None) -> Attempt:
+        """What `encode` gives, with a comparison of what it decodes to."""
+        return self.search(progress) if self.options.target is not None else self._judged(self.draft(progress))
+
     def search(self, progress: Progress | None = None) -> Attempt:
-        """Look for the step that meets the options' target; `TargetError` says what can be had where none does."""
+        """Look for the smallest stream that meets the options' target, or for the best one of a size.
+
+        Raises
+        ------
+        TargetError
+            If none does; says what can be had.
+        """
         target = self.options.target
         if target is None:
             raise OptionError("there is no target to search for")
-        finest = smallest_step(self._prepared.size)
-        return search_step(lambda step: self.attempt(step, progress), target, self.options.first_step, finest)
+        found, refused = [], None
+        for ladder in self._ladders(progress):
+            try:
+                found.append(search_step(self._climb(ladder), target, self.options.first_step, ladder.finest))
+            except TargetError as error:
+                refused = error
+        if not found:
+            assert refused is not None
+            raise refused
+        if target.shrinks_with_step:
+            return min(found, key=lambda attempt: attempt.comparison.theta_deg)
+        return min(found, key=lambda attempt: attempt.size)
 
     def attempt(self, step: float, progress: Progress | None = None) -> Attempt:
         """Encode blocks with a given quantization step, and see what the decoder will."""
         return self._judged(self._spectral.base(step, progress).draft)
+
+    def _climb(self, ladder: Ladder) -> Callable[[float], Attempt]:
+        return lambda step: self._judged(ladder.draft(step))
+
+    def _ladders(self, progress: Progress | None) -> Iterator[Ladder]:
+        """Those that may hold what is looked for."""
+        prepared, options = self._prepared, self.options
+        finest = smallest_step(prepared.size)
+        if options.says_how:
+            yield Blocks(self._spectral, finest, progress)
+            return
+        theta = options.target.value if options.target is not None and options.target.kind == "theta_deg" else 0.0
+        original = Original(prepared.positions, prepared.mesh.faces, by_area=not theta)
+        shaper = Shaper(original)
+        if prepared.has_low_frequencies:
+            if not 0.0 < theta < DETAILED_ANGLE:
+                yield Blocks(Spectral(prepared, options, WIDEST), finest, progress)
+            yield Refined(prepared, options, shaper, original, progress)
+        yield Grids(prepared, shaper)
 
     def _judged(self, draft: Draft) -> Attempt:
         decoded = self._prepared.units.into(draft.decoded)

@@ -23,16 +23,12 @@ from codec.static.contract import ANY_ANGLE, Contract
 from codec.static.draft import Draft
 from codec.static.lattices import Shaped
 from codec.static.options import EncodeOptions
-from codec.static.preamble import Prepared
+from codec.static.preamble import FEW_VERTICES, Prepared
 from codec.static.shaping import Aim, Shaper
-from codec.static.spectral import Base, Spectral
+from codec.static.spectral import Base, Spectral, base_step
 
 PLAIN_ANGLE = 6.0
 """From this angle on, blocks with a detail layer are tried before refinement."""
-FEW_VERTICES = 300
-"""Meshes of fewer have no low frequencies worth speaking of."""
-SMALL_COMPONENT = 150
-"""Vertices; a component of fewer has none either."""
 WIDEST = 140
 """Columns of a dictionary: wider ones cost more time, for every decoder, than the bytes they save are worth."""
 FLAT = 0.2
@@ -46,7 +42,7 @@ LATTICE_GAIN = 0.75
 MANY_OUTLIERS = 0.01
 """Of this many vertices out of reach, more are cheaper to bring back along all axes of a layer that all have."""
 COARSE = 0.016
-"""The coarsest step of blocks that are refined, in BSM units."""
+"""A step, in BSM units, at which blocks carry nothing but what they are for."""
 SLACK = 0.03
 """How far below a bound on angles the search for a step may stay."""
 COARSEST = 0.05
@@ -175,11 +171,8 @@ class Fulfilment:
     # Blocks.
 
     def _has_low_frequencies(self) -> bool:
-        """Whether most vertices are in components large enough to have any."""
-        sizes = self._prepared.component_sizes
-        if self._prepared.graph.size < FEW_VERTICES or sizes[sizes >= SMALL_COMPONENT].sum() < 0.9 * sizes.sum():
-            return False
-        return self._blocks.flatness(COARSE) < FLAT
+        """Whether there are some, and most of what is worth coding is there."""
+        return self._prepared.has_low_frequencies and self._blocks.flatness(COARSE) < FLAT
 
     @cached_property
     def _blocks(self) -> Spectral:
@@ -196,8 +189,7 @@ class Fulfilment:
                 yield draft
                 return
         plain = replace(self._options, detail=0.0)
-        step = COARSE if angle >= 5.0 else 0.008 if angle >= 2.5 else 0.004
-        base = Spectral(self._prepared, plain, WIDEST).base(step, progress)
+        base = Spectral(self._prepared, plain, WIDEST).base(base_step(angle), progress)
         yield from self._refined(base)
 
     def _with_outliers(self, base: Base, layers: list[tuple[Layer, Levels]]) -> Draft:
@@ -220,23 +212,18 @@ class Fulfilment:
     def _refined(self, base: Base) -> Iterator[Draft]:
         """A base with heights along the normals, if these can bring normals right; with all axes if not."""
         angle = self._contract.angle
-        heights = base.positions + base.frames[:, :3] * base.offsets[:, :1]
-        ratio = 0.0 if self._original.angle(heights) <= angle else 6.0
+        ratio = 0.0 if self._original.angle(base.upright) <= angle else 6.0
         best = self._refinement(base, ratio)
-        if not ratio and (best is None or self._outliers(base.moved(*best.found)) > MANY_OUTLIERS * len(heights)):
+        if not ratio and (best is None or self._outliers(base.moved(*best.found)) > MANY_OUTLIERS * len(base.positions)):
             best = self._refinement(base, 6.0)
         if best is not None:
             yield self._with_outliers(base, [best.found])
 
     def _refinement(self, base: Base, ratio: float) -> Trial[tuple[Layer, Levels]] | None:
         """One layer whose normals are right."""
-        axes = 3 if ratio else 1
-
         def measure(step: float) -> Trial[tuple[Layer, Levels]]:
             layer = base.layer(step, ratio)
-            steps = np.array([layer.step, layer.step * layer.ratio, layer.step * layer.ratio][:axes])
-            directions = base.frames.reshape(-1, 3, 3)[:, :axes] * steps[None, :, None]
-            wanted = np.rint(base.offsets[:, :axes] / steps).astype(np.int32)
+            wanted, directions = base.wanted(layer)
             aim = Aim(layer.step / self._edge, self._reach, 6)
             levels = self._shaper.levels(base.positions, wanted, directions, aim)
             closeness = self._original.closeness(base.moved(layer, levels))

@@ -129,13 +129,13 @@ class EncodeOptions:
             raise OptionError(f"doi = {self.doi} must be two thresholds, 0 < eps_l < eps_h")
         if self.bits is not None and self.target is not None:
             raise OptionError("a target is reached by the step; it excludes a fixed number of bits")
-        if self.grid is not None and (self.target is not None or self._says_how):
+        if self.grid is not None and (self.target is not None or self.says_how):
             raise OptionError("a grid excludes a target, and options that say how blocks are coded")
 
     @property
     def promise(self) -> Contract | None:
         """The contract, where it counts."""
-        if self.grid is not None or self.target is not None or self._says_how:
+        if self.grid is not None or self.target is not None or self.says_how:
             return None
         return self.contract
 
@@ -147,7 +147,8 @@ class EncodeOptions:
         return COARSE_STEP if self.contract is not None and self.contract.angle > COARSE_ANGLE else STEP
 
     @property
-    def _says_how(self) -> bool:
+    def says_how(self) -> bool:
+        """Whether any option of `CODING` is given."""
         return any(getattr(self, name) is not None for name in CODING)
 
     @property

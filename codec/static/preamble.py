@@ -35,6 +35,10 @@ from codec.static.units import Units, units_of
 
 CONNECTIVITY_METHOD = 1
 """The valence-driven coder of `bitstream.connectivity.faces`."""
+FEW_VERTICES = 300
+"""Meshes of fewer have no low frequencies worth speaking of."""
+SMALL_COMPONENT = 150
+"""Vertices; a component of fewer has none either."""
 PARTITION_METHOD = 0
 """The labels of `bitstream.connectivity.partition`."""
 ORDER_METHOD = 1
@@ -87,6 +91,12 @@ class Prepared:
     def component_sizes(self) -> Order:
         """Vertices of each connected component."""
         return component_sizes(self.graph)
+
+    @property
+    def has_low_frequencies(self) -> bool:
+        """Whether most vertices are in components that are large enough to have any."""
+        large = self.component_sizes >= SMALL_COMPONENT
+        return self.graph.size >= FEW_VERTICES and self.component_sizes[large].sum() >= 0.9 * self.graph.size
 
     @cached_property
     def partition(self) -> Partition:

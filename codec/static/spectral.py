@@ -52,6 +52,17 @@ class Base:
         """What is missing where the base was moved to `positions`, in the same frames."""
         return in_frames(self.prepared.positions - positions, self.frames)
 
+    @property
+    def upright(self) -> Matrix:
+        """Positions of which nothing is missing along the normals."""
+        return self.positions + self.frames[:, :3] * self.offsets[:, :1]
+
+    def wanted(self, layer: Layer) -> tuple[Levels, Matrix]:
+        """The nearest levels of a layer, shape (n, axes), and what one of each moves, shape (n, axes, 3)."""
+        steps = np.array([layer.step, layer.step * layer.ratio, layer.step * layer.ratio][: layer.axes])
+        directions = self.frames.reshape(-1, 3, 3)[:, : layer.axes] * steps[:, None]
+        return np.rint(self.offsets[:, : layer.axes] / steps).astype(np.int32), directions
+
     def layer(self, step: float, ratio: float) -> Layer:
         """A layer whose numbers a header can hold."""
         return Layer(single(step), single(ratio))
@@ -70,6 +81,11 @@ class Base:
         numbers = tuple(number for layer, _ in added for number in (layer.step, layer.ratio))
         header = replace(self.draft.header, refinements=numbers)
         return Draft(header, body, self.prepared.units.back(positions))
+
+
+def base_step(angle: float) -> float:
+    """The step of blocks without a detail layer that refinement to a mean angle of normals, degrees, is cheapest on."""
+    return 0.016 if angle >= 5.0 else 0.008 if angle >= 2.5 else 0.004
 
 
 class Spectral:
