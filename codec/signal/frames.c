@@ -1,4 +1,4 @@
-/* Local frames of a decoded mesh, and the displacement in them (specification, M 12). Continuous in the positions, and
+/* Local frames of a decoded mesh, and the displacement in them (specification, M 17). Continuous in the positions, and
  * nothing is compared: decoders whose positions differ by rounding get frames that differ by rounding. */
 #include "codec/signal/frames.h"
 
