@@ -35,6 +35,8 @@ FLAT = 0.2
 """Share of frequencies worth coding at a coarse step from which on a grid is smaller than blocks."""
 LATTICES = 3
 """Successive powers of two that may be tried for the grid: models made on one cost half as much there."""
+COARSEST_CELL = 1.0
+"""Diagonals; models of few vertices may be exact on a grid of one bit."""
 GRID_SHARE = 0.55
 """Of the entropy of second differences on a rounded grid: what a shaped one costs at least."""
 LATTICE_GAIN = 0.75
@@ -268,19 +270,20 @@ class Fulfilment:
 
     def _lattices(self, shaped: Shaped, step: float) -> Iterator[Draft]:
         """Grids of powers of two along the longest side, from about a step on, where a model seems to be made on one."""
+        few = self._prepared.graph.size < FEW_VERTICES
         least = self._entropy(step)
-        for cell in self._cells(step):
-            if self._entropy(cell) > LATTICE_GAIN * least and self._prepared.graph.size > FEW_VERTICES:
-                continue
-            trial = self._on_grid(shaped, cell, 0.8)
-            if self._within(trial.closeness):
-                yield shaped.draft(*trial.found)
+        for cell in self._cells(COARSEST_CELL if few else step):
+            if few or self._entropy(cell) <= LATTICE_GAIN * least:
+                trial = self._on_grid(shaped, cell, 0.8)
+                if self._within(trial.closeness):
+                    yield shaped.draft(*trial.found)
 
     def _cells(self, step: float) -> list[float]:
         """Steps of grids of powers of two from about a step on."""
         extent = float(np.ptp(self._prepared.positions, axis=0).max())
         bits = max(1, math.floor(math.log2(extent / step + 1.0)))
-        return [extent / ((1 << number) - 1) for number in range(bits, min(bits + LATTICES + 1, 20))]
+        last = min(math.floor(math.log2(extent / self._first_cell + 1.0)) + LATTICES, 19)
+        return [extent / ((1 << number) - 1) for number in range(bits, last + 1)]
 
     def _on_grid(self, shaped: Shaped, step: float, worth: float) -> Trial[tuple[float, Levels]]:
         step = max(step, shaped.finest)
