@@ -39,7 +39,7 @@ def encode_options(*, preset: str = "balanced", **keywords: Any) -> EncodeOption
     Parameters
     ----------
     preset : str
-        "small", "balanced" or "fine": what everything has that is not given.
+        "small", "balanced", "fine", "near-lossless" or "lossless": what everything has that is not given.
     **keywords
         Fields of `EncodeOptions`, and at most one of `TARGETS`.
 

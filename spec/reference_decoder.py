@@ -708,7 +708,13 @@ def piece(data, at, size):
     """F 9.2: `size` bytes, and where they end."""
     length, at = payload_varint(data, at)
     require(length <= len(data) - at, "a piece ends too early")
-    return unzipped(data[at : at + length], size), at + length
+    stream = zlib.decompressobj()
+    try:
+        content = stream.decompress(data[at : at + length], size + 1)
+    except zlib.error as error:
+        raise CorruptError(f"a piece is damaged: {error}") from None
+    require(len(content) == size and stream.eof and not stream.unused_data, "a piece of another size")
+    return content, at + length
 
 
 def piece_of_numbers(data, at, count):

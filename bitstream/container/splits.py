@@ -6,13 +6,13 @@ the first of each was met. What is said here makes them the given vertices again
 
 from __future__ import annotations
 
+import zlib
 from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
 
 from bitstream.container.wire import Cursor, write_varint
-from bitstream.entropy.zstd import compress, decompress
 from bitstream.errors import CorruptError
 from bitstream.limits import Limits
 
@@ -43,7 +43,7 @@ class Splits:
 
 def encode_splits(splits: Splits) -> bytes:
     """Varints of n, of the copies, and of k; then the kinds of vertices, what the copies are copies of, which of the
-    vertices at its place each corner names (if there are copies), each a varint length and zstd; then the positions of
+    vertices at its place each corner names (if there are copies), each a varint length and zlib; then the positions of
     loose vertices, as doubles, least byte first.
     """
     source = splits.source
@@ -58,7 +58,7 @@ def encode_splits(splits: Splits) -> bytes:
         visits, counts, _ = _corners(source[splits.faces].ravel(), len(used), source)
         ranks = _ranks(source)[splits.faces].ravel()
         parts.append(_planes((ranks - visits) % counts))
-    packed = [compress(part) for part in parts]
+    packed = [zlib.compress(part, 9) for part in parts]
     numbers = b"".join(map(write_varint, (len(source), len(copies), len(splits.loose))))
     pieces = b"".join(write_varint(len(part)) + part for part in packed)
     return numbers + pieces + np.ascontiguousarray(splits.loose, "<f8").tobytes()
@@ -127,7 +127,7 @@ def _ranks(source: Ints) -> Ints:
 
 
 def _planes(values: npt.NDArray[np.integer]) -> bytes:
-    """Four bytes of each value, all the least first: zstd finds more in them."""
+    """Four bytes of each value, all the least first: zlib finds more in them."""
     return np.ascontiguousarray(values.astype("<u4").view(np.uint8).reshape(-1, 4).T).tobytes()
 
 
@@ -137,4 +137,12 @@ def _values(data: bytes) -> npt.NDArray[np.int64]:
 
 
 def _unpack(cursor: Cursor, size: int) -> bytes:
-    return decompress(cursor.take(cursor.varint()), size)
+    """A piece; never allocates for more than `size` bytes."""
+    decompressor = zlib.decompressobj()
+    try:
+        content = decompressor.decompress(cursor.take(cursor.varint()), size + 1)
+    except zlib.error as error:
+        raise CorruptError(f"a piece of the order is damaged: {error}") from error
+    if len(content) != size or not decompressor.eof or decompressor.unused_data:
+        raise CorruptError(f"a piece of the order does not hold exactly {size} bytes")
+    return content

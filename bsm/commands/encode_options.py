@@ -46,9 +46,10 @@ class EncodeFlag:
 
 
 ENCODE_FLAGS = (
+    EncodeFlag("grid", int, "BITS", "exactly the positions that a grid of so many bits per axis has (1 to 20)"),
     EncodeFlag("keep", float, "FRACTION", "largest c_i, as a fraction of a block's vertices (default: as many as pay)"),
     EncodeFlag("coefficients", int, "C", "coefficients kept per block and coordinate, instead of --keep"),
-    EncodeFlag("step", float, "S", "quantisation step, relative to the bounding box's diagonal (default 0.004)"),
+    EncodeFlag("step", float, "S", "quantisation step, relative to the bounding box's diagonal; instead of a promise"),
     EncodeFlag("detail", float, "R", "how much coarser x, y, z are than detail along normals, 0: none (default 3)"),
     EncodeFlag("bits", int, "Q", "as in the paper: every coefficient in Q bits, without prediction"),
     EncodeFlag("smoothing", float, "A", "smoothing in the decoder (default: chosen by trying)"),
@@ -69,7 +70,7 @@ ENCODE_FLAGS = (
 )
 
 
-PRESETS = ("small", "balanced", "fine")
+PRESETS = ("small", "balanced", "fine", "near-lossless", "lossless")
 
 TARGET_FLAGS = (
     ("nmsve-db", "nmsve_db", "X", "visual error, 10 log10 NMSVE, at most X"),

@@ -9,11 +9,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy import sparse
-from scipy.sparse.csgraph import connected_components
 
 from codec import _kernels
-from codec.arrays import Indices, Order
+from codec.arrays import Indices
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,9 +42,8 @@ def graph_of_faces(faces: Indices, size: int) -> Graph:
     return Graph(offsets, ends[:kept].copy())
 
 
-def component_sizes(graph: Graph) -> Order:
+def component_sizes(graph: Graph) -> Indices:
     """Vertices of each connected component, in the order of their first vertices."""
-    rows = sparse.csr_array(
-        (np.ones(len(graph.neighbours), np.int8), graph.neighbours, graph.offsets), shape=(graph.size, graph.size)
-    )
-    return np.bincount(connected_components(rows, directed=False)[1]).astype(np.int64)
+    sizes, waiting = np.zeros(graph.size, np.int32), np.empty(graph.size, np.int32)
+    seen = np.zeros(graph.size, np.uint8)
+    return sizes[: _kernels.component_sizes(graph.offsets, graph.neighbours, seen, waiting, sizes)]

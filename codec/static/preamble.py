@@ -88,7 +88,7 @@ class Prepared:
         return self.units.into(self.mesh.positions)
 
     @cached_property
-    def component_sizes(self) -> Order:
+    def component_sizes(self) -> Indices:
         """Vertices of each connected component."""
         return component_sizes(self.graph)
 
