@@ -21,7 +21,7 @@ from codec.geometry.closeness import Closeness, Original
 from codec.static.block_coder import Progress
 from codec.static.contract import ANY_ANGLE, Contract
 from codec.static.draft import Draft
-from codec.static.lattices import Shaped
+from codec.static.lattices import Shaped, rounded
 from codec.static.options import EncodeOptions
 from codec.static.preamble import FEW_VERTICES, Prepared
 from codec.static.shaping import Aim, Shaper
@@ -141,6 +141,8 @@ class Fulfilment:
         TargetError
             If none keeps the contract; says what the best that was found comes to.
         """
+        if not self._prepared.mesh.diagonal > 0.0:
+            return rounded(self._prepared, 1)  # a point
         found: list[Draft] = []
         if self._has_low_frequencies():
             found.extend(draft for draft in self._spectral(progress) if self._keeps(draft))

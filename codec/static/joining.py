@@ -72,7 +72,9 @@ def join(mesh: TriangleMesh, *, keep: bool) -> Joined:
         index[given] = rank[index[given]]
         first = first[order]
     joined = TriangleMesh(mesh.positions[first], index[mesh.faces[kept]])
-    merged, loose = int(given.sum()) - len(first), len(index) - int(given.sum())
+    mentioned = np.zeros(len(mesh.positions), np.bool_)
+    mentioned[mesh.faces] = True
+    merged, loose = int(mentioned.sum()) - len(first), len(index) - int(mentioned.sum())
     splits = Splits(index, mesh.faces, mesh.positions[~given]) if keep and (merged or loose) else None
     notes = []
     if merged and not keep:

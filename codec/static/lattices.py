@@ -15,6 +15,9 @@ from codec.static.preamble import Prepared
 from codec.static.shaping import Aim, Shaper
 from codec.static.units import single
 
+MOST_SINGLE = 1e38
+PART_OF_CELL = 1.0 / 64.0
+
 
 def grid_draft(prepared: Prepared, grid: Grid, places: Levels) -> Draft:
     """The stream of places on a grid, shape (n, 3), none negative."""
@@ -26,27 +29,29 @@ def grid_draft(prepared: Prepared, grid: Grid, places: Levels) -> Draft:
 def rounded(prepared: Prepared, bits: int) -> Draft:
     """Every position at the nearest place of a grid of so many bits along the longest side of the bounding box.
 
-    In single precision where the mesh is, by the operations of Draco's quantiser: the places are the same.
+    In single precision, by the operations of Draco's quantiser, so that the places are the same; but for meshes so far
+    from the origin that single precision would move them by some part of a cell, in double precision.
 
     Raises
     ------
     TargetError
-        If the mesh is beyond single precision, and so are the places.
+        If the cells are beyond the range of numbers.
     """
     positions = prepared.mesh.positions
-    narrow = positions.astype(np.float32)
-    kind = np.float32 if (narrow == positions).all() else np.float64
+    cells = (1 << bits) - 1
+    largest, extent = np.abs(positions).max(), np.ptp(positions, axis=0).max()
+    narrow = largest < MOST_SINGLE and np.spacing(np.float32(largest)) * cells < PART_OF_CELL * extent
+    kind = np.float32 if narrow else np.float64
     values = positions.astype(kind)
     low = values.min(axis=0)
-    extent = (values - low).max()
-    most = kind((1 << bits) - 1)
+    most, extent = kind(cells), (values - low).max()
     if not extent > 0:
         extent = kind(1)
     places = np.floor((values - low) * (most / extent) + kind(0.5)).astype(np.int64)
     step = float(extent / most)
     if not (step > 0.0 and np.isfinite(step)):
         raise TargetError(f"a grid of {bits} bits is beyond the range of numbers for this mesh")
-    return grid_draft(prepared, *latticed(tuple(map(float, low)), step, places, (1 << bits) - 1))
+    return grid_draft(prepared, *latticed(tuple(map(float, low)), step, places, cells))
 
 
 def latticed(origin: tuple[float, ...], step: float, places: Matrix, cells: int) -> tuple[Grid, Levels]:
