@@ -21,22 +21,32 @@ class HeaderEvent:
 
 
 @dataclass(frozen=True, eq=False)
-class ConnectivityEvent:
-    """The faces have arrived, shape (m, 3), with all that is needed to decode blocks.
-
-    Where the stream stores the order that the mesh had, faces and all vertex numbers are in that order.
-    """
-
-    faces: Faces
-
-
-@dataclass(frozen=True, eq=False)
 class Changes:
-    """What a block changed: vertices, their positions in the mesh's unit, and which of them are final."""
+    """What has changed: vertices, their positions in the mesh's unit, and which of them are final."""
 
     vertices: Indices
     positions: Positions
     final: Mask
+
+
+@dataclass(frozen=True, eq=False)
+class ConnectivityEvent:
+    """The faces have arrived, with all that is needed to decode positions.
+
+    Where the stream stores the order that the mesh had, faces and all vertex numbers are in that order.
+
+    Parameters
+    ----------
+    faces : int32 array, shape (m, 3)
+    vertices : int
+        How many there are: where the stream stores the vertices as they were given, more than were coded.
+    loose : Changes
+        Those that no face uses, which are final.
+    """
+
+    faces: Faces
+    vertices: int
+    loose: Changes
 
 
 @dataclass(frozen=True, eq=False)

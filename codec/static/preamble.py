@@ -28,7 +28,7 @@ from codec.blocks.overlap import Blocks, block_size, grow_blocks
 from codec.blocks.partition import Partition, derive_partition, metis_partition, partition_of_labels
 from codec.geometry.graph import Graph, component_sizes, graph_of_faces
 from codec.geometry.mesh import TriangleMesh
-from codec.static.events import ConnectivityEvent, HeaderEvent, LossEvent, unreadable
+from codec.static.events import Changes, ConnectivityEvent, HeaderEvent, LossEvent, unreadable
 from codec.static.rules import Scheme, scheme_of
 from codec.static.stages import Arrival, Stage, misplaced
 from codec.static.units import Units, units_of
@@ -190,6 +190,15 @@ class Numbering:
     source: Indices | None = None
     loose: Positions = field(default_factory=lambda: np.zeros((0, 3)))
 
+    def event(self, coded: int) -> ConnectivityEvent:
+        """What a user has to know of it, where so many vertices are coded."""
+        if self.source is None:
+            loose = np.zeros(0, np.int32)
+        else:
+            loose = np.flatnonzero(self.source < 0).astype(np.int32)
+        size = coded if self.source is None else len(self.source)
+        return ConnectivityEvent(self.faces, size, Changes(loose, self.loose, np.ones(len(loose), np.bool_)))
+
     def of(self, vertices: Indices) -> Indices:
         """The user's numbers of coded vertices, of all copies of each."""
         return self.spread(vertices)[0]
@@ -332,7 +341,7 @@ class Connected:
                 following = self.body.begin(
                     Structure(self.header, self.faces, self.graph, self.numbering, self.partition)
                 )
-                queue.append(ConnectivityEvent(self.numbering.faces))
+                queue.append(self.numbering.event(self.header.vertices))
                 return following.accept(arrival, queue)
 
     def _numbering(self, method: int, data: bytes) -> Numbering:
