@@ -75,11 +75,19 @@ PRESETS = ("small", "balanced", "fine", "near-lossless", "lossless")
 TARGET_FLAGS = (
     ("nmsve-db", "nmsve_db", "X", "visual error, 10 log10 NMSVE, at most X"),
     ("theta", "theta_deg", "DEG", "mean angle between the faces' normals before and after at most DEG"),
-    ("max-error", "max_error_relative", "REL", "no vertex farther off than REL times the bounding box's diagonal"),
+    ("max-error", "max_error_relative", "REL", "no vertex farther off than REL diagonals of the bounding box; with a unit (0.05mm), in the mesh's own"),
     ("bpv", "bpv", "X", "at most X bits per vertex, the whole file counted"),
     ("size", "size", "BYTES", "at most BYTES"),
 )
 """Flag, kind of target, metavar and help."""
+
+
+def number_or_length(text: str) -> float | str:
+    """A number, or what has a unit behind it."""
+    try:
+        return float(text)
+    except ValueError:
+        return text
 
 
 def add_encode_flags(parser: argparse.ArgumentParser) -> None:
@@ -88,7 +96,8 @@ def add_encode_flags(parser: argparse.ArgumentParser) -> None:
     wishes.add_argument("--preset", choices=PRESETS, default="balanced", help="how small or how good (balanced)")
     targets = wishes.add_mutually_exclusive_group()
     for name, kind, metavar, text in TARGET_FLAGS:
-        targets.add_argument(f"--{name}", dest=f"target_{kind}", type=float, metavar=metavar, help=text)
+        reads = number_or_length if name == "max-error" else float
+        targets.add_argument(f"--{name}", dest=f"target_{kind}", type=reads, metavar=metavar, help=text)
     add_coding_flags(parser)
 
 

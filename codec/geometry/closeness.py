@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from codec import _kernels
+from codec.arrays import Mask
 from codec.geometry.graph import Indices
 from codec.geometry.mesh import Faces, Positions
 from codec.geometry.metrics import Floats
@@ -60,6 +61,10 @@ class Original:
         """Mean angle between corresponding normals, degrees; a face that lost its area counts as 90."""
         decoded = np.ascontiguousarray(decoded, np.float64)
         return math.degrees(_kernels.weighted_angle(self.normals, self.weights, decoded, self.faces))
+
+    def angle_of(self, rows: Mask, decoded: Positions) -> float:
+        """What some faces contribute to `angle`."""
+        return math.degrees(_kernels.weighted_angle(self.normals[rows], self.weights[rows], decoded, self.faces[rows]))
 
     def farthest(self, decoded: Positions) -> float:
         """Largest distance of a vertex from its place."""

@@ -16,6 +16,7 @@ from codec.geometry.mesh import TriangleMesh
 from codec.geometry.metrics import Comparison, Reference
 from codec.signal.quantize import smallest_step
 from codec.static.block_coder import Progress
+from codec.static.contract import Contract
 from codec.static.draft import Draft
 from codec.static.fulfilment import Fulfilment
 from codec.static.joining import Joined, join
@@ -166,6 +167,12 @@ class Encoder:
                 found.append(search_step(self._climb(ladder), target, self.options.first_step, ladder.finest))
             except TargetError as error:
                 refused = error
+        if target.kind == "max_error_relative":
+            try:
+                ways = Fulfilment(self._prepared, self.options, Contract(min(target.value, 1.0)))
+                found.append(self._judged(ways.draft(progress)))
+            except TargetError as error:
+                refused = refused or error
         if not found:
             assert refused is not None
             raise refused

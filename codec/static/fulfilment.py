@@ -29,20 +29,22 @@ from codec.static.spectral import Base, Spectral, base_step
 
 PLAIN_ANGLE = 6.0
 """From this angle on, blocks with a detail layer are tried before refinement."""
-WIDEST = 140
-"""Columns of a dictionary: wider ones cost more time, for every decoder, than the bytes they save are worth."""
-FLAT = 0.2
+WIDEST = 0.155
+"""Columns of a dictionary over the rows of a block: wider ones cost more time, for every decoder, than the bytes they save are worth."""
+FLAT = 0.15
 """Share of frequencies worth coding at a coarse step from which on a grid is smaller than blocks."""
 LATTICES = 3
 """Successive powers of two that may be tried for the grid: models made on one cost half as much there."""
 COARSEST_CELL = 1.0
 """Diagonals; models of few vertices may be exact on a grid of one bit."""
-GRID_SHARE = 0.55
-"""Of the entropy of second differences on a rounded grid: what a shaped one costs at least."""
+SHARP_SHARE, GRID_SHARE = 0.45, 0.75
+"""Of the entropy of second differences on a rounded grid: what a shaped one costs at least, with and without sharp edges."""
 LATTICE_GAIN = 0.75
 """A finer grid whose entropy is below so much of the coarser one's is one that the model was made on."""
 MANY_OUTLIERS = 0.01
 """Of this many vertices out of reach, more are cheaper to bring back along all axes of a layer that all have."""
+DOUBT = 1.4
+"""Blocks alone are not tried where a sample of them has normals so many times too wrong."""
 COARSE = 0.016
 """A step, in BSM units, at which blocks carry nothing but what they are for."""
 SLACK = 0.03
@@ -176,7 +178,7 @@ class Fulfilment:
 
     def _has_low_frequencies(self) -> bool:
         """Whether there are some, and most of what is worth coding is there."""
-        return self._prepared.has_low_frequencies and self._blocks.flatness(COARSE) < FLAT
+        return self._prepared.has_low_frequencies and not self._blocks.is_flat(COARSE, FLAT)
 
     @cached_property
     def _blocks(self) -> Spectral:
@@ -186,7 +188,7 @@ class Fulfilment:
         angle = self._contract.angle
         if self._contract.angle >= ANY_ANGLE and self._reach < 0.001:
             return  # a grid is smaller
-        if angle >= PLAIN_ANGLE:
+        if angle >= PLAIN_ANGLE and self._blocks.sample(self._options.first_step, self._original) < DOUBT * angle:
             base = self._blocks.base(self._options.first_step, progress)
             draft = self._with_outliers(base, [])
             if self._original.angle(self._prepared.units.into(draft.decoded)) <= angle:
@@ -241,12 +243,12 @@ class Fulfilment:
     def _grid_may_win(self, size: int) -> bool:
         """Whether a grid could be smaller than `size`."""
         entropy = min(self._entropy(step) for step in (self._first_cell, *self._cells(self._first_cell)))
-        return len(self._prepared.connectivity.data) + GRID_SHARE * entropy < size
+        share = SHARP_SHARE if self._shaper.is_sharp else GRID_SHARE
+        return len(self._prepared.connectivity.data) + share * entropy < size
 
     def _entropy(self, step: float) -> float:
-        """Bytes of the second differences of positions rounded to a grid, each by itself."""
-        low = self._prepared.positions.min(axis=0)
-        return self._shaper.entropy(np.rint((self._prepared.positions - low) / step).astype(np.int32)) / 8.0
+        """Bytes of second differences on a grid."""
+        return self._shaper.entropy(step) / 8.0
 
     @property
     def _first_cell(self) -> float:

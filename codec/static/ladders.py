@@ -19,8 +19,8 @@ from codec.static.shaping import Aim, Shaper
 from codec.static.spectral import Base, Spectral, base_step
 from codec.static.targets import COARSEST_STEP
 
-WIDEST = 160
-"""Columns of a dictionary on the way down, and below."""
+WIDEST = 0.18
+"""Columns of a dictionary over the rows of a block."""
 NOMINAL = 2000.0
 """Degrees that a step comes to, about, times which."""
 RATIOS = {"max_error_relative": 1.0, "nmsve_db": 3.0}

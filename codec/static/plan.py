@@ -9,7 +9,7 @@ import numpy as np
 from bitstream.errors import OptionError
 from codec.arrays import Faces, Indices, Matrix
 from codec.geometry.metrics import Reference
-from codec.signal.bandwidth import FIRST_LOOK, MeasuredSpectrum
+from codec.signal.bandwidth import MeasuredSpectrum
 from codec.signal.chain import Chain, ChainRules, even_interval
 from codec.signal.detail import Surface, make_surface
 from codec.signal.quantize import packed_range, smallest_step
@@ -28,7 +28,7 @@ BASE_REACH = 4.0
 """With a detail layer, x, y and z go as far as they would pay at a step so many times that of the details."""
 DETAIL_REACH = 0.9
 """Details go as far as would pay at a step so many times their own."""
-SMOOTHING_FACES = 1 << 17
+SMOOTHING_FACES = 1 << 14
 """On more faces than these, smoothing is not tried."""
 SMOOTHING_STEPS = tuple(2.0**k for k in range(-3, 7))
 
@@ -40,14 +40,14 @@ class Planner:
     ----------
     prepared : Prepared
     options : EncodeOptions
-    widest : int, optional
-        Columns of a dictionary that are not exceeded even where more would pay; None: there are no more than rows.
+    widest : float
+        Columns of a dictionary that are not exceeded even where more would pay, over the rows of a block.
     """
 
-    def __init__(self, prepared: Prepared, options: EncodeOptions, widest: int | None = None) -> None:
+    def __init__(self, prepared: Prepared, options: EncodeOptions, widest: float = 1.0) -> None:
         self._prepared = prepared
         self._options = options
-        self._widest = prepared.size if widest is None else min(widest, prepared.size)
+        self._widest = max(1, int(widest * prepared.size))
 
     def scheme(self, step: float) -> Scheme:
         """How blocks are coded at a step.
@@ -61,11 +61,10 @@ class Planner:
         coding = self._coding(step) if self._options.bits is None else self._packed(self._options.bits, rules)
         return Scheme(self._prepared.blocks, rules, coding, self._options.blend)
 
-    def flatness(self, step: float) -> float:
-        """Share of frequencies that are worth coding at a step; 1 where more are than were looked at."""
-        looked = FIRST_LOOK - FIRST_LOOK // 8
-        size = self._spectrum.worthwhile_size(step, looked)
-        return 1.0 if size >= min(looked, self._prepared.size) else size / self._prepared.size
+    def is_flat(self, step: float, share: float) -> bool:
+        """Whether as large a share of all frequencies, or a larger one, is worth coding at a step."""
+        most = max(1, round(share * self._prepared.size))
+        return self._spectrum.worthwhile_size(step, most) >= most
 
     def smoothing(self, blended: Matrix) -> float:
         """The amount of smoothing that lowers what the options are after most, for a decoded mesh before it."""

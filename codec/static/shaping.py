@@ -23,7 +23,9 @@ PULL = 0.8
 RATES = np.log1p(np.arange(4096.0))
 """Bits, but for a factor, of a place on a grid that is so far from where a parallelogram would have it."""
 
-MOST_FLAPS, MOST_BEND = 1 << 16, 1 << 10
+SHARP = 0.4
+"""Of the mean angle between faces beside each other: with a median below it, a surface has sharp edges."""
+MOST_FLAPS, MOST_BEND = 1 << 13, 1 << 10
 """What entropy is measured on: so many second differences, and so large ones."""
 
 
@@ -116,17 +118,30 @@ class Shaper:
         )  # fmt: skip
         return chosen
 
-    def entropy(self, places: Levels) -> float:
-        """Bits of places on a grid, shape (n, 3), if each took what a second difference takes, by their histogram."""
+    def entropy(self, step: float) -> float:
+        """Bits of the mesh on a rounded grid, if each place took what a second difference takes, by a histogram."""
         flaps = self._flaps[0]
         some = flaps[:: max(1, len(flaps) // MOST_FLAPS)]
         if not len(some):
             return 0.0
-        bends = places[some[:, 0]] + places[some[:, 1]] - places[some[:, 2]] - places[some[:, 3]]
-        shares = [np.bincount(np.minimum(np.abs(axis), MOST_BEND)) / len(some) for axis in bends.T]
+        positions = self._original.positions
+        corners = np.rint((positions[some] - positions.min(axis=0)) / step).astype(np.int64)
+        bends = np.abs(corners[:, 0] + corners[:, 1] - corners[:, 2] - corners[:, 3])
+        shares = [np.bincount(np.minimum(axis, MOST_BEND)) / len(some) for axis in bends.T]
         magnitudes = sum(float(-(share[share > 0] * np.log2(share[share > 0])).sum()) for share in shares)
         signs = sum(1.0 - float(share[0]) for share in shares)
-        return len(places) * (magnitudes + signs)
+        return len(positions) * (magnitudes + signs)
+
+    @cached_property
+    def is_sharp(self) -> bool:
+        """Whether the surface is flat nearly everywhere, and bent at few edges: as models are, and scans are not."""
+        flaps = self._flaps[0]
+        some = self._original.positions[flaps[:: max(1, len(flaps) // MOST_FLAPS)]]
+        edge = some[:, 1] - some[:, 0]
+        first, second = np.cross(edge, some[:, 2] - some[:, 0]), np.cross(some[:, 3] - some[:, 0], edge)
+        across = np.cross(first, second)
+        angles = np.arctan2(np.sqrt((across * across).sum(axis=1)), (first * second).sum(axis=1))
+        return bool(len(angles) == 0 or np.median(angles) <= SHARP * angles.mean())
 
     def _aim(self, aim: Aim, share: int) -> tuple[float, float, int]:
         return aim.worth / (share * len(self._open)), float(aim.reach), aim.sweeps

@@ -9,10 +9,11 @@ import numpy as np
 
 from bitstream.container.header import Header, Layer
 from codec.arrays import Levels, Matrix
+from codec.geometry.closeness import Original
 from codec.signal.frames import displaced, in_frames, local_frames
 from codec.signal.smooth import smooth
 from codec.static.assembly import blended
-from codec.static.block_coder import Progress, encode_blocks
+from codec.static.block_coder import ChainEncoder, Progress, encode_blocks
 from codec.static.draft import Draft
 from codec.static.options import EncodeOptions
 from codec.static.plan import Planner
@@ -83,6 +84,10 @@ class Base:
         return Draft(header, body, self.prepared.units.back(positions))
 
 
+SAMPLES, SAMPLE_OF = 1, 8
+"""Blocks that are tried, and how many there must be."""
+
+
 def base_step(angle: float) -> float:
     """The step of blocks without a detail layer that refinement to a mean angle of normals, degrees, is cheapest on."""
     return 0.016 if angle >= 5.0 else 0.008 if angle >= 2.5 else 0.004
@@ -95,18 +100,38 @@ class Spectral:
     ----------
     prepared : Prepared
     options : EncodeOptions
-    widest : int, optional
-        Columns of a dictionary that are not exceeded; None: as many as pay.
+    widest : float
+        Columns of a dictionary that are not exceeded, over the rows of a block.
     """
 
-    def __init__(self, prepared: Prepared, options: EncodeOptions, widest: int | None = None) -> None:
+    def __init__(self, prepared: Prepared, options: EncodeOptions, widest: float = 1.0) -> None:
         self._prepared = prepared
         self._options = options
         self._planner = Planner(prepared, options, widest)
 
-    def flatness(self, step: float) -> float:
-        """Share of frequencies that are worth coding at a step."""
-        return self._planner.flatness(step)
+    def is_flat(self, step: float, share: float) -> bool:
+        """Whether as large a share of all frequencies is worth coding at a step."""
+        return self._planner.is_flat(step, share)
+
+    def sample(self, step: float, original: Original) -> float:
+        """Mean angle of normals, degrees, in a few blocks at a step, before they are blended and smoothed.
+
+        0 where blocks are few: it would take as long as all of them.
+        """
+        blocks = self._prepared.blocks
+        if blocks.count < SAMPLE_OF:
+            return 0.0
+        scheme, faces = self._planner.scheme(step), self._prepared.mesh.faces
+        positions, total, weight = self._prepared.positions.copy(), 0.0, 0.0
+        for index in np.linspace(0, blocks.count - 1, 2 + SAMPLES).astype(int)[1:-1]:
+            block = ChainEncoder(scheme).encode(int(index), self._prepared.positions).decoded
+            positions[block.vertices] = block.positions
+            inside = np.zeros(len(positions), np.bool_)
+            inside[block.vertices] = True
+            rows = inside[faces].all(axis=1)
+            total += original.angle_of(rows, positions)
+            weight += float(original.weights[rows].sum())
+        return total / weight if weight > 0.0 else 0.0
 
     def base(self, step: float, progress: Progress | None = None) -> Base:
         """The blocks at a step.
