@@ -283,6 +283,7 @@ def on_a_terminal(*arguments):
 def test_one_bar_for_a_search_with_the_time_left(tmp_path):
     write_mesh(tmp_path / "a.npz", knot(50_000))
     words = ["encode", tmp_path / "a.npz", "-o", tmp_path / "a.bsm", "--block-size", "300", "--threads", "1"]
+    words += ["--detail", "3"]
     shown = on_a_terminal(*words, "--theta", "3")
     assert "encoding, attempt 2" in shown and "<00:" in shown and "blocks/s" in shown
     *frames, result = shown.replace("\r\n", "\n").rstrip("\n").split("\r")
