@@ -1,0 +1,41 @@
+"""Vertices at one position made one: files often give every triangle, or every seam, vertices of its own."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from codec.geometry.graph import Indices
+from codec.geometry.mesh import Faces, Positions
+
+
+def weld(positions: Positions, faces: Faces) -> tuple[Positions, Faces, Indices]:
+    """Give the vertices of exactly equal positions one number.
+
+    Parameters
+    ----------
+    positions : ndarray of float64, shape (n, 3)
+        Finite; -0.0 equals 0.0.
+    faces : ndarray of int32, shape (m, 3)
+
+    Returns
+    -------
+    positions : ndarray of float64, shape (k, 3)
+        Of the welded vertices, in the order of their first appearance among the given ones.
+    faces : ndarray of int32, shape (m, 3)
+        In the given order; none is dropped, a face may have become degenerate.
+    index : ndarray of int32, shape (n,)
+        Welded vertex of each given one: ``welded[index]`` puts values on the welded vertices back on the given ones.
+    """
+    values = np.ascontiguousarray(positions, dtype=np.float64) + 0.0  # -0.0 + 0.0 is 0.0
+    order = np.lexsort(values.T)
+    ordered = values[order]
+    new = np.ones(len(values), dtype=np.bool_)
+    new[1:] = (ordered[1:] != ordered[:-1]).any(axis=1)
+    group = np.cumsum(new) - 1
+    # A stable sort leaves equal vertices in ascending order, so the first of a group is its first appearance.
+    first = order[new]
+    rank = np.empty(len(first), dtype=np.int32)
+    rank[np.argsort(first)] = np.arange(len(first), dtype=np.int32)
+    index = np.empty(len(values), dtype=np.int32)
+    index[order] = rank[group]
+    return positions[np.sort(first)], index[faces], index
