@@ -16,7 +16,7 @@ from codec.denoise.noise import (
 )
 from codec.denoise.outliers import find_outliers
 from codec.denoise.probe import Probe
-from codec.denoise.safety import judge, keep_good
+from codec.denoise.safety import judge, keep_good, restraint
 from codec.geometry.mesh import Faces, Positions
 from codec.geometry.metrics import mean_edge_length
 from tests.codec.denoise.denoise_shapes import cube, sphere
@@ -124,3 +124,11 @@ def test_neither_clean_shapes_nor_white_noise_have_outliers(shape) -> None:  # t
     probe = Probe(Topology(faces, len(clean)))
     for positions in (clean, gaussian_along_normals(clean, faces, 0.2, 3)):
         assert len(find_outliers(positions, probe).vertices) == 0
+
+
+def test_less_is_done_where_faint_noise_seems_mixed_with_detail() -> None:
+    levels = np.ones(3)
+    faint, strong = (Finding("white", level, level * levels, 1.0, "") for level in (0.1, 0.3))
+    assert restraint(0.9, faint) == restraint(1.2, strong) == 1.0
+    assert 0.5 < restraint(1.0, faint) < restraint(0.95, faint) < 1.0
+    assert restraint(1.2, Finding("axis", 0.1, 0.1 * levels, 1.0, "")) == 1.0
