@@ -26,11 +26,13 @@ FEWEST_SHARE = 0.004
 """Clear outliers, as a share of the vertices, from which on they are believed."""
 FEWEST = 12
 ONE_SIDED = 0.5
-FAINT = 0.02
-"""Smallest displacement looked for, in mean edges."""
+FAINT, WORTH = 0.03, 0.15
+"""Smallest displacement looked for, in mean edges; and the median of the clear ones from which on it is worth it."""
+LARGEST = 1.2
+"""Less clear ones are no larger than the clear ones, of which nine in ten are smaller than this ratio says."""
 DISTINCT = 4.0
 """Displacement over what calm surroundings show."""
-CALM, CALM_BOUND = 0.3, 0.3853
+CALM, CALM_BOUND = 0.5, 0.6745
 ROUNDS = 40
 REFINEMENTS = 30
 
@@ -75,12 +77,15 @@ def find_outliers(positions: Positions, probe: Probe) -> Outliers:
     neighbours = probe.topology.neighbours
 
     rest, amounts = seen.copy(), np.zeros(len(positions))
+    most = np.inf
     for share in (CLEAR, *LESS_CLEAR):
         calm = np.zeros(len(positions))
         if share < CLEAR:
             if not _believed(amounts):
                 return Outliers(np.zeros(0, dtype=np.int64), np.zeros((0, 3)))
             standard = np.abs(rest) / np.where(gain > 0.0, gain, np.inf)
+            if share == LESS_CLEAR[0]:
+                most = LARGEST * float(np.quantile(np.abs(amounts[amounts != 0.0]), 0.9))
             quiet = probe.windows.quantiles(standard, CALM) / CALM_BOUND
             calm = np.nan_to_num(quiet)[probe.windows.labels]
         least = np.maximum(FAINT, DISTINCT * calm / np.sqrt(energy))
@@ -89,7 +94,7 @@ def find_outliers(positions: Positions, probe: Probe) -> Outliers:
             explained = np.where(probe.counted, fit**2 * energy, 0.0)
             best = _largest_nearby(_largest_nearby(explained, neighbours), neighbours)
             found = (explained > 0.0) & (explained >= best) & (explained >= share * (support @ rest**2))
-            found &= np.abs(fit) > least
+            found &= (np.abs(fit) > least) & (np.abs(fit) < most)
             if not found.any():
                 break
             step = np.where(found, fit, 0.0)
@@ -106,7 +111,7 @@ def _believed(amounts: Floats) -> bool:
     off = amounts[amounts != 0.0]
     if len(off) < max(FEWEST, FEWEST_SHARE * len(amounts)):
         return False
-    return abs(float(np.sign(off).mean())) < ONE_SIDED
+    return abs(float(np.sign(off).mean())) < ONE_SIDED and float(np.median(np.abs(off))) > WORTH
 
 
 def _largest_nearby(values: Floats, neighbours: Rows) -> Floats:

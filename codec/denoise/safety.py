@@ -25,6 +25,8 @@ DETAIL_SEEN, DETAIL_DROWNED = 0.15, 0.2
 """Levels of noise, in mean edges, below which it may be as faint as detail, and above which it drowns all detail."""
 NOISE_ALONE, DETAIL_SLOPE, DETAIL_MOST = 0.92, 5.0, 0.4
 """Movement over noise where there is no detail; what is left undone for each unit more; and at most."""
+REACHED = 0.5
+"""Share of the level of the noise from which on a window counts for the whole."""
 FAILED_SHARE = 0.3
 """A result that fails in more of the mesh fails as a whole."""
 
@@ -80,7 +82,8 @@ def judge(noisy: Positions, result: Positions, finding: Finding, probe: Probe) -
     known = found if unsure else windows.means(finding.levels)
     present = np.where(known > 0.0, np.maximum(found, 0.5 * known), 0.0)
     ratio = removed / np.maximum(present, FAINT * finding.edge)
-    judged = windows.valid & (known > 0.0)
+    # Where an axis hardly reaches, windows are put back one by one but do not count against the whole.
+    judged = windows.valid & (known > max(0.0, REACHED * finding.level))
     movement = float(np.median(ratio[judged])) if judged.any() else 0.0
     most = MOST
     if finding.kind == "correlated":
