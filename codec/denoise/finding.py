@@ -23,6 +23,8 @@ FEWEST_WINDOWS, FEWEST_INNER = 5, 3
 """Windows without which nothing is said; and those wholly inside a noisy part."""
 FAINTEST = 0.05
 """Levels below, in mean edges, are left alone: the finest detail of real surfaces is as strong."""
+MANY_WINDOWS, FAINTEST_OF_FEW = 20, 0.085
+"""With fewer windows their spread says less, and noise has to be this strong."""
 FAINT, SURE = 0.115, 0.15
 """Up to here it is still like the detail of the roughest surfaces; from here on it may be mixed with more shape."""
 EVEN_FAINT, EVEN, EVEN_CORRELATED, UNEVEN = 0.1, 0.145, 0.18, 0.26
@@ -136,6 +138,8 @@ def _everywhere(positions: Positions, evidence: _Evidence) -> Finding | None:
     if level < FAINTEST or not _looks_random(evidence, chosen):
         return None
     kind, whiteness = _colour(positions, evidence, windows.valid, chosen)
+    if len(levels) < MANY_WINDOWS and level < FAINTEST_OF_FEW and kind != "correlated":
+        return None
     if _spread(levels, windows) > _allowed(level, kind):
         return None
     amount = np.full(len(positions), level * evidence.edge)

@@ -25,6 +25,7 @@ LESS_CLEAR = (0.5, 0.35, 0.25)
 FEWEST_SHARE = 0.004
 """Clear outliers, as a share of the vertices, from which on they are believed."""
 FEWEST = 12
+MOST_SHARE = 0.2
 ONE_SIDED = 0.5
 FAINT, WORTH = 0.03, 0.15
 """Smallest displacement looked for, in mean edges; and the median of the clear ones from which on it is worth it."""
@@ -101,6 +102,9 @@ def find_outliers(positions: Positions, probe: Probe) -> Outliers:
             amounts += step
             rest -= operator @ step
     vertices = np.flatnonzero(amounts)
+    if len(vertices) > MOST_SHARE * len(positions):
+        # So many are no exceptions: what is all over the mesh is for the filters.
+        return Outliers(np.zeros(0, dtype=np.int64), np.zeros((0, 3)))
     # The first ones were measured beside neighbours that were off as well: all of them again, together.
     change = linalg.lsqr(operator[:, vertices], rest, iter_lim=REFINEMENTS)[0]
     amounts[vertices] += change
