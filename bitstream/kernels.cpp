@@ -13,6 +13,8 @@ extern "C" {
 #include "bitstream/connectivity/permutation.h"
 #include "bitstream/connectivity/seams.h"
 #include "bitstream/entropy/symbols.h"
+#include "bitstream/fields/grid.h"
+#include "bitstream/fields/levels.h"
 }
 
 BSM_STRUCT(Coder, Longs, Bytes)
@@ -24,6 +26,10 @@ BSM_STRUCT(Guide, Surface, Bytes, Ints, Ints, Ints, Ints)
 BSM_STRUCT(Conquest, Front, Longs2, Ints2, Longs)
 BSM_STRUCT(Seams, Ints, Ints, Ints, Ints, Ints)
 BSM_STRUCT(Past, Ints2, Ints2, Ints2, Longs)
+BSM_STRUCT(Corners, ConstInts2, Ints, Ints, Ints, Ints)
+BSM_STRUCT(ValueModel, Words, Words, Ints2, Ints2)
+BSM_STRUCT(Grid, ConstInts, ConstInts, Ints2, Ints2, Longs2, Longs2, Longs2)
+BSM_STRUCT(Levels, Ints2, Ints2, Ints2, Longs2)
 
 using namespace nb::literals;
 
@@ -59,5 +65,12 @@ NB_MODULE(_kernels, m) {
     m.def("search_levels", checked<search_levels>, "bank"_a, "past"_a, "expectations"_a, "targets"_a, "price"_a,
         "costs"_a, "ways"_a, "origins"_a, "levels"_a, "kept"_a, Unlocked());
     m.def("code_matrix", checked<code_matrix>, "coder"_a, "bank"_a, "levels"_a, "reference"_a, "rows"_a, "slow"_a,
+        Unlocked());
+
+    m.def("link_corners", checked<link_corners>, "corners"_a, "scratch"_a, Unlocked());
+    m.def("order_vertices", checked<order_vertices>, "corners"_a, "order"_a, "scratch"_a, Unlocked());
+    m.def("code_grid", checked<code_grid>, "coder"_a, "model"_a, "corners"_a, "grid"_a, "first"_a, "count"_a,
+        Unlocked());
+    m.def("code_levels", checked<code_levels>, "coder"_a, "model"_a, "corners"_a, "levels"_a, "first"_a, "count"_a,
         Unlocked());
 }

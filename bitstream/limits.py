@@ -28,6 +28,8 @@ class Limits:
     """Floating point operations of the dictionaries, by the estimate of the specification."""
     sequence_bytes: float = 1 << 31
     """Memory for the dictionaries of a sequence, and for the coefficients of a GOP."""
+    field_bytes: float = 1 << 32
+    """Memory for decoding a grid or a layer of refinement."""
 
     def check(self, name: str, value: float) -> None:
         """Raise `LimitError` if `value` exceeds the limit called `name`."""

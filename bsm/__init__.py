@@ -58,11 +58,12 @@ if TYPE_CHECKING:
     from codec.sequence.encoder import SequenceEncoder as SequenceEncoder
     from codec.sequence.options import SequenceOptions as SequenceOptions
     from codec.sequence.targets import SequenceTarget as SequenceTarget
+    from codec.static.contract import Contract as Contract
     from codec.static.decoder import Decoder as Decoder
     from codec.static.encoder import Encoder as Encoder
     from codec.static.events import (
         BlockEvent as BlockEvent, ConnectivityEvent as ConnectivityEvent, EndEvent as EndEvent,
-        HeaderEvent as HeaderEvent, LossEvent as LossEvent,
+        HeaderEvent as HeaderEvent, LossEvent as LossEvent, RefinementEvent as RefinementEvent,
     )
     from codec.static.options import PRESETS as PRESETS, EncodeOptions as EncodeOptions
     from codec.static.targets import Target as Target
@@ -89,9 +90,10 @@ _ROOMS = {
     "codec.sequence.encoder": "SequenceEncoder",
     "codec.sequence.options": "SequenceOptions",
     "codec.sequence.targets": "SequenceTarget",
+    "codec.static.contract": "Contract",
     "codec.static.decoder": "Decoder",
     "codec.static.encoder": "Encoder",
-    "codec.static.events": "BlockEvent ConnectivityEvent EndEvent HeaderEvent LossEvent",
+    "codec.static.events": "BlockEvent ConnectivityEvent EndEvent HeaderEvent LossEvent RefinementEvent",
     "codec.static.options": "PRESETS EncodeOptions",
     "codec.static.targets": "Target",
 }

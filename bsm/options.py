@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import difflib
+import re
 import types
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
@@ -26,6 +27,9 @@ TARGETS = {
 }
 """Keyword of each target of a mesh, and its kind, see `codec.Target`."""
 
+LENGTH = re.compile(r"([0-9.]+(?:[eE][-+]?[0-9]+)?) *(%|[a-zA-Zµ]*)")
+"""A number, and what it is in: % of the diagonal, or whatever the mesh's unit is called; neither: diagonals."""
+
 SEQUENCE_TARGETS = {"kg": "kg", "bpvf": "bpvf", "theta": "theta_deg", "nmsve_db": "nmsve_db"}
 """The same for sequences."""
 
@@ -39,7 +43,7 @@ def encode_options(*, preset: str = "balanced", **keywords: Any) -> EncodeOption
     Parameters
     ----------
     preset : str
-        "small", "balanced" or "fine": what everything has that is not given.
+        "small", "balanced", "fine", "near-lossless" or "lossless": what everything has that is not given.
     **keywords
         Fields of `EncodeOptions`, and at most one of `TARGETS`.
 
@@ -50,12 +54,37 @@ def encode_options(*, preset: str = "balanced", **keywords: Any) -> EncodeOption
     OptionError
         If a value is outside its range, or options exclude each other.
     """
-    from codec.static.options import PRESETS, EncodeOptions
+    from codec.static.options import CODING, PRESETS, EncodeOptions
     from codec.static.targets import Target
 
-    given = _fields("a mesh", EncodeOptions, keywords, TARGETS, Target)
     base: EncodeOptions = _named("preset", PRESETS, preset)
+    given = _fields("a mesh", EncodeOptions, _with_length(keywords), TARGETS, Target)
+    if base.grid is not None and any(value is not None for name, value in given.items() if name in ("target", *CODING)):
+        base = EncodeOptions()  # a preset that is a grid has nothing that could be changed
     return replace(base, **given)
+
+
+def _with_length(keywords: Mapping[str, Any]) -> dict[str, Any]:
+    """Keywords, a `max_error` with a unit among them as the contract that it is."""
+    from codec.static.contract import Contract
+
+    given = dict(keywords)
+    text = given.get("max_error")
+    if not isinstance(text, str):
+        return given
+    found = LENGTH.fullmatch(text.strip())
+    if found is None:
+        raise ArgumentError(f"max_error must be a number, or one with a unit like 0.05mm or 0.1%, not {text!r}")
+    number, unit = float(found[1]), found[2]
+    if not unit:
+        given["max_error"] = number
+        return given
+    del given["max_error"]
+    taken = [name for name in (*TARGETS, "target", "contract") if given.get(name) is not None]
+    if taken:
+        raise OptionError(f"one target at a time, not max_error and {' and '.join(taken)}")
+    given["contract"] = Contract(number / 100.0) if unit == "%" else Contract(number, absolute=True)
+    return given
 
 
 def sequence_options(*, preset: str = "balanced", low_delay: bool = False, **keywords: Any) -> SequenceOptions:

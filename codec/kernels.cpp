@@ -19,6 +19,7 @@ extern "C" {
 #include "codec/denoise/filters/topology.h"
 #include "codec/denoise/filters/vertex_bilateral.h"
 #include "codec/denoise/filters/vertex_update.h"
+#include "codec/geometry/closeness.h"
 #include "codec/geometry/graph.h"
 #include "codec/geometry/incidence.h"
 #include "codec/geometry/metrics.h"
@@ -26,9 +27,11 @@ extern "C" {
 #include "codec/geometry/surface_distance.h"
 #include "codec/sequence/row_prediction.h"
 #include "codec/signal/detail.h"
+#include "codec/signal/frames.h"
 #include "codec/signal/predict.h"
 #include "codec/signal/smooth.h"
 #include "codec/signal/transform.h"
+#include "codec/static/shaping.h"
 }
 
 template <>
@@ -38,6 +41,9 @@ struct nb::detail::type_caster<Fronts>
 template <>
 struct nb::detail::type_caster<PredictionRules>
     : nb::detail::TupleCaster<PredictionRules, double, double, double, double, int64_t, int64_t> {};
+
+BSM_STRUCT(Wanted, ConstDoubles2, ConstInts2, ConstLongs, ConstInts, ConstInts, ConstInts, ConstDoubles2, ConstDoubles)
+BSM_STRUCT(Aim, double, double, int64_t)
 
 using namespace nb::literals;
 
@@ -120,4 +126,17 @@ NB_MODULE(_kernels, m) {
           "outer"_a, "stiffness"_a, Unlocked());
     m.def("follow_rows", &follow_rows, "known"_a, "targets"_a, "levels"_a, "decoded"_a, "moments"_a, "step"_a,
           "rounding"_a, "encoding"_a, "rules"_a, "factor"_a, "row"_a, "expected"_a, Unlocked());
+    m.def("component_sizes", checked<&component_sizes>, "offsets"_a, "neighbours"_a, "seen"_a, "waiting"_a, "sizes"_a,
+          Unlocked());
+    m.def("weighted_angle", &weighted_angle, "normals"_a, "weights"_a, "decoded"_a, "faces"_a, Unlocked());
+    m.def("farthest_apart", &farthest_apart, "original"_a, "decoded"_a, Unlocked());
+    m.def("local_frames", checked<&local_frames>, "positions"_a, "faces"_a, "frames"_a, Unlocked());
+    m.def("add_levels", checked<&add_levels>, "positions"_a, "frames"_a, "levels"_a, "step"_a, "ratio"_a, Unlocked());
+    m.def("collect_flaps", checked<&collect_flaps>, "faces"_a, "starts"_a, "members"_a, "pending"_a, "flaps"_a,
+          Unlocked());
+    m.def("group_flaps", checked<&group_flaps>, "flaps"_a, "starts"_a, "members"_a, Unlocked());
+    m.def("shape_levels", checked<&shape_levels>, "wanted"_a, "aim"_a, "moved"_a, "levels"_a, "directions"_a,
+          "scales"_a, "pull"_a, "open"_a, Unlocked());
+    m.def("shape_grid", checked<&shape_grid>, "wanted"_a, "aim"_a, "moved"_a, "places"_a, "step"_a, "flaps"_a,
+          "starts"_a, "members"_a, "bends"_a, "rates"_a, "axes"_a, "open"_a, Unlocked());
 }

@@ -1,7 +1,7 @@
 """A decoder of BSM streams, written from the documents of this folder alone: slow, plain, easy to compare with them.
 
 The rules that it follows are named as they are numbered: F for format.md, C for connectivity.md (see
-reference_connectivity.py), M for mathematics.md, S for sequence.md. numpy is used for linear algebra alone, and nothing
+reference_connectivity.py), V for fields.md (see reference_fields.py), M for mathematics.md, S for sequence.md. numpy is used for linear algebra alone, and nothing
 is shared with the product.
 
     python spec/reference_decoder.py IN.bsm OUT.npz
@@ -34,6 +34,7 @@ from reference_connectivity import (
     read_signed,
     read_unsigned,
 )
+from reference_fields import GridReader, LevelsReader, place
 
 
 class FormatError(Exception):
@@ -129,7 +130,7 @@ def packed_value(value, nested):
 
 # ---------------------------------------------------------------- F 2, F 3: stream and frames
 
-HEADER, METADATA, CONNECTIVITY, PARTITION, ORDER, BLOCK, GOP, END = 1, 2, 3, 4, 5, 6, 7, 15
+HEADER, METADATA, CONNECTIVITY, PARTITION, ORDER, BLOCK, GOP, GRID, REFINEMENT, END = 1, 2, 3, 4, 5, 6, 7, 12, 13, 15
 
 
 def frames_of(stream):
@@ -153,7 +154,7 @@ def frames_of(stream):
         body = stream[offset:end]
         crc = binascii.crc_hqx(body, 0) if kind == BLOCK else zlib.crc32(body)
         require(crc == int.from_bytes(stream[end : end + size], "little"), "checksum of a frame is wrong")  # F 3.3
-        if kind in (0, 12, 13, 14):
+        if kind in (0, 14):
             raise UnsupportedError(f"frame type {kind}")  # F 3.6
         yield kind, stream[start:end], offset, number
         offset, number = end + size, number + 1
@@ -167,9 +168,9 @@ COUNT = 2**31 - 1
 FIELDS = {
     "vertices": (1, int, 1, COUNT, None),
     "faces": (2, int, 1, COUNT, None),
-    "blocks": (3, int, 1, COUNT, None),
-    "block_size": (4, int, 1, COUNT, None),
-    "coefficients": (5, int, 1, COUNT, None),
+    "blocks": (3, int, 0, COUNT, 0),
+    "block_size": (4, int, 0, COUNT, 0),
+    "coefficients": (5, int, 0, COUNT, 0),
     "basis": (6, "method", 0, 1, 0),
     "seeding": (7, "method", 0, 1, 0),
     "key_interval": (8, int, 0, COUNT, 0),
@@ -192,6 +193,9 @@ FIELDS = {
     "detail_step": (25, float, 0.0, 2.0**20, 0.0),
     "details": (26, int, 0, COUNT, 0),
     "coarser": (27, int, 0, 30, 0),
+    "grid": (28, [0, 3], 0, 2**20 - 1, []),  # a list: of ints
+    "lattice": (29, [0, 2], 1, COUNT, []),
+    "refinements": (30, (0, 8), 0.0, 64.0, []),
 }
 
 
@@ -207,8 +211,9 @@ def parse_header(payload):
             raise UnsupportedError(f"header key {key}")
         name = names[key]
         _, kind, low, high, default = FIELDS[name]
-        if type(kind) is tuple:  # F 4.4
-            require(type(value) is list and all(type(v) is float for v in value), f"{name} has a wrong type")
+        if type(kind) in (tuple, list):  # F 4.4
+            item = float if type(kind) is tuple else int
+            require(type(value) is list and all(type(v) is item for v in value), f"{name} has a wrong type")
             require(kind[0] <= len(value) <= kind[1], f"{name} has a wrong length")
             items = value
         else:
@@ -224,13 +229,27 @@ def parse_header(payload):
         header.setdefault(name, field[4])
     h = header
     require(h["vertices"] <= 3 * h["faces"], "more vertices than corners")  # F 4.6
+    if h["grid"]:
+        others = {name for name in FIELDS if h[name] != FIELDS[name][4]}
+        require(others <= {"vertices", "faces", "center", "scale", "grid", "lattice"}, "a grid, and something else")
+        require(len(h["grid"]) == 3, "a grid of other than three axes")
+        require(len(h["lattice"]) in (0, 2), "a lattice is not two numbers")
+        require(not h["lattice"] or max(h["grid"]) <= h["lattice"][1] <= h["lattice"][0], "a lattice that is none")
+    else:
+        require(not h["lattice"], "a lattice without a grid")
+        require(h["blocks"] and h["block_size"] and h["coefficients"], "no blocks, and no grid")
     require(h["blocks"] <= h["vertices"], "more blocks than vertices")
     require(h["block_size"] <= h["vertices"], "blocks larger than the mesh")
-    require(h["blocks"] * h["block_size"] >= h["vertices"], "blocks too small")
+    require(h["grid"] or h["blocks"] * h["block_size"] >= h["vertices"], "blocks too small")
     require(h["coefficients"] <= h["block_size"], "more coefficients than rows")
     require(h["details"] <= h["block_size"], "more details than rows")
     require((h["details"] > 0) == (h["detail_step"] > 0), "details without a step, or a step without details")
     require(h["frames"] == 0 or h["gop_frames"] > 0, "frames without GOPs")
+    steps, ratios = h["refinements"][::2], h["refinements"][1::2]
+    require(len(steps) == len(ratios), "refinements are not pairs")
+    require(all(2.0**-40 <= step <= 1 for step in steps), "a step of a refinement is out of range")
+    require(all(ratio == 0 or ratio >= 1 / 16 for ratio in ratios), "a ratio of a refinement is out of range")
+    require(not h["refinements"] or not h["gop_frames"], "refinements of a sequence")
     for name, most in (  # F 4.7
         ("vertices", MOST_VERTICES),
         ("faces", MOST_FACES),
@@ -247,13 +266,15 @@ def parse_header(payload):
 def parse_stream(stream):
     """F 3.7 to F 3.10 and F 5: the header, and the payloads of each type behind it."""
     header, last, metadata_seen = None, None, False
-    packets = {CONNECTIVITY: [], PARTITION: [], ORDER: [], BLOCK: [], GOP: []}
-    order = {HEADER: 0, CONNECTIVITY: 1, PARTITION: 2, ORDER: 3, BLOCK: 4, GOP: 5, END: 6}
+    packets = {CONNECTIVITY: [], PARTITION: [], ORDER: [], BLOCK: [], GOP: [], GRID: [], REFINEMENT: []}
+    order = {HEADER: 0, CONNECTIVITY: 1, PARTITION: 2, ORDER: 3, BLOCK: 4, GOP: 5, GRID: 5, REFINEMENT: 5, END: 6}
     for kind, payload, offset, number in frames_of(stream):
         if header is None:
             require(kind == HEADER, "the first frame must be HEADER")  # F 3.7
         if 8 <= kind <= 11:
             continue  # F 3.5
+        if header and ((kind == GRID and not header["grid"]) or (kind == REFINEMENT and not header["refinements"])):
+            raise UnsupportedError(f"frame type {kind}")  # F 3.6
         if kind == METADATA:
             require_limit(len(payload), MOST_METADATA_BYTES, "metadata")
             entries = canonical_map(payload)  # F 5.1
@@ -273,12 +294,26 @@ def parse_stream(stream):
         elif kind == GOP:
             index, at = payload_varint(payload, 0)
             parsed = (index, payload[at:])
+        elif kind in (GRID, REFINEMENT):  # F 5.6, F 5.7
+            layer, at = payload_varint(payload, 0) if kind == REFINEMENT else (0, 0)
+            first, at = payload_varint(payload, at)
+            count, at = payload_varint(payload, at)
+            parsed = (layer, first, count, payload[at:])
+            before = packets[kind][-1] if packets[kind] else (0, 0, 0)
+            following = before[1] + before[2] if before[0] == layer else 0
+            require(layer >= before[0], "layers must ascend")
+            require(kind == GRID or layer < len(header["refinements"]) // 2, "a layer that is not announced")
+            require(first == following and 0 < count <= header["vertices"] - first, "wrong vertices")  # F 3.11, F 3.12
         else:
             count, at = payload_varint(payload, 0)
             require(len(payload) == at + 4, "END has a wrong length")
         place = order[kind]
-        # F 3.8: ascending, CONNECTIVITY is required, only BLOCK and GOP repeat.
-        legal = kind == HEADER if last is None else place > last or (place == last and kind in (BLOCK, GOP))
+        # F 3.8: ascending, CONNECTIVITY is required, and only what comes behind ORDER repeats.
+        several = (BLOCK, GOP, GRID, REFINEMENT)
+        legal = kind == HEADER if last is None else place > last or (place == last and kind in several)
+        require(last != 5 or kind == END or packets.get(kind), f"frame type {kind} may not come here")
+        if header and header["grid"]:
+            require(kind in (CONNECTIVITY, ORDER, GRID, END), f"frame type {kind} where there is a grid")
         require(legal and (place <= 1 or last >= 1), f"frame type {kind} may not come here")
         if kind in (BLOCK, GOP):
             require(not packets[kind] or parsed[0] > packets[kind][-1][0], "indices must ascend")  # F 3.10
@@ -292,6 +327,8 @@ def parse_stream(stream):
         if kind == HEADER:
             header = parsed
         elif kind == END:  # F 5.5
+            covered = sum(packet[2] for packet in packets[GRID])
+            require(not header["grid"] or covered == header["vertices"], "positions are missing")  # F 3.11
             require(count == number, "END counts other frames")
             require(int.from_bytes(payload[at:], "little") == zlib.crc32(stream[:offset]), "CRC of the stream is wrong")
         else:
@@ -643,16 +680,7 @@ class CoefficientModel:
 def unpack(payload, count, bits):
     """F 6: `count` unsigned numbers."""
     size = (count * bits + 7) // 8
-    require(len(payload) <= size, "too many bytes of coefficients")
-    if len(payload) < size:
-        frame = b"\x28\xb5\x2f\xfd" + payload
-        try:
-            parameters = zstandard.get_frame_parameters(frame)
-            require(parameters.content_size == size and parameters.window_size <= 1 << 23, "zstd frame of another size")
-            payload = zstandard.ZstdDecompressor().decompress(frame, max_output_size=size, allow_extra_data=False)
-        except zstandard.ZstdError as error:
-            raise CorruptError(f"zstd frame is damaged: {error}") from None
-        require(len(payload) == size, "zstd frame of another size")
+    payload = unzipped(payload, size)
     number = int.from_bytes(payload, "big")
     spare = 8 * size - count * bits
     require(number & ((1 << spare) - 1) == 0, "the bits behind the last coefficient are not 0")
@@ -660,7 +688,42 @@ def unpack(payload, count, bits):
     return [number >> bits * (count - 1 - i) & ((1 << bits) - 1) for i in range(count)]
 
 
-# ---------------------------------------------------------------- M 10, M 12: positions
+def unzipped(data, size):
+    """F 6.2: `size` bytes, which may be a zstd frame."""
+    require(len(data) <= size, "too many bytes")
+    if len(data) == size:
+        return data
+    frame = b"\x28\xb5\x2f\xfd" + data
+    try:
+        parameters = zstandard.get_frame_parameters(frame)
+        require(parameters.content_size == size and parameters.window_size <= 1 << 23, "zstd frame of another size")
+        content = zstandard.ZstdDecompressor().decompress(frame, max_output_size=size, allow_extra_data=False)
+    except zstandard.ZstdError as error:
+        raise CorruptError(f"zstd frame is damaged: {error}") from None
+    require(len(content) == size, "zstd frame of another size")
+    return content
+
+
+def piece(data, at, size):
+    """F 9.2: `size` bytes, and where they end."""
+    length, at = payload_varint(data, at)
+    require(length <= len(data) - at, "a piece ends too early")
+    stream = zlib.decompressobj()
+    try:
+        content = stream.decompress(data[at : at + length], size + 1)
+    except zlib.error as error:
+        raise CorruptError(f"a piece is damaged: {error}") from None
+    require(len(content) == size and stream.eof and not stream.unused_data, "a piece of another size")
+    return content, at + length
+
+
+def piece_of_numbers(data, at, count):
+    """F 9.2: `count` numbers, and where they end."""
+    content, at = piece(data, at, 4 * count)
+    return [sum(content[i + k * count] << 8 * k for k in range(4)) for i in range(count)], at
+
+
+# ---------------------------------------------------------------- M 10, M 12, M 17: positions
 
 
 def normals_of(block, faces, positions):
@@ -715,32 +778,123 @@ class Mesh:
 
     def __init__(self, header, packets):
         self.header = header
-        for kind, known in ((CONNECTIVITY, 1), (PARTITION, 0), (ORDER, 1)):
-            if packets[kind] and packets[kind][0][0] != known:
+        orders = (1,) if header["gop_frames"] else (1, 2)
+        for kind, known in ((CONNECTIVITY, (1,)), (PARTITION, (0,)), (ORDER, orders)):
+            if packets[kind] and packets[kind][0][0] not in known:
                 raise UnsupportedError(f"method {packets[kind][0][0]} in a frame of type {kind}")
         vertices, parts = header["vertices"], header["blocks"]
         self.faces = decode_connectivity(packets[CONNECTIVITY][0][1], vertices, header["faces"], MOST_VERTICES)
         self.graph = neighbours_of(self.faces, vertices)
+        self.numbers, self.arranged, self.loose = [[v] for v in range(vertices)], self.faces, {}
+        if packets[ORDER]:
+            self.arrange(*packets[ORDER][0])
+        if header["grid"]:
+            return
         if packets[PARTITION]:
             labels = decode_labels(packets[PARTITION][0][1], self.graph, parts)
         else:
             labels = derive_labels(self.graph, parts)
-        self.numbers, self.arranged = range(vertices), self.faces
-        if packets[ORDER]:
-            self.numbers, self.arranged = decode_arrangement(packets[ORDER][0][1], self.faces, vertices)
         cores = [[v for v in range(vertices) if labels[v] == part] for part in range(parts)]
         require(max(map(len, cores)) <= header["block_size"], "a part is larger than a block")  # M 5.2
         self.cores = [cores[part] for part in chain_of(self.graph, labels, parts)]
         require([index for index, _, _ in packets[BLOCK]] == list(range(parts)), "a block is missing")
 
     def result(self, positions):
-        """M 12.5, C 9.5: positions of n vertices in the unit of the mesh, each under its number."""
-        positions = positions * self.header["scale"] + np.array(self.header["center"])
+        """M 12.5: positions of n vertices in the unit of the mesh, each under its numbers."""
+        return self.numbered(positions * self.header["scale"] + np.array(self.header["center"]))
+
+    def numbered(self, positions):
+        """C 9.5, F 9: positions in the unit of the mesh, each under its numbers."""
         if not np.isfinite(positions).all():
             raise NumericError("positions are not finite")
-        arranged = np.empty_like(positions)
-        arranged[list(self.numbers)] = positions
+        arranged = np.empty((sum(map(len, self.numbers)) + len(self.loose), 3))
+        for given, position in zip(self.numbers, positions):
+            arranged[given] = position
+        for given, position in self.loose.items():
+            arranged[given] = position
         return arranged
+
+    def arrange(self, method, data):
+        """C 9, F 9: the numbers that each vertex has, the faces, and vertices in none of them."""
+        vertices = self.header["vertices"]
+        if method == 1:
+            numbers, self.arranged = decode_arrangement(data, self.faces, vertices)
+            self.numbers = [[number] for number in numbers]
+            return
+        size, at = payload_varint(data, 0)  # F 9.1
+        require(size <= len(data) - at, "the order ends too early")
+        numbers, faces = decode_arrangement(data[at : at + size], self.faces, vertices)
+        at += size
+        given, at = payload_varint(data, at)
+        copies, at = payload_varint(data, at)
+        loose, at = payload_varint(data, at)
+        require_limit(given, MOST_VERTICES, "given vertices")
+        require(given == vertices + copies + loose and vertices + copies <= 3 * len(faces), "wrong numbers of vertices")
+        kinds, at = piece(data, at, given)
+        counts = [kinds.count(kind) for kind in range(3)]
+        require(counts == [vertices, copies, loose], "other vertices than were announced")  # F 9.3
+        back, at = piece_of_numbers(data, at, copies)
+        places, last, waiting = [[] for _ in range(vertices)], -1, iter(back)
+        for number, kind in enumerate(kinds):
+            if kind == 0:
+                last += 1
+                places[last].append(number)
+            elif kind == 1:  # F 9.4
+                vertex = last - next(waiting)
+                require(0 <= vertex, "a copy of no vertex")
+                places[vertex].append(number)
+        steps = [0] * (3 * len(faces))
+        if copies:
+            steps, at = piece_of_numbers(data, at, 3 * len(faces))
+        seen, self.arranged, corner = [0] * vertices, [], iter(steps)
+        for face in faces:  # F 9.5
+            turned = []
+            for v in face:
+                step = next(corner)
+                require(step < len(places[v]), "a copy that there is not")
+                turned.append(places[v][(seen[v] + step) % len(places[v])])
+                seen[v] += 1
+            self.arranged.append(tuple(turned))
+        require(len(data) - at == 24 * loose, "positions of loose vertices are missing")  # F 9.6
+        values = struct.unpack(f"<{3 * loose}d", data[at:])
+        require(all(map(math.isfinite, values)), "a loose vertex is not finite")
+        alone = [number for number, kind in enumerate(kinds) if kind == 2]
+        self.loose = {number: values[3 * i : 3 * i + 3] for i, number in enumerate(alone)}
+        self.numbers = [places[number] for number in numbers]
+
+
+def decode_grid(mesh, grids):
+    """V 12: positions in the unit of the mesh, shape (n, 3)."""
+    header = mesh.header
+    reader = GridReader(mesh.faces, header["vertices"], header["grid"])
+    for _, _, count, payload in grids:
+        reader.read(payload, count)
+    return np.array([place(x, header["lattice"], header["center"], header["scale"]) for x in reader.x])
+
+
+def refine(mesh, positions, refinements):
+    """M 17: base positions and what the layers add to them."""
+    given, count = mesh.header["refinements"], len(positions)
+    sums = np.zeros((count, 3))
+    for a, b, c in mesh.faces:  # M 17.1
+        normal = np.cross(positions[b] - positions[a], positions[c] - positions[a])
+        for v in (a, b, c):
+            sums[v] += normal
+    pole, axes = np.array([0.48, 0.6, 0.64]), np.array([[-0.8, 0.0, 0.6], [0.36, -0.8, 0.48]])
+    tilted = sums + (2.0**-10 * math.sqrt((sums**2).sum() / count) + 2.0**-33) * pole
+    normals = tilted / np.sqrt((tilted**2).sum(axis=1) + 2.0**-200)[:, None]  # M 17.2
+    along = np.maximum(1 + normals @ pole, 2.0**-20)
+    frames = [normals, *(axis - (normals @ axis / along)[:, None] * (pole + normals) for axis in axes)]
+    refined = positions.copy()
+    for layer, (step, ratio) in enumerate(zip(given[::2], given[1::2])):  # M 17.3
+        reader = LevelsReader(mesh.faces, count, 3 if ratio else 1)
+        for number, _, size, payload in refinements:
+            if number == layer:
+                reader.read(payload, size)
+        for j in range(reader.axes):
+            levels = np.array([row[j] for row in reader.x], float)
+            refined += (step * (ratio if j else 1.0) * levels)[:, None] * frames[j]
+    return refined
 
 
 class Chain:
@@ -1072,13 +1226,19 @@ def decode(stream):
     prediction = header["prediction"]
     require(len(prediction) <= 1 and all(0 < k < 2.0**16 for k in prediction), "illegal prediction")  # M 7.5
     mesh = Mesh(header, packets)
+    if header["grid"]:
+        decoded = mesh.numbered(decode_grid(mesh, packets[GRID]))
+        return decoded, np.array(mesh.arranged, np.int32).reshape(-1, 3)
     positions = decode_blocks(mesh, packets[BLOCK])
     if header["gop_frames"]:
         frames = decode_frames(mesh, packets[GOP], positions)
         shape = (len(frames), header["vertices"], 3)
         decoded = np.array([mesh.result(frame) for frame in frames]).reshape(shape)
     else:
-        decoded = mesh.result(smooth(mesh.graph, positions, header["smoothing"]))
+        positions = smooth(mesh.graph, positions, header["smoothing"])
+        if header["refinements"]:
+            positions = refine(mesh, positions, packets[REFINEMENT])
+        decoded = mesh.result(positions)
     return decoded, np.array(mesh.arranged, np.int32).reshape(-1, 3)
 
 

@@ -18,7 +18,12 @@ FLOORS = {
         ("static", "denoise"),
         ("sequence",),
     ),
-    "bitstream": (("_kernels", "errors", "limits"), ("entropy",), ("connectivity", "coefficients"), ("container",)),
+    "bitstream": (
+        ("_kernels", "errors", "limits"),
+        ("entropy",),
+        ("connectivity", "coefficients", "fields"),
+        ("container",),
+    ),
 }
 BITSTREAM_LIBRARIES = {"numpy", "msgpack", "zstandard"}
 CODEC_LIBRARIES = {"numpy", "scipy", "pymetis", "threadpoolctl"}

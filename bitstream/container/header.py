@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import operator
 from dataclasses import MISSING, dataclass, field, fields
-from typing import Any
+from typing import Any, TypeAlias
 
 from bitstream.errors import CorruptError, OptionError, UnsupportedError
 
 FIRST_IGNORABLE_KEY = 64
 COUNT = 2**31 - 1
 METHODS = 255
+Kind: TypeAlias = type[Any]
+MOST_GRID = 2**20 - 1
 
 
 @dataclass(frozen=True)
@@ -18,7 +20,7 @@ class Field:
     """How one header field is stored: its msgpack key, its type and the closed range of its legal values.
 
     `reserved` is the largest value that a later version may give a meaning to: above `high`, and up to there, a
-    value is unsupported and not corrupt. `lengths` bounds the number of entries of a list of floats.
+    value is unsupported and not corrupt. Of a list, `item` is the type and `lengths` bounds the number of its entries.
     """
 
     key: int
@@ -27,14 +29,13 @@ class Field:
     high: float
     reserved: float = 0
     lengths: tuple[int, int] = (0, 0)
+    item: Kind = float
 
     def normalise(self, value: Any) -> Any:
-        """`value` as a plain int, float or tuple of floats; `TypeError` or `ValueError` if it is none."""
-        if self.type is int:
-            return operator.index(value)
-        if self.type is float:
-            return float(value)
-        return tuple(float(item) for item in value)
+        """`value` as a plain int, float or tuple of these; `TypeError` or `ValueError` if it is none."""
+        if self.type is tuple:
+            return tuple(_plain(self.item, item) for item in value)
+        return _plain(self.type, value)
 
     def problem(self, value: Any) -> str | None:
         """What is wrong with a normalised value, or None."""
@@ -49,8 +50,12 @@ class Field:
     def accepts(self, value: Any) -> bool:
         """Whether a value read from msgpack has the right type."""
         if self.type is tuple:
-            return type(value) is list and all(type(item) is float for item in value)
+            return type(value) is list and all(type(item) is self.item for item in value)
         return type(value) is self.type
+
+
+def _plain(kind: Kind, value: Any) -> int | float:
+    return operator.index(value) if kind is int else float(value)
 
 
 def integer(key: int, low: int, high: int, default: Any = MISSING) -> Any:
@@ -73,11 +78,33 @@ def reals(key: int, low: float, high: float, lengths: tuple[int, int], default: 
     return field(default=default, metadata={"wire": Field(key, tuple, low, high, lengths=lengths)})
 
 
+def integers(key: int, low: int, high: int, lengths: tuple[int, int], default: tuple[int, ...]) -> Any:
+    """Declare a field that is a list of integers."""
+    return field(default=default, metadata={"wire": Field(key, tuple, low, high, lengths=lengths, item=int)})
+
+
+@dataclass(frozen=True)
+class Layer:
+    """A layer of refinement: lengths in BSM units of a level along the normal, and times `ratio` along two tangents.
+
+    `ratio` 0: there are no levels along the tangents.
+    """
+
+    step: float
+    ratio: float
+
+    @property
+    def axes(self) -> int:
+        """Levels per vertex."""
+        return 3 if self.ratio else 1
+
+
 @dataclass(frozen=True, kw_only=True)
 class Header:
     """What a decoder must know before anything else; a header with illegal or contradictory values cannot be made.
 
-    Lengths are in BSM units: the mesh moved by `-center` and divided by `scale`.
+    Lengths are in BSM units: the mesh moved by `-center` and divided by `scale`. On a grid, its cells have that length,
+    and fields that belong to blocks have their defaults.
 
     Raises
     ------
@@ -87,10 +114,11 @@ class Header:
 
     vertices: int = integer(1, 1, COUNT)
     faces: int = integer(2, 1, COUNT)
-    blocks: int = integer(3, 1, COUNT)
-    block_size: int = integer(4, 1, COUNT)
+    blocks: int = integer(3, 0, COUNT, default=0)
+    """0: positions on a grid, there are no blocks."""
+    block_size: int = integer(4, 0, COUNT, default=0)
     """Vertices of the largest block, n_d."""
-    coefficients: int = integer(5, 1, COUNT)
+    coefficients: int = integer(5, 0, COUNT, default=0)
     """Columns of the largest dictionary: the largest c_i."""
     basis: int = method(6, known=2)
     """0: orthogonal iterations; 1: exact eigenbasis."""
@@ -136,6 +164,12 @@ class Header:
     """Coefficients of the largest detail layer of a block."""
     coarser: int = integer(27, 0, 30, default=0)
     """Packed coefficients: those of the lowest frequency are in units of 2^coarser steps."""
+    grid: tuple[int, ...] = integers(28, 0, MOST_GRID, (0, 3), default=())
+    """Largest coded value of each axis of a grid; empty: there is none."""
+    lattice: tuple[int, ...] = integers(29, 1, 2**31 - 1, (0, 2), default=())
+    """(cells, points): the coded value k stands for k * cells / points, rounded; empty: for itself."""
+    refinements: tuple[float, ...] = reals(30, 0.0, 64.0, (0, 8), default=())
+    """Step and ratio of each layer of refinement, one pair after another; see `layers`."""
 
     def __post_init__(self) -> None:
         for name, declared in HEADER_FIELDS.items():
@@ -152,6 +186,11 @@ class Header:
         if problem:
             raise OptionError(f"header contradicts itself: {problem}")
 
+    @property
+    def layers(self) -> tuple[Layer, ...]:
+        """The layers of refinement."""
+        return tuple(map(Layer, self.refinements[::2], self.refinements[1::2]))
+
 
 HEADER_FIELDS: dict[str, Field] = {item.name: item.metadata["wire"] for item in fields(Header)}
 HEADER_DEFAULTS: dict[str, Any] = {item.name: item.default for item in fields(Header) if item.default is not MISSING}
@@ -159,7 +198,29 @@ HEADER_DEFAULTS: dict[str, Any] = {item.name: item.default for item in fields(He
 
 def contradiction(header: Header) -> str | None:
     """Which two fields of a header exclude each other, or None."""
-    rules = {
+    rules = _grid_rules(header) if header.grid else _block_rules(header)
+    return next((problem for problem, broken in rules.items() if broken), None)
+
+
+def _grid_rules(header: Header) -> dict[str, bool]:
+    cells, points = header.lattice if len(header.lattice) == 2 else (0, 0)
+    return {
+        "more vertices than the corners of its faces": header.vertices > 3 * header.faces,
+        "a grid of other than three axes": len(header.grid) != 3,
+        "a lattice that is not cells and points": bool(header.lattice) and not points,
+        "a lattice with fewer points than the grid has values": 0 < points < max(header.grid),
+        "a lattice of more points than cells": points > cells,
+    } | {
+        f"a grid, and {name}": getattr(header, name) != default
+        for name, default in HEADER_DEFAULTS.items()
+        if name not in ("grid", "lattice", "center", "scale")
+    }
+
+
+def _block_rules(header: Header) -> dict[str, bool]:
+    return {
+        "neither blocks nor a grid": not (header.blocks and header.block_size and header.coefficients),
+        "a lattice without a grid": bool(header.lattice),
         "more vertices than the corners of its faces": header.vertices > 3 * header.faces,
         "more blocks than vertices": header.blocks > header.vertices,
         "blocks larger than the mesh": header.block_size > header.vertices,
@@ -168,8 +229,13 @@ def contradiction(header: Header) -> str | None:
         "more details than a block has vertices": header.details > header.block_size,
         "details without a step, or a step without details": (header.details > 0) != (header.detail_step > 0),
         "frames without a length for GOPs": header.frames > 0 and header.gop_frames == 0,
+        "refinements that are not pairs of step and ratio": len(header.refinements) % 2 == 1,
+        "a step of a refinement that is not in 2^-40..1": not all(2.0**-40 <= x.step <= 1 for x in header.layers),
+        "a ratio of a refinement that is neither 0 nor in 1/16..64": not all(
+            x.ratio == 0 or x.ratio >= 1 / 16 for x in header.layers
+        ),
+        "refinements of a sequence": bool(header.refinements) and header.gop_frames > 0,
     }
-    return next((problem for problem, broken in rules.items() if broken), None)
 
 
 def header_to_entries(header: Header) -> list[tuple[int, Any]]:

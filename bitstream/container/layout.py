@@ -11,7 +11,19 @@ from typing import Any, TypeVar
 
 from bitstream.container.header import header_from_entries, header_to_entries
 from bitstream.container.maps import parse_map, write_map
-from bitstream.container.packets import Block, Connectivity, End, Gop, Header, Metadata, Order, Packet, Partition
+from bitstream.container.packets import (
+    Block,
+    Connectivity,
+    End,
+    Gop,
+    Grid,
+    Header,
+    Metadata,
+    Order,
+    Packet,
+    Partition,
+    Refinement,
+)
 from bitstream.container.wire import Cursor, FrameType, write_varint
 from bitstream.errors import CorruptError, OptionError
 from bitstream.limits import Limits
@@ -93,6 +105,29 @@ def parse_gop(payload: bytes, limits: Limits) -> Gop:
     return Gop(cursor.varint(), cursor.rest())
 
 
+def write_grid(grid: Grid) -> bytes:
+    """Varint number of the first vertex, varint number of vertices, coded positions."""
+    return write_varint(grid.first) + write_varint(grid.count) + grid.data
+
+
+def parse_grid(payload: bytes, limits: Limits) -> Grid:
+    """Inverse of `write_grid`."""
+    cursor = Cursor(payload)
+    return Grid(cursor.varint(), cursor.varint(), cursor.rest())
+
+
+def write_refinement(refinement: Refinement) -> bytes:
+    """Varint layer, varint number of the first vertex, varint number of vertices, coded levels."""
+    numbers = (refinement.layer, refinement.first, refinement.count)
+    return b"".join(map(write_varint, numbers)) + refinement.data
+
+
+def parse_refinement(payload: bytes, limits: Limits) -> Refinement:
+    """Inverse of `write_refinement`."""
+    cursor = Cursor(payload)
+    return Refinement(cursor.varint(), cursor.varint(), cursor.varint(), cursor.rest())
+
+
 def write_end(end: End) -> bytes:
     """Varint number of frames, CRC-32 little-endian."""
     return write_varint(end.frames) + end.crc.to_bytes(4, "little")
@@ -114,6 +149,8 @@ FRAME_TYPES: dict[type, FrameType] = {
     Order: FrameType.ORDER,
     Block: FrameType.BLOCK,
     Gop: FrameType.GOP,
+    Grid: FrameType.GRID,
+    Refinement: FrameType.REFINEMENT,
     End: FrameType.END,
 }
 
@@ -125,6 +162,8 @@ WRITERS: dict[FrameType, Callable[[Any], bytes]] = {
     FrameType.ORDER: write_coded,
     FrameType.BLOCK: write_block,
     FrameType.GOP: write_gop,
+    FrameType.GRID: write_grid,
+    FrameType.REFINEMENT: write_refinement,
     FrameType.END: write_end,
 }
 
@@ -136,5 +175,7 @@ PARSERS: dict[FrameType, Callable[[bytes, Limits], Packet]] = {
     FrameType.ORDER: parse_coded(Order),
     FrameType.BLOCK: parse_block,
     FrameType.GOP: parse_gop,
+    FrameType.GRID: parse_grid,
+    FrameType.REFINEMENT: parse_refinement,
     FrameType.END: parse_end,
 }

@@ -68,6 +68,25 @@ class Gop:
 
 
 @dataclass(frozen=True)
+class Grid:
+    """The coded positions, on the header's grid, of `count` vertices, from number `first` of the order of coding on."""
+
+    first: int
+    count: int
+    data: bytes
+
+
+@dataclass(frozen=True)
+class Refinement:
+    """The coded levels of `count` vertices, from number `first` on, in a layer of refinement, counted from 0."""
+
+    layer: int
+    first: int
+    count: int
+    data: bytes
+
+
+@dataclass(frozen=True)
 class End:
     """The last frame: how many were before it, and the CRC-32 of all bytes before it."""
 
@@ -89,7 +108,7 @@ class Damaged:
     reason: str
 
 
-Packet: TypeAlias = Header | Metadata | Connectivity | Partition | Order | Block | Gop | End
+Packet: TypeAlias = Header | Metadata | Connectivity | Partition | Order | Block | Gop | Grid | Refinement | End
 
 __all__ = [
     "Block",
@@ -97,10 +116,12 @@ __all__ = [
     "Damaged",
     "End",
     "Gop",
+    "Grid",
     "Header",
     "Metadata",
     "MetadataValue",
     "Order",
     "Packet",
     "Partition",
+    "Refinement",
 ]

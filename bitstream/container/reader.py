@@ -131,6 +131,8 @@ class Reader:
             return None
         if frame.type not in PARSERS:
             raise UnsupportedError(f"frame type {frame.type} is unknown to this decoder")
+        if not self._grammar.announces(frame.type):
+            raise UnsupportedError(f"frame type {frame.type} is none that the header announces")
         packet = PARSERS[FrameType(frame.type)](frame.payload, self._limits)
         problem = self._grammar.problem(packet)
         if problem:

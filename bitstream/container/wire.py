@@ -28,6 +28,8 @@ class FrameType(IntEnum):
     ORDER = 5
     BLOCK = 6
     GOP = 7
+    GRID = 12
+    REFINEMENT = 13
     END = 15
 
 

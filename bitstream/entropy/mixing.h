@@ -35,17 +35,37 @@ INLINE bool open_bank(Mixer *mixer, Bank bank, int64_t slots, int64_t selectors,
     return limit > 0 && limit < 1 << SLOT_COUNT_BITS && rate > 0 && rate <= MOST_RATE;
 }
 
+/* Log-odds of what a slot predicts, in 1 / 256 nat (C 2.2). */
+INLINE int32_t slot_odds(uint32_t slot) { return STRETCH[slot >> (32 - STRETCH_BITS)]; }
+
+/* Probability of log-odds, beyond the table that of its ends (C 2.1). */
+INLINE uint32_t squashed(int64_t odds) {
+    return SQUASH[(odds < -SQUASH_REACH ? -SQUASH_REACH : least(odds, SQUASH_REACH - 1)) + SQUASH_REACH];
+}
+
+/* A weight after an outcome that was `error` (times the rate) off (C 2.5). */
+INLINE int32_t trained(int32_t weight, int64_t input, int64_t error) {
+    return (int32_t)((uint32_t)weight + (uint32_t)((input * error + (1 << 19)) >> 20));
+}
+
+/* Move a slot towards an outcome (C 2.6). */
+INLINE void learn_slot(uint32_t *slot, int bit, int32_t limit) {
+    int64_t value = *slot >> SLOT_COUNT_BITS, target = bit ? (1 << SLOT_BITS) - 1 : 0;
+    int32_t count = *slot & ((1 << SLOT_COUNT_BITS) - 1);
+    value += ((target - value) * RECIPROCAL[count]) >> 16;
+    *slot = (uint32_t)value << SLOT_COUNT_BITS | (uint32_t)(count + (count < limit));
+}
+
 /* Probability of a one, in 1 .. ONE - 1, and the log-odds of each input (C 2.4). */
 INLINE uint32_t mixed_probability(
     const Mixer *mixer, int inputs, const int64_t *contexts, int64_t node, int64_t selector, int32_t *stretched) {
     const int32_t *weights = mixer->weights + (selector + node) * inputs;
     int64_t total = 0;
     for (int i = 0; i < inputs; i++) {
-        stretched[i] = STRETCH[mixer->slots[contexts[i] + node] >> (32 - STRETCH_BITS)];
+        stretched[i] = slot_odds(mixer->slots[contexts[i] + node]);
         total += (int64_t)stretched[i] * weights[i];
     }
-    int64_t odds = total >> 16;
-    return SQUASH[(odds < -SQUASH_REACH ? -SQUASH_REACH : least(odds, SQUASH_REACH - 1)) + SQUASH_REACH];
+    return squashed(total >> 16);
 }
 
 /* Predict a decision from all contexts, code it, and learn from it (C 2.5, C 2.6). */
@@ -56,16 +76,10 @@ INLINE int code_mixed_bit(RangeCoder *coder, const Mixer *mixer, int inputs, con
     bit = code_bit(coder, probability, bit);
 
     int64_t error = ((int64_t)bit * ONE - probability) * mixer->rate;
-    int64_t target = bit ? (1 << SLOT_BITS) - 1 : 0;
     int32_t *weights = mixer->weights + (selector + node) * inputs;
     for (int i = 0; i < inputs; i++) {
-        uint32_t *slot = mixer->slots + contexts[i] + node;
-        int64_t change = (stretched[i] * error + (1 << 19)) >> 20;
-        weights[i] = (int32_t)((uint32_t)weights[i] + (uint32_t)change);
-        int64_t value = *slot >> SLOT_COUNT_BITS;
-        int32_t count = *slot & ((1 << SLOT_COUNT_BITS) - 1);
-        value += ((target - value) * RECIPROCAL[count]) >> 16;
-        *slot = (uint32_t)value << SLOT_COUNT_BITS | (uint32_t)(count + (count < mixer->limit));
+        weights[i] = trained(weights[i], stretched[i], error);
+        learn_slot(mixer->slots + contexts[i] + node, bit, mixer->limit);
     }
     return bit;
 }

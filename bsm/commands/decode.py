@@ -31,6 +31,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--format", choices=SEQUENCE_FORMATS, help="format of the output (default: by its name; ply)")
     parser.add_argument("--blocks", type=int, metavar="N", help="stop after N blocks, and write the part that is there")
     parser.add_argument(
+        "--layers", type=int, metavar="N", help="stop after N layers: 1 is the base, each refinement one more"
+    )
+    parser.add_argument(
         "--permutation", metavar="FILE.npy", help="what encode wrote with the same option: restore the input's order"
     )
     parser.add_argument(
@@ -50,6 +53,8 @@ def run(args: argparse.Namespace, console: Console) -> int:
         raise OptionError("--permutation is for one input")
     if args.permutation and (args.blocks is not None or args.tolerant):
         raise OptionError("--permutation orders whole meshes; leave out --blocks and --tolerant")
+    if args.layers is not None and (args.blocks is not None or args.tolerant):
+        raise OptionError("--layers is for whole layers; leave out --blocks and --tolerant")
     if args.blocks is not None and args.tolerant:
         raise OptionError("--blocks stops early and --tolerant goes on: choose one")
     refuse_terminal(jobs[0].output)
@@ -74,7 +79,7 @@ def decode_one(args: argparse.Namespace, console: Console) -> Facts:
     if args.tolerant:
         mesh = decode_what_is_left(chunks, lambda text: console.note(f"{args.input}: {text}"))
     elif args.blocks is None:
-        mesh = decode_whole(chunks)
+        mesh = decode_whole(chunks, layers=args.layers)
     else:
         with console.progress("decoding") as progress:
             mesh = decode_blocks(chunks, args.blocks, progress)

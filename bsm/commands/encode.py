@@ -68,7 +68,7 @@ def encode_one(args: argparse.Namespace, console: Console) -> Facts:
     begin = time.perf_counter()
     encoder = Encoder(source.mesh, options)
     with open_output(args.output, overwrite=args.force) as file, console.progress("encoding") as progress:
-        attempt = encoder.search(progress) if options.target else encoder.attempt(options.step, progress)
+        attempt = encoder.result(progress)
         for chunk in attempt.frames:
             file.write(chunk)
     seconds = time.perf_counter() - begin

@@ -46,9 +46,10 @@ class EncodeFlag:
 
 
 ENCODE_FLAGS = (
+    EncodeFlag("grid", int, "BITS", "exactly the positions that a grid of so many bits per axis has (1 to 20)"),
     EncodeFlag("keep", float, "FRACTION", "largest c_i, as a fraction of a block's vertices (default: as many as pay)"),
     EncodeFlag("coefficients", int, "C", "coefficients kept per block and coordinate, instead of --keep"),
-    EncodeFlag("step", float, "S", "quantisation step, relative to the bounding box's diagonal (default 0.004)"),
+    EncodeFlag("step", float, "S", "quantisation step, relative to the bounding box's diagonal; instead of a promise"),
     EncodeFlag("detail", float, "R", "how much coarser x, y, z are than detail along normals, 0: none (default 3)"),
     EncodeFlag("bits", int, "Q", "as in the paper: every coefficient in Q bits, without prediction"),
     EncodeFlag("smoothing", float, "A", "smoothing in the decoder (default: chosen by trying)"),
@@ -69,16 +70,24 @@ ENCODE_FLAGS = (
 )
 
 
-PRESETS = ("small", "balanced", "fine")
+PRESETS = ("small", "balanced", "fine", "near-lossless", "lossless")
 
 TARGET_FLAGS = (
     ("nmsve-db", "nmsve_db", "X", "visual error, 10 log10 NMSVE, at most X"),
     ("theta", "theta_deg", "DEG", "mean angle between the faces' normals before and after at most DEG"),
-    ("max-error", "max_error_relative", "REL", "no vertex farther off than REL times the bounding box's diagonal"),
+    ("max-error", "max_error_relative", "REL", "no vertex farther off than REL diagonals of the bounding box; with a unit (0.05mm), in the mesh's own"),
     ("bpv", "bpv", "X", "at most X bits per vertex, the whole file counted"),
     ("size", "size", "BYTES", "at most BYTES"),
 )
 """Flag, kind of target, metavar and help."""
+
+
+def number_or_length(text: str) -> float | str:
+    """A number, or what has a unit behind it."""
+    try:
+        return float(text)
+    except ValueError:
+        return text
 
 
 def add_encode_flags(parser: argparse.ArgumentParser) -> None:
@@ -87,7 +96,8 @@ def add_encode_flags(parser: argparse.ArgumentParser) -> None:
     wishes.add_argument("--preset", choices=PRESETS, default="balanced", help="how small or how good (balanced)")
     targets = wishes.add_mutually_exclusive_group()
     for name, kind, metavar, text in TARGET_FLAGS:
-        targets.add_argument(f"--{name}", dest=f"target_{kind}", type=float, metavar=metavar, help=text)
+        reads = number_or_length if name == "max-error" else float
+        targets.add_argument(f"--{name}", dest=f"target_{kind}", type=reads, metavar=metavar, help=text)
     add_coding_flags(parser)
 
 

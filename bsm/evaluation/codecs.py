@@ -85,7 +85,7 @@ class Spectral:
         values = {item.name: getattr(self.options, item.name) for item in fields(EncodeOptions)}
         defaults = EncodeOptions()
         changed = {name: value for name, value in values.items() if value != getattr(defaults, name)}
-        return changed if self.options.bits else {"step": self.options.step, **changed}
+        return changed if self.options.bits else {"step": self.options.first_step, **changed}
 
     def encode(self, mesh: TriangleMesh) -> Coded:
         """Encode; the encoder itself knows the order of the vertices."""
@@ -94,9 +94,7 @@ class Spectral:
         def align(decoded: TriangleMesh) -> Positions:
             if self.options.keep_order:
                 return decoded.positions
-            positions = np.empty_like(decoded.positions)
-            positions[encoder.vertex_order] = decoded.positions
-            return positions
+            return decoded.positions[encoder.vertex_index]
 
         return Coded(encoder.encode(), align)
 

@@ -135,16 +135,18 @@ def inspect_stream(chunks: Iterator[bytes], limits: Limits = DEFAULT_LIMITS) -> 
         connectivity=sizes[packets.Connectivity],
         partition=sizes[packets.Partition],
         order=sizes[packets.Order],
-        coefficient_bytes=sizes[packets.Block] + sizes[packets.Gop],
+        coefficient_bytes=sum(sizes[kind] for kind in (packets.Block, packets.Gop, packets.Grid, packets.Refinement)),
         total=reader.last_frame.offset + reader.last_frame.length,
     )
 
 
-def decode_whole(chunks: Iterator[bytes], limits: Limits = DEFAULT_LIMITS, threads: int | None = None) -> TriangleMesh:
-    """Decode a stream to its end."""
+def decode_whole(
+    chunks: Iterator[bytes], limits: Limits = DEFAULT_LIMITS, threads: int | None = None, *, layers: int | None = None
+) -> TriangleMesh:
+    """Decode a stream to its end, or to that of so many layers."""
     from codec.static.decoder import Decoder
 
-    with Decoder(limits, threads) as decoder:
+    with Decoder(limits, threads, layers=layers) as decoder:
         for chunk in chunks:
             decoder.receive_data(chunk)
         return decoder.finish()
@@ -161,7 +163,7 @@ def decode_blocks(chunks: Iterator[bytes], count: int, progress: Progress) -> Tr
         If the stream ends or is damaged before that.
     """
     from codec.static.decoder import Decoder
-    from codec.static.events import BlockEvent, HeaderEvent
+    from codec.static.events import BlockEvent, EndEvent, HeaderEvent
 
     if count < 1:
         raise OptionError("at least one block must be decoded")
@@ -171,11 +173,11 @@ def decode_blocks(chunks: Iterator[bytes], count: int, progress: Progress) -> Tr
         for event in events(decoder, chunks):
             part.take(event)
             if isinstance(event, HeaderEvent):
-                wanted = min(count, event.header.blocks)
+                wanted = count if event.header.grid else min(count, event.header.blocks)
             elif isinstance(event, BlockEvent):
                 done += 1
                 progress(done, wanted)
-            if done == wanted:
+            if done == wanted or isinstance(event, EndEvent):
                 break
     return part.mesh()
 
@@ -240,16 +242,15 @@ class _Part:
 
     def take(self, event: Any) -> None:
         """Add what an event tells."""
-        from codec.static.events import BlockEvent, ConnectivityEvent, HeaderEvent
+        from codec.static.events import BlockEvent, ConnectivityEvent, RefinementEvent
 
         match event:
-            case HeaderEvent(header):
-                self._positions, self._known = np.zeros((header.vertices, 3)), np.zeros(header.vertices, np.bool_)
-            case ConnectivityEvent(faces):
+            case ConnectivityEvent(faces, vertices):
                 self._faces = faces
-            case BlockEvent() as block:
-                self._positions[block.vertices] = block.positions
-                self._known[block.vertices] = True
+                self._positions, self._known = np.zeros((vertices, 3)), np.zeros(vertices, np.bool_)
+            case BlockEvent() | RefinementEvent():
+                self._positions[event.vertices] = event.positions
+                self._known[event.vertices] = True
 
     def mesh(self) -> TriangleMesh:
         """The faces whose vertices are known."""

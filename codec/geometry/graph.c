@@ -80,3 +80,25 @@ int64_t collect_edges(ConstInts2 faces, Ints offsets, Ints filled, Ints ends) {
     offsets.data[size] = (int32_t)kept;
     return kept;
 }
+
+/* Vertices of each connected component; `seen` is zero, all three arrays have an entry a vertex. Returns how many there
+ * are. */
+int64_t component_sizes(ConstInts offsets, ConstInts neighbours, Bytes seen, Ints waiting, Ints sizes) {
+    int64_t n = offsets.size - 1, count = 0;
+    if (n < 0 || seen.size != n || waiting.size != n || sizes.size != n) return MISUSED;
+    for (int64_t first = 0; first < n; first++) {
+        if (seen.data[first]) continue;
+        int64_t end = 0;
+        seen.data[first] = 1;
+        waiting.data[end++] = (int32_t)first;
+        for (int64_t i = 0; i < end; i++)
+            for (int32_t k = offsets.data[waiting.data[i]]; k < offsets.data[waiting.data[i] + 1]; k++) {
+                int32_t other = neighbours.data[k];
+                if (seen.data[other]) continue;
+                seen.data[other] = 1;
+                waiting.data[end++] = other;
+            }
+        sizes.data[count++] = (int32_t)end;
+    }
+    return count;
+}

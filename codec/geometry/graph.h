@@ -4,5 +4,6 @@
 #include "bitstream/kernel.h"
 
 int64_t collect_edges(ConstInts2 faces, Ints offsets, Ints filled, Ints ends);
+int64_t component_sizes(ConstInts offsets, ConstInts neighbours, Bytes seen, Ints waiting, Ints sizes);
 
 #endif

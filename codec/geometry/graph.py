@@ -40,3 +40,10 @@ def graph_of_faces(faces: Indices, size: int) -> Graph:
     offsets, filled, ends = np.empty(size + 1, np.int32), np.empty(size, np.int32), np.empty(6 * len(faces), np.int32)
     kept = _kernels.collect_edges(np.ascontiguousarray(faces, np.int32), offsets, filled, ends)
     return Graph(offsets, ends[:kept].copy())
+
+
+def component_sizes(graph: Graph) -> Indices:
+    """Vertices of each connected component, in the order of their first vertices."""
+    sizes, waiting = np.zeros(graph.size, np.int32), np.empty(graph.size, np.int32)
+    seen = np.zeros(graph.size, np.uint8)
+    return sizes[: _kernels.component_sizes(graph.offsets, graph.neighbours, seen, waiting, sizes)]

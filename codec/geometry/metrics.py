@@ -62,6 +62,8 @@ class Reference:
         self._neighbours = vertex_neighbours(self.faces, len(self.positions))
         self._laplacian = geometric_laplacian(self.positions, self._neighbours)
         self._normals = face_normals(self.positions, self.faces)
+        counted = self._normals.any(axis=1)
+        self._shares = counted / max(1, int(counted.sum()))
 
     def nmsve(self, decoded: Positions) -> float:
         """The function `nmsve` against this original."""
@@ -71,7 +73,7 @@ class Reference:
 
     def theta(self, decoded: Positions) -> float:
         """The function `theta` against this original."""
-        return _mean_angle(self._normals, face_normals(self._checked(decoded), self.faces))
+        return math.degrees(_kernels.weighted_angle(self._normals, self._shares, self._checked(decoded), self.faces))
 
     def mnd(self, decoded: Positions) -> float:
         """The function `mnd` against this original."""
@@ -224,16 +226,6 @@ def _length(values: Floats) -> float:
 
 def _scale(positions: Positions) -> float:
     return float(np.linalg.norm(np.ptp(positions, axis=0))) or 1.0
-
-
-def _mean_angle(original: Floats, decoded: Floats) -> float:
-    """Mean angle in degrees between unit normals, of which zeros are as `theta` says."""
-    crossed = np.cross(original, decoded)
-    # The arc tangent keeps small angles exact, where the arc cosine loses half the digits.
-    angles = np.arctan2(np.sqrt((crossed * crossed).sum(axis=1)), (original * decoded).sum(axis=1))
-    angles[~decoded.any(axis=1)] = 0.5 * math.pi
-    counted = original.any(axis=1)
-    return math.degrees(angles[counted].mean()) if counted.any() else 0.0
 
 
 def _mean_difference(original: Floats, decoded: Floats) -> float:

@@ -26,7 +26,7 @@ from codec.signal.quantize import smallest_step
 from codec.static.assembly import blended
 from codec.static.block_coder import CodedBlock, Progress, encode_blocks
 from codec.static.coding import Adaptive
-from codec.static.preamble import Prepared, prepare
+from codec.static.preamble import Parts, Prepared, prepare
 from codec.static.rules import STIFFNESS, Scheme
 from codec.static.targets import search_step
 from codec.static.units import single
@@ -151,7 +151,8 @@ class SequenceEncoder:
         gops = -(-self._count // (options.gop if options.mode == "gop" else 1))
         tell = _Rounds(progress if gops else None, 1 + gops)
         given = TriangleMesh(np.asarray(first), np.asarray(self._faces))
-        prepared = prepare(given, part_size=options.block_size, overlap=options.overlap, keep_order=options.keep_order)
+        parts = Parts(options.block_size, options.overlap)
+        prepared = prepare(given, parts, keep_order=options.keep_order)
         self.vertex_order, self.face_order = prepared.vertex_order, prepared.face_order
         opening = open_sequence(prepared, options, self._count, tell)
         writer = Writer()

@@ -35,14 +35,15 @@ class MeasuredSpectrum:
         self._size = int(np.diff(blocks.starts).max())
         self._magnitudes = self._measure(min(FIRST_LOOK, self._size))
 
-    def worthwhile_size(self, step: float) -> int:
-        """Subspace size beyond which a coefficient is hardly ever quantized to anything but zero."""
+    def worthwhile_size(self, step: float, most: int | None = None) -> int:
+        """Subspace size beyond which a coefficient is hardly ever quantized to anything but zero; `most` at most."""
+        most = self._size if most is None else min(most, self._size)
         while True:
             known = len(self._magnitudes)
             size = int(np.count_nonzero(self._magnitudes > WORTHWHILE * step))
             # The last eighth is an average over fewer frequencies than there are.
-            if size < known - known // 8 or known == self._size:
-                return max(1, size)
+            if size < known - known // 8 or known == self._size or min(size, known - known // 8) >= most:
+                return max(1, min(size, most))
             self._magnitudes = self._measure(min(2 * known, self._size))
 
     def _measure(self, width: int) -> Matrix:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from codec.arrays import Indices, Matrix
+from codec.arrays import Indices, Mask, Matrix
 from codec.blocks.blend import Blend
 from codec.blocks.overlap import Blocks
 from codec.geometry.mesh import TriangleMesh
@@ -75,6 +75,22 @@ class Assembly:
         decoded = self._units.back(smooth(self._graph, self._blend.positions(everything), self._smoothing))
         return TriangleMesh(self._numbering.arranged(decoded), self._numbering.faces)
 
+    def base(self) -> tuple[Matrix, Mask]:
+        """What refinement adds to: all positions in BSM units, shape (n, 3), and which of them, and of the vertices
+        beside them, are as the encoder had them. Unknown ones are 0.
+        """
+        everything = np.arange(self._graph.size, dtype=np.int32)
+        if not self._lost:
+            whole = np.ones(len(everything), np.bool_)
+            return smooth(self._graph, self._blend.positions(everything), self._smoothing), whole
+        known = self._blend.known(everything)
+        positions = np.zeros((len(everything), 3))
+        positions[known] = self._blend.positions(everything[known])
+        spoilt = self._filter.around(self._touched(), (DEGREE if self._smoothing else 0) + 1)
+        whole = np.ones(len(everything), np.bool_)
+        whole[spoilt] = False
+        return smooth(self._graph, positions, self._smoothing), whole
+
     def changes(self, block: DecodedBlock) -> Changes:
         """Blend one block in and say what it changed."""
         self.add(block)
@@ -87,18 +103,23 @@ class Assembly:
         done = self._filter.smoothed(self._blended, finished)
         changed = np.concatenate([moved, finished])
         positions = self._units.back(np.concatenate([self._blended[moved], done]))
-        return Changes(self._numbering.of(changed), positions, np.arange(len(changed)) >= len(moved))
+        numbers, rows = self._numbering.spread(changed)
+        return Changes(numbers, positions[rows], (np.arange(len(changed)) >= len(moved))[rows])
 
     def losses(self) -> Losses:
         """What the blocks that were lost leave missing or less good."""
         if not self._lost:
             return Losses()
-        touched = np.unique(np.concatenate([self._blocks.members_of(index) for index in self._lost]))
+        touched = self._touched()
         known = self._blend.known(touched)
         reach = DEGREE if self._smoothing else 0
         around = self._filter.around(touched, reach)
         degraded = around[self._blend.known(around)]
         return Losses(self._numbering.of(touched[~known]), self._numbering.of(np.sort(degraded)))
+
+    def _touched(self) -> Indices:
+        """Vertices of blocks that were lost."""
+        return np.unique(np.concatenate([self._blocks.members_of(index) for index in self._lost]))
 
     def _finished(self, complete: Indices) -> Indices:
         """Vertices that become final when all copies of `complete` have come: none that the filter sees is missing."""

@@ -4,25 +4,40 @@ from __future__ import annotations
 
 from collections import deque
 from dataclasses import dataclass
-from typing import TypeAlias
+from typing import TypeAlias, TypeVar
 
 from bitstream.container import packets
 from bitstream.container.header import Header
 from bitstream.container.reader import END_OF_STREAM, Signal
-from bitstream.errors import BsmError, CorruptError, UnsupportedError
+from bitstream.errors import BsmError, CorruptError, OptionError, UnsupportedError
 from bitstream.limits import DEFAULT_LIMITS, Limits
 from codec.geometry.mesh import TriangleMesh
 from codec.signal.predict import MAX_STIFFNESS
 from codec.static.assembly import Assembly, DecodedBlock
 from codec.static.block_coder import ChainDecoder
-from codec.static.events import BlockEvent, ConnectivityEvent, EndEvent, HeaderEvent, LossEvent, unreadable
+from codec.static.events import (
+    BlockEvent,
+    ConnectivityEvent,
+    EndEvent,
+    HeaderEvent,
+    LossEvent,
+    RefinementEvent,
+    unreadable,
+)
+from codec.static.grid import GridStage
 from codec.static.preamble import Beginning, Body, Structure
+from codec.static.refinement import PendingLevels, RefinementStage
 from codec.static.rules import chain_rules
-from codec.static.stages import Arrival, Ended, Stage, StreamDecoder, misplaced
+from codec.static.stages import Arrival, Stage, StreamDecoder, misplaced
+from codec.static.whole import Complete
 from codec.static.work import Allowance, check_work
 from codec.threads import Lanes, Pending
 
-Event: TypeAlias = HeaderEvent | ConnectivityEvent | BlockEvent | LossEvent | EndEvent | Signal
+Result = TypeVar("Result")
+MOST_LAYERS = 4
+"""Layers of refinement that a stream can have."""
+
+Event: TypeAlias = HeaderEvent | ConnectivityEvent | BlockEvent | RefinementEvent | LossEvent | EndEvent | Signal
 
 
 @dataclass(frozen=True, eq=False)
@@ -33,24 +48,26 @@ class PendingBlock:
     assembly: Assembly
 
 
-@dataclass(frozen=True, eq=False)
-class Complete(Ended):
-    """All blocks are there, or known to be lost."""
-
-    assembly: Assembly
+Item: TypeAlias = Event | PendingBlock | PendingLevels | Complete
 
 
-Item: TypeAlias = Event | PendingBlock | Complete
+@dataclass(frozen=True)
+class Wishes:
+    """What the user of a `Decoder` has asked for; see there."""
+
+    tolerant: bool
+    refinements: int
 
 
 class BlockStage:
     """The faces are known; blocks come."""
 
-    def __init__(self, structure: Structure, lanes: Lanes, allowance: Allowance, tolerant: bool) -> None:
+    def __init__(self, structure: Structure, wishes: Wishes, lanes: Lanes, allowance: Allowance) -> None:
+        self._structure = structure
+        self._wishes = wishes
         self._scheme = structure.scheme
         self._lanes = lanes
         self._allowance = allowance
-        self._tolerant = tolerant
         self._assembly = Assembly(
             structure.scheme.blocks, structure.header.smoothing, structure.units, structure.numbering
         )
@@ -63,6 +80,16 @@ class BlockStage:
             case packets.Block():
                 self._skip_to(arrival.index, queue)
                 self._decode(arrival, queue)
+                if self._next == self._scheme.blocks.count and self._structure.header.layers and not self._wishes.refinements:
+                    queue.append(Complete(self._assembly))
+                    return Complete(self._assembly)
+            case packets.Refinement():
+                self._skip_to(self._scheme.blocks.count, queue)
+                wishes = self._wishes
+                refinement = RefinementStage(
+                    self._assembly, self._structure, self._lanes, wishes.refinements, wishes.tolerant
+                )
+                return refinement.accept(arrival, queue)
             case packets.Damaged():
                 queue.append(LossEvent(None, unreadable(arrival)))
             case packets.End():
@@ -87,7 +114,7 @@ class BlockStage:
         """Give up the blocks before `index` that did not come."""
         for lost in range(self._next, index):
             error = CorruptError("the frame of the block is missing", block=lost)
-            if not self._tolerant:
+            if not self._wishes.tolerant:
                 raise error
             self._assembly.lose(lost)
             queue.append(LossEvent(lost, error))
@@ -114,15 +141,30 @@ class Decoder(StreamDecoder[Item]):
     tolerant : bool
         Report damage to blocks as `LossEvent` and go on with every block that does not depend on what is lost.
         Damage before the first block is raised all the same.
+    layers : int, optional
+        How many to decode: 1 is the base alone, and each layer of refinement one more; None: all. What comes behind
+        them is not waited for.
     """
 
-    def __init__(self, limits: Limits = DEFAULT_LIMITS, threads: int | None = None, *, tolerant: bool = False) -> None:
+    def __init__(
+        self,
+        limits: Limits = DEFAULT_LIMITS,
+        threads: int | None = None,
+        *,
+        tolerant: bool = False,
+        layers: int | None = None,
+    ) -> None:
+        if layers is not None and layers < 1:
+            raise OptionError("at least one layer must be decoded")
         lanes, allowance = Lanes(threads), Allowance(limits)
-        body = Body(
-            limits,
-            check=lambda header: check_header(header, limits),
-            begin=lambda structure: BlockStage(structure, lanes, allowance, tolerant),
-        )
+        wishes = Wishes(tolerant, MOST_LAYERS if layers is None else layers - 1)
+
+        def begin(structure: Structure) -> Stage[Item]:
+            if structure.header.grid:
+                return GridStage(structure, tolerant)
+            return BlockStage(structure, wishes, lanes, allowance)
+
+        body = Body(limits, check=lambda header: check_header(header, limits), begin=begin)
         super().__init__(Beginning(body), limits, tolerant=tolerant)
         self._lanes = lanes
 
@@ -141,8 +183,10 @@ class Decoder(StreamDecoder[Item]):
         match self._next_item():
             case PendingBlock() as block:
                 return self._block_event(block)
-            case Complete(assembly):
-                return EndEvent(assembly.losses())
+            case PendingLevels() as levels:
+                return self._refinement_event(levels)
+            case Complete(whole):
+                return EndEvent(whole.losses())
             case event:
                 return event
 
@@ -156,17 +200,20 @@ class Decoder(StreamDecoder[Item]):
         """
         self._reader.receive_eof()
         while (item := self._next_item()) is not END_OF_STREAM:
-            if isinstance(item, PendingBlock):
-                item.assembly.add(self._result(item))
+            match item:
+                case PendingBlock(pending, assembly):
+                    assembly.add(self._result(pending))
+                case PendingLevels(layer, levels, refined):
+                    refined.add(layer, *self._result(levels))
         match self._stage:
-            case Complete(assembly):
-                return assembly.mesh()
+            case Complete(whole):
+                return whole.mesh()
             case _:
                 raise misplaced(END_OF_STREAM)
 
     def _block_event(self, block: PendingBlock) -> BlockEvent | LossEvent:
         try:
-            decoded = self._result(block)
+            decoded = self._result(block.pending)
         except BsmError as error:
             if not self._tolerant or error.block is None:
                 raise
@@ -177,9 +224,21 @@ class Decoder(StreamDecoder[Item]):
         except BsmError as error:
             raise self._fail(error.located(block=decoded.index)) from None
 
-    def _result(self, block: PendingBlock) -> DecodedBlock:
+    def _refinement_event(self, levels: PendingLevels) -> RefinementEvent | LossEvent:
         try:
-            return block.pending.result()
+            vertices, values = self._result(levels.pending)
+        except BsmError as error:
+            if not self._tolerant:
+                raise
+            return LossEvent(None, error)
+        try:
+            return levels.refined.event(levels.layer, levels.refined.add(levels.layer, vertices, values))
+        except BsmError as error:
+            raise self._fail(error) from None
+
+    def _result(self, pending: Pending[Result]) -> Result:
+        try:
+            return pending.result()
         except BsmError as error:
             if not self._tolerant:
                 self._fail(error)
@@ -196,6 +255,8 @@ def check_header(header: Header, limits: Limits) -> None:
     """Raise what is wrong with the header of a static mesh, or beyond `limits`, before anything is done for it."""
     if header.gop_frames:
         raise UnsupportedError("this is a sequence; decode it with codec.SequenceDecoder")
+    if header.grid:
+        return
     rules, width = chain_rules(header), max(header.coefficients, header.details)
     check_work(limits, header.blocks, header.block_size, width, rules.solves, exact=rules.exact)
     if len(header.prediction) > 1 or not all(0 < value < MAX_STIFFNESS for value in header.prediction):

@@ -1,43 +1,36 @@
-"""A mesh to a stream: prepare, plan, code the blocks, and write the header when all of it is known."""
+"""A mesh to a stream: join, prepare, and draft what the options ask for."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
 
+import numpy as np
+
 from bitstream.container.header import Header
-from bitstream.container.writer import Writer
-from bitstream.errors import OptionError
-from codec.arrays import Matrix, Order
+from bitstream.errors import OptionError, TargetError
+from codec.arrays import Order
+from codec.geometry.closeness import Original
 from codec.geometry.mesh import TriangleMesh
 from codec.geometry.metrics import Comparison, Reference
 from codec.signal.quantize import smallest_step
-from codec.signal.smooth import smooth
-from codec.static.assembly import blended
-from codec.static.block_coder import CodedBlock, Progress, encode_blocks
+from codec.static.block_coder import Progress
+from codec.static.contract import Contract
+from codec.static.draft import Draft
+from codec.static.fulfilment import Fulfilment
+from codec.static.joining import Joined, join
+from codec.static.ladders import WIDEST, Blocks, Grids, Ladder, Refined
+from codec.static.lattices import rounded
 from codec.static.options import EncodeOptions
-from codec.static.plan import Planner
-from codec.static.preamble import Prepared, prepare
+from codec.static.preamble import Parts, Prepared, prepare
+from codec.static.shaping import Shaper
+from codec.static.spectral import Spectral
 from codec.static.targets import search_step
-from codec.static.units import single
 
 
-@dataclass(frozen=True, eq=False)
-class Coded:
-    """A mesh, coded.
-
-    Parameters
-    ----------
-    header : Header
-    blocks : list of CodedBlock
-    positions : float64 array, shape (n, 3)
-        In BSM units, as the decoder has them before it smooths.
-    """
-
-    header: Header
-    blocks: list[CodedBlock]
-    positions: Matrix
+DETAILED_ANGLE = 4.5
+"""Below this mean angle of normals, blocks alone are larger than refined ones."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -77,7 +70,8 @@ class Encoder:
     Parameters
     ----------
     mesh : TriangleMesh
-        Vertices that no face uses are left out, with a note.
+        Vertices at one position are made one, and what no face uses is left out, with notes; where the options keep
+        the order, the stream gives all of that back.
     options : EncodeOptions
     """
 
@@ -88,22 +82,37 @@ class Encoder:
     @property
     def notes(self) -> tuple[str, ...]:
         """What was changed on the way in."""
-        return self._prepared.notes
+        return self._joined.notes
 
     @property
     def mesh(self) -> TriangleMesh:
-        """The mesh in the order of coding, without the vertices that no face uses."""
+        """The mesh in the order of coding: vertices at one position are one, those that no face uses are left out."""
         return self._prepared.mesh
 
     @property
     def vertex_order(self) -> Order:
-        """The decoder's vertex j is vertex `vertex_order[j]` of the given mesh; int64, shape (n,)."""
-        return self._prepared.vertex_order
+        """The decoder's vertex j is vertex `vertex_order[j]` of the given mesh, or at its place; int64."""
+        if self._joined.splits is not None:
+            return np.arange(len(self._given.positions))
+        return self._joined.first[self._prepared.vertex_order]
+
+    @property
+    def vertex_index(self) -> Order:
+        """The given mesh's vertex i is the decoder's vertex `vertex_index[i]`; -1: no face uses it, and it is not there.
+
+        int64, as long as the given mesh has vertices.
+        """
+        if self._joined.splits is not None:
+            return np.arange(len(self._given.positions))
+        place = np.empty(len(self._joined.first) + 1, np.int64)
+        place[self._prepared.vertex_order] = np.arange(len(self._joined.first))
+        place[-1] = -1
+        return place[self._joined.index]
 
     @property
     def face_order(self) -> Order:
         """The decoder's face i is face `face_order[i]` of the given mesh; int64, shape (m,)."""
-        return self._prepared.face_order
+        return self._joined.kept[self._prepared.face_order]
 
     def encode(self) -> bytes:
         """The whole stream."""
@@ -115,72 +124,107 @@ class Encoder:
         Parameters
         ----------
         progress : callable, optional
-            Called with the number of blocks done and of all blocks, once for every attempt at a target.
+            Called with the number of blocks done and of all blocks, once for every time that blocks are coded.
+
+        Raises
+        ------
+        TargetError
+            If a contract cannot be kept.
         """
-        if self.options.target is None:
-            yield from self._frames(self._code(self.options.step, progress))
-        else:
+        options = self.options
+        if options.target is not None:
             yield from self.search(progress).frames
+        else:
+            yield from self.draft(progress).frames
+
+    def draft(self, progress: Progress | None = None) -> Draft:
+        """What the options ask for, without a target."""
+        options = self.options
+        if options.grid is not None:
+            return rounded(self._prepared, options.grid)
+        if options.promise is not None:
+            return Fulfilment(self._prepared, options, options.promise).draft(progress)
+        return self._spectral.base(options.first_step, progress).draft
+
+    def result(self, progress: Progress | None = None) -> Attempt:
+        """What `encode` gives, with a comparison of what it decodes to."""
+        return self.search(progress) if self.options.target is not None else self._judged(self.draft(progress))
 
     def search(self, progress: Progress | None = None) -> Attempt:
-        """Look for the step that meets the options' target; `TargetError` says what can be had where none does."""
+        """Look for the smallest stream that meets the options' target, or for the best one of a size.
+
+        Raises
+        ------
+        TargetError
+            If none does; says what can be had.
+        """
         target = self.options.target
         if target is None:
             raise OptionError("there is no target to search for")
-        finest = smallest_step(self._prepared.size)
-        return search_step(lambda step: self.attempt(step, progress), target, self.options.step, finest)
+        found, refused = [], None
+        for ladder in self._ladders(progress):
+            try:
+                found.append(search_step(self._climb(ladder), target, self.options.first_step, ladder.finest))
+            except TargetError as error:
+                refused = error
+        if target.kind == "max_error_relative":
+            try:
+                ways = Fulfilment(self._prepared, self.options, Contract(min(target.value, 1.0)))
+                found.append(self._judged(ways.draft(progress)))
+            except TargetError as error:
+                refused = refused or error
+        if not found:
+            assert refused is not None
+            raise refused
+        if target.shrinks_with_step:
+            return min(found, key=lambda attempt: attempt.comparison.theta_deg)
+        return min(found, key=lambda attempt: attempt.size)
 
     def attempt(self, step: float, progress: Progress | None = None) -> Attempt:
-        """Encode with a given quantization step, and see what the decoder will."""
-        coded = self._code(step, progress)
-        decoded = smooth(self._prepared.graph, coded.positions, coded.header.smoothing)
-        counts = tuple(block.packet.coefficients for block in coded.blocks)
-        return Attempt(tuple(self._frames(coded)), coded.header, counts, self._reference.compare(decoded))
+        """Encode blocks with a given quantization step, and see what the decoder will."""
+        return self._judged(self._spectral.base(step, progress).draft)
+
+    def _climb(self, ladder: Ladder) -> Callable[[float], Attempt]:
+        return lambda step: self._judged(ladder.draft(step))
+
+    def _ladders(self, progress: Progress | None) -> Iterator[Ladder]:
+        """Those that may hold what is looked for."""
+        prepared, options = self._prepared, self.options
+        finest = smallest_step(prepared.size)
+        if options.says_how:
+            yield Blocks(self._spectral, finest, progress)
+            return
+        theta = options.target.value if options.target is not None and options.target.kind == "theta_deg" else 0.0
+        original = Original(prepared.positions, prepared.mesh.faces, by_area=not theta)
+        shaper = Shaper(original)
+        if prepared.has_low_frequencies:
+            if not 0.0 < theta < DETAILED_ANGLE:
+                yield Blocks(Spectral(prepared, options, WIDEST), finest, progress)
+            yield Refined(prepared, options, shaper, original, progress)
+        yield Grids(prepared, shaper)
+
+    def _judged(self, draft: Draft) -> Attempt:
+        decoded = self._prepared.units.into(draft.decoded)
+        return Attempt(draft.frames, draft.header, draft.coefficients, self._reference.compare(decoded))
+
+    @cached_property
+    def _joined(self) -> Joined:
+        return join(self._given, keep=self.options.keep_order)
 
     @cached_property
     def _prepared(self) -> Prepared:
         options = self.options
-        return prepare(
-            self._given,
-            part_size=options.block_size,
-            overlap=options.overlap,
-            keep_order=options.keep_order,
-            metis=options.partition == "metis",
-        )
+        parts = Parts(options.block_size, options.overlap, options.partition == "metis")
+        return prepare(self._joined.mesh, parts, keep_order=options.keep_order, splits=self._joined.splits)
 
     @cached_property
-    def _planner(self) -> Planner:
-        return Planner(self._prepared, self.options)
+    def _spectral(self) -> Spectral:
+        return Spectral(self._prepared, self.options)
 
     @cached_property
     def _reference(self) -> Reference:
         """The original, in BSM units, prepared for comparing."""
         return Reference(self._prepared.positions, self.mesh.faces)
-
-    def _code(self, step: float, progress: Progress | None) -> Coded:
-        prepared, options = self._prepared, self.options
-        scheme = self._planner.scheme(step)
-        blocks = encode_blocks(scheme, prepared.positions, threads=options.threads, doi=options.doi, progress=progress)
-        positions = blended(prepared.graph.size, (block.decoded for block in blocks))
-        smoothing = options.fixed_smoothing
-        header = Header(
-            vertices=prepared.graph.size,
-            faces=len(self.mesh.faces),
-            block_size=prepared.size,
-            coefficients=max(block.packet.coefficients for block in blocks),
-            center=prepared.units.center,
-            scale=prepared.units.scale,
-            smoothing=self._planner.smoothing(positions) if smoothing is None else single(smoothing),
-            **scheme.fields(),
-        )
-        return Coded(header, blocks, positions)
-
-    def _frames(self, coded: Coded) -> Iterator[bytes]:
-        writer = Writer()
-        yield writer.start()
-        for packet in (coded.header, *self._prepared.packets, *(block.packet for block in coded.blocks)):
-            yield writer.write(packet)
-        yield writer.end()
 
 
 def encode(mesh: TriangleMesh, options: EncodeOptions | None = None) -> bytes:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from typing import ClassVar
 
 import numpy as np
 
@@ -20,18 +21,8 @@ class HeaderEvent:
 
 
 @dataclass(frozen=True, eq=False)
-class ConnectivityEvent:
-    """The faces have arrived, shape (m, 3), with all that is needed to decode blocks.
-
-    Where the stream stores the order that the mesh had, faces and all vertex numbers are in that order.
-    """
-
-    faces: Faces
-
-
-@dataclass(frozen=True, eq=False)
 class Changes:
-    """What a block changed: vertices, their positions in the mesh's unit, and which of them are final."""
+    """What has changed: vertices, their positions in the mesh's unit, and which of them are final."""
 
     vertices: Indices
     positions: Positions
@@ -39,17 +30,39 @@ class Changes:
 
 
 @dataclass(frozen=True, eq=False)
+class ConnectivityEvent:
+    """The faces have arrived, with all that is needed to decode positions.
+
+    Where the stream stores the order that the mesh had, faces and all vertex numbers are in that order.
+
+    Parameters
+    ----------
+    faces : int32 array, shape (m, 3)
+    vertices : int
+        How many there are: where the stream stores the vertices as they were given, more than were coded.
+    loose : Changes
+        Those that no face uses, which are final.
+    """
+
+    faces: Faces
+    vertices: int
+    loose: Changes
+
+
+@dataclass(frozen=True, eq=False)
 class BlockEvent:
-    """A block has been decoded.
+    """A block, or of a mesh on a grid a chunk, has been decoded: layer 0.
 
     Parameters
     ----------
     index : int
-        Of the block.
+        Of the block or chunk.
     changes : Changes
         Vertices that this block moved or finished, their positions in the mesh's unit, and which of them no later
-        block will move.
+        block will move (a layer of refinement may).
     """
+
+    layer: ClassVar[int] = 0
 
     index: int
     changes: Changes
@@ -68,6 +81,25 @@ class BlockEvent:
     def final(self) -> Mask:
         """Which of them no later block will move, shape (v,)."""
         return self.changes.final
+
+
+@dataclass(frozen=True, eq=False)
+class RefinementEvent:
+    """Levels of a layer of refinement have been decoded; they come when all blocks have.
+
+    Parameters
+    ----------
+    layer : int
+        1 for the first layer of refinement.
+    vertices : int32 array, shape (v,)
+        What was moved.
+    positions : float64 array, shape (v, 3)
+        Where that is now, in the mesh's unit.
+    """
+
+    layer: int
+    vertices: Indices
+    positions: Positions
 
 
 @dataclass(frozen=True)

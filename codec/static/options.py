@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 from bitstream.errors import OptionError
 from codec.choices import check_options
+from codec.static.contract import ANY_ANGLE, Contract
 from codec.static.rules import BASES, BLENDS, SEEDS
 from codec.static.targets import Target
 
@@ -27,6 +28,7 @@ RANGES: dict[str, tuple[float, float]] = {
     "shift": (1e-6, 1e3),
     "bits": (2, 16),
     "step": (1e-9, 1.0),
+    "grid": (1, 20),
     "detail": (0.0, 64.0),
     "smoothing": (0.0, 64.0),
     "threads": (1, 256),
@@ -61,8 +63,9 @@ class EncodeOptions:
         delta of Algorithm 1; smaller ones converge faster, larger ones keep R^z better conditioned.
     bits : int, optional
         q_c: store every coefficient in so many bits, as in the paper, without prediction and smoothing. None: adaptive.
-    step : float
-        Finest quantization step of the adaptive coder, relative to the bounding box's diagonal.
+    step : float, optional
+        Finest quantization step of the adaptive coder, relative to the bounding box's diagonal; None: what the contract
+        or the target begins with.
     detail : float, optional
         How many times coarser x, y and z are quantized than the detail layer, which keeps what they leave out along
         the normal alone; 0: no detail layer. None: 3, and 0 with `bits`, `doi` and targets of distance.
@@ -78,7 +81,12 @@ class EncodeOptions:
         eps_l and eps_h of dynamic orthogonal iterations, in units of the bounding box's diagonal: c_i follows the
         error of each block.
     target : Target, optional
-        Quality or size to reach; the step is searched for.
+        Quality or size to reach, in place of the contract.
+    contract : Contract, optional
+        What is promised; the encoder finds the cheapest way to keep it. It says nothing where `grid`, `target` or any
+        of `CODING` is given: who says how to code gets that.
+    grid : int, optional
+        Keep every position exactly as a grid of so many bits along the longest side rounds it.
     threads : int, optional
         None: one per core.
 
@@ -101,7 +109,7 @@ class EncodeOptions:
     key_iterations: int = 4
     shift: float = 2.0**-5
     bits: int | None = None
-    step: float = 0.004
+    step: float | None = None
     detail: float | None = None
     predict: bool = True
     smoothing: float | None = None
@@ -109,6 +117,8 @@ class EncodeOptions:
     keep_order: bool = False
     doi: tuple[float, float] | None = None
     target: Target | None = None
+    contract: Contract | None = Contract(0.01, 8.0)
+    grid: int | None = None
     threads: int | None = None
 
     def __post_init__(self) -> None:
@@ -119,6 +129,27 @@ class EncodeOptions:
             raise OptionError(f"doi = {self.doi} must be two thresholds, 0 < eps_l < eps_h")
         if self.bits is not None and self.target is not None:
             raise OptionError("a target is reached by the step; it excludes a fixed number of bits")
+        if self.grid is not None and (self.target is not None or self.says_how):
+            raise OptionError("a grid excludes a target, and options that say how blocks are coded")
+
+    @property
+    def promise(self) -> Contract | None:
+        """The contract, where it counts."""
+        if self.grid is not None or self.target is not None or self.says_how:
+            return None
+        return self.contract
+
+    @property
+    def first_step(self) -> float:
+        """The step, or where it is left open that of blocks with a detail layer."""
+        if self.step is not None:
+            return self.step
+        return COARSE_STEP if self.contract is not None and self.contract.angle > COARSE_ANGLE else STEP
+
+    @property
+    def says_how(self) -> bool:
+        """Whether any option of `CODING` is given."""
+        return any(getattr(self, name) is not None for name in CODING)
 
     @property
     def detail_ratio(self) -> float:
@@ -136,9 +167,17 @@ class EncodeOptions:
 
 DETAIL_RATIO = 3.0
 
+CODING = ("step", "keep", "coefficients", "detail", "bits", "doi", "smoothing")
+"""Options that say how blocks are coded, and not what shall come of it."""
+STEP, COARSE_STEP, COARSE_ANGLE = 0.004, 0.006, 10.0
+"""Of blocks with a detail layer, and of those beyond an angle."""
+
 PRESETS: dict[str, EncodeOptions] = {
-    "small": EncodeOptions(block_size=1500, overlap=1.0, key_interval=0, step=0.006),
+    "small": EncodeOptions(block_size=1500, overlap=1.0, key_interval=0, contract=Contract(0.02, 12.0)),
     "balanced": EncodeOptions(),
-    "fine": EncodeOptions(block_size=500, power=4, step=0.0015),
+    "fine": EncodeOptions(contract=Contract(0.005, 3.0)),
+    "near-lossless": EncodeOptions(contract=Contract(0.0005, ANY_ANGLE)),
+    "lossless": EncodeOptions(grid=14),
 }
-"""Names for what most users want; "balanced" is the default. Larger blocks are smaller files and slower to decode."""
+"""Names for what most users want, each a promise; "balanced" is the default. Larger blocks are smaller files and slower
+to decode."""

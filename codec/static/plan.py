@@ -28,17 +28,26 @@ BASE_REACH = 4.0
 """With a detail layer, x, y and z go as far as they would pay at a step so many times that of the details."""
 DETAIL_REACH = 0.9
 """Details go as far as would pay at a step so many times their own."""
-SMOOTHING_FACES = 1 << 17
+SMOOTHING_FACES = 1 << 14
 """On more faces than these, smoothing is not tried."""
 SMOOTHING_STEPS = tuple(2.0**k for k in range(-3, 7))
 
 
 class Planner:
-    """Makes the plan for one step after another; what is measured on the mesh alone is measured once."""
+    """Makes the plan for one step after another; what is measured on the mesh alone is measured once.
 
-    def __init__(self, prepared: Prepared, options: EncodeOptions) -> None:
+    Parameters
+    ----------
+    prepared : Prepared
+    options : EncodeOptions
+    widest : float
+        Columns of a dictionary that are not exceeded even where more would pay, over the rows of a block.
+    """
+
+    def __init__(self, prepared: Prepared, options: EncodeOptions, widest: float = 1.0) -> None:
         self._prepared = prepared
         self._options = options
+        self._widest = max(1, int(widest * prepared.size))
 
     def scheme(self, step: float) -> Scheme:
         """How blocks are coded at a step.
@@ -51,6 +60,11 @@ class Planner:
         rules = self._rules()
         coding = self._coding(step) if self._options.bits is None else self._packed(self._options.bits, rules)
         return Scheme(self._prepared.blocks, rules, coding, self._options.blend)
+
+    def is_flat(self, step: float, share: float) -> bool:
+        """Whether as large a share of all frequencies, or a larger one, is worth coding at a step."""
+        most = max(1, round(share * self._prepared.size))
+        return self._spectrum.worthwhile_size(step, most) >= most
 
     def smoothing(self, blended: Matrix) -> float:
         """The amount of smoothing that lowers what the options are after most, for a decoded mesh before it."""
@@ -84,7 +98,7 @@ class Planner:
             raise OptionError(f"step = {step:g} is too fine for blocks of {size}, try {smallest_step(size):.1e}")
         if not ratio:
             return Adaptive(self._width(step), single(step))
-        details = min(self._spectrum.worthwhile_size(DETAIL_REACH * step), size)
+        details = self._spectrum.worthwhile_size(DETAIL_REACH * step, self._widest)
         base = Adaptive(self._width(BASE_REACH * step), single(step * ratio))
         return Layered(base, details, single(step), self._surface)
 
@@ -95,7 +109,7 @@ class Planner:
             return min(options.coefficients, size)
         if options.keep is not None:
             return min(max(1, round(options.keep * size)), size)
-        return min(self._spectrum.worthwhile_size(step), size)
+        return self._spectrum.worthwhile_size(step, self._widest)
 
     def _packed(self, bits: int, rules: ChainRules) -> Packed:
         """With the step that makes the most of a fixed number of bits: it takes a pass over all blocks."""

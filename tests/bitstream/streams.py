@@ -2,7 +2,20 @@
 
 from __future__ import annotations
 
-from bitstream.container.packets import Block, Connectivity, Gop, Header, Metadata, Order, Packet, Partition
+from dataclasses import replace
+
+from bitstream.container.packets import (
+    Block,
+    Connectivity,
+    Gop,
+    Grid,
+    Header,
+    Metadata,
+    Order,
+    Packet,
+    Partition,
+    Refinement,
+)
 from bitstream.container.reader import Reader, read_packets
 from bitstream.container.writer import write_stream
 
@@ -25,7 +38,22 @@ ANIMATED: list[Packet] = [
     Gop(0, b"first"),
     Gop(1, b"second"),
 ]
-STREAMS = {"static": STATIC, "bare": BARE, "animated": ANIMATED}
+GRID: list[Packet] = [
+    Header(vertices=100, faces=190, grid=(1023, 7, 500), scale=0.25),
+    Connectivity(1, b"faces"),
+    Order(1, b"order"),
+    Grid(0, 60, b"positions"),
+    Grid(60, 40, b""),
+]
+REFINED: list[Packet] = [
+    replace(SMALL_HEADER, refinements=(0.01, 0.0, 0.001, 6.0)),
+    Connectivity(1, b"faces"),
+    Block(0, 10, b"coefficients"),
+    Refinement(0, 0, 60, b"heights"),
+    Refinement(0, 60, 40, b"more"),
+    Refinement(1, 0, 100, b"all"),
+]
+STREAMS = {"static": STATIC, "bare": BARE, "animated": ANIMATED, "grid": GRID, "refined": REFINED}
 
 
 def encoded(name: str) -> bytes:

@@ -17,11 +17,13 @@ from bitstream.connectivity.faces import decode_connectivity, encode_connectivit
 from bitstream.connectivity.order import decode_arrangement, encode_arrangement
 from bitstream.connectivity.partition import decode_labels, encode_labels
 from bitstream.entropy import range_coder
+from bitstream.fields import corners, grid, levels
 from codec.geometry.graph import graph_of_faces
 
 MODULES = (
     *(adaptive, contexts, matrices, rate_distortion, trellis),
     *(conquest, faces, halfedges, partition, permutation, seams, range_coder),
+    *(corners, grid, levels),
 )
 
 
@@ -83,16 +85,23 @@ def test_every_kernel_defends_itself(refusals: dict[str, int]) -> None:
     payload = encode_labels(graph.offsets, graph.neighbours, labels, int(labels[-1]) + 1)
     np.testing.assert_array_equal(decode_labels(payload, graph.offsets, graph.neighbours, int(labels[-1]) + 1), labels)
 
-    levels = rate_distortion.choose_levels(CoefficientModel(60), 300 * given.astype(np.int64), 0.1).levels
-    payload = adaptive.encode_blocks(CoefficientModel(60), [levels])
-    np.testing.assert_array_equal(adaptive.decode_blocks(CoefficientModel(60), payload, 1)[0], levels)
-    payload = matrices.encode_levels(matrices.make_level_bank(), [levels], [levels])
-    matrix = np.zeros_like(levels)
-    matrices.decode_levels(matrices.make_level_bank(), payload, [matrix], [levels])
-    np.testing.assert_array_equal(matrix, levels)
-    contexts.look_at_block(contexts.make_past(60), levels)
+    positions = np.arange(3 * vertices).reshape(vertices, 3) % 7
+    payload = grid.GridEncoder(decoded, positions, (6, 6, 6)).chunk(vertices)
+    places, found = grid.GridDecoder(decoded, vertices, (6, 6, 6)).chunk(payload, vertices)
+    np.testing.assert_array_equal(found, positions[places])
+    payload = levels.LevelsEncoder(decoded, positions - 3).chunk(vertices)
+    np.testing.assert_array_equal(levels.LevelsDecoder(decoded, vertices, 3).chunk(payload, vertices)[1], positions - 3)
+
+    chosen = rate_distortion.choose_levels(CoefficientModel(60), 300 * given.astype(np.int64), 0.1).levels
+    payload = adaptive.encode_blocks(CoefficientModel(60), [chosen])
+    np.testing.assert_array_equal(adaptive.decode_blocks(CoefficientModel(60), payload, 1)[0], chosen)
+    payload = matrices.encode_levels(matrices.make_level_bank(), [chosen], [chosen])
+    matrix = np.zeros_like(chosen)
+    matrices.decode_levels(matrices.make_level_bank(), payload, [matrix], [chosen])
+    np.testing.assert_array_equal(matrix, chosen)
+    contexts.look_at_block(contexts.make_past(60), chosen)
     contexts.expectation_bin(np.ones(20, np.int32), np.ones(20, np.int32))
-    trellis.points_of_levels(levels)
+    trellis.points_of_levels(chosen)
 
     single = {"code_bit", "code_uniform", "code_mixed_bit", "code_signed", "points_of_levels"}
     names = {name for name in vars(_kernels) if not name.startswith("_")}

@@ -21,6 +21,8 @@ from bitstream.container.reader import END_OF_STREAM, NEED_DATA, Reader
 from bitstream.container.tolerant import TolerantReader
 from bitstream.container.wire import FrameType
 from bitstream.errors import BsmError
+from bitstream.fields.grid import GridDecoder, GridEncoder
+from bitstream.fields.levels import LevelsDecoder, LevelsEncoder
 from bitstream.limits import Limits
 from bsm.files.mesh import MESH_FORMATS, read_mesh
 from codec.geometry.graph import graph_of_faces
@@ -43,6 +45,7 @@ LIMITS = Limits(
     frame_bytes=1 << 20,
     work=1e9,
     sequence_bytes=1 << 26,
+    field_bytes=1 << 26,
 )
 """What a caller would grant who wants an answer within a second."""
 
@@ -146,6 +149,30 @@ def labels(data: bytes) -> None:
     _expect(bool((np.unique(decoded) == np.arange(parts)).all()), "labels that are not all parts")
 
 
+_SOUP = np.concatenate([_FAN, [[0, 0, 7], [3, 3, 3], [1, 2, 0], [2, 1, 5], [44, 41, 43], [41, 43, 42]]]).astype(
+    np.int32
+)
+_LARGEST = (1000, 3, (1 << 20) - 1)
+
+
+def grid(data: bytes) -> None:
+    """Positions on a grid, in chunks; the first two bytes tell their lengths."""
+    decoder, size = GridDecoder(_SOUP, 46, _LARGEST), 1 + data[0] % 46
+    for chunk, count in ((data[2 : 2 + data[1]], size), (data[2 + data[1] :], 46 - size)):
+        if count:
+            _, positions = decoder.chunk(chunk, count)
+            _expect(bool(((positions >= 0) & (positions <= _LARGEST)).all()), "positions outside their grid")
+
+
+def levels(data: bytes) -> None:
+    """Levels of a refinement, in chunks; the first two bytes tell their number and lengths."""
+    decoder, size = LevelsDecoder(_SOUP, 46, 1 + data[0] % 2 * 2), 1 + data[0] % 46
+    for chunk, count in ((data[2 : 2 + data[1]], size), (data[2 + data[1] :], 46 - size)):
+        if count:
+            _, found = decoder.chunk(chunk, count)
+            _expect(bool((abs(found) <= 1 << 20).all()), "levels out of range")
+
+
 def gops(data: bytes) -> None:
     """The data of a GOP, and the levels in it."""
     body = parse_gop_body(data, 64)
@@ -216,6 +243,8 @@ TARGETS: dict[str, Target] = {
         arrangement,
         permutation,
         labels,
+        grid,
+        levels,
         gops,
         stream,
         stream_threads,
@@ -240,6 +269,8 @@ def seeds(name: str, vectors: Path) -> list[bytes]:
         return streams
     if name == "mesh_file":
         return _mesh_seeds()
+    if name in ("grid", "levels"):
+        return _field_seeds(name)
     found: list[bytes] = []
     for data in good:
         frames = frames_of(data)
@@ -265,6 +296,19 @@ def _seed(name: str, kind: int, payload: bytes, header: object) -> bytes:
     if name == "gops" and kind == FrameType.GOP:
         return payload[1:]
     return b""
+
+
+def _field_seeds(name: str) -> list[bytes]:
+    found = []
+    for size, spread in ((1, 2), (23, 9), (46, 1000)):
+        values = np.arange(46 * 3).reshape(46, 3) * 7 % spread
+        if name == "grid":
+            encoder: GridEncoder | LevelsEncoder = GridEncoder(_SOUP, np.minimum(values, _LARGEST), _LARGEST)
+        else:
+            encoder = LevelsEncoder(_SOUP, values[:, : 1 + (size - 1) % 2 * 2] - spread // 2)
+        chunks = [encoder.chunk(count) for count in (size, 46 - size) if count]
+        found.append(bytes([size - 1, len(chunks[0])]) + b"".join(chunks))
+    return found
 
 
 def _mesh_seeds() -> list[bytes]:

@@ -2,7 +2,8 @@
 
     python -m tools.vectors                            hold this project's decoder against all of them
     python -m tools.vectors --run "CMD {in} {out}"     hold another one against them, by its command line
-    python -m tools.vectors --write                    make them anew, which only a change of the format justifies
+    python -m tools.vectors --new                      make those that are missing
+    python -m tools.vectors --write                    make all anew, which only a change of the format justifies
     python -m tools.vectors --example                  print the worked example of spec/mathematics.md
 
 A command must write an npz with `positions` and `faces` and end with code 0, or refuse and end with the code of its
@@ -37,11 +38,12 @@ def main() -> int:
     )
     parser.add_argument("--run", metavar="COMMAND", help="a decoder's command line with {in} and {out} in it")
     parser.add_argument("--write", action="store_true", help="make the vectors anew")
+    parser.add_argument("--new", action="store_true", help="make the vectors that are missing")
     parser.add_argument("--example", action="store_true", help="print the worked example of the specification")
     parser.add_argument("--only", metavar="TEXT", default="", help="only vectors whose names hold this")
     args = parser.parse_args()
-    if args.write:
-        return write()
+    if args.write or args.new:
+        return write(keep=not args.write)
     if args.example:
         print(example(), end="")
         return 0
@@ -89,23 +91,25 @@ def try_command(vector: Vector, command: str) -> str | None:
             return vector.complaint(file["positions"], file["faces"])
 
 
-def write() -> int:
-    """Make all vectors, and refuse to write any if the decoder does not treat one of them as it should."""
+def write(*, keep: bool) -> int:
+    """Make all vectors, or those that are not there to be kept, and refuse to write any if the decoder does not treat one of them as it should."""
     from tools.vectors.bad import BAD
+    from tools.vectors.bad_fields import BAD_FIELDS
     from tools.vectors.bad_sequences import BAD_SEQUENCES
     from tools.vectors.good import STATIC
+    from tools.vectors.good_fields import FIELDS
     from tools.vectors.good_sequences import SEQUENCES
 
     streams: dict[Vector, bytes] = {}
     meshes = {}
-    for name, good in {**STATIC, **SEQUENCES}.items():
+    for name, good in {**STATIC, **FIELDS, **SEQUENCES}.items():
         vector = Vector(name, good.probes)
-        streams[vector] = good.make()
+        streams[vector] = vector.stream.read_bytes() if keep and vector.stream.is_file() else good.make()
         decoder = decode_sequence if name in SEQUENCES else _decode_static
         meshes[vector] = decoder(streams[vector])
-    for name, bad in {**BAD, **BAD_SEQUENCES}.items():
+    for name, bad in {**BAD, **BAD_FIELDS, **BAD_SEQUENCES}.items():
         vector = Vector(name, bad.probes, bad.error)
-        streams[vector] = bad.make()
+        streams[vector] = vector.stream.read_bytes() if keep and vector.stream.is_file() else bad.make()
         try:
             (decode_sequence if name in BAD_SEQUENCES else decode)(streams[vector])
         except BsmError as error:

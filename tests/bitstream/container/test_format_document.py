@@ -15,8 +15,8 @@ DOCUMENT = (Path(__file__).parents[3] / "spec" / "format.md").read_text()
 
 def number(value) -> str:
     """A number as the document writes it: extreme powers of two as such."""
-    if value == 2**31 - 1:
-        return "2^31 - 1"
+    if value in (2**20 - 1, 2**31 - 1):
+        return f"2^{int(value).bit_length()} - 1"
     mantissa, exponent = math.frexp(value)
     if mantissa == 0.5 and not 1e-3 < value < 1e6:
         return f"2^{exponent - 1}"
@@ -29,6 +29,7 @@ def row(name: str) -> str:
     least, most = declared.lengths
     kind = {int: "method" if declared.reserved else "int", float: "float", tuple: "floats"}[declared.type]
     if declared.type is tuple:
+        kind = "ints" if declared.item is int else kind
         kind += f" [{least}]" if least == most else f" [{least} to {most}]"
     default = HEADER_DEFAULTS.get(name)
     if isinstance(default, tuple):

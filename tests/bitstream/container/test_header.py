@@ -43,14 +43,20 @@ def legal_value(name):
     declared = HEADER_FIELDS[name]
     if declared.type is int:
         return st.integers(int(declared.low), int(declared.high))
-    number = st.floats(declared.low, declared.high)
+    if declared.type is tuple and declared.item is int:
+        number = st.integers(int(declared.low), int(declared.high))
+    else:
+        number = st.floats(declared.low, declared.high)
     if declared.type is float:
         return number
     least, most = declared.lengths
     return st.lists(number, min_size=least, max_size=most).map(tuple)
 
 
-@given(st.fixed_dictionaries({}, optional={name: legal_value(name) for name in HEADER_DEFAULTS}))
+NOT_ALONE = ("blocks", "block_size", "coefficients", "grid", "lattice", "refinements")
+
+
+@given(st.fixed_dictionaries({}, optional={n: legal_value(n) for n in HEADER_DEFAULTS if n not in NOT_ALONE}))
 def test_round_trip(changes):
     changes["details"] = min(changes.get("details", 0), SMALL_HEADER.block_size)
     if (changes["details"] > 0) != (changes.get("detail_step", 0.0) > 0):
@@ -59,6 +65,62 @@ def test_round_trip(changes):
         changes["gop_frames"] = changes.get("gop_frames") or 1
     header = replace(SMALL_HEADER, **changes)
     assert parse(write_header(header), Limits(frames=2**31, gop_frames=2**31)) == header
+
+
+GRID = Header(vertices=100, faces=190, grid=(1023, 7, 0), center=(1.0, 2.0, 3.0), scale=0.5, lattice=(4095, 1023))
+LAYERS = st.tuples(st.floats(2.0**-40, 1.0), st.just(0.0) | st.floats(1 / 16, 64.0))
+
+
+def test_known_bytes_of_a_grid():
+    # 1: 100, 2: uint8 190, 28: [uint16 1023, 7, 0]
+    assert write_header(Header(vertices=100, faces=190, grid=(1023, 7, 0))).hex() == "83016402ccbe1c93cd03ff0700"
+    assert parse(write_header(GRID)) == GRID
+
+
+@given(st.lists(LAYERS, max_size=4))
+def test_layers_round_trip(layers):
+    header = replace(SMALL_HEADER, refinements=tuple(x for layer in layers for x in layer))
+    assert [(layer.step, layer.ratio) for layer in parse(write_header(header)).layers] == layers
+    assert [layer.axes for layer in header.layers] == [3 if ratio else 1 for _, ratio in layers]
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {"grid": (1, 2)},
+        {"grid": (1, 2, 2**20)},
+        {"lattice": (9,)},
+        {"lattice": (2000, 1022)},  # fewer points than values
+        {"lattice": (1022, 1023)},  # more points than cells
+        {"grid": ()},  # a lattice, but no grid and no blocks
+        {"blocks": 3},
+        {"step": 0.5},
+        {"smoothing": 1.0},
+        {"gop_frames": 1},
+        {"refinements": (0.5, 0.0)},
+    ],
+)
+def test_contradictions_of_a_grid(changes):
+    with pytest.raises(OptionError):
+        replace(GRID, **changes)
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {"refinements": (0.5,)},
+        {"refinements": (0.0, 0.0)},
+        {"refinements": (1.5, 0.0)},
+        {"refinements": (0.5, 0.01)},
+        {"refinements": (0.5, 65.0)},
+        {"refinements": (0.5, 0.0) * 5},
+        {"refinements": (0.5, 1.0), "gop_frames": 1},
+        {"lattice": (9, 3)},
+    ],
+)
+def test_contradictions_of_refinements(changes):
+    with pytest.raises(OptionError):
+        replace(SMALL_HEADER, **changes)
 
 
 @given(st.binary(max_size=60))
@@ -115,7 +177,7 @@ def test_corrupt_fields(changes):
 
 @pytest.mark.parametrize("key", [1, 2, 3, 4, 5])
 def test_required_fields(key):
-    with pytest.raises(CorruptError, match="lacks"):
+    with pytest.raises(CorruptError, match="lacks" if key < 3 else "neither blocks nor a grid"):
         parse(write_map((k, v) for k, v in SMALL.items() if k != key))
 
 

@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from bitstream.container import wire
-from bitstream.container.packets import Block, Connectivity, End, Gop, Metadata, Order, Partition
+from bitstream.container.packets import Block, Connectivity, End, Gop, Grid, Metadata, Order, Partition, Refinement
 from bitstream.container.reader import END_OF_STREAM, NEED_DATA, Reader
 from bitstream.container.wire import write_frame, write_preamble, write_varint
 from bitstream.container.writer import Writer, write_stream
@@ -21,7 +21,18 @@ from bitstream.errors import (
     UnsupportedError,
 )
 from bitstream.limits import DEFAULT_LIMITS, Limits
-from tests.bitstream.streams import ANIMATED, BARE, SMALL_HEADER, STATIC, STREAMS, encoded, frame_ends, read_all
+from tests.bitstream.streams import (
+    ANIMATED,
+    BARE,
+    GRID,
+    REFINED,
+    SMALL_HEADER,
+    STATIC,
+    STREAMS,
+    encoded,
+    frame_ends,
+    read_all,
+)
 
 names = pytest.mark.parametrize("name", STREAMS)
 
@@ -221,6 +232,36 @@ ILLEGAL = [
     [ANIMATED[0], CONNECTIVITY, Gop(0, b""), B0],
     [ANIMATED[0], CONNECTIVITY, Gop(50, b"")],
     [ANIMATED[0], CONNECTIVITY, Gop(3, b""), Gop(3, b"")],
+    [GRID[0], CONNECTIVITY],
+    [GRID[0], CONNECTIVITY, PARTITION, Grid(0, 100, b"")],
+    [GRID[0], CONNECTIVITY, B0, Grid(0, 100, b"")],
+    [GRID[0], CONNECTIVITY, Grid(0, 100, b""), META],
+    [GRID[0], CONNECTIVITY, Grid(0, 101, b"")],
+    [GRID[0], CONNECTIVITY, Grid(0, 0, b""), Grid(0, 100, b"")],
+    [GRID[0], CONNECTIVITY, Grid(0, 99, b"")],
+    [GRID[0], CONNECTIVITY, Grid(1, 99, b"")],
+    [GRID[0], CONNECTIVITY, Grid(0, 50, b""), Grid(51, 49, b"")],
+    [GRID[0], CONNECTIVITY, Grid(0, 50, b""), Grid(49, 51, b"")],
+    [REFINED[0], CONNECTIVITY, Refinement(0, 0, 100, b""), B0],
+    [REFINED[0], CONNECTIVITY, Refinement(2, 0, 100, b"")],
+    [REFINED[0], CONNECTIVITY, Refinement(0, 0, 101, b"")],
+    [REFINED[0], CONNECTIVITY, Refinement(0, 1, 99, b"")],
+    [REFINED[0], CONNECTIVITY, Refinement(0, 0, 0, b"")],
+    [REFINED[0], CONNECTIVITY, Refinement(1, 0, 100, b""), Refinement(0, 0, 100, b"")],
+    [REFINED[0], CONNECTIVITY, Refinement(0, 0, 50, b""), Refinement(1, 50, 50, b"")],
+]
+LEGAL = [
+    [GRID[0], CONNECTIVITY, META, ORDER, Grid(0, 1, b""), Grid(1, 99, b"")],
+    [REFINED[0], CONNECTIVITY, PARTITION, ORDER, B0, B1],
+    [REFINED[0], CONNECTIVITY, B0, Refinement(0, 0, 3, b"")],
+    [REFINED[0], CONNECTIVITY, B0, Refinement(0, 0, 3, b""), Refinement(0, 3, 2, b""), Refinement(1, 0, 3, b"")],
+    [REFINED[0], CONNECTIVITY, Refinement(1, 0, 100, b"")],
+]
+UNANNOUNCED = [
+    [HEADER, CONNECTIVITY, Grid(0, 100, b"")],
+    [HEADER, CONNECTIVITY, B0, Refinement(0, 0, 100, b"")],
+    [GRID[0], CONNECTIVITY, Refinement(0, 0, 100, b"")],
+    [REFINED[0], CONNECTIVITY, Grid(0, 100, b"")],
 ]
 
 
@@ -235,6 +276,19 @@ def test_both_sides_refuse_the_same_orders(packets):
     with pytest.raises(OptionError):
         write_stream(packets)
     with pytest.raises(CorruptError):
+        read_all(stream_of(*frames_of(packets)))
+
+
+@pytest.mark.parametrize("packets", LEGAL)
+def test_both_sides_accept_the_same_orders(packets):
+    assert read_all(write_stream(packets))[:-1] == packets
+
+
+@pytest.mark.parametrize("packets", UNANNOUNCED)
+def test_frames_that_the_header_does_not_announce_are_unsupported(packets):
+    with pytest.raises(OptionError):
+        write_stream(packets)
+    with pytest.raises(UnsupportedError):
         read_all(stream_of(*frames_of(packets)))
 
 

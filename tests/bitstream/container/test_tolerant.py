@@ -38,6 +38,22 @@ def test_a_damaged_block_is_lost_alone(step):
     assert isinstance(packets[-1], End)
 
 
+@pytest.mark.parametrize(("name", "number"), [("grid", 3), ("refined", 2), ("refined", 3), ("refined", 4)])
+def test_what_follows_a_lost_chunk_is_read(name, number):
+    data = bytearray(encoded(name))
+    data[frame_ends(bytes(data))[number + 1] - 5] ^= 1
+    packets = read(bytes(data))
+    assert isinstance(packets[number], Damaged)
+    assert packets[:number] + packets[number + 1 : -1] == STREAMS[name][:number] + STREAMS[name][number + 1 :]
+
+
+def test_a_stream_cut_behind_its_blocks_has_them_all():
+    data = encoded("refined")
+    packets = read(data[: frame_ends(data)[3]])
+    assert packets[:3] == STREAMS["refined"][:3]
+    assert packets[3].type is FrameType.END
+
+
 @pytest.mark.parametrize("number", range(1, len(STATIC)))
 def test_a_frame_whose_length_is_wrong_is_lost_alone(number):
     data = bytearray(encoded("static"))

@@ -1,0 +1,151 @@
+/* The corners of a mesh, and the order in which a grid is coded (specification, V 1, V 2). */
+#include "bitstream/fields/corners.h"
+
+enum { MOST_CORNERS = 1 << 30, QUEUES = 4 };
+
+bool fits_corners(const Corners *c) {
+    return c->faces.columns == 3 && c->faces.rows <= MOST_CORNERS / 3 && c->starts.size >= 1
+        && c->corners.size == 3 * c->faces.rows && c->opposite.size == c->corners.size && c->rank.size == c->starts.size - 1;
+}
+
+/* The corners of each vertex, in order. */
+static void gather_corners(Corners c) {
+    const int32_t *vertex = c.faces.data;
+    int32_t *starts = c.starts.data;
+    int64_t n = c.rank.size;
+    for (int64_t v = 0; v <= n; v++) starts[v] = 0;
+    for (int64_t k = 0; k < c.corners.size; k++) starts[vertex[k]]++;
+    for (int64_t v = 0; v < n; v++) starts[v + 1] += starts[v];
+    for (int64_t k = c.corners.size - 1; k >= 0; k--) c.corners.data[--starts[vertex[k]]] = (int32_t)k;
+}
+
+/* Pair the corners that face the edges from v to vertices of higher number; where more than two face one, the last
+ * that came is paired first. `waiting` holds, by that vertex, the corner that waits for a partner, or -1, and is left
+ * as it was; `below` the corner that waited before. */
+static void pair_corners(Corners c, int32_t v, int32_t *waiting, int32_t *below) {
+    const int32_t *vertex = c.faces.data;
+    for (int pass = 0; pass < 2; pass++)
+        for (int32_t i = c.starts.data[v]; i < c.starts.data[v + 1]; i++)
+            for (int side = 0; side < 2; side++) {
+                int32_t next = next_corner(c.corners.data[i]), previous = previous_corner(c.corners.data[i]);
+                int32_t u = vertex[side == 0 ? next : previous], facing = side == 0 ? previous : next;
+                if (u <= v) continue;
+                int32_t other = waiting[u];
+                if (pass == 1) {
+                    waiting[u] = -1;
+                } else if (other < 0) {
+                    below[facing] = other;
+                    waiting[u] = facing;
+                } else {
+                    waiting[u] = below[other];
+                    c.opposite.data[facing] = other;
+                    c.opposite.data[other] = facing;
+                }
+            }
+}
+
+/* Fill starts, corners and opposite; scratch: n + 3 m. Checks the faces. */
+int64_t link_corners(Corners c, Ints scratch) {
+    int64_t n = c.rank.size;
+    if (!fits_corners(&c) || scratch.size < n + c.corners.size) return MISUSED;
+    for (int64_t k = 0; k < c.corners.size; k++) {
+        if (c.faces.data[k] < 0 || c.faces.data[k] >= n) return MISUSED;
+        c.opposite.data[k] = -1;
+    }
+    gather_corners(c);
+    for (int64_t v = 0; v < n; v++) scratch.data[v] = -1;
+    for (int64_t v = 0; v < n; v++) pair_corners(c, (int32_t)v, scratch.data, scratch.data + n);
+    return 0;
+}
+
+typedef struct { /* vertices that wait to be coded, by how many flaps they have, first come first served */
+    int32_t first[QUEUES], last[QUEUES];
+    int32_t *next, *previous, *queue; /* by vertex; queue -1: does not wait */
+} Waiting;
+
+static void leave(Waiting *w, int32_t v) {
+    int32_t queue = w->queue[v], next = w->next[v], previous = w->previous[v];
+    if (queue < 0) return;
+    if (previous < 0) w->first[queue] = next;
+    else w->next[previous] = next;
+    if (next < 0) w->last[queue] = previous;
+    else w->previous[next] = previous;
+    w->queue[v] = -1;
+}
+
+static void enter(Waiting *w, int32_t v, int32_t queue) {
+    int32_t previous = w->last[queue];
+    w->next[v] = -1;
+    w->previous[v] = previous;
+    w->queue[v] = queue;
+    if (previous < 0) w->first[queue] = v;
+    else w->next[previous] = v;
+    w->last[queue] = v;
+}
+
+/* A vertex has come to touch a coded edge, or to have a flap more. */
+static void promote(Waiting *w, int32_t v, bool flap) {
+    int32_t queue = (int32_t)least(largest(w->queue[v], 0) + flap, QUEUES - 1);
+    if (queue == w->queue[v]) return;
+    leave(w, v);
+    enter(w, v, queue);
+}
+
+/* What v, just coded, completes. */
+static void complete(const Corners *c, Waiting *w, int32_t v) {
+    const int32_t *vertex = c->faces.data, *rank = c->rank.data;
+    for (int32_t i = c->starts.data[v]; i < c->starts.data[v + 1]; i++) {
+        int32_t k = c->corners.data[i], a = next_corner(k), b = previous_corner(k);
+        bool has_a = rank[vertex[a]] >= 0, has_b = rank[vertex[b]] >= 0;
+        if (has_a && has_b) { /* the face, which is a flap of what lies opposite v */
+            int32_t beyond = c->opposite.data[k];
+            if (beyond >= 0 && rank[vertex[beyond]] < 0) promote(w, vertex[beyond], true);
+        } else if (has_a || has_b) { /* an edge: what lies behind it may be a flap of the third corner */
+            int32_t third = has_a ? b : a, beyond = c->opposite.data[third];
+            promote(w, vertex[third], beyond >= 0 && rank[vertex[beyond]] >= 0);
+        }
+    }
+}
+
+/* Fill rank and order: next is always a vertex with the most flaps (three or more count alike), of these the one that
+ * has had them for longest; where none waits, the one of lowest number. scratch: 3 x n. */
+int64_t order_vertices(Corners c, Ints order, Ints2 scratch) {
+    int64_t n = c.rank.size;
+    if (!fits_corners(&c) || order.size != n || scratch.rows != 3 || scratch.columns != n) return MISUSED;
+    Waiting w = {.next = scratch.data, .previous = scratch.data + n, .queue = scratch.data + 2 * n};
+    for (int q = 0; q < QUEUES; q++) w.first[q] = w.last[q] = -1;
+    for (int64_t v = 0; v < n; v++) c.rank.data[v] = w.queue[v] = -1;
+    int32_t fresh = 0;
+    for (int32_t done = 0; done < n; done++) {
+        int32_t v = -1;
+        for (int q = QUEUES - 1; q >= 0 && v < 0; q--) v = w.first[q];
+        if (v < 0) {
+            while (c.rank.data[fresh] >= 0) fresh++;
+            v = fresh;
+        }
+        leave(&w, v);
+        c.rank.data[v] = done;
+        order.data[done] = v;
+        complete(&c, &w, v);
+    }
+    return 0;
+}
+
+/* The coded neighbours of a vertex and its flaps, in the order of its corners. */
+void gather_around(const Corners *c, int32_t v, Around *around) {
+    const int32_t *vertex = c->faces.data, *rank = c->rank.data;
+    int32_t now = rank[v];
+    around->neighbours = around->flaps = 0;
+    for (int32_t i = c->starts.data[v]; i < c->starts.data[v + 1]; i++) {
+        int32_t k = c->corners.data[i], ends[2] = {vertex[next_corner(k)], vertex[previous_corner(k)]};
+        for (int side = 0; side < 2; side++) {
+            bool skip = rank[ends[side]] >= now || around->neighbours == MOST_NEIGHBOURS;
+            for (int j = 0; j < around->neighbours && !skip; j++) skip = around->neighbour[j] == ends[side];
+            if (!skip) around->neighbour[around->neighbours++] = ends[side];
+        }
+        int32_t beyond = c->opposite.data[k];
+        if (rank[ends[0]] < now && rank[ends[1]] < now && beyond >= 0 && rank[vertex[beyond]] < now
+            && around->flaps < MOST_FLAPS)
+            around->flap[around->flaps++] = (Flap){ends[0], ends[1], vertex[beyond], beyond};
+    }
+}

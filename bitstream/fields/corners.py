@@ -1,0 +1,82 @@
+"""What both sides know of a mesh before its values: corners, the corners beyond edges, and the order of coding."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from bitstream import _kernels
+from bitstream.errors import MeshError
+
+Ints = npt.NDArray[np.int32]
+
+MOST_FACES = (1 << 30) // 3
+BYTES_PER_VERTEX = 24
+BYTES_PER_FACE = 48
+"""Of memory, scratch included, for corners and order."""
+
+
+class Corners(NamedTuple):
+    """The corners of a mesh; corner k is corner k % 3 of face k // 3.
+
+    Attributes
+    ----------
+    faces : int32 array, shape (m, 3)
+    starts : int32 array, shape (n + 1,)
+        Where the corners of each vertex begin in `corners`.
+    corners : int32 array, shape (3 m,)
+        Ascending at each vertex.
+    opposite : int32 array, shape (3 m,)
+        The corner that faces the same edge from the other side, or -1.
+    rank : int32 array, shape (n,)
+        When each vertex is coded.
+    """
+
+    faces: Ints
+    starts: Ints
+    corners: Ints
+    opposite: Ints
+    rank: Ints
+
+
+def corners_of(faces: npt.ArrayLike, vertices: int) -> Corners:
+    """The corners of a mesh whose vertices are coded as they are numbered.
+
+    Parameters
+    ----------
+    faces : integers, shape (m, 3)
+        Any triangles: repeated corners and edges of many faces do no harm. Copied.
+    vertices : int
+        Their number; some may be in no face.
+
+    Raises
+    ------
+    MeshError
+        If `faces` is no array of that shape, or has an index out of range.
+    """
+    given = np.asarray(faces)
+    if given.ndim != 2 or given.shape[1] != 3 or given.dtype.kind not in "iu" or len(given) > MOST_FACES:
+        raise MeshError(f"faces must be integers of shape (m, 3), not {given.dtype} of {given.shape}")
+    if not 0 <= vertices < 1 << 30 or (given.size and (given.min() < 0 or given.max() >= vertices)):
+        raise MeshError(f"faces must be made of the vertices 0 to {vertices - 1}")
+    own = np.array(given, np.int32, order="C")
+    size = 3 * len(own)
+    corners = Corners(
+        own,
+        np.zeros(vertices + 1, np.int32),
+        np.zeros(size, np.int32),
+        np.full(size, -1, np.int32),
+        np.arange(vertices, dtype=np.int32),
+    )
+    _kernels.link_corners(corners, np.full(vertices + size, -1, np.int32))
+    return corners
+
+
+def traverse(corners: Corners) -> Ints:
+    """Make each vertex come when as much as possible is known around it: returns the order, and sets `corners.rank`."""
+    vertices = len(corners.rank)
+    order = np.empty(vertices, np.int32)
+    _kernels.order_vertices(corners, order, np.full((3, vertices), -1, np.int32))
+    return order

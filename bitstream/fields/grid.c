@@ -1,0 +1,315 @@
+/* Positions on a grid, vertex after vertex, predicted from coded neighbours (specification, V 7 to V 10). */
+#include "bitstream/fields/grid.h"
+
+#include "bitstream/fields/learner.h"
+
+enum {
+    AXES = 3,
+    MOST_SPAN = 1 << 20,
+    VALENCES = 6,
+    STEPS = 3, /* axes of a vertex in the order in which they are coded */
+    GUESSES = 4 * 2 * VALENCES,
+    LEARNERS = GUESSES + 4 * STEPS,
+    WORDS_SEARCHED = 4,
+    TERMS = 7,
+    HINTS = 4,
+};
+
+/* How meshes deviate from parallelograms, as vectors in 1/16 (V 8.4). */
+enum { LENGTH, SKEW, TURN, FOLD, SHAPES };
+
+/* If a vertex lies in a plane, its coded axes tell the others (V 8.3). */
+typedef struct {
+    int32_t normal[AXES];
+    int64_t square, used, dot; /* of the normal; of its coded axes; errors of these times the normal */
+} Plane;
+
+typedef struct { /* what is known of a vertex before its axes */
+    Around around;
+    int32_t flaps, valence; /* capped */
+    int32_t across[MOST_FLAPS][AXES]; /* a + b - c of each flap, best-behaved first; all in 1/16 */
+    int32_t base[AXES], mean[AXES], closing[AXES], error_near[AXES], apart[AXES], shape[SHAPES][AXES];
+    Plane whole, plane[2];
+    int axis[STEPS];
+} Place;
+
+static int32_t errors_at(const Grid *g, int32_t v) {
+    const int32_t *gap = g->gaps.data + AXES * (int64_t)v;
+    return size_of(gap[0]) + size_of(gap[1]) + size_of(gap[2]);
+}
+
+/* Best-behaved flaps first: where errors were small (V 8.1). */
+static void sort_flaps(const Grid *g, Around *r) {
+    int64_t errors[MOST_FLAPS];
+    for (int i = 0; i < r->flaps; i++) {
+        Flap flap = r->flap[i];
+        int64_t own = 2 * (int64_t)errors_at(g, flap.c) + errors_at(g, flap.a) + errors_at(g, flap.b);
+        int at = i;
+        for (; at > 0 && errors[at - 1] > own; at--) {
+            errors[at] = errors[at - 1];
+            r->flap[at] = r->flap[at - 1];
+        }
+        errors[at] = own;
+        r->flap[at] = flap;
+    }
+}
+
+static void start_plane(Plane *p, const int64_t *normal) {
+    p->square = p->used = p->dot = 0;
+    int64_t most = 0;
+    int shift = 0;
+    for (int j = 0; j < AXES; j++) most = largest(most, normal[j] < 0 ? -normal[j] : normal[j]);
+    while (most >> shift >= 1 << 14) shift++;
+    for (int j = 0; j < AXES; j++) {
+        p->normal[j] = (int32_t)(normal[j] >> shift);
+        p->square += (int64_t)p->normal[j] * p->normal[j];
+    }
+}
+
+INLINE int64_t unused(const Plane *p) { return p->square - p->used + (p->square >> 6) + 1; }
+
+/* Where axis j is, if the vertex lies in the plane. */
+INLINE int32_t tilt(const Plane *p, int j) { return within(-p->normal[j] * p->dot / unused(p), -MOST_TERM, MOST_TERM); }
+
+INLINE void pass_axis(Plane *p, int j, int32_t error) {
+    p->dot += (int64_t)p->normal[j] * error;
+    p->used += (int64_t)p->normal[j] * p->normal[j];
+}
+
+/* Add what flap i says of the shape (V 8.4). */
+static void add_shape(const Corners *corners, const int32_t *x, int32_t v, Flap flap, int32_t shape[SHAPES][AXES]) {
+    const int32_t *a = x + AXES * (int64_t)flap.a, *b = x + AXES * (int64_t)flap.b, *c = x + AXES * (int64_t)flap.c;
+    int32_t along[AXES], out[AXES];
+    int64_t dot = 0, square = 0;
+    for (int j = 0; j < AXES; j++) {
+        along[j] = b[j] - a[j];
+        out[j] = 8 * (a[j] + b[j]) - 16 * c[j];
+        dot += (int64_t)out[j] * along[j];
+        square += (int64_t)along[j] * along[j];
+    }
+    int32_t skew = square > 0 ? within(-dot * 16 / square, -384, 384) : 0; /* 1/256 */
+    int32_t turn = within(faces_at(corners, flap.a) - faces_at(corners, flap.b), -8, 8);
+    for (int j = 0; j < AXES; j++) {
+        shape[LENGTH][j] += out[j];
+        shape[SKEW][j] += skew * along[j] >> 4;
+        shape[TURN][j] += turn * along[j] * 4;
+    }
+    for (int side = 0; side < 2; side++) { /* how the parallelograms over the other two edges of the face fail */
+        int32_t k = side == 0 ? previous_corner(flap.corner) : next_corner(flap.corner);
+        int32_t beyond = corners->opposite.data[k];
+        if (beyond < 0 || corners->rank.data[corners->faces.data[beyond]] >= corners->rank.data[v]) continue;
+        const int32_t *far = corners->faces.data[k] == flap.a ? a : b, *near = far == a ? b : a;
+        const int32_t *y = x + AXES * (int64_t)corners->faces.data[beyond];
+        for (int j = 0; j < AXES; j++) shape[FOLD][j] += 8 * (far[j] + y[j] - c[j] - near[j]);
+    }
+}
+
+/* Where v is all that is missing around a neighbour, it balances the others (V 8.5). */
+static void balance(const Corners *corners, const Grid *g, Place *p) {
+    int32_t found = 0;
+    for (int i = 0; i < p->around.neighbours; i++) {
+        int32_t u = p->around.neighbour[i];
+        const int64_t *sum = g->sums.data + 4 * (int64_t)u;
+        if (faces_at(corners, u) - sum[3] > 1) continue;
+        for (int j = 0; j < AXES; j++) {
+            int64_t missing = (sum[3] + 1) * g->values.data[AXES * (int64_t)u + j] - sum[j];
+            p->closing[j] += within(FINE * missing - p->base[j], -MOST_TERM, MOST_TERM);
+        }
+        found++;
+    }
+    if (found > 1)
+        for (int j = 0; j < AXES; j++) p->closing[j] = divided(p->closing[j], found);
+}
+
+static void average(const Grid *g, int32_t last, Place *p) {
+    const int32_t *x = g->values.data;
+    const Around *r = &p->around;
+    for (int j = 0; j < AXES; j++) {
+        int64_t across = 0, near = 0, error = 0;
+        for (int i = 0; i < r->flaps; i++) {
+            Flap f = r->flap[i];
+            int64_t a = x[AXES * (int64_t)f.a + j], b = x[AXES * (int64_t)f.b + j], c = x[AXES * (int64_t)f.c + j];
+            across += p->across[i][j] = (int32_t)(a + b - c) * FINE;
+        }
+        for (int i = 0; i < r->neighbours; i++) {
+            near += x[AXES * (int64_t)r->neighbour[i] + j] * FINE;
+            error += size_of(g->gaps.data[AXES * (int64_t)r->neighbour[i] + j]);
+        }
+        int32_t most = g->largest.data[j];
+        p->mean[j] = r->neighbours > 0 ? divided(near, r->neighbours) : last < 0 ? 0 : x[AXES * (int64_t)last + j] * FINE;
+        p->error_near[j] = r->neighbours > 0 ? divided(error, r->neighbours) : last < 0 ? FINE * most : most;
+        p->base[j] = r->flaps > 0 ? divided(across, r->flaps) : p->mean[j];
+        p->apart[j] = r->flaps > 1 ? size_of(p->across[0][j] - p->across[1][j]) : 0;
+        p->closing[j] = 0;
+        for (int i = 0; i < SHAPES; i++) p->shape[i][j] = 0;
+    }
+}
+
+/* Planes of the two best flaps and of all; the axis nearest to the normal of all comes last. */
+static void span_planes(const Grid *g, Place *p) {
+    int64_t normal[AXES] = {0, 0, 0};
+    for (int i = 0; i < p->around.flaps; i++) {
+        Flap flap = p->around.flap[i];
+        const int32_t *x = g->values.data, *a = x + AXES * (int64_t)flap.a, *b = x + AXES * (int64_t)flap.b;
+        const int32_t *c = x + AXES * (int64_t)flap.c;
+        int64_t own[AXES];
+        for (int j = 0; j < AXES; j++) {
+            int s = (j + 1) % 3, t = (j + 2) % 3;
+            own[j] = (int64_t)(b[s] - a[s]) * (c[t] - a[t]) - (int64_t)(b[t] - a[t]) * (c[s] - a[s]);
+            normal[j] += own[j];
+        }
+        if (i < 2) start_plane(&p->plane[i], own);
+    }
+    start_plane(&p->whole, normal);
+    for (int i = 0; i < STEPS; i++) {
+        int k = i;
+        for (; k > 0 && size_of(p->whole.normal[p->axis[k - 1]]) > size_of(p->whole.normal[i]); k--)
+            p->axis[k] = p->axis[k - 1];
+        p->axis[k] = i;
+    }
+}
+
+static void survey(const Corners *corners, const Grid *g, int32_t v, int32_t last, Place *p) {
+    gather_around(corners, v, &p->around);
+    sort_flaps(g, &p->around);
+    p->flaps = (int32_t)least(p->around.flaps, 3);
+    p->valence = within(faces_at(corners, v) - 3, 0, VALENCES - 1);
+    average(g, last, p);
+    for (int i = 0; i < p->around.flaps; i++) add_shape(corners, g->values.data, v, p->around.flap[i], p->shape);
+    if (p->around.flaps > 1)
+        for (int i = 0; i < SHAPES; i++)
+            for (int j = 0; j < AXES; j++) p->shape[i][j] = divided(p->shape[i][j], p->around.flaps);
+    balance(corners, g, p);
+    span_planes(g, p);
+}
+
+/* The value that an axis has taken already and that is nearest to v, downwards if two are; v if none is near (V 8.6). */
+static int32_t nearest_seen(const int64_t *axis, int64_t words, int32_t v) {
+    const uint64_t *seen = (const uint64_t *)axis;
+    int32_t word = v >> 6, bit = v & 63, below = -1;
+    uint64_t low = seen[word] & ((UINT64_C(2) << bit) - 1), high = seen[word] & ~((UINT64_C(1) << bit) - 1);
+    for (int i = 0; i < WORDS_SEARCHED && below < 0; i++) {
+        if (low != 0) below = ((word - i) << 6) + 63 - __builtin_clzll(low);
+        if (word - i == 0) break;
+        low = seen[word - i - 1];
+    }
+    for (int i = 0; i < WORDS_SEARCHED; i++) {
+        if (high != 0) {
+            int32_t above = ((word + i) << 6) + __builtin_ctzll(high);
+            return below < 0 || above - v < v - below ? above : below;
+        }
+        if (word + i + 1 == words) break;
+        high = seen[word + i + 1];
+    }
+    return below < 0 ? v : below;
+}
+
+/* Code a value; false if it is none (V 9, V 10). */
+static bool code_axis(RangeCoder *coder, const ValueModel *model, Grid *g, int32_t v, int step, Place *p, int32_t *hits,
+    int32_t *first_gap) {
+    const Around *r = &p->around;
+    int j = p->axis[step], flaps = p->flaps;
+    int32_t most = g->largest.data[j], far = FINE * most, base = p->base[j], mean = p->mean[j];
+    int32_t *x = g->values.data, tilted = tilt(&p->whole, j);
+    const Flap *best = r->flap;
+
+    int32_t term[TERMS] = {tilted, mean - base, p->closing[j], p->shape[LENGTH][j], p->shape[SKEW][j],
+        p->shape[TURN][j], p->shape[FOLD][j]};
+    for (int i = 0; i < TERMS; i++) term[i] = within(term[i], -MOST_TERM, MOST_TERM);
+    Learner *learners = (Learner *)g->learners.data;
+    Learner *guess = learners + (flaps * 2 + (step == 2)) * VALENCES + p->valence;
+    Learner *size = learners + GUESSES + flaps * STEPS + step;
+    int32_t shift = foretell(guess, TERMS, term, far);
+
+    int32_t hint[HINTS] = {p->error_near[j], p->apart[j], *first_gap, size_of(shift - tilted)};
+    for (int i = 0; i < HINTS; i++) hint[i] = (int32_t)least(hint[i], MOST_TERM);
+    int32_t typical = flaps > 0 ? within(foretell(size, HINTS, hint, far), hint[0] / 8 + 1, far) : hint[0];
+    int32_t bucket = size_class(typical >> 1), unit = typical / 2 + 4;
+
+    int32_t in_first = flaps > 0 ? p->across[0][j] + tilt(&p->plane[0], j) : mean;
+    int32_t second = r->flaps > 1 ? p->across[1][j] : base;
+    int64_t words = g->seen.columns;
+    Expectation e;
+    e.prediction[0] = base + tilted;
+    e.prediction[1] = flaps > 0 ? p->across[0][j] : mean;
+    e.prediction[2] = second;
+    e.prediction[3] = r->flaps > 1 ? second + tilt(&p->plane[1], j) : mean;
+    e.prediction[4] = nearest_seen(g->seen.data + j * words, words, within(whole(in_first), 0, most)) * FINE;
+    e.prediction[5] = r->neighbours > 0 ? x[AXES * (int64_t)r->neighbour[0] + j] * FINE : mean;
+    e.prediction[6] = base + shift;
+    for (int i = 0; i < PREDICTIONS; i++) e.prediction[i] = within(e.prediction[i], 0, far);
+    int32_t off[PREDICTIONS];
+    for (int i = 0; i < PREDICTIONS; i++) off[i] = e.prediction[i] - e.prediction[6];
+
+    int kind = flaps * STEPS + step;
+    e.scale = typical;
+    e.asks = MOST_ASKS;
+    e.scale_context = bucket;
+    e.hit_context = (step == 0 ? 0 : *hits != 0 ? 2 : 1) * 8 + flaps * 2 + (p->error_near[j] < FINE);
+    e.context[0] = bucket * 12 + kind;
+    e.context[1] = three_classes(off[0], off[1], off[2], FINE / 2, FINE / 2);
+    e.context[2] = three_classes(off[1], off[2], mean - e.prediction[6], unit, unit);
+    e.context[3] = three_classes(off[4], p->closing[j] - shift, off[3], FINE / 2, unit);
+    e.context[4] = 0;
+    if (flaps > 0) {
+        const int32_t *gaps = g->gaps.data + j;
+        int64_t a = AXES * (int64_t)best->a, b = AXES * (int64_t)best->b, c = AXES * (int64_t)best->c;
+        e.context[4] = three_classes(gaps[a], gaps[b], gaps[c], unit, unit);
+    }
+    e.context[5] = step == 0 ? 0 : *hits + (step << PREDICTIONS);
+    e.set = step;
+
+    int32_t value = code_value(coder, model, &e, coder->reading ? 0 : x[AXES * (int64_t)v + j]);
+    if (value < 0 || value > most) return false;
+    x[AXES * (int64_t)v + j] = value;
+    g->seen.data[j * words + (value >> 6)] |= (int64_t)(UINT64_C(1) << (value & 63));
+    int32_t error = value * FINE - base, gap = error - shift;
+    g->gaps.data[AXES * (int64_t)v + j] = gap;
+    *hits = hits_of(&e, value);
+    if (step == 0) *first_gap = size_of(gap);
+    pass_axis(&p->whole, j, error);
+    for (int i = 0; i < 2 && i < r->flaps; i++) pass_axis(&p->plane[i], j, value * FINE - p->across[i][j]);
+    learn(guess, TERMS, term, error, typical);
+    learn(size, HINTS, hint, (int32_t)least(size_of(gap), 8 * (int64_t)typical + 64), typical);
+    return true;
+}
+
+static bool code_vertex(RangeCoder *coder, const ValueModel *model, const Corners *corners, Grid *g, int32_t v, int32_t last) {
+    Place p;
+    survey(corners, g, v, last, &p);
+    int32_t hits = 0, first_gap = 0;
+    for (int step = 0; step < STEPS; step++)
+        if (!code_axis(coder, model, g, v, step, &p, &hits, &first_gap)) return false;
+    for (int32_t i = corners->starts.data[v]; i < corners->starts.data[v + 1]; i++) {
+        int64_t *sum = g->sums.data + 4 * (int64_t)corners->faces.data[next_corner(corners->corners.data[i])];
+        for (int j = 0; j < AXES; j++) sum[j] += g->values.data[AXES * (int64_t)v + j];
+        sum[3]++;
+    }
+    return true;
+}
+
+static bool fits_grid(const Corners *corners, const Grid *g) {
+    int64_t n = corners->rank.size;
+    bool fits = g->largest.size == AXES && g->order.size == n && g->values.rows == n && g->values.columns == AXES
+        && g->gaps.rows == n && g->gaps.columns == AXES && g->sums.rows == n && g->sums.columns == 4
+        && g->seen.rows == AXES && g->learners.rows == LEARNERS && g->learners.columns == LEARNER_COLUMNS;
+    for (int j = 0; j < AXES && fits; j++)
+        fits = g->largest.data[j] >= 0 && g->largest.data[j] < MOST_SPAN && g->largest.data[j] / 64 < g->seen.columns;
+    return fits;
+}
+
+/* Code `count` vertices from number `first` of the order on, as far as there is room (writing) or sense (reading).
+ * Returns how many. */
+int64_t code_grid(Coder given, ValueModel model, Corners corners, Grid grid, int64_t first, int64_t count) {
+    RangeCoder coder;
+    if (!open_coder(&coder, given) || !fits_values(&model) || !fits_corners(&corners) || !fits_grid(&corners, &grid)
+        || first < 0 || count < 0 || first > grid.order.size - count)
+        return MISUSED;
+    int64_t done = 0;
+    for (; done < count && has_room(&coder, AXES * VALUE_BYTES) && !overran(&coder); done++) {
+        int64_t i = first + done;
+        if (!code_vertex(&coder, &model, &corners, &grid, grid.order.data[i], i > 0 ? grid.order.data[i - 1] : -1)) break;
+    }
+    close_coder(&coder, given);
+    return done;
+}

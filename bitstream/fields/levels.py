@@ -1,0 +1,147 @@
+"""Levels that refine a mesh to bytes and back, given the faces; exact."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from bitstream import _kernels
+from bitstream.entropy.range_coder import Coder
+from bitstream.errors import MeshError, OptionError
+from bitstream.fields.chunks import Progress
+from bitstream.fields.corners import BYTES_PER_FACE, BYTES_PER_VERTEX, corners_of
+from bitstream.fields.model import MODEL_BYTES, TERMS, make_learners, make_model
+from bitstream.limits import DEFAULT_LIMITS, Limits
+
+Ints = npt.NDArray[np.int32]
+
+LEGAL_AXES = (1, 3)
+MOST_LEVEL = 1 << 20
+
+
+class _Levels(NamedTuple):
+    """State of levels; the struct `Levels` of `levels.h`."""
+
+    levels: Ints
+    gaps: Ints
+    means: Ints
+    learners: npt.NDArray[np.int64]
+
+
+def levels_charge(vertices: int, faces: int, axes: int) -> int:
+    """Bytes of memory that coding levels takes at most; its work is linear in `vertices` + `faces`, 1 µs per level."""
+    return (BYTES_PER_VERTEX + 12 * axes) * vertices + BYTES_PER_FACE * faces + MODEL_BYTES + (1 << 17)
+
+
+class _LevelsCoder:
+    """What encoder and decoder share."""
+
+    def __init__(self, faces: npt.ArrayLike, vertices: int, axes: int) -> None:
+        if axes not in LEGAL_AXES:
+            raise OptionError(f"a vertex has one level or three, not {axes}")
+        corners = corners_of(faces, vertices)
+        model = make_model()
+        self._levels = _Levels(
+            np.zeros((vertices, axes), np.int32),
+            np.zeros((vertices, axes), np.int32),
+            np.zeros((vertices, axes), np.int32),
+            make_learners(_start_of_learners()),
+        )
+
+        def code(coder: Coder, first: int, count: int) -> int:
+            return _kernels.code_levels(coder, model, corners, self._levels, first, count)
+
+        self._progress = Progress(code, vertices)
+
+    @property
+    def coded(self) -> int:
+        """How many vertices are coded."""
+        return self._progress.next
+
+
+class LevelsEncoder(_LevelsCoder):
+    """Codes levels, vertices in the order of their numbers.
+
+    Parameters
+    ----------
+    faces : integers, shape (m, 3)
+        Any triangles.
+    levels : integers, shape (n, 1) or (n, 3)
+        At most `MOST_LEVEL` in magnitude: along the normal, and along two tangents.
+
+    Raises
+    ------
+    MeshError
+        If faces or levels are out of range.
+    OptionError
+        If there are two levels per vertex, or more than three.
+    """
+
+    def __init__(self, faces: npt.ArrayLike, levels: npt.ArrayLike) -> None:
+        given = np.asarray(levels)
+        if given.ndim != 2 or given.dtype.kind not in "iu":
+            raise MeshError("levels must be integers of shape (n, 1) or (n, 3)")
+        super().__init__(faces, *given.shape)
+        if ((given < -MOST_LEVEL) | (given > MOST_LEVEL)).any():
+            raise MeshError(f"levels must be at most {MOST_LEVEL} in magnitude; choose a larger step")
+        self._levels.levels[:] = given
+
+    def chunk(self, count: int) -> bytes:
+        """Code the next `count` vertices; raises `OptionError` if there are fewer."""
+        return self._progress.write(count)
+
+
+class LevelsDecoder(_LevelsCoder):
+    """Twin of `LevelsEncoder`.
+
+    Parameters
+    ----------
+    faces : integers, shape (m, 3)
+    vertices : int
+        Their number n.
+    axes : int
+        Levels per vertex, 1 or 3.
+    limits : Limits
+        `field_bytes` bounds `levels_charge`.
+
+    Raises
+    ------
+    MeshError, OptionError
+        As `LevelsEncoder`.
+    LimitError
+        Before anything is allocated.
+    """
+
+    def __init__(self, faces: npt.ArrayLike, vertices: int, axes: int, limits: Limits = DEFAULT_LIMITS) -> None:
+        limits.check("field_bytes", levels_charge(vertices, len(np.asarray(faces)), axes))
+        super().__init__(faces, vertices, axes)
+
+    def chunk(self, payload: bytes, count: int) -> tuple[Ints, Ints]:
+        """Decode the next `count` vertices.
+
+        Returns
+        -------
+        vertices : int32 array, shape (count,)
+            Their numbers.
+        levels : int32 array, shape (count, axes)
+
+        Raises
+        ------
+        OptionError
+            If there are fewer; after an error below there is none.
+        CorruptError, TruncatedError
+            If `payload` is not of so many vertices.
+        """
+        numbers = self._progress.read(payload, count)
+        vertices = np.arange(numbers.start, numbers.stop, dtype=np.int32)
+        return vertices, self._levels.levels[numbers.start : numbers.stop].copy()
+
+
+def _start_of_learners() -> npt.NDArray[np.int64]:
+    """Weights at the start, for each axis by the number of flaps (V 11)."""
+    start = np.zeros((3, 4, TERMS), np.int64)
+    start[:, :, 0] = 52000
+    start[:, 1:, 1] = 28000
+    return start.reshape(12, TERMS)

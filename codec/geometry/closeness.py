@@ -1,0 +1,75 @@
+"""What a contract is about: the farthest vertex, and the angle between normals that a viewer sees; cheap to measure."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from codec import _kernels
+from codec.arrays import Mask
+from codec.geometry.graph import Indices
+from codec.geometry.mesh import Faces, Positions
+from codec.geometry.metrics import Floats
+
+
+@dataclass(frozen=True)
+class Closeness:
+    """How close a decoded mesh is to the original.
+
+    Attributes
+    ----------
+    farthest : float
+        Largest distance of a vertex from its place, in the unit of the positions.
+    angle : float
+        Mean angle between corresponding normals, degrees.
+    """
+
+    farthest: float
+    angle: float
+
+
+class Original:
+    """An original, prepared so that one decoded version after another is measured in one pass over the faces.
+
+    Parameters
+    ----------
+    positions : float64 array, shape (n, 3)
+    faces : int32 array, shape (m, 3)
+    by_area : bool
+        Faces count by their area, and not alike.
+
+    Attributes
+    ----------
+    normals : float64 array, shape (m, 3)
+        Unit normals; zero where a face has no area.
+    weights : float64 array, shape (m,)
+        How much each face counts, 1 in all; one without area does not.
+    """
+
+    def __init__(self, positions: Positions, faces: Faces, *, by_area: bool = True) -> None:
+        self.positions: Positions = np.ascontiguousarray(positions, np.float64)
+        self.faces: Indices = np.ascontiguousarray(faces, np.int32)
+        areas, self.normals = np.empty(len(self.faces)), np.empty((len(self.faces), 3))
+        _kernels.face_geometry(self.positions, self.faces, np.empty((len(self.faces), 3)), areas, self.normals)
+        counts = areas if by_area else (areas > 0.0).astype(np.float64)
+        total = counts.sum()
+        self.weights: Floats = counts / total if total > 0.0 else np.zeros(len(areas))
+
+    def angle(self, decoded: Positions) -> float:
+        """Mean angle between corresponding normals, degrees; a face that lost its area counts as 90."""
+        decoded = np.ascontiguousarray(decoded, np.float64)
+        return math.degrees(_kernels.weighted_angle(self.normals, self.weights, decoded, self.faces))
+
+    def angle_of(self, rows: Mask, decoded: Positions) -> float:
+        """What some faces contribute to `angle`."""
+        return math.degrees(_kernels.weighted_angle(self.normals[rows], self.weights[rows], decoded, self.faces[rows]))
+
+    def farthest(self, decoded: Positions) -> float:
+        """Largest distance of a vertex from its place."""
+        return _kernels.farthest_apart(self.positions, np.ascontiguousarray(decoded, np.float64))
+
+    def closeness(self, decoded: Positions) -> Closeness:
+        """Both."""
+        return Closeness(self.farthest(decoded), self.angle(decoded))

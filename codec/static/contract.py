@@ -1,0 +1,57 @@
+"""What an encoder promises of a decoded mesh, whatever the mesh."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from bitstream.errors import OptionError
+from codec.geometry.closeness import Closeness
+
+ANY_ANGLE = 180.0
+
+
+@dataclass(frozen=True)
+class Contract:
+    """Bounds that a decoded mesh keeps.
+
+    Parameters
+    ----------
+    farthest : float
+        How far any vertex may come to lie from its place. The Hausdorff distance of the surfaces is no larger.
+    angle : float
+        Mean angle between corresponding normals, degrees, faces counted by their area; 180: any.
+    absolute : bool
+        `farthest` is in the mesh's unit, and not relative to the diagonal of its bounding box.
+
+    Raises
+    ------
+    OptionError
+        If a bound is not positive.
+    """
+
+    farthest: float
+    angle: float = ANY_ANGLE
+    absolute: bool = False
+
+    def __post_init__(self) -> None:
+        if not 0.0 < self.farthest < float("inf") or (self.farthest > 1.0 and not self.absolute):
+            raise OptionError(f"the farthest vertex must be within 0 to 1 diagonals, not {self.farthest:g}")
+        if not 0.0 < self.angle <= ANY_ANGLE:
+            raise OptionError(f"a mean angle must be within 0 to {ANY_ANGLE:g} degrees, not {self.angle:g}")
+
+    def reach(self, diagonal: float, unit: float) -> float:
+        """How far a vertex of a mesh of this diagonal may come to lie from its place, in multiples of `unit`."""
+        return (self.farthest if self.absolute else self.farthest * diagonal) / unit
+
+    def worded(self, closeness: Closeness, reach: float) -> str:
+        """Which bounds are broken by a mesh so close, where `reach` is how far a vertex may be, in words."""
+        broken = []
+        if closeness.farthest > reach:
+            broken.append(f"no vertex farther than {self.farthest * closeness.farthest / reach:.4g}")
+        if closeness.angle > self.angle:
+            broken.append(f"normals {closeness.angle:.4g} degrees wrong on average")
+        return " and ".join(broken)
+
+    def __str__(self) -> str:
+        bound = f"no vertex farther than {self.farthest:.4g}" + ("" if self.absolute else " diagonals")
+        return bound if self.angle >= ANY_ANGLE else f"{bound}, normals {self.angle:g} degrees wrong on average"

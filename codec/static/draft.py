@@ -1,0 +1,53 @@
+"""A mesh, coded: what the stream will hold, and what its decoder will make of it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+
+from bitstream.container import packets
+from bitstream.container.header import Header
+from bitstream.container.packets import Packet
+from bitstream.container.writer import Writer
+from codec.arrays import Positions
+
+
+@dataclass(frozen=True, eq=False)
+class Draft:
+    """A stream that might be written.
+
+    Parameters
+    ----------
+    header : Header
+    body : tuple of packets
+        All behind the header.
+    decoded : float64 array, shape (n, 3)
+        What the decoder makes of it, in the mesh's unit.
+    """
+
+    header: Header
+    body: tuple[Packet, ...]
+    decoded: Positions
+
+    @cached_property
+    def frames(self) -> tuple[bytes, ...]:
+        """The stream, frame by frame."""
+        return tuple(self._write())
+
+    @property
+    def size(self) -> int:
+        """Bytes of the whole stream."""
+        return sum(map(len, self.frames))
+
+    @property
+    def coefficients(self) -> tuple[int, ...]:
+        """c_i of each block."""
+        return tuple(packet.coefficients for packet in self.body if isinstance(packet, packets.Block))
+
+    def _write(self) -> Iterator[bytes]:
+        writer = Writer()
+        yield writer.start()
+        for packet in (self.header, *self.body):
+            yield writer.write(packet)
+        yield writer.end()

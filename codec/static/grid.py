@@ -1,0 +1,142 @@
+"""Positions on a grid instead of blocks: the encoder's packets, and the stage of the decoder that takes them."""
+
+from __future__ import annotations
+
+from collections import deque
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from bitstream.container import packets
+from bitstream.container.header import Header
+from bitstream.container.reader import Signal
+from bitstream.errors import BsmError, CorruptError
+from bitstream.fields.grid import GridDecoder, GridEncoder
+from bitstream.fields.lattice import spread
+from codec.arrays import Indices, Levels, Positions
+from codec.geometry.mesh import TriangleMesh
+from codec.static.events import BlockEvent, Changes, Losses, LossEvent, unreadable
+from codec.static.preamble import Structure
+from codec.static.stages import Arrival, Stage, misplaced
+from codec.static.whole import Complete
+
+CHUNK = 1 << 15
+"""Vertices of a frame: large meshes are seen while they arrive."""
+
+
+@dataclass(frozen=True, eq=False)
+class Grid:
+    """A grid in the mesh's unit, and where each axis of it ends.
+
+    Parameters
+    ----------
+    origin : tuple of float
+    step : float
+    largest : tuple of int
+        Largest value that is coded of each axis, or that a vertex has.
+    lattice : (int, int), or ()
+        (cells, points): a coded value k stands for the cell nearest to k * cells / points; (): for itself.
+    """
+
+    origin: tuple[float, ...]
+    step: float
+    largest: tuple[int, ...]
+    lattice: tuple[int, ...] = ()
+
+    def positions(self, coded: Levels) -> Positions:
+        """Of coded values, shape (n, 3), in the mesh's unit."""
+        return spread(coded, self.lattice) * self.step + np.array(self.origin)
+
+    @property
+    def fields(self) -> dict[str, Any]:
+        """Twin of `grid_of`: what the header has to say."""
+        return {"center": self.origin, "scale": self.step, "grid": self.largest, "lattice": self.lattice}
+
+
+def grid_of(header: Header) -> Grid:
+    """The grid of a stream."""
+    return Grid(header.center, header.scale, header.grid, header.lattice)
+
+
+def encode_grid(faces: Indices, grid: Grid, coded: Levels) -> list[packets.Grid]:
+    """The packets of coded values, shape (n, 3), between 0 and the grid's largest."""
+    encoder, size = GridEncoder(faces, coded, grid.largest), len(coded)
+    starts = range(0, size, CHUNK)
+    return [packets.Grid(start, min(CHUNK, size - start), encoder.chunk(min(CHUNK, size - start))) for start in starts]
+
+
+class GridStage:
+    """The faces are known; chunks of positions come."""
+
+    def __init__(self, structure: Structure, tolerant: bool) -> None:
+        size = structure.header.vertices
+        self._structure = structure
+        self._tolerant = tolerant
+        self._grid = grid_of(structure.header)
+        self._decoder = GridDecoder(structure.faces, size, self._grid.largest)
+        self._chunks = 0
+        self._broken = False
+        self._ended = False
+        self._result = OnGrid(structure, np.zeros((size, 3)), np.zeros(size, np.bool_))
+
+    def accept(self, arrival: Arrival, queue: deque[Any]) -> Stage[Any]:
+        match arrival:
+            case packets.Grid():
+                self._decode(arrival, queue)
+            case packets.Damaged():
+                self._lose(unreadable(arrival), queue)
+            case packets.End():
+                self._end(queue)
+            case Signal.END_OF_STREAM:
+                if not self._ended:  # a tolerant reader may find no END
+                    self._end(queue)
+                return Complete(self._result)
+            case _:
+                raise misplaced(arrival)
+        return self
+
+    def _decode(self, packet: packets.Grid, queue: deque[Any]) -> None:
+        if self._broken:
+            return
+        try:
+            if packet.first != self._decoder.coded:
+                raise CorruptError(f"positions from number {self._decoder.coded} on are missing; others depend on them")
+            vertices, coded = self._decoder.chunk(packet.data, packet.count)
+        except BsmError as error:
+            if not self._tolerant:
+                raise
+            self._lose(error, queue)
+            return
+        positions = self._grid.positions(coded)
+        self._result.positions[vertices] = positions
+        self._result.known[vertices] = True
+        numbers, rows = self._structure.numbering.spread(vertices)
+        queue.append(BlockEvent(self._chunks, Changes(numbers, positions[rows], np.ones(len(numbers), np.bool_))))
+        self._chunks += 1
+
+    def _lose(self, error: BsmError, queue: deque[Any]) -> None:
+        self._broken = True
+        queue.append(LossEvent(None, error))
+
+    def _end(self, queue: deque[Any]) -> None:
+        self._ended = True
+        queue.append(Complete(self._result))
+
+
+@dataclass(frozen=True, eq=False)
+class OnGrid:
+    """What has been decoded: positions in the mesh's unit, shape (n, 3), as coded, and which of them are known."""
+
+    structure: Structure
+    positions: Positions
+    known: np.ndarray[Any, np.dtype[np.bool_]]
+
+    def mesh(self) -> TriangleMesh:
+        """The mesh in its own unit."""
+        numbering = self.structure.numbering
+        return TriangleMesh(numbering.arranged(self.positions), numbering.faces)
+
+    def losses(self) -> Losses:
+        """What is missing."""
+        return Losses(np.sort(self.structure.numbering.of(np.flatnonzero(~self.known).astype(np.int32))))

@@ -1,0 +1,92 @@
+"""A mesh as its geometry is: one vertex at each position, none that no face uses; and the way back, which is exact."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from bitstream.container.splits import Splits
+from codec.arrays import Indices, Mask, Order
+from codec.geometry.mesh import TriangleMesh
+from codec.geometry.welding import weld
+
+
+@dataclass(frozen=True, eq=False)
+class Joined:
+    """What becomes of a given mesh.
+
+    Parameters
+    ----------
+    mesh : TriangleMesh
+        Vertices as the first at each position is met.
+    index : int32 array, shape (n,)
+        The vertex that each given one has become; -1: no face uses it.
+    first : int64 array
+        The given vertex that is the first at the place of each vertex.
+    kept : int64 array
+        The given faces that are left.
+    splits : Splits, optional
+        What `mesh` needs to become the given one again; None: nothing.
+    notes : tuple of str
+        What was changed.
+    """
+
+    mesh: TriangleMesh
+    index: Indices
+    first: Order
+    kept: Order
+    splits: Splits | None
+    notes: tuple[str, ...]
+
+
+def join(mesh: TriangleMesh, *, keep: bool) -> Joined:
+    """Make vertices at one position one.
+
+    Faces that this robs of their area are left out, unless that would leave none, or the given mesh is to be kept.
+
+    Parameters
+    ----------
+    mesh : TriangleMesh
+    keep : bool
+        The stream shall give every vertex and face back.
+    """
+    positions, faces, index = weld(mesh.positions, mesh.faces)
+    collapsed = _degenerate(faces) & ~_degenerate(mesh.faces)
+    if keep or collapsed.all():
+        collapsed[:] = False
+    kept = np.flatnonzero(~collapsed)
+    used = np.zeros(len(positions), np.bool_)
+    used[faces[kept]] = True
+    index = np.where(used[index], (np.cumsum(used) - 1)[index], -1).astype(np.int32)
+    # A vertex that no face uses is no copy of one that is used, although it is there, too.
+    given = np.zeros(len(mesh.positions), np.bool_)
+    given[mesh.faces[kept]] = True
+    index[~given] = -1
+    first = np.full(int(used.sum()), len(index), np.int64)
+    np.minimum.at(first, index[given], np.flatnonzero(given))
+    order = np.argsort(first)  # where the first at a place was in no face, another one has become the first
+    if (np.diff(first) < 0).any():
+        rank = np.empty(len(order), np.int32)
+        rank[order] = np.arange(len(order), dtype=np.int32)
+        index[given] = rank[index[given]]
+        first = first[order]
+    joined = TriangleMesh(mesh.positions[first], index[mesh.faces[kept]])
+    mentioned = np.zeros(len(mesh.positions), np.bool_)
+    mentioned[mesh.faces] = True
+    merged, loose = int(mentioned.sum()) - len(first), len(index) - int(mentioned.sum())
+    splits = Splits(index, mesh.faces, mesh.positions[~given]) if keep and (merged or loose) else None
+    notes = []
+    if merged and not keep:
+        notes.append(f"{merged} vertices were merged with others at the same position")
+    if collapsed.any():
+        notes.append(f"{int(collapsed.sum())} faces without area were left out")
+    if loose and not keep:
+        notes.append(f"{loose} vertices that no face uses were left out")
+    return Joined(joined, index, first, kept, splits, tuple(notes))
+
+
+def _degenerate(faces: Indices) -> Mask:
+    """Which faces name a vertex twice."""
+    a, b, c = faces.T
+    return (a == b) | (b == c) | (a == c)

@@ -1,0 +1,104 @@
+"""Drafts of positions on grids: rounded, or shaped for the normals."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from bitstream.container.header import Header
+from bitstream.errors import TargetError
+from bitstream.fields.grid import MOST_LARGEST
+from bitstream.fields.lattice import find_lattice
+from codec.arrays import Levels, Matrix, Positions
+from codec.static.draft import Draft
+from codec.static.grid import Grid, encode_grid
+from codec.static.preamble import Prepared
+from codec.static.shaping import Aim, Shaper
+from codec.static.units import single
+
+MOST_SINGLE = 1e38
+PART_OF_CELL = 1.0 / 64.0
+
+
+def grid_draft(prepared: Prepared, grid: Grid, places: Levels) -> Draft:
+    """The stream of places on a grid, shape (n, 3), none negative."""
+    header = Header(vertices=prepared.graph.size, faces=len(prepared.mesh.faces), **grid.fields)
+    body = (*prepared.packets_of_grid, *encode_grid(prepared.mesh.faces, grid, places))
+    return Draft(header, body, grid.positions(places))
+
+
+def rounded(prepared: Prepared, bits: int) -> Draft:
+    """Every position at the nearest place of a grid of so many bits along the longest side of the bounding box.
+
+    In single precision, by the operations of Draco's quantiser, so that the places are the same; but for meshes so far
+    from the origin that single precision would move them by some part of a cell, in double precision.
+
+    Raises
+    ------
+    TargetError
+        If the cells are beyond the range of numbers.
+    """
+    positions = prepared.mesh.positions
+    cells = (1 << bits) - 1
+    largest, extent = np.abs(positions).max(), np.ptp(positions, axis=0).max()
+    narrow = largest < MOST_SINGLE and np.spacing(np.float32(largest)) * cells < PART_OF_CELL * extent
+    kind = np.float32 if narrow else np.float64
+    values = positions.astype(kind)
+    low = values.min(axis=0)
+    most, extent = kind(cells), (values - low).max()
+    if not extent > 0:
+        extent = kind(1)
+    places = np.floor((values - low) * (most / extent) + kind(0.5)).astype(np.int64)
+    step = float(extent / most)
+    if not (step > 0.0 and np.isfinite(step)):
+        raise TargetError(f"a grid of {bits} bits is beyond the range of numbers for this mesh")
+    return grid_draft(prepared, *latticed(tuple(map(float, low)), step, places, cells))
+
+
+def latticed(origin: tuple[float, ...], step: float, places: Matrix, cells: int) -> tuple[Grid, Levels]:
+    """The grid of places, on a coarser lattice where they all are on one."""
+    points, lattice = find_lattice(places, cells)
+    return Grid(origin, step, tuple(int(value) for value in points.max(axis=0)), lattice), points
+
+
+class Shaped:
+    """Shaped grids of one mesh, at one step after another.
+
+    Parameters
+    ----------
+    prepared : Prepared
+    shaper : Shaper
+        Of the same, in BSM units.
+    """
+
+    def __init__(self, prepared: Prepared, shaper: Shaper) -> None:
+        self._prepared = prepared
+        self._shaper = shaper
+        low = prepared.mesh.positions.min(axis=0)
+        narrow = low.astype(np.float32)
+        fine = np.spacing(np.abs(narrow)).max() < 1e-6 * prepared.units.scale
+        self._hold = single if fine else float
+        below = np.where(narrow > low, np.nextafter(narrow, np.float32(-np.inf)), narrow).astype(np.float64)
+        self._origin = below if fine else low
+        self._low = prepared.units.into(self._origin)
+
+    @property
+    def finest(self) -> float:
+        """The least step, in BSM units, that a grid can have."""
+        return float((self._prepared.positions - self._low).max()) / (MOST_LARGEST - 4)
+
+    def places(self, step: float, aim: Aim, axes: int = 2) -> tuple[float, Levels, Positions]:
+        """The step as a header holds it, in the mesh's unit; places; and the positions there, in the mesh's unit."""
+        unit = self._prepared.units.scale
+        held = single(step * unit)
+        wanted = np.floor((self._prepared.positions - self._low) / (held / unit) + 0.5).astype(np.int32)
+        places = self._shaper.places(wanted, self._low, held / unit, aim, axes)
+        return held, places, self._grid(held, places).positions(places - places.min(axis=0))
+
+    def draft(self, step: float, places: Levels) -> Draft:
+        """The stream of what `places` returned."""
+        return grid_draft(self._prepared, self._grid(step, places), places - places.min(axis=0))
+
+    def _grid(self, step: float, places: Levels) -> Grid:
+        least = places.min(axis=0)
+        origin = tuple(self._hold(value) for value in self._origin + least * step)
+        return Grid(origin, step, tuple(int(value) for value in np.ptp(places, axis=0)))

@@ -1,0 +1,161 @@
+"""Layers of refinement over decoded blocks: the encoder's packets, and the stage of the decoder that takes them.
+
+What a layer adds, it adds in the frames of the base: layers know nothing of each other.
+"""
+
+from __future__ import annotations
+
+from collections import deque
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from bitstream.container import packets
+from bitstream.container.header import Layer
+from bitstream.container.reader import Signal
+from bitstream.errors import BsmError, CorruptError
+from bitstream.fields.levels import LevelsDecoder, LevelsEncoder
+from codec.arrays import Indices, Levels, Mask, Matrix
+from codec.geometry.mesh import TriangleMesh
+from codec.signal.frames import displaced, local_frames
+from codec.static.assembly import Assembly
+from codec.static.events import Losses, LossEvent, RefinementEvent, unreadable
+from codec.static.preamble import Structure
+from codec.static.stages import Arrival, Stage, misplaced
+from codec.static.whole import Complete
+from codec.threads import Lanes, Pending
+
+CHUNK = 1 << 15
+"""Vertices of a frame."""
+
+
+def encode_layer(faces: Indices, layer: int, levels: Levels) -> list[packets.Refinement]:
+    """The packets of a layer's levels, shape (n, axes)."""
+    encoder, size = LevelsEncoder(faces, levels), len(levels)
+    chunks = [(start, min(CHUNK, size - start)) for start in range(0, size, CHUNK)]
+    return [packets.Refinement(layer, start, count, encoder.chunk(count)) for start, count in chunks]
+
+
+@dataclass(frozen=True, eq=False)
+class PendingLevels:
+    """Levels of some vertices in a layer, counted from 0, that are being decoded, and what they will refine."""
+
+    layer: int
+    pending: Pending[tuple[Indices, Levels]]
+    refined: Refined
+
+
+class RefinementStage:
+    """All blocks are there, or known to be lost; levels come.
+
+    Parameters
+    ----------
+    assembly : Assembly
+        That has all blocks when the levels are asked for.
+    structure : Structure
+    lanes : Lanes
+    layers : int
+        How many are wanted; the rest of the stream behind them is not.
+    tolerant : bool
+    """
+
+    def __init__(self, assembly: Assembly, structure: Structure, lanes: Lanes, layers: int, tolerant: bool) -> None:
+        header = structure.header
+        self._lanes = lanes
+        self._layers = layers
+        self._tolerant = tolerant
+        self._ended = False
+        self._refined = Refined(assembly, structure)
+        self._decoders = [LayerDecoder(structure.faces, header.vertices, layer) for layer in header.layers]
+
+    def accept(self, arrival: Arrival, queue: deque[Any]) -> Stage[Any]:
+        match arrival:
+            case packets.Refinement():
+                if arrival.layer >= self._layers:
+                    return self._complete(queue)
+                self._decode(arrival, queue)
+            case packets.Damaged():
+                queue.append(LossEvent(None, unreadable(arrival)))
+            case packets.End():
+                self._complete(queue)
+            case Signal.END_OF_STREAM:
+                return self._complete(queue)
+            case _:
+                raise misplaced(arrival)
+        return self
+
+    def _decode(self, packet: packets.Refinement, queue: deque[Any]) -> None:
+        decoder = self._decoders[packet.layer]
+        pending = self._lanes.submit(-1 - packet.layer, lambda: decoder.decode(packet))
+        queue.append(PendingLevels(packet.layer, pending, self._refined))
+
+    def _complete(self, queue: deque[Any]) -> Stage[Any]:
+        complete = Complete(self._refined)
+        if not self._ended:
+            queue.append(complete)
+        self._ended = True
+        return complete
+
+
+class LayerDecoder:
+    """Decodes the packets of one layer, in their order."""
+
+    def __init__(self, faces: Indices, vertices: int, layer: Layer) -> None:
+        self._given = faces, vertices, layer.axes
+
+    def decode(self, packet: packets.Refinement) -> tuple[Indices, Levels]:
+        """Vertices and their levels; once a packet is missing or broken, the rest of the layer cannot be decoded."""
+        following = self._decoder.coded
+        if packet.first != following:
+            raise CorruptError(f"layer {packet.layer + 1} lacks the vertices before {packet.first}: the rest is lost")
+        return self._decoder.chunk(packet.data, packet.count)
+
+    @cached_property
+    def _decoder(self) -> LevelsDecoder:
+        return LevelsDecoder(*self._given)
+
+
+class Refined:
+    """The blocks of a mesh, put together, and what layers have added so far."""
+
+    def __init__(self, assembly: Assembly, structure: Structure) -> None:
+        self._assembly = assembly
+        self._structure = structure
+        self._reached = np.zeros((len(structure.header.layers), structure.header.vertices), np.bool_)
+
+    def add(self, layer: int, vertices: Indices, levels: Levels) -> Indices:
+        """Add the levels of successive vertices; returns those that can be refined: all whose base is whole."""
+        positions, frames, whole = self._base
+        chosen = vertices[whole[vertices]]
+        rule = self._structure.header.layers[layer]
+        moved = displaced(positions[chosen], frames[chosen], levels[whole[vertices]], rule.step, rule.ratio)
+        positions[chosen] = moved
+        self._reached[layer, chosen] = True
+        return chosen
+
+    def event(self, layer: int, vertices: Indices) -> RefinementEvent:
+        """Say where vertices are now."""
+        numbers, rows = self._structure.numbering.spread(vertices)
+        positions = self._structure.units.back(self._base[0][vertices])
+        return RefinementEvent(layer + 1, numbers, positions[rows])
+
+    def mesh(self) -> TriangleMesh:
+        """The mesh in its own unit."""
+        numbering = self._structure.numbering
+        return TriangleMesh(numbering.arranged(self._structure.units.back(self._base[0])), numbering.faces)
+
+    def losses(self) -> Losses:
+        """What is missing or less good: also what a layer has begun to refine and not reached."""
+        lost = self._assembly.losses()
+        begun = self._reached.any(axis=1)
+        unrefined = np.flatnonzero(~self._reached[begun].all(axis=0)).astype(np.int32)
+        behind = np.setdiff1d(self._structure.numbering.of(unrefined), lost.missing)
+        return Losses(lost.missing, np.union1d(lost.degraded, behind).astype(np.int32))
+
+    @cached_property
+    def _base(self) -> tuple[Matrix, Matrix, Mask]:
+        """Positions in BSM units, which layers move; frames; and whose frames are those of the encoder."""
+        positions, whole = self._assembly.base()
+        return positions, local_frames(positions, self._structure.faces), whole

@@ -1,0 +1,220 @@
+/* Levels chosen so that normals come out right at few bits, instead of rounding. Encoder only: decoders see levels.
+ *
+ * Coordinate descent, vertex after vertex: of the levels nearby, the one at which the faces around are bent least, by
+ * area-weighted angle (as the chord, 2 sin(angle / 2)), and cheap to code. A vertex is looked at again when it or a
+ * neighbour has moved. */
+#include "codec/static/shaping.h"
+
+enum { FAN = 32 }; /* faces of one vertex that are looked at */
+
+typedef struct { /* the faces at a vertex: their other corners, wanted normals, weights */
+    int count;
+    double next[FAN][3], last[FAN][3], normal[FAN][3], weight[FAN];
+} Fan;
+
+static void gather(const Wanted *wanted, ConstDoubles2 moved, int32_t v, Fan *fan) {
+    fan->count = 0;
+    for (int64_t i = wanted->around_starts.data[v]; i < wanted->around_starts.data[v + 1] && fan->count < FAN; i++) {
+        int32_t f = wanted->around.data[i];
+        const int32_t *face = wanted->faces.data + 3 * (int64_t)f;
+        int corner = face[0] == v ? 0 : face[1] == v ? 1 : 2, k = fan->count++;
+        const double *a = moved.data + 3 * (int64_t)face[(corner + 1) % 3];
+        const double *b = moved.data + 3 * (int64_t)face[(corner + 2) % 3];
+        for (int j = 0; j < 3; j++) {
+            fan->next[k][j] = a[j], fan->last[k][j] = b[j];
+            fan->normal[k][j] = wanted->normals.data[3 * (int64_t)f + j];
+        }
+        fan->weight[k] = wanted->weights.data[f];
+    }
+}
+
+/* How bent the faces are with the vertex at x; no further than to `most`. */
+INLINE double bent(const Fan *fan, const double *x, double most) {
+    double sum = 0.0;
+    for (int k = 0; k < fan->count && sum < most; k++) {
+        const double *a = fan->next[k], *b = fan->last[k], *normal = fan->normal[k];
+        double u0 = a[0] - x[0], u1 = a[1] - x[1], u2 = a[2] - x[2], v0 = b[0] - x[0], v1 = b[1] - x[1], v2 = b[2] - x[2];
+        double n0 = u1 * v2 - u2 * v1, n1 = u2 * v0 - u0 * v2, n2 = u0 * v1 - u1 * v0;
+        double cosine = (n0 * normal[0] + n1 * normal[1] + n2 * normal[2]) /
+                        __builtin_sqrt(n0 * n0 + n1 * n1 + n2 * n2 + 1e-200);
+        double chord = 2.0 - 2.0 * cosine;
+        sum += fan->weight[k] * __builtin_sqrt(chord > 0.0 ? chord : 0.0);
+    }
+    return sum;
+}
+
+INLINE double square(const double *a, const double *b) {
+    return (a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]) + (a[2] - b[2]) * (a[2] - b[2]);
+}
+
+INLINE double size(double x) { return x < 0.0 ? -x : x; }
+
+static void open_around(const Wanted *wanted, int32_t v, Bytes open) {
+    open.data[v] = 1;
+    for (int32_t i = wanted->beside_starts.data[v]; i < wanted->beside_starts.data[v + 1]; i++)
+        open.data[wanted->beside.data[i]] = 1;
+}
+
+static bool fits(const Wanted *wanted, Doubles2 moved, Ints2 levels, Bytes open) {
+    int64_t n = wanted->positions.rows;
+    return wanted->positions.columns == 3 && wanted->faces.columns == 3 && wanted->normals.columns == 3 &&
+           wanted->normals.rows == wanted->faces.rows && wanted->weights.size == wanted->faces.rows &&
+           wanted->around_starts.size == n + 1 && wanted->beside_starts.size == n + 1 && moved.rows == n &&
+           moved.columns == 3 && levels.rows == n && open.size == n;
+}
+
+/* Levels (n x axes) along `directions` (n x 3 axes, a level long); `moved` is where they bring the vertices, and kept in
+ * step. A level costs its distance from `pull` times the mean of all neighbours', over the scale of its axis. Returns how
+ * often a vertex moved. */
+KERNEL int64_t shape_levels(Wanted wanted, Aim aim, Doubles2 moved, Ints2 levels, ConstDoubles2 directions,
+                            ConstDoubles scales, double pull, Bytes open) {
+    int64_t axes = levels.columns, moves = 0;
+    if (!fits(&wanted, moved, levels, open) || axes < 1 || axes > 3 || scales.size != axes ||
+        directions.rows != levels.rows || directions.columns != 3 * axes)
+        return MISUSED;
+    ConstDoubles2 now_at = {moved.data, moved.rows, moved.columns};
+    double reach = aim.reach * aim.reach;
+    Fan fan;
+    for (int64_t v = 0; v < open.size; v++) open.data[v] = 1;
+    for (int64_t sweep = 0; sweep < aim.sweeps; sweep++)
+        for (int32_t v = 0; v < (int32_t)levels.rows; v++) {
+            if (!open.data[v]) continue;
+            open.data[v] = 0;
+            gather(&wanted, now_at, v, &fan);
+            double *at = moved.data + 3 * (int64_t)v, now = bent(&fan, at, __builtin_inf());
+            const double *place = wanted.positions.data + 3 * (int64_t)v;
+            double far = square(place, at);
+            int32_t first = wanted.beside_starts.data[v], end = wanted.beside_starts.data[v + 1];
+            bool any = false;
+            for (int64_t a = 0; a < axes; a++) {
+                const double *direction = directions.data + (v * axes + a) * 3;
+                double mean = 0.0;
+                for (int32_t i = first; i < end; i++) mean += levels.data[wanted.beside.data[i] * axes + a];
+                mean = end > first ? pull * mean / (end - first) : 0.0;
+                int32_t *level = levels.data + v * axes + a;
+                double unit = aim.worth / scales.data[a], stay = unit * size(*level - mean);
+                for (int by = -1; by <= 1; by += 2) {
+                    double there[3] = {at[0] + by * direction[0], at[1] + by * direction[1], at[2] + by * direction[2]};
+                    double away = square(place, there), most = now + stay - unit * size(*level + by - mean);
+                    if ((away > reach && away > far) || most <= 0.0) continue;
+                    double then = bent(&fan, there, most);
+                    if (then < most) {
+                        at[0] = there[0], at[1] = there[1], at[2] = there[2];
+                        now = then, far = away, *level += by, any = true;
+                        break;
+                    }
+                }
+            }
+            if (any) {
+                moves++;
+                open_around(&wanted, v, open);
+            }
+        }
+    return moves;
+}
+
+/* Places on a grid (n x 3), `moved` their positions, kept in step. `flaps`: rows of four vertices, and `bends` the sum of
+ * the first two places less that of the others; a vertex is in the flaps `members` / 2, on the second side where odd.
+ * What a bend costs: `rates`. A vertex moves along at most `axes` axes at once. Returns how often one moved. */
+KERNEL int64_t shape_grid(Wanted wanted, Aim aim, Doubles2 moved, Ints2 places, double step, ConstInts2 flaps,
+                          ConstInts starts, ConstInts members, Ints2 bends, ConstDoubles rates, int64_t axes,
+                          Bytes open) {
+    if (!fits(&wanted, moved, places, open) || places.columns != 3 || flaps.columns != 4 || bends.columns != 3 ||
+        bends.rows != flaps.rows || starts.size != places.rows + 1 || rates.size < 1)
+        return MISUSED;
+    ConstDoubles2 now_at = {moved.data, moved.rows, moved.columns};
+    double reach = aim.reach * aim.reach;
+    int64_t moves = 0;
+    Fan fan;
+    for (int64_t v = 0; v < open.size; v++) open.data[v] = 1;
+    for (int64_t sweep = 0; sweep < aim.sweeps; sweep++)
+        for (int32_t v = 0; v < (int32_t)places.rows; v++) {
+            if (!open.data[v]) continue;
+            open.data[v] = 0;
+            gather(&wanted, now_at, v, &fan);
+            double rate[3][3] = {{0.0}};
+            for (int32_t i = starts.data[v]; i < starts.data[v + 1]; i++) {
+                const int32_t *bend = bends.data + 3 * (int64_t)(members.data[i] >> 1);
+                int sign = members.data[i] & 1 ? -1 : 1;
+                for (int a = 0; a < 3; a++)
+                    for (int d = -1; d <= 1; d++) {
+                        int64_t value = (int64_t)bend[a] + sign * d;
+                        rate[a][d + 1] += rates.data[least(value < 0 ? -value : value, rates.size - 1)];
+                    }
+            }
+            double *at = moved.data + 3 * (int64_t)v;
+            const double *place = wanted.positions.data + 3 * (int64_t)v;
+            double far = square(place, at);
+            double best = bent(&fan, at, __builtin_inf()) + aim.worth * (rate[0][1] + rate[1][1] + rate[2][1]);
+            int pick = 13;
+            for (int c = 0; c < 27; c++) {
+                int by[3] = {c % 3 - 1, c / 3 % 3 - 1, c / 9 - 1}, along = (by[0] != 0) + (by[1] != 0) + (by[2] != 0);
+                if (along == 0 || along > axes) continue;
+                double cost = aim.worth * (rate[0][by[0] + 1] + rate[1][by[1] + 1] + rate[2][by[2] + 1]);
+                if (cost >= best) continue;
+                double there[3] = {at[0] + step * by[0], at[1] + step * by[1], at[2] + step * by[2]};
+                double away = square(place, there);
+                if (away > reach && away > far) continue;
+                cost += bent(&fan, there, best - cost);
+                if (cost < best) best = cost, pick = c;
+            }
+            if (pick == 13) continue;
+            int by[3] = {pick % 3 - 1, pick / 3 % 3 - 1, pick / 9 - 1};
+            for (int a = 0; a < 3; a++) at[a] += step * by[a], places.data[3 * (int64_t)v + a] += by[a];
+            for (int32_t i = starts.data[v]; i < starts.data[v + 1]; i++)
+                for (int a = 0; a < 3; a++)
+                    bends.data[3 * (int64_t)(members.data[i] >> 1) + a] += (members.data[i] & 1 ? -1 : 1) * by[a];
+            moves++;
+            open_around(&wanted, v, open);
+        }
+    return moves;
+}
+
+/* Two faces at an edge, as its ends and the two corners opposite: rows of `flaps`, at most one for each edge. `starts` and
+ * `members` are the graph's rows, ascending; `pending` is scratch, as long as `members`. Returns how many. */
+int64_t collect_flaps(ConstInts2 faces, ConstInts starts, ConstInts members, Ints pending, Ints2 flaps) {
+    if (faces.columns != 3 || flaps.columns != 4 || pending.size != members.size) return MISUSED;
+    int64_t count = 0;
+    for (int64_t i = 0; i < pending.size; i++) pending.data[i] = -1;
+    for (int64_t f = 0; f < faces.rows; f++)
+        for (int corner = 0; corner < 3; corner++) {
+            const int32_t *face = faces.data + 3 * f;
+            int32_t c = face[corner], a = face[(corner + 1) % 3], b = face[(corner + 2) % 3];
+            int32_t low = (int32_t)least(a, b), high = (int32_t)largest(a, b);
+            if (a == b || a == c || b == c) continue;
+            int64_t from = starts.data[low], to = starts.data[low + 1];
+            while (to - from > 1) {
+                int64_t middle = (from + to) / 2;
+                if (members.data[middle] <= high)
+                    from = middle;
+                else
+                    to = middle;
+            }
+            int32_t before = pending.data[from];
+            if (before < 0) {
+                pending.data[from] = c;
+            } else if (before != c && count < flaps.rows) {
+                int32_t *flap = flaps.data + 4 * count++;
+                flap[0] = low, flap[1] = high, flap[2] = before, flap[3] = c;
+                pending.data[from] = -1;
+            }
+        }
+    return count;
+}
+
+/* The flaps of each vertex: 2 f where it is an end of flap f's edge, 2 f + 1 where it is opposite. */
+int64_t group_flaps(ConstInts2 flaps, Ints starts, Ints members) {
+    if (flaps.columns != 4 || members.size != 4 * flaps.rows || starts.size < 1) return MISUSED;
+    int64_t n = starts.size - 1;
+    for (int64_t v = 0; v <= n; v++) starts.data[v] = 0;
+    for (int64_t i = 0; i < 4 * flaps.rows; i++) starts.data[flaps.data[i] + 1]++;
+    for (int64_t v = 0; v < n; v++) starts.data[v + 1] += starts.data[v];
+    for (int64_t i = 4 * flaps.rows; i-- > 0;) {
+        int32_t v = flaps.data[i];
+        members.data[--starts.data[v + 1]] = (int32_t)(2 * (i / 4) + (i % 4 >= 2));
+    }
+    /* Every end has come down to where the row begins: move them up by one. */
+    for (int64_t v = 0; v < n; v++) starts.data[v] = starts.data[v + 1];
+    starts.data[n] = (int32_t)members.size;
+    return 0;
+}

@@ -1,0 +1,158 @@
+"""Levels chosen for the normals instead of rounded: what is coded gets smooth, and cheap. Encoder only.
+
+Rounding errors of neighbours have nothing to do with each other, and so they bend the faces between them. A sweep over
+the vertices that takes, of the levels nearby, the one at which faces are bent least makes the error smooth: at the same
+angle between normals the levels can be twice as coarse. The cost of a level is an estimate of its bits.
+"""
+
+from __future__ import annotations
+
+from functools import cached_property
+from typing import NamedTuple
+
+import numpy as np
+
+from codec import _kernels
+from codec.arrays import Indices, Levels, Matrix, Positions
+from codec.geometry.closeness import Original
+from codec.geometry.graph import graph_of_faces
+from codec.geometry.incidence import vertex_faces
+
+PULL = 0.8
+"""A level is expected at so much of the mean of its neighbours'."""
+RATES = np.log1p(np.arange(4096.0))
+"""Bits, but for a factor, of a place on a grid that is so far from where a parallelogram would have it."""
+
+SHARP = 0.4
+"""Of the mean angle between faces beside each other: with a median below it, a surface has sharp edges."""
+MOST_FLAPS, MOST_BEND = 1 << 13, 1 << 10
+"""What entropy is measured on: so many second differences, and so large ones."""
+
+
+class Aim(NamedTuple):
+    """What shaping is after.
+
+    Parameters
+    ----------
+    worth : float
+        Mean angle, radians, that a nat per vertex is worth.
+    reach : float
+        How far a vertex may come to lie from its place.
+    sweeps : int
+    """
+
+    worth: float
+    reach: float = np.inf
+    sweeps: int = 6
+
+
+class Shaper:
+    """Chooses levels for one mesh.
+
+    Parameters
+    ----------
+    original : Original
+        In BSM units.
+    """
+
+    def __init__(self, original: Original) -> None:
+        positions, faces = original.positions, original.faces
+        graph = graph_of_faces(faces, len(positions))
+        around = vertex_faces(faces, len(positions))
+        self._original = original
+        self._graph = graph
+        self._wanted = (
+            positions, faces, around.starts, around.members, graph.offsets, graph.neighbours,
+            original.normals, original.weights,
+        )  # fmt: skip
+        self._open = np.empty(len(positions), np.uint8)
+
+    @cached_property
+    def mean_edge(self) -> float:
+        """Mean length of an edge, as faces count it: of their first edge."""
+        a, b = self._original.faces[:, 0], self._original.faces[:, 1]
+        lengths = np.sqrt(np.square(self._original.positions[a] - self._original.positions[b]).sum(axis=1))
+        return float(lengths.mean())
+
+    def levels(self, base: Positions, wanted: Levels, directions: Matrix, aim: Aim) -> Levels:
+        """Levels along fixed directions.
+
+        Parameters
+        ----------
+        base : float64 array, shape (n, 3)
+            Where a vertex is with levels of zero.
+        wanted : int32 array, shape (n, axes)
+            The nearest levels; axes is 1 or 3.
+        directions : float64 array, shape (n, axes, 3)
+            One level of each.
+        aim : Aim
+        """
+        chosen = np.array(wanted, np.int32, order="C")
+        scales = np.maximum(np.abs(chosen).mean(axis=0), 0.4)
+        moved = np.ascontiguousarray(base + np.einsum("na,naj->nj", chosen.astype(np.float64), directions))
+        flat = np.ascontiguousarray(directions.reshape(len(base), -1))
+        _kernels.shape_levels(self._wanted, self._aim(aim, 1), moved, chosen, flat, scales, PULL, self._open)
+        return chosen
+
+    def places(self, wanted: Levels, origin: Matrix, step: float, aim: Aim, axes: int = 2) -> Levels:
+        """Places on a grid.
+
+        Parameters
+        ----------
+        wanted : int32 array, shape (n, 3)
+            The nearest places.
+        origin : float64 array, shape (3,)
+            Where place 0 is.
+        step : float
+        aim : Aim
+        axes : int
+            Along how many a vertex may move at once.
+        """
+        chosen = np.array(wanted, np.int32, order="C")
+        flaps, starts, members = self._flaps
+        bends = chosen[flaps[:, 0]] + chosen[flaps[:, 1]] - chosen[flaps[:, 2]] - chosen[flaps[:, 3]]
+        moved = np.ascontiguousarray(chosen * step + origin)
+        _kernels.shape_grid(
+            self._wanted, self._aim(aim, 3), moved, chosen, step, flaps, starts, members,
+            np.ascontiguousarray(bends), RATES, axes, self._open,
+        )  # fmt: skip
+        return chosen
+
+    def entropy(self, step: float) -> float:
+        """Bits of the mesh on a rounded grid, if each place took what a second difference takes, by a histogram."""
+        flaps = self._flaps[0]
+        some = flaps[:: max(1, len(flaps) // MOST_FLAPS)]
+        if not len(some):
+            return 0.0
+        positions = self._original.positions
+        corners = np.rint((positions[some] - positions.min(axis=0)) / step).astype(np.int64)
+        bends = np.abs(corners[:, 0] + corners[:, 1] - corners[:, 2] - corners[:, 3])
+        shares = [np.bincount(np.minimum(axis, MOST_BEND)) / len(some) for axis in bends.T]
+        magnitudes = sum(float(-(share[share > 0] * np.log2(share[share > 0])).sum()) for share in shares)
+        signs = sum(1.0 - float(share[0]) for share in shares)
+        return len(positions) * (magnitudes + signs)
+
+    @cached_property
+    def is_sharp(self) -> bool:
+        """Whether the surface is flat nearly everywhere, and bent at few edges: as models are, and scans are not."""
+        flaps = self._flaps[0]
+        some = self._original.positions[flaps[:: max(1, len(flaps) // MOST_FLAPS)]]
+        edge = some[:, 1] - some[:, 0]
+        first, second = np.cross(edge, some[:, 2] - some[:, 0]), np.cross(some[:, 3] - some[:, 0], edge)
+        across = np.cross(first, second)
+        angles = np.arctan2(np.sqrt((across * across).sum(axis=1)), (first * second).sum(axis=1))
+        return bool(len(angles) == 0 or np.median(angles) <= SHARP * angles.mean())
+
+    def _aim(self, aim: Aim, share: int) -> tuple[float, float, int]:
+        return aim.worth / (share * len(self._open)), float(aim.reach), aim.sweeps
+
+    @cached_property
+    def _flaps(self) -> tuple[Indices, Indices, Indices]:
+        faces, graph = self._original.faces, self._graph
+        flaps = np.empty((len(graph.neighbours) // 2, 4), np.int32)
+        pending = np.empty(len(graph.neighbours), np.int32)
+        count = _kernels.collect_flaps(faces, graph.offsets, graph.neighbours, pending, flaps)
+        flaps = flaps[:count].copy()
+        starts, members = np.empty(graph.size + 1, np.int32), np.empty(4 * count, np.int32)
+        _kernels.group_flaps(flaps, starts, members)
+        return flaps, starts, members

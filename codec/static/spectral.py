@@ -1,0 +1,162 @@
+"""Drafts of blocks: a base, and layers of refinement on it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+
+from bitstream.container.header import Header, Layer
+from codec.arrays import Levels, Matrix
+from codec.geometry.closeness import Original
+from codec.signal.frames import displaced, in_frames, local_frames
+from codec.signal.smooth import smooth
+from codec.static.assembly import blended
+from codec.static.block_coder import ChainEncoder, Progress, encode_blocks
+from codec.static.draft import Draft
+from codec.static.options import EncodeOptions
+from codec.static.plan import Planner
+from codec.static.preamble import Prepared
+from codec.static.refinement import encode_layer
+from codec.static.units import single
+
+
+@dataclass(frozen=True, eq=False)
+class Base:
+    """Blocks, coded.
+
+    Parameters
+    ----------
+    prepared : Prepared
+    draft : Draft
+        Of the blocks alone.
+    positions : float64 array, shape (n, 3)
+        As decoded, in BSM units.
+    """
+
+    prepared: Prepared
+    draft: Draft
+    positions: Matrix
+
+    @cached_property
+    def frames(self) -> Matrix:
+        """The frames that levels are in, shape (n, 9)."""
+        return local_frames(self.positions, self.prepared.mesh.faces)
+
+    @cached_property
+    def offsets(self) -> Matrix:
+        """What is missing, in these frames: along normals and tangents, shape (n, 3)."""
+        return self.offsets_of(self.positions)
+
+    def offsets_of(self, positions: Matrix) -> Matrix:
+        """What is missing where the base was moved to `positions`, in the same frames."""
+        return in_frames(self.prepared.positions - positions, self.frames)
+
+    @property
+    def upright(self) -> Matrix:
+        """Positions of which nothing is missing along the normals."""
+        return self.positions + self.frames[:, :3] * self.offsets[:, :1]
+
+    def wanted(self, layer: Layer) -> tuple[Levels, Matrix]:
+        """The nearest levels of a layer, shape (n, axes), and what one of each moves, shape (n, axes, 3)."""
+        steps = np.array([layer.step, layer.step * layer.ratio, layer.step * layer.ratio][: layer.axes])
+        directions = self.frames.reshape(-1, 3, 3)[:, : layer.axes] * steps[:, None]
+        return np.rint(self.offsets[:, : layer.axes] / steps).astype(np.int32), directions
+
+    def layer(self, step: float, ratio: float) -> Layer:
+        """A layer whose numbers a header can hold."""
+        return Layer(single(step), single(ratio))
+
+    def moved(self, layer: Layer, levels: Levels, positions: Matrix | None = None) -> Matrix:
+        """Where levels bring the base, or other positions, in BSM units."""
+        return displaced(self.positions if positions is None else positions, self.frames, levels, layer.step, layer.ratio)
+
+    def refined(self, *added: tuple[Layer, Levels]) -> Draft:
+        """With layers of levels, shapes (n, axes)."""
+        positions = self.positions
+        body = self.draft.body
+        for number, (layer, levels) in enumerate(added):
+            positions = self.moved(layer, levels, positions)
+            body += tuple(encode_layer(self.prepared.mesh.faces, number, levels))
+        numbers = tuple(number for layer, _ in added for number in (layer.step, layer.ratio))
+        header = replace(self.draft.header, refinements=numbers)
+        return Draft(header, body, self.prepared.units.back(positions))
+
+
+SAMPLES, SAMPLE_OF = 1, 8
+"""Blocks that are tried, and how many there must be."""
+
+
+def base_step(angle: float) -> float:
+    """The step of blocks without a detail layer that refinement to a mean angle of normals, degrees, is cheapest on."""
+    return 0.016 if angle >= 5.0 else 0.008 if angle >= 2.5 else 0.004
+
+
+class Spectral:
+    """Codes a mesh in blocks.
+
+    Parameters
+    ----------
+    prepared : Prepared
+    options : EncodeOptions
+    widest : float
+        Columns of a dictionary that are not exceeded, over the rows of a block.
+    """
+
+    def __init__(self, prepared: Prepared, options: EncodeOptions, widest: float = 1.0) -> None:
+        self._prepared = prepared
+        self._options = options
+        self._planner = Planner(prepared, options, widest)
+
+    def is_flat(self, step: float, share: float) -> bool:
+        """Whether as large a share of all frequencies is worth coding at a step."""
+        return self._planner.is_flat(step, share)
+
+    def sample(self, step: float, original: Original) -> float:
+        """Mean angle of normals, degrees, in a few blocks at a step, before they are blended and smoothed.
+
+        0 where blocks are few: it would take as long as all of them.
+        """
+        blocks = self._prepared.blocks
+        if blocks.count < SAMPLE_OF:
+            return 0.0
+        scheme, faces = self._planner.scheme(step), self._prepared.mesh.faces
+        positions, total, weight = self._prepared.positions.copy(), 0.0, 0.0
+        for index in np.linspace(0, blocks.count - 1, 2 + SAMPLES).astype(int)[1:-1]:
+            block = ChainEncoder(scheme).encode(int(index), self._prepared.positions).decoded
+            positions[block.vertices] = block.positions
+            inside = np.zeros(len(positions), np.bool_)
+            inside[block.vertices] = True
+            rows = inside[faces].all(axis=1)
+            total += original.angle_of(rows, positions)
+            weight += float(original.weights[rows].sum())
+        return total / weight if weight > 0.0 else 0.0
+
+    def base(self, step: float, progress: Progress | None = None) -> Base:
+        """The blocks at a step.
+
+        Parameters
+        ----------
+        step : float
+        progress : callable, optional
+            Called with the number of blocks done and of all blocks.
+        """
+        prepared, options = self._prepared, self._options
+        scheme = self._planner.scheme(step)
+        blocks = encode_blocks(scheme, prepared.positions, threads=options.threads, doi=options.doi, progress=progress)
+        positions = blended(prepared.graph.size, (block.decoded for block in blocks))
+        smoothing = options.fixed_smoothing
+        header = Header(
+            vertices=prepared.graph.size,
+            faces=len(prepared.mesh.faces),
+            block_size=prepared.size,
+            coefficients=max(block.packet.coefficients for block in blocks),
+            center=prepared.units.center,
+            scale=prepared.units.scale,
+            smoothing=self._planner.smoothing(positions) if smoothing is None else single(smoothing),
+            **scheme.fields(),
+        )
+        decoded = smooth(prepared.graph, positions, header.smoothing)
+        body = (*prepared.packets, *(block.packet for block in blocks))
+        return Base(prepared, Draft(header, body, prepared.units.back(decoded)), np.ascontiguousarray(decoded))

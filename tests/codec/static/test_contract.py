@@ -1,0 +1,178 @@
+"""Contracts: kept on what is decoded, on any mesh, or refused."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from bitstream.errors import MeshError, OptionError, TargetError
+from bsm.files.mesh import read_mesh
+from codec.geometry.closeness import Original
+from codec.geometry.mesh import TriangleMesh
+from codec.static.contract import Contract
+from codec.static.decoder import decode
+from codec.static.encoder import Encoder
+from codec.static.fulfilment import Fulfilment
+from codec.static.options import PRESETS, EncodeOptions
+from codec.static.targets import Target
+from tests.conftest import mesh_folder
+from tests.shapes import patch, tetrahedron, together, torus
+
+FOLDER = mesh_folder()
+QUICK = 6000
+"""Vertices of the real meshes that are tried by default."""
+
+
+def noisy(mesh: TriangleMesh, amount: float) -> TriangleMesh:
+    """Every vertex moved a little."""
+    offsets = np.random.default_rng(0).normal(size=mesh.positions.shape)
+    return TriangleMesh(mesh.positions + amount * mesh.diagonal * offsets, mesh.faces)
+
+
+def kept(encoder: Encoder, data: bytes) -> tuple[float, float]:
+    """Farthest vertex over the diagonal, and mean angle, of what a stream decodes to."""
+    closeness = Original(encoder.mesh.positions, encoder.mesh.faces).closeness(decode(data).positions)
+    return closeness.farthest / (encoder.mesh.diagonal or 1.0), closeness.angle
+
+
+@pytest.mark.parametrize("preset", ["small", "balanced", "fine", "near-lossless"])
+@pytest.mark.parametrize(
+    "mesh",
+    [
+        tetrahedron(),
+        patch(40, 50),
+        torus(80, 40),
+        noisy(torus(80, 40), 0.002),
+        noisy(torus(60, 40), 0.01),
+        together(*(torus(8, 6) for _ in range(20)), torus(60, 30)),
+        TriangleMesh(torus(30, 20).positions * (1.0, 1.0, 0.0), torus(30, 20).faces),
+        TriangleMesh(torus(30, 20).positions + 1e7, torus(30, 20).faces),
+        TriangleMesh(torus(30, 20).positions * 1e-12, torus(30, 20).faces),
+        TriangleMesh(np.zeros((3, 3)), [(0, 1, 2)]),
+        TriangleMesh([(0, 0, 0), (1, 0, 0), (3, 0, 0)], [(0, 1, 2), (0, 0, 1)]),
+    ],
+    ids="tetrahedron patch torus noise strong-noise many flat far tiny point line".split(),
+)
+def test_presets_keep_what_they_promise(mesh: TriangleMesh, preset: str) -> None:
+    contract = PRESETS[preset].contract
+    assert contract is not None
+    encoder = Encoder(mesh, PRESETS[preset])
+    farthest, angle = kept(encoder, encoder.encode())
+    assert farthest <= contract.farthest * (1 + 1e-9)
+    assert angle <= contract.angle + 1e-9
+
+
+@given(st.integers(0, 2**32 - 1), st.floats(1e-4, 0.1), st.floats(0.5, 30.0))
+@settings(max_examples=20)
+def test_any_bounds_are_kept(seed: int, farthest: float, angle: float) -> None:
+    random = np.random.default_rng(seed)
+    size = int(random.integers(4, 40))
+    mesh = TriangleMesh(random.normal(size=(size, 3)), random.integers(0, size, (2 * size, 3)))
+    encoder = Encoder(mesh, EncodeOptions(contract=Contract(farthest, angle)))
+    got = kept(encoder, encoder.encode())
+    assert got[0] <= farthest * (1 + 1e-9)
+    assert got[1] <= angle + 1e-9
+
+
+def test_a_bound_in_the_unit_of_the_mesh() -> None:
+    mesh = TriangleMesh(torus(40, 24).positions * 100.0, torus(40, 24).faces)
+    encoder = Encoder(mesh, EncodeOptions(contract=Contract(0.05, absolute=True)))
+    decoded = decode(encoder.encode()).positions
+    assert np.sqrt(np.square(decoded - encoder.mesh.positions).sum(axis=1)).max() <= 0.05
+
+
+def test_what_cannot_be_kept_is_refused_and_says_what_can_be_had() -> None:
+    with pytest.raises(TargetError, match=r"1e-12 diagonals.* cannot be kept.* the best that can be had is"):
+        Encoder(torus(40, 24), EncodeOptions(contract=Contract(1e-12))).encode()
+
+
+@pytest.mark.parametrize("bounds", [(0.0, 1.0), (2.0, 1.0), (float("nan"), 1.0), (0.1, 0.0), (0.1, 181.0)])
+def test_bounds_that_are_none(bounds: tuple[float, float]) -> None:
+    with pytest.raises(OptionError):
+        Contract(*bounds)
+
+
+def test_who_says_how_to_code_gets_that() -> None:
+    encoder = Encoder(noisy(torus(80, 40), 0.01), EncodeOptions(step=0.03))
+    assert encoder.draft().header.step == pytest.approx(0.09)
+    assert kept(encoder, encoder.encode())[1] > 8.0
+
+
+def test_a_rough_mesh_is_refined_and_every_way_decodes_to_what_was_checked() -> None:
+    mesh = noisy(torus(80, 40), 0.003)
+    encoder = Encoder(mesh, EncodeOptions(block_size=300, contract=Contract(0.004, 4.0)))
+    ways = Fulfilment(encoder._prepared, encoder.options, Contract(0.004, 4.0))
+    drafts = [*ways._spectral(None), *ways._grids()]
+    assert any(draft.header.refinements for draft in drafts)
+    assert any(draft.header.grid for draft in drafts)
+    for draft in drafts:
+        assert np.abs(decode(b"".join(draft.frames)).positions - draft.decoded).max() < 1e-9
+
+
+@pytest.mark.parametrize("bits", [1, 4, 11, 16, 20])
+def test_a_grid_gives_exactly_the_nearest_places(bits: int) -> None:
+    mesh = torus(20, 12)
+    encoder = Encoder(mesh, EncodeOptions(grid=bits))
+    decoded, wanted = decode(encoder.encode()).positions, encoder.mesh.positions
+    low, step = wanted.min(axis=0), np.ptp(wanted, axis=0).max() / ((1 << bits) - 1)
+    places = (decoded - low) / step
+    assert np.abs(places - np.rint(places)).max() < 0.1
+    assert np.abs(decoded - wanted).max() <= 0.5 * step + 1e-6
+
+
+def test_many_components_cost_what_their_vertices_cost() -> None:
+    many = together(*(torus(18, 12) for _ in range(100)))
+    encoder = Encoder(many)
+    draft = encoder.draft()
+    assert draft.header.grid
+    assert draft.size < 12 * len(many.positions) / 8
+
+
+@pytest.mark.parametrize(("kind", "value"), [("theta_deg", 2.0), ("max_error_relative", 0.001), ("nmsve_db", -70.0)])
+def test_targets_of_quality_are_met_without_wide_dictionaries(kind: str, value: float) -> None:
+    encoder = Encoder(noisy(torus(60, 40), 0.002), EncodeOptions(target=Target(kind, value)))
+    attempt = encoder.search()
+    assert getattr(attempt.comparison, kind) <= value
+    assert max(attempt.coefficients, default=0) <= 160
+
+
+@pytest.mark.parametrize("bpv", [3.0, 8.0, 20.0])
+def test_targets_of_size_are_met(bpv: float) -> None:
+    attempt = Encoder(torus(60, 40), EncodeOptions(target=Target("bpv", bpv))).search()
+    assert attempt.bpv <= bpv
+
+
+def test_a_contract_excludes_what_it_must() -> None:
+    with pytest.raises(OptionError):
+        EncodeOptions(grid=12, step=0.01)
+    with pytest.raises(OptionError):
+        EncodeOptions(grid=21)
+
+
+REAL = sorted(
+    path
+    for folder in ("static", "assets", "hostile")
+    if FOLDER is not None
+    for path in (FOLDER / folder).glob("*")
+    if path.suffix.lower() in (".ply", ".obj", ".stl", ".off", ".glb") and path.stem != "dragon_437645"
+)
+
+
+@pytest.mark.real
+@pytest.mark.parametrize("path", REAL, ids=lambda path: path.name)
+def test_every_real_mesh_keeps_the_default_promise(path: Path) -> None:
+    try:
+        mesh = read_mesh(str(path)).mesh
+    except (MeshError, ValueError, EOFError):
+        pytest.skip("no mesh")
+    if len(mesh.positions) > QUICK:
+        pytest.skip("long")
+    encoder = Encoder(mesh, replace(EncodeOptions(), threads=1))
+    farthest, angle = kept(encoder, encoder.encode())
+    assert farthest <= 0.01 + 1e-9
+    assert angle <= 8.0 + 1e-9

@@ -1,0 +1,102 @@
+"""Vertices at one position become one, and come back where their order is kept."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from bitstream.container.splits import Splits, decode_splits, encode_splits
+from bitstream.errors import BsmError, CorruptError
+from bitstream.limits import DEFAULT_LIMITS
+from codec.geometry.mesh import TriangleMesh
+from codec.static.decoder import decode
+from codec.static.encoder import Encoder
+from codec.static.joining import join
+from codec.static.options import EncodeOptions
+from tests.shapes import patch, torus
+
+
+def soup(mesh: TriangleMesh) -> TriangleMesh:
+    """Every face with vertices of its own."""
+    return TriangleMesh(mesh.positions[mesh.faces].reshape(-1, 3), np.arange(mesh.faces.size).reshape(-1, 3))
+
+
+def test_soup_becomes_the_surface_that_it_is() -> None:
+    mesh = torus(20, 12)
+    encoder = Encoder(soup(mesh))
+    assert len(encoder.mesh.positions) == len(mesh.positions)
+    assert encoder.notes == ("1200 vertices were merged with others at the same position",)
+    assert len(encoder.encode()) < 1.2 * len(Encoder(mesh).encode())
+
+
+def test_every_given_vertex_is_told_its_decoded_one() -> None:
+    mesh = soup(patch(9, 7))
+    given = TriangleMesh(np.concatenate([[[5.0, 5.0, 5.0]], mesh.positions]), mesh.faces + 1)
+    encoder = Encoder(given, EncodeOptions(grid=20))
+    decoded = decode(encoder.encode())
+    index = encoder.vertex_index
+    assert index[0] == -1
+    assert np.abs(decoded.positions[index[1:]] - given.positions[1:]).max() < 1e-5
+    rows = np.sort(decoded.faces, axis=1)
+    assert np.array_equal(rows, np.sort(index[given.faces[encoder.face_order]], axis=1))
+    assert np.abs(given.positions[encoder.vertex_order] - decoded.positions).max() < 1e-5
+
+
+def test_negative_zero_is_zero() -> None:
+    corners = [(0.0, 0, 0), (1, 0, 0), (0, 1, 0), (-0.0, 0, 0), (1, -0.0, 0), (1, 1, 0)]
+    assert len(join(TriangleMesh(corners, [(0, 1, 2), (3, 4, 5)]), keep=False).mesh.positions) == 4
+
+
+def test_faces_that_lose_their_area_are_left_out_unless_none_would_be_left() -> None:
+    corners = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 0)]
+    joined = join(TriangleMesh(corners, [(0, 1, 2), (0, 3, 1)]), keep=False)
+    assert len(joined.mesh.faces) == 1
+    assert joined.notes[1] == "1 faces without area were left out"
+    assert len(join(TriangleMesh(corners, [(0, 3, 1)]), keep=False).mesh.faces) == 1
+    assert len(join(TriangleMesh(corners, [(0, 1, 2), (0, 3, 1)]), keep=True).mesh.faces) == 2
+
+
+@given(st.integers(0, 2**32 - 1))
+@settings(max_examples=40)
+def test_a_kept_order_gives_back_the_given_mesh(seed: int) -> None:
+    random = np.random.default_rng(seed)
+    size = int(random.integers(3, 40))
+    places = random.integers(0, 3, (size, 3)).astype(float)  # many at one position
+    mesh = TriangleMesh(places, random.integers(0, size, (int(random.integers(1, 40)), 3)))
+    decoded = decode(Encoder(mesh, EncodeOptions(grid=2, keep_order=True)).encode())
+    assert np.array_equal(decoded.faces, mesh.faces)
+    assert decoded.positions.shape == mesh.positions.shape
+    used = np.zeros(size, bool)
+    used[mesh.faces] = True
+    low, extent = places[used].min(axis=0), np.ptp(places[used], axis=0).max() or 1.0
+    assert np.abs(decoded.positions[used] - places[used]).max() <= extent / 3 * 0.5 + 1e-6
+    assert np.array_equal(decoded.positions[~used], places[~used]), low
+
+
+def test_a_damaged_order_is_an_error_of_the_stream() -> None:
+    mesh = soup(torus(6, 5))
+    joined = join(mesh, keep=True)
+    assert joined.splits is not None
+    data = encode_splits(joined.splits)
+    faces, count = joined.mesh.faces, len(joined.mesh.positions)
+    back = decode_splits(data, faces, count, DEFAULT_LIMITS)
+    assert np.array_equal(back.faces, mesh.faces)
+    random = np.random.default_rng(0)
+    for _ in range(300):
+        broken = bytearray(data)
+        broken[random.integers(len(broken))] ^= 1 << random.integers(8)
+        try:
+            decode_splits(bytes(broken), faces, count, DEFAULT_LIMITS)
+        except BsmError:
+            pass
+    with pytest.raises(CorruptError):
+        decode_splits(data[:-1], faces, count, DEFAULT_LIMITS)
+
+
+def test_splits_of_nothing_are_small() -> None:
+    faces = np.array([[0, 1, 2]], np.int32)
+    data = encode_splits(Splits(np.array([0, 1, 2, -1], np.int32), faces, np.array([[1.0, 2.0, 3.0]])))
+    assert len(data) < 50
+    assert decode_splits(data, faces, 3, DEFAULT_LIMITS).loose.tolist() == [[1.0, 2.0, 3.0]]

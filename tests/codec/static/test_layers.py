@@ -1,0 +1,174 @@
+"""Grids and refinement in the decoder: chunk by chunk, layer by layer, cut, damaged, stopped early."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+from bitstream.container.reader import END_OF_STREAM, NEED_DATA
+from bitstream.container.wire import FrameType, parse_frame
+from bitstream.errors import BsmError, CorruptError, OptionError, TruncatedError
+from bitstream.limits import DEFAULT_LIMITS
+from codec.geometry.mesh import TriangleMesh
+from codec.static.decoder import Decoder, decode
+from codec.static.encoder import encode
+from codec.static.events import BlockEvent, ConnectivityEvent, EndEvent, LossEvent, RefinementEvent
+from codec.static.options import EncodeOptions
+from tools.vectors.good import BASE
+from tools.vectors.good_fields import ALL_AXES, HEIGHTS, base, on_grid, refined, soup
+from tools.vectors.meshes import torus
+
+MESH = torus(12, 10)
+REFINED = refined(MESH, (HEIGHTS, ALL_AXES), ((50, 70), (120,)))
+GRID = on_grid(torus(8, 7), counts=(30, 20, 6))
+
+
+def events_of(data: bytes, **options: Any) -> list[Any]:
+    """Everything that a decoder says of a whole stream."""
+    with Decoder(**options) as decoder:
+        decoder.receive_data(data)
+        decoder.receive_eof()
+        found = []
+        while (event := decoder.next_event()) is not END_OF_STREAM:
+            assert event is not NEED_DATA
+            found.append(event)
+        return found
+
+
+def shown(events: list[Any]) -> TriangleMesh:
+    """The mesh that events add up to."""
+    mesh = next(event for event in events if isinstance(event, ConnectivityEvent))
+    positions = np.full((mesh.vertices, 3), np.nan)
+    positions[mesh.loose.vertices] = mesh.loose.positions
+    for event in events:
+        if isinstance(event, BlockEvent | RefinementEvent):
+            positions[event.vertices] = event.positions
+    return TriangleMesh(positions, mesh.faces)
+
+
+def offset_of(data: bytes, kind: FrameType, which: int) -> int:
+    """Where frame number `which` of a type begins."""
+    offset = 5
+    while True:
+        frame = parse_frame(data, offset, DEFAULT_LIMITS)
+        assert frame is not None
+        if frame.type == kind:
+            if which == 0:
+                return offset
+            which -= 1
+        offset += frame.size
+
+
+def broken(data: bytes, kind: FrameType, which: int) -> bytes:
+    """With a bit of a frame's payload flipped."""
+    place = offset_of(data, kind, which) + 8
+    return data[:place] + bytes([data[place] ^ 4]) + data[place + 1 :]
+
+
+@pytest.mark.parametrize("data", [REFINED, GRID, encode(soup(torus(7, 6)), EncodeOptions(grid=8, keep_order=True))])
+def test_events_add_up_to_the_mesh(data: bytes) -> None:
+    whole, pieces = decode(data), shown(events_of(data))
+    assert np.array_equal(whole.faces, pieces.faces)
+    assert np.abs(whole.positions - pieces.positions).max() < 1e-12
+
+
+def test_the_base_comes_first_and_layers_one_after_another() -> None:
+    events = events_of(REFINED)
+    kinds = [type(event) for event in events]
+    assert kinds.index(RefinementEvent) > max(i for i, kind in enumerate(kinds) if kind is BlockEvent)
+    refinements = [event for event in events if isinstance(event, RefinementEvent)]
+    assert [(event.layer, len(event.vertices)) for event in refinements] == [(1, 50), (1, 70), (2, 120)]
+    assert all(event.layer == 0 for event in events if isinstance(event, BlockEvent))
+
+
+def test_layers_can_be_left_out() -> None:
+    blocks = base(MESH).draft.decoded
+    with Decoder(layers=1) as decoder:
+        decoder.receive_data(REFINED)
+        assert np.abs(decoder.finish().positions - blocks).max() < 1e-12
+    original = base(MESH).prepared.mesh.positions
+    errors = []
+    for layers in (1, 2, 3, None):
+        with Decoder(layers=layers) as decoder:
+            decoder.receive_data(REFINED)
+            errors.append(np.abs(decoder.finish().positions - original).max())
+    assert errors[0] > errors[2] == errors[3]
+    with pytest.raises(OptionError):
+        Decoder(layers=0)
+
+
+def test_a_stream_cut_behind_the_base_is_the_base_for_who_wants_no_more() -> None:
+    cut = REFINED[: offset_of(REFINED, FrameType.REFINEMENT, 0)]
+    with Decoder(layers=1) as decoder:
+        decoder.receive_data(cut)
+        assert np.abs(decoder.finish().positions - base(MESH).draft.decoded).max() < 1e-12
+    with pytest.raises(TruncatedError):
+        decode(cut)
+    tolerant = events_of(cut, tolerant=True)
+    assert np.abs(shown(tolerant).positions - base(MESH).draft.decoded).max() < 1e-12
+    assert isinstance(tolerant[-1], EndEvent)
+
+
+@pytest.mark.parametrize(("which", "lost"), [(0, 120), (1, 70), (2, 120)])
+def test_a_lost_refinement_costs_only_refinement(which: int, lost: int) -> None:
+    events = events_of(broken(REFINED, FrameType.REFINEMENT, which), tolerant=True)
+    losses = events[-1].losses
+    assert any(isinstance(event, LossEvent) for event in events)
+    assert len(losses.missing) == 0
+    assert len(losses.degraded) in (0, lost)  # none where nothing of the layer came
+    assert np.isfinite(shown(events).positions).all()
+
+
+def test_a_lost_block_leaves_what_is_far_from_it_refined() -> None:
+    mesh = torus(40, 24)
+    data = refined(mesh, (ALL_AXES,), ((960,),))
+    events = events_of(broken(data, FrameType.BLOCK, 31), tolerant=True)
+    refinement = next(event for event in events if isinstance(event, RefinementEvent))
+    assert 0 < len(refinement.vertices) < 960
+    whole = decode(data).positions
+    assert np.abs(refinement.positions - whole[refinement.vertices]).max() < 0.05 * np.abs(whole).max()
+
+
+def test_a_lost_chunk_of_a_grid_costs_those_behind_it() -> None:
+    events = events_of(broken(GRID, FrameType.GRID, 1), tolerant=True)
+    assert len(events[-1].losses.missing) == 26
+    assert sum(len(event.vertices) for event in events if isinstance(event, BlockEvent)) == 30
+
+
+@pytest.mark.parametrize("data", [REFINED, GRID])
+def test_damage_anywhere_is_an_error_of_the_stream_or_a_loss(data: bytes) -> None:
+    random = np.random.default_rng(1)
+    for _ in range(120):
+        damaged = bytearray(data)
+        damaged[random.integers(5, len(data))] ^= 1 << random.integers(8)
+        with pytest.raises(BsmError):
+            decode(bytes(damaged))
+        try:
+            events_of(bytes(damaged), tolerant=True)
+        except BsmError:
+            pass
+
+
+@pytest.mark.parametrize("size", [1, 7, 64])
+def test_events_do_not_depend_on_how_bytes_come(size: int) -> None:
+    for data in (REFINED, GRID):
+        with Decoder() as decoder:
+            found = []
+            for start in range(0, len(data), size):
+                decoder.receive_data(data[start : start + size])
+                while (event := decoder.next_event()) is not NEED_DATA and event is not END_OF_STREAM:
+                    found.append(event)
+            decoder.receive_eof()
+            while (event := decoder.next_event()) is not END_OF_STREAM:
+                found.append(event)
+        assert [type(event) for event in found] == [type(event) for event in events_of(data)]
+
+
+def test_levels_that_are_out_of_range_are_refused() -> None:
+    data = refined(MESH, (HEIGHTS,), ((120,),))
+    start = offset_of(data, FrameType.REFINEMENT, 0)
+    with pytest.raises(CorruptError):
+        decode(data[: start + 6] + bytes([data[start + 6] ^ 0xFF]) + data[start + 7 :])
+    assert BASE.detail == 0.0

@@ -1,0 +1,115 @@
+"""Compare whole files with positions on a grid, exact, with Draco's at the same grid.
+
+    python -m tools.grids MESH [MESH ...] [--bits 11 12 14]
+
+Vertices at one position are merged first, and faces that have become degenerate are left out, for both. Every file is
+decoded again and compared. Draco's is its smallest (level 10). Needs DracoPy.
+"""
+
+from __future__ import annotations
+
+import argparse
+import time
+
+import numpy as np
+import numpy.typing as npt
+
+from bitstream.connectivity.faces import encode_connectivity
+from bitstream.container.packets import Connectivity, Grid, Header, Packet
+from bitstream.container.reader import Reader, read_packets
+from bitstream.container.writer import write_stream
+from bitstream.fields.grid import GridDecoder, GridEncoder
+from bitstream.fields.lattice import find_lattice, spread
+from bsm.files.mesh import read_mesh
+
+CHUNK = 1 << 15
+"""Vertices of a frame."""
+
+Faces = npt.NDArray[np.int32]
+Positions = npt.NDArray[np.float32]
+
+
+def welded(path: str) -> tuple[Positions, Faces]:
+    """A mesh without two vertices at one position, in the order of the coded connectivity."""
+    mesh = read_mesh(path).mesh
+    positions, number = np.unique(mesh.positions.astype(np.float32), axis=0, return_inverse=True)
+    faces = number.reshape(-1)[mesh.faces]
+    proper = (faces != np.roll(faces, 1, axis=1)).all(axis=1)
+    used, faces = np.unique(faces[proper], return_inverse=True)
+    return positions[used], faces.reshape(-1, 3).astype(np.int32)
+
+
+def rounded(positions: Positions, bits: int) -> Faces:
+    """Positions on Draco's grid: its arithmetic, in single precision."""
+    low = positions.min(axis=0)
+    inverse = np.float32((1 << bits) - 1) / np.float32((positions - low).max())
+    return np.floor((positions - low) * inverse + np.float32(0.5)).astype(np.int32)
+
+
+def encode(positions: Positions, faces: Faces, bits: int) -> tuple[bytes, float]:
+    """A whole stream, and the processor time per vertex that the grid took, in microseconds."""
+    connectivity = encode_connectivity(faces, len(positions))
+    cells = (1 << bits) - 1
+    step = float((positions - positions.min(axis=0)).max()) / cells
+    start = time.process_time()
+    points, lattice = find_lattice(rounded(positions, bits)[connectivity.vertex_order], cells)
+    header = Header(
+        vertices=len(positions),
+        faces=len(faces),
+        grid=tuple(points.max(axis=0).tolist()),
+        lattice=lattice,
+        center=tuple(positions.min(axis=0).tolist()),
+        scale=step,
+    )
+    encoder = GridEncoder(connectivity.faces, points, header.grid)
+    packets: list[Packet] = [header, Connectivity(1, connectivity.payload)]
+    for first in range(0, len(points), CHUNK):
+        count = min(CHUNK, len(points) - first)
+        packets.append(Grid(first, count, encoder.chunk(count)))
+    spent = (time.process_time() - start) / len(points) * 1e6
+    check(packets, connectivity.faces, spread(points, lattice))
+    return write_stream(packets), spent
+
+
+def check(packets: list[Packet], faces: Faces, values: npt.NDArray[np.int64]) -> None:
+    """Raise AssertionError if the stream of `packets` does not say `values`."""
+    decoded = np.full_like(values, -1)
+    for packet in read_packets([write_stream(packets)], Reader()):
+        if isinstance(packet, Header):
+            header, decoder = packet, GridDecoder(faces, packet.vertices, packet.grid)
+        if isinstance(packet, Grid):
+            vertices, points = decoder.chunk(packet.data, packet.count)
+            decoded[vertices] = spread(points, header.lattice)
+    assert np.array_equal(decoded, values), "what was decoded is not what was encoded"
+
+
+def draco_bytes(positions: Positions, faces: Faces, bits: int) -> int:
+    """The size of Draco's file."""
+    import DracoPy
+
+    return len(DracoPy.encode(positions, faces.astype(np.uint32), quantization_bits=bits, compression_level=10))
+
+
+def main() -> None:
+    """Run the command."""
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("meshes", nargs="+", metavar="MESH")
+    parser.add_argument("--bits", nargs="+", type=int, default=[11, 12, 14])
+    options = parser.parse_args()
+    table = []
+    print("| mesh | vertices | " + " | ".join(f"{bits} bits" for bits in options.bits) + " | µs per vertex |")
+    print("|---|---|" + "---|" * (len(options.bits) + 1))
+    for path in options.meshes:
+        positions, faces = welded(path)
+        streams = [encode(positions, faces, bits) for bits in options.bits]
+        sizes = [draco_bytes(positions, faces, bits) for bits in options.bits]
+        row = [len(stream) / size for (stream, _), size in zip(streams, sizes, strict=True)]
+        table.append(row)
+        cells = " | ".join(f"{ratio:.3f}" for ratio in row)
+        name = path.rsplit("/", 1)[-1]
+        print(f"| {name} | {len(positions)} | {cells} | {max(spent for _, spent in streams):.1f} |", flush=True)
+    print("| mean | | " + " | ".join(f"{ratio:.3f}" for ratio in np.mean(table, axis=0)) + " | |")
+
+
+if __name__ == "__main__":
+    main()

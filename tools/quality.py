@@ -1,0 +1,205 @@
+"""What qualities cost: whole files against Draco's, on chosen meshes.
+
+    python -m tools.quality theta MESH [MESH ...] [--theta 3 7 10] [--draco-bits 11]
+    python -m tools.quality grid MESH [MESH ...] [--bits 11 12 14]
+    python -m tools.quality contract MESH [MESH ...] [--preset balanced]
+    python -m tools.quality time MESH [MESH ...] [--preset balanced fine near-lossless lossless]
+
+`theta`: bytes at a mean angle between corresponding normals, over those of Draco (level 10, its bits interpolated) at the
+angle that was reached; Draco's own angle at `--draco-bits` is one more. `grid`: bytes of the positions on a grid, over
+those of Draco with the same. `contract`: what a preset gives, checked by itself and by surfaces, over the bytes of Draco
+with the fewest bits whose surfaces are as close (Hausdorff distance, and mean angle of normals). `time`: processor
+time per vertex, on one thread, against that of Draco. Vertices at one position are made one for both. Needs DracoPy.
+"""
+
+from __future__ import annotations
+
+import argparse
+import math
+import time
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+from pathlib import Path
+from statistics import fmean
+
+import numpy as np
+
+from bitstream.errors import BsmError
+from bsm.evaluation.draco import encode_draco
+from bsm.files.mesh import read_mesh
+from codec.geometry.closeness import Original
+from codec.geometry.mesh import Positions, TriangleMesh
+from codec.geometry.metrics import theta
+from codec.geometry.surface_distance import surface_distance
+from codec.static.decoder import decode
+from codec.static.encoder import Encoder
+from codec.static.joining import join
+from codec.static.options import PRESETS, EncodeOptions
+from codec.static.targets import Target
+
+DRACO_BITS = range(2, 21)
+SAMPLES = 20_000
+
+
+@dataclass(frozen=True)
+class Row:
+    """One line of a table: a mesh, what was measured, and our bytes over Draco's."""
+
+    name: str
+    text: str
+    ratio: float
+
+
+def joined(path: Path) -> TriangleMesh:
+    """The mesh of a file, vertices at one position made one."""
+    return join(read_mesh(str(path)).mesh, keep=False).mesh
+
+
+def draco_bytes(mesh: TriangleMesh, bits: int) -> bytes:
+    """Draco's smallest file."""
+    return encode_draco(mesh, bits, 10)
+
+
+def draco_positions(mesh: TriangleMesh, bits: int) -> Positions:
+    """Where Draco's quantiser puts the vertices."""
+    values = mesh.positions.astype(np.float32)
+    low = values.min(axis=0)
+    most = np.float32((1 << bits) - 1)
+    extent = (values - low).max() or np.float32(1)
+    places = np.floor((values - low) * (most / extent) + np.float32(0.5))
+    return places * np.float32(extent / most) + low.astype(np.float64)
+
+
+def draco_curve(mesh: TriangleMesh) -> list[tuple[float, int]]:
+    """(theta, bytes) of Draco from 6 to 16 bits."""
+    return [
+        (theta(mesh.positions, draco_positions(mesh, bits), mesh.faces), len(draco_bytes(mesh, bits)))
+        for bits in range(6, 17)
+    ]
+
+
+def at_theta(curve: list[tuple[float, int]], angle: float) -> float:
+    """Draco's bytes at an angle, interpolated in its logarithm."""
+    angles, sizes = zip(*sorted(curve), strict=True)
+    return float(np.interp(math.log(angle), np.log(np.maximum(angles, 1e-9)), sizes))
+
+
+def thetas(path: Path, args: argparse.Namespace) -> Iterator[Row]:
+    """Rows of `theta`."""
+    mesh = joined(path)
+    curve = draco_curve(mesh)
+    wanted = list(args.theta)
+    if args.draco_bits:
+        wanted.append(curve[args.draco_bits - 6][0])
+    for angle in wanted:
+        attempt = Encoder(mesh, EncodeOptions(target=Target("theta_deg", angle), threads=1)).search()
+        begin = time.process_time()
+        decode(b"".join(attempt.frames), threads=1)
+        seconds = time.process_time() - begin
+        ratio = attempt.size / at_theta(curve, attempt.comparison.theta_deg)
+        text = (
+            f"theta {attempt.comparison.theta_deg:5.2f} of {angle:5.2f}  {attempt.size:7d} bytes  farthest "
+            f"{attempt.comparison.max_error_relative:.4f}  decode {1e6 * seconds / len(mesh.positions):.1f} us"
+        )
+        label = f"Draco {args.draco_bits} bits" if angle not in args.theta else f"{angle:g} degrees"
+        yield Row(label, text, ratio)
+
+
+def grids(path: Path, args: argparse.Namespace) -> Iterator[Row]:
+    """Rows of `grid`."""
+    mesh = joined(path)
+    for bits in args.bits:
+        encoder = Encoder(mesh, EncodeOptions(grid=bits))
+        data = encoder.encode()
+        expected = draco_positions(encoder.mesh, bits)
+        off = np.abs(decode(data).positions - expected).max() / encoder.mesh.diagonal
+        theirs = len(draco_bytes(mesh, bits))
+        yield Row(f"{bits} bits", f"{len(data):7d} bytes, Draco {theirs:7d}; off by {off:.1e}", len(data) / theirs)
+
+
+def contracts(path: Path, args: argparse.Namespace) -> Iterator[Row]:
+    """Rows of `contract`."""
+    for preset in args.preset:
+        encoder = Encoder(read_mesh(str(path)).mesh, replace(PRESETS[preset], threads=1))
+        data = encoder.encode()
+        mesh, decoded = encoder.mesh, decode(data, threads=1).positions
+        kept = Original(mesh.positions, mesh.faces).closeness(decoded)
+        ours = surfaces(mesh, decoded)
+        size = next(
+            (
+                len(draco_bytes(mesh, bits))
+                for bits in DRACO_BITS
+                if all(a <= b for a, b in zip(surfaces(mesh, draco_positions(mesh, bits)), ours, strict=True))
+            ),
+            0,
+        )
+        text = (
+            f"{len(mesh.positions):7d} vertices {len(data):7d} bytes, Draco {size:7d}; farthest "
+            f"{kept.farthest / (mesh.diagonal or 1.0):.4f}  angle {kept.angle:5.2f}; surfaces {ours[0]:.4f} {ours[1]:5.2f}"
+        )
+        yield Row(preset, text, len(data) / size if size else math.nan)
+
+
+def surfaces(mesh: TriangleMesh, decoded: Positions) -> tuple[float, float]:
+    """Hausdorff distance over the diagonal, and the mean angle of normals, degrees."""
+    distance = surface_distance(mesh.positions, mesh.faces, decoded, mesh.faces, SAMPLES).hausdorff
+    return distance / (mesh.diagonal or 1.0), Original(mesh.positions, mesh.faces).angle(decoded)
+
+
+def times(path: Path, args: argparse.Namespace) -> Iterator[Row]:
+    """Rows of `time`."""
+    mesh = joined(path)
+    count = len(mesh.positions)
+    theirs = measured(lambda: draco_bytes(mesh, 11))[0]
+    for preset in args.preset:
+        options = replace(PRESETS[preset], threads=1)
+        taken, data = measured(lambda options=options: Encoder(mesh, options).encode())
+        back, _ = measured(lambda data=data: decode(data, threads=1))
+        text = (
+            f"encode {1e6 * taken / count:6.2f} us a vertex, {taken / theirs:5.1f} times Draco's; decode "
+            f"{1e6 * back / count:5.2f} us; {len(data)} bytes"
+        )
+        yield Row(preset, text, taken / theirs)
+
+
+def measured(work: Callable[[], bytes]) -> tuple[float, bytes]:
+    """The least processor time of three, and what came of it."""
+    best, result = math.inf, b""
+    for _ in range(3):
+        begin = time.process_time()
+        result = work()
+        best = min(best, time.process_time() - begin)
+    return best, result
+
+
+def main() -> None:
+    """Print the table."""
+    parser = argparse.ArgumentParser(prog="python -m tools.quality", description=__doc__.splitlines()[0])
+    commands = parser.add_subparsers(required=True)
+    for name, rows in (("theta", thetas), ("grid", grids), ("contract", contracts), ("time", times)):
+        command = commands.add_parser(name)
+        command.add_argument("meshes", nargs="+", type=Path)
+        command.set_defaults(rows=rows)
+        if name == "theta":
+            command.add_argument("--theta", nargs="*", type=float, default=[3.0])
+            command.add_argument("--draco-bits", type=int, default=11, choices=range(6, 17))
+        if name == "grid":
+            command.add_argument("--bits", nargs="+", type=int, default=[11, 12, 14])
+        if name in ("contract", "time"):
+            command.add_argument("--preset", nargs="+", choices=PRESETS, default=["balanced"])
+    args = parser.parse_args()
+    ratios: dict[str, list[float]] = {}
+    for path in args.meshes:
+        try:
+            for row in args.rows(path, args):
+                ratios.setdefault(row.name, []).append(row.ratio)
+                print(f"{path.name[:28]:28s} {row.name:15s} {row.text}  ratio {row.ratio:.3f}", flush=True)
+        except BsmError as error:
+            print(f"{path.name[:28]:28s} {type(error).__name__}: {error}", flush=True)
+    for name, values in ratios.items():
+        counted = [value for value in values if not math.isnan(value)]
+        print(f"{name}: mean ratio {fmean(counted):.3f}, largest {max(counted):.3f}, of {len(counted)}")
+
+
+if __name__ == "__main__":
+    main()

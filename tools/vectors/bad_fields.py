@@ -1,0 +1,140 @@
+"""Streams with grids, refinement or given vertices that every decoder must refuse."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import cache
+
+from bitstream.container.wire import Cursor, FrameType, write_varint
+from codec.static.encoder import encode
+from codec.static.options import EncodeOptions
+from tools.surgery import frames_of, stream_of, with_header, with_payload
+from tools.vectors.bad import Bad
+from tools.vectors.good import BASE
+from tools.vectors.good_fields import ALL_AXES, HEIGHTS, on_grid, refined, soup
+from tools.vectors.meshes import torus
+
+GRID, REFINEMENT, ORDER, BLOCK = FrameType.GRID, FrameType.REFINEMENT, FrameType.ORDER, FrameType.BLOCK
+
+
+@cache
+def _grid() -> bytes:
+    return on_grid(torus(8, 7), counts=(30, 26))
+
+
+@cache
+def _refined() -> bytes:
+    return refined(torus(8, 7), (HEIGHTS, ALL_AXES), ((30, 26), (56,)))
+
+
+@cache
+def _split() -> bytes:
+    return encode(soup(torus(6, 5)), EncodeOptions(grid=8, keep_order=True))
+
+
+def _frame(make: Callable[[], bytes], kind: int, change: Callable[[bytes], bytes], which: int = 0) -> bytes:
+    """With another payload in frame number `which` of a type."""
+    stream = make()
+    payload = [payload for type_, payload in frames_of(stream) if type_ == kind][which]
+    return with_payload(stream, FrameType(kind), change(payload), which)
+
+
+def _without(make: Callable[[], bytes], kind: int, which: int) -> bytes:
+    frames = frames_of(make())
+    place = [i for i, frame in enumerate(frames) if frame[0] == kind][which]
+    return stream_of(frames[:place] + frames[place + 1 :])
+
+
+def _order(change: Callable[[bytes], bytes]) -> bytes:
+    """With other data of the given vertices behind the arrangement."""
+
+    def changed(payload: bytes) -> bytes:
+        cursor = Cursor(payload[1:])
+        arrangement = cursor.take(cursor.varint())
+        return b"\2" + write_varint(len(arrangement)) + arrangement + change(cursor.rest())
+
+    return _frame(_split, ORDER, changed)
+
+
+def _more_vertices(data: bytes) -> bytes:
+    cursor = Cursor(data)
+    return write_varint(cursor.varint() + 1) + cursor.rest()
+
+
+def _with_block() -> bytes:
+    blocks = [frame for frame in frames_of(_refined()) if frame[0] == BLOCK]
+    return stream_of([*frames_of(_grid()), blocks[0]])
+
+
+BAD_FIELDS: dict[str, Bad] = {
+    "bad-grid-unannounced": Bad(
+        "GRID where `grid` is empty",
+        "unsupported",
+        lambda: stream_of([*frames_of(encode(torus(8, 7), BASE))[:2], (GRID, b"\0\1\0")]),
+    ),
+    "bad-grid-missing": Bad("the second chunk of a grid is missing", "corrupt", lambda: _without(_grid, GRID, 1)),
+    "bad-grid-gap": Bad("the first chunk of a grid is missing", "corrupt", lambda: _without(_grid, GRID, 0)),
+    "bad-grid-empty-chunk": Bad(
+        "a chunk of no vertices", "corrupt", lambda: _frame(_grid, GRID, lambda p: b"\0\0" + p[2:])
+    ),
+    "bad-grid-too-many": Bad(
+        "more vertices than there are", "corrupt", lambda: _frame(_grid, GRID, lambda p: p[:1] + b"\x7f" + p[2:])
+    ),
+    "bad-grid-outside": Bad("values above the largest", "corrupt", lambda: with_header(_grid(), grid=[3, 255, 255])),
+    "bad-grid-short": Bad("a chunk that ends early", "truncated", lambda: _frame(_grid, GRID, lambda p: p[:6])),
+    "bad-grid-long": Bad(
+        "bytes behind the last vertex", "corrupt", lambda: _frame(_grid, GRID, lambda p: p + bytes(9))
+    ),
+    "bad-grid-block": Bad("BLOCK behind a grid", "corrupt", _with_block),
+    "bad-grid-and-blocks": Bad("a grid, and blocks", "corrupt", lambda: with_header(_grid(), blocks=1)),
+    "bad-grid-two-axes": Bad("a grid of two axes", "corrupt", lambda: with_header(_grid(), grid=[255, 255])),
+    "bad-lattice-points": Bad(
+        "a lattice of fewer points than values", "corrupt", lambda: with_header(_grid(), lattice=[1000, 100])
+    ),
+    "bad-lattice-cells": Bad(
+        "a lattice of more points than cells", "corrupt", lambda: with_header(_grid(), lattice=[300, 400])
+    ),
+    "bad-no-blocks-no-grid": Bad("neither blocks nor a grid", "corrupt", lambda: with_header(_grid(), grid=None)),
+    "bad-refinement-unannounced": Bad(
+        "REFINEMENT where `refinements` is empty", "unsupported", lambda: with_header(_refined(), refinements=None)
+    ),
+    "bad-refinement-layer": Bad(
+        "a layer that the header does not have",
+        "corrupt",
+        lambda: with_header(_refined(), refinements=[HEIGHTS.step, HEIGHTS.ratio]),
+    ),
+    "bad-refinement-gap": Bad(
+        "the first chunk of a layer is missing", "corrupt", lambda: _without(_refined, REFINEMENT, 0)
+    ),
+    "bad-refinement-descending": Bad(
+        "layers in the wrong order",
+        "corrupt",
+        lambda: stream_of([*frames_of(_refined())[:-3], *frames_of(_refined())[-1:], *frames_of(_refined())[-3:-1]]),
+    ),
+    "bad-refinement-short": Bad(
+        "levels that end early", "truncated", lambda: _frame(_refined, REFINEMENT, lambda p: p[:5])
+    ),
+    "bad-refinement-step": Bad(
+        "a step above 1", "corrupt", lambda: with_header(_refined(), refinements=[1.5, 0.0, 0.1, 3.0])
+    ),
+    "bad-refinement-ratio": Bad(
+        "a ratio below 1/16", "corrupt", lambda: with_header(_refined(), refinements=[0.1, 0.01, 0.1, 3.0])
+    ),
+    "bad-refinement-odd": Bad("a step without a ratio", "corrupt", lambda: with_header(_refined(), refinements=[0.1])),
+    "bad-refinement-early": Bad(
+        "REFINEMENT before the last BLOCK", "corrupt", lambda: stream_of(_early(frames_of(_refined())))
+    ),
+    "bad-splits-count": Bad("one given vertex too many", "corrupt", lambda: _order(_more_vertices)),
+    "bad-splits-short": Bad("the position of a loose vertex is cut", "corrupt", lambda: _order(lambda data: data[:-1])),
+    "bad-splits-nan": Bad(
+        "a loose vertex that is not finite", "corrupt", lambda: _order(lambda data: data[:-8] + b"\0\0\0\0\0\0\xf8\x7f")
+    ),
+    "bad-splits-zlib": Bad(
+        "a piece that is no zlib stream", "corrupt", lambda: _order(lambda data: data[:4] + bytes(9) + data[13:])
+    ),
+}
+
+
+def _early(frames: list[tuple[int, bytes]]) -> list[tuple[int, bytes]]:
+    block = max(i for i, frame in enumerate(frames) if frame[0] == BLOCK)
+    return [*frames[:block], frames[block + 1], frames[block], *frames[block + 2 :]]

@@ -1,0 +1,155 @@
+"""Streams with positions on a grid, with layers of refinement, and with given vertices that were made one."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from bitstream.container.header import Header, Layer
+from bitstream.container.packets import Grid, Packet, Refinement
+from bitstream.container.writer import write_stream
+from bitstream.fields.grid import GridEncoder
+from bitstream.fields.levels import LevelsEncoder
+from codec.geometry.mesh import TriangleMesh
+from codec.static.encoder import Encoder, encode
+from codec.static.options import EncodeOptions
+from codec.static.spectral import Base, Spectral
+from tools.vectors.good import BASE, Good
+from tools.vectors.meshes import hub, patch, shuffled, tangled, tetrahedron, together, torus, triangle
+
+
+def soup(mesh: TriangleMesh) -> TriangleMesh:
+    """Every face with vertices of its own, and one vertex in no face."""
+    corners = mesh.positions[mesh.faces].reshape(-1, 3)
+    numbers = np.arange(len(corners)).reshape(-1, 3)
+    split = np.where(numbers < 30, numbers, numbers + 1)
+    return TriangleMesh(np.insert(corners, 30, [7.5, -1.25, 0.1], axis=0), split)
+
+
+def seamed() -> TriangleMesh:
+    """Two given vertices at each position of one side, in disorder."""
+    mesh = shuffled(torus(9, 8))
+    faces, extra = mesh.faces.copy(), np.flatnonzero(mesh.positions[:, 0] > 0)
+    copies = np.full(len(mesh.positions), -1)
+    copies[extra] = len(mesh.positions) + np.arange(len(extra))[::-1]
+    turned = copies[faces[::2]]
+    faces[::2] = np.where(turned >= 0, turned, faces[::2])
+    return TriangleMesh(np.concatenate([mesh.positions, mesh.positions[extra[::-1]]]), faces)
+
+
+def on_grid(mesh: TriangleMesh, *, counts: tuple[int, ...], cells: int = 255) -> bytes:
+    """Positions on a grid, in chunks of so many vertices."""
+    draft = Encoder(mesh, EncodeOptions(grid=8)).draft()
+    header = draft.header
+    places = np.rint((draft.decoded - np.array(header.center)) / header.scale).astype(np.int32)
+    connectivity = draft.body[0]
+    prepared = Encoder(mesh, EncodeOptions(grid=8))
+    coder = GridEncoder(prepared.mesh.faces, places, (cells, cells, cells))
+    packets: list[Packet] = [replace(header, grid=(cells, cells, cells), lattice=()), connectivity]
+    first = 0
+    for count in counts:
+        packets.append(Grid(first, count, coder.chunk(count)))
+        first += count
+    return write_stream(packets)
+
+
+def base(mesh: TriangleMesh) -> Base:
+    """Blocks to be refined."""
+    encoder = Encoder(mesh, BASE)
+    return Spectral(encoder._prepared, BASE).base(BASE.first_step)
+
+
+def refined(mesh: TriangleMesh, layers: tuple[Layer, ...], counts: tuple[tuple[int, ...], ...]) -> bytes:
+    """Blocks with layers of the nearest levels, in chunks of so many vertices; a layer may end early."""
+    made = base(mesh)
+    faces = made.prepared.mesh.faces
+    numbers = tuple(number for layer in layers for number in (layer.step, layer.ratio))
+    packets: list[Packet] = [replace(made.draft.header, refinements=numbers), *made.draft.body]
+    for number, (layer, parts) in enumerate(zip(layers, counts, strict=True)):
+        coder, first = LevelsEncoder(faces, made.wanted(layer)[0]), 0
+        for count in parts:
+            packets.append(Refinement(number, first, count, coder.chunk(count)))
+            first += count
+    return write_stream(packets)
+
+
+def _small() -> TriangleMesh:
+    return torus(12, 10)
+
+
+def _lattice() -> TriangleMesh:
+    """Every coordinate a whole multiple of a seventh of the extent."""
+    mesh = torus(10, 8)
+    low, extent = mesh.positions.min(axis=0), np.ptp(mesh.positions, axis=0).max()
+    places = np.rint((mesh.positions - low) / extent * 7)
+    places[0], places[1] = 0, 7
+    return TriangleMesh(places / 7.0 + np.array([0.0, 0.0, -1e-3]) * np.arange(len(places))[:, None], mesh.faces)
+
+
+def _exact_lattice() -> TriangleMesh:
+    mesh = _lattice()
+    return TriangleMesh(np.rint(mesh.positions * 7 + 1e-6) * 0.5, mesh.faces)
+
+
+def header_of(stream: bytes) -> Header:
+    """The header of a stream."""
+    from bitstream.container.reader import Reader
+
+    reader = Reader()
+    reader.receive_data(stream)
+    header = reader.next_packet()
+    assert isinstance(header, Header)
+    return header
+
+
+HEIGHTS, ALL_AXES = Layer(2.0**-7, 0.0), Layer(2.0**-9, 3.0)
+
+FIELDS: dict[str, Good] = {
+    "good-grid": Good("positions on a grid of 11 bits", lambda: encode(_small(), EncodeOptions(grid=11))),
+    "good-grid-tetrahedron": Good("four vertices on a grid of one bit", lambda: encode(tetrahedron())),
+    "good-grid-fine": Good("a grid of 20 bits", lambda: encode(_small(), EncodeOptions(grid=20))),
+    "good-grid-lattice": Good("a lattice under a grid", lambda: encode(_exact_lattice(), EncodeOptions(grid=10))),
+    "good-grid-chunks": Good("a grid in chunks", lambda: on_grid(_small(), counts=(1, 70, 49))),
+    "good-grid-tangled": Good(
+        "non-manifold, repeated, turned and degenerate faces on a grid",
+        lambda: encode(tangled(), EncodeOptions(grid=9)),
+    ),
+    "good-grid-hub": Good("a vertex with very many neighbours on a grid", lambda: encode(hub(), EncodeOptions(grid=9))),
+    "good-grid-components": Good(
+        "many components on a grid, as the encoder chooses it",
+        lambda: encode(together(*(torus(5, 4) for _ in range(6)), patch(4, 4), triangle())),
+    ),
+    "good-grid-ordered": Good(
+        "ORDER on a grid", lambda: encode(shuffled(_small()), EncodeOptions(grid=8, keep_order=True))
+    ),
+    "good-splits": Good(
+        "ORDER 2: faces with vertices of their own, and one in no face",
+        lambda: encode(soup(torus(7, 6)), EncodeOptions(grid=8, keep_order=True)),
+    ),
+    "good-splits-seams": Good("ORDER 2: a seam, in blocks", lambda: encode(seamed(), replace(BASE, keep_order=True))),
+    "good-heights": Good("a layer of heights along the normals", lambda: refined(_small(), (HEIGHTS,), ((120,),))),
+    "good-refined": Good("a layer of levels along all axes", lambda: refined(_small(), (ALL_AXES,), ((120,),))),
+    "good-layers": Good(
+        "two layers in chunks, the second ends early",
+        lambda: refined(_small(), (HEIGHTS, ALL_AXES), ((50, 70), (40, 30))),
+    ),
+    "good-layers-none": Good("layers of which nothing comes", lambda: refined(_small(), (HEIGHTS, ALL_AXES), ((), ()))),
+    "good-refined-tangled": Good(
+        "refinement where faces have no area", lambda: refined(tangled(), (ALL_AXES,), ((len(tangled().positions),),))
+    ),
+    "good-refined-flat": Good(
+        "a surface that looks away from the pole of frames",
+        lambda: refined(
+            TriangleMesh(patch(9, 8).positions * (1, 1, 0) @ _looking_away(), patch(9, 8).faces), (ALL_AXES,), ((72,),)
+        ),
+    ),
+}
+
+
+def _looking_away() -> np.ndarray:
+    """Turns the z axis opposite to the pole."""
+    pole = np.array([0.48, 0.6, 0.64])
+    first = np.cross(pole, [1.0, 0.0, 0.0])
+    first /= np.linalg.norm(first)
+    return np.array([first, np.cross(-pole, first), -pole])
