@@ -72,6 +72,10 @@ class OptionError(BsmError, ValueError):
     """An option outside its legal range, or options that exclude each other."""
 
 
+class HarmError(BsmError, ValueError):
+    """A result that would be worse than what it was made from; it is handed out only if that is forced."""
+
+
 class ArgumentError(BsmError, TypeError):
     """An argument of a type that is not understood, or a keyword that does not exist."""
 

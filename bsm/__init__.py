@@ -40,8 +40,8 @@ if TYPE_CHECKING:
     from bitstream.container.reader import END_OF_STREAM as END_OF_STREAM, NEED_DATA as NEED_DATA, Signal as Signal
     from bitstream.errors import (
         ArgumentError as ArgumentError, BsmError as BsmError, CorruptError as CorruptError,
-        DependencyError as DependencyError, FormatError as FormatError, LimitError as LimitError,
-        MeshError as MeshError, NumericError as NumericError, OptionError as OptionError,
+        DependencyError as DependencyError, FormatError as FormatError, HarmError as HarmError,
+        LimitError as LimitError, MeshError as MeshError, NumericError as NumericError, OptionError as OptionError,
         TargetError as TargetError, TruncatedError as TruncatedError, UnsupportedError as UnsupportedError,
     )
     from bitstream.limits import Limits as Limits
@@ -76,7 +76,7 @@ __version__ = "0.1.0"
 _ROOMS = {
     "bitstream.container.reader": "END_OF_STREAM NEED_DATA Signal",
     "bitstream.errors": (
-        "ArgumentError BsmError CorruptError DependencyError FormatError LimitError MeshError NumericError "
+        "ArgumentError BsmError CorruptError DependencyError FormatError HarmError LimitError MeshError NumericError "
         "OptionError TargetError TruncatedError UnsupportedError"
     ),
     "bitstream.limits": "Limits",

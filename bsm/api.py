@@ -169,7 +169,15 @@ def save(mesh: Any, path: str | os.PathLike[str], *, overwrite: bool = True, **k
         file.write(data)
 
 
-def denoise(mesh: Any, options: DenoiseOptions | None = None, /, **keywords: Any) -> TriangleMesh:
+def denoise(
+    mesh: Any,
+    options: DenoiseOptions | None = None,
+    /,
+    *,
+    goal: str = "shading",
+    force: bool = False,
+    **keywords: Any,
+) -> TriangleMesh:
     """Remove noise from the positions of a mesh; the faces stay.
 
     Parameters
@@ -180,11 +188,21 @@ def denoise(mesh: Any, options: DenoiseOptions | None = None, /, **keywords: Any
         Instead of keywords.
     **keywords
         Fields of `DenoiseOptions`; without any of them everything is chosen from the noise of the mesh.
+    goal : str
+        What that strives for: "shading" (normals near the clean ones) or "shape" (vertices).
+    force : bool
+        Let the options have their way even where they do harm.
+
+    Raises
+    ------
+    HarmError
+        If the options would make the mesh worse.
     """
     from codec.denoise import DenoiseOptions
     from codec.denoise import denoise as denoise_mesh
 
-    return denoise_mesh(as_mesh(mesh), _chosen(options, DenoiseOptions, keywords, keywords_to.denoise_options))
+    chosen = _chosen(options, DenoiseOptions, keywords, keywords_to.denoise_options)
+    return denoise_mesh(as_mesh(mesh), chosen, goal=goal, force=force)
 
 
 def compare(original: Any, decoded: Any, *, order: npt.ArrayLike | None = None) -> Comparison:

@@ -84,7 +84,7 @@ def _no_command(words: list[str]) -> int:
 
 def _common() -> Parser:
     common = Parser(add_help=False)
-    common.add_argument("-f", "--force", action="store_true", help="overwrite files")
+    common.add_argument("-f", "--force", action="store_true", help="overwrite files; write results that do harm")
     common.add_argument("-q", "--quiet", action="store_true", help="say nothing but results and errors")
     return common
 

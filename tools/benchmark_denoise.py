@@ -1,15 +1,17 @@
 """Denoising measured: answers first, then times.
 
-    python -m tools.benchmark_denoise MESHES [guided] [companions] [handover] [automatic] [metrics] [sequences]
+    python -m tools.benchmark_denoise MESHES [TABLE ...] [--full] [--json FILE]
 
-MESHES is the folder of real meshes, with `static/`, `noisy/` and `dynamic/`. Without further words every table is
-printed. A table whose answers are outside their tolerances ends the program with exit code 1, before any time is
-printed.
+MESHES is the folder of real meshes, with `static/`, `assets/`, `noisy/` and `dynamic/`. Without further words every
+table is printed, on a few small meshes; `--full` takes more of them. A table whose answers are outside their
+tolerances ends the program with exit code 1, before any time is printed. `--json` writes the figures of the tables
+that the README shows.
 """
 
 from __future__ import annotations
 
 import argparse
+import json
 import sys
 import time
 from collections.abc import Callable, Iterator
@@ -30,6 +32,7 @@ from codec.denoise.filters.topology import Topology
 from codec.denoise.handover import HAND_OVERS
 from codec.geometry.mesh import Faces, Positions
 from codec.geometry.metrics import Reference, compare, theta
+from tools.denoise_trials import TRIALS
 
 # Theta after 20 iterations and seconds of the guided filter's authors' own C++ program (bldeng/GuidedDenoising).
 AUTHORS = {
@@ -130,10 +133,10 @@ def handover_table(folder: Path) -> None:
             print(f"{name:16s} {hand_over:16s} " + "".join(f"{angles[count]:8.2f}" for count in counts))
 
 
-def automatic_table(folder: Path) -> None:
+def automatic_table(folder: Path) -> dict[str, list[float]]:
     """The automatic mode against the better of two schemes that an oracle stops at their best iteration."""
     print("theta             guided alone    coarse to fine   automatic    ratio        s   chosen")
-    ratios = []
+    rows = {}
     for name in PARTNERS:
         clean, noisy, faces = read_case(folder, name)
         topology = Topology(faces, len(noisy))
@@ -145,14 +148,19 @@ def automatic_table(folder: Path) -> None:
         denoised, choice = denoise_automatically(noisy, faces)
         seconds = time.perf_counter() - start
         angle = reference.theta(denoised)
-        ratios.append(angle / min(*alone, *after))
-        recipe = choice.recipe
-        chosen = f"{recipe.hand_over}, {recipe.sigma_r} x {choice.iterations}" if recipe else "nothing"
+        rows[name] = [reference.theta(noisy), min(*alone, *after), angle]
+        chosen = "; ".join(
+            f"{step.recipe.hand_over} {step.recipe.keep} {step.recipe.guide} {step.recipe.sigma_r} x {step.iterations}"
+            for step in choice.steps
+        )
         oracles = "".join(f"{min(run):10.2f} @{int(np.argmin(run)):3d}" for run in (alone, after))
-        print(f"{name:14s} {oracles} {angle:12.2f} {ratios[-1]:8.3f} {seconds:8.1f}   {chosen}")
+        ratio = angle / rows[name][1]
+        print(f"{name:14s} {oracles} {angle:12.2f} {ratio:8.3f} {seconds:8.1f}   {chosen or 'nothing'}", flush=True)
+    ratios = [angle / best for _, best, angle in rows.values()]
     print(f"better than the oracle on {sum(ratio < 1.0 for ratio in ratios)} of {len(ratios)}, worst {max(ratios):.3f}")
     expect("the automatic mode stays within 5 % of the oracle", max(ratios) < 1.05)
     expect("the automatic mode is better on at least half", sum(ratio < 1.0 for ratio in ratios) * 2 >= len(ratios))
+    return rows
 
 
 def metrics_table(folder: Path) -> None:
@@ -188,7 +196,7 @@ def _guided(positions: Positions, topology: Topology, iterations: int) -> Iterat
     return islice(endless(), iterations + 1)
 
 
-TABLES: dict[str, Callable[[Path], None]] = {
+TABLES: dict[str, Callable[[Path], object]] = {
     "guided": guided_table,
     "companions": companions_table,
     "handover": handover_table,
@@ -201,19 +209,28 @@ TABLES: dict[str, Callable[[Path], None]] = {
 def main(arguments: list[str] | None = None) -> int:
     """Print the tables that were asked for."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("meshes", type=Path, help="folder with static/ and noisy/")
-    parser.add_argument("tables", nargs="*", metavar="table", help=", ".join(TABLES))
+    parser.add_argument("meshes", type=Path, help="folder with static/, assets/, noisy/ and dynamic/")
+    parser.add_argument("tables", nargs="*", metavar="TABLE", help=", ".join((*TABLES, *TRIALS)))
+    parser.add_argument("--full", action="store_true", help="more meshes and levels (an hour)")
+    parser.add_argument("--json", type=Path, metavar="FILE", help="write figures of the tables here")
     chosen = parser.parse_args(arguments)
-    unknown = sorted(set(chosen.tables) - set(TABLES))
+    unknown = sorted(set(chosen.tables) - {*TABLES, *TRIALS})
     if unknown:
-        parser.error(f"there is no table {', '.join(unknown)}; choose among {', '.join(TABLES)}")
+        parser.error(f"there is no table {', '.join(unknown)}; choose among {', '.join((*TABLES, *TRIALS))}")
+    figures: dict[str, object] = {}
     try:
-        for name in chosen.tables or TABLES:
-            TABLES[name](chosen.meshes)
+        for name in chosen.tables or (*TABLES, *TRIALS):
+            if name in TRIALS:
+                figures[name] = TRIALS[name](chosen.meshes, chosen.full).values
+            else:
+                figures[name] = TABLES[name](chosen.meshes)
             print()
     except WrongAnswerError as error:
         print(f"wrong answer: {error}", file=sys.stderr)
         return 1
+    if chosen.json:
+        known = {name: value for name, value in figures.items() if value is not None}
+        chosen.json.write_text(json.dumps(known, indent=1) + "\n", encoding="utf-8")
     return 0
 
 

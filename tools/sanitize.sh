@@ -7,6 +7,8 @@ cd "$(dirname "$0")/.."
 python=${1:-python3}
 [ $# -gt 0 ] && shift
 python=$(command -v "$python")
+# Absolute, but through no link: it is the link that makes a virtual environment.
+python=$(cd "$(dirname "$python")" && pwd)/$(basename "$python")
 . tools/checking_copy.sh
 checking_copy sanitized -DBSM_SANITIZE=ON
 # libstdc++ as well: the sanitizer looks for its throw before Python has loaded it.

@@ -19,6 +19,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--largest", type=int, default=2_500_000, metavar="N", help="subdivide up to N vertices; 0: not at all"
     )
+    parser.add_argument("--no-solvers", action="store_true", help="leave out exact eigensolvers, which take minutes")
     parser.add_argument("--json", action="store_true", help="print it as JSON")
 
 
@@ -26,7 +27,14 @@ def run(args: argparse.Namespace, console: Console) -> None:
     """Measure and print."""
     from bsm.evaluation.bench import bench_tables, run_bench
 
-    result = run_bench(args.meshes, sample=args.sample, repeats=args.repeat, largest=args.largest, note=console.note)
+    result = run_bench(
+        args.meshes,
+        sample=args.sample,
+        repeats=args.repeat,
+        largest=args.largest,
+        solvers=not args.no_solvers,
+        note=console.note,
+    )
     if args.json:
         print_json(result)
     else:

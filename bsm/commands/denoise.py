@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import time
+from collections import Counter
 from collections.abc import Iterator
 from dataclasses import asdict
 from itertools import chain
@@ -21,10 +22,11 @@ from bsm.files.sequence import Frames, open_sequence, sequence_kind, sequence_wr
 from codec.geometry.mesh import Positions, TriangleMesh
 
 if TYPE_CHECKING:
-    from codec.denoise import AutomaticChoice, DenoiseOptions
+    from codec.denoise import AutomaticChoice, DenoiseOptions, Step
 
 FINE = ("guided", "bilateral", "non-iterative", "fast-effective", "bilateral-normal", "l0")
 HAND_OVERS = ("positions", "normals", "none")
+GOALS = ("shading", "shape")
 _OPTIONS = ("fine", "hand_over", "iterations", "keep", "block_size")
 
 
@@ -37,10 +39,18 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--format", choices=(*MESH_FORMATS, "npy"), help="format of the input, and of a piped output")
     add_reader_flag(parser)
+    parser.add_argument(
+        "--for",
+        dest="goal",
+        choices=GOALS,
+        default=GOALS[0],
+        help="what the automatic mode strives for: normals near the clean ones (shading), or vertices (shape)",
+    )
     ways = parser.add_argument_group(
         "instead of the automatic mode",
         "with none of these everything is chosen from the noise of the mesh (of the first frame); "
-        "with any of them the others have the paper's values",
+        "with any of them the others have the paper's values; a result that takes more away than noise is not written "
+        "without --force",
     )
     ways.add_argument("--fine", choices=FINE, default=argparse.SUPPRESS, help="fine step (guided)")
     ways.add_argument(
@@ -124,9 +134,10 @@ def _denoise_mesh(args: argparse.Namespace, console: Console, options: DenoiseOp
         console.note(f"{args.input}: {note}")
     mesh = source.mesh
     begin = time.perf_counter()
-    denoiser = FrameDenoiser(mesh.positions, mesh.faces, options)
-    _tell(console, denoiser.choice)
+    denoiser = FrameDenoiser(mesh.positions, mesh.faces, options, goal=args.goal, force=args.force)
     (positions,) = denoiser([mesh.positions])
+    _tell(console, denoiser.choice)
+    _tell_moved(console, mesh.positions, positions)
     seconds = time.perf_counter() - begin
     with open_output(args.output, overwrite=args.force) as file:
         file.write(format_mesh(TriangleMesh(positions, mesh.faces), kind))
@@ -143,14 +154,15 @@ def _denoise_sequence(
 
     first = next(source.frames)
     begin = time.perf_counter()
-    denoiser = FrameDenoiser(first, source.faces, options)
-    _tell(console, denoiser.choice)
+    denoiser = FrameDenoiser(first, source.faces, options, goal=args.goal, force=args.force)
     count = 0
     writer = sequence_writer(args.output, kind, source.faces, source.count, overwrite=args.force)
     with writer as write, console.progress("denoising", "frames") as progress:
         for frame in denoiser(_counted(chain([first], source.frames), source.count, progress)):
             write(frame)
             count += 1
+            if count == 1:
+                _tell(console, denoiser.choice)
     seconds = time.perf_counter() - begin
     console.note(
         f"{args.input}: {count} frames of {len(first)} vertices -> {args.output}, "
@@ -170,18 +182,39 @@ def _tell(console: Console, choice: AutomaticChoice | None) -> None:
     """What the automatic mode found and chose."""
     if choice is None:
         return
-    console.note(
-        f"noise      {choice.noise.normal:.2f} mean edges along the normals, {choice.noise.tangential:.2f} across"
-    )
-    if choice.recipe is None:
-        console.note("chosen     nothing: any filter would cost more detail than it removes noise")
-    else:
-        guide = "guided normal filter" if choice.recipe.guide == "patches" else "bilateral normal filter"
-        console.note(
-            f"chosen     hand-over of {choice.recipe.hand_over}, c = {100 * choice.recipe.keep:g} % of a block; "
-            f"{choice.iterations} iterations of the {guide}, sigma_r {choice.recipe.sigma_r:g}"
-        )
-    console.note(f"expected   normals {choice.expected_theta:.1f} degrees off, more where there is fine detail")
+    if choice.outliers:
+        console.note(f"put back   {choice.outliers} vertices that stood out by themselves")
+    if not choice.steps:
+        if not choice.outliers:
+            said = "steadied   " if choice.kind == "unsteady" else "left       as it was: "
+            console.note(f"{said}{choice.reason}")
+        return
+    noise = choice.noise
+    console.note(f"found      {choice.reason}")
+    console.note(f"noise      {noise.normal:.2f} mean edges along the normals, {noise.tangential:.2f} across")
+    for step, times in Counter(choice.steps).items():
+        share = "" if times == len(choice.steps) else f"{100 * times / len(choice.steps):.0f} % "
+        console.note(f"chosen     {share}{_described(step)}")
+    console.note(f"expected   {choice.expected:.1f} after {choice.untreated:.1f}, more where there is fine detail")
+
+
+def _described(step: Step) -> str:
+    recipe = step.recipe
+    guide = {
+        "patches": "guided normal filter",
+        "own": "bilateral normal filter",
+        "local": "local bilateral normal filter",
+    }[recipe.guide]
+    begun = f"hand-over of {recipe.hand_over}, c = {100 * recipe.keep:g} % of a block"
+    if not recipe.needs_coarse:
+        begun = "no hand-over"
+    return f"{begun}; {step.iterations} iterations of the {guide}, sigma_r {recipe.sigma_r:g}"
+
+
+def _tell_moved(console: Console, before: Positions, after: Positions) -> None:
+    moved = int((before != after).any(axis=1).sum())
+    if 0 < moved < len(before):
+        console.note(f"left       {len(before) - moved} of {len(before)} vertices as they were")
 
 
 def _result(

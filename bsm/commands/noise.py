@@ -15,7 +15,7 @@ from bsm.files.naming import refuse_terminal
 from bsm.files.output import open_output, refuse_to_overwrite
 from codec.geometry.mesh import Positions, TriangleMesh
 
-KINDS = ("gaussian", "isotropic", "impulsive")
+KINDS = ("gaussian", "isotropic", "uniform", "impulsive", "axis", "correlated", "part")
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -30,9 +30,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--kind",
         choices=KINDS,
         default="gaussian",
-        help="along the normals (default), in all directions, or along the normals of some vertices only",
+        help="Gaussian along the normals (default); in all directions; from an interval; on some vertices only; along "
+        "one axis (a depth camera); shared by neighbours (a scanner); in one part of the mesh only",
     )
-    parser.add_argument("--fraction", type=float, metavar="P", help="share of the vertices, impulsive only (0.5)")
+    parser.add_argument(
+        "--fraction", type=float, metavar="P", help="share of the vertices, impulsive and part only (0.5)"
+    )
+    parser.add_argument("--axis", type=float, nargs=3, metavar=("X", "Y", "Z"), help="direction, axis only (0 0 1)")
     parser.add_argument("--seed", type=int, default=0, metavar="N", help="the same seed gives the same noise (0)")
     add_reader_flag(parser)
     parser.add_argument("--json", action="store_true", help="print what was done as JSON")
@@ -66,12 +70,24 @@ def run(args: argparse.Namespace, console: Console) -> None:
 
 
 def _generator(args: argparse.Namespace) -> Callable[[TriangleMesh], Positions]:
-    from codec.denoise.noise import gaussian_along_normals, gaussian_isotropic, impulsive
+    from codec.denoise import noise
 
-    if args.kind == "impulsive":
+    sigma, seed = args.sigma, args.seed
+    if args.fraction is not None and args.kind not in ("impulsive", "part"):
+        raise OptionError("--fraction goes with --kind impulsive and --kind part only")
+    if args.axis is not None and args.kind != "axis":
+        raise OptionError("--axis goes with --kind axis only")
+    if args.kind in ("impulsive", "part"):
+        some = noise.impulsive if args.kind == "impulsive" else noise.gaussian_in_part
         fraction = 0.5 if args.fraction is None else args.fraction
-        return lambda mesh: impulsive(mesh.positions, mesh.faces, args.sigma, fraction, args.seed)
-    if args.fraction is not None:
-        raise OptionError("--fraction goes with --kind impulsive only")
-    generate = gaussian_along_normals if args.kind == "gaussian" else gaussian_isotropic
-    return lambda mesh: generate(mesh.positions, mesh.faces, args.sigma, args.seed)
+        return lambda mesh: some(mesh.positions, mesh.faces, sigma, fraction, seed)
+    if args.kind == "axis":
+        axis = (0.0, 0.0, 1.0) if args.axis is None else tuple(args.axis)
+        return lambda mesh: noise.gaussian_along_axis(mesh.positions, mesh.faces, sigma, seed, axis)
+    generate = {
+        "gaussian": noise.gaussian_along_normals,
+        "isotropic": noise.gaussian_isotropic,
+        "uniform": noise.uniform_along_normals,
+        "correlated": noise.correlated_along_normals,
+    }[args.kind]
+    return lambda mesh: generate(mesh.positions, mesh.faces, sigma, seed)

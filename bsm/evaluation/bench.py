@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 
 from bsm.evaluation.draco import decode_draco, encode_draco
+from bsm.evaluation.link import break_even, deliveries
 from bsm.evaluation.resources import measure_resources
 from bsm.evaluation.solvers import Timing, time_solvers
 from bsm.evaluation.tables import number, table
@@ -33,6 +34,7 @@ def run_bench(
     sample: int = 16,
     repeats: int = 3,
     largest: int = 2_500_000,
+    solvers: bool = True,
     note: Note = lambda text: None,
 ) -> dict[str, Any]:
     """Measure everything.
@@ -47,13 +49,16 @@ def run_bench(
         Runs of everything, the fastest counts.
     largest : int
         Vertices up to which the first mesh is subdivided; 0: not at all.
+    solvers : bool
+        Measure eigensolvers as well.
     note : callable
         Takes a line about progress.
 
     Returns
     -------
     dict
-        `meshes`: for each mesh `dictionaries` (see `summarise`) and `files` (see `compare_with_draco`); `growth`: see
+        `meshes`: for each mesh `files` (see `compare_with_draco`), `link` (see `compare_links`) and, with `solvers`,
+        `dictionaries` and `speedups` (see `summarise`); `growth`: see
         `measure_growth`. Ready for JSON.
     """
     rows = []
@@ -61,9 +66,12 @@ def run_bench(
         mesh = read_mesh(path).mesh.without_isolated_vertices()[0]
         note(f"{path}: whole files")
         files = compare_with_draco(mesh, repeats)
-        note(f"{path}: eigensolvers")
-        timings = time_solvers(mesh, KEEPS, sample, repeats)
-        rows.append({"mesh": Path(path).stem, "vertices": len(mesh.positions), "files": files, **summarise(timings)})
+        row = {"mesh": Path(path).stem, "vertices": len(mesh.positions), "files": files}
+        row |= {"link": compare_links(mesh, repeats), "dictionaries": [], "speedups": []}
+        if solvers:
+            note(f"{path}: eigensolvers")
+            row |= summarise(time_solvers(mesh, KEEPS, sample, repeats))
+        rows.append(row)
     return {"meshes": rows, "growth": measure_growth(meshes[0], largest, repeats, note) if largest else []}
 
 
@@ -125,6 +133,12 @@ def compare_with_draco(mesh: TriangleMesh, repeats: int) -> dict[str, dict[str, 
         }
         for name in works
     }
+
+
+def compare_links(mesh: TriangleMesh, repeats: int) -> dict[str, Any]:
+    """`ours` and `draco`: files that keep 7 degrees; `break_even_mbit`: below, ours is there and decoded first."""
+    ours, theirs = deliveries(mesh, repeats)
+    return {"ours": asdict(ours), "draco": asdict(theirs), "break_even_mbit": break_even(ours, theirs)}
 
 
 def measure_growth(path: str, largest: int, repeats: int, note: Note) -> list[dict[str, Any]]:
@@ -208,7 +222,11 @@ def bench_tables(result: dict[str, Any]) -> str:
                 ],
             )
         )
-        parts.append("")
+        link = row["link"]
+        files = " and ".join(
+            f"{link[who]['size']} bytes ({link[who]['theta_deg']:.2f} degrees)" for who in ("ours", "draco")
+        )
+        parts.append(f"\n{files}: below {link['break_even_mbit']:.1f} Mbit/s ours is there and decoded first\n")
     if result["growth"]:
         parts.append("growth, CPU microseconds of all threads and peak memory of the process per vertex:\n")
         parts.append(

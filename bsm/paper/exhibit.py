@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from typing import Any
 
 
@@ -125,6 +125,24 @@ class Picture:
     data: bytes
 
 
+@dataclass(frozen=True)
+class Claim:
+    """Something that the paper says in words, and whether it came out here.
+
+    Parameters
+    ----------
+    says : str
+        The paper's claim, a sentence.
+    holds : bool
+    found : str
+        What was measured, a sentence.
+    """
+
+    says: str
+    holds: bool
+    found: str
+
+
 @dataclass(frozen=True, eq=False)
 class Exhibit:
     """A table or figure of the paper, made again.
@@ -138,6 +156,8 @@ class Exhibit:
     pictures : tuple of Picture
     remarks : tuple of str
         What the paper claims, what we find, and why it differs; a sentence or two each.
+    claims : tuple of Claim
+        What can be counted as agreement or disagreement although the paper prints no number.
     """
 
     title: str
@@ -145,6 +165,12 @@ class Exhibit:
     tables: tuple[Table, ...] = ()
     pictures: tuple[Picture, ...] = ()
     remarks: tuple[str, ...] = ()
+    claims: tuple[Claim, ...] = ()
+
+    def compared(self) -> tuple[int, int]:
+        """How many numbers of all tables stand beside one of the paper, and how many of these agree."""
+        counts = [table.compared() for table in self.tables]
+        return sum(count[0] for count in counts), sum(count[1] for count in counts)
 
     def as_json(self) -> dict[str, Any]:
         """Everything but the pictures, ready for JSON."""
@@ -154,4 +180,5 @@ class Exhibit:
             "tables": [table.as_json() for table in self.tables],
             "pictures": [picture.caption for picture in self.pictures],
             "remarks": list(self.remarks),
+            "claims": [asdict(claim) for claim in self.claims],
         }

@@ -112,9 +112,7 @@ def _row(
 
 
 def _columns(role: str) -> tuple[Column, ...]:
-    machine = (
-        _MACHINE if role == "armadillo" else f"{_MACHINE} Besides, the Horse has a seventh of the Hand's vertices."
-    )
+    machine = _MACHINE if role == "armadillo" else f"{_MACHINE} Besides, the mesh is not the Hand."
     return (
         Column("SVD, dB", 2, 0.01, _ERROR),
         Column("OI, dB", 2, 0.01, _ERROR),

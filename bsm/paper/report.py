@@ -7,7 +7,8 @@ import html
 import json
 from typing import Any
 
-from bsm.paper.exhibit import Cell, Column, Exhibit, Picture, Table
+from bsm.paper.exhibit import Cell, Claim, Column, Exhibit, Picture, Table
+from bsm.paper.scoreboard import scores
 
 PAPER = "Block-Based Spectral Processing of Static and Dynamic 3D Meshes using Orthogonal Iterations"
 _GENERATED = "A generated mesh stands in for the paper's, so the numbers need not agree."
@@ -61,6 +62,7 @@ def report(exhibits: dict[str, Exhibit], models: Table, *, generated: bool, quic
             "corresponding faces, MND the mean length of their difference.</p>",
             *(f'<p class="warning">{_text(word)}</p>' for word in words),
             _table(models, "models", generated=False),
+            _scoreboard(exhibits),
             f"<ol>{contents}</ol>",
             *(_exhibit(key, exhibit, generated=generated) for key, exhibit in exhibits.items()),
             f'<script type="application/json" id="data">{data}</script></body></html>\n',
@@ -69,14 +71,33 @@ def report(exhibits: dict[str, Exhibit], models: Table, *, generated: bool, quic
 
 
 def summary(exhibits: dict[str, Exhibit]) -> str:
-    """A line for each exhibit: how many numbers were compared, and how many agree."""
+    """The scoreboard as text: how many numbers were compared and agree, and how many claims hold; the sum at last."""
     lines = []
-    for key, exhibit in exhibits.items():
-        counts = [table.compared() for table in exhibit.tables]
-        compared, agreeing = (sum(count[i] for count in counts) for i in range(2))
-        verdict = f"{agreeing} of {compared} numbers agree with the paper's" if compared else "no numbers in the paper"
-        lines.append(f"{key:<16}{len(exhibit.tables)} tables, {len(exhibit.pictures):>2} pictures; {verdict}")
+    for score, exhibit in zip(scores(exhibits), (*exhibits.values(), None), strict=True):
+        made = f"{len(exhibit.tables)} tables, {len(exhibit.pictures):>2} pictures; " if exhibit else ""
+        lines.append(f"{score.name:<16}{made}{score.words}")
     return "\n".join(lines)
+
+
+def _scoreboard(exhibits: dict[str, Exhibit]) -> str:
+    rows = []
+    for score in scores(exhibits):
+        name = f'<a href="#{score.name}">{_text(score.name)}</a>' if score.name in exhibits else _text(score.name)
+        cells = (score.agreeing, score.numbers, score.holding, score.claims)
+        rows.append(f"<tr><td>{name}</td>{''.join(f'<td>{cell}</td>' for cell in cells)}</tr>")
+    heads = "".join(f"<th>{head}</th>" for head in ("numbers agree", "of", "claims hold", "of"))
+    failed = [claim for exhibit in exhibits.values() for claim in exhibit.claims if not claim.holds]
+    return (
+        f'<div id="scoreboard"><h3>Scoreboard</h3><table><thead><tr><th>exhibit</th>{heads}</tr></thead>'
+        f"<tbody>{''.join(rows)}</tbody></table>"
+        + (f"<p>What does not hold:</p><ul>{''.join(map(_claim, failed))}</ul>" if failed else "")
+        + "</div>"
+    )
+
+
+def _claim(claim: Claim) -> str:
+    verdict = "holds" if claim.holds else "does not hold"
+    return f"<li>{_text(claim.says)} <b>{verdict}</b>: {_text(claim.found)}</li>"
 
 
 def _exhibit(key: str, exhibit: Exhibit, *, generated: bool) -> str:
@@ -87,6 +108,7 @@ def _exhibit(key: str, exhibit: Exhibit, *, generated: bool) -> str:
             *tables,
             *map(_picture, exhibit.pictures),
             *(f"<p>{_text(remark)}</p>" for remark in exhibit.remarks),
+            f"<ul>{''.join(map(_claim, exhibit.claims))}</ul>" if exhibit.claims else "",
             "</section>",
         ]
     )

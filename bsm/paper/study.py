@@ -13,7 +13,7 @@ import numpy.typing as npt
 from bitstream.errors import OptionError
 from bsm.evaluation.render import DEFAULT_VIEW, view_matrix
 from bsm.evaluation.sample import knot
-from bsm.files.mesh import read_mesh
+from bsm.files.mesh import format_of_name, read_mesh
 from bsm.files.npz import read_arrays
 from bsm.paper.shapes import ball, box, swaying
 from codec.denoise.noise import gaussian_along_normals
@@ -24,6 +24,9 @@ Item = TypeVar("Item")
 
 _UPRIGHT = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])
 """Turns y, which points up in the files, to z, which points up in pictures."""
+
+LARGEST = ""
+"""In place of a file's name: the largest file there is."""
 
 GENERATED = 12_000
 """Most vertices of a generated model."""
@@ -40,7 +43,7 @@ class Role:
     vertices : int
         In the paper; 0 where it does not say.
     clean, noisy : str
-        File names without suffix in `static/` and `noisy/`; "" where there is no noisy partner.
+        File names without suffix in `static/` (or `LARGEST`) and `noisy/`; "" where there is no noisy partner.
     shape : callable
         Makes a stand-in of about so many vertices.
     sigma : float
@@ -89,11 +92,11 @@ ROLES = {
     "hand": Role(
         "Hand",
         327_323,
-        "horse_48485",
+        LARGEST,
         "",
         lambda n: knot(n, 4),
         0.2,
-        "not available; the Horse (48,485 vertices) takes its place, in blocks of the size that the Hand's had",
+        "not available; the largest mesh of the folder takes its place, in blocks of the size that the Hand's had",
     ),
     "sphere": Role("Sphere", 0, "sharpsphere", "sharpsphere_noisy", ball, 0.3, "the sharp sphere of the same data set"),
     "star": Role("Trim star", 0, "trim_star", "trim_star_noisy", lambda n: ball(n, 0.35), 0.5),
@@ -236,12 +239,20 @@ class Study:
         return Model(MOVING.clean, MOVING, frames[0], frames[0], faces.astype(np.int32), MOVING.view), frames
 
     def _read(self, role: Role) -> Model:
-        mesh = self._positions("static", role.clean)
+        name = role.clean or self._largest("static")
+        mesh = self._positions("static", name)
         if role.noisy:
             moved = self._positions("noisy", role.noisy).positions
         else:
             moved = gaussian_along_normals(mesh.positions, mesh.faces, role.sigma, seed=1)
-        return Model(role.clean, role, mesh.positions, moved, mesh.faces, role.view)
+        return Model(name, role, mesh.positions, moved, mesh.faces, role.view)
+
+    def _largest(self, part: str) -> str:
+        assert self.folder is not None
+        files = [path for path in sorted((self.folder / part).iterdir()) if format_of_name(path)]
+        if not files:
+            raise OptionError(f"{self.folder / part} holds no mesh")
+        return max(files, key=lambda path: path.stat().st_size).stem
 
     def _positions(self, part: str, name: str) -> TriangleMesh:
         assert self.folder is not None

@@ -7,14 +7,19 @@ from codec.denoise.frames import FrameDenoiser, coarse_frames
 from codec.denoise.handover import HAND_OVERS
 from codec.denoise.options import DenoiseOptions
 from codec.denoise.pipeline import denoise, denoise_frames
+from codec.denoise.recipe import Recipe, Step
+from codec.denoise.rehearsal import GOALS
 
 __all__ = [
     "FINE_STEPS",
+    "GOALS",
     "HAND_OVERS",
     "AutomaticChoice",
     "CoarseFilter",
     "DenoiseOptions",
     "FrameDenoiser",
+    "Recipe",
+    "Step",
     "coarse_frames",
     "denoise",
     "denoise_automatically",

@@ -1,38 +1,47 @@
-"""Denoising that chooses its own settings, by rehearsal (a parametric bootstrap).
-
-The clean mesh is unknown, but a good guess at it can be made noisy again, with noise of the level that was estimated
-on the input. On this rehearsal mesh the answer is known, so every way of denoising can be tried and measured.
-
-The guess matters: one that still has noise in it takes the noise for detail and asks for too few iterations, one that
-is too smooth asks for too many. So the guess is the noisy mesh after t iterations of a base recipe, and t rises from 1
-until the rehearsal asks for hardly more iterations than the guess itself was given. On that last rehearsal all
-candidates compete, doing nothing among them.
-"""
+"""Denoising that chooses its own settings, and leaves alone what it cannot improve."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass
-from itertools import islice
+from dataclasses import dataclass, replace
 
 import numpy as np
 
+from codec.choices import named
 from codec.denoise.coarse import CoarseFilter
-from codec.denoise.estimate import NoiseLevel, add_noise, estimate_noise
+from codec.denoise.estimate import NoiseLevel
 from codec.denoise.filters.topology import Topology
-from codec.denoise.recipe import Recipe, iterates
+from codec.denoise.finding import Finding, find_noise
+from codec.denoise.outliers import Outliers, find_outliers
+from codec.denoise.probe import Probe
+from codec.denoise.recipe import Recipe, Step, blend, perform
+from codec.denoise.rehearsal import GOALS, MOST_MEMBERS, Rehearsal
+from codec.denoise.safety import Verdict, judge, keep_good, restraint
+from codec.denoise.sample import sample
 from codec.geometry.mesh import Faces, Positions
-from codec.geometry.metrics import Reference, mean_edge_length
-from codec.threads import ordered_map
+from codec.geometry.metrics import mean_edge_length
+from codec.geometry.welding import weld
 
-MOST_ITERATIONS = 30
-PATIENCE = 5
-BASE = Recipe("normals", 0.20, "patches", 0.35)
-CANDIDATES = tuple(
-    Recipe(hand_over, 0.20, "own", sigma_r) for hand_over in ("normals", "positions") for sigma_r in (0.25, 0.4, 0.5)
+BASE = Recipe("normals", 0.2, "patches", 0.35)
+CANDIDATES = (
+    BASE,
+    *(Recipe("normals", 0.2, "own", sigma_r) for sigma_r in (0.25, 0.4, 0.55)),
+    Recipe("normals", 0.1, "own", 0.4),
+    Recipe("normals", 0.3, "own", 0.4),
+    *(Recipe("positions", 0.2, "own", sigma_r) for sigma_r in (0.25, 0.4, 0.55)),
+    Recipe("positions", 0.1, "own", 0.4),
+    Recipe("positions", 0.3, "own", 0.55),
+    Recipe("positions", 0.4, "own", 0.55),
+    Recipe("positions", 0.2, "patches", 0.35),
+    Recipe("none", 0.2, "own", 0.4),
+    Recipe("none", 0.2, "patches", 0.35),
+    *(Recipe("none", 0.2, "local", sigma_r) for sigma_r in (0.35, 0.45, 0.6)),
 )
-LARGEST_KEEP = max(recipe.keep for recipe in (BASE, *CANDIDATES))
-SEED = 1
+LARGEST_KEEP = max(recipe.keep for recipe in CANDIDATES)
+BLOCK_SIZE = 500
+LARGE, MOST_LARGE_MEMBERS = 100_000, 2
+"""From so many vertices on a blend has fewer members, for the sake of time."""
+WORTH = 0.9
+"""The rehearsal has to promise an error below this multiple of what doing nothing leaves."""
 
 
 @dataclass(frozen=True)
@@ -41,103 +50,142 @@ class AutomaticChoice:
 
     Attributes
     ----------
-    recipe : Recipe, optional
-        None: the mesh is best left alone.
-    iterations : int
-        Of the recipe's filter.
+    steps : tuple of Step
+        The result is their mean; none: the mesh is best left alone.
+    kind : str
+        Of the noise, see `codec.denoise.finding.Finding`; "outliers" where single vertices were all there was, and
+        "unsteady" where noise was removed in time alone.
+    reason : str
+        A sentence on what was found.
     noise : NoiseLevel
         Estimated on the input, in mean edge lengths.
-    expected_theta : float
-        Mean angle between the face normals of result and clean mesh in the last rehearsal, degrees. Real meshes have
-        detail that the rehearsal lacks: take it as a lower bound.
+    untreated, expected : float
+        Error of the noisy mesh and of the result in the last rehearsal: degrees between face normals, or mean edges
+        between vertices. Real meshes have detail that the rehearsal lacks: take it as a lower bound.
     rehearsals : int
         How many there were.
+    outliers : int
+        Vertices that stood out by themselves and were put back before all else.
     """
 
-    recipe: Recipe | None
-    iterations: int
+    steps: tuple[Step, ...]
+    kind: str
+    reason: str
     noise: NoiseLevel
-    expected_theta: float
+    untreated: float
+    expected: float
     rehearsals: int
+    outliers: int = 0
+
+    def after(self, outliers: Outliers) -> AutomaticChoice:
+        """The choice for a mesh of which outliers have been put back."""
+        count = len(outliers.vertices)
+        if count == 0 or self.steps:
+            return replace(self, outliers=count)
+        return replace(self, kind="outliers", reason=f"{count} vertices that stood out by themselves", outliers=count)
 
 
-@dataclass(frozen=True)
-class _Trial:
-    """The best that a recipe can do on a rehearsal mesh."""
-
-    recipe: Recipe | None
-    iterations: int
-    theta: float
-
-
-def denoise_automatically(positions: Positions, faces: Faces) -> tuple[Positions, AutomaticChoice]:
+def denoise_automatically(
+    positions: Positions, faces: Faces, goal: str = "shading"
+) -> tuple[Positions, AutomaticChoice]:
     """Denoise with settings that the noisy mesh itself suggests.
 
     Parameters
     ----------
     positions : ndarray of float64, shape (n, 3)
     faces : ndarray of int32, shape (m, 3)
+    goal : str
+        "shading": normals near the clean ones; "shape": vertices.
 
     Returns
     -------
     ndarray of float64, shape (n, 3)
+        Where nothing is to be gained, the positions bit for bit.
     AutomaticChoice
     """
-    positions = np.array(positions, dtype=np.float64)
-    topology = Topology(faces, len(positions))
-    coarse = CoarseFilter(faces, len(positions), LARGEST_KEEP)
-    choice = choose(positions, coarse, topology)
-    smooth = positions if choice.recipe is None else coarse(positions, choice.recipe.keep)
-    return apply(choice, positions, smooth, topology), choice
+    given = np.array(positions, dtype=np.float64)
+    welded, faces, index = weld(given, faces)
+    patient = Patient(faces, len(welded))
+    outliers = find_outliers(welded, patient.probe)
+    calmed = outliers.put_back(welded)
+    finding = find_noise(calmed, patient.probe)
+    choice = choose(calmed, finding, patient, goal).after(outliers)
+    result, verdict = treat(choice, calmed, finding, patient)
+    if not verdict.holds:
+        choice = replace(choice, steps=(), reason=verdict.reason)
+    moved = (result != welded).any(axis=1)[index]
+    return np.where(moved[:, None], result[index], given), choice
 
 
-def apply(choice: AutomaticChoice, noisy: Positions, smooth: Positions, topology: Topology) -> Positions:
-    """Do what was chosen; `smooth` is the coarse mesh at the chosen fraction of the frequencies."""
-    if choice.recipe is None:
-        return noisy.copy()
-    return _after(iterates(choice.recipe, noisy, smooth, topology), choice.iterations)
+class Patient:
+    """What depends on the faces alone, for a mesh that is welded.
+
+    Parameters
+    ----------
+    faces : ndarray of int32, shape (m, 3)
+    n : int
+    """
+
+    def __init__(self, faces: Faces, n: int) -> None:
+        self.topology = Topology(faces, n)
+        self.probe = Probe(self.topology)
+        self._coarse: CoarseFilter | None = None
+        self._keep = 0.0
+
+    def edge(self, positions: Positions) -> float:
+        """Mean edge length."""
+        return mean_edge_length(positions, self.topology.faces)
+
+    def smooth(self, positions: Positions, keep: float, most: float) -> Positions:
+        """The coarse mesh; `most` is the largest fraction that will be asked for."""
+        if self._coarse is None or self._keep < keep:
+            self._keep = max(keep, most)
+            self._coarse = CoarseFilter(self.topology.faces, self.topology.n, self._keep, BLOCK_SIZE)
+        return self._coarse(positions, keep)
 
 
-def choose(positions: Positions, coarse: CoarseFilter, topology: Topology) -> AutomaticChoice:
-    """Estimate the noise and rehearse, see the module's description."""
-    edge = mean_edge_length(positions, topology.faces)
-    smooth = coarse(positions, BASE.keep)
-    level = estimate_noise(positions, smooth, topology)
-    base = iterates(BASE, positions, smooth, topology)
-    given, done, rehearsals = 1, -1, 0
-    while True:
-        guess = _after(base, given - done - 1)
-        done = given
-        rehearsals += 1
-        rehearsal = add_noise(guess, level, topology, SEED)
-        truth = Reference(guess, topology.faces)
-        wanted = _try(BASE, rehearsal, truth, coarse, topology).iterations
-        if wanted <= 1.5 * given + 0.5:
-            break
-        given = wanted
-
-    def attempt(recipe: Recipe) -> _Trial:
-        return _try(recipe, rehearsal, truth, coarse, topology)
-
-    nothing = _Trial(None, 0, truth.theta(rehearsal))
-    best = min([nothing, *ordered_map(attempt, CANDIDATES, None)], key=lambda trial: trial.theta)
-    noise = NoiseLevel(level.normal / edge, level.tangential / edge)
-    return AutomaticChoice(best.recipe, best.iterations, noise, best.theta, rehearsals)
+def choose(positions: Positions, finding: Finding, patient: Patient, goal: str = "shading") -> AutomaticChoice:
+    """Rehearse, on a part of the mesh if it is large, and pick what did best."""
+    if not finding.noisy:
+        return AutomaticChoice((), finding.kind, finding.reason, NoiseLevel(0.0, 0.0), 0.0, 0.0, 0)
+    members, part = sample(patient.topology.faces, finding.levels)
+    probe = patient.probe if len(members) == patient.topology.n else Probe(Topology(part, len(members)))
+    coarse = CoarseFilter(part, len(members), LARGEST_KEEP, BLOCK_SIZE)
+    local = replace(finding, levels=finding.levels[members])
+    rehearsal = Rehearsal(positions[members], local, probe, coarse, BASE, named("goal", GOALS, goal))
+    most = MOST_MEMBERS if patient.topology.n <= LARGE else MOST_LARGE_MEMBERS
+    steps, expected = rehearsal.compete(CANDIDATES, most)
+    # The result is a better guess than the one it was chosen with. A third round would believe its own mistakes.
+    rehearsal.rehearse(rehearsal.perform(steps))
+    untreated = rehearsal.untreated
+    steps, expected = rehearsal.compete(CANDIDATES, most)
+    reason = finding.reason
+    if expected > WORTH * untreated:
+        steps, expected = (), untreated
+        reason = f"{reason}, but any filter would cost more than it gains"
+    level = rehearsal.level
+    noise = NoiseLevel(level.normal / finding.edge, level.tangential / finding.edge)
+    return AutomaticChoice(steps, finding.kind, reason, noise, untreated, expected, rehearsal.rounds)
 
 
-def _try(recipe: Recipe, noisy: Positions, truth: Reference, coarse: CoarseFilter, topology: Topology) -> _Trial:
-    """Iterate until nothing has improved for a while."""
-    best = _Trial(recipe, 0, np.inf)
-    run = iterates(recipe, noisy, coarse(noisy, recipe.keep), topology)
-    for count, positions in enumerate(islice(run, MOST_ITERATIONS + 1)):
-        angle = truth.theta(positions)
-        if angle < best.theta:
-            best = _Trial(recipe, count, angle)
-        elif count >= best.iterations + PATIENCE:
-            break
-    return best
+def treat(choice: AutomaticChoice, noisy: Positions, finding: Finding, patient: Patient) -> tuple[Positions, Verdict]:
+    """Do what was chosen, where there is noise and as far as the result may stand."""
+    if not choice.steps:
+        return noisy, Verdict(np.ones(len(noisy), dtype=np.bool_), 0.0, 0.0, "")
+    results = {step: _perform(step, choice, noisy, patient) for step in set(choice.steps)}
+    result = blend([results[step] for step in choice.steps])
+    result = keep_good(noisy, result, finding.levels > 0.0)
+    verdict = judge(noisy, result, finding, patient.probe)
+    if not verdict.holds:
+        return noisy, verdict
+    share = restraint(verdict.movement, finding)
+    if share < 1.0:
+        result = noisy + share * (result - noisy)
+    return keep_good(noisy, result, verdict.good), verdict
 
 
-def _after(run: Iterator[Positions], count: int) -> Positions:
-    """The result `count` places further on."""
-    return next(islice(run, count, None))
+def _perform(step: Step, choice: AutomaticChoice, noisy: Positions, patient: Patient) -> Positions:
+    recipe = step.recipe
+    most = max(other.recipe.keep for other in choice.steps)
+    smooth = patient.smooth(noisy, recipe.keep, most) if recipe.needs_coarse else noisy
+    return perform(step, noisy, smooth, patient.topology)

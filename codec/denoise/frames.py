@@ -3,59 +3,38 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
+from dataclasses import replace
 from itertools import islice
 
 import numpy as np
 import numpy.typing as npt
 
-from bitstream.errors import MeshError
-from codec.denoise.automatic import LARGEST_KEEP, AutomaticChoice, apply, choose
+from bitstream.errors import HarmError, MeshError
+from codec.denoise.automatic import AutomaticChoice, Patient, choose, treat
 from codec.denoise.coarse import BLOCK_SIZE, KEEP, CoarseFilter
 from codec.denoise.filters.fine import fine_step
-from codec.denoise.filters.topology import Topology
+from codec.denoise.finding import Finding, find_noise
 from codec.denoise.handover import hand_over
 from codec.denoise.options import DenoiseOptions
+from codec.denoise.outliers import find_outliers
+from codec.denoise.safety import judge, keep_good
+from codec.denoise.temporal import FEWEST_FRAMES, TemporalFilter
 from codec.geometry.mesh import Faces, Positions
+from codec.geometry.welding import weld
 from codec.threads import ordered_map
 
 Frames = npt.NDArray[np.float64]
+Pair = tuple[Positions, Positions]
 
 GROUP = 8
 """Frames that pass the coarse step together: enough for a matrix product, few enough for any memory."""
-
-
-@dataclass(frozen=True, eq=False)
-class _Chosen:
-    """What the automatic mode settled on."""
-
-    choice: AutomaticChoice
-    topology: Topology
-
-    @property
-    def keep(self) -> float | None:
-        return None if self.choice.recipe is None else self.choice.recipe.keep
-
-    def finish(self, noisy: Positions, smooth: Positions) -> Positions:
-        return apply(self.choice, noisy, smooth, self.topology)
-
-
-@dataclass(frozen=True, eq=False)
-class _Given:
-    """What the caller asked for."""
-
-    options: DenoiseOptions
-    topology: Topology
-
-    @property
-    def keep(self) -> float | None:
-        return None if self.options.hand_over == "none" else self.options.keep
-
-    def finish(self, noisy: Positions, smooth: Positions) -> Positions:
-        start, step = hand_over(self.options.hand_over), fine_step(self.options.fine)
-        begun = start(noisy, smooth, self.topology)
-        count = self.options.iterations
-        return step(begun, self.topology.faces) if count is None else step(begun, self.topology.faces, count)
+WINDOW = 64
+"""Frames that the temporal filter sees at once, if they fit."""
+WINDOW_BYTES = 2**28
+OVERLAP = 8
+"""Frames over which one window fades into the next."""
+UNSTEADY = 0.03
+"""Noise that changes from frame to frame, in mean edges along the normals, from which on it is removed."""
 
 
 class FrameDenoiser:
@@ -64,15 +43,19 @@ class FrameDenoiser:
     Parameters
     ----------
     first : ndarray of float64, shape (n, 3)
-        The frame on which settings are chosen where there are no options.
+        The frame whose coinciding vertices are taken for one vertex.
     faces : ndarray of int32, shape (m, 3)
     options : DenoiseOptions, optional
-        None: chosen from the noise of the first frame, see `codec.denoise.automatic`.
+        None: chosen from the noise of the first frames, see `codec.denoise.automatic`.
+    goal : str
+        What the automatic mode strives for: "shading" (normals) or "shape" (vertices).
+    force : bool
+        Let the options have their way even where they do harm.
 
     Attributes
     ----------
     choice : AutomaticChoice, optional
-        What was chosen; None where options were given.
+        What was chosen, from the first result on; None where options were given.
 
     Raises
     ------
@@ -80,45 +63,142 @@ class FrameDenoiser:
         If `first` is not of shape (n, 3), or has a coordinate that is not finite.
     """
 
-    def __init__(self, first: Positions, faces: Faces, options: DenoiseOptions | None = None) -> None:
+    def __init__(
+        self,
+        first: Positions,
+        faces: Faces,
+        options: DenoiseOptions | None = None,
+        *,
+        goal: str = "shading",
+        force: bool = False,
+    ) -> None:
         first = np.ascontiguousarray(first, dtype=np.float64)
         if first.ndim != 2 or first.shape[1] != 3:
             raise MeshError(f"a frame must have shape (n, 3), not {first.shape}")
         self._shape = first.shape
         first = self._checked(first)
-        topology = Topology(faces, len(first))
+        welded, faces, self._index = weld(first, faces)
+        self._members = np.unique(self._index, return_index=True)[1]
+        self._patient = Patient(faces, len(welded))
+        self._options, self._goal, self._force = options, goal, force
         self.choice: AutomaticChoice | None = None
-        self._coarse: CoarseFilter | None = None
-        self._way: _Chosen | _Given
-        if options is None:
-            self._coarse = CoarseFilter(faces, len(first), LARGEST_KEEP)
-            self.choice = choose(first, self._coarse, topology)
-            self._way = _Chosen(self.choice, topology)
-        else:
-            self._way = _Given(options, topology)
-            if self._way.keep is not None:
-                self._coarse = CoarseFilter(faces, len(first), options.keep, options.block_size)
 
     def __call__(self, frames: Iterable[Positions]) -> Iterator[Positions]:
-        """Denoise frame after frame, holding only a few of them at any time.
+        """Denoise frame after frame, holding only so many of them at any time.
 
         Raises
         ------
         MeshError
             If a frame has another shape than the first one, or a coordinate that is not finite.
+        HarmError
+            If the options would make a frame worse.
         """
-        yield from ordered_map(lambda pair: self._way.finish(*pair), self._pairs(frames), None)
+        checked = map(self._checked, frames)
+        results = self._automatic(checked) if self._options is None else self._as_told(checked, self._options)
+        for given, result in results:
+            moved = (result != given[self._members]).any(axis=1)[self._index]
+            displaced = given + (result - given[self._members])[self._index]
+            alone = (given == given[self._members][self._index]).all(axis=1)
+            displaced[alone] = result[self._index][alone]
+            yield np.where(moved[:, None], displaced, given)
 
-    def _pairs(self, frames: Iterable[Positions]) -> Iterator[tuple[Positions, Positions]]:
-        """Noisy and coarse positions of every frame; the coarse step takes `GROUP` frames at once."""
-        source = iter(frames)
-        while group := [self._checked(frame) for frame in islice(source, GROUP)]:
-            keep = self._way.keep
-            if keep is None or self._coarse is None:
-                yield from zip(group, group)
+    def _automatic(self, frames: Iterator[Positions]) -> Iterator[Pair]:
+        """Given frames, and welded results."""
+        found: Finding | None = None
+
+        def finish(pair: Pair) -> Pair:
+            given, welded = pair
+            assert self.choice is not None and found is not None
+            if self.choice.outliers:
+                welded = find_outliers(welded, self._patient.probe).put_back(welded)
+            return given, treat(self.choice, welded, found, self._patient)[0]
+
+        for group, remaining in self._steadied(frames):
+            if found is None:
+                begun = group[0][1]
+                outliers = None if remaining is not None else find_outliers(begun, self._patient.probe)
+                begun = begun if outliers is None else outliers.put_back(begun)
+                found = find_noise(begun, self._patient.probe)
+                if remaining is not None:
+                    found = _what_is_left(found, remaining, len(begun))
+                goal = "both" if remaining is not None and self._goal == "shading" else self._goal
+                self.choice = choose(begun, found, self._patient, goal)
+                if outliers is not None:
+                    self.choice = self.choice.after(outliers)
+                if remaining is not None and not self.choice.steps:
+                    self.choice = replace(self.choice, kind="unsteady", reason="noise that changes with the frames")
+            yield from ordered_map(finish, group, None)
+
+    def _steadied(self, frames: Iterator[Positions]) -> Iterator[tuple[list[Pair], float | None]]:
+        """Pairs of given frames and welded ones after the temporal filter, and the level of noise that is left.
+
+        Windows overlap, and the last one is filled up with frames that have been before.
+        """
+        n = len(self._members)
+        size = int(np.clip(WINDOW_BYTES // (24 * max(1, n)), 2 * OVERLAP, WINDOW))
+        filter_: TemporalFilter | None = None
+        seen: list[Positions] = []
+        tail: Frames | None = None
+        fresh = 0
+        while True:
+            new = list(islice(frames, size - fresh))
+            seen, fresh = [*seen, *new][-size:], fresh + len(new)
+            if fresh == 0 or (not new and tail is None):
+                return
+            last = len(new) == 0 or fresh < size
+            welded = np.stack([frame[self._members] for frame in seen])
+            level: float | None = None
+            if len(seen) >= FEWEST_FRAMES:
+                filter_ = filter_ or TemporalFilter(self._patient.topology.faces, n)
+                steadied = filter_(welded)
+                edge = self._patient.edge(welded[0])
+                if np.sqrt(3.0) * steadied.deviation > UNSTEADY * edge:
+                    welded = steadied.frames
+                    level = np.sqrt(3.0) * steadied.deviation * steadied.remaining
+            results = welded[-fresh:]
+            if tail is not None:
+                fading = min(len(tail), len(results))
+                share = ((np.arange(fading) + 1.0) / (fading + 1.0))[:, None, None]
+                results = np.concatenate([(1.0 - share) * tail[:fading] + share * results[:fading], results[fading:]])
+            ready = len(results) if last else len(results) - OVERLAP
+            if ready:
+                yield list(zip(seen[-fresh:][:ready], results[:ready], strict=True)), level
+            if last:
+                return
+            tail, fresh = results[ready:], OVERLAP
+
+    def _as_told(self, frames: Iterator[Positions], options: DenoiseOptions) -> Iterator[Pair]:
+        """Given frames, and welded results that pass the gates."""
+        topology = self._patient.topology
+        start, step = hand_over(options.hand_over), fine_step(options.fine)
+        coarse = None
+        if options.hand_over != "none":
+            coarse = CoarseFilter(topology.faces, topology.n, options.keep, options.block_size)
+
+        def finish(task: tuple[int, Positions, Positions, Positions]) -> Pair:
+            number, given, noisy, smooth = task
+            result = start(noisy, smooth, topology)
+            if options.iterations is None:
+                result = step(result, topology.faces)
             else:
-                noisy = np.stack(group)
-                yield from zip(noisy, filter_frames(self._coarse, noisy, keep))
+                result = step(result, topology.faces, options.iterations)
+            if self._force:
+                return given, result
+            verdict = judge(noisy, result, find_noise(noisy, self._patient.probe), self._patient.probe)
+            if not verdict.holds:
+                raise HarmError(f"{verdict.reason}; nothing is written unless it is forced", frame=number)
+            return given, keep_good(noisy, result, verdict.good)
+
+        def tasks() -> Iterator[tuple[int, Positions, Positions, Positions]]:
+            count = 0
+            while group := list(islice(frames, GROUP)):
+                noisy = np.stack([frame[self._members] for frame in group])
+                smooth = noisy if coarse is None else filter_frames(coarse, noisy, options.keep)
+                for given, welded, filtered in zip(group, noisy, smooth, strict=True):
+                    yield count, given, welded, filtered
+                    count += 1
+
+        yield from ordered_map(finish, tasks(), None)
 
     def _checked(self, frame: Positions) -> Positions:
         if frame.shape != self._shape:
@@ -126,6 +206,13 @@ class FrameDenoiser:
         if not np.isfinite(frame).all():
             raise MeshError("a frame has a coordinate that is not finite; remove or repair it")
         return np.ascontiguousarray(frame, dtype=np.float64)
+
+
+def _what_is_left(found: Finding, level: float, n: int) -> Finding:
+    """After the temporal filter noise is known from the frames, however much it looks like detail."""
+    if level < UNSTEADY * found.edge:
+        return found
+    return Finding("unsteady", level, np.full(n, level), found.edge, "noise that changes with the frames")
 
 
 def filter_frames(coarse: CoarseFilter, frames: Frames, keep: float) -> Frames:

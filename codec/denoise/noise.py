@@ -1,4 +1,9 @@
-"""Seeded noise on vertices, its strength in mean edge lengths; the same seed gives the same noise."""
+"""Seeded noise on vertices, its strength in mean edge lengths; the same seed gives the same noise.
+
+The kinds are those that scanners, cameras and careless exports leave behind: white noise along the normals or in all
+directions, white noise of bounded size, outliers, noise along one axis (a depth camera's), noise that neighbours share
+(a line scanner's or a filtered depth map's), and noise in one part of the mesh only.
+"""
 
 from __future__ import annotations
 
@@ -6,7 +11,7 @@ import numpy as np
 
 from bitstream.errors import OptionError
 from codec.denoise.filters.vertex_update import Floats, face_geometry, vertex_normals
-from codec.geometry.incidence import vertex_faces
+from codec.geometry.incidence import vertex_faces, vertex_neighbours
 from codec.geometry.mesh import Faces, Positions
 from codec.geometry.metrics import mean_edge_length
 
@@ -51,13 +56,85 @@ def impulsive(positions: Positions, faces: Faces, sigma: float, fraction: float,
     OptionError
         If `sigma` is negative or not finite, or `fraction` is outside 0..1.
     """
-    if not 0.0 <= fraction <= 1.0:
-        raise OptionError(f"the fraction of vertices must be between 0 and 1, not {fraction}")
+    _refuse_fraction(fraction)
     random = np.random.default_rng(seed)
     chosen = random.permutation(len(positions))[: round(fraction * len(positions))]
     amounts = np.zeros((len(positions), 1))
     amounts[chosen, 0] = random.normal(0.0, _length(positions, faces, sigma), len(chosen))
     return positions + amounts * _directions(positions, faces)
+
+
+def uniform_along_normals(positions: Positions, faces: Faces, sigma: float, seed: int) -> Positions:
+    """Move every vertex along its normal by an amount from a symmetric interval; parameters as above."""
+    largest = np.sqrt(3.0) * _length(positions, faces, sigma)
+    amounts = np.random.default_rng(seed).uniform(-largest, largest, (len(positions), 1))
+    return positions + amounts * _directions(positions, faces)
+
+
+def gaussian_along_axis(
+    positions: Positions, faces: Faces, sigma: float, seed: int, axis: tuple[float, float, float] = (0.0, 0.0, 1.0)
+) -> Positions:
+    """Move every vertex along one direction by a Gaussian amount; parameters as above.
+
+    Raises
+    ------
+    OptionError
+        If `sigma` is negative or not finite, or the axis has no direction.
+    """
+    length = float(np.linalg.norm(axis))
+    if not 0.0 < length < np.inf:
+        raise OptionError(f"the axis must have a direction, not {axis}")
+    amounts = np.random.default_rng(seed).normal(0.0, _length(positions, faces, sigma), (len(positions), 1))
+    return positions + amounts * (np.asarray(axis, dtype=np.float64) / length)
+
+
+def correlated_along_normals(positions: Positions, faces: Faces, sigma: float, seed: int, rounds: int = 2) -> Positions:
+    """Move every vertex along its normal by an amount that it shares in part with its neighbours.
+
+    Parameters
+    ----------
+    positions, faces, sigma, seed
+        As in `gaussian_along_normals`.
+    rounds : int
+        How often white noise is averaged half and half with its neighbours, before it is brought to strength.
+    """
+    neighbours = vertex_neighbours(faces, len(positions))
+    degrees = np.diff(neighbours.starts)
+    owners = np.repeat(np.arange(len(positions)), degrees)
+    amounts = np.random.default_rng(seed).normal(size=len(positions))
+    for _ in range(rounds):
+        sums = np.bincount(owners, amounts[neighbours.members], len(positions))
+        amounts = np.where(degrees > 0, 0.5 * (amounts + sums / np.maximum(degrees, 1)), amounts)
+    amounts *= _length(positions, faces, sigma) / (float(np.sqrt(np.square(amounts).mean())) or 1.0)
+    return positions + amounts[:, None] * _directions(positions, faces)
+
+
+def gaussian_in_part(positions: Positions, faces: Faces, sigma: float, fraction: float, seed: int) -> Positions:
+    """Move the vertices at one end of the mesh along their normals by Gaussian amounts, and no others.
+
+    Parameters
+    ----------
+    positions, faces, sigma, seed
+        As in `gaussian_along_normals`.
+    fraction : float
+        Share of the vertices that move: those furthest along the longest side of the bounding box.
+
+    Raises
+    ------
+    OptionError
+        If `sigma` is negative or not finite, or `fraction` is outside 0..1.
+    """
+    _refuse_fraction(fraction)
+    place = positions[:, int(np.argmax(np.ptp(positions, axis=0)))]
+    chosen = np.argsort(place, kind="stable")[len(place) - round(fraction * len(place)) :]
+    result = np.array(positions)
+    result[chosen] = gaussian_along_normals(positions, faces, sigma, seed)[chosen]
+    return result
+
+
+def _refuse_fraction(fraction: float) -> None:
+    if not 0.0 <= fraction <= 1.0:
+        raise OptionError(f"the fraction of vertices must be between 0 and 1, not {fraction}")
 
 
 def _directions(positions: Positions, faces: Faces) -> Floats:

@@ -10,19 +10,39 @@ from codec.denoise.options import DenoiseOptions
 from codec.geometry.mesh import Faces, TriangleMesh
 
 
-def denoise(mesh: TriangleMesh, options: DenoiseOptions | None = None) -> TriangleMesh:
+def denoise(
+    mesh: TriangleMesh, options: DenoiseOptions | None = None, *, goal: str = "shading", force: bool = False
+) -> TriangleMesh:
     """Remove noise from the positions of a mesh; the faces stay.
 
     Parameters
     ----------
     mesh : TriangleMesh
     options : DenoiseOptions, optional
-        None: everything is chosen from the noisy mesh itself, see `codec.denoise.automatic`.
+        None: everything is chosen from the noisy mesh itself, see `codec.denoise.automatic`; a mesh in which no noise
+        is found comes back bit for bit.
+    goal : str
+        What the automatic mode strives for: "shading" (normals near the clean ones) or "shape" (vertices).
+    force : bool
+        Let the options have their way even where they do harm.
+
+    Raises
+    ------
+    HarmError
+        If the options would make the mesh worse.
     """
-    return TriangleMesh(denoise_frames(mesh.positions[None], mesh.faces, options)[0], mesh.faces)
+    frames = denoise_frames(mesh.positions[None], mesh.faces, options, goal=goal, force=force)
+    return TriangleMesh(frames[0], mesh.faces)
 
 
-def denoise_frames(frames: Frames, faces: Faces, options: DenoiseOptions | None = None) -> Frames:
+def denoise_frames(
+    frames: Frames,
+    faces: Faces,
+    options: DenoiseOptions | None = None,
+    *,
+    goal: str = "shading",
+    force: bool = False,
+) -> Frames:
     """Remove noise from every frame of a sequence that shares its faces (section 7.3 of the paper).
 
     `FrameDenoiser` does the same for sequences too long for the memory.
@@ -32,7 +52,10 @@ def denoise_frames(frames: Frames, faces: Faces, options: DenoiseOptions | None 
     frames : ndarray of float64, shape (T, n, 3)
     faces : ndarray of int32, shape (m, 3)
     options : DenoiseOptions, optional
-        None: settings are chosen on the first frame, and used for all of them.
+        None: noise that changes from frame to frame is removed in time first, then settings are chosen on the first
+        frame, and used for all of them.
+    goal, force
+        As in `denoise`.
 
     Returns
     -------
@@ -42,8 +65,10 @@ def denoise_frames(frames: Frames, faces: Faces, options: DenoiseOptions | None 
     ------
     MeshError
         If there is no frame, or the shape is wrong.
+    HarmError
+        If the options would make a frame worse.
     """
     frames = np.ascontiguousarray(frames, dtype=np.float64)
     if frames.ndim != 3 or frames.shape[2] != 3 or len(frames) == 0:
         raise MeshError(f"frames must have shape (T, n, 3) with at least one frame, not {frames.shape}")
-    return np.stack(list(FrameDenoiser(frames[0], faces, options)(frames)))
+    return np.stack(list(FrameDenoiser(frames[0], faces, options, goal=goal, force=force)(frames)))

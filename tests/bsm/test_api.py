@@ -226,7 +226,7 @@ def test_compare_takes_all_kinds(mesh, stream, decoded, tmp_path):
 
 
 def test_denoise():
-    clean = torus(24, 16, bumps=0.0)
+    clean = torus(48, 32, bumps=0.0)
     noise = np.random.default_rng(1).normal(0, 0.02, clean.positions.shape)
     noisy = bsm.TriangleMesh(clean.positions + noise, clean.faces)
     before = bsm.compare(clean, noisy).theta_deg
@@ -234,3 +234,7 @@ def test_denoise():
     assert same(bsm.denoise(noisy, bsm.DenoiseOptions(iterations=2)), bsm.denoise(noisy, iterations=2))
     with pytest.raises(bsm.OptionError):
         bsm.denoise(noisy, fine="elephant")
+    assert same(bsm.denoise(clean), clean)
+    with pytest.raises(bsm.HarmError):
+        bsm.denoise(clean, keep=0.05)
+    assert not same(bsm.denoise(clean, keep=0.05, force=True), clean)

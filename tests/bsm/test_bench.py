@@ -5,6 +5,7 @@ import pytest
 
 from bitstream.errors import NumericError
 from bsm.evaluation.bench import bench_tables, run_bench, subdivide
+from bsm.evaluation.link import Delivery, break_even
 from bsm.evaluation.solvers import EXACT, POWERS, Solver, check_iteration, check_lowest
 from bsm.files.mesh import format_mesh
 from codec.basis.laplacian import dense_laplacian
@@ -53,6 +54,13 @@ def test_subdividing_keeps_the_surface_and_its_topology():
             return np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() / 2
 
         assert np.isclose(areas(fine), areas(mesh))
+
+
+def test_the_link_on_which_both_are_as_quick():
+    ours, theirs = Delivery(1_000, 7.0, 0.05), Delivery(11_000, 6.9, 0.01)
+    assert break_even(ours, theirs) == pytest.approx(2.0)  # 80,000 bits in 40 ms
+    assert break_even(Delivery(1_000, 7.0, 0.01), theirs) == float("inf")
+    assert break_even(Delivery(11_000, 7.0, 0.05), theirs) == 0.0
 
 
 def test_a_bench_of_a_small_mesh_is_complete_and_fit_for_json(tmp_path):

@@ -9,12 +9,14 @@ import numpy as np
 import pytest
 
 from bitstream.errors import CorruptError, FormatError, MeshError
-from bsm.commands.denoise import FINE, HAND_OVERS
+from bsm.commands.denoise import FINE, GOALS, HAND_OVERS
+from bsm.commands.noise import KINDS
 from bsm.files.mesh import read_mesh, write_mesh
 from bsm.files.npz import npz_frames, npz_shape
 from codec.denoise import FINE_STEPS, DenoiseOptions, FrameDenoiser, denoise_automatically
+from codec.denoise import GOALS as LIBRARY_GOALS
 from codec.denoise import HAND_OVERS as LIBRARY_HAND_OVERS
-from codec.denoise.frames import GROUP
+from codec.denoise.frames import GROUP, OVERLAP, WINDOW
 from codec.denoise.noise import gaussian_along_normals
 from codec.geometry.mesh import TriangleMesh
 from codec.geometry.metrics import mnd, rms_over_edge, theta
@@ -60,14 +62,42 @@ def test_without_options_it_says_what_it_chose(noisy_file, tmp_path):
     expected, choice = denoise_automatically(read_mesh(noisy_file).mesh.positions, CLEAN.faces)
     denoised = read_mesh(tmp_path / "out.obj").mesh
     assert np.allclose(denoised.positions, expected, atol=1e-6)
-    assert result["automatic"]["iterations"] == choice.iterations
+    assert [step["iterations"] for step in result["automatic"]["steps"]] == [step.iterations for step in choice.steps]
+    assert result["automatic"]["kind"] == "white"
     assert result["automatic"]["noise"]["normal"] == pytest.approx(0.25, rel=0.3)
     assert result["options"] is None
-    assert f"{choice.iterations} iterations" in ran.stderr
+    assert f"{choice.steps[0].iterations} iterations" in ran.stderr
     assert f"{choice.noise.normal:.2f} mean edges" in ran.stderr
-    assert f"{choice.expected_theta:.1f} degrees" in ran.stderr
+    assert choice.reason in ran.stderr
     before, after = (theta(CLEAN.positions, positions, CLEAN.faces) for positions in (NOISY, denoised.positions))
     assert after < 0.5 * before
+
+
+def test_a_clean_mesh_comes_back_with_a_sentence(tmp_path):
+    write_mesh(tmp_path / "clean.npz", CLEAN)
+    ran = bsm("denoise", tmp_path / "clean.npz", "-o", tmp_path / "out.npz")
+    assert ran.returncode == 0
+    assert "left       as it was" in ran.stderr
+    assert (read_mesh(tmp_path / "out.npz").mesh.positions == CLEAN.positions).all()
+
+
+def test_harm_has_an_exit_code_of_its_own_and_writes_nothing_unless_forced(tmp_path):
+    write_mesh(tmp_path / "clean.npz", CLEAN)
+    arguments = ("denoise", tmp_path / "clean.npz", "-o", tmp_path / "out.npz", "--keep", "0.05", *FEW)
+    ran = bsm(*arguments)
+    assert ran.returncode == 11
+    assert "force" in ran.stderr
+    assert not (tmp_path / "out.npz").exists()
+    assert bsm(*arguments, "--force").returncode == 0
+    assert (read_mesh(tmp_path / "out.npz").mesh.positions != CLEAN.positions).any()
+
+
+def test_shape_is_another_goal_than_shading(noisy_file, tmp_path):
+    results = []
+    for goal in ("shading", "shape"):
+        assert bsm("denoise", noisy_file, "-o", tmp_path / f"{goal}.npz", "--for", goal).returncode == 0
+        results.append(rms_over_edge(CLEAN.positions, read_mesh(tmp_path / f"{goal}.npz").mesh.positions, CLEAN.faces))
+    assert results[1] <= results[0] + 1e-3
 
 
 def test_every_option_reaches_the_library(noisy_file, tmp_path):
@@ -139,6 +169,7 @@ def test_frames_that_are_none_are_refused(frames, options):
 def test_the_command_knows_all_choices_of_the_library():
     assert set(FINE) == set(FINE_STEPS)
     assert set(HAND_OVERS) == set(LIBRARY_HAND_OVERS)
+    assert set(GOALS) <= set(LIBRARY_GOALS)
 
 
 def test_no_more_than_a_few_frames_are_held(frames):
@@ -153,10 +184,10 @@ def test_no_more_than_a_few_frames_are_held(frames):
 
     denoiser = FrameDenoiser(frames[0], CLEAN.faces)
     results = denoiser(endless())
-    for _ in range(5 * GROUP):
+    for _ in range(2 * WINDOW + 5):
         assert next(results).shape == frames[0].shape
         held -= 1
-    assert most <= 2 * GROUP + 2 * available_threads() + 2
+    assert most <= WINDOW + OVERLAP + 2 * available_threads() + 2
 
 
 def test_frames_of_an_npz_are_read_one_by_one(frames, tmp_path):
@@ -188,6 +219,7 @@ def test_npz_files_that_are_none_are_refused(tmp_path):
         (("--fine", "best"), "best"),
         (("--keep", "2"), "keep"),
         (("--iterations", "-1"), "iterations"),
+        (("--for", "beauty"), "beauty"),
         (("-o", "out.xyz"), "format"),
         (("-o", "-", "--json"), "standard output"),
     ],
@@ -205,7 +237,7 @@ def test_outputs_are_not_replaced_unasked(noisy_file, tmp_path):
     assert (tmp_path / "out.ply").read_bytes() == b"mine"
 
 
-@pytest.mark.parametrize("kind", ["gaussian", "isotropic", "impulsive"])
+@pytest.mark.parametrize("kind", KINDS)
 def test_noise_is_as_strong_as_asked_for_and_seeded(tmp_path, kind):
     write_mesh(tmp_path / "clean.npz", CLEAN)
     first, again, other = (tmp_path / f"{name}.npz" for name in ("first", "again", "other"))
@@ -214,7 +246,7 @@ def test_noise_is_as_strong_as_asked_for_and_seeded(tmp_path, kind):
         assert ran.returncode == 0, ran.stderr
     positions = [read_mesh(path).mesh.positions for path in (first, again, other)]
     assert (positions[0] == positions[1]).all() and (positions[0] != positions[2]).any()
-    share = {"gaussian": 1.0, "isotropic": 3.0, "impulsive": 0.5}[kind]
+    share = {"isotropic": 3.0, "impulsive": 0.5, "part": 0.5}.get(kind, 1.0)
     measured = rms_over_edge(CLEAN.positions, positions[2], CLEAN.faces)
     assert measured == pytest.approx(0.3 * share**0.5, rel=0.1)
     assert json.loads(ran.stdout)["rms_over_edge"] == pytest.approx(measured)

@@ -13,11 +13,13 @@ import pytest
 
 from bitstream.errors import OptionError
 from bsm.cli import main
+from bsm.files.mesh import write_mesh
 from bsm.paper import published
 from bsm.paper.coherence import errors, left_out, smallest_on_diagonal
-from bsm.paper.exhibit import Cell, Column, Exhibit, Picture, Table
+from bsm.paper.exhibit import Cell, Claim, Column, Exhibit, Picture, Table
 from bsm.paper.exhibits import EXHIBITS, make_exhibits
 from bsm.paper.report import report, summary
+from bsm.paper.scoreboard import Score, scores
 from bsm.paper.shapes import ball, box, swaying
 from bsm.paper.study import FULL, QUICK, Study
 from codec.geometry.metrics import face_normals
@@ -89,7 +91,7 @@ def quick(tmp_path_factory) -> tuple[str, dict]:
         [sys.executable, "-m", "bsm", "paper", "-o", str(path), "--quick", "--json"],
         capture_output=True,
         text=True,
-        timeout=120,
+        timeout=300,
         cwd=ROOT,
         check=False,
     )
@@ -108,6 +110,39 @@ def test_every_table_and_figure_is_there(quick):
         assert outline.sections[name]["img"] >= pictures, name
     assert outline.outside == []
     assert outline.links <= outline.ids
+
+
+def test_the_scoreboard_counts_numbers_and_claims(quick):
+    text, data = quick
+    assert 'id="scoreboard"' in text
+    claims = [claim for exhibit in data.values() for claim in exhibit["claims"]]
+    assert len(claims) >= 5
+    assert {claim["says"].split(":")[0] for claim in data["rates"]["claims"]} == {"OI, R"}
+    assert any("jumps" in claim["says"] for claim in data["dynamic"]["claims"])
+    for claim in claims:
+        assert claim["found"] and claim["says"] in text.replace("&#x27;", "'")
+
+
+def test_scores_add_up():
+    column = Column("x", 1, 0.1, "why")
+    table = Table("t", "", (column,), (("a", (Cell(1.0, 1.05),)), ("b", (Cell(2.0, 1.0),)), ("c", (Cell(1.0),))))
+    exhibits = {
+        "one": Exhibit("One", "", (table,), claims=(Claim("It is so.", True, "yes"), Claim("It is not.", False, "no"))),
+        "two": Exhibit("Two", "", (table, table)),
+    }
+    assert scores(exhibits) == (
+        Score("one", 2, 1, 2, 1),
+        Score("two", 4, 2, 0, 0),
+        Score("in all", 6, 3, 2, 1),
+    )
+    assert summary(exhibits).splitlines()[-1].endswith("3 of 6 numbers agree with the paper's, 1 of 2 claims hold")
+
+
+def test_the_largest_mesh_plays_the_hand(tmp_path):
+    (tmp_path / "static").mkdir()
+    for size in (200, 900, 400):
+        write_mesh(tmp_path / "static" / f"ball{size}.ply", ball(size))
+    assert Study(tmp_path, QUICK, str).model("hand").size == 900
 
 
 def test_every_number_of_the_paper_stands_beside_ours_and_differences_are_explained(quick):

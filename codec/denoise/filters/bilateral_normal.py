@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import numpy as np
 
 from codec.denoise.filters.kernel import filter_normals
 from codec.denoise.filters.topology import Topology, without_first
-from codec.denoise.filters.vertex_update import face_geometry, follow_normals, mean_centroid_distance
+from codec.denoise.filters.vertex_update import FaceGeometry, face_geometry, follow_normals, mean_centroid_distance
 from codec.geometry.mesh import Faces, Positions
 
 SIGMA_R = 0.35
 VERTEX_ITERATIONS = 10
+PATIENT_VERTICES = 20
+AT_ONCE = 2
 
 
 def bilateral_normal_filtering(positions: Positions, faces: Faces, iterations: int = 20) -> Positions:
@@ -25,10 +29,27 @@ def bilateral_normal_filtering(positions: Positions, faces: Faces, iterations: i
     """
     positions = np.ascontiguousarray(positions, dtype=np.float64)
     topology = Topology(faces, len(positions))
-    others = without_first(topology.patches)
     geometry = face_geometry(positions, topology.faces)
-    sigma_s = mean_centroid_distance(geometry.centroids, topology.pairs)
+    filtering = _normals(geometry, topology, SIGMA_R)
     for _ in range(iterations):
-        normals = filter_normals(geometry, geometry.normals, others, sigma_s, SIGMA_R)
-        geometry = geometry._replace(normals=normals)
+        geometry = next(filtering)
     return follow_normals(positions, topology, geometry.normals, VERTEX_ITERATIONS, ~topology.boundary)
+
+
+def filtered_normals(positions: Positions, topology: Topology, sigma_r: float) -> Iterator[Positions]:
+    """The positions after 0, 1, 2, ... times two iterations of the normal filter and twenty vertex updates."""
+    geometry = face_geometry(positions, topology.faces)
+    filtering = _normals(geometry, topology, sigma_r)
+    while True:
+        yield follow_normals(positions, topology, geometry.normals, PATIENT_VERTICES, ~topology.boundary)
+        for _ in range(AT_ONCE):
+            geometry = next(filtering)
+
+
+def _normals(geometry: FaceGeometry, topology: Topology, sigma_r: float) -> Iterator[FaceGeometry]:
+    """The geometry with normals filtered 1, 2, ... times."""
+    others = without_first(topology.patches)
+    sigma_s = mean_centroid_distance(geometry.centroids, topology.pairs)
+    while True:
+        geometry = geometry._replace(normals=filter_normals(geometry, geometry.normals, others, sigma_s, sigma_r))
+        yield geometry

@@ -3,12 +3,13 @@
 import numpy as np
 import pytest
 
+from bitstream.errors import OptionError
 from codec.denoise.automatic import CANDIDATES, denoise_automatically
 from codec.denoise.estimate import add_noise, estimate_noise
 from codec.denoise.filters.guided import guided_normal_filtering
 from codec.denoise.filters.topology import Topology
 from codec.denoise.noise import gaussian_along_normals, gaussian_isotropic
-from codec.geometry.metrics import mean_edge_length, theta
+from codec.geometry.metrics import mean_edge_length, rms_over_edge, theta
 from tests.codec.denoise.denoise_shapes import Partners, cube, grid, sphere
 
 
@@ -45,35 +46,53 @@ def test_it_beats_a_fixed_number_of_iterations(shape) -> None:  # type: ignore[n
     clean, faces = shape(14)
     noisy = gaussian_along_normals(clean, faces, 0.25, seed=7)
     denoised, choice = denoise_automatically(noisy, faces)
-    assert choice.recipe in CANDIDATES
+    assert {step.recipe for step in choice.steps} <= set(CANDIDATES)
+    assert choice.kind == "white"
     assert choice.noise.normal == pytest.approx(0.25, rel=0.2)
     assert theta(clean, denoised, faces) < theta(clean, guided_normal_filtering(noisy, faces, 20), faces)
 
 
-def test_more_noise_asks_for_more_iterations_on_a_round_shape() -> None:
-    clean, faces = sphere(14)
-    iterations = [
-        denoise_automatically(gaussian_along_normals(clean, faces, sigma, seed=7), faces)[1].iterations
-        for sigma in (0.02, 0.4)
-    ]
-    assert iterations[0] < iterations[1]
+def test_the_goal_decides_between_normals_and_vertices() -> None:
+    clean, faces = sphere(20)
+    noisy = gaussian_along_normals(clean, faces, 0.3, seed=7)
+    shading, shape = (denoise_automatically(noisy, faces, goal)[0] for goal in ("shading", "shape"))
+    assert rms_over_edge(clean, shape, faces) <= rms_over_edge(clean, shading, faces)
+    assert theta(clean, shading, faces) <= theta(clean, shape, faces)
+    with pytest.raises(OptionError, match="goal"):
+        denoise_automatically(noisy, faces, "beauty")
 
 
-def test_a_clean_plane_is_left_alone() -> None:
-    positions, faces = grid(12)
+@pytest.mark.parametrize("shape", [grid, cube, sphere])
+@pytest.mark.parametrize("size", [3, 12, 24])
+def test_a_clean_mesh_comes_back_bit_for_bit(shape, size: int) -> None:  # type: ignore[no-untyped-def]
+    positions, faces = shape(size)
     denoised, choice = denoise_automatically(positions, faces)
-    assert choice.recipe is None
+    assert choice.steps == ()
+    assert choice.reason
     assert (denoised == positions).all()
 
 
+def test_a_triangle_soup_is_welded_first_and_comes_back_as_a_soup() -> None:
+    clean, faces = sphere(16)
+    noisy = gaussian_along_normals(clean, faces, 0.25, seed=7)
+    corners = noisy[faces.ravel()]
+    soup = np.arange(len(corners), dtype=np.int32).reshape(-1, 3)
+    denoised, choice = denoise_automatically(corners, soup)
+    assert choice.steps
+    assert theta(clean[faces.ravel()], denoised, soup) < 0.5 * theta(clean[faces.ravel()], corners, soup)
+    _, index = np.unique(corners, axis=0, return_inverse=True)
+    places = denoised[np.unique(index.ravel(), return_index=True)[1]]
+    assert (denoised == places[index.ravel()]).all()
+
+
 def test_the_same_mesh_gets_the_same_result_in_any_unit() -> None:
-    clean, faces = cube(8)
+    clean, faces = cube(14)
     noisy = gaussian_along_normals(clean, faces, 0.2, seed=7)
     first, choice = denoise_automatically(noisy, faces)
     again, _ = denoise_automatically(noisy, faces)
     assert (first == again).all()
     scaled, other = denoise_automatically(noisy * 1000.0, faces)
-    assert other.recipe == choice.recipe
+    assert other.steps == choice.steps and choice.steps
     assert scaled == pytest.approx(first * 1000.0, rel=1e-6)
 
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from bitstream.errors import MeshError, OptionError
+from bitstream.errors import HarmError, MeshError, OptionError
 from codec.denoise import DenoiseOptions, coarse_frames, denoise, denoise_automatically, denoise_frames
 from codec.denoise.coarse import CoarseFilter
 from codec.denoise.filters.guided import guided_normal_filtering
@@ -12,7 +12,7 @@ from codec.geometry.mesh import TriangleMesh
 from codec.geometry.metrics import theta
 from tests.codec.denoise.denoise_shapes import sphere
 
-CLEAN, FACES = sphere(10)
+CLEAN, FACES = sphere(14)
 NOISY = gaussian_along_normals(CLEAN, FACES, 0.25, seed=2)
 
 
@@ -24,13 +24,13 @@ def test_the_default_is_the_automatic_mode() -> None:
 
 
 def test_without_hand_over_it_is_the_fine_step_alone() -> None:
-    result = denoise(TriangleMesh(NOISY, FACES), DenoiseOptions(hand_over="none", iterations=3))
+    result = denoise(TriangleMesh(NOISY, FACES), DenoiseOptions(hand_over="none", iterations=3), force=True)
     assert (result.positions == guided_normal_filtering(NOISY, FACES, 3)).all()
 
 
 def test_without_iterations_it_is_the_coarse_step_alone() -> None:
     options = DenoiseOptions(hand_over="positions", fine="bilateral", iterations=0, keep=0.2, block_size=200)
-    result = denoise(TriangleMesh(NOISY, FACES), options)
+    result = denoise(TriangleMesh(NOISY, FACES), options, force=True)
     assert result.positions == pytest.approx(CoarseFilter(FACES, len(NOISY), 0.2, 200)(NOISY, 0.2))
 
 
@@ -43,6 +43,16 @@ def test_every_frame_of_a_sequence_is_denoised(options: DenoiseOptions | None) -
     assert denoised.shape == frames.shape
     for scale, before, after in zip((1.0, 1.2, 1.5), frames, denoised):
         assert theta(CLEAN * scale, after, FACES) < 0.6 * theta(CLEAN * scale, before, FACES)
+
+
+@pytest.mark.parametrize("size", [3, 14])
+def test_options_that_do_harm_are_refused_unless_forced(size: int) -> None:
+    positions, faces = sphere(size)
+    options = DenoiseOptions(keep=0.05)
+    with pytest.raises(HarmError, match="frame 0"):
+        denoise(TriangleMesh(positions, faces), options)
+    forced = denoise(TriangleMesh(positions, faces), options, force=True)
+    assert (forced.positions != positions).any()
 
 
 def test_frames_pass_the_coarse_step_as_meshes_do() -> None:

@@ -168,7 +168,7 @@ def test_positions_agree_between_blas_kernels_and_thread_counts(tmp_path):
     stream = tmp_path / "torus.bsm"
     stream.write_bytes(encode(torus(80, 60), EncodeOptions(block_size=400, key_interval=0, power=2)))
     script = (
-        "import sys, numpy; from codec import decode; "
+        "import sys, numpy; from codec.static.decoder import decode; "
         "numpy.save(sys.argv[2], decode(open(sys.argv[1], 'rb').read()).positions)"
     )
     results = []

@@ -1,0 +1,315 @@
+"""Whether a mesh is noisy, how much, and of what kind: all of it from the mesh itself.
+
+Noise does not know the shape. So it is as strong in one place as in another (or follows the direction of the surface,
+where a camera has put it, or covers some places and leaves others alone), it goes to both sides of the surface alike,
+and no value has a preference. Detail and creases are strong in some places and weak in others. Only what looks like
+noise in all these ways is taken for noise: the answer for anything else is "none", and "unknown" for small meshes.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from codec.denoise.filters.topology import Mask
+from codec.denoise.filters.vertex_update import Floats
+from codec.denoise.probe import BOUND, SHARE, Probe
+from codec.denoise.windows import FEWEST, Windows
+from codec.geometry.mesh import Positions
+from codec.geometry.metrics import mean_edge_length
+
+FEWEST_WINDOWS, FEWEST_INNER = 5, 3
+"""Windows without which nothing is said; and those wholly inside a noisy part."""
+FAINTEST = 0.05
+"""Levels below, in mean edges, are left alone: the finest detail of real surfaces is as strong."""
+MANY_WINDOWS, FAINTEST_OF_FEW = 20, 0.085
+"""With fewer windows their spread says less, and noise has to be this strong."""
+FAINT, SURE = 0.115, 0.15
+"""Up to here it is still like the detail of the roughest surfaces; from here on it may be mixed with more shape."""
+EVEN_FAINT, EVEN, EVEN_CORRELATED, UNEVEN = 0.1, 0.145, 0.18, 0.26
+"""Largest spread of the windows' levels (logarithms) beyond chance: for faint, for ordinary, for correlated (of which
+clean meshes have little), for strong noise."""
+LEVEL_SPREAD = 0.92
+"""Chance makes levels of windows of w vertices spread by about this over sqrt(w)."""
+ASIDE = 0.2
+"""Largest median of the standardised residual: noise lies on both sides."""
+CENTRE = (0.55, 1.6)
+"""Share of residuals about zero, as a multiple of the normal distribution's."""
+WHITE = 0.82
+"""The finest frequencies carry as much white noise as the fine ones; below this ratio it is correlated."""
+HEAVY = 1.25
+"""Tails beyond the normal distribution's from which noise counts as impulses."""
+LOCAL_LEVEL, LOCAL_STEP, LOCAL_SHARE = 0.12, 1.5, 0.1
+"""Noise that is only here and there: how strong at least, over the rest at least, in how much of the mesh at least."""
+NEARBY = 4
+"""Rings about a vertex that decide whether it is in or out."""
+AXIS_LEVEL, AXIS_RANK, AXIS_REACH, AXIS_CALM, AXIS_FEWEST = 0.1, 0.3, 0.4, 0.6, 40
+"""Noise along an axis: how strong at least, how much weaker in the second direction, where it shows and where not."""
+HEAVY_LEVEL = 0.3
+"""From here on normals are taken from a smoother version."""
+
+
+@dataclass(frozen=True, eq=False)
+class Finding:
+    """What is known about the noise of a mesh.
+
+    Attributes
+    ----------
+    kind : str
+        "none", "white", "impulses", "correlated", "axis", "local" or "unsteady" (what the temporal filter of a sequence
+        has left); "unknown" for a mesh too small for statistics.
+    level : float
+        Standard deviation along the normals where there is noise, in the unit of the mesh. Of correlated noise only
+        what the finest frequencies show.
+    levels : ndarray of float64, shape (n,)
+        Level at every vertex; 0 where the mesh is to stay as it is.
+    edge : float
+        Mean edge length.
+    reason : str
+        A sentence for the user.
+    axis : ndarray of float64, shape (3,), optional
+        Direction of noise along one axis.
+    whiteness : float
+        Level of the finest frequencies over that of the fine ones; 1 for white noise.
+    """
+
+    kind: str
+    level: float
+    levels: Floats
+    edge: float
+    reason: str
+    axis: Floats | None = None
+    whiteness: float = 1.0
+
+    @property
+    def noisy(self) -> bool:
+        """Whether there is anything to remove."""
+        return self.kind not in ("none", "unknown")
+
+
+@dataclass(frozen=True, eq=False)
+class _Evidence:
+    """Fine residuals along the normals, and their levels in the windows, in mean edges."""
+
+    probe: Probe
+    normals: Floats
+    along: Floats
+    levels: Floats
+    edge: float
+
+
+def find_noise(positions: Positions, probe: Probe) -> Finding:
+    """Look for noise.
+
+    Parameters
+    ----------
+    positions : ndarray of float64, shape (n, 3)
+        Welded: a vertex of its own for every triangle has no neighbours to be compared with.
+    probe : Probe
+    """
+    edge = mean_edge_length(positions, probe.topology.faces)
+    if int(probe.windows.valid.sum()) < FEWEST_WINDOWS:
+        return Finding("unknown", 0.0, np.zeros(probe.topology.n), edge, "too few vertices to tell noise from shape")
+    evidence = _look(positions, probe, edge, passes=2)
+    if np.nanquantile(evidence.levels, 0.75) > HEAVY_LEVEL:
+        evidence = _look(positions, probe, edge, passes=8)
+    for test in (_everywhere, _here_and_there, _one_axis):
+        finding = test(positions, evidence)
+        if finding is not None:
+            return finding
+    level = float(np.nanmedian(evidence.levels))
+    if level < FAINTEST:
+        return _none(probe, edge, f"at most {level:.3f} mean edges of noise, no more than a clean mesh has detail")
+    return _none(probe, edge, "its roughness follows the shape, as detail and edges do and noise does not")
+
+
+def _look(positions: Positions, probe: Probe, edge: float, passes: int) -> _Evidence:
+    normals = probe.smooth_normals(positions, passes)
+    along = np.einsum("ij,ij->i", probe.fine(positions / edge), normals)
+    return _Evidence(probe, normals, along, probe.levels(along), edge)
+
+
+def _everywhere(positions: Positions, evidence: _Evidence) -> Finding | None:
+    """As strong in one place as in another."""
+    windows, chosen = evidence.probe.windows, evidence.probe.counted
+    levels = evidence.levels[windows.valid]
+    level = float(np.median(levels))
+    if level < FAINTEST or not _looks_random(evidence, chosen):
+        return None
+    kind, whiteness = _colour(positions, evidence, windows.valid, chosen)
+    if len(levels) < MANY_WINDOWS and level < FAINTEST_OF_FEW and kind != "correlated":
+        return None
+    if _spread(levels, windows) > _allowed(level, kind):
+        return None
+    amount = np.full(len(positions), level * evidence.edge)
+    return Finding(kind, level * evidence.edge, amount, evidence.edge, "noise all over", whiteness=whiteness)
+
+
+def _allowed(level: float, kind: str) -> float:
+    """Faint white noise is what fine detail looks most like."""
+    if kind != "correlated" and level < FAINT:
+        return EVEN_FAINT
+    share = min(max((level - SURE) / SURE, 0.0), 1.0)
+    usual = EVEN_CORRELATED if kind == "correlated" else EVEN
+    return usual + share * (UNEVEN - usual)
+
+
+def _one_axis(positions: Positions, evidence: _Evidence) -> Finding | None:
+    """As strong as the direction of the surface says: its variance is ``n^T S n``, one S of rank one for the mesh."""
+    chosen = evidence.probe.counted
+    normals, along = evidence.normals[chosen], np.abs(evidence.along[chosen])
+    folded = normals @ _hemisphere().T
+    facing = np.abs(folded).argmax(axis=1)
+    order = np.argsort(facing, kind="stable")
+    groups = np.split(order, np.flatnonzero(np.diff(facing[order])) + 1)
+    groups = [group for group in groups if len(group) >= FEWEST]
+    if len(groups) < 6:
+        return None
+    levels = np.array([np.quantile(along[group], SHARE) for group in groups]) / BOUND
+    moments = np.stack([normals[group].T @ normals[group] / len(group) for group in groups])
+    weights = np.sqrt([float(len(group)) for group in groups])
+    values, vectors = np.linalg.eigh(_covariance(moments, levels**2, weights))
+    if values[1] > AXIS_RANK * values[2]:
+        return None
+    # Cameras look along an axis of their own coordinates, which often are the file's.
+    found = [_along(axis, evidence) for axis in (vectors[:, 2], *np.eye(3))]
+    best = min(found, key=lambda one: one.spread)
+    if best.spread > UNEVEN or best.level < AXIS_LEVEL or best.calm > AXIS_CALM * best.level:
+        return None
+    amount = best.level * np.abs(evidence.normals @ best.axis) * evidence.edge
+    reason = f"noise along one axis ({', '.join(f'{component:.2f}' for component in best.axis)})"
+    return Finding("axis", best.level * evidence.edge, amount, evidence.edge, reason, axis=best.axis)
+
+
+@dataclass(frozen=True, eq=False)
+class _Axis:
+    """How well noise along one axis explains what is there: its level, its spread, and the level where it is not."""
+
+    axis: Floats
+    level: float
+    spread: float
+    calm: float
+
+
+def _along(axis: Floats, evidence: _Evidence) -> _Axis:
+    probe = evidence.probe
+    slope = np.abs(evidence.normals @ axis)
+    reached = probe.counted & (slope > AXIS_REACH)
+    windows = Windows.of_labels(probe.windows, reached, AXIS_FEWEST)
+    if reached.sum() < LOCAL_SHARE * len(reached) or windows.valid.sum() < FEWEST_WINDOWS:
+        return _Axis(axis, 0.0, np.inf, 0.0)
+    levels = windows.quantiles(np.abs(evidence.along) / np.maximum(slope, AXIS_REACH), SHARE)[windows.valid] / BOUND
+    still = probe.counted & (slope < 0.5 * AXIS_REACH)
+    calm = float(np.quantile(np.abs(evidence.along[still]), SHARE)) / BOUND if still.sum() >= FEWEST else 0.0
+    return _Axis(axis, float(np.median(levels)), _spread(levels, windows), calm)
+
+
+def _here_and_there(positions: Positions, evidence: _Evidence) -> Finding | None:
+    """Strong and even in some windows, weak in the others."""
+    probe = evidence.probe
+    windows = probe.windows
+    levels = np.where(windows.valid, evidence.levels, 0.0)
+    usual = levels[windows.valid]
+    split = np.exp(_otsu(np.sort(np.log(np.maximum(usual, 0.02)))))
+    above = levels > split
+    inner = above & ~windows.beside(~above & windows.valid)
+    if inner.sum() < FEWEST_INNER or above.sum() < LOCAL_SHARE * windows.count:
+        return None
+    strong, weak = levels[inner], levels[windows.valid & ~above]
+    level = float(np.median(strong))
+    if level < LOCAL_LEVEL or level < LOCAL_STEP * np.median(weak):
+        return None
+    if _spread(strong, windows) > _allowed(level, "white"):
+        return None
+    if not _looks_random(evidence, inner[windows.labels] & probe.counted):
+        return None
+    # Where windows of both sorts meet, the vertices decide: by what is about each of them.
+    inside = inner[windows.labels]
+    doubtful = (above & ~inner) | (~above & windows.beside(above))
+    nearby = np.square(np.minimum(np.abs(evidence.along), 3.0 * level))
+    for _ in range(NEARBY):
+        nearby = probe.average @ nearby
+    unsure = doubtful[windows.labels]
+    inside[unsure] = nearby[unsure] > (0.5 * level) ** 2
+    amount = np.where(inside, level * evidence.edge, 0.0)
+    share = f"noise in {100.0 * inside.mean():.0f} % of the mesh"
+    return Finding("local", level * evidence.edge, amount, evidence.edge, share)
+
+
+def _spread(levels: Floats, windows: Windows) -> float:
+    """Spread of the lower half of the levels (creases are in the upper one), beyond what chance makes."""
+    bottom, middle = np.quantile(levels, [0.1, 0.5])
+    if bottom <= 0.0:
+        return float("inf")
+    chance = LEVEL_SPREAD / np.sqrt(windows.usual_size)
+    return float(np.sqrt(max((np.log(middle / bottom) / 1.2816) ** 2 - chance**2, 0.0)))
+
+
+def _standardised(evidence: _Evidence, chosen: Mask) -> Floats:
+    scale = evidence.levels[evidence.probe.windows.labels[chosen]]
+    good = scale > 0.0
+    result: Floats = evidence.along[chosen][good] / scale[good]
+    return result
+
+
+def _looks_random(evidence: _Evidence, chosen: Mask) -> bool:
+    """Both sides alike, and neither a heap of zeros nor a hole there."""
+    values = _standardised(evidence, chosen)
+    centre = float(np.mean(np.abs(values) < 0.1)) / 0.0797
+    return abs(float(np.median(values))) < ASIDE and CENTRE[0] < centre < CENTRE[1]
+
+
+def _colour(positions: Positions, evidence: _Evidence, valid: Mask, chosen: Mask) -> tuple[str, float]:
+    """White, white with heavy tails, or correlated between neighbours; and the level of the finest over the fine."""
+    probe = evidence.probe
+    finest = probe.levels(np.einsum("ij,ij->i", probe.finest(positions / evidence.edge), evidence.normals))
+    ratio = float(np.quantile(finest[valid], 0.25) / np.quantile(evidence.levels[valid], 0.25))
+    if ratio < WHITE:
+        return "correlated", ratio
+    values = np.abs(_standardised(evidence, chosen))
+    tail = float(np.quantile(values, 0.95)) / 1.96
+    heavy = tail > HEAVY and np.median(evidence.levels[valid]) > LOCAL_LEVEL
+    return ("impulses" if heavy else "white"), ratio
+
+
+def _hemisphere(count: int = 48) -> Floats:
+    """Directions spread evenly over half a sphere (a Fibonacci lattice)."""
+    place = np.arange(count) + 0.5
+    height, angle = 1.0 - place / count, np.pi * (1.0 + np.sqrt(5.0)) * place
+    radius = np.sqrt(1.0 - height**2)
+    return np.stack([radius * np.cos(angle), radius * np.sin(angle), height], axis=1)
+
+
+def _covariance(moments: Floats, measured: Floats, trust: Floats) -> Floats:
+    """Symmetric positive S with ``tr(S M)`` near the measured squares; large ones (creases) weigh less."""
+    rows, columns = np.triu_indices(3)
+    design = moments[:, rows, columns] * np.where(rows == columns, 1.0, 2.0)
+    weights = trust
+    covariance = np.zeros((3, 3))
+    for _ in range(12):
+        solution = np.linalg.lstsq(design * weights[:, None], measured * weights, rcond=None)[0]
+        covariance = np.zeros((3, 3))
+        covariance[rows, columns] = solution
+        covariance[columns, rows] = solution
+        values, vectors = np.linalg.eigh(covariance)
+        covariance = (vectors * np.maximum(values, 0.0)) @ vectors.T
+        predicted = np.maximum(np.einsum("ijk,jk->i", moments, covariance), 1e-4)
+        weights = trust / (predicted * (1.0 + np.abs(measured - predicted) / (0.2 * predicted)))
+    return covariance
+
+
+def _otsu(ordered: Floats) -> float:
+    """The value that parts sorted numbers into the two most different groups."""
+    count = len(ordered)
+    sums = np.cumsum(ordered)
+    below = np.arange(1, count)
+    if count < 2:
+        return float(ordered[0]) if count else 0.0
+    difference = sums[:-1] / below - (sums[-1] - sums[:-1]) / (count - below)
+    place = int(np.argmax(below * (count - below) * difference**2))
+    return float(0.5 * (ordered[place] + ordered[place + 1]))
+
+
+def _none(probe: Probe, edge: float, reason: str) -> Finding:
+    return Finding("none", 0.0, np.zeros(probe.topology.n), edge, reason)

@@ -1,0 +1,106 @@
+"""A lens for noise: high-pass filters of which it is known how much of white noise they let through.
+
+The random-walk Laplacian I - P, applied again and again, leaves little of a surface and most of the noise. Dividing
+each vertex by the norm of its row makes white noise of standard deviation s come out with standard deviation s.
+"""
+
+from __future__ import annotations
+
+from functools import cached_property
+
+import numpy as np
+import numpy.typing as npt
+from scipy import sparse
+
+from codec.denoise.filters.topology import Mask, Topology
+from codec.denoise.filters.vertex_update import Floats, face_geometry, vertex_normals
+from codec.denoise.windows import Windows
+from codec.geometry.mesh import Positions
+
+FINE = 2
+FINEST = 6
+GAIN_PROBES = 24
+NORMAL_PASSES = 2
+SHARE, BOUND = 0.6, 0.8416
+"""So much of a standard normal variable is this close to zero: nearly as sure as the variance, deaf to creases."""
+
+
+class Probe:
+    """Measures what is noise-like on the meshes of one connectivity.
+
+    Parameters
+    ----------
+    topology : Topology
+
+    Attributes
+    ----------
+    average : sparse matrix, shape (n, n)
+        Mean over the neighbours, P; a vertex without neighbours keeps its value.
+    counted : ndarray of bool, shape (n,)
+        Vertices whose surroundings are a surface: not on the boundary, three neighbours or more.
+    """
+
+    def __init__(self, topology: Topology) -> None:
+        self.topology = topology
+        starts, members = topology.neighbours
+        degrees = np.diff(starts)
+        lonely = degrees == 0
+        weights = np.repeat(1.0 / np.maximum(degrees, 1), degrees)
+        average = sparse.csr_matrix((weights, members, starts), shape=(topology.n, topology.n))
+        self.average = average + sparse.diags(lonely.astype(np.float64)) if lonely.any() else average
+        self.counted: Mask = (degrees >= 3) & ~topology.boundary
+
+    @cached_property
+    def windows(self) -> Windows:
+        """Where statistics are taken."""
+        return Windows(self.topology, self.counted)
+
+    @cached_property
+    def fine_operator(self) -> tuple[sparse.csr_matrix, Floats]:
+        """Two Laplacians as one matrix, and the norms of its rows."""
+        step = sparse.identity(self.topology.n, format="csr") - self.average
+        operator = (step @ step).tocsr()
+        return operator, np.sqrt(np.asarray(operator.multiply(operator).sum(axis=1)).ravel())
+
+    @cached_property
+    def _finest_gain(self) -> Floats:
+        # The rows of the sixth power are too full to be formed: their norms are estimated with random signs.
+        signs = np.random.default_rng(0).choice(np.array([-1.0, 1.0]), (self.topology.n, GAIN_PROBES))
+        return np.sqrt(np.square(self._repeated(signs)).mean(axis=1))
+
+    def fine(self, values: Floats) -> Floats:
+        """What two Laplacians leave of `values`, shape (n, d), as standard deviations of white noise."""
+        operator, gain = self.fine_operator
+        return operator @ values / np.where(gain > 0.0, gain, np.inf)[:, None]
+
+    def finest(self, values: Floats) -> Floats:
+        """What six Laplacians leave."""
+        gain = self._finest_gain
+        return self._repeated(values) / np.where(gain > 0.0, gain, np.inf)[:, None]
+
+    def smooth_normals(self, positions: Positions, passes: int = NORMAL_PASSES) -> Floats:
+        """Unit vertex normals of the mesh after as many averagings of the positions; then averaged once more."""
+        smooth = positions
+        for _ in range(passes):
+            smooth = self.average @ smooth
+        normals = vertex_normals(
+            face_geometry(np.ascontiguousarray(smooth), self.topology.faces).normals, self.topology.around
+        )
+        normals = normals + self.average @ normals
+        length = np.linalg.norm(normals, axis=1, keepdims=True)
+        return normals / np.where(length > 0.0, length, 1.0)
+
+    def correlated(self, white: Floats, steps: int) -> Floats:
+        """White values, shape (n, d), averaged half and half with their neighbours as often as `steps` says."""
+        for _ in range(steps):
+            white = 0.5 * (white + self.average @ white)
+        return white
+
+    def levels(self, along: Floats) -> Floats:
+        """Standard deviations in the windows, robustly: from quantiles of absolute values."""
+        return self.windows.quantiles(np.abs(along), SHARE) / BOUND
+
+    def _repeated(self, values: npt.NDArray[np.float64]) -> Floats:
+        for _ in range(FINEST):
+            values = values - self.average @ values
+        return values

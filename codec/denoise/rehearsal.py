@@ -1,0 +1,174 @@
+"""Rehearsal (a parametric bootstrap): a good guess at the clean mesh is made noisy again, and the answer is known.
+
+The guess matters: one that still has noise in it takes the noise for detail and asks for too few iterations, one that
+is too smooth asks for too many. So the guess is the noisy mesh after t iterations of a base recipe, and t rises until
+the rehearsal asks for hardly more iterations than the guess itself was given.
+
+White noise is drawn anew. Any other is taken as it was found, on the other side of the guess: guess - (noisy - guess)
+has noise as correlated, as one-sided in direction and as uneven as the mesh has.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from itertools import islice
+
+import numpy as np
+
+from codec.denoise.coarse import CoarseFilter
+from codec.denoise.estimate import NoiseLevel, estimate_noise
+from codec.denoise.finding import Finding
+from codec.denoise.probe import Probe
+from codec.denoise.recipe import Recipe, Step, blend, iterates, perform
+from codec.denoise.synthesis import Synthesis
+from codec.geometry.mesh import Positions
+from codec.geometry.metrics import Reference, mean_edge_length
+from codec.threads import ordered_map
+
+MOST_ITERATIONS = 100
+"""No recipe has wanted as many; it keeps the work bounded."""
+PATIENCE = 3
+MOST_MEMBERS = 4
+GAIN = 1.01
+"""Members join while the error stays below this multiple: what the guess lacks, several recipes miss less often."""
+SEED = 1
+MIRRORED = ("impulses",)
+"""Kinds of which too little is known to draw such noise anew: it is taken as it was found."""
+
+Goal = Callable[[Reference, Positions], float]
+
+
+def shading(reference: Reference, positions: Positions) -> float:
+    """Mean angle between face normals, degrees."""
+    return reference.theta(positions)
+
+
+def shape(reference: Reference, positions: Positions) -> float:
+    """Root mean square distance of the vertices, in mean edges."""
+    distance = np.sqrt(np.square(reference.positions - positions).sum(axis=1).mean())
+    return float(distance) / mean_edge_length(reference.positions, reference.faces)
+
+
+def both(reference: Reference, positions: Positions) -> float:
+    """Product of the two."""
+    return shading(reference, positions) * shape(reference, positions)
+
+
+GOALS: dict[str, Goal] = {"shading": shading, "shape": shape, "both": both}
+
+
+@dataclass(frozen=True, eq=False)
+class Trial:
+    """The best that a recipe does in a rehearsal."""
+
+    step: Step
+    error: float
+    result: Positions
+
+
+class Rehearsal:
+    """A mesh, a guess at it without noise, and the guess with noise again.
+
+    Parameters
+    ----------
+    noisy : ndarray of float64, shape (n, 3)
+    finding : Finding
+        Its levels are those of this mesh.
+    probe : Probe
+    coarse : CoarseFilter
+    base : Recipe
+        Makes the guess.
+    goal : callable
+        What is to be small: from the reference and positions to a number.
+    """
+
+    def __init__(
+        self,
+        noisy: Positions,
+        finding: Finding,
+        probe: Probe,
+        coarse: CoarseFilter,
+        base: Recipe,
+        goal: Goal,
+    ) -> None:
+        topology = probe.topology
+        self._topology, self._coarse, self._goal = topology, coarse, goal
+        self._given, self._finding, self._touched = noisy, finding, finding.levels > 0.0
+        smooth = coarse(noisy, base.keep)
+        self.level = estimate_noise(noisy, smooth, topology)
+        guesses = iterates(base, noisy, smooth, topology)
+        self._synthesis = Synthesis(finding, probe, self.level.tangential)
+        given, done, self.rounds = 1, -1, 0
+        while True:
+            guess = self._within(next(islice(guesses, given - done - 1, None)), noisy)
+            done = given
+            self.rounds += 1
+            self._rehearse(guess, self._synthesis.draw(guess, SEED))
+            wanted = self.attempt(base).step.iterations
+            if wanted <= 1.5 * given + 0.5:
+                break
+            given = wanted
+        self.rehearse(guess)
+
+    def rehearse(self, guess: Positions) -> None:
+        """Make another guess noisy, with other noise."""
+        self.rounds += 1
+        mirrored = self._finding.kind in MIRRORED
+        self._rehearse(
+            guess, 2.0 * guess - self._given if mirrored else self._synthesis.draw(guess, SEED + self.rounds)
+        )
+
+    def perform(self, steps: tuple[Step, ...]) -> Positions:
+        """The steps' result on the mesh that is rehearsed for."""
+
+        def one(step: Step) -> Positions:
+            recipe = step.recipe
+            smooth = self._coarse(self._given, recipe.keep) if recipe.needs_coarse else self._given
+            return perform(step, self._given, smooth, self._topology)
+
+        return self._within(blend([one(step) for step in steps]), self._given)
+
+    def _rehearse(self, guess: Positions, noisy: Positions) -> None:
+        self.truth = Reference(guess, self._topology.faces)
+        self.noisy = noisy
+
+    @property
+    def untreated(self) -> float:
+        """The error of doing nothing."""
+        return self._goal(self.truth, self.noisy)
+
+    def attempt(self, recipe: Recipe) -> Trial:
+        """Iterate until nothing has improved for a while."""
+        smooth = self._coarse(self.noisy, recipe.keep) if recipe.needs_coarse else self.noisy
+        best = Trial(Step(recipe, 0), np.inf, self.noisy)
+        run = iterates(recipe, self.noisy, smooth, self._topology)
+        for count, positions in enumerate(islice(run, MOST_ITERATIONS + 1)):
+            result = self._within(positions, self.noisy)
+            error = self._goal(self.truth, result)
+            if error < best.error:
+                best = Trial(Step(recipe, count), error, result)
+            elif count >= best.step.iterations + PATIENCE:
+                break
+        return best
+
+    def compete(self, recipes: tuple[Recipe, ...], members: int = MOST_MEMBERS) -> tuple[tuple[Step, ...], float]:
+        """The steps whose mean is best, found greedily, and its error."""
+        trials = sorted(ordered_map(self.attempt, recipes, None), key=lambda trial: trial.error)
+        chosen, error = [trials[0]], trials[0].error
+        while len(chosen) < members:
+            errors = [self._goal(self.truth, blend([member.result for member in (*chosen, trial)])) for trial in trials]
+            best = int(np.argmin(errors))
+            if errors[best] > GAIN * error:
+                break
+            chosen.append(trials[best])
+            error = errors[best]
+        steps = tuple(trial.step for trial in chosen)
+        return steps[:1] if len(set(steps)) == 1 else steps, error
+
+    def _within(self, positions: Positions, otherwise: Positions) -> Positions:
+        """Positions where the mesh is to be touched."""
+        return positions if self._touched.all() else np.where(self._touched[:, None], positions, otherwise)
+
+
+__all__ = ["GOALS", "Goal", "NoiseLevel", "Rehearsal", "Trial"]

@@ -1,0 +1,116 @@
+"""Whether a result may stand: judged by what is known without the clean mesh.
+
+What was taken away has to be noise. So it is compared, window by window, with the noise that the finest frequencies
+of the input show there: where more has gone than was noise, shape has gone with it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from codec.denoise.filters.topology import Mask
+from codec.denoise.finding import Finding
+from codec.denoise.probe import Probe
+from codec.geometry.mesh import Positions
+
+MOST = 1.25
+"""Movement along the normals over noise, from which on more has gone than noise."""
+MOST_CORRELATED = 3.0
+"""Correlated noise is stronger than its finest frequencies, in a ratio that is the same everywhere: at most this."""
+FAINT = 0.02
+"""Movements below, in mean edges, harm nobody."""
+DETAIL_SEEN, DETAIL_DROWNED = 0.15, 0.2
+"""Levels of noise, in mean edges, below which it may be as faint as detail, and above which it drowns all detail."""
+NOISE_ALONE, DETAIL_SLOPE, DETAIL_MOST = 0.92, 5.0, 0.4
+"""Movement over noise where there is no detail; what is left undone for each unit more; and at most."""
+REACHED = 0.5
+"""Share of the level of the noise from which on a window counts for the whole."""
+FAILED_SHARE = 0.3
+"""A result that fails in more of the mesh fails as a whole."""
+
+
+@dataclass(frozen=True, eq=False)
+class Verdict:
+    """What the comparison says.
+
+    Attributes
+    ----------
+    good : ndarray of bool, shape (n,)
+        Vertices whose movement may stand.
+    movement : float
+        Median over the windows of movement over noise; infinite where there was none to remove.
+    failed : float
+        Share of the windows in which the movement is too large.
+    reason : str
+        A sentence for the user; empty if the result may stand, here and there put back perhaps.
+    """
+
+    good: Mask
+    movement: float
+    failed: float
+    reason: str
+
+    @property
+    def holds(self) -> bool:
+        """Whether the result as a whole may stand."""
+        return not self.reason
+
+
+def judge(noisy: Positions, result: Positions, finding: Finding, probe: Probe) -> Verdict:
+    """Compare what was removed with what there was to remove.
+
+    Parameters
+    ----------
+    noisy, result : ndarray of float64, shape (n, 3)
+    finding : Finding
+        Of the noisy mesh.
+    probe : Probe
+    """
+    everywhere = np.ones(len(noisy), dtype=np.bool_)
+    windows = probe.windows
+    unsure = finding.kind == "unknown" and bool(windows.valid.any())
+    if not finding.noisy and not unsure:
+        # No statistics here: they may be what is missing.
+        if np.linalg.norm(noisy - result, axis=1).max(initial=0.0) <= FAINT * finding.edge:
+            return Verdict(everywhere, 0.0, 0.0, "")
+        return Verdict(~everywhere, np.inf, 1.0, f"{finding.reason}, and the result moves vertices nevertheless")
+    normals = probe.smooth_normals(result, passes=0)
+    removed = probe.levels(np.einsum("ij,ij->i", noisy - result, normals))
+    found = probe.levels(np.einsum("ij,ij->i", probe.fine(noisy), normals))
+    known = found if unsure else windows.means(finding.levels)
+    present = np.where(known > 0.0, np.maximum(found, 0.5 * known), 0.0)
+    ratio = removed / np.maximum(present, FAINT * finding.edge)
+    # Where an axis hardly reaches, windows are put back one by one but do not count against the whole.
+    judged = windows.valid & (known > max(0.0, REACHED * finding.level))
+    movement = float(np.median(ratio[judged])) if judged.any() else 0.0
+    most = MOST
+    if finding.kind == "correlated":
+        most *= min(max(movement, 1.0), MOST_CORRELATED)
+    bad = windows.valid & ~(ratio <= most)
+    failed = float(bad[judged].mean()) if judged.any() else 0.0
+    reason = ""
+    if failed > FAILED_SHARE:
+        reason = f"the result moves vertices by {movement:.2f} times the noise, and takes shape away with it"
+    good: Mask = ~bad[windows.labels]
+    return Verdict(good, movement, failed, reason)
+
+
+def restraint(movement: float, finding: Finding) -> float:
+    """How much of a movement to make: less than all where faint noise seems to be mixed with detail.
+
+    Filters take away nine tenths of faint white noise where there is nothing else, as the movement tells. Where they
+    take more, the rest is detail, and between the result and the noisy mesh there is a better one than both.
+    """
+    level = finding.level / finding.edge
+    if finding.kind != "white":
+        return 1.0
+    faintness = min(max((DETAIL_DROWNED - level) / (DETAIL_DROWNED - DETAIL_SEEN), 0.0), 1.0)
+    excess = min(max(DETAIL_SLOPE * (movement - NOISE_ALONE), 0.0), DETAIL_MOST)
+    return 1.0 - faintness * excess
+
+
+def keep_good(noisy: Positions, result: Positions, good: Mask) -> Positions:
+    """The result where it may stand, and the input, bit for bit, where not."""
+    return np.where(good[:, None], result, noisy)

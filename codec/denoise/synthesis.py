@@ -1,0 +1,73 @@
+"""Noise like that which was found, to rehearse with."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from codec.denoise.filters.topology import Topology
+from codec.denoise.filters.vertex_update import Floats, face_geometry, vertex_normals
+from codec.denoise.finding import Finding
+from codec.denoise.probe import Probe
+from codec.geometry.mesh import Positions
+
+MOST_STEPS = 12
+
+
+class Synthesis:
+    """Draws noise of the kind and strength of a finding.
+
+    Parameters
+    ----------
+    finding : Finding
+    probe : Probe
+        Of the mesh that noise is drawn for.
+    tangential : float
+        Standard deviation of white noise in each direction across the normals.
+    """
+
+    def __init__(self, finding: Finding, probe: Probe, tangential: float) -> None:
+        self._finding, self._probe, self._tangential = finding, probe, tangential
+        self._steps, self._strength = 0, 1.0
+        if finding.kind == "correlated":
+            self._steps, self._strength = _correlation(finding.whiteness, probe)
+
+    @property
+    def strength(self) -> float:
+        """Standard deviation along the normals over the level of the finding, which fine frequencies alone gave."""
+        return self._strength
+
+    def draw(self, positions: Positions, seed: int) -> Positions:
+        """Positions with noise.
+
+        Parameters
+        ----------
+        positions : ndarray of float64, shape (n, 3)
+        seed : int
+        """
+        finding, topology = self._finding, self._probe.topology
+        white = np.random.default_rng(seed).normal(size=positions.shape)
+        if finding.axis is not None:
+            return positions + finding.level * white[:, :1] * finding.axis
+        normals = _normals(positions, topology)
+        along = np.einsum("ij,ij->i", white, normals)[:, None]
+        amount = self._probe.correlated(along, self._steps)
+        if self._steps:
+            amount *= self._strength / amount.std()
+        across = np.where(finding.levels > 0.0, self._tangential, 0.0)[:, None] * (white - along * normals)
+        return positions + finding.levels[:, None] * amount * normals + across
+
+
+def _normals(positions: Positions, topology: Topology) -> Floats:
+    return vertex_normals(face_geometry(positions, topology.faces).normals, topology.around)
+
+
+def _correlation(whiteness: float, probe: Probe) -> tuple[int, float]:
+    """How often white noise is averaged until its spectrum falls off as steeply, and its strength over fine levels."""
+    noise = np.random.default_rng(0).normal(size=(probe.topology.n, 4))
+    strengths = []
+    for _ in range(MOST_STEPS):
+        noise = probe.correlated(noise, 1)
+        fine, finest = (values[probe.counted].std() for values in (probe.fine(noise), probe.finest(noise)))
+        strengths.append((float(finest / fine), float(noise[probe.counted].std() / fine)))
+    steps = min(range(MOST_STEPS), key=lambda index: abs(strengths[index][0] - whiteness))
+    return steps + 1, strengths[steps][1]

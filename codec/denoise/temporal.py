@@ -1,0 +1,134 @@
+"""Noise that changes from frame to frame taken out of a sequence, before any frame is looked at by itself.
+
+In a piece of surface the trajectories of all vertices are mixtures of a few, as in the codec's own temporal basis (the
+piece moves as a whole, turns, bends a little), and noise is mixed of all there are. So the principal components of the
+trajectories are shrunk by what noise of the measured strength has added to them, and those that are noise vanish.
+
+References
+----------
+M. Gavish, D. L. Donoho, "Optimal shrinkage of singular values", IEEE Transactions on Information Theory 63, 2017.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+import numpy.typing as npt
+
+from codec.blocks.overlap import block_size, grow_blocks
+from codec.blocks.partition import metis_partition
+from codec.geometry.graph import graph_of_faces
+from codec.geometry.mesh import Faces
+from codec.threads import ordered_map
+
+Frames = npt.NDArray[np.float64]
+Floats = npt.NDArray[np.float64]
+
+BLOCK_SIZE = 500
+OVERLAP = 1.25
+FEWEST_FRAMES = 8
+
+
+@dataclass(frozen=True, eq=False)
+class Steadied:
+    """Frames after the filter, and what it has to say about the noise.
+
+    Attributes
+    ----------
+    frames : ndarray of float64, shape (T, n, 3)
+    deviation : float
+        Standard deviation of the noise before, in each coordinate: the median over the blocks.
+    remaining : float
+        Share of it that is expected to be left.
+    """
+
+    frames: Frames
+    deviation: float
+    remaining: float
+
+
+class TemporalFilter:
+    """The filter with its blocks, which are found once.
+
+    Parameters
+    ----------
+    faces : ndarray of int32, shape (m, 3)
+    n : int
+    """
+
+    def __init__(self, faces: Faces, n: int) -> None:
+        graph = graph_of_faces(faces, n)
+        partition = metis_partition(graph, max(1, round(n / BLOCK_SIZE)))
+        blocks = grow_blocks(graph, partition, block_size(partition, OVERLAP))
+        self._blocks = [blocks.members[blocks.starts[i] : blocks.starts[i + 1]] for i in range(blocks.count)]
+        self._copies = np.bincount(np.concatenate(self._blocks), minlength=n)
+
+    def __call__(self, frames: Frames) -> Steadied:
+        """Filter frames of shape (T, n, 3); fewer than `FEWEST_FRAMES` come back as they are."""
+        count, n, _ = frames.shape
+        if count < FEWEST_FRAMES:
+            return Steadied(frames, 0.0, 1.0)
+
+        def trajectories(index: int) -> Floats:
+            vertices = self._blocks[index]
+            return frames[:, vertices].transpose(1, 0, 2).reshape(len(vertices), 3 * count)
+
+        indices = range(len(self._blocks))
+        deviations = list(ordered_map(lambda index: noise_deviation(trajectories(index)), indices, None))
+        deviation = float(np.median(deviations))
+        sums, kept = np.zeros((n, 3 * count)), np.zeros(n)
+        for index, (filtered, rank) in enumerate(
+            ordered_map(lambda index: shrunk(trajectories(index), deviation), indices, None)
+        ):
+            vertices = self._blocks[index]
+            sums[vertices] += filtered
+            kept[vertices] += rank / len(vertices) + rank / (3 * count)
+        held = np.maximum(self._copies, 1)
+        result = np.where((self._copies > 0)[:, None], sums / held[:, None], 0.0).reshape(n, count, 3)
+        result = np.ascontiguousarray(result.transpose(1, 0, 2))
+        result[:, self._copies == 0] = frames[:, self._copies == 0]
+        return Steadied(result, deviation, float(np.sqrt(min(1.0, float(np.mean(kept / held))))))
+
+
+def noise_deviation(values: Floats) -> float:
+    """Standard deviation of white noise in a matrix of low rank: from the median of its singular values."""
+    energies, _ = _components(values - values.mean(axis=0))
+    short, long = int(min(values.shape)), int(max(values.shape))
+    return float(np.sqrt(max(np.median(energies), 0.0) / (long * _median_energy(round(short / long, 3)))))
+
+
+def shrunk(values: Floats, deviation: float) -> tuple[Floats, int]:
+    """The matrix with its singular values shrunk for white noise of this deviation, and how many are left."""
+    mean = values.mean(axis=0)
+    centred = values - mean
+    short, long = int(min(values.shape)), int(max(values.shape))
+    if deviation == 0.0:
+        return values, short
+    energies, vectors = _components(centred)
+    ratio = short / long
+    above = np.maximum(energies, 0.0) / (long * deviation**2)
+    excess = np.maximum((above - ratio - 1.0) ** 2 - 4.0 * ratio, 0.0)
+    kept = above > (1.0 + np.sqrt(ratio)) ** 2
+    factor = np.sqrt(excess[kept]) / above[kept]
+    basis = vectors[:, kept]
+    if len(vectors) == values.shape[1]:
+        return (centred @ basis * factor) @ basis.T + mean, int(kept.sum()) + 1
+    return basis @ (factor[:, None] * (basis.T @ centred)) + mean, int(kept.sum()) + 1
+
+
+def _components(values: Floats) -> tuple[Floats, Floats]:
+    """Squares of the singular values and the singular vectors of the shorter side."""
+    energies, vectors = np.linalg.eigh(values.T @ values if values.shape[1] <= values.shape[0] else values @ values.T)
+    return energies, vectors
+
+
+@lru_cache(maxsize=64)
+def _median_energy(ratio: float) -> float:
+    """Median of the Marchenko-Pastur distribution: the squared singular values of white noise, over the long side."""
+    root = np.sqrt(ratio)
+    energy = np.linspace((1.0 - root) ** 2, (1.0 + root) ** 2, 20001)[1:-1]
+    density = np.sqrt(np.maximum((energy - (1.0 - root) ** 2) * ((1.0 + root) ** 2 - energy), 0.0)) / energy
+    mass = np.cumsum(density)
+    return float(energy[np.searchsorted(mass, 0.5 * mass[-1])])

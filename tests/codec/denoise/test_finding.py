@@ -1,0 +1,134 @@
+"""What is taken for noise, and of which kind; and what is not."""
+
+import numpy as np
+import pytest
+
+from codec.denoise import denoise_automatically
+from codec.denoise.filters.topology import Topology
+from codec.denoise.finding import Finding, find_noise
+from codec.denoise.noise import (
+    correlated_along_normals,
+    gaussian_along_axis,
+    gaussian_along_normals,
+    gaussian_in_part,
+    impulsive,
+    uniform_along_normals,
+)
+from codec.denoise.outliers import find_outliers
+from codec.denoise.probe import Probe
+from codec.denoise.safety import judge, keep_good, restraint
+from codec.geometry.mesh import Faces, Positions
+from codec.geometry.metrics import mean_edge_length
+from tests.codec.denoise.denoise_shapes import cube, sphere
+
+KINDS = {
+    "white": gaussian_along_normals,
+    "uniform": uniform_along_normals,
+    "axis": gaussian_along_axis,
+    "correlated": correlated_along_normals,
+    "impulses": lambda positions, faces, sigma, seed: impulsive(positions, faces, 2.0 * sigma, 0.5, seed),
+    "local": lambda positions, faces, sigma, seed: gaussian_in_part(positions, faces, sigma, 0.5, seed),
+}
+
+
+def find(positions: Positions, faces: Faces) -> Finding:
+    return find_noise(positions, Probe(Topology(faces, len(positions))))
+
+
+@pytest.mark.parametrize("shape", [cube, sphere])
+@pytest.mark.parametrize("kind", KINDS)
+def test_kinds_are_told_apart(shape, kind: str) -> None:  # type: ignore[no-untyped-def]
+    clean, faces = shape(30)
+    finding = find(KINDS[kind](clean, faces, 0.25, 3), faces)
+    assert finding.kind == ("white" if kind == "uniform" else kind)
+    level = finding.level / finding.edge
+    if kind == "correlated":
+        assert 0.05 < level < 0.25
+    else:
+        assert level == pytest.approx(0.35 if kind == "impulses" else 0.25, rel=0.35)
+
+
+def test_the_axis_is_found() -> None:
+    clean, faces = sphere(30)
+    direction = np.array([1.0, 2.0, -2.0]) / 3.0
+    finding = find(gaussian_along_axis(clean, faces, 0.3, 5, tuple(direction)), faces)
+    assert finding.axis is not None
+    assert abs(finding.axis @ direction) > 0.97
+
+
+def test_noise_in_one_half_is_found_there() -> None:
+    clean, faces = sphere(30)
+    noisy = gaussian_in_part(clean, faces, 0.3, 0.5, seed=4)
+    moved = (noisy != clean).any(axis=1)
+    inside = find(noisy, faces).levels > 0.0
+    assert (inside == moved).mean() > 0.9
+
+
+@pytest.mark.parametrize("shape", [cube, sphere])
+def test_clean_shapes_are_clean(shape) -> None:  # type: ignore[no-untyped-def]
+    clean, faces = shape(30)
+    assert find(clean, faces).kind == "none"
+
+
+def test_detail_that_comes_and_goes_with_the_place_is_no_noise() -> None:
+    clean, faces = sphere(30)
+    rough = clean * (1.0 + 0.02 * np.maximum(clean[:, 2:], 0.05) * np.sin(70.0 * clean[:, :1] * clean[:, 1:2]))
+    assert find(rough, faces).kind == "none"
+
+
+def test_a_mesh_too_small_for_statistics_is_unknown() -> None:
+    clean, faces = sphere(6)
+    finding = find(gaussian_along_normals(clean, faces, 0.3, 1), faces)
+    assert finding.kind == "unknown" and not finding.noisy
+
+
+def test_noise_may_go_and_shape_may_not() -> None:
+    clean, faces = sphere(20)
+    noisy = gaussian_along_normals(clean, faces, 0.25, seed=3)
+    probe = Probe(Topology(faces, len(clean)))
+    finding = find_noise(noisy, probe)
+    good = judge(noisy, clean, finding, probe)
+    assert good.holds and good.good.all()
+    assert good.movement == pytest.approx(1.0, abs=0.15)
+    edge = mean_edge_length(clean, faces)
+    shrunk = clean * (1.0 - edge)
+    assert not judge(noisy, shrunk, finding, probe).holds
+    dented = clean.copy()
+    dented[clean[:, 2] > 0.8] *= 1.0 - edge
+    verdict = judge(noisy, dented, finding, probe)
+    assert verdict.holds and not verdict.good.all()
+    assert (keep_good(noisy, dented, verdict.good)[~verdict.good] == noisy[~verdict.good]).all()
+    nothing = find_noise(clean, probe)
+    assert judge(clean, clean, nothing, probe).holds
+    assert not judge(clean, noisy, nothing, probe).holds
+
+
+@pytest.mark.parametrize("shape", [cube, sphere])
+def test_single_vertices_that_stand_out_are_put_back_and_no_others_move(shape) -> None:  # type: ignore[no-untyped-def]
+    clean, faces = shape(30)
+    noisy = impulsive(clean, faces, 0.5, 0.05, seed=3)
+    probe = Probe(Topology(faces, len(clean)))
+    outliers = find_outliers(noisy, probe)
+    result = outliers.put_back(noisy)
+    off = np.linalg.norm(noisy - clean, axis=1)
+    assert np.isin(np.flatnonzero(off > 0.5 * mean_edge_length(clean, faces)), outliers.vertices).mean() > 0.95
+    assert np.linalg.norm(result - clean) < 0.25 * np.linalg.norm(noisy - clean)
+    alone = np.setdiff1d(np.arange(len(clean)), outliers.vertices)
+    assert (result[alone] == noisy[alone]).all()
+    assert denoise_automatically(noisy, faces)[1].kind == "outliers"
+
+
+@pytest.mark.parametrize("shape", [cube, sphere])
+def test_neither_clean_shapes_nor_white_noise_have_outliers(shape) -> None:  # type: ignore[no-untyped-def]
+    clean, faces = shape(30)
+    probe = Probe(Topology(faces, len(clean)))
+    for positions in (clean, gaussian_along_normals(clean, faces, 0.2, 3)):
+        assert len(find_outliers(positions, probe).vertices) == 0
+
+
+def test_less_is_done_where_faint_noise_seems_mixed_with_detail() -> None:
+    levels = np.ones(3)
+    faint, strong = (Finding("white", level, level * levels, 1.0, "") for level in (0.1, 0.3))
+    assert restraint(0.9, faint) == restraint(1.2, strong) == 1.0
+    assert 0.5 < restraint(1.0, faint) < restraint(0.95, faint) < 1.0
+    assert restraint(1.2, Finding("axis", 0.1, 0.1 * levels, 1.0, "")) == 1.0

@@ -1,0 +1,82 @@
+"""Noise that changes from frame to frame."""
+
+import numpy as np
+import pytest
+
+from codec.denoise import FrameDenoiser
+from codec.denoise.frames import OVERLAP, WINDOW
+from codec.denoise.noise import gaussian_along_normals
+from codec.denoise.temporal import FEWEST_FRAMES, TemporalFilter, noise_deviation, shrunk
+from codec.geometry.metrics import mean_edge_length, theta
+from tests.codec.denoise.denoise_shapes import sphere
+
+CLEAN, FACES = sphere(14)
+EDGE = mean_edge_length(CLEAN, FACES)
+
+
+def turning(count: int) -> np.ndarray:
+    """The shape turning and swelling, shape (count, n, 3)."""
+    frames = []
+    for angle in np.linspace(0.0, 2.0, count):
+        turn = np.array(
+            [[np.cos(angle), -np.sin(angle), 0], [np.sin(angle), np.cos(angle), 0], [0, 0, 1 + 0.2 * angle]]
+        )
+        frames.append(CLEAN @ turn.T + [angle, 0.0, 0.0])
+    return np.stack(frames)
+
+
+def with_noise(frames: np.ndarray, sigma: float) -> np.ndarray:
+    return np.stack([gaussian_along_normals(frame, FACES, sigma, seed) for seed, frame in enumerate(frames)])
+
+
+def rms(frames: np.ndarray) -> float:
+    return float(np.sqrt(np.square(frames).sum(axis=2).mean()))
+
+
+@pytest.mark.parametrize("shape", [(300, 60), (60, 300), (100, 100)])
+def test_the_strength_of_noise_on_a_matrix_of_low_rank(shape) -> None:  # type: ignore[no-untyped-def]
+    random = np.random.default_rng(0)
+    clean = 20.0 * random.normal(size=(shape[0], 3)) @ random.normal(size=(3, shape[1]))
+    noisy = clean + 0.5 * random.normal(size=shape)
+    assert noise_deviation(noisy) == pytest.approx(0.5, rel=0.05)
+    filtered, rank = shrunk(noisy, 0.5)
+    assert rank == 4
+    assert np.linalg.norm(filtered - clean) < 0.4 * np.linalg.norm(noisy - clean)
+
+
+def test_noise_goes_and_motion_stays() -> None:
+    frames = turning(32)
+    noisy = with_noise(frames, 0.3)
+    steadied = TemporalFilter(FACES, len(CLEAN))(noisy)
+    assert rms(steadied.frames - frames) < 0.4 * rms(noisy - frames)
+    assert np.sqrt(3.0) * steadied.deviation == pytest.approx(0.3 * EDGE, rel=0.25)
+    assert steadied.remaining == pytest.approx(rms(steadied.frames - frames) / rms(noisy - frames), rel=0.5)
+
+
+def test_too_few_frames_come_back_as_they_are() -> None:
+    frames = turning(FEWEST_FRAMES - 1)
+    assert TemporalFilter(FACES, len(CLEAN))(frames).frames is frames
+
+
+def test_a_sequence_is_better_than_its_frames() -> None:
+    frames = turning(16)
+    noisy = with_noise(frames, 0.3)
+    together = np.stack(list(FrameDenoiser(noisy[0], FACES)(noisy)))
+    alone = np.stack([next(iter(FrameDenoiser(frame, FACES)([frame]))) for frame in noisy[:3]])
+    assert rms(together - frames) < 0.8 * rms(alone - frames[:3])
+    angles = [np.mean([theta(a, b, FACES) for a, b in zip(frames, each)]) for each in (together, alone)]
+    assert angles[0] < 0.9 * angles[1]
+
+
+def test_clean_motion_comes_back_bit_for_bit() -> None:
+    frames = turning(20)
+    assert (np.stack(list(FrameDenoiser(frames[0], FACES)(frames))) == frames).all()
+
+
+@pytest.mark.parametrize("count", [1, WINDOW - 1, WINDOW, WINDOW + 1, 2 * WINDOW - OVERLAP, 2 * WINDOW + 3])
+def test_windows_hand_out_every_frame_once(count: int) -> None:
+    small, faces = sphere(3)
+    frames = np.stack([small + number for number in range(count)])
+    denoised = list(FrameDenoiser(frames[0], faces)(iter(frames)))
+    assert len(denoised) == count
+    assert np.allclose(np.stack(denoised), frames, atol=1e-6)

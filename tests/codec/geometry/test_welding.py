@@ -1,0 +1,35 @@
+"""Vertices at one position made one."""
+
+import numpy as np
+from hypothesis import given
+from hypothesis import strategies as st
+from hypothesis.extra import numpy as hnp
+
+from codec.geometry.welding import weld
+
+few_places = hnp.arrays(
+    np.float64, st.tuples(st.integers(1, 40), st.just(3)), elements=st.sampled_from([-1.0, 0.0, 2.5])
+)
+
+
+@given(few_places, st.data())
+def test_every_vertex_finds_its_place_again(positions, data):
+    faces = data.draw(hnp.arrays(np.int32, (7, 3), elements=st.integers(0, len(positions) - 1)))
+    welded, welded_faces, index = weld(positions, faces)
+    assert (welded[index] == positions).all()
+    assert (welded_faces == index[faces]).all()
+    assert len(np.unique(welded, axis=0)) == len(welded)
+    first_seen = np.unique(index, return_index=True)[1]
+    assert (np.diff(first_seen) > 0).all()
+
+
+def test_minus_zero_is_zero_and_nothing_else_is_near_enough():
+    positions = np.array([[0.0, 1, 2], [-0.0, 1, 2], [np.nextafter(0.0, 1.0), 1, 2]])
+    welded, _, index = weld(positions, np.array([[0, 1, 2]], dtype=np.int32))
+    assert index.tolist() == [0, 0, 1]
+    assert len(welded) == 2
+
+
+def test_no_vertices_are_welded_to_none():
+    welded, faces, index = weld(np.zeros((0, 3)), np.zeros((0, 3), dtype=np.int32))
+    assert len(welded) == len(faces) == len(index) == 0

@@ -1,0 +1,253 @@
+"""What the automatic mode does to clean meshes, to noise of every kind, and to sequences: figures against rivals.
+
+Rivals are stopped at their best iteration by an oracle that knows the clean mesh.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from itertools import islice
+from pathlib import Path
+
+import numpy as np
+
+from bitstream.errors import BsmError
+from bsm.files.mesh import read_mesh
+from bsm.files.npz import read_arrays
+from codec.denoise import FrameDenoiser, denoise_automatically
+from codec.denoise.coarse import CoarseFilter
+from codec.denoise.filters.topology import Topology
+from codec.denoise.noise import (
+    correlated_along_normals,
+    gaussian_along_axis,
+    gaussian_along_normals,
+    gaussian_in_part,
+    gaussian_isotropic,
+    impulsive,
+    uniform_along_normals,
+)
+from codec.denoise.recipe import Recipe, iterates
+from codec.geometry.mesh import Faces, Positions
+from codec.geometry.metrics import Reference, mean_edge_length, theta
+
+Kind = Callable[[Positions, Faces, float], Positions]
+SEED = 11
+KINDS: dict[str, Kind] = {
+    "white": lambda positions, faces, sigma: gaussian_along_normals(positions, faces, sigma, SEED),
+    "isotropic": lambda positions, faces, sigma: gaussian_isotropic(positions, faces, sigma, SEED),
+    "uniform": lambda positions, faces, sigma: uniform_along_normals(positions, faces, sigma, SEED),
+    "impulses": lambda positions, faces, sigma: impulsive(positions, faces, sigma, 0.5, SEED),
+    "few impulses": lambda positions, faces, sigma: impulsive(positions, faces, sigma, 0.1, SEED),
+    "one axis": lambda positions, faces, sigma: gaussian_along_axis(positions, faces, sigma, SEED),
+    "correlated": lambda positions, faces, sigma: correlated_along_normals(positions, faces, sigma, SEED),
+    "half clean": lambda positions, faces, sigma: gaussian_in_part(positions, faces, sigma, 0.5, SEED),
+}
+GUIDED = Recipe("none", 0.1, "patches", 0.35)
+BILATERAL = Recipe("none", 0.1, "local", 0.35)
+PAPER = Recipe("positions", 0.1, "patches", 0.35)
+RIVALS = {"guided": GUIDED, "bilateral normal": BILATERAL, "paper": PAPER}
+FIXED_ITERATIONS = {"guided": (5, 20), "bilateral normal": (10,), "paper": (5, 20)}
+MOST, PATIENCE = 60, 5
+
+QUICK = ("fandisk_6475", "gargoyle_10002", "trim_star")
+FULL = (*QUICK, "twelve_dodecahedron", "block", "fr_casting", "nicolo", "sharpsphere", "armadillo_12502", "c3d_spot")
+LEVELS_QUICK, LEVELS_FULL = (0.05, 0.2), (0.02, 0.05, 0.1, 0.2, 0.5, 1.0)
+
+
+@dataclass(frozen=True)
+class Figures:
+    """Summary of one table: what is compared with a goal, by name."""
+
+    table: str
+    values: dict[str, float]
+
+
+def clean_trials(folder: Path, full: bool) -> Figures:
+    """Meshes without noise that was put there: how far their normals are turned, and how many come back untouched."""
+    print("clean inputs                     vertices   turned by   untouched        s   said")
+    turned, untouched = [], 0
+    paths = sorted((folder / "static").iterdir()) + sorted((folder / "assets").iterdir())
+    for path in paths:
+        if not full and path.stat().st_size > 1_000_000:
+            continue
+        try:
+            mesh = read_mesh(path).mesh
+        except BsmError:
+            continue
+        start = time.perf_counter()
+        result, choice = denoise_automatically(mesh.positions, mesh.faces)
+        seconds = time.perf_counter() - start
+        same = bool((result == mesh.positions).all())
+        turned.append(theta(mesh.positions, result, mesh.faces))
+        untouched += same
+        print(
+            f"{path.name:30s} {len(mesh.positions):10d} {turned[-1]:11.2f} {'yes' if same else 'no':>11s} "
+            f"{seconds:8.1f}   {choice.reason}"
+        )
+    print(f"{untouched} of {len(turned)} untouched, turned by {max(turned):.2f} degrees at most")
+    return Figures("clean", {"untouched": untouched, "of": len(turned), "largest": max(turned)})
+
+
+def kind_trials(folder: Path, full: bool) -> Figures:
+    """Kinds and levels of noise: against the input, and against the best of the fixed recipes."""
+    print("kind           mesh               edges       in      out   best fixed   ratio       s   found")
+    worse, count = 0, 0
+    ratios: dict[str, list[float]] = {kind: [] for kind in KINDS}
+    for name in FULL if full else QUICK:
+        clean, faces = _static(folder, name)
+        reference = Reference(clean, faces)
+        for kind, make in KINDS.items():
+            for level in LEVELS_FULL if full else LEVELS_QUICK:
+                noisy = make(clean, faces, level)
+                before = reference.theta(noisy)
+                start = time.perf_counter()
+                result, choice = denoise_automatically(noisy, faces)
+                seconds = time.perf_counter() - start
+                after = reference.theta(result)
+                count, worse = count + 1, worse + (after > before)
+                fixed = min(best_fixed(noisy, faces, reference), before)
+                if 0.1 <= level <= 0.5:
+                    ratios[kind].append(after / fixed)
+                print(
+                    f"{kind:14s} {name:18s} {level:5.2f} {before:8.2f} {after:8.2f} {fixed:12.2f} "
+                    f"{after / fixed:7.2f} {seconds:7.1f}   {choice.kind}{' WORSE' if after > before else ''}",
+                    flush=True,
+                )
+    print(f"{worse} of {count} worse than their input")
+    means = {kind: float(np.exp(np.mean(np.log(found)))) for kind, found in ratios.items() if found}
+    print("mean ratio, 0.1 to 0.5 edges: " + ", ".join(f"{kind} {value:.2f}" for kind, value in means.items()))
+    return Figures("kinds", {"worse": worse, "of": count, **means})
+
+
+def gaussian_trials(folder: Path, full: bool) -> Figures:
+    """White noise of 0.1 to 0.3 edges against three rivals with an oracle each."""
+    print("mesh               edges       in   guided   bilateral   paper      out   ratio       s")
+    ratios = []
+    for name in FULL if full else QUICK:
+        clean, faces = _static(folder, name)
+        reference = Reference(clean, faces)
+        for level in (0.1, 0.2, 0.3) if full else (0.2,):
+            noisy = gaussian_along_normals(clean, faces, level, SEED)
+            rivals = oracle(noisy, faces, reference)
+            start = time.perf_counter()
+            result, _ = denoise_automatically(noisy, faces)
+            seconds = time.perf_counter() - start
+            after = reference.theta(result)
+            ratios.append(after / min(rivals.values()))
+            cells = "".join(f"{value:{width}.2f}" for value, width in zip(rivals.values(), (9, 12, 8), strict=True))
+            print(
+                f"{name:18s} {level:5.2f} {reference.theta(noisy):8.2f}{cells} {after:8.2f} {ratios[-1]:7.2f} "
+                f"{seconds:7.1f}",
+                flush=True,
+            )
+    mean = float(np.mean(ratios))
+    print(f"mean {mean:.3f}, worst {max(ratios):.3f}")
+    return Figures("gaussian", {"mean": mean, "worst": max(ratios)})
+
+
+def hard_trials(folder: Path, full: bool) -> Figures:
+    """The three cases with published rivals, or with hardly any noise."""
+    values: dict[str, list[float]] = {}
+    print("case                          in      out       s")
+    for name, level in (("fandisk_6475", 0.6), ("trim_star", 0.3), ("armadillo_12502", 0.05)):
+        clean, faces = _static(folder, name)
+        for seed in (SEED, SEED + 1, SEED + 2) if full else (SEED,):
+            noisy = gaussian_along_normals(clean, faces, level, seed)
+            start = time.perf_counter()
+            result, _ = denoise_automatically(noisy, faces)
+            seconds = time.perf_counter() - start
+            after = theta(clean, result, faces)
+            values.setdefault(f"{name} {level}", []).append(after)
+            print(f"{name:16s} {level:5.2f} {theta(clean, noisy, faces):8.2f} {after:8.2f} {seconds:7.1f}", flush=True)
+    return Figures("hard", {case: float(np.mean(found)) for case, found in values.items()})
+
+
+def sequence_trials(folder: Path, full: bool) -> Figures:
+    """Noisy sequences against their frames one by one: theta, vertex error, flicker."""
+    print("sequence         frames    way               theta   vertex error   flicker")
+    values: dict[str, list[float]] = {"theta": [], "vertex error": [], "flicker": []}
+    for name in ("samba", "dance", "horse_gallop") if full else ("dance",):
+        positions, faces = read_arrays(folder / "dynamic" / f"{name}.npz", "positions", "faces")
+        faces = faces.astype(np.int32)
+        clean = positions[: 48 if full else 24].astype(np.float64)
+        noisy = np.stack([gaussian_along_normals(frame, faces, 0.2, seed) for seed, frame in enumerate(clean)])
+        alone = np.stack([denoise_automatically(frame, faces)[0] for frame in noisy])
+        together = np.stack(list(FrameDenoiser(noisy[0], faces)(noisy)))
+        rows = {
+            way: (
+                float(np.mean([theta(a, b, faces) for a, b in zip(clean, frames, strict=True)])),
+                vertex_error(clean, frames, faces),
+                flicker(clean, frames, faces),
+            )
+            for way, frames in (("noisy", noisy), ("frame by frame", alone), ("sequence", together))
+        }
+        for way, row in rows.items():
+            print(f"{name:16s} {len(clean):6d}    {way:14s} {row[0]:8.2f} {row[1]:14.3f} {row[2]:9.3f}", flush=True)
+        for measure, ours, theirs in zip(values, rows["sequence"], rows["frame by frame"], strict=True):
+            values[measure].append(ours / theirs)
+    means = {measure: float(np.mean(found)) for measure, found in values.items()}
+    print("over frame by frame: " + ", ".join(f"{measure} {value:.2f}" for measure, value in means.items()))
+    return Figures("flicker", means)
+
+
+def vertex_error(clean: np.ndarray, frames: np.ndarray, faces: Faces) -> float:
+    """Root mean square distance of the vertices of all frames, in mean edges of the first."""
+    distance = np.sqrt(np.square(clean - frames).sum(axis=2).mean())
+    return float(distance) / mean_edge_length(clean[0], faces)
+
+
+def flicker(clean: np.ndarray, frames: np.ndarray, faces: Faces) -> float:
+    """Mean length of the second difference in time of what differs from the clean frames, in mean edges."""
+    error = frames - clean
+    trembling = error[2:] - 2.0 * error[1:-1] + error[:-2]
+    return float(np.sqrt(np.square(trembling).sum(axis=2)).mean()) / mean_edge_length(clean[0], faces)
+
+
+def oracle(noisy: Positions, faces: Faces, reference: Reference) -> dict[str, float]:
+    """Theta of every rival at its best iteration."""
+    topology = Topology(faces, len(noisy))
+    coarse = CoarseFilter(faces, len(noisy))(noisy)
+    return {name: _best(iterates(rival, noisy, coarse, topology), reference) for name, rival in RIVALS.items()}
+
+
+def best_fixed(noisy: Positions, faces: Faces, reference: Reference) -> float:
+    """Theta of the best of the rivals with numbers of iterations that a user might ask for."""
+    topology = Topology(faces, len(noisy))
+    coarse = CoarseFilter(faces, len(noisy))(noisy)
+    found = []
+    for name, rival in RIVALS.items():
+        run = iterates(rival, noisy, coarse, topology)
+        done = -1
+        for count in FIXED_ITERATIONS[name]:
+            # The local filter counts in twos.
+            count = count // 2 if rival.guide == "local" else count
+            found.append(reference.theta(next(islice(run, count - done - 1, None))))
+            done = count
+    return min(found)
+
+
+def _best(run: Iterator[Positions], reference: Reference) -> float:
+    best, at = np.inf, 0
+    for count, positions in enumerate(islice(run, MOST + 1)):
+        angle = reference.theta(positions)
+        if angle < best:
+            best, at = angle, count
+        elif count >= at + PATIENCE:
+            break
+    return float(best)
+
+
+def _static(folder: Path, name: str) -> tuple[Positions, Faces]:
+    mesh = read_mesh(folder / "static" / f"{name}.ply").mesh
+    return mesh.positions, mesh.faces
+
+
+TRIALS: dict[str, Callable[[Path, bool], Figures]] = {
+    "clean": clean_trials,
+    "kinds": kind_trials,
+    "gaussian": gaussian_trials,
+    "hard": hard_trials,
+    "flicker": sequence_trials,
+}
