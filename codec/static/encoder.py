@@ -28,7 +28,6 @@ from codec.static.shaping import Shaper
 from codec.static.spectral import Spectral
 from codec.static.targets import search_step
 
-
 DETAILED_ANGLE = 4.5
 """Below this mean angle of normals, blocks alone are larger than refined ones."""
 
@@ -98,7 +97,7 @@ class Encoder:
 
     @property
     def vertex_index(self) -> Order:
-        """The given mesh's vertex i is the decoder's vertex `vertex_index[i]`; -1: no face uses it, and it is not there.
+        """The given mesh's vertex i is the decoder's vertex `vertex_index[i]`; -1: it is in no face, and not there.
 
         int64, as long as the given mesh has vertices.
         """

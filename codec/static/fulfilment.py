@@ -30,7 +30,8 @@ from codec.static.spectral import Base, Spectral, base_step
 PLAIN_ANGLE = 6.0
 """From this angle on, blocks with a detail layer are tried before refinement."""
 WIDEST = 0.155
-"""Columns of a dictionary over the rows of a block: wider ones cost more time, for every decoder, than the bytes they save are worth."""
+"""Columns of a dictionary over the rows of a block: wider ones cost every decoder more time than their bytes
+are worth."""
 FLAT = 0.15
 """Share of frequencies worth coding at a coarse step from which on a grid is smaller than blocks."""
 LATTICES = 3
@@ -38,7 +39,8 @@ LATTICES = 3
 COARSEST_CELL = 1.0
 """Diagonals; models of few vertices may be exact on a grid of one bit."""
 SHARP_SHARE, GRID_SHARE = 0.45, 0.75
-"""Of the entropy of second differences on a rounded grid: what a shaped one costs at least, with and without sharp edges."""
+"""Of the entropy of second differences on a rounded grid: what a shaped one costs at least,
+with and without sharp edges."""
 LATTICE_GAIN = 0.75
 """A finer grid whose entropy is below so much of the coarser one's is one that the model was made on."""
 MANY_OUTLIERS = 0.01
@@ -220,13 +222,16 @@ class Fulfilment:
         angle = self._contract.angle
         ratio = 0.0 if self._original.angle(base.upright) <= angle else 6.0
         best = self._refinement(base, ratio)
-        if not ratio and (best is None or self._outliers(base.moved(*best.found)) > MANY_OUTLIERS * len(base.positions)):
+        if not ratio and (
+            best is None or self._outliers(base.moved(*best.found)) > MANY_OUTLIERS * len(base.positions)
+        ):
             best = self._refinement(base, 6.0)
         if best is not None:
             yield self._with_outliers(base, [best.found])
 
     def _refinement(self, base: Base, ratio: float) -> Trial[tuple[Layer, Levels]] | None:
         """One layer whose normals are right."""
+
         def measure(step: float) -> Trial[tuple[Layer, Levels]]:
             layer = base.layer(step, ratio)
             wanted, directions = base.wanted(layer)
@@ -273,7 +278,7 @@ class Fulfilment:
         yield from self._lattices(shaped, self._first_cell if best is None else best.step)
 
     def _lattices(self, shaped: Shaped, step: float) -> Iterator[Draft]:
-        """Grids of powers of two along the longest side, from about a step on, where a model seems to be made on one."""
+        """Grids of powers of two along the longest side, from about a step on, where one seems to fit the model."""
         few = self._prepared.graph.size < FEW_VERTICES
         least = self._entropy(step)
         for cell in self._cells(COARSEST_CELL if few else step):

@@ -56,7 +56,7 @@ def kept(encoder: Encoder, data: bytes) -> tuple[float, float]:
         TriangleMesh(np.zeros((3, 3)), [(0, 1, 2)]),
         TriangleMesh([(0, 0, 0), (1, 0, 0), (3, 0, 0)], [(0, 1, 2), (0, 0, 1)]),
     ],
-    ids="tetrahedron patch torus noise strong-noise many flat far tiny point line".split(),
+    ids=["tetrahedron", "patch", "torus", "noise", "strong-noise", "many", "flat", "far", "tiny", "point", "line"],
 )
 def test_presets_keep_what_they_promise(mesh: TriangleMesh, preset: str) -> None:
     contract = PRESETS[preset].contract
