@@ -40,7 +40,8 @@ def encode(mesh: Any, options: EncodeOptions | None = None, /, **keywords: Any) 
         Instead of keywords.
     **keywords
         As on the command line: `preset` ("small", "balanced", "fine", "near-lossless", "lossless"), one target
-        (`theta`, `nmsve_db`, `max_error`, `bpv`, `size`), and fields of `EncodeOptions` (`step`, `block_size`, `keep_order`, `threads`, ...).
+        (`theta`, `nmsve_db`, `max_error`, `bpv`, `size`), and fields of `EncodeOptions` (`step`, `block_size`,
+        `keep_order`, `threads`, ...).
 
     Returns
     -------

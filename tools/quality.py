@@ -9,7 +9,8 @@
 the angle that was reached; Draco's own angle at `--draco-bits` is one more. `grid`: bytes of the positions on a grid,
 over those of Draco with the same. `contract`: what a preset gives, checked by itself and by surfaces, over the bytes of
 Draco with the fewest bits whose surfaces are as close (Hausdorff distance, and mean angle of normals). `time`:
-processor time per vertex, on one thread, against that of Draco. Vertices at one position are made one for both. Needs DracoPy.
+processor time per vertex, on one thread, against that of Draco. Vertices at one position are made one for both. Needs
+DracoPy.
 """
 
 from __future__ import annotations

@@ -106,7 +106,9 @@ def test_threads_and_events_change_nothing(vector):
         decoder.receive_data(data)
         decoder.receive_eof()
         while (event := decoder.next_event()) is not END_OF_STREAM:
-            if hasattr(event, "changes"):
+            if hasattr(event, "loose"):
+                positions[event.loose.vertices] = event.loose.positions
+            elif hasattr(event, "positions"):
                 positions[event.vertices] = event.positions
     assert vector.complaint(positions, whole.faces) is None
 
