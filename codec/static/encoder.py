@@ -160,21 +160,21 @@ class Encoder:
         target = self.options.target
         if target is None:
             raise OptionError("there is no target to search for")
-        found, refused = [], None
+        found: list[Attempt] = []
+        refused: list[TargetError] = []
         for ladder in self._ladders(progress):
             try:
                 found.append(search_step(self._climb(ladder), target, self.options.first_step, ladder.finest))
             except TargetError as error:
-                refused = error
+                refused.append(error)
         if target.kind == "max_error_relative":
             try:
                 ways = Fulfilment(self._prepared, self.options, Contract(min(target.value, 1.0)))
                 found.append(self._judged(ways.draft(progress)))
             except TargetError as error:
-                refused = refused or error
+                refused.append(error)
         if not found:
-            assert refused is not None
-            raise refused
+            raise min(refused, key=lambda error: error.best)
         if target.shrinks_with_step:
             return min(found, key=lambda attempt: attempt.comparison.theta_deg)
         return min(found, key=lambda attempt: attempt.size)
