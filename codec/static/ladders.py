@@ -24,6 +24,8 @@ WIDEST = 0.18
 """Columns of a dictionary over the rows of a block."""
 NOMINAL = 2000.0
 """Degrees that a step comes to, about, times which."""
+HEIGHTS_SHARE = 0.93
+"""Levels along normals alone are enough where exact ones would leave at most so much of the angle that is asked for."""
 RATIOS = {"max_error_relative": 1.0, "nmsve_db": 3.0}
 """How much coarser levels in the plane are than those along the normal, by what is asked for; 6, or none at all, where
 it is about normals."""
@@ -75,15 +77,17 @@ class Refined:
         self._original = original
         self._progress = progress
         self._kind = "" if options.target is None else options.target.kind
+        self._angle = options.target.value if options.target is not None and self._kind == "theta_deg" else None
         self._spectral = Spectral(prepared, replace(options, detail=0.0), WIDEST)
         self._bases: dict[float, Base] = {}
 
     def draft(self, step: float) -> Draft:
         """The draft at a step."""
         nominal = NOMINAL * step
-        base = self._base(base_step(nominal))
+        # Where the angle is known, base and axes are the same at all steps: sizes and angles do not jump.
+        base = self._base(base_step(self._angle or nominal))
         ratio = RATIOS.get(self._kind, 6.0)
-        if self._kind == "theta_deg" and self._original.angle(base.upright) < 0.9 * nominal:
+        if self._angle is not None and self._original.angle(base.upright) < HEIGHTS_SHARE * self._angle:
             ratio = 0.0
         edge = self._shaper.mean_edge or 1.0
         layer = base.layer(min(1.2 * math.radians(nominal) * edge, COARSEST_STEP), ratio)
