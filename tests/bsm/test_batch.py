@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -103,7 +104,7 @@ def test_info_of_many(streams, capsys):
 
 def test_denoise_many(meshes, tmp_path):
     inputs = [str(meshes / "a.npz"), str(meshes / "b.npz")]
-    assert main(["denoise", "-q", *inputs, "-o", str(tmp_path), "--iterations", "2"]) == 0
+    assert main(["denoise", "-q", *inputs, "-o", str(tmp_path)]) == 0
     assert names(tmp_path) == ["a.npz", "b.npz"]
 
 
@@ -284,7 +285,7 @@ def test_one_bar_for_a_search_with_the_time_left(tmp_path):
     write_mesh(tmp_path / "a.npz", knot(50_000))
     words = ["encode", tmp_path / "a.npz", "-o", tmp_path / "a.bsm", "--block-size", "300", "--threads", "1"]
     shown = on_a_terminal(*words, "--theta", "3")
-    assert "encoding, attempt 2" in shown and "<00:" in shown and "blocks/s" in shown
+    assert re.search(r"encoding, attempt [2-9]", shown) and "<00:" in shown and "blocks/s" in shown
     *frames, result = shown.replace("\r\n", "\n").rstrip("\n").split("\r")
     shares = [int(frame.partition("%")[0].rpartition(":")[2]) for frame in frames if "%|" in frame]
     assert len(shares) > 3 and shares[0] < shares[-1]
@@ -293,7 +294,7 @@ def test_one_bar_for_a_search_with_the_time_left(tmp_path):
 
 
 def test_a_bar_for_sequences(tmp_path):
-    positions, faces = knot(6_000).positions, knot(6_000).faces
+    positions, faces = knot(20_000).positions, knot(20_000).faces
     frames = np.array([positions * (1 + 0.1 * np.sin(t / 3)) for t in range(12)])
     np.savez(tmp_path / "a.npz", positions=frames, faces=faces)
     words = ["encode", tmp_path / "a.npz", "-o", tmp_path / "a.bsm", "--keep", "1", "--block-size", "200"]
