@@ -81,7 +81,15 @@ class ArgumentError(BsmError, TypeError):
 
 
 class TargetError(BsmError, ValueError):
-    """A quality or a size that cannot be reached; the message says the best that can be had."""
+    """A quality or a size that cannot be reached; the message says the best that can be had.
+
+    Attributes
+    ----------
+    best : float
+        The same as a number, in the unit of the target; infinity where nothing can be had.
+    """
+
+    best = float("inf")
 
 
 class DependencyError(BsmError, ImportError):

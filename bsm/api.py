@@ -39,8 +39,9 @@ def encode(mesh: Any, options: EncodeOptions | None = None, /, **keywords: Any) 
     options : EncodeOptions, optional
         Instead of keywords.
     **keywords
-        As on the command line: `preset` ("small", "balanced", "fine", "near-lossless", "lossless"), one target (`theta`, `nmsve_db`, `max_error`,
-        `bpv`, `size`), and fields of `EncodeOptions` (`step`, `block_size`, `keep_order`, `threads`, ...).
+        As on the command line: `preset` ("small", "balanced", "fine", "near-lossless", "lossless"), one target
+        (`theta`, `nmsve_db`, `max_error`, `bpv`, `size`), and fields of `EncodeOptions` (`step`, `block_size`,
+        `keep_order`, `threads`, ...).
 
     Returns
     -------

@@ -1,8 +1,8 @@
 """A decoder of BSM streams, written from the documents of this folder alone: slow, plain, easy to compare with them.
 
 The rules that it follows are named as they are numbered: F for format.md, C for connectivity.md (see
-reference_connectivity.py), V for fields.md (see reference_fields.py), M for mathematics.md, S for sequence.md. numpy is used for linear algebra alone, and nothing
-is shared with the product.
+reference_connectivity.py), V for fields.md (see reference_fields.py), M for mathematics.md, S for sequence.md. numpy is
+used for linear algebra alone, and nothing is shared with the product.
 
     python spec/reference_decoder.py IN.bsm OUT.npz
 
@@ -841,7 +841,7 @@ class Mesh:
                 places[last].append(number)
             elif kind == 1:  # F 9.4
                 vertex = last - next(waiting)
-                require(0 <= vertex, "a copy of no vertex")
+                require(vertex >= 0, "a copy of no vertex")
                 places[vertex].append(number)
         steps = [0] * (3 * len(faces))
         if copies:

@@ -5,11 +5,12 @@
     python -m tools.quality contract MESH [MESH ...] [--preset balanced]
     python -m tools.quality time MESH [MESH ...] [--preset balanced fine near-lossless lossless]
 
-`theta`: bytes at a mean angle between corresponding normals, over those of Draco (level 10, its bits interpolated) at the
-angle that was reached; Draco's own angle at `--draco-bits` is one more. `grid`: bytes of the positions on a grid, over
-those of Draco with the same. `contract`: what a preset gives, checked by itself and by surfaces, over the bytes of Draco
-with the fewest bits whose surfaces are as close (Hausdorff distance, and mean angle of normals). `time`: processor
-time per vertex, on one thread, against that of Draco. Vertices at one position are made one for both. Needs DracoPy.
+`theta`: bytes at a mean angle between corresponding normals, over those of Draco (level 10, its bits interpolated) at
+the angle that was reached; Draco's own angle at `--draco-bits` is one more. `grid`: bytes of the positions on a grid,
+over those of Draco with the same. `contract`: what a preset gives, checked by itself and by surfaces, over the bytes of
+Draco with the fewest bits whose surfaces are as close (Hausdorff distance, and mean angle of normals). `time`:
+processor time per vertex, on one thread, against that of Draco. Vertices at one position are made one for both. Needs
+DracoPy.
 """
 
 from __future__ import annotations
@@ -19,8 +20,10 @@ import math
 import time
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
 from statistics import fmean
+from typing import TypeVar
 
 import numpy as np
 
@@ -32,10 +35,12 @@ from codec.geometry.mesh import Positions, TriangleMesh
 from codec.geometry.metrics import theta
 from codec.geometry.surface_distance import surface_distance
 from codec.static.decoder import decode
-from codec.static.encoder import Encoder
+from codec.static.encoder import Encoder, encode
 from codec.static.joining import join
 from codec.static.options import PRESETS, EncodeOptions
 from codec.static.targets import Target
+
+Result = TypeVar("Result")
 
 DRACO_BITS = range(2, 21)
 SAMPLES = 20_000
@@ -67,7 +72,8 @@ def draco_positions(mesh: TriangleMesh, bits: int) -> Positions:
     most = np.float32((1 << bits) - 1)
     extent = (values - low).max() or np.float32(1)
     places = np.floor((values - low) * (most / extent) + np.float32(0.5))
-    return places * np.float32(extent / most) + low.astype(np.float64)
+    positions: Positions = places * np.float64(np.float32(extent / most)) + low.astype(np.float64)
+    return positions
 
 
 def draco_curve(mesh: TriangleMesh) -> list[tuple[float, int]]:
@@ -135,7 +141,7 @@ def contracts(path: Path, args: argparse.Namespace) -> Iterator[Row]:
         )
         text = (
             f"{len(mesh.positions):7d} vertices {len(data):7d} bytes, Draco {size:7d}; farthest "
-            f"{kept.farthest / (mesh.diagonal or 1.0):.4f}  angle {kept.angle:5.2f}; surfaces {ours[0]:.4f} {ours[1]:5.2f}"
+            f"{kept.farthest / (mesh.diagonal or 1.0):.4f}  angle {kept.angle:5.2f}; Hausdorff {ours[0]:.4f}"
         )
         yield Row(preset, text, len(data) / size if size else math.nan)
 
@@ -150,11 +156,11 @@ def times(path: Path, args: argparse.Namespace) -> Iterator[Row]:
     """Rows of `time`."""
     mesh = joined(path)
     count = len(mesh.positions)
-    theirs = measured(lambda: draco_bytes(mesh, 11))[0]
+    theirs = measured(partial(draco_bytes, mesh, 11))[0]
     for preset in args.preset:
         options = replace(PRESETS[preset], threads=1)
-        taken, data = measured(lambda options=options: Encoder(mesh, options).encode())
-        back, _ = measured(lambda data=data: decode(data, threads=1))
+        taken, data = measured(partial(encode, mesh, options))
+        back, _ = measured(partial(decode, data, threads=1))
         text = (
             f"encode {1e6 * taken / count:6.2f} us a vertex, {taken / theirs:5.1f} times Draco's; decode "
             f"{1e6 * back / count:5.2f} us; {len(data)} bytes"
@@ -162,9 +168,9 @@ def times(path: Path, args: argparse.Namespace) -> Iterator[Row]:
         yield Row(preset, text, taken / theirs)
 
 
-def measured(work: Callable[[], bytes]) -> tuple[float, bytes]:
+def measured(work: Callable[[], Result]) -> tuple[float, Result]:
     """The least processor time of three, and what came of it."""
-    best, result = math.inf, b""
+    best = math.inf
     for _ in range(3):
         begin = time.process_time()
         result = work()

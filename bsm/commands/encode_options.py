@@ -75,7 +75,12 @@ PRESETS = ("small", "balanced", "fine", "near-lossless", "lossless")
 TARGET_FLAGS = (
     ("nmsve-db", "nmsve_db", "X", "visual error, 10 log10 NMSVE, at most X"),
     ("theta", "theta_deg", "DEG", "mean angle between the faces' normals before and after at most DEG"),
-    ("max-error", "max_error_relative", "REL", "no vertex farther off than REL diagonals of the bounding box; with a unit (0.05mm), in the mesh's own"),
+    (
+        "max-error",
+        "max_error_relative",
+        "REL",
+        "no vertex farther off than REL diagonals of the bounding box; with a unit (0.05mm), in the mesh's own",
+    ),
     ("bpv", "bpv", "X", "at most X bits per vertex, the whole file counted"),
     ("size", "size", "BYTES", "at most BYTES"),
 )

@@ -6,8 +6,6 @@ from collections.abc import Callable
 from dataclasses import dataclass, fields
 from typing import Any, Protocol
 
-import numpy as np
-
 from bsm.evaluation.draco import decode_draco, encode_draco, positions_in_order
 from bsm.files.stream import inspect_stream
 from codec.geometry.mesh import Positions, TriangleMesh

@@ -54,8 +54,9 @@ class BlockView:
 
 
 def view_blocks(mesh: TriangleMesh, options: EncodeOptions) -> BlockView:
-    """Encode and decode a mesh, and derive its parts as both sides did."""
-    encoder = Encoder(mesh, replace(options, partition="derived", keep_order=False))
+    """Encode a mesh in blocks and decode it, and derive its parts as both sides did."""
+    step = options.step if options.says_how else options.first_step
+    encoder = Encoder(mesh, replace(options, step=step, partition="derived", keep_order=False))
     data = encoder.encode()
     decoded = decode(data)
     info = inspect_stream(iter([data]))

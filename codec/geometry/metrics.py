@@ -63,7 +63,7 @@ class Reference:
         self._laplacian = geometric_laplacian(self.positions, self._neighbours)
         self._normals = face_normals(self.positions, self.faces)
         counted = self._normals.any(axis=1)
-        self._shares = counted / max(1, int(counted.sum()))
+        self._shares: Floats = np.asarray(counted / max(1, int(counted.sum())), np.float64)
 
     def nmsve(self, decoded: Positions) -> float:
         """The function `nmsve` against this original."""

@@ -157,7 +157,7 @@ class SequenceEncoder:
         opening = open_sequence(prepared, options, self._count, tell)
         writer = Writer()
         yield writer.start()
-        for packet in (opening.header, *prepared.packets, *(block.packet for block in opening.blocks)):
+        for packet in (opening.header, *prepared.before_blocks, *(block.packet for block in opening.blocks)):
             yield writer.write(packet)
         encoder = GopEncoder(opening.setting, options)
         number = 0

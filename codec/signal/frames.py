@@ -22,9 +22,7 @@ def local_frames(positions: Positions, faces: Faces) -> Matrix:
     faces : int32 array, shape (m, 3)
     """
     frames = np.empty((len(positions), 9))
-    _kernels.local_frames(
-        np.ascontiguousarray(positions, np.float64), np.ascontiguousarray(faces, np.int32), frames
-    )
+    _kernels.local_frames(np.ascontiguousarray(positions, np.float64), np.ascontiguousarray(faces, np.int32), frames)
     return frames
 
 

@@ -80,7 +80,11 @@ class BlockStage:
             case packets.Block():
                 self._skip_to(arrival.index, queue)
                 self._decode(arrival, queue)
-                if self._next == self._scheme.blocks.count and self._structure.header.layers and not self._wishes.refinements:
+                if (
+                    self._next == self._scheme.blocks.count
+                    and self._structure.header.layers
+                    and not self._wishes.refinements
+                ):
                     queue.append(Complete(self._assembly))
                     return Complete(self._assembly)
             case packets.Refinement():

@@ -28,7 +28,6 @@ from codec.static.shaping import Shaper
 from codec.static.spectral import Spectral
 from codec.static.targets import search_step
 
-
 DETAILED_ANGLE = 4.5
 """Below this mean angle of normals, blocks alone are larger than refined ones."""
 
@@ -98,7 +97,7 @@ class Encoder:
 
     @property
     def vertex_index(self) -> Order:
-        """The given mesh's vertex i is the decoder's vertex `vertex_index[i]`; -1: no face uses it, and it is not there.
+        """The given mesh's vertex i is the decoder's vertex `vertex_index[i]`; -1: it is in no face, and not there.
 
         int64, as long as the given mesh has vertices.
         """
@@ -161,21 +160,21 @@ class Encoder:
         target = self.options.target
         if target is None:
             raise OptionError("there is no target to search for")
-        found, refused = [], None
+        found: list[Attempt] = []
+        refused: list[TargetError] = []
         for ladder in self._ladders(progress):
             try:
                 found.append(search_step(self._climb(ladder), target, self.options.first_step, ladder.finest))
             except TargetError as error:
-                refused = error
+                refused.append(error)
         if target.kind == "max_error_relative":
             try:
                 ways = Fulfilment(self._prepared, self.options, Contract(min(target.value, 1.0)))
                 found.append(self._judged(ways.draft(progress)))
             except TargetError as error:
-                refused = refused or error
+                refused.append(error)
         if not found:
-            assert refused is not None
-            raise refused
+            raise min(refused, key=lambda error: error.best)
         if target.shrinks_with_step:
             return min(found, key=lambda attempt: attempt.comparison.theta_deg)
         return min(found, key=lambda attempt: attempt.size)

@@ -16,6 +16,7 @@ import numpy as np
 
 from bitstream.container.header import Layer
 from bitstream.errors import TargetError
+from bitstream.fields.grid import MOST_LARGEST
 from codec.arrays import Levels, Matrix
 from codec.geometry.closeness import Closeness, Original
 from codec.static.block_coder import Progress
@@ -30,15 +31,17 @@ from codec.static.spectral import Base, Spectral, base_step
 PLAIN_ANGLE = 6.0
 """From this angle on, blocks with a detail layer are tried before refinement."""
 WIDEST = 0.155
-"""Columns of a dictionary over the rows of a block: wider ones cost more time, for every decoder, than the bytes they save are worth."""
+"""Columns of a dictionary over the rows of a block: wider ones cost every decoder more time than their bytes
+are worth."""
 FLAT = 0.15
 """Share of frequencies worth coding at a coarse step from which on a grid is smaller than blocks."""
 LATTICES = 3
 """Successive powers of two that may be tried for the grid: models made on one cost half as much there."""
-COARSEST_CELL = 1.0
-"""Diagonals; models of few vertices may be exact on a grid of one bit."""
+MOST_PARTS, COARSEST_GRIDS = 256, 3
+"""Of models of few vertices: cells along the longest side, and how many of the coarsest grids that fit are tried."""
 SHARP_SHARE, GRID_SHARE = 0.45, 0.75
-"""Of the entropy of second differences on a rounded grid: what a shaped one costs at least, with and without sharp edges."""
+"""Of the entropy of second differences on a rounded grid: what a shaped one costs at least,
+with and without sharp edges."""
 LATTICE_GAIN = 0.75
 """A finer grid whose entropy is below so much of the coarser one's is one that the model was made on."""
 MANY_OUTLIERS = 0.01
@@ -220,13 +223,16 @@ class Fulfilment:
         angle = self._contract.angle
         ratio = 0.0 if self._original.angle(base.upright) <= angle else 6.0
         best = self._refinement(base, ratio)
-        if not ratio and (best is None or self._outliers(base.moved(*best.found)) > MANY_OUTLIERS * len(base.positions)):
+        if not ratio and (
+            best is None or self._outliers(base.moved(*best.found)) > MANY_OUTLIERS * len(base.positions)
+        ):
             best = self._refinement(base, 6.0)
         if best is not None:
             yield self._with_outliers(base, [best.found])
 
     def _refinement(self, base: Base, ratio: float) -> Trial[tuple[Layer, Levels]] | None:
         """One layer whose normals are right."""
+
         def measure(step: float) -> Trial[tuple[Layer, Levels]]:
             layer = base.layer(step, ratio)
             wanted, directions = base.wanted(layer)
@@ -270,17 +276,39 @@ class Fulfilment:
         )
         if best is not None:
             yield shaped.draft(*best.found)
-        yield from self._lattices(shaped, self._first_cell if best is None else best.step)
+        if self._prepared.graph.size < FEW_VERTICES:
+            yield from self._coarsest(shaped)
+        else:
+            yield from self._lattices(shaped, self._first_cell if best is None else best.step)
 
     def _lattices(self, shaped: Shaped, step: float) -> Iterator[Draft]:
-        """Grids of powers of two along the longest side, from about a step on, where a model seems to be made on one."""
-        few = self._prepared.graph.size < FEW_VERTICES
+        """Grids of powers of two along the longest side, from about a step on, where one seems to fit the model."""
         least = self._entropy(step)
-        for cell in self._cells(COARSEST_CELL if few else step):
-            if few or self._entropy(cell) <= LATTICE_GAIN * least:
+        for cell in self._cells(step):
+            if self._entropy(cell) <= LATTICE_GAIN * least:
                 trial = self._on_grid(shaped, cell, 0.8)
                 if self._within(trial.closeness):
                     yield shaped.draft(*trial.found)
+
+    def _coarsest(self, shaped: Shaped) -> Iterator[Draft]:
+        """The coarsest grids on which a model of few vertices is right already where it is rounded.
+
+        Those that begin at the origin of the mesh's unit need not say where.
+        """
+        extent = float(np.ptp(self._prepared.positions, axis=0).max())
+        grids = [shaped]
+        if (self._prepared.mesh.positions >= 0.0).all():
+            grids.append(Shaped(self._prepared, self._shaper, np.zeros(3)))
+        for grid in grids:
+            left = COARSEST_GRIDS
+            for parts in range(1, MOST_PARTS):
+                if left and grid.fits(extent / parts, self._reach):
+                    trial = self._on_grid(grid, extent / parts, 0.8)
+                    if self._within(trial.closeness):
+                        left -= 1
+                        step, places = trial.found
+                        from_origin = grid is not shaped and int(places.max()) < MOST_LARGEST
+                        yield grid.draft_from_origin(step, places) if from_origin else grid.draft(step, places)
 
     def _cells(self, step: float) -> list[float]:
         """Steps of grids of powers of two from about a step on."""

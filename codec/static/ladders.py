@@ -1,6 +1,7 @@
 """Drafts from coarse to fine, one for every step: what a search for a quality or a size climbs.
 
-Blocks alone are best far up, where dictionaries are narrow, blocks and a layer of refinement below. Grids go all the way.
+Blocks alone are best far up, where dictionaries are narrow; blocks and a layer of refinement below. Grids go all the
+way.
 """
 
 from __future__ import annotations
@@ -84,7 +85,6 @@ class Refined:
         ratio = RATIOS.get(self._kind, 6.0)
         if self._kind == "theta_deg" and self._original.angle(base.upright) < 0.9 * nominal:
             ratio = 0.0
-        axes = 3 if ratio else 1
         edge = self._shaper.mean_edge or 1.0
         layer = base.layer(min(1.2 * math.radians(nominal) * edge, COARSEST_STEP), ratio)
         wanted, directions = base.wanted(layer)

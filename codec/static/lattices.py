@@ -22,7 +22,7 @@ PART_OF_CELL = 1.0 / 64.0
 def grid_draft(prepared: Prepared, grid: Grid, places: Levels) -> Draft:
     """The stream of places on a grid, shape (n, 3), none negative."""
     header = Header(vertices=prepared.graph.size, faces=len(prepared.mesh.faces), **grid.fields)
-    body = (*prepared.packets_of_grid, *encode_grid(prepared.mesh.faces, grid, places))
+    body = (*prepared.before_grid, *encode_grid(prepared.mesh.faces, grid, places))
     return Draft(header, body, grid.positions(places))
 
 
@@ -68,12 +68,14 @@ class Shaped:
     prepared : Prepared
     shaper : Shaper
         Of the same, in BSM units.
+    low : float64 array, shape (3,), optional
+        Where the grid begins, in the mesh's unit; None: at the corner of the bounding box.
     """
 
-    def __init__(self, prepared: Prepared, shaper: Shaper) -> None:
+    def __init__(self, prepared: Prepared, shaper: Shaper, low: Matrix | None = None) -> None:
         self._prepared = prepared
         self._shaper = shaper
-        low = prepared.mesh.positions.min(axis=0)
+        low = prepared.mesh.positions.min(axis=0) if low is None else low
         narrow = low.astype(np.float32)
         fine = np.spacing(np.abs(narrow)).max() < 1e-6 * prepared.units.scale
         self._hold = single if fine else float
@@ -97,6 +99,16 @@ class Shaped:
     def draft(self, step: float, places: Levels) -> Draft:
         """The stream of what `places` returned."""
         return grid_draft(self._prepared, self._grid(step, places), places - places.min(axis=0))
+
+    def fits(self, step: float, reach: float) -> bool:
+        """Whether rounding to a grid moves no vertex farther than so much, in BSM units."""
+        places = (self._prepared.positions - self._low) / step
+        return float(np.square(places - np.rint(places)).sum(axis=1).max()) * step**2 <= reach**2
+
+    def draft_from_origin(self, step: float, places: Levels) -> Draft:
+        """The same of a grid that begins where the mesh's unit does: shorter to write, if places are few."""
+        held = Grid((0.0, 0.0, 0.0), step, tuple(int(value) for value in places.max(axis=0)))
+        return grid_draft(self._prepared, held, places)
 
     def _grid(self, step: float, places: Levels) -> Grid:
         least = places.min(axis=0)

@@ -35,6 +35,10 @@ RANGES: dict[str, tuple[float, float]] = {
 }
 
 
+BALANCED = Contract(0.01, 8.0)
+"""What is promised unless something else is asked for."""
+
+
 @dataclass(frozen=True, kw_only=True)
 class EncodeOptions:
     """How to encode a static mesh.
@@ -117,7 +121,7 @@ class EncodeOptions:
     keep_order: bool = False
     doi: tuple[float, float] | None = None
     target: Target | None = None
-    contract: Contract | None = Contract(0.01, 8.0)
+    contract: Contract | None = BALANCED
     grid: int | None = None
     threads: int | None = None
 

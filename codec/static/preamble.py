@@ -114,12 +114,12 @@ class Prepared:
         return grow_blocks(self.graph, self.partition, self.size)
 
     @property
-    def packets(self) -> tuple[packets.Connectivity | packets.Partition | packets.Order, ...]:
+    def before_blocks(self) -> tuple[packets.Connectivity | packets.Partition | packets.Order, ...]:
         """What the stream holds between header and blocks."""
-        return (self.connectivity, *self.parts.packets(self.graph, self.partition), *self.order)
+        return (self.connectivity, *self.parts.labels(self.graph, self.partition), *self.order)
 
     @property
-    def packets_of_grid(self) -> tuple[packets.Connectivity | packets.Order, ...]:
+    def before_grid(self) -> tuple[packets.Connectivity | packets.Order, ...]:
         """What the stream holds between header and positions on a grid."""
         return (self.connectivity, *self.order)
 
@@ -137,8 +137,8 @@ class Parts:
         parts = max(1, round(graph.size / self.size))
         return metis_partition(graph, parts) if self.metis else derive_partition(graph, parts)
 
-    def packets(self, graph: Graph, partition: Partition) -> tuple[packets.Partition, ...]:
-        """What a decoder cannot derive."""
+    def labels(self, graph: Graph, partition: Partition) -> tuple[packets.Partition, ...]:
+        """The labels of parts, where a decoder cannot derive them."""
         if not self.metis:
             return ()
         labels = encode_labels(graph.offsets, graph.neighbours, partition.labels, partition.parts)
@@ -157,7 +157,9 @@ def prepare(mesh: TriangleMesh, parts: Parts, *, keep_order: bool, splits: Split
         arrangement = encode_arrangement(used.faces, connectivity)
         order = (packets.Order(ORDER_METHOD, arrangement),)
         if splits is not None:
-            order = (packets.Order(SPLITS_METHOD, write_varint(len(arrangement)) + arrangement + encode_splits(splits)),)
+            order = (
+                packets.Order(SPLITS_METHOD, write_varint(len(arrangement)) + arrangement + encode_splits(splits)),
+            )
     return Prepared(
         mesh=ordered,
         graph=graph_of_faces(ordered.faces, len(kept)),

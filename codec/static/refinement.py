@@ -15,7 +15,7 @@ import numpy as np
 from bitstream.container import packets
 from bitstream.container.header import Layer
 from bitstream.container.reader import Signal
-from bitstream.errors import BsmError, CorruptError
+from bitstream.errors import CorruptError
 from bitstream.fields.levels import LevelsDecoder, LevelsEncoder
 from codec.arrays import Indices, Levels, Mask, Matrix
 from codec.geometry.mesh import TriangleMesh

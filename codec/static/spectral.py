@@ -70,7 +70,9 @@ class Base:
 
     def moved(self, layer: Layer, levels: Levels, positions: Matrix | None = None) -> Matrix:
         """Where levels bring the base, or other positions, in BSM units."""
-        return displaced(self.positions if positions is None else positions, self.frames, levels, layer.step, layer.ratio)
+        return displaced(
+            self.positions if positions is None else positions, self.frames, levels, layer.step, layer.ratio
+        )
 
     def refined(self, *added: tuple[Layer, Levels]) -> Draft:
         """With layers of levels, shapes (n, axes)."""
@@ -128,7 +130,7 @@ class Spectral:
             positions[block.vertices] = block.positions
             inside = np.zeros(len(positions), np.bool_)
             inside[block.vertices] = True
-            rows = inside[faces].all(axis=1)
+            rows = np.asarray(inside[faces].all(axis=1))
             total += original.angle_of(rows, positions)
             weight += float(original.weights[rows].sum())
         return total / weight if weight > 0.0 else 0.0
@@ -158,5 +160,5 @@ class Spectral:
             **scheme.fields(),
         )
         decoded = smooth(prepared.graph, positions, header.smoothing)
-        body = (*prepared.packets, *(block.packet for block in blocks))
+        body = (*prepared.before_blocks, *(block.packet for block in blocks))
         return Base(prepared, Draft(header, body, prepared.units.back(decoded)), np.ascontiguousarray(decoded))

@@ -136,10 +136,12 @@ def search_step(attempt: Callable[[float], Found], target: Target, first: float,
         at = following
     if right is None:
         assert best is not None
-        raise TargetError(
+        error = TargetError(
             f"{target.worded(target.value)} at most cannot be reached; the best that can be had is "
             f"{target.worded(best)}"
         )
+        error.best = best
+        raise error
     return right[1]
 
 

@@ -17,7 +17,7 @@ from bsm.exits import EXITS
 from bsm.files.mesh import read_mesh, write_mesh
 from tests.bsm.program import ROOT, bsm
 
-SMALL = ["--block-size", "150", "--threads", "1"]
+SMALL = ["--block-size", "150", "--threads", "1", "--step", "0.004"]
 
 
 @pytest.fixture(scope="module")

@@ -121,7 +121,7 @@ class TestCodecs:
             coded.align(flipped)
 
     def test_settings_tell_what_differs_from_the_defaults(self):
-        step = EncodeOptions().step
+        step = EncodeOptions().first_step
         assert Spectral(EncodeOptions(power=4, threads=1)).settings == {"step": step, "power": 4, "threads": 1}
         assert Spectral(EncodeOptions(bits=9)).settings == {"bits": 9}
 

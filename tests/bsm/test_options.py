@@ -11,6 +11,7 @@ from bsm.options import SEQUENCE_STEPS, TARGETS, denoise_options, encode_options
 from codec.denoise import DenoiseOptions
 from codec.sequence.options import SequenceOptions
 from codec.sequence.targets import SequenceTarget
+from codec.static.contract import Contract
 from codec.static.options import PRESETS, EncodeOptions
 from codec.static.targets import Target
 
@@ -24,6 +25,10 @@ def test_without_keywords_everything_is_the_default():
 @pytest.mark.parametrize("preset", PRESETS)
 def test_presets(preset):
     assert encode_options(preset=preset) == PRESETS[preset]
+
+
+@pytest.mark.parametrize("preset", SEQUENCE_STEPS)
+def test_presets_of_sequences(preset):
     assert sequence_options(preset=preset).step == SEQUENCE_STEPS[preset]
 
 
@@ -65,7 +70,7 @@ def test_a_value_of_the_wrong_type_is_named(name):
         ({"elephant": 1}, ArgumentError, "there are basis, bits"),
         ({"kg": 1}, ArgumentError, "no option kg for a mesh"),
         ({"bits": 2.5}, ArgumentError, "a whole number or None, not 2.5"),
-        ({"step": True}, ArgumentError, "a number, not True"),
+        ({"step": True}, ArgumentError, "a number or None, not True"),
         ({"predict": 1}, ArgumentError, "True or False"),
         ({"doi": (1, 2, 3)}, ArgumentError, "doi"),
         ({"step": 2.0}, OptionError, "outside"),
@@ -82,3 +87,18 @@ def test_what_is_refused(keywords, error, words):
 def test_a_sequence_has_fewer_options():
     with pytest.raises(ArgumentError, match="no option power for a sequence"):
         sequence_options(power=3)
+
+
+def test_a_largest_error_may_have_a_unit():
+    assert encode_options(max_error="0.1%").contract == Contract(0.001)
+    assert encode_options(max_error="0.05mm").contract == Contract(0.05, absolute=True)
+    assert encode_options(max_error="0.002").target == Target("max_error_relative", 0.002)
+    with pytest.raises(ArgumentError, match="with a unit"):
+        encode_options(max_error="wide")
+    with pytest.raises(OptionError, match="one target at a time"):
+        encode_options(max_error="1mm", theta=3)
+
+
+def test_a_preset_that_is_a_grid_gives_way_to_a_target():
+    options = encode_options(preset="lossless", theta=3)
+    assert (options.grid, options.target) == (None, Target("theta_deg", 3.0))

@@ -17,8 +17,10 @@ from codec.static.encoder import encode
 from codec.static.options import EncodeOptions
 from tools.vectors.__main__ import try_command, try_product
 from tools.vectors.bad import BAD
+from tools.vectors.bad_fields import BAD_FIELDS
 from tools.vectors.bad_sequences import BAD_SEQUENCES
 from tools.vectors.good import STATIC
+from tools.vectors.good_fields import FIELDS
 from tools.vectors.good_sequences import SEQUENCES
 from tools.vectors.store import FOLDER, Vector, read_manifest
 
@@ -70,7 +72,18 @@ def test_both_decoders_agree_on_a_real_mesh(options, meshes, reference):
 
 def test_every_vector_has_its_files_and_every_file_is_a_vector():
     names = {vector.name for vector in VECTORS}
-    assert names == {path.stem for path in FOLDER.glob("*.bsm")} == {*STATIC, *SEQUENCES, *BAD, *BAD_SEQUENCES}
+    assert (
+        names
+        == {path.stem for path in FOLDER.glob("*.bsm")}
+        == {
+            *STATIC,
+            *FIELDS,
+            *SEQUENCES,
+            *BAD,
+            *BAD_FIELDS,
+            *BAD_SEQUENCES,
+        }
+    )
     assert {vector.name for vector in GOOD} == {path.stem for path in FOLDER.glob("*.npz")}
 
 
@@ -106,7 +119,9 @@ def test_threads_and_events_change_nothing(vector):
         decoder.receive_data(data)
         decoder.receive_eof()
         while (event := decoder.next_event()) is not END_OF_STREAM:
-            if hasattr(event, "changes"):
+            if hasattr(event, "loose"):
+                positions[event.loose.vertices] = event.loose.positions
+            elif hasattr(event, "positions"):
                 positions[event.vertices] = event.positions
     assert vector.complaint(positions, whole.faces) is None
 

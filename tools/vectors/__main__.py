@@ -92,7 +92,7 @@ def try_command(vector: Vector, command: str) -> str | None:
 
 
 def write(*, keep: bool) -> int:
-    """Make all vectors, or those that are not there to be kept, and refuse to write any if the decoder does not treat one of them as it should."""
+    """Make all vectors, or those that are missing; write none if the decoder does not treat one as it should."""
     from tools.vectors.bad import BAD
     from tools.vectors.bad_fields import BAD_FIELDS
     from tools.vectors.bad_sequences import BAD_SEQUENCES

@@ -67,7 +67,7 @@ def _with_block() -> bytes:
 
 
 BAD_FIELDS: dict[str, Bad] = {
-    "bad-grid-unannounced": Bad(
+    "unsupported-grid": Bad(
         "GRID where `grid` is empty",
         "unsupported",
         lambda: stream_of([*frames_of(encode(torus(8, 7), BASE))[:2], (GRID, b"\0\1\0")]),
@@ -95,7 +95,7 @@ BAD_FIELDS: dict[str, Bad] = {
         "a lattice of more points than cells", "corrupt", lambda: with_header(_grid(), lattice=[300, 400])
     ),
     "bad-no-blocks-no-grid": Bad("neither blocks nor a grid", "corrupt", lambda: with_header(_grid(), grid=None)),
-    "bad-refinement-unannounced": Bad(
+    "unsupported-refinement": Bad(
         "REFINEMENT where `refinements` is empty", "unsupported", lambda: with_header(_refined(), refinements=None)
     ),
     "bad-refinement-layer": Bad(

@@ -56,7 +56,7 @@ def kept(encoder: Encoder, data: bytes) -> tuple[float, float]:
         TriangleMesh(np.zeros((3, 3)), [(0, 1, 2)]),
         TriangleMesh([(0, 0, 0), (1, 0, 0), (3, 0, 0)], [(0, 1, 2), (0, 0, 1)]),
     ],
-    ids="tetrahedron patch torus noise strong-noise many flat far tiny point line".split(),
+    ids=["tetrahedron", "patch", "torus", "noise", "strong-noise", "many", "flat", "far", "tiny", "point", "line"],
 )
 def test_presets_keep_what_they_promise(mesh: TriangleMesh, preset: str) -> None:
     contract = PRESETS[preset].contract
@@ -138,7 +138,7 @@ def test_targets_of_quality_are_met_without_wide_dictionaries(kind: str, value: 
     encoder = Encoder(noisy(torus(60, 40), 0.002), EncodeOptions(target=Target(kind, value)))
     attempt = encoder.search()
     assert getattr(attempt.comparison, kind) <= value
-    assert max(attempt.coefficients, default=0) <= 160
+    assert max(attempt.coefficients, default=0) <= 0.18 * attempt.header.block_size
 
 
 @pytest.mark.parametrize("bpv", [3.0, 8.0, 20.0])
