@@ -9,6 +9,8 @@ export interface Place {
 
 /** Base of all errors of this package. */
 export class BsmError extends Error {
+    // Written out in every class: a bundler shortens the names of classes.
+    override readonly name: string = "BsmError";
     readonly place: Place = {};
 
     constructor(
@@ -16,7 +18,6 @@ export class BsmError extends Error {
         place: Place = {},
     ) {
         super(problem);
-        this.name = new.target.name;
         this.located(place);
     }
 
@@ -37,19 +38,31 @@ export class BsmError extends Error {
 }
 
 /** The data is not a BSM stream at all. */
-export class FormatError extends BsmError {}
+export class FormatError extends BsmError {
+    override readonly name = "FormatError";
+}
 
 /** Well formed as far as it can be read, but of a version or method that this decoder does not know. */
-export class UnsupportedError extends BsmError {}
+export class UnsupportedError extends BsmError {
+    override readonly name = "UnsupportedError";
+}
 
 /** A BSM stream that contradicts itself or its checksums. */
-export class CorruptError extends BsmError {}
+export class CorruptError extends BsmError {
+    override readonly name = "CorruptError";
+}
 
 /** The data ends before the stream does. */
-export class TruncatedError extends BsmError {}
+export class TruncatedError extends BsmError {
+    override readonly name = "TruncatedError";
+}
 
 /** The stream asks for more memory or work than the caller's limits allow. */
-export class LimitError extends BsmError {}
+export class LimitError extends BsmError {
+    override readonly name = "LimitError";
+}
 
 /** The mathematics broke down: a value that is not finite. */
-export class NumericError extends BsmError {}
+export class NumericError extends BsmError {
+    override readonly name = "NumericError";
+}
