@@ -21,7 +21,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--save",
         metavar="PAGE.html",
-        help="write one page with the streams in it, which needs no server and no network",
+        help="write one page with the streams in it; it needs no server and no network",
     )
     parser.add_argument("--port", type=int, default=0, metavar="N", help="of the server (default: any that is free)")
     parser.add_argument("--no-open", action="store_true", help="print the address, and leave the browser to you")

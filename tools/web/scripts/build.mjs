@@ -40,8 +40,9 @@ async function products() {
 
 /** Built kernels that differ, where the compiler is the one that the committed bytes are of. */
 function staleKernels() {
-    if (readFileSync(join(WEB, "built/compiler.txt"), "utf8").trim() !== compiler()) {
-        console.log(`kernels are not compared: they were built by another compiler than ${compiler()}`);
+    const [theirs, ours] = [readFileSync(join(WEB, "built/compiler.txt"), "utf8").trim(), compiler()];
+    if (theirs !== ours) {
+        console.log(`kernels are not compared: they were built by ${theirs}; here is ${ours ?? "no clang"}`);
         return [];
     }
     const builds = [["built/kernels.wasm", true], ["built/kernels-scalar.wasm", false]];

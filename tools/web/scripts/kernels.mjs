@@ -1,5 +1,5 @@
 // The kernels of `bitstream` and `codec` as WebAssembly, with and without vector instructions: `npm run kernels`.
-import { execFileSync } from "node:child_process";
+import { execFileSync, spawnSync } from "node:child_process";
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { dirname, join } from "node:path";
@@ -59,9 +59,10 @@ const LINK = [
     ...KERNELS.map((name) => `-Wl,--export=${name}`),
 ];
 
-/** Name and version of the compiler, of which the bytes are a function. */
+/** Name and version of the compiler, of which the bytes are a function; undefined where there is none. */
 export function compiler() {
-    return execFileSync("clang", ["--version"], { encoding: "utf8" }).split("\n")[0];
+    const { stdout } = spawnSync("clang", ["--version"], { encoding: "utf8" });
+    return stdout?.split("\n")[0];
 }
 
 /** One build: `vectors` says whether with vector instructions. */
