@@ -18,6 +18,11 @@ const SOURCES = [
     "bitstream/connectivity/permutation.c",
     "bitstream/connectivity/seams.c",
     "bitstream/entropy/symbols.c",
+    "bitstream/fields/corners.c",
+    "bitstream/fields/grid.c",
+    "bitstream/fields/levels.c",
+    "bitstream/fields/tables.c",
+    "bitstream/fields/value.c",
     "bitstream/entropy/tables.c",
     "codec/basis/cosines.simd.c",
     "codec/basis/orthogonal_iteration.simd.c",
@@ -33,6 +38,7 @@ const SOURCES = [
     "codec/geometry/graph.c",
     "codec/geometry/incidence.c",
     "codec/signal/detail.c",
+    "codec/signal/frames.c",
     "codec/signal/predict.c",
     "codec/signal/smooth.c",
     "codec/signal/transform.simd.c",
@@ -45,7 +51,7 @@ const KERNELS = [
     "group_by_label", "chain_parts", "grow_blocks", "order_scratch", "order_block", "add_copies", "collect_edges",
     "dissect", "find_borders", "factorize_fronts", "solve_columns", "cosines", "iteration_space", "iterate",
     "cholesky_onorm", "reconstruct", "look_around", "block_normals", "apply_powers", "combine_powers", "find_rings",
-    "filter_rows",
+    "filter_rows", "link_corners", "order_vertices", "code_grid", "code_levels", "local_frames", "add_levels",
 ];
 
 const FLAGS = [

@@ -46,7 +46,6 @@ export class Assembly {
         private readonly memory: Memory,
         private readonly blocks: Blocks,
         private readonly header: Header,
-        private readonly order?: Int32Array,
     ) {
         const { size } = blocks.graph;
         this.blend = new Blend(memory, size);
@@ -65,16 +64,10 @@ export class Assembly {
         this.blend.add(block, block.weights);
     }
 
-    /** All positions, once every block is in. */
-    positions(): Float64Array {
-        const { size } = this.blocks.graph;
-        const everything = Int32Array.from({ length: size }, (_, vertex) => vertex);
-        this.settle(everything);
-        const positions = inMeshUnits(this.smoothEverything(), this.header);
-        if (!this.order) return positions;
-        const arranged = new Float64Array(positions.length);
-        this.order.forEach((to, from) => arranged.set(positions.subarray(3 * from, 3 * from + 3), 3 * to));
-        return arranged;
+    /** All positions in BSM units, once every block is in. */
+    base(): Float64Array {
+        this.settle(Int32Array.from({ length: this.blocks.graph.size }, (_, vertex) => vertex));
+        return this.smoothEverything();
     }
 
     /** Blend one block in and say what it changed. */
@@ -94,8 +87,10 @@ export class Assembly {
         const blended = this.blended.view;
         moved.forEach((vertex, i) => positions.set(blended.subarray(3 * vertex, 3 * vertex + 3), 3 * i));
         positions.set(this.smoothed(finished), 3 * moved.length);
-        const final = new Uint8Array(vertices.length).fill(1, moved.length);
-        return { vertices: this.order ? vertices.map((v) => this.order![v]) : vertices, positions: inMeshUnits(positions, this.header), final };
+        // What levels move later is not final.
+        const final = new Uint8Array(vertices.length);
+        if (this.header.refinements.length === 0) final.fill(1, moved.length);
+        return { vertices, positions: inMeshUnits(positions, this.header), final };
     }
 
     /** Weighted means of the copies of some vertices. */

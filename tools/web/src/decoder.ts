@@ -1,9 +1,10 @@
 /** A stream to a mesh, block by block, while it arrives. */
-import { Assembly, type Changes } from "./assembly";
+import { Assembly, inMeshUnits, type Changes } from "./assembly";
 import { derivePartition, groupLabels, growBlocks, largestPart, makeGraph, type Blocks, type Graph, type Partition } from "./blocks";
 import { Allowance, chainLength, ChainDecoder, solvesOf, type DecodedBlock, type Surface } from "./chain";
 import { decodeArrangement, decodeConnectivity, decodeLabels } from "./connectivity";
 import { BsmError, CorruptError, UnsupportedError } from "./errors";
+import { Grid, Refinement } from "./fields";
 import type { Header } from "./header";
 import type { Ints, Kernels, Memory } from "./kernels";
 import { checkLimit, DEFAULT_LIMITS, type Limits } from "./limits";
@@ -12,6 +13,7 @@ import { END_OF_STREAM, NEED_DATA, Reader, type Packet, type Signal } from "./re
 const CONNECTIVITY_METHOD = 1;
 const PARTITION_METHOD = 0;
 const ORDER_METHOD = 1;
+const GIVEN_ORDER_METHOD = 2;
 const MAX_STIFFNESS = 65536;
 
 /** The header has arrived. */
@@ -26,10 +28,16 @@ export interface ConnectivityEvent {
     faces: Int32Array;
 }
 
-/** A block has been decoded: which vertices it moved or finished, and where they are now. */
+/** A block, or a chunk of a grid, has been decoded: which vertices it moved or finished, and where they are now. */
 export interface BlockEvent extends Changes {
     type: "block";
     index: number;
+}
+
+/** Levels of a layer, counted from 0, have moved vertices. */
+export interface RefinementEvent extends Changes {
+    type: "refinement";
+    layer: number;
 }
 
 /** The stream has come to its end, and its checksum is right. */
@@ -37,7 +45,7 @@ export interface EndEvent {
     type: "end";
 }
 
-export type Event = HeaderEvent | ConnectivityEvent | BlockEvent | EndEvent;
+export type Event = HeaderEvent | ConnectivityEvent | BlockEvent | RefinementEvent | EndEvent;
 
 /** A whole mesh: positions, shape (n, 3), and faces, shape (m, 3). */
 export interface Mesh {
@@ -71,6 +79,9 @@ export class Decoder {
     private chain?: { number: number; decoder: ChainDecoder };
     private behindMesh = 0;
     private nextIndex = 0;
+    private grid?: Grid;
+    private chunks = 0;
+    private refinement?: Refinement;
 
     constructor(kernels: Kernels, limits: Partial<Limits> = {}) {
         this.limits = { ...DEFAULT_LIMITS, ...limits };
@@ -98,7 +109,7 @@ export class Decoder {
     nextEvent(): Event | Signal {
         const item = this.nextItem();
         if (typeof item === "string" || "type" in item) return item;
-        return this.guarded(() => ({ type: "block", index: item.index, ...this.assembly!.changes(item) }), item.index);
+        return this.guarded(() => ({ type: "block", index: item.index, ...this.numbered(this.assembly!.changes(item)) }), item.index);
     }
 
     /** Decode the rest of a complete stream; faster than asking for events. */
@@ -107,7 +118,7 @@ export class Decoder {
         for (let item; (item = this.nextItem()) !== END_OF_STREAM; ) {
             if (typeof item === "object" && !("type" in item)) this.assembly!.add(item);
         }
-        return { positions: this.guarded(() => this.assembly!.positions()), faces: this.shownFaces() };
+        return { positions: this.guarded(() => this.arranged(this.wholePositions())), faces: this.shownFaces() };
     }
 
     private nextItem(): Item | Signal {
@@ -163,6 +174,10 @@ export class Decoder {
                 return this.acceptOrder(packet.method, packet.data);
             case "block":
                 return this.acceptBlock(packet.index, packet.coefficients, packet.data);
+            case "grid":
+                return this.acceptGrid(packet.first, packet.count, packet.data);
+            case "refinement":
+                return this.acceptRefinement(packet.layer, packet.first, packet.count, packet.data);
             case "end":
                 return this.acceptEnd();
         }
@@ -170,7 +185,7 @@ export class Decoder {
 
     private acceptHeader(header: Header): void {
         if (header.gopFrames > 0) throw new UnsupportedError("this is a sequence, which this decoder does not play");
-        this.checkWork(header);
+        if (header.grid.length === 0) this.checkWork(header);
         if (header.prediction.length > 1 || !header.prediction.every((value) => value > 0 && value < MAX_STIFFNESS)) {
             throw new CorruptError(`the prediction has the parameters ${header.prediction}, one stiffness is legal`);
         }
@@ -191,6 +206,7 @@ export class Decoder {
         const { memory, header } = this;
         if (method !== CONNECTIVITY_METHOD) throw new UnsupportedError(`connectivity method ${method} is unknown to this decoder`);
         this.faces = decodeConnectivity(memory, data, header!.vertices, header!.faces, this.limits);
+        if (header!.grid.length > 0) return;
         this.graph = makeGraph(memory, this.faces, header!.vertices);
         if (header!.details > 0) this.surface = makeSurface(memory, this.faces, header!.vertices);
     }
@@ -203,6 +219,7 @@ export class Decoder {
     }
 
     private acceptOrder(method: number, data: Uint8Array): void {
+        if (method === GIVEN_ORDER_METHOD && !this.header!.gopFrames) return; // A decoder may ignore it (F 9).
         if (method !== ORDER_METHOD) throw new UnsupportedError(`order method ${method} is unknown to this decoder`);
         this.arrangement = decodeArrangement(this.memory, data, this.faces!, this.header!.vertices);
     }
@@ -219,7 +236,50 @@ export class Decoder {
         this.queue.push(this.chain.decoder.decode(index, coefficients, data));
     }
 
+    private acceptGrid(first: number, count: number, data: Uint8Array): void {
+        if (!this.grid) {
+            this.grid = new Grid(this.memory, this.faces!, this.header!);
+            this.queue.push({ type: "connectivity", faces: this.shownFaces() });
+        }
+        const changes = this.grid.decode(first, count, data);
+        this.queue.push({ type: "block", index: this.chunks++, ...this.numbered(changes) });
+    }
+
+    private acceptRefinement(layer: number, first: number, count: number, data: Uint8Array): void {
+        this.built();
+        this.expect(this.header!.blocks);
+        if (!this.refinement) {
+            this.memory.release(this.behindMesh);
+            this.refinement = new Refinement(this.memory, this.faces!, this.header!, this.assembly!.base());
+        }
+        const changes = this.refinement.decode(layer, first, count, data);
+        this.queue.push({ type: "refinement", layer, ...this.numbered(changes) });
+    }
+
+    /** Vertices by the numbers that the mesh had, if the stream stores them. */
+    private numbered(changes: Changes): Changes {
+        const numbers = this.arrangement?.numbers;
+        return numbers ? { ...changes, vertices: changes.vertices.map((vertex) => numbers[vertex]) } : changes;
+    }
+
+    /** All positions in the unit of the mesh, as vertices are numbered in the decoded faces. */
+    private wholePositions(): Float64Array {
+        return this.grid?.positions ?? this.refinement?.whole() ?? inMeshUnits(this.assembly!.base(), this.header!);
+    }
+
+    private arranged(positions: Float64Array): Float64Array {
+        const numbers = this.arrangement?.numbers;
+        if (!numbers) return positions;
+        const arranged = new Float64Array(positions.length);
+        numbers.forEach((to, from) => arranged.set(positions.subarray(3 * from, 3 * from + 3), 3 * to));
+        return arranged;
+    }
+
     private acceptEnd(): void {
+        if (this.grid) {
+            this.queue.push({ type: "end" });
+            return;
+        }
         this.built();
         this.expect(this.header!.blocks);
         this.queue.push({ type: "end" });
@@ -237,7 +297,7 @@ export class Decoder {
         const largest = largestPart(partition);
         if (largest > header!.blockSize) throw new CorruptError(`a part of ${largest} vertices in blocks of ${header!.blockSize}`);
         this.blocks = growBlocks(memory, graph!, partition, header!.blockSize);
-        this.assembly = new Assembly(memory, this.blocks, header!, this.arrangement?.numbers);
+        this.assembly = new Assembly(memory, this.blocks, header!);
         this.behindMesh = memory.mark();
         this.queue.push({ type: "connectivity", faces: this.shownFaces() });
         return this.blocks;

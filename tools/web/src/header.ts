@@ -32,11 +32,14 @@ export interface Header {
     detailStep: number;
     details: number;
     coarser: number;
+    grid: number[];
+    lattice: number[];
+    refinements: number[];
 }
 
 interface Field {
     key: number;
-    type: "int" | "method" | "float" | "floats";
+    type: "int" | "method" | "float" | "ints" | "floats";
     low: number;
     high: number;
     default?: number | number[];
@@ -50,9 +53,9 @@ const FIRST_IGNORABLE_KEY = 64;
 const FIELDS: Record<keyof Header, Field> = {
     vertices: { key: 1, type: "int", low: 1, high: COUNT },
     faces: { key: 2, type: "int", low: 1, high: COUNT },
-    blocks: { key: 3, type: "int", low: 1, high: COUNT },
-    blockSize: { key: 4, type: "int", low: 1, high: COUNT },
-    coefficients: { key: 5, type: "int", low: 1, high: COUNT },
+    blocks: { key: 3, type: "int", low: 0, high: COUNT, default: 0 },
+    blockSize: { key: 4, type: "int", low: 0, high: COUNT, default: 0 },
+    coefficients: { key: 5, type: "int", low: 0, high: COUNT, default: 0 },
     basis: { key: 6, type: "method", low: 0, high: 1, default: 0 },
     seeding: { key: 7, type: "method", low: 0, high: 1, default: 0 },
     keyInterval: { key: 8, type: "int", low: 0, high: COUNT, default: 0 },
@@ -75,6 +78,9 @@ const FIELDS: Record<keyof Header, Field> = {
     detailStep: { key: 25, type: "float", low: 0, high: 2 ** 20, default: 0 },
     details: { key: 26, type: "int", low: 0, high: COUNT, default: 0 },
     coarser: { key: 27, type: "int", low: 0, high: 30, default: 0 },
+    grid: { key: 28, type: "ints", low: 0, high: 2 ** 20 - 1, default: [], lengths: [0, 3] },
+    lattice: { key: 29, type: "ints", low: 1, high: COUNT, default: [], lengths: [0, 2] },
+    refinements: { key: 30, type: "floats", low: 0, high: 64, default: [], lengths: [0, 8] },
 };
 
 const LIMITED = ["vertices", "faces", "blocks", "blockSize", "coefficients", "frames", "gopFrames"] as const;
@@ -106,10 +112,10 @@ export function parseHeader(payload: Uint8Array, limits: Limits): Header {
 
 function fieldValue(name: keyof Header, value: Value): number | number[] {
     const field = FIELDS[name];
-    if (field.type === "floats") {
+    if (field.type === "floats" || field.type === "ints") {
         if (value.type === "array") {
             return value.value.map((item) => {
-                if (item.type === "float") return item.value;
+                if (`${item.type}s` === field.type) return Number(item.value);
                 throw new CorruptError(`an entry of the header field ${name} is of type ${item.type}`);
             });
         }
@@ -136,9 +142,36 @@ function checkRange(name: string, field: Field, value: number | number[]): void 
     }
 }
 
+/** F 4.6: the rules of a grid, or those of blocks. */
 function checkContradictions(header: Header): void {
+    const rules = header.grid.length > 0 ? gridRules(header) : blockRules(header);
+    const broken = rules.find(([, broken]) => broken);
+    if (broken) throw new CorruptError(`the header contradicts itself: ${broken[0]}`);
+}
+
+const OF_A_GRID: (keyof Header)[] = ["vertices", "faces", "center", "scale", "grid", "lattice"];
+
+function gridRules(header: Header): [string, boolean][] {
+    const { vertices, faces, grid, lattice } = header;
+    const [cells, points] = lattice.length === 2 ? lattice : [0, 0];
+    const others = (Object.keys(FIELDS) as (keyof Header)[]).filter((name) => !OF_A_GRID.includes(name));
+    return [
+        ["more vertices than the corners of its faces", vertices > 3 * faces],
+        ["a grid of other than three axes", grid.length !== 3],
+        ["a lattice that is not cells and points", lattice.length === 1],
+        ["a lattice with fewer points than the grid has values", points > 0 && points < Math.max(...grid)],
+        ["a lattice of more points than cells", points > cells],
+        ["a grid, and fields of blocks", others.some((name) => !same(header[name], FIELDS[name].default))],
+    ];
+}
+
+function blockRules(header: Header): [string, boolean][] {
     const { vertices, faces, blocks, blockSize, coefficients, details, detailStep, frames, gopFrames } = header;
-    const rules: [string, boolean][] = [
+    const steps = header.refinements.filter((_, i) => i % 2 === 0);
+    const ratios = header.refinements.filter((_, i) => i % 2 === 1);
+    return [
+        ["neither blocks nor a grid", blocks * blockSize * coefficients === 0],
+        ["a lattice without a grid", header.lattice.length > 0],
         ["more vertices than the corners of its faces", vertices > 3 * faces],
         ["more blocks than vertices", blocks > vertices],
         ["blocks larger than the mesh", blockSize > vertices],
@@ -147,7 +180,9 @@ function checkContradictions(header: Header): void {
         ["more details than a block has vertices", details > blockSize],
         ["details without a step, or a step without details", details > 0 !== detailStep > 0],
         ["frames without a length for GOPs", frames > 0 && gopFrames === 0],
+        ["refinements that are not pairs of step and ratio", steps.length !== ratios.length],
+        ["a step of a refinement out of its range", !steps.every((step) => step >= 2 ** -40 && step <= 1)],
+        ["a ratio of a refinement out of its range", !ratios.every((ratio) => ratio === 0 || ratio >= 1 / 16)],
+        ["refinements of a sequence", steps.length > 0 && gopFrames > 0],
     ];
-    const broken = rules.find(([, broken]) => broken);
-    if (broken) throw new CorruptError(`the header contradicts itself: ${broken[0]}`);
 }

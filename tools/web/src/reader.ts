@@ -15,6 +15,8 @@ export type Packet =
     | { type: "connectivity" | "partition" | "order"; method: number; data: Uint8Array }
     | { type: "block"; index: number; coefficients: number; data: Uint8Array }
     | { type: "gop"; index: number; data: Uint8Array }
+    | { type: "grid"; first: number; count: number; data: Uint8Array }
+    | { type: "refinement"; layer: number; first: number; count: number; data: Uint8Array }
     | { type: "end"; frames: number; crc: number };
 
 type Kind = Packet["type"];
@@ -29,6 +31,8 @@ const KINDS: Record<number, Kind> = {
     5: "order",
     6: "block",
     7: "gop",
+    12: "grid",
+    13: "refinement",
     15: "end",
 };
 const BLOCK_TAG = 6;
@@ -39,11 +43,13 @@ const FOLLOWERS: Record<Kind | "start", Kind[]> = {
     start: ["header"],
     header: ["connectivity"],
     metadata: [],
-    connectivity: ["partition", "order", "block", "gop", "end"],
-    partition: ["order", "block", "gop", "end"],
-    order: ["block", "gop", "end"],
-    block: ["block", "gop", "end"],
+    connectivity: ["partition", "order", "block", "gop", "grid", "refinement", "end"],
+    partition: ["order", "block", "gop", "grid", "refinement", "end"],
+    order: ["block", "gop", "grid", "refinement", "end"],
+    block: ["block", "gop", "refinement", "end"],
     gop: ["gop", "end"],
+    grid: ["grid", "end"],
+    refinement: ["refinement", "end"],
     end: [],
 };
 
@@ -105,6 +111,11 @@ const PARSERS: Record<Kind, (payload: Cursor, limits: Limits) => Packet> = {
     order: (payload) => ({ type: "order", method: payload.take(1)[0], data: payload.rest() }),
     block: (payload) => ({ type: "block", index: payload.varint(), coefficients: payload.varint(), data: payload.rest() }),
     gop: (payload) => ({ type: "gop", index: payload.varint(), data: payload.rest() }),
+    grid: (payload) => ({ type: "grid", first: payload.varint(), count: payload.varint(), data: payload.rest() }),
+    refinement: (payload) => {
+        const [layer, first, count] = [payload.varint(), payload.varint(), payload.varint()];
+        return { type: "refinement", layer, first, count, data: payload.rest() };
+    },
     end: (payload) => {
         const frames = payload.varint();
         const crc = payload.take(4);
@@ -124,6 +135,14 @@ class Grammar {
     private metadataSeen = false;
     private nextBlock = 0;
     private nextFrame = 0;
+    private nextVertex = 0;
+    private layer = 0;
+
+    /** Whether the header announces frames of a kind that it must announce (F 3.6). */
+    announces(kind: Kind): boolean {
+        if (kind === "grid") return !this.header || this.header.grid.length > 0;
+        return kind !== "refinement" || !this.header || this.header.refinements.length > 0;
+    }
 
     get ended(): boolean {
         return this.last === "end";
@@ -142,7 +161,28 @@ class Grammar {
         if (packet.type === "header") this.header = packet.header;
         if (packet.type === "block") this.checkBlock(packet.index, packet.coefficients, this.header!);
         if (packet.type === "gop") this.checkGop(packet.index, this.header!);
+        if (packet.type === "grid") this.checkChunk(packet.first, packet.count, this.header!);
+        if (packet.type === "refinement") this.checkRefinement(packet, this.header!);
+        if (packet.type === "partition" && this.header!.grid.length > 0) throw new CorruptError("parts where there are no blocks");
+        if (packet.type === "end" && this.header!.grid.length > 0 && this.nextVertex < this.header!.vertices) {
+            throw new CorruptError(`the positions end at vertex ${this.nextVertex} of ${this.header!.vertices}`);
+        }
         this.last = packet.type;
+    }
+
+    private checkRefinement(packet: Extract<Packet, { type: "refinement" }>, header: Header): void {
+        const layers = header.refinements.length / 2;
+        if (packet.layer >= layers) throw new CorruptError(`layer ${packet.layer} of ${layers}`);
+        if (packet.layer < this.layer) throw new CorruptError("layers must ascend");
+        if (packet.layer > this.layer) this.nextVertex = 0;
+        this.layer = packet.layer;
+        this.checkChunk(packet.first, packet.count, header);
+    }
+
+    private checkChunk(first: number, count: number, header: Header): void {
+        if (first !== this.nextVertex) throw new CorruptError(`vertices from ${first} on where those from ${this.nextVertex} on must follow`);
+        if (count === 0 || count > header.vertices - first) throw new CorruptError(`${count} vertices from ${first} on`);
+        this.nextVertex = first + count;
     }
 
     private checkBlock(index: number, coefficients: number, header: Header): void {
@@ -278,7 +318,7 @@ export class Reader {
             return undefined;
         }
         const kind = KINDS[type];
-        if (!kind) throw new UnsupportedError(`frame type ${type} is unknown to this decoder`);
+        if (!kind || !this.grammar.announces(kind)) throw new UnsupportedError(`frame type ${type} is unknown to this decoder`);
         const packet = PARSERS[kind](new Cursor(payload), this.limits);
         this.grammar.advance(packet);
         if (packet.type === "end") {

@@ -1,6 +1,6 @@
 /** BSM streams in three.js: a loader that fills one geometry block by block while the bytes arrive. */
 import { BufferAttribute, BufferGeometry, Loader, type LoadingManager } from "three";
-import { Decoder, NEED_DATA, type BlockEvent, type Event } from "./decoder";
+import { Decoder, NEED_DATA, type BlockEvent, type Event, type RefinementEvent } from "./decoder";
 import type { Header } from "./header";
 import type { Kernels } from "./kernels";
 import type { Limits } from "./limits";
@@ -9,8 +9,8 @@ import type { Limits } from "./limits";
 export interface Progress {
     /** The faces are there; the geometry draws nothing yet. */
     onConnectivity?: (geometry: BufferGeometry) => void;
-    /** A block is in the geometry: which one, the vertices that it moved, and the geometry. */
-    onBlock?: (block: BlockEvent, geometry: BufferGeometry) => void;
+    /** A block, a chunk of a grid, or levels of a layer are in the geometry: what they moved, and the geometry. */
+    onBlock?: (block: BlockEvent | RefinementEvent, geometry: BufferGeometry) => void;
 }
 
 /**
@@ -58,7 +58,7 @@ export class GeometryFiller {
     private accept(event: Event): void {
         if (event.type === "header") this.header = event.header;
         if (event.type === "connectivity") this.acceptFaces(event.faces);
-        if (event.type === "block") this.acceptBlock(event);
+        if (event.type === "block" || event.type === "refinement") this.acceptBlock(event);
     }
 
     private acceptFaces(faces: Int32Array): void {
@@ -74,21 +74,21 @@ export class GeometryFiller {
         this.progress.onConnectivity?.(this.geometry);
     }
 
-    private acceptBlock(block: BlockEvent): void {
+    private acceptBlock(block: BlockEvent | RefinementEvent): void {
         const { starts, members } = this.facesAround;
         const positions = this.geometry.getAttribute("position") as BufferAttribute;
         const index = this.geometry.getIndex()!;
         block.vertices.forEach((vertex, i) => {
             positions.setXYZ(vertex, block.positions[3 * i], block.positions[3 * i + 1], block.positions[3 * i + 2]);
             if (this.origin[vertex] >= 0) return;
-            this.origin[vertex] = block.index;
+            this.origin[vertex] = this.blocks;
             for (let k = starts[vertex]; k < starts[vertex + 1]; k++) if (--this.waiting[members[k]] === 0) this.draw(members[k], index);
         });
         this.updateNormals(block.vertices);
         positions.needsUpdate = true;
         index.needsUpdate = true;
         this.geometry.setDrawRange(0, this.drawn);
-        this.blocks++;
+        if (block.type === "block") this.blocks++;
         this.progress.onBlock?.(block, this.geometry);
     }
 

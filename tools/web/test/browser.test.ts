@@ -85,6 +85,15 @@ describe("the page in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromium a
         assert.deepEqual(complaints, []);
     });
 
+    test("draws a grid", async () => {
+        await page.goto(savedPage(folder, { grid: readFileSync(join(VECTORS, "good-grid.bsm")) }));
+        await state("complete");
+        const { share } = silhouette(await page.locator("canvas").screenshot());
+        assert.ok(share > 0.05 && share < 0.6, `share ${share}`);
+        await page.goto(savedPage(folder, { whole }));
+        await state("complete");
+    });
+
     test("cuts the stream at any byte, and goes on", async () => {
         await page.locator("#cut").fill("0");
         await page.waitForFunction(() => document.body.dataset.blocks === "0");

@@ -29,7 +29,7 @@ export function meshOfEvents(events: Iterable<Event>): Mesh {
     for (const event of events) {
         if (event.type === "header") positions = new Float64Array(3 * event.header.vertices).fill(NaN);
         if (event.type === "connectivity") faces = Int32Array.from(event.faces);
-        if (event.type === "block") event.vertices.forEach((v, i) => positions.set(event.positions.subarray(3 * i, 3 * i + 3), 3 * v));
+        if (event.type === "block" || event.type === "refinement") event.vertices.forEach((v, i) => positions.set(event.positions.subarray(3 * i, 3 * i + 3), 3 * v));
     }
     return { positions, faces };
 }

@@ -1,5 +1,6 @@
 /** The page of `bsm view`: a stream as it arrives, cut at any byte, over a link of any speed. */
 import { BsmError } from "../errors";
+import type { Header } from "../header";
 import { inlinedKernels } from "../inlined";
 import type { Kernels } from "../kernels";
 import { GeometryFiller } from "../three";
@@ -21,6 +22,13 @@ function element<Kind extends HTMLElement>(id: string): Kind {
 const [select, cut, rate] = [element<HTMLSelectElement>("stream"), element<HTMLInputElement>("cut"), element<HTMLInputElement>("rate")];
 const [colours, wireframe] = [element<HTMLInputElement>("colours"), element<HTMLInputElement>("wireframe")];
 const [status, problem, counter] = [element("status"), element("problem"), element<HTMLOutputElement>("bytes")];
+
+/** Middle and diagonal of the box that a mesh fills, about, in its own unit. */
+function extentOf({ center, scale, grid, lattice }: Header): { center: number[]; diagonal: number } {
+    if (grid.length === 0) return { center, diagonal: scale };
+    const cell = lattice.length > 0 ? (scale * lattice[0]) / lattice[1] : scale;
+    return { center: center.map((origin, d) => origin + (cell * grid[d]) / 2), diagonal: cell * Math.max(Math.hypot(...grid), 1) };
+}
 
 /** Feeds one stream to the decoder, as far as the link and the cut allow. */
 class Player {
@@ -45,8 +53,8 @@ class Player {
     restart(): void {
         this.filler = new GeometryFiller(this.kernels, {
             onConnectivity: (geometry) => {
-                const { center, scale } = this.filler.header!;
-                this.stage.show(geometry, center, scale);
+                const { center, diagonal } = extentOf(this.filler.header!);
+                this.stage.show(geometry, center, diagonal);
             },
             onBlock: () => (this.dirty = true),
         });
@@ -79,7 +87,7 @@ class Player {
 
     /** Colours of the blocks that are there. */
     colour(): void {
-        if (this.filler.header) this.stage.colour(this.filler.origin, this.filler.header.blocks, colours.checked);
+        if (this.filler.header) this.stage.colour(this.filler.origin, this.filler.header.blocks || this.blocks, colours.checked);
     }
 
     private allowed(): number {
@@ -104,7 +112,8 @@ class Player {
         const share = this.stream.length ? Math.round((100 * this.fed) / this.stream.length) : 0;
         counter.textContent = `${this.fed.toLocaleString("en")} of ${this.stream.length.toLocaleString("en")} bytes (${share} %)`;
         const { header } = this.filler;
-        const text = header ? `${this.blocks} of ${header.blocks} blocks, ${header.vertices.toLocaleString("en")} vertices` : "";
+        const parts = header?.blocks ? `${this.blocks} of ${header.blocks} blocks` : `${this.blocks} chunks of a grid`;
+        const text = header ? `${parts}, ${header.vertices.toLocaleString("en")} vertices` : "";
         if (status.textContent !== text) status.textContent = text;
         document.body.dataset.blocks = String(this.blocks);
     }
