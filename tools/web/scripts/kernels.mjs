@@ -79,7 +79,7 @@ export function compileKernels(vectors) {
         const numbers = readFileSync(join(ROOT, "bitstream/coefficients/priors.bin"));
         writeFileSync(priors, `const unsigned char PRIORS[${numbers.length}] = {${[...numbers].join(",")}};\n`);
         const target = join(folder, "kernels.wasm");
-        const options = [...FLAGS, "-Os", ...(vectors ? ["-msimd128"] : [])];
+        const options = [...FLAGS, "-Oz", ...(vectors ? ["-msimd128"] : [])];
         execFileSync("clang", [...options, "-I", ".", ...SOURCES, priors, ...LINK, "-o", target], { cwd: ROOT });
         return readFileSync(target);
     } finally {
