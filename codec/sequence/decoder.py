@@ -93,7 +93,7 @@ class Gops:
         self._structure = structure
         self._wishes = wishes
         setting = make_setting(
-            structure.scheme.blocks,
+            structure.scheme,
             structure.faces,
             first_frame,
             width=header.coefficients,
