@@ -67,6 +67,7 @@ def nmsve_db_of(mesh: TriangleMesh, options: EncodeOptions, keep: float, row_ord
     blocks = grow_blocks(graph, partition, block_size(partition, options.overlap))
     rules = ChainRules(
         exact=options.basis == "svd",
+        exact_keys=options.exact_keys,
         independent=options.seed == "independent",
         key_interval=options.key_interval,
         power=options.power,

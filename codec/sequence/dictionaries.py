@@ -14,12 +14,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from codec.arrays import Faces, Indices, Matrix, Positions
-from codec.basis.orthogonal_iteration import cosine_columns, orthogonal_iteration
 from codec.basis.weighted import Held, binary_weights, cotangent_weights, hold
 from codec.blocks.overlap import Blocks
-from codec.signal.chain import ChainRules
+from codec.signal.chain import ChainRules, key_dictionary
 from codec.signal.predict import Extension
 from codec.signal.transform import project, reconstruct
+from codec.static.work import Allowance, block_work
 from codec.threads import ordered_map
 
 
@@ -73,6 +73,7 @@ def build_dictionaries(
     width: int,
     cotangent: bool,
     threads: int | None,
+    allowance: Allowance | None = None,
 ) -> tuple[Part, ...]:
     """The dictionary of every part, in the order of the chain, with weights from the decoded first frame.
 
@@ -83,12 +84,14 @@ def build_dictionaries(
     first_frame : float64 array, shape (n, 3)
         As the decoder has it.
     rules : ChainRules
-        The iterations of a key block.
+        Those of a key block are made.
     width : int
         Columns of each dictionary, at most; a part has no more of them than vertices.
     cotangent : bool
         Cotangent weights; otherwise all weights are one and `first_frame` is not looked at.
     threads : int, optional
+    allowance : Allowance, optional
+        What a decoder may still do.
     """
     graph = blocks.graph
     weights = cotangent_weights(graph, faces, first_frame) if cotangent else binary_weights(graph)
@@ -98,12 +101,10 @@ def build_dictionaries(
 
     def build(index: int) -> Part:
         held = hold(graph, weights, rank, blocks.part(index))
-        size = held.laplacian.block.size
-        start = cosine_columns(size, 0, min(width, size))
-        shift = held.springs + rules.shift
-        basis = orthogonal_iteration(
-            held.laplacian, start, shift=shift, power=rules.power, iterations=rules.key_iterations
-        )
+        columns = min(width, held.laplacian.block.size)
+        if allowance:
+            allowance.spend(block_work(held.laplacian, columns, rules.solves_of(False)))
+        basis = key_dictionary(rules, held.laplacian, columns, held.springs)
         return Part(held, Extension(held.laplacian, held.springs), basis)
 
     return tuple(ordered_map(build, range(blocks.count), threads))

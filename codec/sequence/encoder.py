@@ -36,6 +36,7 @@ FINEST_STEP = 2e-5
 
 FIRST_FRAME = ChainRules(
     exact=False,
+    exact_keys=False,
     independent=False,
     key_interval=0,
     power=2,

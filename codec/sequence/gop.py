@@ -28,6 +28,7 @@ from codec.sequence.row_prediction import (
 from codec.sequence.temporal import WORTH, bits_estimate, learn_basis, projection
 from codec.static.block_coder import Progress
 from codec.static.rules import Scheme
+from codec.static.work import Allowance
 
 BATCH = 16
 """Frames that are reconstructed at a time."""
@@ -55,11 +56,25 @@ class Setting:
 
 
 def make_setting(
-    scheme: Scheme, faces: Faces, first_frame: Matrix, *, width: int, cotangent: bool, threads: int | None
+    scheme: Scheme,
+    faces: Faces,
+    first_frame: Matrix,
+    *,
+    width: int,
+    cotangent: bool,
+    threads: int | None,
+    allowance: Allowance | None = None,
 ) -> Setting:
     """Build the dictionaries from the decoded first frame, shape (n, 3); see `build_dictionaries`."""
     parts = build_dictionaries(
-        scheme.blocks, faces, first_frame, scheme.rules, width=width, cotangent=cotangent, threads=threads
+        scheme.blocks,
+        faces,
+        first_frame,
+        scheme.rules,
+        width=width,
+        cotangent=cotangent,
+        threads=threads,
+        allowance=allowance,
     )
     return Setting(len(first_frame), parts, differences(parts, first_frame))
 
