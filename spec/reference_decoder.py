@@ -921,7 +921,8 @@ class Chain:
         if header["prediction"]:
             springs, pulls = surroundings(self.mesh.graph, block, self.known, header["prediction"][0])
         subspace = self.subspace = self.dictionary(block, max(width, len(heights)), springs)  # M 11.2
-        positions = extend(block.laplacian, springs, pulls) + subspace[:, :width] @ (points * (header["step"] / 2))  # M 10.2
+        positions = extend(block.laplacian, springs, pulls)  # M 10.2
+        positions = positions + subspace[:, :width] @ (points * (header["step"] / 2))
         if header["details"]:
             height = subspace[:, : len(heights)] @ (heights * (header["detail_step"] / 2))
             positions = positions + normals_of(block, self.mesh.faces, positions) * height[:, None]  # M 11.4

@@ -1,7 +1,8 @@
 """The Laplacian of a block, L = D - W, and the solver behind R = (L + delta I)^-1 (paper, sections 3 and 4).
 
-Equation 2 of the paper weighs edges by geometry; a decoder of a mesh has only connectivity, so all weights are one there,
-while the frames of a sequence have a first one to weigh them by (`codec.basis.weighted`).
+Equation 2 of the paper weighs edges by geometry; the decoder of a mesh has only connectivity, so all weights are one
+there, while the frames of a sequence have a first one to weigh them by (`codec.basis.weighted`).
+
 Sparse Cholesky factorisation front by front (`codec.basis.solver.fronts`), then forward and back substitution for all
 columns of a subspace at once.
 """
@@ -57,7 +58,7 @@ def laplacian_of(block: Block) -> Laplacian:
 def weighted_laplacian(block: Block, weights: Matrix) -> Laplacian:
     """`laplacian_of` with the given weights."""
     rows = np.repeat(np.arange(block.size), block.degrees)
-    diagonal = np.bincount(rows, weights=weights, minlength=block.size)
+    diagonal: Matrix = np.bincount(rows, weights=weights, minlength=block.size).astype(np.float64)
     return Laplacian(block, find_fronts(block.offsets, block.neighbours), weights, diagonal)
 
 

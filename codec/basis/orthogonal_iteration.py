@@ -19,9 +19,8 @@ ONCE, TWICE = 1e-3, 1e-11
 1e-12 after one pass, and to working precision after two."""
 
 EXACT_POWER, EXACT_ITERATIONS, EXACT_SHIFT = 2, 128, 2.0**-5
-"""What makes a basis exact: the sum of the Rayleigh quotients of any first columns is then within a thousandth of that of
-the lowest eigenvalues, on blocks of surfaces. A stricter one would tell apart eigenvectors whose eigenvalues are so
-close that decoders, which know these to rounding, would disagree."""
+"""What makes a basis exact: the sum of the Rayleigh quotients of any first columns is then within a thousandth of that
+of the lowest eigenvalues, on blocks of surfaces. Eigenvectors of closer eigenvalues nobody needs to tell apart."""
 EXACT_SOLVES = EXACT_POWER * EXACT_ITERATIONS
 START_NOISE = 0.25
 """How much of the hash columns is added to the cosines that an exact basis begins with."""

@@ -107,7 +107,7 @@ class Extension:
         self._factor = factorize(laplacian, springs + TETHER) if self._total > 0.0 else None
 
     def of(self, pulls: Matrix) -> Matrix:
-        """Values at the rows, shape (n, m), for the sums of stiffness times known value, `pulls`; zero without springs."""
+        """Values at the rows for sums of stiffness times known value, both of shape (n, m); zero without springs."""
         if self._factor is None:
             return np.zeros_like(pulls)
         mean = pulls.sum(axis=0) / self._total

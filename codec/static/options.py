@@ -166,7 +166,7 @@ class EncodeOptions:
 
     @property
     def exact_keys(self) -> bool:
-        """Whether chains begin with the exact basis; where every block is exact, or none follows another, it is no matter."""
+        """Whether chains begin with the exact basis, which is no question where every block has it."""
         chosen = self.key_seed or ("cosines" if self.bits is None or self.seed == "independent" else "svd")
         return chosen == "svd" and self.basis == "oi"
 

@@ -92,7 +92,7 @@ STATIC: dict[str, Good] = {
     "good-exact-clusters": _static(
         "exact basis of one block with repeated eigenvalues", lambda: torus(6, 6), basis="svd", block_size=36
     ),
-    "good-key-seed": _static("chains that begin with an exact basis (key_seed 1)", _small, key_seed="svd", key_interval=3),
+    "good-key-seed": _static("chains that begin with an exact basis", _small, key_seed="svd", key_interval=3),
     "good-one-column": _static("c = 1 in every block", _small, coefficients=1),
     "good-all-columns": _static("c = n_d: as many coefficients as rows", _small, keep=1.0, step=1e-5),
     "good-rising-falling": _static("c_i rises and falls along a chain", _uneven, keep=1.0, step=0.02),

@@ -14,7 +14,7 @@ from codec.basis.orthogonal_iteration import (
 )
 from codec.blocks.overlap import Block
 from codec.geometry.graph import graph_of_faces
-from tests.shapes import grid_faces, patch, torus
+from tests.shapes import patch, torus
 
 
 def whole(faces, size):

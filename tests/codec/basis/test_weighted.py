@@ -91,7 +91,8 @@ def test_a_part_hangs_on_what_is_known_before_it_and_on_nothing_else() -> None:
     graph = graph_of_faces(faces, 5)
     weights = np.arange(1.0, len(graph.neighbours) + 1)
     rank = np.array([0, 1, 1, 2, 1], np.int32)  # 0 is known before, 3 comes later
-    part = Block(np.array([4, 1, 2], np.int32), np.array([0, 2, 4, 6], np.int32), np.array([1, 2, 0, 2, 0, 1], np.int32))
+    offsets, neighbours = np.array([0, 2, 4, 6], np.int32), np.array([1, 2, 0, 2, 0, 1], np.int32)
+    part = Block(np.array([4, 1, 2], np.int32), offsets, neighbours)
     held = hold(graph, weights, rank, part)
     edge = {
         (a, int(b)): weights[i]
@@ -100,7 +101,8 @@ def test_a_part_hangs_on_what_is_known_before_it_and_on_nothing_else() -> None:
     }
     inner = [(4, 1), (4, 2), (1, 4), (1, 2), (2, 4), (2, 1)]
     assert held.laplacian.weights.tolist() == [edge[pair] for pair in inner]
-    assert held.laplacian.diagonal.tolist() == [edge[4, 1] + edge[4, 2], edge[1, 4] + edge[1, 2], edge[2, 4] + edge[2, 1]]
+    sums = [edge[4, 1] + edge[4, 2], edge[1, 4] + edge[1, 2], edge[2, 4] + edge[2, 1]]
+    assert held.laplacian.diagonal.tolist() == sums
     assert held.springs.tolist() == [edge[4, 0], edge[1, 0], 0.0]
     field = np.arange(10.0).reshape(5, 2) + 1
     assert held.pulls(field).tolist() == [[edge[4, 0], 2 * edge[4, 0]], [edge[1, 0], 2 * edge[1, 0]], [0.0, 0.0]]

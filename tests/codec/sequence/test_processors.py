@@ -14,6 +14,7 @@ from bitstream.container import packets
 from bitstream.container.gop import parse_gop_body
 from bitstream.container.reader import Reader, Signal
 from codec.arrays import Matrix, Positions
+from codec.sequence import encoder
 from codec.sequence.encoder import encode_sequence
 from codec.sequence.gop import GopDecoder, Setting
 from codec.sequence.options import SequenceOptions
@@ -34,8 +35,8 @@ def waving(frames: int, crumpled: bool) -> tuple[Positions, np.ndarray]:
     if crumpled:
         still[::3] = np.round(still[::3], 0)
     angle = still[:, 0] * 2
-    positions = [still + 0.1 * np.stack([0 * angle, np.sin(angle + t / 2), np.cos(angle - t)], 1) for t in range(frames)]
-    return np.array(positions), mesh.faces
+    moves = [np.stack([0 * angle, np.sin(angle + t / 2), np.cos(angle - t)], axis=1) for t in range(frames)]
+    return np.array([still + 0.1 * move for move in moves]), mesh.faces
 
 
 def streams() -> list[bytes]:
@@ -70,8 +71,6 @@ def test_processors_agree(tmp_path: Path) -> None:
 def test_a_decoder_whose_first_frame_is_a_little_off_agrees(
     monkeypatch: pytest.MonkeyPatch, mode: str, keep: float, crumpled: bool
 ) -> None:
-    import codec.sequence.encoder as encoder
-
     seen: list[tuple[tuple, dict, Matrix]] = []
     real = encoder.make_setting
 
@@ -98,5 +97,3 @@ def decoded(data: bytes, setting: Setting) -> Positions:
         if isinstance(packet, packets.Gop):
             frames.extend(decoder.decode(parse_gop_body(packet.data, 1024)))
     return np.array(frames)
-
-
