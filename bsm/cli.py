@@ -19,6 +19,7 @@ COMMANDS = {
     "info": "show what streams hold",
     "compare": "measure the error of a mesh",
     "verify": "check streams",
+    "view": "show streams in a browser as they arrive",
     "denoise": "remove noise from meshes and sequences",
     "noise": "add noise to a mesh",
     "demo": "compress a sample and show what became of it",

@@ -4,6 +4,7 @@
 extern "C" {
 #include "codec/basis/cosines.h"
 #include "codec/basis/orthogonal_iteration.h"
+#include "codec/basis/solver/householder.h"
 #include "codec/basis/solver/solver.h"
 #include "codec/basis/weighted.h"
 #include "codec/blocks/bisection.h"
@@ -100,8 +101,8 @@ NB_MODULE(_kernels, m) {
     m.def("dissect", &dissect, "offsets"_a, "neighbours"_a, "leaf"_a, "cuts"_a, "rows"_a, "firsts"_a, Unlocked());
     m.def("find_borders", &find_borders, "offsets"_a, "neighbours"_a, "rows"_a, "firsts"_a, "most_work"_a, "scratch"_a,
           "steps"_a, "owners"_a, "starts"_a, "borders"_a, "places"_a, Unlocked());
-    m.def("factorize_fronts", &factorize_fronts, "offsets"_a, "neighbours"_a, "diagonal"_a, "fronts"_a, "column"_a,
-          "scratch"_a, "values"_a, "inverse"_a, Unlocked());
+    m.def("factorize_fronts", &factorize_fronts, "offsets"_a, "neighbours"_a, "weights"_a, "diagonal"_a, "fronts"_a,
+          "column"_a, "scratch"_a, "values"_a, "inverse"_a, Unlocked());
     m.def("solve_columns", &solve_columns, "fronts"_a, "values"_a, "inverse"_a, "columns"_a, "power"_a, "scratch"_a,
           "solution"_a, Unlocked());
     m.def("cosines", &cosines, "first"_a, "table"_a, "columns"_a, Unlocked());
@@ -109,6 +110,7 @@ NB_MODULE(_kernels, m) {
     m.def("iterate", &iterate, "fronts"_a, "values"_a, "inverse"_a, "start"_a, "power"_a, "iterations"_a, "once"_a,
           "scratch"_a, "subspace"_a, Unlocked());
     m.def("cholesky_onorm", &cholesky_onorm, "columns"_a, "once"_a, "scratch"_a, "subspace"_a, Unlocked());
+    m.def("householder", &householder, "work"_a, "scratch"_a, "q"_a, Unlocked());
     m.def("project", &project, "subspace"_a, "values"_a, "coefficients"_a, Unlocked());
     m.def("reconstruct", &reconstruct, "subspace"_a, "coefficients"_a, "values"_a, Unlocked());
     m.def("look_around", &look_around, "offsets"_a, "neighbours"_a, "vertices"_a, "inside"_a, "sums"_a, "weights"_a,
@@ -121,9 +123,11 @@ NB_MODULE(_kernels, m) {
           Unlocked());
     m.def("filter_rows", &filter_rows, "offsets"_a, "neighbours"_a, "number"_a, "positions"_a, "weights"_a, "rows"_a,
           "starts"_a, "current"_a, "following"_a, "smoothed"_a, Unlocked());
-    m.def("cotangents", &cotangents, "offsets"_a, "neighbours"_a, "faces"_a, "positions"_a, "weights"_a, Unlocked());
-    m.def("hold", &hold, "offsets"_a, "neighbours"_a, "weights"_a, "vertices"_a, "rank"_a, "matrix"_a, "rows"_a,
-          "outer"_a, "stiffness"_a, Unlocked());
+    m.def("cotangents", &cotangents, "offsets"_a, "neighbours"_a, "faces"_a, "positions"_a, "flatness"_a,
+          "smallness"_a, "weights"_a, Unlocked());
+    m.def("hold", &hold, "offsets"_a, "neighbours"_a, "weights"_a, "rank"_a, "vertices"_a, "own_offsets"_a,
+          "own_neighbours"_a, "inner"_a, "springs"_a, "starts"_a, "outer"_a, "stiffness"_a, Unlocked());
+    m.def("pull", &pull, "starts"_a, "outer"_a, "stiffness"_a, "field"_a, "pulls"_a, Unlocked());
     m.def("follow_rows", &follow_rows, "known"_a, "targets"_a, "levels"_a, "decoded"_a, "moments"_a, "step"_a,
           "rounding"_a, "encoding"_a, "rules"_a, "factor"_a, "row"_a, "expected"_a, Unlocked());
     m.def("component_sizes", checked<&component_sizes>, "offsets"_a, "neighbours"_a, "seen"_a, "waiting"_a, "sizes"_a,

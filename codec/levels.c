@@ -28,9 +28,9 @@ CHOOSE(double, iterate,
 CHOOSE(double, cholesky_onorm, (ConstDoubles2 columns, double once, Doubles scratch, Doubles2 subspace),
        (columns, once, scratch, subspace))
 CHOOSE(void, factorize_fronts,
-       (ConstInts offsets, ConstInts neighbours, ConstDoubles diagonal, Fronts fronts, Words column, Doubles scratch,
-        Doubles values, Doubles inverse),
-       (offsets, neighbours, diagonal, fronts, column, scratch, values, inverse))
+       (ConstInts offsets, ConstInts neighbours, ConstDoubles weights, ConstDoubles diagonal, Fronts fronts, Words column,
+        Doubles scratch, Doubles values, Doubles inverse),
+       (offsets, neighbours, weights, diagonal, fronts, column, scratch, values, inverse))
 CHOOSE(void, solve_columns,
        (Fronts fronts, Doubles values, ConstDoubles inverse, ConstDoubles2 columns, int64_t power, Doubles scratch,
         Doubles2 solution),

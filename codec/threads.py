@@ -6,7 +6,6 @@ import os
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import Future, ThreadPoolExecutor
-from functools import cache
 from threading import Lock
 from typing import Any, Generic, TypeVar
 
@@ -19,67 +18,21 @@ def available_threads() -> int:
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
-@cache
-def _controller() -> Any:
-    # Not needed by streams whose dictionaries are made by orthogonal iterations, so not imported before it is.
-    from threadpoolctl import ThreadpoolController
-
-    return ThreadpoolController()
-
-
-def _take_control() -> None:
-    """Let this thread set the limit: threadpoolctl lets only one do so, and for the others silently does nothing."""
-    from threadpoolctl import OpenBLASController
-
-    OpenBLASController.clear_controlling_thread(force=True)
-
-
-class _SingleBlasThread:
-    """Limits BLAS to one thread while anybody is inside; entering is counted, since the limit is the process's."""
-
-    def __init__(self) -> None:
-        self._lock = Lock()
-        self._inside = 0
-        self._limiter: Any = None
-
-    def __enter__(self) -> None:
-        with self._lock:
-            self._inside += 1
-            if self._inside == 1:
-                _take_control()
-                self._limiter = _controller().limit(limits=1)
-
-    def __exit__(self, *_: object) -> None:
-        with self._lock:
-            self._inside -= 1
-            if self._inside == 0:
-                _take_control()
-                self._limiter.restore_original_limits()
-
-
-SINGLE_BLAS_THREAD = _SingleBlasThread()
-"""Enter it around calls of BLAS and LAPACK: blocks are too small to share among BLAS threads."""
-
-
 def ordered_map(work: Callable[[Item], Result], items: Iterable[Item], threads: int | None) -> Iterator[Result]:
-    """`map(work, items)` on `threads` threads (None: one per core), each piece of work with one BLAS thread.
+    """`map(work, items)` on `threads` threads (None: one per core).
 
     Works a few items ahead of the consumer, so that results do not pile up.
     """
     count = threads or available_threads()
 
-    def limited(item: Item) -> Result:
-        with SINGLE_BLAS_THREAD:
-            return work(item)
-
     if count == 1:
-        yield from map(limited, items)
+        yield from map(work, items)
         return
     pool = ThreadPoolExecutor(count)
     pending: deque[Future[Result]] = deque()
     try:
         for item in items:
-            pending.append(pool.submit(limited, item))
+            pending.append(pool.submit(work, item))
             if len(pending) > 2 * count:
                 yield pending.popleft().result()
         while pending:

@@ -196,6 +196,7 @@ FIELDS = {
     "grid": (28, [0, 3], 0, 2**20 - 1, []),  # a list: of ints
     "lattice": (29, [0, 2], 1, COUNT, []),
     "refinements": (30, (0, 8), 0.0, 64.0, []),
+    "key_seed": (31, "method", 0, 1, 0),
 }
 
 
@@ -492,12 +493,12 @@ def surroundings(graph, block, known, stiffness):
     return springs, pulls
 
 
-def extend(block, springs, pulls):
+def extend(laplacian, springs, pulls):
     """M 7.4."""
     if springs.sum() == 0.0:
-        return np.zeros((block.size, 3))
+        return np.zeros_like(pulls)
     mean = pulls.sum(axis=0) / springs.sum()
-    matrix = block.laplacian + np.diag(springs + TETHER)
+    matrix = laplacian + np.diag(springs + TETHER)
     return mean + np.linalg.solve(matrix, pulls - springs[:, None] * mean)
 
 
@@ -513,26 +514,28 @@ def onorm(columns):
     return q * np.where(np.diag(r) < 0, -1.0, 1.0)
 
 
-def orthogonal_iterations(block, start, diagonal, power, iterations):
+def orthogonal_iterations(laplacian, start, diagonal, power, iterations):
     """M 8.4, orthonormalised after every solution."""
-    matrix, subspace = block.laplacian + np.diag(diagonal), start
+    matrix, subspace = laplacian + np.diag(diagonal), start
     for _ in range(iterations * power):
         subspace = onorm(np.linalg.solve(matrix, subspace))
     return subspace
 
 
-def exact_basis(matrix, width):
-    """M 8.5, S 3.3: the lowest eigenvalues, and eigenvectors in a form that does not depend on who computed them."""
-    values, vectors = np.linalg.eigh(matrix)
-    basis, first = [], 0
-    while first < width:
-        last = first + 1
-        while last < len(values) and values[last] - values[last - 1] <= 1e-6:
-            last += 1
-        cluster = vectors[:, first:last]
-        basis.append(onorm(cluster @ (cluster.T @ hash_columns(len(values), last - first))))
-        first = last
-    return values[:width], np.concatenate(basis, axis=1)[:, :width]
+def exact_basis(laplacian, columns, springs):
+    """M 8.5."""
+    rows = len(laplacian)
+    start = cosine_columns(rows, 0, columns) + 0.25 * hash_columns(rows, columns)
+    return orthogonal_iterations(laplacian, start, springs + 2.0**-5, 2, 128)
+
+
+def key_dictionary(header, laplacian, columns, springs):
+    """M 8: of a block that follows none."""
+    if header["basis"] == 1 or header["key_seed"] == 1:
+        return exact_basis(laplacian, columns, springs)
+    iterations = header["iterations"] if header["seeding"] == 1 else header["key_iterations"]
+    start = cosine_columns(len(laplacian), 0, columns)
+    return orthogonal_iterations(laplacian, start, springs + header["shift"], header["power"], iterations)
 
 
 def hash_columns(rows, columns):
@@ -765,11 +768,14 @@ def smooth(graph, positions, amount):
 def check_work(header):
     """M 14.3."""
     rows, blocks, columns = header["block_size"], header["blocks"], max(header["coefficients"], header["details"])
-    solves = header["power"] * max(header["iterations"], header["key_iterations"])
-    if header["basis"] == 1 or header["gop_frames"]:
-        work = 30.0 * blocks * rows**3
-    else:
-        work = blocks * (200.0 * rows + solves * (40.0 * rows * columns + 8.0 * rows * columns**2))
+    following = header["power"] * header["iterations"]
+    key = following if header["seeding"] == 1 else header["power"] * header["key_iterations"]
+    if header["basis"] == 1 or header["key_seed"] == 1:
+        key = 256
+    if header["basis"] == 1:
+        following = 256
+    solves = max(following, key) + (key if header["gop_frames"] else 0)
+    work = blocks * (200.0 * rows + solves * (40.0 * rows * columns + 8.0 * rows * columns**2))
     require_limit(work, MOST_WORK, "work")
 
 
@@ -915,7 +921,8 @@ class Chain:
         if header["prediction"]:
             springs, pulls = surroundings(self.mesh.graph, block, self.known, header["prediction"][0])
         subspace = self.subspace = self.dictionary(block, max(width, len(heights)), springs)  # M 11.2
-        positions = extend(block, springs, pulls) + subspace[:, :width] @ (points * (header["step"] / 2))  # M 10.2
+        positions = extend(block.laplacian, springs, pulls)  # M 10.2
+        positions = positions + subspace[:, :width] @ (points * (header["step"] / 2))
         if header["details"]:
             height = subspace[:, : len(heights)] @ (heights * (header["detail_step"] / 2))
             positions = positions + normals_of(block, self.mesh.faces, positions) * height[:, None]  # M 11.4
@@ -943,15 +950,13 @@ class Chain:
 
     def dictionary(self, block, columns, springs):
         header = self.mesh.header
-        if header["basis"] == 1:
-            return exact_basis(block.laplacian + np.diag(springs), columns)[1]
-        follows = self.subspace is not None and len(self.subspace) == block.size  # M 8.3
-        iterations = header["iterations"] if follows or header["seeding"] == 1 else header["key_iterations"]
-        had = self.subspace.shape[1] if follows else 0
-        start = cosine_columns(block.size, had, max(had, columns))
-        if follows:
-            start = np.concatenate([self.subspace, start], axis=1)[:, :columns]
-        return orthogonal_iterations(block, start, springs + header["shift"], header["power"], iterations)
+        follows = self.subspace is not None and len(self.subspace) == block.size and header["seeding"] == 0  # M 8.3
+        if header["basis"] == 1 or not follows:
+            return key_dictionary(header, block.laplacian, columns, springs)
+        had = self.subspace.shape[1]
+        start = np.concatenate([self.subspace, cosine_columns(block.size, had, max(had, columns))], axis=1)[:, :columns]
+        diagonal = springs + header["shift"]
+        return orthogonal_iterations(block.laplacian, start, diagonal, header["power"], header["iterations"])
 
 
 def decode_blocks(mesh, blocks):
@@ -1131,52 +1136,57 @@ class Part:
     """S 3: the core of a block, its dictionary, and its edges to parts before it."""
 
     def __init__(self, mesh, weight, vertices, rank):
-        self.vertices, own = sorted(vertices), rank[vertices[0]]
-        row = {v: r for r, v in enumerate(self.vertices)}
-        laplacian, self.edges = np.zeros((len(row), len(row))), []
-        for v, r in row.items():
+        self.block = Block(mesh.graph, sorted(vertices))
+        self.laplacian, self.edges = np.zeros((self.block.size, self.block.size)), []  # S 3.2
+        for r, neighbours in enumerate(self.block.graph):
+            for q in neighbours:
+                stiffness = weight[self.block.vertices[r], self.block.vertices[q]]
+                self.laplacian[r, r] += stiffness
+                self.laplacian[r, q] -= stiffness
+        self.springs = np.zeros(self.block.size)
+        for r, v in enumerate(self.block.vertices):
             for w in mesh.graph[v]:
-                if rank[w] > own:
-                    continue
-                laplacian[r, r] += weight[v, w]  # S 3.2
-                if w in row:
-                    laplacian[r, row[w]] -= weight[v, w]
-                else:
+                if rank[w] < rank[v]:
                     self.edges.append((r, w, weight[v, w]))
-        self.values, self.basis = exact_basis(laplacian, min(mesh.header["coefficients"], len(row)))  # S 3.3
+                    self.springs[r] += weight[v, w]
+        columns = min(mesh.header["coefficients"], self.block.size)
+        self.basis = key_dictionary(mesh.header, self.laplacian, columns, self.springs)  # S 3.3
 
     def extension(self, field):
         """S 3.4."""
-        pulls = np.zeros((len(self.vertices), field.shape[1]))
+        pulls = np.zeros((self.block.size, field.shape[1]))
         for r, w, stiffness in self.edges:
             pulls[r] += stiffness * field[w]
-        inverse = np.array([1.0 / value if value > 1e-8 else 0.0 for value in self.values])
-        return inverse[:, None] * (self.basis.T @ pulls)
+        return extend(self.laplacian, self.springs, pulls)
 
     def difference(self, field):
         """S 3.5."""
-        return self.basis.T @ field[self.vertices] - self.extension(field)
+        return self.basis.T @ (field[self.block.vertices] - self.extension(field))
 
     def place(self, field, difference):
-        field[self.vertices] = self.basis @ (difference + self.extension(field))
+        field[self.block.vertices] = self.extension(field) + self.basis @ difference
 
 
 def edge_weights(mesh, positions):
     """S 3.1: of both directions of every edge."""
     if mesh.header["weights"] == 0:
         return {(v, w): 1.0 for v, row in enumerate(mesh.graph) for w in row}
-    weights = {(v, w): 0.0 for v, row in enumerate(mesh.graph) for w in row}
+    sums = {(v, w): 0.0 for v, row in enumerate(mesh.graph) for w in row}
     for face in mesh.faces:
         if len(set(face)) < 3:
             continue
         for k in range(3):
             a, b, c = face[k], face[(k + 1) % 3], face[(k + 2) % 3]
             u, v = positions[b] - positions[a], positions[c] - positions[a]
-            area = np.linalg.norm(np.cross(u, v))
-            if area > 0.0:
-                weights[b, c] += 0.5 * (u @ v) / area
-                weights[c, b] += 0.5 * (u @ v) / area
-    return {edge: min(max(value, 0.05), 10.0) for edge, value in weights.items()}
+            across, w = np.cross(u, v), v - u
+            m = u @ u + v @ v + w @ w
+            half = 0.5 * (u @ v) / math.sqrt(across @ across + 2.0**-12 * m**2 + 2.0**-48)
+            sums[b, c] += half
+            sums[c, b] += half
+    if not np.isfinite(list(sums.values())).all():
+        raise NumericError("weights are not finite")
+    positive = {edge: (t + math.sqrt(t**2 + 2.0**-6)) / 2 for edge, t in sums.items()}
+    return {edge: 2.0**-5 + 8 * p / (8 + p) for edge, p in positive.items()}
 
 
 def decode_frames(mesh, gops, first_frame):

@@ -26,7 +26,7 @@ FLOORS = {
     ),
 }
 BITSTREAM_LIBRARIES = {"numpy", "msgpack", "zstandard"}
-CODEC_LIBRARIES = {"numpy", "scipy", "pymetis", "threadpoolctl"}
+CODEC_LIBRARIES = {"numpy", "scipy", "pymetis"}
 
 
 def module_name(path: Path) -> str:

@@ -21,7 +21,7 @@ from codec.geometry.mesh import TriangleMesh
 ROOT = Path(__file__).parents[1]
 DOCUMENTS = ("README.md", "CONTRIBUTING.md", "spec/README.md")
 PROGRAMS = r"(?:bsm|python3?|pytest|ruff|\.ci/run|\.venv|eval|cat)"
-BY_CI = r"\.ci/run|\.venv/bin/|^pytest|^ruff|^bsm --help$"
+BY_CI = r"\.ci/run|\.venv/bin/|^pytest|^ruff|^bsm --help$|tools\.fuzz"
 """What .ci/run itself does, or is."""
 NEEDS_FOLDER = r"MESHES|SEQUENCES|FOLDER|MESH\.\.\.|bsm bench"
 HELP_ONLY = r"tools\.vectors|tools\.train_coefficients"

@@ -43,7 +43,8 @@ def rounded(positions: Positions, bits: int) -> Faces:
     """Positions on Draco's grid: its arithmetic, in single precision."""
     low = positions.min(axis=0)
     inverse = np.float32((1 << bits) - 1) / np.float32((positions - low).max())
-    return np.floor((positions - low) * inverse + np.float32(0.5)).astype(np.int32)
+    placed: Faces = np.floor((positions - low) * inverse + np.float32(0.5)).astype(np.int32)
+    return placed
 
 
 def encode(positions: Positions, faces: Faces, bits: int) -> tuple[bytes, float]:

@@ -170,6 +170,8 @@ class Header:
     """(cells, points): the coded value k stands for k * cells / points, rounded; empty: for itself."""
     refinements: tuple[float, ...] = reals(30, 0.0, 64.0, (0, 8), default=())
     """Step and ratio of each layer of refinement, one pair after another; see `layers`."""
+    key_seed: int = method(31, known=2)
+    """Block without predecessor: 0: `key_iterations` from cosines; 1: exact eigenbasis."""
 
     def __post_init__(self) -> None:
         for name, declared in HEADER_FIELDS.items():

@@ -58,6 +58,7 @@ ENCODE_FLAGS = (
     EncodeFlag("partition", str, "derived|metis", "who cuts the mesh into blocks (default derived: both sides)"),
     EncodeFlag("basis", str, "oi|svd", "orthogonal iterations, or the exact eigenbasis (default oi)"),
     EncodeFlag("seed", str, "previous|independent", "whether blocks build on the one before (default previous)"),
+    EncodeFlag("key_seed", str, "cosines|svd", "where a chain begins (default cosines, with --bits svd)"),
     EncodeFlag("key_interval", int, "K", "every K blocks one depends on none before it, 0: the first (default 32)"),
     EncodeFlag("power", int, "Z", "exponent of the iterated matrix (default 3)"),
     EncodeFlag("iterations", int, "T", "orthogonal iterations per block (default 1)"),

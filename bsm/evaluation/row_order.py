@@ -45,7 +45,12 @@ def permuted(laplacian: Laplacian, rows: npt.NDArray[np.integer]) -> Laplacian:
     other = Block(block.vertices[rows], graph.indptr.astype(np.int32), graph.indices.astype(np.int32))
     # The order of elimination is the same: fronts found from rows in another order than bisection's would be huge.
     places = np.argsort(rows).astype(np.uint32)
-    return Laplacian(other, fronts._replace(rows=places[fronts.rows], steps=fronts.steps[rows].astype(np.uint32)))
+    return Laplacian(
+        other,
+        fronts._replace(rows=places[fronts.rows], steps=fronts.steps[rows].astype(np.uint32)),
+        np.ones(len(other.neighbours)),
+        laplacian.diagonal[rows],
+    )
 
 
 def nmsve_db_of(mesh: TriangleMesh, options: EncodeOptions, keep: float, row_order: RowOrder) -> float:
@@ -67,6 +72,7 @@ def nmsve_db_of(mesh: TriangleMesh, options: EncodeOptions, keep: float, row_ord
     blocks = grow_blocks(graph, partition, block_size(partition, options.overlap))
     rules = ChainRules(
         exact=options.basis == "svd",
+        exact_keys=options.exact_keys,
         independent=options.seed == "independent",
         key_interval=options.key_interval,
         power=options.power,

@@ -16,6 +16,7 @@ import numpy.typing as npt
 import scipy.linalg
 from scipy.sparse import csc_matrix
 from scipy.sparse.linalg import LinearOperator, eigsh, lobpcg, splu
+from threadpoolctl import threadpool_limits
 
 from bitstream.errors import NumericError
 from codec.basis.laplacian import dense_laplacian, laplacian_of
@@ -26,7 +27,6 @@ from codec.blocks.partition import derive_partition
 from codec.geometry.graph import graph_of_faces
 from codec.geometry.mesh import TriangleMesh
 from codec.geometry.metrics import Reference
-from codec.threads import SINGLE_BLAS_THREAD
 
 Matrix = npt.NDArray[np.float64]
 
@@ -140,7 +140,7 @@ def time_solvers(mesh: TriangleMesh, keeps: Sequence[float], sample: int, repeat
     size = block_size(partition, _OVERLAP)
     blocks = grow_blocks(graph, partition, size)
     setting = _Setting(mesh, blocks, [blocks.block(i) for i in range(blocks.count)], sample, repeats)
-    with SINGLE_BLAS_THREAD:
+    with threadpool_limits(1):
         wholes = {s.name: setting.exact_seconds(s, max(1, round(max(keeps) * size))) for s in EXACT if s.whole}
         return [timing for keep in keeps for timing in setting.timings(keep, max(1, round(keep * size)), wholes)]
 

@@ -9,6 +9,7 @@ from functools import partial
 
 import numpy as np
 import scipy.linalg
+from threadpoolctl import threadpool_limits
 
 from bsm.evaluation.row_order import RowOrder, in_bisection_order, in_breadth_first_order
 from bsm.paper.exhibit import Cell, Column, Exhibit, Table
@@ -24,7 +25,6 @@ from codec.geometry.mesh import Positions
 from codec.geometry.metrics import decibel
 from codec.signal.chain import Chain
 from codec.signal.predict import unheld
-from codec.threads import SINGLE_BLAS_THREAD
 
 SEGMENTS = {"armadillo": 20, "hand": 800}
 """The Armadillo's are the paper's; those of the Hand make n_d 470, of which the paper's c = 47 is a tenth."""
@@ -43,7 +43,7 @@ _GAIN = (
 def fastest(work: Callable[[], object], repeats: int) -> float:
     """CPU seconds of the fastest run, with one BLAS thread, so that what else the machine does counts for little."""
     seconds = []
-    with SINGLE_BLAS_THREAD:
+    with threadpool_limits(1):
         for _ in range(repeats):
             begin = time.process_time()
             work()

@@ -1,6 +1,8 @@
-"""The binary Laplacian of a block, L = D - A, and the solver behind R = (L + delta I)^-1 (paper, sections 3 and 4).
+"""The Laplacian of a block, L = D - W, and the solver behind R = (L + delta I)^-1 (paper, sections 3 and 4).
 
-Equation 2 of the paper weighs edges by geometry; the decoder has only connectivity, so the weights here are one.
+Equation 2 of the paper weighs edges by geometry; the decoder of a mesh has only connectivity, so all weights are one
+there, while the frames of a sequence have a first one to weigh them by (`codec.basis.weighted`).
+
 Sparse Cholesky factorisation front by front (`codec.basis.solver.fronts`), then forward and back substitution for all
 columns of a subspace at once.
 """
@@ -29,21 +31,35 @@ class Laplacian:
     block : Block
     fronts : Fronts
         Found once for all factorisations.
+    weights : float64 array
+        Of the entries of `block.neighbours`; above zero, and the same in both directions of an edge.
+    diagonal : float64 array, shape (n,)
+        Sum of the weights of each row.
     """
 
     block: Block
     fronts: Fronts
+    weights: Matrix
+    diagonal: Matrix
 
 
 def laplacian_of(block: Block) -> Laplacian:
-    """L of a block whose rows are in the order of a recursive bisection.
+    """L of a block whose rows are in the order of a recursive bisection, with all weights one.
 
     Raises
     ------
     LimitError
         If factorising it would take too long, see `codec.basis.solver.fronts.find_fronts`.
     """
-    return Laplacian(block, find_fronts(block.offsets, block.neighbours))
+    fronts = find_fronts(block.offsets, block.neighbours)
+    return Laplacian(block, fronts, np.ones(len(block.neighbours)), block.degrees.astype(np.float64))
+
+
+def weighted_laplacian(block: Block, weights: Matrix) -> Laplacian:
+    """`laplacian_of` with the given weights."""
+    rows = np.repeat(np.arange(block.size), block.degrees)
+    diagonal: Matrix = np.bincount(rows, weights=weights, minlength=block.size).astype(np.float64)
+    return Laplacian(block, find_fronts(block.offsets, block.neighbours), weights, diagonal)
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,8 +86,10 @@ def factorize(laplacian: Laplacian, shift: float | Matrix) -> Factor:
     block, fronts, n = laplacian.block, laplacian.fronts, laplacian.block.size
     values, inverse = np.empty(int(fronts.places[-1]) + PADDING), np.empty(n)
     column, scratch = np.empty(n + 1, np.uint32), np.empty(2 * (n + 16) + PADDING)
-    diagonal: Matrix = block.degrees.astype(np.float64) + shift
-    _kernels.factorize_fronts(block.offsets, block.neighbours, diagonal, fronts, column, scratch, values, inverse)
+    diagonal = laplacian.diagonal + shift
+    _kernels.factorize_fronts(
+        block.offsets, block.neighbours, laplacian.weights, diagonal, fronts, column, scratch, values, inverse
+    )
     return Factor(fronts, values, inverse)
 
 
@@ -92,7 +110,7 @@ def check_rows(factor: Factor, rows: int) -> None:
 
 
 def dense_laplacian(block: Block) -> Matrix:
-    """L of a block as a dense matrix, shape (n, n)."""
+    """L of a block, with all weights one, as a dense matrix, shape (n, n)."""
     laplacian = np.zeros((block.size, block.size))
     laplacian[np.repeat(np.arange(block.size), block.degrees), block.neighbours] = -1.0
     np.fill_diagonal(laplacian, block.degrees)

@@ -12,16 +12,18 @@ import numpy as np
 from bitstream.errors import NumericError
 from codec import _kernels
 from codec.arrays import Matrix
-from codec.basis.laplacian import Laplacian, check_rows, dense_laplacian, factorize, solve
-from codec.blocks.overlap import Block
-from codec.threads import SINGLE_BLAS_THREAD
+from codec.basis.laplacian import Laplacian, check_rows, factorize, solve
 
 ONCE, TWICE = 1e-3, 1e-11
 """Independence of the columns (`factorize_gram` of solver/cholesky_qr.c) from which Cholesky QR is orthogonal to
 1e-12 after one pass, and to working precision after two."""
 
-CLUSTER_GAP = 1e-6
-"""Neighbouring eigenvalues closer than this span one eigenspace in the exact basis."""
+EXACT_POWER, EXACT_ITERATIONS, EXACT_SHIFT = 2, 128, 2.0**-5
+"""What makes a basis exact: the sum of the Rayleigh quotients of any first columns is then within a thousandth of that
+of the lowest eigenvalues, on blocks of surfaces. Eigenvectors of closer eigenvalues nobody needs to tell apart."""
+EXACT_SOLVES = EXACT_POWER * EXACT_ITERATIONS
+START_NOISE = 0.25
+"""How much of the hash columns is added to the cosines that an exact basis begins with."""
 
 
 def cosine_columns(rows: int, first: int, last: int) -> Matrix:
@@ -51,12 +53,12 @@ def onorm(columns: Matrix) -> Matrix:
 
 
 def householder_orthonormalize(columns: Matrix) -> Matrix:
-    """`onorm` by Householder reflections (LAPACK geqrf), for any condition number."""
+    """`onorm` by Householder reflections, for any condition number."""
     if not np.isfinite(columns).all():
         raise NumericError("the subspace iteration produced a value that is not finite")
-    with SINGLE_BLAS_THREAD:
-        q, r = np.linalg.qr(columns)
-    return np.ascontiguousarray(q * np.where(np.diag(r) < 0, -1.0, 1.0))
+    q = np.empty(columns.shape)
+    _kernels.householder(np.array(columns, order="C"), np.empty(3 * columns.shape[1]), q)
+    return q
 
 
 def orthogonal_iteration(
@@ -103,35 +105,17 @@ def resized(previous: Matrix, width: int) -> Matrix:
     return np.concatenate([previous, cosine_columns(rows, known, width)], axis=1)
 
 
-def exact_basis(block: Block, width: int, springs: float | Matrix = 0.0) -> Matrix:
-    """The `width` lowest eigenvectors of L + diag(springs), see `canonical_eigenvectors`."""
-    return canonical_eigenvectors(dense_laplacian(block) + springs * np.eye(block.size), width)[1]
+def exact_basis(laplacian: Laplacian, width: int, springs: float | Matrix = 0.0) -> Matrix:
+    """The `width` lowest eigenvectors of L + diag(springs): many orthogonal iterations.
 
-
-def canonical_eigenvectors(matrix: Matrix, width: int) -> tuple[Matrix, Matrix]:
-    """The `width` lowest eigenvalues and eigenvectors of a symmetric matrix, whatever the eigensolver.
-
-    Within a cluster of equal eigenvalues a solver may return any rotation; the projection of fixed pseudo-random
-    columns onto the cluster's space, orthonormalised, is the same for all of them. For an eigenvalue of its own this
-    is its eigenvector with the sign that makes its product with the first of these columns positive.
-
-    Returns
-    -------
-    values : float64 array, shape (width,)
-    vectors : float64 array, shape (n, width), C-contiguous
+    No eigensolver: within a space of equal eigenvalues that may return any rotation. This is a smooth function of the
+    matrix, the same for all who compute it. The noise in the start is for blocks as symmetric as cosines are: what the
+    start does not hold at all would grow from rounding errors.
     """
-    with SINGLE_BLAS_THREAD:
-        values, vectors = np.linalg.eigh(matrix)
-    starts = np.flatnonzero(np.diff(values, prepend=-np.inf) > CLUSTER_GAP)
-    ends = np.append(starts[1:], len(values))
-    probe = hash_columns(len(matrix), int((ends - starts).max()))
-    basis = vectors[:, :width] * np.where(probe[:, 0] @ vectors[:, :width] < 0, -1.0, 1.0)
-    shared = (ends - starts > 1) & (starts < width)
-    for first, last in zip(starts[shared], ends[shared]):
-        cluster = vectors[:, first:last]
-        canonical = householder_orthonormalize(cluster @ (cluster.T @ probe[:, : last - first]))
-        basis[:, first:last] = canonical[:, : width - first]
-    return values[:width], np.ascontiguousarray(basis)
+    size = laplacian.block.size
+    start = cosine_columns(size, 0, width) + START_NOISE * hash_columns(size, width)
+    shift = springs + EXACT_SHIFT
+    return orthogonal_iteration(laplacian, start, shift=shift, power=EXACT_POWER, iterations=EXACT_ITERATIONS)
 
 
 def hash_columns(rows: int, columns: int) -> Matrix:

@@ -14,8 +14,9 @@ int64_t LEVEL(iteration_space)(int64_t n, int64_t c) {
     return panels_size(&panels) + qr_size(&panels) + WIDTH - 1;
 }
 
-/* Orthogonal iterations with a factor of `factorize_fronts`. A second pass of Cholesky QR follows one on columns less
- * independent than `once`. Returns the least independence of all first passes that is less than that, or 1. */
+/* Orthogonal iterations with a factor of `factorize_fronts`. The last pass of Cholesky QR is followed by another if its
+ * columns are less independent than `once`; before, only their spans matter. Returns the least independence of all first
+ * passes that is less than that, or 1. */
 double LEVEL(iterate)(Fronts fronts, Doubles values, ConstDoubles inverse, ConstDoubles2 start, int64_t power, int64_t iterations,
                double once, Doubles scratch, Doubles2 subspace) {
     int64_t c = start.columns;
@@ -28,7 +29,7 @@ double LEVEL(iterate)(Fronts fronts, Doubles values, ConstDoubles inverse, Const
         double independence = LEVEL(cholesky_qr)(&panels, c, &space);
         if (independence < once) {
             if (independence < least_seen) least_seen = independence;
-            LEVEL(cholesky_qr)(&panels, c, &space);
+            if (iterations == 1) LEVEL(cholesky_qr)(&panels, c, &space);
         }
     }
     LEVEL(unpack)(panels, fronts.rows.data, subspace);

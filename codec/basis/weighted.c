@@ -1,4 +1,4 @@
-/* Laplacians with cotangent weights (Pinkall and Polthier 1993; specification, S 3.1 and S 3.2). */
+/* Edges weighted by cotangents (Pinkall and Polthier 1993; specification, S 3.1), and parts that hang on others (S 3.2). */
 #include "codec/basis/weighted.h"
 
 /* Index of the first entry that is not below `value`, in an ascending list from `low` to before `high`. */
@@ -13,49 +13,70 @@ static int64_t lower_bound(const int32_t *list, int64_t low, int64_t high, int32
     return low;
 }
 
-/* Half the sum of the cotangents opposite to each edge, added to `weights`, one for every entry of `neighbours`; the
+/* A cotangent is the product of two sides over the doubled area. To the square of that is added `flatness` times that of
+ * the sum of the squared sides, and `smallness`: so that neither a triangle without area nor one without size makes
+ * rounding errors large. */
+INLINE double soft_cotangent(const double *p, const double *q, const double *s, double flatness, double smallness) {
+    double ux = q[0] - p[0], uy = q[1] - p[1], uz = q[2] - p[2];
+    double vx = s[0] - p[0], vy = s[1] - p[1], vz = s[2] - p[2];
+    double x = uy * vz - uz * vy, y = uz * vx - ux * vz, z = ux * vy - uy * vx;
+    double product = ux * vx + uy * vy + uz * vz;
+    double sides = 2.0 * (ux * ux + uy * uy + uz * uz + vx * vx + vy * vy + vz * vz - product);
+    return product / __builtin_sqrt(x * x + y * y + z * z + flatness * sides * sides + smallness);
+}
+
+/* Half the sum of the soft cotangents opposite to each edge, added to `weights`, one for every entry of `neighbours`; the
  * graph has every edge of `faces`. */
-void cotangents(ConstInts offsets, ConstInts neighbours, ConstInts2 faces, ConstDoubles2 positions, Doubles weights) {
+void cotangents(ConstInts offsets, ConstInts neighbours, ConstInts2 faces, ConstDoubles2 positions, double flatness,
+                double smallness, Doubles weights) {
     for (int64_t f = 0; f < faces.rows; f++) {
         const int32_t *face = faces.data + 3 * f;
         for (int corner = 0; corner < 3; corner++) {
             int32_t a = face[corner], b = face[(corner + 1) % 3], c = face[(corner + 2) % 3];
             if (a == b || a == c || b == c) continue;
-            const double *p = positions.data + 3 * (int64_t)a, *q = positions.data + 3 * (int64_t)b;
-            const double *s = positions.data + 3 * (int64_t)c;
-            double ux = q[0] - p[0], uy = q[1] - p[1], uz = q[2] - p[2];
-            double vx = s[0] - p[0], vy = s[1] - p[1], vz = s[2] - p[2];
-            double x = uy * vz - uz * vy, y = uz * vx - ux * vz, z = ux * vy - uy * vx;
-            double area = __builtin_sqrt(x * x + y * y + z * z);
-            if (!(area > 0.0)) continue;
-            double half = 0.5 * (ux * vx + uy * vy + uz * vz) / area;
+            double half = 0.5 * soft_cotangent(positions.data + 3 * (int64_t)a, positions.data + 3 * (int64_t)b,
+                                               positions.data + 3 * (int64_t)c, flatness, smallness);
             weights.data[lower_bound(neighbours.data, offsets.data[b], offsets.data[b + 1] - 1, c)] += half;
             weights.data[lower_bound(neighbours.data, offsets.data[c], offsets.data[c + 1] - 1, b)] += half;
         }
     }
 }
 
-/* The Laplacian of the part with the given vertices, ascending, and the springs on which it hangs; returns how many these
- * are. `matrix` is zero before; there is room for as many springs as the vertices have neighbours. */
-int64_t hold(ConstInts offsets, ConstInts neighbours, ConstDoubles weights, ConstInts vertices, ConstInts rank,
-             Doubles2 matrix, Ints rows, Ints outer, Doubles stiffness) {
-    int64_t n = vertices.size, springs = 0;
-    int32_t own = rank.data[vertices.data[0]];
-    for (int64_t r = 0; r < n; r++) {
+/* The weights of a part's edges, `inner`, one for every entry of its own graph, and the springs on which it hangs: its
+ * edges to vertices of a lower rank. Row r has those from `starts[r]` on, together as stiff as `springs[r]`. Returns how
+ * many there are; there is room for as many as the vertices have neighbours. */
+int64_t hold(ConstInts offsets, ConstInts neighbours, ConstDoubles weights, ConstInts rank, ConstInts vertices,
+             ConstInts own_offsets, ConstInts own_neighbours, Doubles inner, Doubles springs, Ints starts, Ints outer,
+             Doubles stiffness) {
+    int64_t count = 0;
+    starts.data[0] = 0;
+    for (int64_t r = 0; r < vertices.size; r++) {
         int32_t v = vertices.data[r];
-        for (int64_t i = offsets.data[v]; i < offsets.data[v + 1]; i++) {
-            int32_t w = neighbours.data[i];
-            if (rank.data[w] > own) continue;
-            matrix.data[r * n + r] += weights.data[i];
-            if (rank.data[w] == own) {
-                int64_t column = lower_bound(vertices.data, 0, n, w);
-                if (column < n) matrix.data[r * n + column] -= weights.data[i];
-            } else {
-                rows.data[springs] = (int32_t)r;
-                outer.data[springs] = w;
-                stiffness.data[springs++] = weights.data[i];
-            }
+        int64_t first = offsets.data[v], last = offsets.data[v + 1];
+        for (int64_t i = own_offsets.data[r]; i < own_offsets.data[r + 1]; i++) {
+            int32_t w = vertices.data[own_neighbours.data[i]];
+            inner.data[i] = weights.data[lower_bound(neighbours.data, first, last - 1, w)];
+        }
+        springs.data[r] = 0.0;
+        for (int64_t i = first; i < last; i++) {
+            if (rank.data[neighbours.data[i]] >= rank.data[v]) continue;
+            springs.data[r] += weights.data[i];
+            outer.data[count] = neighbours.data[i];
+            stiffness.data[count++] = weights.data[i];
+        }
+        starts.data[r + 1] = (int32_t)count;
+    }
+    return count;
+}
+
+/* What the springs of `hold` pull each row to, where `field` has a row for every vertex of the mesh. */
+void pull(ConstInts starts, ConstInts outer, ConstDoubles stiffness, ConstDoubles2 field, Doubles2 pulls) {
+    for (int64_t r = 0; r < pulls.rows; r++) {
+        double *sums = pulls.data + r * pulls.columns;
+        for (int64_t j = 0; j < pulls.columns; j++) sums[j] = 0.0;
+        for (int64_t i = starts.data[r]; i < starts.data[r + 1]; i++) {
+            const double *other = field.data + outer.data[i] * field.columns;
+            for (int64_t j = 0; j < pulls.columns; j++) sums[j] += stiffness.data[i] * other[j];
         }
     }
-    return springs;
 }

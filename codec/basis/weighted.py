@@ -1,9 +1,10 @@
-"""Laplacians that weigh edges by geometry that both sides already know: the decoded first frame of a sequence.
+"""Edges weighed by geometry that both sides already know: the decoded first frame of a sequence.
 
 The paper's Laplacian is the binary one because a decoder knows connectivity only. The frames of a sequence are
-different: once one of them is decoded, the others may be transformed in a basis that knows the shape of the
-triangles. L = D - W with W the cotangent weights, clamped to a positive range (they may be negative, and L indefinite,
-where a triangle is obtuse), and D = rowsum(W).
+different: once one of them is decoded, the others may be transformed in a basis that knows the shape of the triangles.
+Decoders know that frame to rounding, so that the weights are smooth functions of it which make little of little: soft
+cotangents, whose denominators stay away from zero, within soft bounds above zero (cotangents may be negative, and L
+indefinite, where a triangle is obtuse).
 
 References
 ----------
@@ -16,24 +17,47 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from bitstream.errors import NumericError
 from codec import _kernels
 from codec.arrays import Faces, Indices, Matrix, Positions
+from codec.basis.laplacian import Laplacian, weighted_laplacian
+from codec.blocks.overlap import Block
 from codec.geometry.graph import Graph
 
-SMALLEST_WEIGHT = 0.05
-LARGEST_WEIGHT = 10.0
+FLATNESS = 2.0**-12
+"""Share of the squared sum of squared sides that is added to a triangle's squared doubled area."""
+SMALLNESS = 2.0**-48
+"""What else is added to it: the square of the area that counts as none, in BSM units."""
+SMALLEST_WEIGHT, LARGEST_WEIGHT = 2.0**-5, 8.0
+"""Soft bounds of a weight: it is above the first, and below their sum."""
+BEND = 2.0**-6
+"""How softly negative sums of cotangents become zero."""
 
 
 def cotangent_weights(graph: Graph, faces: Faces, positions: Positions) -> Matrix:
-    """Weight of every entry of `graph.neighbours`: half the sum of the cotangents opposite to the edge, clamped.
+    """Weight of every entry of `graph.neighbours`: half the sum of the cotangents opposite to the edge, softly bounded.
 
-    A triangle without area counts nothing. The result does not depend on the unit of `positions`, shape (n, 3).
+    Parameters
+    ----------
+    graph : Graph
+    faces : int32 array, shape (m, 3)
+    positions : float64 array, shape (n, 3)
+        In BSM units.
+
+    Raises
+    ------
+    NumericError
+        If positions are so large that a weight is not finite.
     """
     if positions.shape != (graph.size, 3):
         raise ValueError(f"positions of shape {positions.shape} for {graph.size} vertices")
-    weights = np.zeros(len(graph.neighbours))
-    _kernels.cotangents(graph.offsets, graph.neighbours, faces, np.ascontiguousarray(positions), weights)
-    return np.minimum(np.maximum(weights, SMALLEST_WEIGHT), LARGEST_WEIGHT)
+    sums = np.zeros(len(graph.neighbours))
+    positions = np.ascontiguousarray(positions)
+    _kernels.cotangents(graph.offsets, graph.neighbours, faces, positions, FLATNESS, SMALLNESS, sums)
+    if not np.isfinite(sums).all():
+        raise NumericError("the first frame is too large for weights of its edges")
+    positive = 0.5 * (sums + np.sqrt(sums * sums + BEND))
+    return SMALLEST_WEIGHT + LARGEST_WEIGHT * positive / (LARGEST_WEIGHT + positive)
 
 
 def binary_weights(graph: Graph) -> Matrix:
@@ -42,27 +66,37 @@ def binary_weights(graph: Graph) -> Matrix:
 
 
 @dataclass(frozen=True, eq=False)
-class HeldLaplacian:
-    """The Laplacian of a part, and the springs on which it hangs: its edges to parts that are known before it.
+class Held:
+    """A part that hangs, by springs, on what is known before it: its edges to those parts.
 
     Parameters
     ----------
-    matrix : float64 array, shape (n_i, n_i)
-        D - W over the part's own edges, plus the springs' weights on the diagonal; edges to parts that are not known
-        yet count nothing.
-    rows, outer : int32 arrays, shape (s,)
-        Row of the part, and vertex of the mesh, that each spring connects; rows ascend.
-    weights : float64 array, shape (s,)
+    laplacian : Laplacian
+        Of the part's own edges.
+    springs : float64 array, shape (n_i,)
+        Sum of the stiffnesses at each row.
+    starts : int32 array, shape (n_i + 1,)
+    outer : int32 array
+        Vertices of the mesh that row r hangs on: `outer[starts[r]:starts[r + 1]]`.
+    stiffness : float64 array
+        Of each spring.
     """
 
-    matrix: Matrix
-    rows: Indices
+    laplacian: Laplacian
+    springs: Matrix
+    starts: Indices
     outer: Indices
-    weights: Matrix
+    stiffness: Matrix
+
+    def pulls(self, field: Matrix) -> Matrix:
+        """Sum of stiffness times what a field, shape (n, m), is at the other end, for each row: shape (n_i, m)."""
+        pulls = np.empty((len(self.springs), field.shape[1]))
+        _kernels.pull(self.starts, self.outer, self.stiffness, np.ascontiguousarray(field), pulls)
+        return pulls
 
 
-def held_laplacian(graph: Graph, weights: Matrix, vertices: Indices, rank: Indices) -> HeldLaplacian:
-    """Laplacian of the part with the given vertices.
+def hold(graph: Graph, weights: Matrix, rank: Indices, block: Block) -> Held:
+    """Hang a part on the parts before it.
 
     Parameters
     ----------
@@ -70,15 +104,29 @@ def held_laplacian(graph: Graph, weights: Matrix, vertices: Indices, rank: Indic
         Of the mesh.
     weights : float64 array
         Of the entries of `graph.neighbours`.
-    vertices : int32 array, shape (n_i,)
-        Of the part, ascending.
     rank : int32 array, shape (n,)
         When the part of each vertex becomes known.
+    block : Block
+        The part: its vertices, all of the same rank, and the edges between them.
     """
-    if len(weights) != len(graph.neighbours) or len(rank) != graph.size or len(vertices) == 0:
-        raise ValueError(f"{len(weights)} weights, {len(rank)} ranks and a part of {len(vertices)} vertices")
-    matrix = np.zeros((len(vertices), len(vertices)))
+    if len(weights) != len(graph.neighbours) or len(rank) != graph.size:
+        raise ValueError(f"{len(weights)} weights and {len(rank)} ranks for a graph of {graph.size} vertices")
+    vertices = block.vertices
     room = int((graph.offsets[vertices + 1] - graph.offsets[vertices]).sum())
-    rows, outer, stiffness = np.empty(room, np.int32), np.empty(room, np.int32), np.empty(room)
-    count = _kernels.hold(graph.offsets, graph.neighbours, weights, vertices, rank, matrix, rows, outer, stiffness)
-    return HeldLaplacian(matrix, rows[:count], outer[:count], stiffness[:count])
+    inner, springs = np.empty(len(block.neighbours)), np.empty(block.size)
+    starts, outer, stiffness = np.empty(block.size + 1, np.int32), np.empty(room, np.int32), np.empty(room)
+    count = _kernels.hold(
+        graph.offsets,
+        graph.neighbours,
+        weights,
+        rank,
+        vertices,
+        block.offsets,
+        block.neighbours,
+        inner,
+        springs,
+        starts,
+        outer,
+        stiffness,
+    )
+    return Held(weighted_laplacian(block, inner), springs, starts, outer[:count].copy(), stiffness[:count].copy())

@@ -82,8 +82,12 @@ class Blocks:
         return _ordered(self.graph, self.members_of(index))
 
     def core(self, index: int) -> Indices:
-        """Vertices of the part that one block grew from."""
+        """Vertices of the part that one block grew from, ascending."""
         return self.members[self.starts[index] : self.starts[index] + self.cores[index]]
+
+    def part(self, index: int) -> Block:
+        """Order the rows of the part that one block grew from: a block without overlap."""
+        return _ordered(self.graph, self.core(index))
 
 
 def block_size(partition: Partition, overlap: float) -> int:

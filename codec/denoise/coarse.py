@@ -28,6 +28,7 @@ OVERLAP = 1.15
 KEEP = 0.10
 RULES = ChainRules(
     exact=False,
+    exact_keys=False,
     independent=False,
     key_interval=16,
     power=3,

@@ -71,7 +71,9 @@ class FirstFrame:
         if self._next < count:
             raise CorruptError(f"the first frame ends after {self._next} of {count} blocks")
         everything = np.arange(self._structure.header.vertices, dtype=np.int32)
-        return Gops(self._structure, self._blend.positions(everything), self._wishes).accept(arrival, queue)
+        return Gops(self._structure, self._blend.positions(everything), self._wishes, self._allowance).accept(
+            arrival, queue
+        )
 
     def _add(self, packet: packets.Block) -> None:
         """Decode the next block."""
@@ -88,17 +90,18 @@ class FirstFrame:
 class Gops:
     """The first frame is known, shape (n, 3), in BSM units; GOPs come."""
 
-    def __init__(self, structure: Structure, first_frame: Matrix, wishes: Wishes) -> None:
+    def __init__(self, structure: Structure, first_frame: Matrix, wishes: Wishes, allowance: Allowance) -> None:
         header = structure.header
         self._structure = structure
         self._wishes = wishes
         setting = make_setting(
-            structure.scheme.blocks,
+            structure.scheme,
             structure.faces,
             first_frame,
             width=header.coefficients,
             cotangent=header.weights == 1,
             threads=wishes.threads,
+            allowance=allowance,
         )
         self._decoder = GopDecoder(setting)
         self._next = 0  # the frame that comes next in the stream
@@ -263,8 +266,10 @@ def check_header(header: Header, limits: Limits) -> None:
         raise FormatError("this is a static mesh and no sequence; decode it with codec.Decoder")
     if header.smoothing or header.details:
         raise UnsupportedError("smoothing and details of sequences are unknown to this decoder")
-    solves = chain_rules(header).solves
-    check_work(limits, header.blocks, header.block_size, header.coefficients, solves, exact=True)
+    rules = chain_rules(header)
+    # Blocks of the first frame, and parts, whose dictionaries are those of key blocks.
+    solves = rules.solves + rules.solves_of(False)
+    check_work(limits, header.blocks, header.block_size, header.coefficients, solves)
     limits.check("sequence_bytes", 8.0 * header.blocks * header.block_size * header.coefficients)
 
 

@@ -1,32 +1,26 @@
 """The dictionaries of a sequence, built once, and the way between vertices and coefficients.
 
 The parts of the mesh are taken in the order of the chain, without overlap. Each hangs with springs on the parts before
-it, where they have a common edge: the harmonic extension of what is known there is its prediction, the lowest
-eigenvectors of its held Laplacian L + S are its dictionary, and what is coded is the difference from the extension (see
-`codec.signal.predict`; here edges have weights, and the extension is computed in the dictionary, where it costs little:
-U^T (L + S)^-1 y = diag(1 / lambda) U^T y). All of this is linear, so that it may be applied to positions, to
+it, where they have a common edge: the harmonic extension of what is known there is its prediction, orthogonal
+iterations with its held Laplacian L + S give its dictionary, and what is coded is the difference from the extension
+(see `codec.signal.predict`; here edges have weights). All of this is linear, so that it may be applied to positions, to
 differences of frames and to components of trajectories alike.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from codec.arrays import Faces, Indices, Matrix, Positions
-from codec.basis.orthogonal_iteration import canonical_eigenvectors
-from codec.basis.weighted import binary_weights, cotangent_weights, held_laplacian
+from codec.basis.weighted import Held, binary_weights, cotangent_weights, hold
 from codec.blocks.overlap import Blocks
+from codec.signal.chain import ChainRules, key_dictionary
+from codec.signal.predict import Extension
+from codec.signal.transform import project, reconstruct
+from codec.static.work import Allowance, block_work
 from codec.threads import ordered_map
-
-if TYPE_CHECKING:
-    from scipy.sparse import csr_matrix
-
-
-FREE = 1e-8
-"""A column whose eigenvalue is below hangs on nothing, and is not extended."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,43 +29,53 @@ class Part:
 
     Parameters
     ----------
-    vertices : int32 array, shape (n_i,)
-        Ascending.
+    held : Held
+        What it hangs on.
+    extension : Extension
+        Continues that.
     basis : float64 array, shape (n_i, c_i)
         U, orthonormal columns.
-    springs : csr_matrix, shape (b, n)
-        Weights between the rows that hang on known vertices, and these.
-    extension : float64 array, shape (c_i, b)
-        Coefficients of the extension for given pulls at these rows.
     """
 
-    vertices: Indices
+    held: Held
+    extension: Extension
     basis: Matrix
-    springs: csr_matrix
-    extension: Matrix
+
+    @property
+    def vertices(self) -> Indices:
+        """Vertex of the mesh behind each row, shape (n_i,)."""
+        return self.held.laplacian.block.vertices
 
     def extend(self, field: Matrix) -> Matrix:
-        """Coefficients, shape (c_i, m), that continue what a field, shape (n, m), holds before this part."""
-        return np.asarray(self.extension @ (self.springs @ field))
+        """Rows, shape (n_i, m), that continue what a field, shape (n, m), holds before this part."""
+        return self.extension.of(self.held.pulls(field))
 
-    def difference(self, field: Matrix) -> Matrix:
-        """Coefficients of a known field, shape (n, m), less those of its extension."""
-        return np.asarray(self.basis.T @ field[self.vertices]) - self.extend(field)
+    def difference(self, wanted: Matrix, field: Matrix) -> Matrix:
+        """Coefficients, shape (c_i, m), of what a field is wanted to be here less what the parts before let expect."""
+        return project(self.basis, wanted[self.vertices] - self.extend(field), self.basis.shape[1])
 
     def place(self, field: Matrix, difference: Matrix) -> None:
         """Fill this part of a field from its difference to the extension, shape (c_i, m)."""
-        field[self.vertices] = self.basis @ (difference + self.extend(field))
+        field[self.vertices] = self.extend(field) + reconstruct(self.basis, difference)
 
 
 def differences(parts: tuple[Part, ...], field: Matrix) -> list[Matrix]:
     """Of all parts, in their order."""
-    return [part.difference(field) for part in parts]
+    return [part.difference(field, field) for part in parts]
 
 
 def build_dictionaries(
-    blocks: Blocks, faces: Faces, first_frame: Positions, width: int, cotangent: bool, threads: int | None
+    blocks: Blocks,
+    faces: Faces,
+    first_frame: Positions,
+    rules: ChainRules,
+    *,
+    width: int,
+    cotangent: bool,
+    threads: int | None,
+    allowance: Allowance | None = None,
 ) -> tuple[Part, ...]:
-    """The exact eigenbasis of every part, in the order of the chain, with weights from the decoded first frame.
+    """The dictionary of every part, in the order of the chain, with weights from the decoded first frame.
 
     Parameters
     ----------
@@ -79,28 +83,28 @@ def build_dictionaries(
         Of the mesh; only the blocks' cores are used.
     first_frame : float64 array, shape (n, 3)
         As the decoder has it.
+    rules : ChainRules
+        Those of a key block are made.
     width : int
         Columns of each dictionary, at most; a part has no more of them than vertices.
     cotangent : bool
         Cotangent weights; otherwise all weights are one and `first_frame` is not looked at.
     threads : int, optional
+    allowance : Allowance, optional
+        What a decoder may still do.
     """
-    # Not needed by static meshes, whose decoding it would delay.
-    from scipy.sparse import csr_matrix
-
     graph = blocks.graph
     weights = cotangent_weights(graph, faces, first_frame) if cotangent else binary_weights(graph)
-    cores = [np.sort(blocks.core(index)) for index in range(blocks.count)]
     rank = np.empty(graph.size, np.int32)
-    for index, vertices in enumerate(cores):
-        rank[vertices] = index
+    for index in range(blocks.count):
+        rank[blocks.core(index)] = index
 
-    def build(vertices: Indices) -> Part:
-        held = held_laplacian(graph, weights, vertices, rank)
-        values, basis = canonical_eigenvectors(held.matrix, min(width, len(vertices)))
-        rows, which = np.unique(held.rows, return_inverse=True)
-        springs = csr_matrix((held.weights, (which, held.outer)), shape=(len(rows), graph.size))
-        inverse = np.where(values > FREE, 1.0 / np.maximum(values, FREE), 0.0)
-        return Part(vertices, basis, springs, np.ascontiguousarray(basis[rows].T * inverse[:, None]))
+    def build(index: int) -> Part:
+        held = hold(graph, weights, rank, blocks.part(index))
+        columns = min(width, held.laplacian.block.size)
+        if allowance:
+            allowance.spend(block_work(held.laplacian, columns, rules.solves_of(False)))
+        basis = key_dictionary(rules, held.laplacian, columns, held.springs)
+        return Part(held, Extension(held.laplacian, held.springs), basis)
 
-    return tuple(ordered_map(build, cores, threads))
+    return tuple(ordered_map(build, range(blocks.count), threads))

@@ -35,16 +35,17 @@ FINEST_STEP = 2e-5
 """Below, a search for a target does not look."""
 
 FIRST_FRAME = ChainRules(
-    exact=True,
+    exact=False,
+    exact_keys=False,
     independent=False,
     key_interval=0,
     power=2,
-    iterations=1,
-    key_iterations=8,
+    iterations=2,
+    key_iterations=2,
     shift=2.0**-5,
     stiffness=STIFFNESS,
 )
-"""The first frame is one chain of exact dictionaries; what iterations would be made is not looked at."""
+"""The first frame is one chain; the dictionaries of its key block and those of all parts start from cosines alike."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -218,7 +219,7 @@ def open_sequence(prepared: Prepared, options: SequenceOptions, frames: int, pro
     )
     positions = blended(prepared.graph.size, (block.decoded for block in blocks))
     setting = make_setting(
-        prepared.blocks, prepared.mesh.faces, positions, width=width, cotangent=cotangent, threads=options.threads
+        scheme, prepared.mesh.faces, positions, width=width, cotangent=cotangent, threads=options.threads
     )
     return Opening(header, blocks, setting)
 

@@ -15,7 +15,6 @@ from bitstream.container.gop import MAX_EXPONENT, GopBody, GopMethod
 from bitstream.entropy.range_coder import Bank
 from bitstream.errors import CorruptError
 from codec.arrays import Faces, Levels, Matrix
-from codec.blocks.overlap import Blocks
 from codec.sequence.dictionaries import Part, build_dictionaries, differences
 from codec.sequence.options import SequenceOptions
 from codec.sequence.row_prediction import (
@@ -28,6 +27,8 @@ from codec.sequence.row_prediction import (
 )
 from codec.sequence.temporal import WORTH, bits_estimate, learn_basis, projection
 from codec.static.block_coder import Progress
+from codec.static.rules import Scheme
+from codec.static.work import Allowance
 
 BATCH = 16
 """Frames that are reconstructed at a time."""
@@ -55,10 +56,26 @@ class Setting:
 
 
 def make_setting(
-    blocks: Blocks, faces: Faces, first_frame: Matrix, *, width: int, cotangent: bool, threads: int | None
+    scheme: Scheme,
+    faces: Faces,
+    first_frame: Matrix,
+    *,
+    width: int,
+    cotangent: bool,
+    threads: int | None,
+    allowance: Allowance | None = None,
 ) -> Setting:
     """Build the dictionaries from the decoded first frame, shape (n, 3); see `build_dictionaries`."""
-    parts = build_dictionaries(blocks, faces, first_frame, width, cotangent, threads)
+    parts = build_dictionaries(
+        scheme.blocks,
+        faces,
+        first_frame,
+        scheme.rules,
+        width=width,
+        cotangent=cotangent,
+        threads=threads,
+        allowance=allowance,
+    )
     return Setting(len(first_frame), parts, differences(parts, first_frame))
 
 
@@ -132,7 +149,7 @@ class GopEncoder:
         frame = np.zeros_like(wanted)
         levels, coefficients = [], []
         for k, part in enumerate(self._setting.parts):
-            target = part.basis.T @ wanted[part.vertices] - part.extend(frame) - history.base(k)
+            target = part.difference(wanted, frame) - history.base(k)
             coded, change = history.loops[k].encode(history.known(k), target, self._step, self._options.rounding)
             levels.append(coded)
             coefficients.append(history.base(k) + change)
@@ -177,7 +194,7 @@ class GopEncoder:
         field = np.zeros_like(wanted)
         levels = []
         for part, first in zip(self._setting.parts, self._setting.first):
-            target = part.basis.T @ wanted[part.vertices] - part.extend(field)
+            target = part.difference(wanted, field)
             coded, decoded = Loop(3, body.components).encode(first, target, self._step, self._options.rounding)
             part.place(field, decoded)
             levels.append(coded)

@@ -9,8 +9,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from codec.arrays import Matrix
-from codec.basis.laplacian import laplacian_of
-from codec.basis.orthogonal_iteration import cosine_columns, exact_basis, orthogonal_iteration, resized
+from codec.basis.laplacian import Laplacian, laplacian_of
+from codec.basis.orthogonal_iteration import EXACT_SOLVES, cosine_columns, exact_basis, orthogonal_iteration, resized
 from codec.blocks.overlap import Block
 from codec.geometry.graph import Graph
 from codec.signal.predict import Known, Surroundings, unheld
@@ -23,7 +23,9 @@ class ChainRules:
     Parameters
     ----------
     exact : bool
-        Exact eigenbasis of every block instead of orthogonal iterations.
+        Exact eigenbasis of every block, see `codec.basis.orthogonal_iteration.exact_basis`.
+    exact_keys : bool
+        That for blocks without predecessor only, as the paper seeds its first block.
     independent : bool
         Every block starts from cosines and is a chain of its own.
     key_interval : int
@@ -35,6 +37,7 @@ class ChainRules:
     """
 
     exact: bool
+    exact_keys: bool
     independent: bool
     key_interval: int
     power: int
@@ -46,7 +49,13 @@ class ChainRules:
     @property
     def solves(self) -> int:
         """Solutions for each column of a block, at most."""
-        return self.power * max(self.iterations, self.key_iterations)
+        return max(self.solves_of(True), self.solves_of(False))
+
+    def solves_of(self, follows: bool) -> int:
+        """Solutions for each column of a block that follows another, or of one that does not."""
+        if self.exact or (self.exact_keys and not follows):
+            return EXACT_SOLVES
+        return self.power * (self.iterations if follows or self.independent else self.key_iterations)
 
     def chain_starts(self, blocks: int) -> range:
         """Indices of the key blocks among `blocks` blocks."""
@@ -67,6 +76,15 @@ def even_interval(interval: int, blocks: int) -> int:
     return -(-blocks // -(-blocks // interval)) if interval else 0
 
 
+def key_dictionary(rules: ChainRules, laplacian: Laplacian, width: int, springs: Matrix) -> Matrix:
+    """U of a block that follows no other, with `width` columns, on springs."""
+    if rules.exact or rules.exact_keys:
+        return exact_basis(laplacian, width, springs)
+    start = cosine_columns(laplacian.block.size, 0, width)
+    iterations = rules.iterations if rules.independent else rules.key_iterations
+    return orthogonal_iteration(laplacian, start, shift=springs + rules.shift, power=rules.power, iterations=iterations)
+
+
 class Chain:
     """State of one chain: the latest subspace, and the positions known so far."""
 
@@ -80,21 +98,22 @@ class Chain:
         laplacian = laplacian_of(block)
         return unheld(laplacian) if self._known is None else self._known.around(laplacian)
 
+    def solves(self, block: Block) -> int:
+        """Solutions for each column of the dictionary of the next block."""
+        return self._rules.solves_of(self._follows(block))
+
+    def _follows(self, block: Block) -> bool:
+        return self._subspace is not None and len(self._subspace) == block.size and not self._rules.independent
+
     def dictionary(self, around: Surroundings, width: int) -> Matrix:
         """U of a block with `width` columns (at most its rows), a function of connectivity and earlier widths only."""
-        rules, block = self._rules, around.laplacian.block
-        width = min(width, block.size)
-        if rules.exact:
-            return exact_basis(block, width, around.springs)
-        follows = self._subspace is not None and len(self._subspace) == block.size and not rules.independent
-        if follows:
-            assert self._subspace is not None
-            start = resized(self._subspace, width)
-        else:
-            start = cosine_columns(block.size, 0, width)
-        iterations = rules.iterations if follows or rules.independent else rules.key_iterations
-        shift = around.springs + rules.shift
-        return orthogonal_iteration(around.laplacian, start, shift=shift, power=rules.power, iterations=iterations)
+        rules, laplacian = self._rules, around.laplacian
+        width = min(width, laplacian.block.size)
+        if rules.exact or not self._follows(laplacian.block):
+            return key_dictionary(rules, laplacian, width, around.springs)
+        assert self._subspace is not None
+        start, shift = resized(self._subspace, width), around.springs + rules.shift
+        return orthogonal_iteration(laplacian, start, shift=shift, power=rules.power, iterations=rules.iterations)
 
     def commit(self, block: Block, subspace: Matrix, positions: Matrix) -> None:
         """Make a block, its subspace and its decoded positions, shape (n_i, 3), the predecessor's."""

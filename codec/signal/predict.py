@@ -90,11 +90,30 @@ def unheld(laplacian: Laplacian) -> Surroundings:
     return Surroundings(laplacian, np.zeros(size), np.zeros((size, 3)))
 
 
+class Extension:
+    """Continues what is known into the rows of a block: mean + (L + S + tether)^-1 (y - S mean).
+
+    Parameters
+    ----------
+    laplacian : Laplacian
+        Of n rows.
+    springs : float64 array, shape (n,)
+        Sum of the stiffnesses at each row.
+    """
+
+    def __init__(self, laplacian: Laplacian, springs: Matrix) -> None:
+        self._springs = springs
+        self._total = float(springs.sum())
+        self._factor = factorize(laplacian, springs + TETHER) if self._total > 0.0 else None
+
+    def of(self, pulls: Matrix) -> Matrix:
+        """Values at the rows for sums of stiffness times known value, both of shape (n, m); zero without springs."""
+        if self._factor is None:
+            return np.zeros_like(pulls)
+        mean = pulls.sum(axis=0) / self._total
+        return np.asarray(mean + solve(self._factor, pulls - self._springs[:, None] * mean, 1))
+
+
 def extend(around: Surroundings) -> Matrix:
     """Positions of a block of n rows that continue what is known, shape (n, 3); zero where nothing is known."""
-    total = around.springs.sum()
-    if total == 0.0:
-        return np.zeros_like(around.pulls)
-    mean = around.pulls.sum(axis=0) / total
-    factor = factorize(around.laplacian, around.springs + TETHER)
-    return mean + solve(factor, around.pulls - around.springs[:, None] * mean, 1)
+    return Extension(around.laplacian, around.springs).of(around.pulls)

@@ -89,7 +89,7 @@ class ChainDecoder:
             raise CorruptError(f"{packet.coefficients} coefficients for a block of {block.size} vertices")
         levels = coding.read(packet.data, packet.coefficients, block.size)
         around = chain.around(block)
-        self._allowance.spend(block_work(around.laplacian, levels.width, scheme.rules.solves, scheme.rules.exact))
+        self._allowance.spend(block_work(around.laplacian, levels.width, chain.solves(block)))
         dictionary = chain.dictionary(around, levels.width)
         ground = Ground(block, extend(around), dictionary)
         decoded = coding.positions(ground, levels)

@@ -12,7 +12,6 @@ from bitstream.container.reader import END_OF_STREAM, Signal
 from bitstream.errors import BsmError, CorruptError, OptionError, UnsupportedError
 from bitstream.limits import DEFAULT_LIMITS, Limits
 from codec.geometry.mesh import TriangleMesh
-from codec.signal.predict import MAX_STIFFNESS
 from codec.static.assembly import Assembly, DecodedBlock
 from codec.static.block_coder import ChainDecoder
 from codec.static.events import (
@@ -262,9 +261,7 @@ def check_header(header: Header, limits: Limits) -> None:
     if header.grid:
         return
     rules, width = chain_rules(header), max(header.coefficients, header.details)
-    check_work(limits, header.blocks, header.block_size, width, rules.solves, exact=rules.exact)
-    if len(header.prediction) > 1 or not all(0 < value < MAX_STIFFNESS for value in header.prediction):
-        raise CorruptError(f"the prediction has the parameters {header.prediction}, one stiffness is legal")
+    check_work(limits, header.blocks, header.block_size, width, rules.solves)
 
 
 def decode(data: bytes, limits: Limits = DEFAULT_LIMITS, threads: int | None = None) -> TriangleMesh:

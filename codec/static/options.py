@@ -7,12 +7,13 @@ from dataclasses import dataclass
 from bitstream.errors import OptionError
 from codec.choices import check_options
 from codec.static.contract import ANY_ANGLE, Contract
-from codec.static.rules import BASES, BLENDS, SEEDS
+from codec.static.rules import BASES, BLENDS, KEY_SEEDS, SEEDS
 from codec.static.targets import Target
 
 CHOICES = {
     "basis": BASES,
     "seed": SEEDS,
+    "key_seed": KEY_SEEDS,
     "blend": BLENDS,
     "partition": ("derived", "metis"),
 }
@@ -59,6 +60,9 @@ class EncodeOptions:
     basis, seed : str
         "oi" (orthogonal iterations) or "svd" (exact eigenbasis); "previous" (start from the block before, predict
         from the vertices shared with it) or "independent" (every block on its own).
+    key_seed : str, optional
+        Where a block that follows none begins: "cosines", or "svd", the exact lowest subspace, as the paper seeds its
+        first block. None: "svd" with `bits`, the paper's mode, and cosines otherwise.
     key_interval : int
         Every so many blocks, at most, one depends on nothing before it; 0: only the first.
     power, iterations, key_iterations : int
@@ -107,6 +111,7 @@ class EncodeOptions:
     partition: str = "derived"
     basis: str = "oi"
     seed: str = "previous"
+    key_seed: str | None = None
     key_interval: int = 32
     power: int = 3
     iterations: int = 1
@@ -162,6 +167,12 @@ class EncodeOptions:
             return self.detail
         distance = self.target is not None and self.target.kind in ("nmsve_db", "max_error_relative")
         return 0.0 if distance or self.bits is not None or self.doi is not None else DETAIL_RATIO
+
+    @property
+    def exact_keys(self) -> bool:
+        """Whether chains begin with the exact basis, which is no question where every block has it."""
+        chosen = self.key_seed or ("cosines" if self.bits is None or self.seed == "independent" else "svd")
+        return chosen == "svd" and self.basis == "oi"
 
     @property
     def fixed_smoothing(self) -> float | None:

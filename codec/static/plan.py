@@ -83,6 +83,7 @@ class Planner:
         predicted = options.predict and options.seed == "previous" and options.bits is None
         return ChainRules(
             exact=options.basis == "svd",
+            exact_keys=options.exact_keys,
             independent=options.seed == "independent",
             key_interval=even_interval(options.key_interval, self._prepared.blocks.count),
             power=options.power,

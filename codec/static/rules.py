@@ -6,14 +6,17 @@ from dataclasses import dataclass
 from typing import Any
 
 from bitstream.container.header import Header
+from bitstream.errors import CorruptError
 from codec.arrays import Faces, Matrix
 from codec.blocks.blend import copy_weights
 from codec.blocks.overlap import Block, Blocks
 from codec.signal.chain import ChainRules
+from codec.signal.predict import MAX_STIFFNESS
 from codec.static.coding import Coding, coding_of
 
 BASES = ("oi", "svd")
 SEEDS = ("previous", "independent")
+KEY_SEEDS = ("cosines", "svd")
 BLENDS = ("degree", "uniform", "own")
 """Names of the methods that a header numbers."""
 
@@ -59,6 +62,7 @@ class Scheme:
         return self.coding.fields | {
             "blocks": self.blocks.count,
             "basis": int(rules.exact),
+            "key_seed": int(rules.exact_keys),
             "seeding": int(rules.independent),
             "key_interval": rules.key_interval,
             "power": rules.power,
@@ -76,9 +80,18 @@ def scheme_of(header: Header, faces: Faces, blocks: Blocks) -> Scheme:
 
 
 def chain_rules(header: Header) -> ChainRules:
-    """What a header says about chains and dictionaries."""
+    """What a header says about chains and dictionaries.
+
+    Raises
+    ------
+    CorruptError
+        If it asks for a prediction that there is not.
+    """
+    if len(header.prediction) > 1 or not all(0 < value < MAX_STIFFNESS for value in header.prediction):
+        raise CorruptError(f"the prediction has the parameters {header.prediction}, one stiffness is legal")
     return ChainRules(
         exact=header.basis == 1,
+        exact_keys=header.key_seed == 1,
         independent=header.seeding == 1,
         key_interval=header.key_interval,
         power=header.power,

@@ -18,22 +18,21 @@ def dictionary_work(blocks: int, block_size: int, coefficients: int, solves: int
     blocks, block_size, coefficients
         k, n_d and c.
     solves : int
-        Orthogonal iterations times power, of a key block.
+        Orthogonal iterations times power, of a block at most.
     """
     per_iteration = 8.0 * block_size * coefficients**2
     return blocks * (block_size * 200.0 + solves * (40.0 * block_size * coefficients + per_iteration))
 
 
-def check_work(limits: Limits, blocks: int, block_size: int, coefficients: int, solves: int, exact: bool) -> None:
+def check_work(limits: Limits, blocks: int, block_size: int, coefficients: int, solves: int) -> None:
     """Raise `LimitError` if a header asks for more blocks, larger ones or more work than `limits` grant."""
     limits.check("blocks", blocks)
     limits.check("block_size", block_size)
     limits.check("coefficients", coefficients)
-    work = 30.0 * blocks * block_size**3 if exact else dictionary_work(blocks, block_size, coefficients, solves)
-    limits.check("work", work)
+    limits.check("work", dictionary_work(blocks, block_size, coefficients, solves))
 
 
-def block_work(laplacian: Laplacian, columns: int, solves: int, exact: bool) -> float:
+def block_work(laplacian: Laplacian, columns: int, solves: int) -> float:
     """Floating point operations that one block takes, about: two factorisations, solutions, orthonormalisation.
 
     `dictionary_work` supposes surfaces; in the graph of a hostile list of faces everything may be beside everything,
@@ -43,8 +42,6 @@ def block_work(laplacian: Laplacian, columns: int, solves: int, exact: bool) -> 
     own = np.diff(fronts.firsts.astype(np.float64))
     width = own + np.diff(fronts.starts.astype(np.float64))
     factorisation, entries = float((own * width**2).sum()), float((own * width).sum())
-    if exact:
-        return factorisation + 30.0 * size**3
     return 2.0 * factorisation + solves * columns * (4.0 * entries + 8.0 * size * columns)
 
 

@@ -4,7 +4,6 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from threadpoolctl import threadpool_info
 
 from codec.basis.laplacian import laplacian_of
 from codec.basis.orthogonal_iteration import cosine_columns, orthogonal_iteration
@@ -46,20 +45,6 @@ def test_errors_come_where_their_result_would(threads):
     assert [next(results) for _ in range(3)] == [0, 1, 2]
     with pytest.raises(ValueError, match="three"):
         next(results)
-
-
-def test_a_piece_of_work_has_one_blas_thread_and_its_consumer_all_of_them():
-    def blas_threads(_=None):
-        return max(info["num_threads"] for info in threadpool_info() if info["user_api"] == "blas")
-
-    before = blas_threads()
-    for threads in (1, 2, 1):
-        results = ordered_map(blas_threads, range(12), threads)
-        assert next(results) == 1
-        if threads == 1:
-            assert blas_threads() == before
-        assert [*results] == [1] * 11
-        assert blas_threads() == before
 
 
 def test_a_lane_keeps_its_order_and_lanes_run_side_by_side():

@@ -88,10 +88,11 @@ STATIC: dict[str, Good] = {
     "good-keys": _static("key blocks in mid-stream: chains of two blocks", _small, key_interval=2),
     "good-independent": _static("every block on its own (seeding 1)", _small, seed="independent"),
     "good-no-prediction": _static("a chain without prediction", _small, predict=False),
-    "good-exact": _static("exact eigenbasis (basis 1) of blocks on springs", _small, basis="svd"),
+    "good-exact": _static("exact basis (basis 1) of blocks on springs", _small, basis="svd"),
     "good-exact-clusters": _static(
-        "exact eigenbasis of one block with repeated eigenvalues", lambda: torus(6, 6), basis="svd", block_size=36
+        "exact basis of one block with repeated eigenvalues", lambda: torus(6, 6), basis="svd", block_size=36
     ),
+    "good-key-seed": _static("chains that begin with an exact basis", _small, key_seed="svd", key_interval=3),
     "good-one-column": _static("c = 1 in every block", _small, coefficients=1),
     "good-all-columns": _static("c = n_d: as many coefficients as rows", _small, keep=1.0, step=1e-5),
     "good-rising-falling": _static("c_i rises and falls along a chain", _uneven, keep=1.0, step=0.02),

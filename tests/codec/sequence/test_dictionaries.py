@@ -9,7 +9,8 @@ from codec.blocks.overlap import Blocks, grow_blocks
 from codec.blocks.partition import derive_partition
 from codec.geometry.graph import graph_of_faces
 from codec.geometry.mesh import TriangleMesh
-from codec.sequence.dictionaries import build_dictionaries, differences
+from codec.sequence.dictionaries import Part, build_dictionaries, differences
+from codec.sequence.encoder import FIRST_FRAME
 from tests.shapes import patch, torus
 
 
@@ -19,9 +20,11 @@ def blocks_of(mesh: TriangleMesh, parts: int) -> Blocks:
     return grow_blocks(graph, partition, int(np.diff(partition.bounds).max()))
 
 
-def dictionaries(mesh: TriangleMesh, parts: int, width: int, cotangent: bool = True):  # type: ignore[no-untyped-def]
+def dictionaries(mesh: TriangleMesh, parts: int, width: int, cotangent: bool = True) -> tuple[Part, ...]:
     blocks = blocks_of(mesh, parts)
-    return build_dictionaries(blocks, mesh.faces, mesh.positions, width, cotangent, 1)
+    return build_dictionaries(
+        blocks, mesh.faces, mesh.positions, FIRST_FRAME, width=width, cotangent=cotangent, threads=1
+    )
 
 
 @pytest.mark.parametrize("cotangent", [True, False])
@@ -42,23 +45,22 @@ def test_a_translation_is_all_in_the_first_part() -> None:
     parts = dictionaries(mesh, 5, 1000)
     first, *others = differences(parts, np.tile([1.0, -2.0, 3.0], (144, 1)))
     # The lowest column of a part that hangs on nothing is constant: its coefficient is sqrt(n) times the translation.
-    assert np.abs(first[0]) == pytest.approx(np.sqrt(len(parts[0].vertices)) * np.array([1.0, 2.0, 3.0]))
+    assert first[0] == pytest.approx(np.sqrt(len(parts[0].vertices)) * np.array([1.0, -2.0, 3.0]))
     assert np.abs(first[1:]).max() < 1e-9
-    assert max(np.abs(other).max() for other in others) < 1e-6
+    assert max(np.abs(other).max() for other in others) < 1e-9
 
 
 def test_the_extension_is_harmonic() -> None:
     mesh = patch(9, 9)
-    blocks = blocks_of(mesh, 2)
-    _, second = build_dictionaries(blocks, mesh.faces, mesh.positions, 1000, False, 1)
+    graph = blocks_of(mesh, 2).graph
+    _, second = dictionaries(mesh, 2, 5, cotangent=False)  # which is exact, however narrow the dictionary
     known = np.zeros((81, 3))
     outside = np.setdiff1d(np.arange(81), second.vertices)
     known[outside] = mesh.positions[outside]
     second.place(known, np.zeros((second.basis.shape[1], 3)))
-    graph = blocks.graph
     for vertex in second.vertices:
         around = graph.neighbours[graph.offsets[vertex] : graph.offsets[vertex + 1]]
-        np.testing.assert_allclose(known[vertex], known[around].mean(axis=0), atol=1e-9)
+        np.testing.assert_allclose(known[vertex], known[around].mean(axis=0), atol=1e-4)  # but for the tether
 
 
 def test_a_narrow_dictionary_has_the_lowest_columns_of_a_wide_one() -> None:

@@ -31,6 +31,7 @@ from codec.static.encoder import encode
 from codec.static.events import ConnectivityEvent, EndEvent, HeaderEvent, LossEvent
 from tests.motion import bending, turning
 from tests.shapes import patch, tetrahedron, together, torus
+from tools.surgery import with_header
 
 SMALL = {"block_size": 100, "step": 0.002, "gop": 8}
 WAYS = [{"transform": "learnt"}, {"transform": "cosine"}, {"mode": "low-delay"}]
@@ -368,6 +369,13 @@ def test_static_meshes_and_sequences_are_told_apart():
         decode(encoded(positions, faces)[0])
     with pytest.raises(FormatError, match="static"):
         decode_sequence(encode(torus(12, 8)))
+
+
+@pytest.mark.parametrize("prediction", [(-8.0,), (0.0,), (1e30,), (1.0, 2.0, 3.0)])
+def test_a_prediction_that_there_is_not_is_corrupt(prediction):
+    data, _ = encoded(*bending(2))
+    with pytest.raises(CorruptError, match="prediction"):
+        decode_sequence(with_header(data, prediction=prediction))
 
 
 def test_limits():

@@ -1,0 +1,65 @@
+// Everything that is committed as built, from sources: the kernels by `npm run kernels`, the rest by `npm run build`.
+// `npm run build -- --check` writes nothing and fails if what is committed is not what the sources build.
+import { existsSync, mkdirSync, readFileSync, writeFileSync } from "node:fs";
+import { dirname, join, relative } from "node:path";
+import { build } from "esbuild";
+import { compileKernels, compiler, WEB } from "./kernels.mjs";
+
+const PAGE = join(WEB, "../../bsm/viewer/page.html");
+const OPTIONS = { bundle: true, minify: true, format: "esm", target: "es2022", charset: "utf8", loader: { ".wasm": "binary" }, legalComments: "none", logLevel: "warning", write: false };
+const BUNDLED = ["three", "fzstd"];
+
+async function bundle(entry, options = {}) {
+    const result = await build({ ...OPTIONS, ...options, entryPoints: [join(WEB, "src", entry)] });
+    return result.outputFiles[0].text;
+}
+
+function licences(packages) {
+    return packages.map((name) => `${name}\n\n${readFileSync(join(WEB, "node_modules", name, "LICENSE"), "utf8").trim()}`).join("\n\n\n");
+}
+
+function filled(page, places) {
+    return Object.entries(places).reduce((text, [name, content]) => {
+        if (!text.includes(`<!-- ${name} -->`)) throw new Error(`the page has no place for ${name}`);
+        return text.replace(`<!-- ${name} -->`, () => content);
+    }, page);
+}
+
+/** Path and content of everything that is built of TypeScript. */
+async function products() {
+    const script = (await bundle("viewer/viewer.ts")).replaceAll("</script", "<\\/script");
+    const escaped = licences(BUNDLED).replaceAll("&", "&amp;").replaceAll("<", "&lt;");
+    const page = readFileSync(join(WEB, "src/viewer/page.html"), "utf8");
+    return [
+        [join(WEB, "built/bsm.js"), await bundle("index.ts")],
+        [join(WEB, "built/three.js"), await bundle("three.ts", { external: ["three"] })],
+        [join(WEB, "built/LICENSES.txt"), `${licences(BUNDLED)}\n`],
+        [PAGE, filled(page, { licences: escaped, script })],
+    ];
+}
+
+/** Built kernels that differ, where the compiler is the one that the committed bytes are of. */
+function staleKernels() {
+    const [theirs, ours] = [readFileSync(join(WEB, "built/compiler.txt"), "utf8").trim(), compiler()];
+    if (theirs !== ours) {
+        console.log(`kernels are not compared: they were built by ${theirs}; here is ${ours ?? "no clang"}`);
+        return [];
+    }
+    const builds = [["built/kernels.wasm", true], ["built/kernels-scalar.wasm", false]];
+    return builds.filter(([path, vectors]) => !readFileSync(join(WEB, path)).equals(compileKernels(vectors))).map(([path]) => path);
+}
+
+const check = process.argv.includes("--check");
+const stale = check ? staleKernels() : [];
+for (const [path, content] of await products()) {
+    if (check) {
+        if (!existsSync(path) || readFileSync(path, "utf8") !== content) stale.push(relative(WEB, path));
+    } else {
+        mkdirSync(dirname(path), { recursive: true });
+        writeFileSync(path, content);
+    }
+}
+if (stale.length > 0) {
+    console.error(`not what the sources build: ${stale.join(", ")}; run npm run kernels and npm run build`);
+    process.exit(1);
+}

@@ -1,0 +1,94 @@
+// The kernels of `bitstream` and `codec` as WebAssembly, with and without vector instructions: `npm run kernels`.
+import { execFileSync, spawnSync } from "node:child_process";
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { dirname, join } from "node:path";
+import { fileURLToPath } from "node:url";
+
+export const WEB = dirname(dirname(fileURLToPath(import.meta.url)));
+const ROOT = join(WEB, "../..");
+
+const SOURCES = [
+    "bitstream/coefficients/adaptive.c",
+    "bitstream/coefficients/contexts.c",
+    "bitstream/coefficients/trellis.c",
+    "bitstream/connectivity/conquest.c",
+    "bitstream/connectivity/halfedges.c",
+    "bitstream/connectivity/partition.c",
+    "bitstream/connectivity/permutation.c",
+    "bitstream/connectivity/seams.c",
+    "bitstream/entropy/symbols.c",
+    "bitstream/fields/corners.c",
+    "bitstream/fields/grid.c",
+    "bitstream/fields/levels.c",
+    "bitstream/fields/tables.c",
+    "bitstream/fields/value.c",
+    "bitstream/entropy/tables.c",
+    "codec/basis/cosines.simd.c",
+    "codec/basis/orthogonal_iteration.simd.c",
+    "codec/basis/solver/cholesky.simd.c",
+    "codec/basis/solver/cholesky_qr.simd.c",
+    "codec/basis/solver/fronts.c",
+    "codec/basis/solver/panels.simd.c",
+    "codec/basis/solver/substitution.simd.c",
+    "codec/blocks/bisection.c",
+    "codec/blocks/blend.c",
+    "codec/blocks/overlap.c",
+    "codec/blocks/partition.c",
+    "codec/geometry/graph.c",
+    "codec/geometry/incidence.c",
+    "codec/signal/detail.c",
+    "codec/signal/frames.c",
+    "codec/signal/predict.c",
+    "codec/signal/smooth.c",
+    "codec/signal/transform.simd.c",
+    "tools/web/src/memory.c",
+];
+
+const KERNELS = [
+    "code_one_unsigned", "match_halfedges", "conquer", "code_fans", "code_degenerate", "code_steps", "code_turns",
+    "code_labels", "points_of_levels", "code_rows", "code_block", "vertex_faces", "bisect", "refine_partition",
+    "group_by_label", "chain_parts", "grow_blocks", "order_scratch", "order_block", "add_copies", "collect_edges",
+    "dissect", "find_borders", "factorize_fronts", "solve_columns", "cosines", "iteration_space", "iterate",
+    "cholesky_onorm", "reconstruct", "look_around", "block_normals", "apply_powers", "combine_powers", "find_rings",
+    "filter_rows", "link_corners", "order_vertices", "code_grid", "code_levels", "local_frames", "add_levels",
+];
+
+const FLAGS = [
+    "--target=wasm32", "-std=gnu11", "-ffreestanding", "-fno-builtin", "-ffp-contract=off", "-ffunction-sections",
+    "-fdata-sections", "-fvisibility=hidden", "-Wno-unknown-pragmas", "-nostdlib",
+];
+
+const LINK = [
+    "-Wl,--no-entry", "-Wl,--gc-sections", "-Wl,--strip-all", "-Wl,--export=__heap_base", "-Wl,--export=PRIORS",
+    "-Wl,-z,stack-size=262144", "-Wl,--stack-first", "-Wl,--max-memory=4294967296",
+    ...KERNELS.map((name) => `-Wl,--export=${name}`),
+];
+
+/** Name and version of the compiler, of which the bytes are a function; undefined where there is none. */
+export function compiler() {
+    const { stdout } = spawnSync("clang", ["--version"], { encoding: "utf8" });
+    return stdout?.split("\n")[0];
+}
+
+/** One build: `vectors` says whether with vector instructions. */
+export function compileKernels(vectors) {
+    const folder = mkdtempSync(join(tmpdir(), "bsm-kernels-"));
+    try {
+        const priors = join(folder, "priors.c");
+        const numbers = readFileSync(join(ROOT, "bitstream/coefficients/priors.bin"));
+        writeFileSync(priors, `const unsigned char PRIORS[${numbers.length}] = {${[...numbers].join(",")}};\n`);
+        const target = join(folder, "kernels.wasm");
+        const options = [...FLAGS, "-Oz", ...(vectors ? ["-msimd128"] : [])];
+        execFileSync("clang", [...options, "-I", ".", ...SOURCES, priors, ...LINK, "-o", target], { cwd: ROOT });
+        return readFileSync(target);
+    } finally {
+        rmSync(folder, { recursive: true });
+    }
+}
+
+if (process.argv[1] === fileURLToPath(import.meta.url)) {
+    writeFileSync(join(WEB, "built/kernels.wasm"), compileKernels(true));
+    writeFileSync(join(WEB, "built/kernels-scalar.wasm"), compileKernels(false));
+    writeFileSync(join(WEB, "built/compiler.txt"), `${compiler()}\n`);
+}

@@ -1,0 +1,215 @@
+/** One chain of blocks: what its blocks know of those before them (specification, M 7 to M 11). */
+import { cosineColumns, degreesOf, exactBasis, orthogonalIteration, reconstruct, resized, solveColumns, type Matrix } from "./basis";
+import { makeBlock, type Block, type Blocks } from "./blocks";
+import { CoefficientModel, unpackLevels } from "./coefficients";
+import { Coder } from "./entropy";
+import { CorruptError, LimitError, NumericError } from "./errors";
+import type { Header } from "./header";
+import type { Bytes, Doubles, Ints, Longs, Memory } from "./kernels";
+import { checkLimit, type Limits } from "./limits";
+
+const TETHER = 2 ** -16;
+const SOFTNESS = 2 ** -10;
+const LEAST_NORMAL = 2 ** -33;
+
+/** Faces, and which of them are around each vertex. */
+export interface Surface {
+    faces: Ints;
+    starts: Longs;
+    members: Ints;
+    /** Scratch of the kernel, zero between calls. */
+    place: Ints;
+}
+
+/** A block's own reconstruction, before it is blended with others; positions in BSM units. */
+export interface DecodedBlock {
+    index: number;
+    vertices: Int32Array;
+    positions: Float64Array;
+    weights: Float64Array;
+}
+
+/** Solutions for each column of a block, at most. */
+export function solvesOf(header: Header): number {
+    return header.power * Math.max(header.iterations, header.keyIterations);
+}
+
+export function chainLength(header: Header): number {
+    return header.seeding === 1 ? 1 : header.keyInterval || header.blocks;
+}
+
+/** How much work a decoder may still do. */
+export class Allowance {
+    private spent = 0;
+
+    constructor(private readonly limits: Limits) {}
+
+    spend(work: number): void {
+        this.spent += work;
+        checkLimit(this.limits, "work", this.spent);
+    }
+
+    checkMemory(bytes: number): void {
+        if (bytes > this.limits.memory) throw new LimitError(`memory = ${bytes} bytes is over the limit`);
+    }
+}
+
+/** What a mesh is blended from: sums of weight times position, and weights. */
+export class Blend {
+    readonly sums: Doubles;
+    readonly weights: Doubles;
+
+    constructor(
+        private readonly memory: Memory,
+        size: number,
+    ) {
+        this.sums = memory.doubles(3 * size, 3);
+        this.weights = memory.doubles(size);
+        this.sums.view.fill(0);
+        this.weights.view.fill(0);
+    }
+
+    add(block: DecodedBlock, weights: Float64Array): void {
+        this.memory.scratch(() => {
+            const vertices = this.memory.ints(block.vertices.length);
+            vertices.view.set(block.vertices);
+            const positions = this.memory.copy(block.positions, 3);
+            this.memory.run("add_copies", this.sums, this.weights, vertices, positions, this.memory.copy(weights));
+        });
+    }
+}
+
+/** Decodes the blocks of one chain in their order; what it keeps lies in memory behind all that the mesh has. */
+export class ChainDecoder {
+    private readonly model: CoefficientModel;
+    private readonly details?: CoefficientModel;
+    private readonly known?: Blend;
+    private readonly inside?: Bytes;
+    private subspace?: Matrix;
+
+    constructor(
+        private readonly memory: Memory,
+        private readonly header: Header,
+        private readonly blocks: Blocks,
+        private readonly allowance: Allowance,
+        private readonly surface?: Surface,
+    ) {
+        this.model = new CoefficientModel(memory, header.coefficients, "coordinates");
+        if (header.details > 0) this.details = new CoefficientModel(memory, Math.ceil(header.details / 3), "details");
+        if (header.prediction.length > 0) {
+            this.known = new Blend(memory, blocks.graph.size);
+            this.inside = memory.bytes(blocks.graph.size);
+            this.inside.view.fill(0);
+        }
+    }
+
+    /** Decode the chain's next block. */
+    decode(index: number, width: number, payload: Uint8Array): DecodedBlock {
+        return this.memory.scratch(() => {
+            const { header, memory } = this;
+            const block = makeBlock(memory, this.blocks, index);
+            const { points, details } = this.readPoints(payload, width, block);
+            const columns = Math.min(Math.max(width, details.length), block.size);
+            const { springs, pulls } = this.lookAround(block);
+            this.spend(block, columns);
+            const subspace = this.dictionary(block, springs, columns);
+            const coefficients = points.map((point) => (point * header.step) / 2);
+            const positions = reconstruct(memory, subspace, coefficients, 3);
+            extend(memory, block, springs, pulls).forEach((value, i) => (positions[i] += value));
+            if (details.length > 0) this.displace(block, positions, subspace, details);
+            if (!positions.every(Number.isFinite)) throw new NumericError("the coefficients reconstruct to positions that are not finite");
+            const vertices = block.vertices.view.slice();
+            const degrees = degreesOf(block).map((degree) => Math.max(degree, 1));
+            const decoded = { index, vertices, positions, weights: this.copyWeights(index, vertices, degrees) };
+            this.subspace = subspace;
+            this.known?.add(decoded, degrees);
+            return decoded;
+        });
+    }
+
+    /** Coefficients of x, y and z, and of the detail layer, in half steps. */
+    private readPoints(payload: Uint8Array, width: number, block: Block): { points: Float64Array; details: Float64Array } {
+        const { header, memory } = this;
+        if (width < 1 || width > block.size) throw new CorruptError(`${width} coefficients for a block of ${block.size} vertices`);
+        const nothing = new Float64Array(0);
+        if (header.coding === 0) return { points: unpackLevels(payload, width, header.bits, header.coarser), details: nothing };
+        return memory.scratch(() => {
+            const coder = new Coder(memory, payload);
+            const points = Float64Array.from(this.model.points(coder, width).view);
+            const rows = this.details?.rowCount(coder);
+            const details = rows === undefined ? nothing : Float64Array.from(this.details!.points(coder, rows).view);
+            coder.finish();
+            return { points, details: details.subarray(0, Math.min(header.details, block.size)) };
+        });
+    }
+
+    /** Springs at each row, and what they pull to (M 7.3). */
+    private lookAround(block: Block): { springs: Float64Array; pulls: Float64Array } {
+        const { memory, known, inside } = this;
+        if (!known || !inside) return { springs: new Float64Array(block.size), pulls: new Float64Array(3 * block.size) };
+        return memory.scratch(() => {
+            const springs = memory.doubles(block.size);
+            const pulls = memory.doubles(3 * block.size, 3);
+            const { offsets, neighbours } = this.blocks.graph;
+            const stiffness = this.header.prediction[0];
+            memory.run("look_around", offsets, neighbours, block.vertices, inside, known.sums, known.weights, stiffness, springs, pulls);
+            return { springs: springs.view.slice(), pulls: pulls.view.slice() };
+        });
+    }
+
+    /** Take the work of a block from what is allowed (M 14.4). */
+    private spend(block: Block, columns: number): void {
+        const { work, entries } = block.fronts;
+        if (this.header.basis === 1) {
+            this.allowance.checkMemory(24 * block.size ** 2);
+            this.allowance.spend(work + 30 * block.size ** 3);
+        } else {
+            this.allowance.spend(2 * work + solvesOf(this.header) * columns * (4 * entries + 8 * block.size * columns));
+        }
+    }
+
+    /** U of a block (M 8.3 to M 8.5). */
+    private dictionary(block: Block, springs: Float64Array, width: number): Matrix {
+        const { header, memory, subspace } = this;
+        if (header.basis === 1) return exactBasis(block, springs, width);
+        const independent = header.seeding === 1;
+        const follows = subspace !== undefined && subspace.rows === block.size && !independent;
+        const start = follows ? resized(memory, subspace, width) : cosineColumns(memory, block.size, 0, width);
+        const iterations = follows || independent ? header.iterations : header.keyIterations;
+        const shift = springs.map((spring) => spring + header.shift);
+        return orthogonalIteration(memory, block, start, shift, header.power, iterations);
+    }
+
+    /** Move rows along their normals (M 11.3, M 11.4). */
+    private displace(block: Block, positions: Float64Array, subspace: Matrix, details: Float64Array): void {
+        const { memory, surface, header } = this;
+        const heights = reconstruct(memory, subspace, details.map((point) => (point * header.detailStep) / 2), 1);
+        memory.scratch(() => {
+            const { faces, starts, members, place } = surface!;
+            const normals = memory.doubles(positions.length, 3);
+            const given = memory.copy(positions, 3);
+            memory.run("block_normals", faces, starts, members, block.vertices, place, given, SOFTNESS, LEAST_NORMAL, normals);
+            normals.view.forEach((normal, i) => (positions[i] += normal * heights[Math.floor(i / 3)]));
+        });
+    }
+
+    /** Weight of each copy in the blend (M 12.1). */
+    private copyWeights(index: number, vertices: Int32Array, degrees: Float64Array): Float64Array {
+        if (this.header.blend === 0) return degrees;
+        if (this.header.blend === 1) return degrees.map(() => 1);
+        const { starts, cores, members } = this.blocks;
+        const core = new Set(members.part(starts[index], cores[index]).view);
+        return Float64Array.from(vertices, (vertex) => (core.has(vertex) ? 1 : 0));
+    }
+}
+
+/** Positions that continue what is known (M 7.4). */
+function extend(memory: Memory, block: Block, springs: Float64Array, pulls: Float64Array): Float64Array {
+    const total = springs.reduce((sum, spring) => sum + spring, 0);
+    if (total === 0) return new Float64Array(pulls.length);
+    const mean = [0, 0, 0];
+    pulls.forEach((pull, i) => (mean[i % 3] += pull / total));
+    const loads = pulls.map((pull, i) => pull - springs[Math.floor(i / 3)] * mean[i % 3]);
+    const shift = springs.map((spring) => spring + TETHER);
+    return solveColumns(memory, block, shift, loads, 3).map((value, i) => value + mean[i % 3]);
+}

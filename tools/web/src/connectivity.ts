@@ -1,0 +1,220 @@
+/** Faces, their original order, and parts (specification, C 4 to C 10). */
+import { Coder, makeBank, unsignedSpan, type Bank } from "./entropy";
+import { CorruptError } from "./errors";
+import type { Ints, Memory } from "./kernels";
+import { checkLimit, type Limits } from "./limits";
+
+const ONE = 65536;
+const VALENCE = { contexts: 14, nodes: 16 };
+const EVENT = { contexts: 3, size: 4096 };
+const RARE_UNARY = 2;
+const RARE_KINDS = 6;
+const RARE_SPAN = unsignedSpan(RARE_UNARY);
+const RARE_COUNTS = 5 * RARE_SPAN;
+const FRONT = { columns: 8, buckets: 8, heads: 18, made: 8, alive: 9 };
+const TALLIES = { size: 8, dummies: 3, turns: 4, steps: 5 };
+const DONE = 0;
+const NO_ROOM = 2;
+const ORDER = { unary: 6, inputs: 4, classes: 32 };
+const LABEL = { inputs: 3, candidates: 4, contexts: 80 };
+
+type Models = readonly [valence: Bank, event: Bank, rare: Bank, bits: bigint];
+
+function makeModels(memory: Memory, vertices: number): Models {
+    const bits = Math.min(Math.max(32 - Math.clz32(vertices) - 2, 6), 12);
+    const { contexts, nodes } = VALENCE;
+    return [
+        makeBank(memory, { slots: (contexts << bits) * nodes, selectors: nodes, inputs: contexts, limit: 1023, rate: 16 }),
+        makeBank(memory, {
+            slots: EVENT.contexts * EVENT.size,
+            selectors: 1,
+            inputs: EVENT.contexts,
+            limit: 1023,
+            rate: 16,
+            probability: ONE - Math.floor(ONE / 500),
+            trust: 30,
+        }),
+        makeBank(memory, { slots: RARE_KINDS * RARE_SPAN, selectors: RARE_KINDS * RARE_SPAN, inputs: 1 }),
+        BigInt(bits),
+    ];
+}
+
+/** Faces, shape (faceCount, 3), that stay in memory. */
+export function decodeConnectivity(
+    memory: Memory,
+    payload: Uint8Array,
+    vertexCount: number,
+    faceCount: number,
+    limits: Limits,
+): Ints {
+    checkLimit(limits, "vertices", vertexCount);
+    checkLimit(limits, "faces", faceCount);
+    const faces = memory.ints(3 * faceCount, 3);
+    memory.scratch(() => {
+        const coder = new Coder(memory, payload);
+        const models = makeModels(memory, vertexCount);
+        const [degenerate, lonely, surplus, loops] = [0, 1, 2, 3].map(() => readCount(memory, coder, models));
+        const proper = faceCount - degenerate;
+        const regular = vertexCount - lonely;
+        const fans = regular + surplus;
+        if (proper < 0 || regular < 0 || lonely > 3 * degenerate || fans > 3 * proper || loops > 3 * proper) {
+            throw coder.nonsense("the counts at its start contradict each other");
+        }
+        checkLimit(limits, "vertices", fans + loops);
+        const surface = faces.part(0, 3 * proper, 3);
+        conquer(memory, coder, models, surface, fans, loops);
+        const known = surplus > 0 ? joinFans(memory, coder, surface, fans) : regular;
+        const corners = faces.part(3 * proper, 3 * degenerate);
+        if (
+            known !== regular ||
+            memory.call("code_degenerate", coder.parts, corners, BigInt(regular)) !== vertexCount
+        ) {
+            throw coder.nonsense(`it does not make ${vertexCount} vertices`);
+        }
+        coder.finish();
+    });
+    return faces;
+}
+
+function readCount(memory: Memory, coder: Coder, models: Models): number {
+    return memory.scratch(() => {
+        const context = memory.longs(1);
+        context.view[0] = 0n;
+        return memory.call("code_one_unsigned", coder.parts, models[2], context, 0n, BigInt(RARE_UNARY), 0n, BigInt(RARE_COUNTS));
+    });
+}
+
+/** The conquest (C 6), with more memory for its front each time it asks; so memory follows the progress. */
+function conquer(memory: Memory, coder: Coder, models: Models, faces: Ints, fans: number, dummies: number): void {
+    const nothing = memory.ints(0);
+    const guide = [[nothing, nothing, nothing, nothing], memory.bytes(0), nothing, nothing, nothing, nothing];
+    const heads = memory.ints(FRONT.heads);
+    heads.view.fill(-1);
+    heads.view[FRONT.made] = heads.view[FRONT.alive] = 0;
+    const count = faces.length / 3;
+    const tallies = memory.longs(TALLIES.size);
+    tallies.view.fill(0n);
+    tallies.view[TALLIES.dummies] = BigInt(dummies);
+    tallies.view[TALLIES.turns] = BigInt(4 * count);
+    tallies.view[TALLIES.steps] = BigInt(65536 + 16 * count);
+    const vertices = memory.longs(2 * (fans + dummies), 2);
+    let nodes = memory.ints(FRONT.columns * (fans + 16), FRONT.columns);
+    for (;;) {
+        const end = memory.call("conquer", coder.parts, models, guide, [[nodes, heads], vertices, faces, tallies]);
+        if (end === DONE) return;
+        if (end !== NO_ROOM) throw coder.nonsense(`it does not make ${count} triangles`);
+        nodes = memory.enlarged(nodes, 2 * nodes.length);
+    }
+}
+
+/** Which fans are the same vertex (C 7): corners become vertices; returns how many vertices there are. */
+function joinFans(memory: Memory, coder: Coder, faces: Ints, fans: number): number {
+    const after = memory.ints(fans);
+    const before = memory.ints(fans);
+    after.view.fill(-1);
+    before.view.fill(-1);
+    memory.scratch(() => findBorders(memory, faces, after, before));
+    const known = memory.ints(fans);
+    known.view.fill(-1);
+    const vertex = memory.ints(fans);
+    const seams = [vertex, after, before, memory.ints(fans), memory.ints(fans)];
+    const count = memory.call("code_fans", coder.parts, makeBank(memory, { slots: 32, selectors: 1, inputs: 1 }), known, seams);
+    if (count >= 0) {
+        const names = vertex.view;
+        const corners = faces.view;
+        for (let i = 0; i < corners.length; i++) corners[i] = names[corners[i]];
+    }
+    return count;
+}
+
+/** The fans after and before each fan along the boundary (C 7.1). */
+function findBorders(memory: Memory, faces: Ints, after: Ints, before: Ints): void {
+    const size = faces.length;
+    const origin = faces.part(0, size);
+    const starts = memory.longs(after.length + 1);
+    const twin = memory.ints(size);
+    memory.run("match_halfedges", origin, starts, memory.ints(size), memory.ints(size), twin);
+    const [corners, twins, next, last] = [origin.view, twin.view, after.view, before.view];
+    for (let i = 0; i < size; i++) {
+        if (twins[i] < 0) next[corners[i]] = corners[i % 3 === 2 ? i - 2 : i + 1];
+    }
+    for (let fan = 0; fan < next.length; fan++) {
+        if (next[fan] >= 0) last[next[fan]] = fan;
+    }
+}
+
+/** Parts of all vertices, numbered by first appearance (C 10). */
+export function decodeLabels(memory: Memory, payload: Uint8Array, offsets: Ints, neighbours: Ints, parts: number): Ints {
+    const labels = memory.ints(offsets.length - 1);
+    memory.scratch(() => {
+        labels.view.fill(0);
+        const coder = new Coder(memory, payload);
+        const { inputs, candidates, contexts } = LABEL;
+        const bank = makeBank(memory, { slots: inputs * contexts, selectors: candidates + 1, inputs });
+        const used = memory.call("code_labels", coder.parts, bank, offsets, neighbours, labels, BigInt(parts));
+        coder.finish();
+        if (used !== parts) throw new CorruptError(`the partition has ${used} parts where the header has ${parts}`);
+    });
+    return labels;
+}
+
+/** The order that a mesh had: the original number of each vertex, and the original faces (C 9). */
+export function decodeArrangement(
+    memory: Memory,
+    payload: Uint8Array,
+    faces: Ints,
+    vertexCount: number,
+): { numbers: Int32Array; faces: Int32Array } {
+    return memory.scratch(() => {
+        const count = faces.length / 3;
+        const coder = new Coder(memory, payload);
+        const numbers = readPermutation(memory, coder, vertexCount);
+        const places = readPermutation(memory, coder, count);
+        const turns = memory.ints(count);
+        turns.view.fill(0);
+        const bank = makeBank(memory, { slots: 108, selectors: 2, inputs: 2 });
+        checkOrder(coder, memory.call("code_turns", coder.parts, bank, turns), `${count} rotations`);
+        coder.finish();
+        const renumbered = faces.view.map((corner) => numbers[corner]);
+        const original = new Int32Array(renumbered.length);
+        const rotations = turns.view;
+        suggestedOrder(renumbered).forEach((face, rank) => {
+            const place = places[rank];
+            const corners = renumbered.subarray(3 * face, 3 * face + 3);
+            let first = 0;
+            for (let k = 1; k < 3; k++) if (corners[k] < corners[first]) first = k;
+            first += rotations[place];
+            for (let k = 0; k < 3; k++) original[3 * place + k] = corners[(first + k) % 3];
+        });
+        return { numbers, faces: original };
+    });
+}
+
+function readPermutation(memory: Memory, coder: Coder, size: number): Int32Array {
+    return memory.scratch(() => {
+        const { unary, inputs, classes } = ORDER;
+        const span = unsignedSpan(unary) + 3;
+        const bank = makeBank(memory, { slots: (1 + classes + 2 * classes * classes) * span, selectors: span, inputs });
+        const values = memory.ints(size);
+        values.view.fill(0);
+        checkOrder(coder, memory.call("code_steps", coder.parts, bank, values, memory.ints(size + 1)), `an order of ${size}`);
+        return values.view.slice();
+    });
+}
+
+function checkOrder(coder: Coder, legal: number, what: string): void {
+    if (coder.overran || !legal) throw coder.nonsense(`it is not ${what}`);
+}
+
+/** Faces by their largest corner, then the middle one, then the least (C 9.5). */
+function suggestedOrder(faces: Int32Array): Uint32Array {
+    const keys = faces.slice();
+    for (let i = 0; i < keys.length; i += 3) keys.subarray(i, i + 3).sort();
+    return Uint32Array.from({ length: faces.length / 3 }, (_, face) => face).sort((a, b) => {
+        for (let k = 2; k >= 0; k--) {
+            const difference = keys[3 * a + k] - keys[3 * b + k];
+            if (difference !== 0) return difference;
+        }
+        return a - b;
+    });
+}

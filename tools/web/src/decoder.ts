@@ -1,0 +1,325 @@
+/** A stream to a mesh, block by block, while it arrives. */
+import { Assembly, inMeshUnits, type Changes } from "./assembly";
+import { derivePartition, groupLabels, growBlocks, largestPart, makeGraph, type Blocks, type Graph, type Partition } from "./blocks";
+import { Allowance, chainLength, ChainDecoder, solvesOf, type DecodedBlock, type Surface } from "./chain";
+import { decodeArrangement, decodeConnectivity, decodeLabels } from "./connectivity";
+import { BsmError, CorruptError, UnsupportedError } from "./errors";
+import { Grid, Refinement } from "./fields";
+import type { Header } from "./header";
+import type { Ints, Kernels, Memory } from "./kernels";
+import { checkLimit, DEFAULT_LIMITS, type Limits } from "./limits";
+import { END_OF_STREAM, NEED_DATA, Reader, type Packet, type Signal } from "./reader";
+
+const CONNECTIVITY_METHOD = 1;
+const PARTITION_METHOD = 0;
+const ORDER_METHOD = 1;
+const GIVEN_ORDER_METHOD = 2;
+const MAX_STIFFNESS = 65536;
+
+/** The header has arrived. */
+export interface HeaderEvent {
+    type: "header";
+    header: Header;
+}
+
+/** The faces have arrived, three vertices each, in the order that the mesh had if the stream stores that. */
+export interface ConnectivityEvent {
+    type: "connectivity";
+    faces: Int32Array;
+}
+
+/** A block, or a chunk of a grid, has been decoded: which vertices it moved or finished, and where they are now. */
+export interface BlockEvent extends Changes {
+    type: "block";
+    index: number;
+}
+
+/** Levels of a layer, counted from 0, have moved vertices. */
+export interface RefinementEvent extends Changes {
+    type: "refinement";
+    layer: number;
+}
+
+/** The stream has come to its end, and its checksum is right. */
+export interface EndEvent {
+    type: "end";
+}
+
+export type Event = HeaderEvent | ConnectivityEvent | BlockEvent | RefinementEvent | EndEvent;
+
+/** A whole mesh: positions, shape (n, 3), and faces, shape (m, 3). */
+export interface Mesh {
+    positions: Float64Array;
+    faces: Int32Array;
+}
+
+type Item = Event | DecodedBlock;
+
+/**
+ * Takes the bytes of a stream as they come, and gives events as soon as they can be known.
+ *
+ * The events do not depend on how the bytes are cut up. An error is thrown by `nextEvent` after the events before it,
+ * and by every later call.
+ */
+export class Decoder {
+    private readonly limits: Limits;
+    private readonly reader: Reader;
+    private readonly memory: Memory;
+    private readonly allowance: Allowance;
+    private readonly queue: Item[] = [];
+    private error?: BsmError;
+    private header?: Header;
+    private faces?: Ints;
+    private graph?: Graph;
+    private surface?: Surface;
+    private partition?: Partition;
+    private arrangement?: { numbers: Int32Array; faces: Int32Array };
+    private blocks?: Blocks;
+    private assembly?: Assembly;
+    private chain?: { number: number; decoder: ChainDecoder };
+    private behindMesh = 0;
+    private nextIndex = 0;
+    private grid?: Grid;
+    private chunks = 0;
+    private refinement?: Refinement;
+
+    constructor(kernels: Kernels, limits: Partial<Limits> = {}) {
+        this.limits = { ...DEFAULT_LIMITS, ...limits };
+        this.reader = new Reader(this.limits);
+        this.memory = kernels.instantiate(this.limits.memory);
+        this.allowance = new Allowance(this.limits);
+    }
+
+    /** Take more bytes of the stream. */
+    receiveData(data: Uint8Array): void {
+        this.reader.receiveData(data);
+    }
+
+    /** Take note that no more bytes will come. */
+    receiveEof(): void {
+        this.reader.receiveEof();
+    }
+
+    /** Bytes of the stream that the events so far are made of. */
+    get position(): number {
+        return this.reader.position;
+    }
+
+    /** The next event, or `NEED_DATA`; `END_OF_STREAM` after the end and `receiveEof`. */
+    nextEvent(): Event | Signal {
+        const item = this.nextItem();
+        if (typeof item === "string" || "type" in item) return item;
+        return this.guarded(() => ({ type: "block", index: item.index, ...this.numbered(this.assembly!.changes(item)) }), item.index);
+    }
+
+    /** Decode the rest of a complete stream; faster than asking for events. */
+    finish(): Mesh {
+        this.receiveEof();
+        for (let item; (item = this.nextItem()) !== END_OF_STREAM; ) {
+            if (typeof item === "object" && !("type" in item)) this.assembly!.add(item);
+        }
+        return { positions: this.guarded(() => this.arranged(this.wholePositions())), faces: this.shownFaces() };
+    }
+
+    private nextItem(): Item | Signal {
+        for (;;) {
+            const item = this.queue.shift();
+            if (item) return item;
+            if (this.error) throw this.error;
+            const signal = this.takePacket();
+            if (signal) return signal;
+        }
+    }
+
+    /** Turn the next packet into items, or into the error that follows them. */
+    private takePacket(): Signal | undefined {
+        let block: number | undefined;
+        try {
+            const packet = this.reader.nextPacket();
+            if (typeof packet === "string") return packet;
+            if (packet.type === "block") block = packet.index;
+            this.accept(packet);
+        } catch (error) {
+            this.keep(error, block);
+        }
+        return undefined;
+    }
+
+    /** Take note of an error of the stream, with its place; others are passed on. */
+    private keep(error: unknown, block?: number): BsmError {
+        if (!(error instanceof BsmError)) throw error;
+        this.error = error.located({ offset: this.reader.position, block });
+        return this.error;
+    }
+
+    /** What `work` returns; its error is kept for all later calls. */
+    private guarded<Result>(work: () => Result, block?: number): Result {
+        try {
+            return work();
+        } catch (error) {
+            this.queue.length = 0;
+            throw this.keep(error, block);
+        }
+    }
+
+    private accept(packet: Packet): void {
+        switch (packet.type) {
+            case "header":
+                return this.acceptHeader(packet.header);
+            case "connectivity":
+                return this.acceptConnectivity(packet.method, packet.data);
+            case "partition":
+                return this.acceptPartition(packet.method, packet.data);
+            case "order":
+                return this.acceptOrder(packet.method, packet.data);
+            case "block":
+                return this.acceptBlock(packet.index, packet.coefficients, packet.data);
+            case "grid":
+                return this.acceptGrid(packet.first, packet.count, packet.data);
+            case "refinement":
+                return this.acceptRefinement(packet.layer, packet.first, packet.count, packet.data);
+            case "end":
+                return this.acceptEnd();
+        }
+    }
+
+    private acceptHeader(header: Header): void {
+        if (header.gopFrames > 0) throw new UnsupportedError("this is a sequence, which this decoder does not play");
+        if (header.grid.length === 0) this.checkWork(header);
+        if (header.prediction.length > 1 || !header.prediction.every((value) => value > 0 && value < MAX_STIFFNESS)) {
+            throw new CorruptError(`the prediction has the parameters ${header.prediction}, one stiffness is legal`);
+        }
+        this.header = header;
+        this.queue.push({ type: "header", header });
+    }
+
+    /** M 14.3. */
+    private checkWork(header: Header): void {
+        const { blocks, blockSize } = header;
+        const width = Math.max(header.coefficients, header.details);
+        checkLimit(this.limits, "coefficients", width);
+        const orthogonal = solvesOf(header) * (40 * blockSize * width + 8 * blockSize * width ** 2);
+        checkLimit(this.limits, "work", header.basis === 1 ? 30 * blocks * blockSize ** 3 : blocks * (200 * blockSize + orthogonal));
+    }
+
+    private acceptConnectivity(method: number, data: Uint8Array): void {
+        const { memory, header } = this;
+        if (method !== CONNECTIVITY_METHOD) throw new UnsupportedError(`connectivity method ${method} is unknown to this decoder`);
+        this.faces = decodeConnectivity(memory, data, header!.vertices, header!.faces, this.limits);
+        if (header!.grid.length > 0) return;
+        this.graph = makeGraph(memory, this.faces, header!.vertices);
+        if (header!.details > 0) this.surface = makeSurface(memory, this.faces, header!.vertices);
+    }
+
+    private acceptPartition(method: number, data: Uint8Array): void {
+        if (method !== PARTITION_METHOD) throw new UnsupportedError(`partition method ${method} is unknown to this decoder`);
+        const { offsets, neighbours } = this.graph!;
+        const labels = decodeLabels(this.memory, data, offsets, neighbours, this.header!.blocks);
+        this.partition = groupLabels(this.memory, labels, this.header!.blocks);
+    }
+
+    private acceptOrder(method: number, data: Uint8Array): void {
+        if (method === GIVEN_ORDER_METHOD && !this.header!.gopFrames) return; // A decoder may ignore it (F 9).
+        if (method !== ORDER_METHOD) throw new UnsupportedError(`order method ${method} is unknown to this decoder`);
+        this.arrangement = decodeArrangement(this.memory, data, this.faces!, this.header!.vertices);
+    }
+
+    private acceptBlock(index: number, coefficients: number, data: Uint8Array): void {
+        const blocks = this.built();
+        this.expect(index);
+        this.nextIndex++;
+        const number = Math.floor(index / chainLength(this.header!));
+        if (this.chain?.number !== number) {
+            this.memory.release(this.behindMesh);
+            this.chain = { number, decoder: new ChainDecoder(this.memory, this.header!, blocks, this.allowance, this.surface) };
+        }
+        this.queue.push(this.chain.decoder.decode(index, coefficients, data));
+    }
+
+    private acceptGrid(first: number, count: number, data: Uint8Array): void {
+        if (!this.grid) {
+            this.grid = new Grid(this.memory, this.faces!, this.header!);
+            this.queue.push({ type: "connectivity", faces: this.shownFaces() });
+        }
+        const changes = this.grid.decode(first, count, data);
+        this.queue.push({ type: "block", index: this.chunks++, ...this.numbered(changes) });
+    }
+
+    private acceptRefinement(layer: number, first: number, count: number, data: Uint8Array): void {
+        this.built();
+        this.expect(this.header!.blocks);
+        if (!this.refinement) {
+            this.memory.release(this.behindMesh);
+            this.refinement = new Refinement(this.memory, this.faces!, this.header!, this.assembly!.base());
+        }
+        const changes = this.refinement.decode(layer, first, count, data);
+        this.queue.push({ type: "refinement", layer, ...this.numbered(changes) });
+    }
+
+    /** Vertices by the numbers that the mesh had, if the stream stores them. */
+    private numbered(changes: Changes): Changes {
+        const numbers = this.arrangement?.numbers;
+        return numbers ? { ...changes, vertices: changes.vertices.map((vertex) => numbers[vertex]) } : changes;
+    }
+
+    /** All positions in the unit of the mesh, as vertices are numbered in the decoded faces. */
+    private wholePositions(): Float64Array {
+        return this.grid?.positions ?? this.refinement?.whole() ?? inMeshUnits(this.assembly!.base(), this.header!);
+    }
+
+    private arranged(positions: Float64Array): Float64Array {
+        const numbers = this.arrangement?.numbers;
+        if (!numbers) return positions;
+        const arranged = new Float64Array(positions.length);
+        numbers.forEach((to, from) => arranged.set(positions.subarray(3 * from, 3 * from + 3), 3 * to));
+        return arranged;
+    }
+
+    private acceptEnd(): void {
+        if (this.grid) {
+            this.queue.push({ type: "end" });
+            return;
+        }
+        this.built();
+        this.expect(this.header!.blocks);
+        this.queue.push({ type: "end" });
+    }
+
+    private expect(index: number): void {
+        if (index !== this.nextIndex) throw new CorruptError("the frame of a block is missing", { block: this.nextIndex });
+    }
+
+    /** The blocks, built when the first of them is needed. */
+    private built(): Blocks {
+        if (this.blocks) return this.blocks;
+        const { memory, header, graph } = this;
+        const partition = this.partition ?? derivePartition(memory, graph!, header!.blocks);
+        const largest = largestPart(partition);
+        if (largest > header!.blockSize) throw new CorruptError(`a part of ${largest} vertices in blocks of ${header!.blockSize}`);
+        this.blocks = growBlocks(memory, graph!, partition, header!.blockSize);
+        this.assembly = new Assembly(memory, this.blocks, header!);
+        this.behindMesh = memory.mark();
+        this.queue.push({ type: "connectivity", faces: this.shownFaces() });
+        return this.blocks;
+    }
+
+    private shownFaces(): Int32Array {
+        return this.arrangement?.faces ?? this.faces!.view.slice();
+    }
+}
+
+function makeSurface(memory: Memory, faces: Ints, size: number): Surface {
+    const surface = { faces, starts: memory.longs(size + 1), members: memory.ints(faces.length), place: memory.ints(size) };
+    surface.place.view.fill(0);
+    memory.run("vertex_faces", faces, surface.starts, surface.members);
+    return surface;
+}
+
+/** Decode a complete stream. */
+export function decode(kernels: Kernels, data: Uint8Array, limits: Partial<Limits> = {}): Mesh {
+    const decoder = new Decoder(kernels, limits);
+    decoder.receiveData(data);
+    return decoder.finish();
+}
+
+export { END_OF_STREAM, NEED_DATA };

@@ -1,0 +1,68 @@
+/** Every failure of the decoder: one base class, and a class for each thing a caller may want to do about it. */
+
+/** Where in a stream something was noticed: byte offset, number of the frame, index of the block. */
+export interface Place {
+    offset?: number;
+    frame?: number;
+    block?: number;
+}
+
+/** Base of all errors of this package. */
+export class BsmError extends Error {
+    // Written out in every class: a bundler shortens the names of classes.
+    override readonly name: string = "BsmError";
+    readonly place: Place = {};
+
+    constructor(
+        readonly problem: string,
+        place: Place = {},
+    ) {
+        super(problem);
+        this.located(place);
+    }
+
+    /** Fill in the places that are not known yet, and return the same error. */
+    located(place: Place): this {
+        this.place.offset ??= place.offset;
+        this.place.frame ??= place.frame;
+        this.place.block ??= place.block;
+        const { offset, frame, block } = this.place;
+        const parts = [
+            ["byte", offset],
+            ["frame", frame],
+            ["block", block],
+        ].flatMap(([name, value]) => (value === undefined ? [] : [`${name} ${value}`]));
+        this.message = parts.length ? `${this.problem} [${parts.join(", ")}]` : this.problem;
+        return this;
+    }
+}
+
+/** The data is not a BSM stream at all. */
+export class FormatError extends BsmError {
+    override readonly name = "FormatError";
+}
+
+/** Well formed as far as it can be read, but of a version or method that this decoder does not know. */
+export class UnsupportedError extends BsmError {
+    override readonly name = "UnsupportedError";
+}
+
+/** A BSM stream that contradicts itself or its checksums. */
+export class CorruptError extends BsmError {
+    override readonly name = "CorruptError";
+}
+
+/** The data ends before the stream does. */
+export class TruncatedError extends BsmError {
+    override readonly name = "TruncatedError";
+}
+
+/** The stream asks for more memory or work than the caller's limits allow. */
+export class LimitError extends BsmError {
+    override readonly name = "LimitError";
+}
+
+/** The mathematics broke down: a value that is not finite. */
+export class NumericError extends BsmError {
+    override readonly name = "NumericError";
+}

@@ -1,0 +1,192 @@
+/** Fields of integers on a mesh: positions on a grid, and levels that refine what blocks decoded to (specification, V, M 17). */
+import { inMeshUnits, type Changes } from "./assembly";
+import { Coder } from "./entropy";
+import { NumericError } from "./errors";
+import type { Header } from "./header";
+import type { Argument, Doubles, Ints, Memory } from "./kernels";
+
+const PREDICTIONS = 7;
+const TERMS = 7;
+const CONTEXTS = 6;
+const NODES = 66;
+const WEIGHT_ROWS = NODES + 3 * CONTEXTS;
+const INPUTS = PREDICTIONS + CONTEXTS + 1;
+const SLOTS = CONTEXTS * 512 * NODES;
+const HITS = PREDICTIONS * 32;
+const SCALES = PREDICTIONS * 512;
+const LEARNER = TERMS * (TERMS + 1) + 2 * TERMS;
+const SUM_LEARNERS = 48;
+
+/** What has been learnt about integers; the structure ValueModel of the kernels (V 3). */
+function makeModel(memory: Memory): Argument {
+    const [slots, hits] = [memory.words(SLOTS), memory.words(HITS)];
+    const weights = memory.ints(WEIGHT_ROWS * INPUTS, INPUTS);
+    const scales = memory.ints(2 * SCALES, 2);
+    slots.view.fill(2 ** 31);
+    hits.view.fill(2 ** 28);
+    scales.view.fill(0);
+    const numbers = weights.view.fill(0);
+    for (let row = 0; row < NODES; row++) {
+        numbers.fill(Math.floor((65536 * 9) / (8 * PREDICTIONS)), row * INPUTS, row * INPUTS + PREDICTIONS);
+        numbers.fill(6000, row * INPUTS + PREDICTIONS, (row + 1) * INPUTS - 1);
+    }
+    return [slots, hits, weights, scales];
+}
+
+/** Learners that start from, and are drawn to, the weights that `start` tells of each (V 2). */
+function makeLearners(memory: Memory, count: number, start: (learner: number) => number[]): Argument {
+    const learners = memory.longs(count * LEARNER, LEARNER);
+    const numbers = learners.view.fill(0n);
+    for (let k = 0; k < count; k++) {
+        start(k).forEach((weight, term) => {
+            const at = k * LEARNER + TERMS * (TERMS + 1) + term;
+            numbers[at] = numbers[at + TERMS] = BigInt(weight);
+        });
+    }
+    return learners;
+}
+
+/** The structure Corners of the kernels: corners at each vertex, and those beyond edges. */
+function linkCorners(memory: Memory, faces: Ints, size: number): Argument {
+    const starts = memory.ints(size + 1);
+    const corners = memory.ints(faces.length);
+    const opposite = memory.ints(faces.length);
+    const rank = memory.ints(size);
+    starts.view.fill(0);
+    corners.view.fill(0);
+    opposite.view.fill(-1);
+    rank.view.forEach((_, vertex, all) => (all[vertex] = vertex));
+    const linked = [faces, starts, corners, opposite, rank];
+    memory.scratch(() => {
+        const scratch = memory.ints(size + faces.length);
+        scratch.view.fill(-1);
+        memory.call("link_corners", linked, scratch);
+    });
+    return linked;
+}
+
+function zeros(place: Ints): Ints {
+    place.view.fill(0);
+    return place;
+}
+
+/** Decode the next vertices of a field by its kernel. */
+function decodeChunk(memory: Memory, kernel: string, state: Argument[], payload: Uint8Array, first: number, count: number): void {
+    memory.scratch(() => {
+        const coder = new Coder(memory, payload);
+        const done = memory.call(kernel, coder.parts, ...state, BigInt(first), BigInt(count));
+        if (coder.overran || done < count) throw coder.nonsense(`vertex ${done} of ${count} has a value out of range`);
+        coder.finish();
+    });
+}
+
+/** Positions on a grid, chunk by chunk, in the order that follows from the faces (V 7 to V 9, V 12). */
+export class Grid {
+    /** In the unit of the mesh, as vertices are numbered in the decoded faces. */
+    readonly positions: Float64Array;
+    private readonly state: Argument[];
+    private readonly order: Ints;
+    private readonly values: Ints;
+
+    constructor(
+        private readonly memory: Memory,
+        faces: Ints,
+        private readonly header: Header,
+    ) {
+        const size = header.vertices;
+        this.positions = new Float64Array(3 * size);
+        const corners = linkCorners(memory, faces, size);
+        this.order = memory.ints(size);
+        memory.scratch(() => {
+            const scratch = memory.ints(3 * size, size);
+            scratch.view.fill(-1);
+            memory.call("order_vertices", corners, this.order, scratch);
+        });
+        const model = makeModel(memory);
+        const largest = memory.ints(3);
+        largest.view.set(header.grid);
+        this.values = zeros(memory.ints(3 * size, 3));
+        const words = Math.floor(Math.max(...header.grid) / 64) + 1;
+        const [sums, seen] = [memory.longs(4 * size, 4), memory.longs(3 * words, words)];
+        sums.view.fill(0n);
+        seen.view.fill(0n);
+        const gaps = zeros(memory.ints(3 * size, 3));
+        const learners = makeLearners(memory, SUM_LEARNERS + 12, (k) => (k < SUM_LEARNERS ? [49152] : [49152, 8192]));
+        this.state = [model, corners, [largest, this.order, this.values, gaps, sums, seen, learners]];
+    }
+
+    decode(first: number, count: number, payload: Uint8Array): Changes {
+        const { header, memory } = this;
+        decodeChunk(memory, "code_grid", this.state, payload, first, count);
+        const vertices = this.order.view.slice(first, first + count);
+        const values = this.values.view;
+        const positions = new Float64Array(3 * count);
+        vertices.forEach((vertex, i) => {
+            for (let d = 0; d < 3; d++) positions[3 * i + d] = this.spread(values[3 * vertex + d]);
+        });
+        inMeshUnits(positions, header);
+        vertices.forEach((vertex, i) => this.positions.set(positions.subarray(3 * i, 3 * i + 3), 3 * vertex));
+        return { vertices, positions, final: new Uint8Array(count).fill(1) };
+    }
+
+    /** The cell of a coded value (V 12), in integers. */
+    private spread(value: number): number {
+        if (this.header.lattice.length === 0) return value;
+        const [cells, points] = this.header.lattice.map(BigInt);
+        return Number((2n * BigInt(value) * cells + points) / (2n * points));
+    }
+}
+
+/** A mesh refined by layers of levels, each in the frames of the base (M 17). */
+export class Refinement {
+    private readonly positions: Doubles;
+    private readonly frames: Doubles;
+    private readonly behind: number;
+    private layer = -1;
+    private axes = 1;
+    private levels?: Ints;
+    private state: Argument[] = [];
+
+    constructor(
+        private readonly memory: Memory,
+        private readonly faces: Ints,
+        private readonly header: Header,
+        base: Float64Array,
+    ) {
+        this.positions = memory.copy(base, 3);
+        this.frames = memory.doubles(9 * header.vertices, 9);
+        memory.call("local_frames", this.positions, faces, this.frames);
+        this.behind = memory.mark();
+    }
+
+    decode(layer: number, first: number, count: number, payload: Uint8Array): Changes {
+        const { header, memory } = this;
+        if (layer !== this.layer) this.begin(layer);
+        decodeChunk(memory, "code_levels", this.state, payload, first, count);
+        const [step, ratio] = header.refinements.slice(2 * layer, 2 * layer + 2);
+        const moved = this.positions.part(3 * first, 3 * count, 3);
+        const levels = this.levels!.part(this.axes * first, this.axes * count, this.axes);
+        memory.call("add_levels", moved, this.frames.part(9 * first, 9 * count, 9), levels, step, ratio);
+        const vertices = Int32Array.from({ length: count }, (_, i) => first + i);
+        return { vertices, positions: inMeshUnits(moved.view.slice(), header), final: new Uint8Array(count) };
+    }
+
+    /** All positions in the unit of the mesh. */
+    whole(): Float64Array {
+        if (!this.positions.view.every(Number.isFinite)) throw new NumericError("refined positions are not finite");
+        return inMeshUnits(this.positions.view.slice(), this.header);
+    }
+
+    /** The state of a layer takes the place of that of the one before. */
+    private begin(layer: number): void {
+        const { header, memory } = this;
+        const size = header.vertices;
+        memory.release(this.behind);
+        this.layer = layer;
+        this.axes = header.refinements[2 * layer + 1] === 0 ? 1 : 3;
+        const field = (): Ints => zeros(memory.ints(this.axes * size, this.axes));
+        this.levels = field();
+        const learners = makeLearners(memory, 12, (k) => (k % 4 === 0 ? [52000] : [52000, 28000]));
+        this.state = [makeModel(memory), linkCorners(memory, this.faces, size), [this.levels, field(), field(), learners]];
+    }
+}

@@ -1,0 +1,188 @@
+/** The header: fields, legal values, contradictions (specification, F 4). */
+import { CorruptError, UnsupportedError } from "./errors";
+import { checkLimit, type Limits } from "./limits";
+import { parseMap, type Value } from "./maps";
+
+/** What a decoder must know before anything else; the names are those of the specification. */
+export interface Header {
+    vertices: number;
+    faces: number;
+    blocks: number;
+    blockSize: number;
+    coefficients: number;
+    basis: number;
+    seeding: number;
+    keyInterval: number;
+    power: number;
+    iterations: number;
+    keyIterations: number;
+    shift: number;
+    blend: number;
+    coding: number;
+    bits: number;
+    step: number;
+    center: number[];
+    scale: number;
+    prediction: number[];
+    smoothing: number;
+    frames: number;
+    frameRate: number;
+    gopFrames: number;
+    weights: number;
+    detailStep: number;
+    details: number;
+    coarser: number;
+    grid: number[];
+    lattice: number[];
+    refinements: number[];
+}
+
+interface Field {
+    key: number;
+    type: "int" | "method" | "float" | "ints" | "floats";
+    low: number;
+    high: number;
+    default?: number | number[];
+    lengths?: [number, number];
+}
+
+const COUNT = 2 ** 31 - 1;
+const METHODS = 255;
+const FIRST_IGNORABLE_KEY = 64;
+
+const FIELDS: Record<keyof Header, Field> = {
+    vertices: { key: 1, type: "int", low: 1, high: COUNT },
+    faces: { key: 2, type: "int", low: 1, high: COUNT },
+    blocks: { key: 3, type: "int", low: 0, high: COUNT, default: 0 },
+    blockSize: { key: 4, type: "int", low: 0, high: COUNT, default: 0 },
+    coefficients: { key: 5, type: "int", low: 0, high: COUNT, default: 0 },
+    basis: { key: 6, type: "method", low: 0, high: 1, default: 0 },
+    seeding: { key: 7, type: "method", low: 0, high: 1, default: 0 },
+    keyInterval: { key: 8, type: "int", low: 0, high: COUNT, default: 0 },
+    power: { key: 9, type: "int", low: 1, high: 64, default: 2 },
+    iterations: { key: 10, type: "int", low: 1, high: 1024, default: 1 },
+    keyIterations: { key: 11, type: "int", low: 1, high: 1024, default: 8 },
+    shift: { key: 12, type: "float", low: 2 ** -30, high: 2 ** 30, default: 0.03125 },
+    blend: { key: 13, type: "method", low: 0, high: 2, default: 0 },
+    coding: { key: 14, type: "method", low: 0, high: 1, default: 1 },
+    bits: { key: 15, type: "int", low: 1, high: 32, default: 12 },
+    step: { key: 16, type: "float", low: 2 ** -40, high: 2 ** 20, default: 2 ** -8 },
+    center: { key: 17, type: "floats", low: -1e300, high: 1e300, default: [0, 0, 0], lengths: [3, 3] },
+    scale: { key: 18, type: "float", low: 1e-300, high: 1e300, default: 1 },
+    prediction: { key: 19, type: "floats", low: -1e30, high: 1e30, default: [], lengths: [0, 16] },
+    smoothing: { key: 20, type: "float", low: 0, high: 1e6, default: 0 },
+    frames: { key: 21, type: "int", low: 0, high: COUNT, default: 0 },
+    frameRate: { key: 22, type: "float", low: 0, high: 1e6, default: 0 },
+    gopFrames: { key: 23, type: "int", low: 0, high: COUNT, default: 0 },
+    weights: { key: 24, type: "method", low: 0, high: 1, default: 0 },
+    detailStep: { key: 25, type: "float", low: 0, high: 2 ** 20, default: 0 },
+    details: { key: 26, type: "int", low: 0, high: COUNT, default: 0 },
+    coarser: { key: 27, type: "int", low: 0, high: 30, default: 0 },
+    grid: { key: 28, type: "ints", low: 0, high: 2 ** 20 - 1, default: [], lengths: [0, 3] },
+    lattice: { key: 29, type: "ints", low: 1, high: COUNT, default: [], lengths: [0, 2] },
+    refinements: { key: 30, type: "floats", low: 0, high: 64, default: [], lengths: [0, 8] },
+};
+
+const LIMITED = ["vertices", "faces", "blocks", "blockSize", "coefficients", "frames", "gopFrames"] as const;
+
+/** The header in a payload; its counts are checked against `limits`. */
+export function parseHeader(payload: Uint8Array, limits: Limits): Header {
+    const names = new Map(Object.entries(FIELDS).map(([name, field]) => [field.key, name as keyof Header]));
+    const header: Partial<Record<keyof Header, number | number[]>> = {};
+    for (const [key, value] of parseMap(payload)) {
+        if (key.type !== "int") throw new CorruptError("a header key is not an integer");
+        if (key.value >= FIRST_IGNORABLE_KEY) continue;
+        const name = names.get(Number(key.value));
+        if (name === undefined) throw new UnsupportedError(`header key ${key.value} is unknown to this decoder`);
+        const found = fieldValue(name, value);
+        if (same(found, FIELDS[name].default)) throw new CorruptError(`header field ${name} is stored with its default value`);
+        header[name] = found;
+    }
+    for (const [name, field] of Object.entries(FIELDS) as [keyof Header, Field][]) {
+        header[name] ??= field.default;
+        const given = header[name];
+        if (given === undefined) throw new CorruptError(`the header lacks ${name}`);
+        checkRange(name, field, given);
+    }
+    const complete = header as Header;
+    checkContradictions(complete);
+    for (const name of LIMITED) checkLimit(limits, name, complete[name]);
+    return complete;
+}
+
+function fieldValue(name: keyof Header, value: Value): number | number[] {
+    const field = FIELDS[name];
+    if (field.type === "floats" || field.type === "ints") {
+        if (value.type === "array") {
+            return value.value.map((item) => {
+                if (`${item.type}s` === field.type) return Number(item.value);
+                throw new CorruptError(`an entry of the header field ${name} is of type ${item.type}`);
+            });
+        }
+    } else if (value.type === (field.type === "float" ? "float" : "int")) {
+        const number = Number(value.value);
+        if (field.type === "method" && number > field.high && number <= METHODS) {
+            throw new UnsupportedError(`header field ${name} names method ${number}, unknown to this decoder`);
+        }
+        return number;
+    }
+    throw new CorruptError(`header field ${name} is of type ${value.type}`);
+}
+
+function same(a: number | number[], b: number | number[] | undefined): boolean {
+    if (Array.isArray(a) && Array.isArray(b)) return a.length === b.length && a.every((item, i) => item === b[i]);
+    return a === b;
+}
+
+function checkRange(name: string, field: Field, value: number | number[]): void {
+    const items = Array.isArray(value) ? value : [value];
+    const [least, most] = field.lengths ?? [1, 1];
+    if (items.length < least || items.length > most || !items.every((item) => item >= field.low && item <= field.high)) {
+        throw new CorruptError(`header field ${name} = ${value} is outside its legal range`);
+    }
+}
+
+/** F 4.6: the rules of a grid, or those of blocks. */
+function checkContradictions(header: Header): void {
+    const rules = header.grid.length > 0 ? gridRules(header) : blockRules(header);
+    const broken = rules.find(([, broken]) => broken);
+    if (broken) throw new CorruptError(`the header contradicts itself: ${broken[0]}`);
+}
+
+const OF_A_GRID: (keyof Header)[] = ["vertices", "faces", "center", "scale", "grid", "lattice"];
+
+function gridRules(header: Header): [string, boolean][] {
+    const { vertices, faces, grid, lattice } = header;
+    const [cells, points] = lattice.length === 2 ? lattice : [0, 0];
+    const others = (Object.keys(FIELDS) as (keyof Header)[]).filter((name) => !OF_A_GRID.includes(name));
+    return [
+        ["more vertices than the corners of its faces", vertices > 3 * faces],
+        ["a grid of other than three axes", grid.length !== 3],
+        ["a lattice that is not cells and points", lattice.length === 1],
+        ["a lattice with fewer points than the grid has values", points > 0 && points < Math.max(...grid)],
+        ["a lattice of more points than cells", points > cells],
+        ["a grid, and fields of blocks", others.some((name) => !same(header[name], FIELDS[name].default))],
+    ];
+}
+
+function blockRules(header: Header): [string, boolean][] {
+    const { vertices, faces, blocks, blockSize, coefficients, details, detailStep, frames, gopFrames } = header;
+    const steps = header.refinements.filter((_, i) => i % 2 === 0);
+    const ratios = header.refinements.filter((_, i) => i % 2 === 1);
+    return [
+        ["neither blocks nor a grid", blocks * blockSize * coefficients === 0],
+        ["a lattice without a grid", header.lattice.length > 0],
+        ["more vertices than the corners of its faces", vertices > 3 * faces],
+        ["more blocks than vertices", blocks > vertices],
+        ["blocks larger than the mesh", blockSize > vertices],
+        ["blocks too small to cover the mesh", blocks * blockSize < vertices],
+        ["more coefficients than a block has vertices", coefficients > blockSize],
+        ["more details than a block has vertices", details > blockSize],
+        ["details without a step, or a step without details", details > 0 !== detailStep > 0],
+        ["frames without a length for GOPs", frames > 0 && gopFrames === 0],
+        ["refinements that are not pairs of step and ratio", steps.length !== ratios.length],
+        ["a step of a refinement out of its range", !steps.every((step) => step >= 2 ** -40 && step <= 1)],
+        ["a ratio of a refinement out of its range", !ratios.every((ratio) => ratio === 0 || ratio >= 1 / 16)],
+        ["refinements of a sequence", steps.length > 0 && gopFrames > 0],
+    ];
+}

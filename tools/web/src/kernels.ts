@@ -1,0 +1,219 @@
+/**
+ * The kernels in C, compiled to WebAssembly, and the memory that they work on.
+ *
+ * Memory is a stack: what is allocated behind a mark is given back as a whole, and everything that a stream can ask for
+ * is counted against one limit before it exists. An array is known by its place, since its view changes where memory
+ * grows.
+ */
+import { LimitError } from "./errors";
+
+type Numbers = Uint8Array | Int32Array | Uint32Array | BigInt64Array | Float64Array;
+
+interface Kind<View extends Numbers> {
+    readonly BYTES_PER_ELEMENT: number;
+    new (buffer: ArrayBufferLike, offset: number, length: number): View;
+}
+
+/** What a kernel takes: int64, double, arrays as the structures of kernel.h, structures of all these. */
+export type Argument = bigint | number | Place<Numbers> | readonly Argument[];
+
+/** An array in the memory of the kernels; of two dimensions if `columns` is given. */
+export class Place<View extends Numbers> {
+    constructor(
+        private readonly memory: Memory,
+        private readonly kind: Kind<View>,
+        readonly pointer: number,
+        readonly length: number,
+        readonly columns?: number,
+    ) {}
+
+    /** Its numbers, until the next allocation. */
+    get view(): View {
+        return new this.kind(this.memory.buffer, this.pointer, this.length);
+    }
+
+    /** The numbers from `start` on, as an array of their own shape. */
+    part(start: number, length: number, columns?: number): Place<View> {
+        if (start < 0 || length < 0 || start + length > this.length) throw new RangeError("a part outside of its array");
+        return new Place(this.memory, this.kind, this.pointer + start * this.kind.BYTES_PER_ELEMENT, length, columns);
+    }
+}
+
+export type Bytes = Place<Uint8Array>;
+export type Ints = Place<Int32Array>;
+export type Words = Place<Uint32Array>;
+export type Longs = Place<BigInt64Array>;
+export type Doubles = Place<Float64Array>;
+
+const PAGE = 65536;
+const LINE = 16;
+const ARGUMENT_BYTES = 1024;
+const MISUSED = -(2n ** 63n);
+
+type Exports = Record<string, unknown> & { memory: WebAssembly.Memory };
+
+/** The compiled kernels, and what they start from; one for any number of decoders. */
+export class Kernels {
+    private constructor(private readonly module: WebAssembly.Module) {}
+
+    /** Compile the bytes of one of the two builds. */
+    static async compile(bytes: BufferSource): Promise<Kernels> {
+        return new Kernels(await WebAssembly.compile(bytes));
+    }
+
+    /** Memory for one decoder, of at most `limit` bytes. */
+    instantiate(limit: number): Memory {
+        return new Memory(new WebAssembly.Instance(this.module).exports as Exports, limit);
+    }
+}
+
+/** Whether this machine has the vector instructions of WebAssembly. */
+export function hasVectors(): boolean {
+    // A function that makes a vector: (func (result v128) i32.const 0 i8x16.splat)
+    const probe = [0, 97, 115, 109, 1, 0, 0, 0, 1, 5, 1, 96, 0, 1, 123, 3, 2, 1, 0, 10, 8, 1, 6, 0, 65, 0, 253, 15, 11];
+    return WebAssembly.validate(Uint8Array.from(probe));
+}
+
+/** A stack of arrays, and the kernels that take them. */
+export class Memory {
+    private readonly frame: number;
+    private top: number;
+
+    constructor(
+        private readonly exports: Exports,
+        private readonly limit: number,
+    ) {
+        this.frame = align((exports.__heap_base as WebAssembly.Global).value as number);
+        this.top = this.frame + ARGUMENT_BYTES;
+        this.reserve(this.top);
+    }
+
+    get buffer(): ArrayBuffer {
+        return this.exports.memory.buffer;
+    }
+
+    /** Bytes in use. */
+    get size(): number {
+        return this.top;
+    }
+
+    /** The numbers that coefficients start from (specification, M 9.1). */
+    priors(length: number): Uint8Array {
+        return new Uint8Array(this.buffer, (this.exports.PRIORS as WebAssembly.Global).value as number, length);
+    }
+
+    mark(): number {
+        return this.top;
+    }
+
+    /** Give back everything that was allocated since `mark`. */
+    release(mark: number): void {
+        this.top = mark;
+    }
+
+    /** What `work` returns; all that it allocates is given back. */
+    scratch<Result>(work: () => Result): Result {
+        const mark = this.mark();
+        try {
+            return work();
+        } finally {
+            this.release(mark);
+        }
+    }
+
+    bytes(length: number): Bytes {
+        return this.place(Uint8Array, length);
+    }
+
+    ints(length: number, columns?: number): Ints {
+        return this.place(Int32Array, length, columns);
+    }
+
+    words(length: number): Words {
+        return this.place(Uint32Array, length);
+    }
+
+    longs(length: number, columns?: number): Longs {
+        return this.place(BigInt64Array, length, columns);
+    }
+
+    doubles(length: number, columns?: number): Doubles {
+        return this.place(Float64Array, length, columns);
+    }
+
+    /** An array with the numbers of `values`. */
+    copy(values: Float64Array, columns?: number): Doubles {
+        const place = this.doubles(values.length, columns);
+        place.view.set(values);
+        return place;
+    }
+
+    /** The array allocated last, with room for `length` numbers. */
+    enlarged<View extends Numbers>(place: Place<View>, length: number): Place<View> {
+        const kind = (place as unknown as { kind: Kind<View> }).kind;
+        const end = place.pointer + align(place.length * kind.BYTES_PER_ELEMENT);
+        if (end !== this.top) throw new RangeError("only the array allocated last can grow");
+        this.top = place.pointer;
+        return this.place(kind, length, place.columns);
+    }
+
+    /** Call a kernel that returns an int64. */
+    call(name: string, ...args: Argument[]): number {
+        const result = this.invoke(name, args);
+        if (result === MISUSED) throw new RangeError(`arrays that do not fit together were given to ${name}`);
+        return Number(result);
+    }
+
+    /** Call a kernel that returns a double, a bool or nothing. */
+    run(name: string, ...args: Argument[]): number {
+        return Number(this.invoke(name, args) ?? 0);
+    }
+
+    private invoke(name: string, args: Argument[]): unknown {
+        const view = new DataView(this.buffer, this.frame, ARGUMENT_BYTES);
+        let at = 0;
+        const write = (argument: Argument): void => {
+            if (typeof argument === "bigint") view.setBigInt64(at, argument, true);
+            else if (typeof argument === "number") view.setFloat64(at, argument, true);
+            else if (argument instanceof Place) return writeArray(argument);
+            else return argument.forEach(write);
+            at += 8;
+        };
+        const writeArray = ({ pointer, length, columns }: Place<Numbers>): void => {
+            view.setUint32(at, pointer, true);
+            const sizes = columns === undefined ? [length] : [columns ? length / columns : 0, columns];
+            sizes.forEach((size, i) => view.setBigInt64(at + 8 + 8 * i, BigInt(size), true));
+            at += 8 + 8 * sizes.length;
+        };
+        const passed = args.map((argument) => {
+            if (typeof argument === "bigint" || typeof argument === "number") return argument;
+            const start = at;
+            write(argument);
+            return this.frame + start;
+        });
+        return (this.exports[name] as (...args: (bigint | number)[]) => unknown)(...passed);
+    }
+
+    private place<View extends Numbers>(kind: Kind<View>, length: number, columns?: number): Place<View> {
+        const pointer = this.top;
+        const end = align(pointer + length * kind.BYTES_PER_ELEMENT);
+        this.reserve(end);
+        this.top = end;
+        return new Place(this, kind, pointer, length, columns);
+    }
+
+    private reserve(end: number): void {
+        if (end > this.limit) throw new LimitError(`memory = ${end} bytes is over the limit of ${this.limit}`);
+        const missing = Math.ceil((end - this.buffer.byteLength) / PAGE);
+        if (missing <= 0) return;
+        try {
+            this.exports.memory.grow(missing);
+        } catch {
+            throw new LimitError(`this machine has no ${end} bytes of memory for the decoder`);
+        }
+    }
+}
+
+function align(address: number): number {
+    return Math.ceil(address / LINE) * LINE;
+}

@@ -1,0 +1,39 @@
+import { LimitError } from "./errors";
+
+/** Upper bounds that a decoder checks before it allocates or works (specification, M 14.1). */
+export interface Limits {
+    vertices: number;
+    faces: number;
+    blocks: number;
+    blockSize: number;
+    coefficients: number;
+    frames: number;
+    gopFrames: number;
+    frameBytes: number;
+    metadataBytes: number;
+    /** Floating point operations of the dictionaries, by the estimate of the specification. */
+    work: number;
+    /** Bytes that the decoder's own memory may grow to. */
+    memory: number;
+}
+
+export const DEFAULT_LIMITS: Readonly<Limits> = {
+    vertices: 2 ** 24,
+    faces: 2 ** 25,
+    blocks: 2 ** 17,
+    blockSize: 8192,
+    coefficients: 4096,
+    frames: 2 ** 20,
+    gopFrames: 1024,
+    frameBytes: 2 ** 28,
+    metadataBytes: 2 ** 16,
+    work: 5e13,
+    memory: 2 ** 31,
+};
+
+/** Throw `LimitError` if `value` exceeds the limit called `name`. */
+export function checkLimit(limits: Limits, name: keyof Limits, value: number): void {
+    if (value > limits[name]) {
+        throw new LimitError(`${name} = ${value} is over the limit of ${limits[name]}; raise it if you trust the source`);
+    }
+}

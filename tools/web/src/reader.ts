@@ -1,0 +1,341 @@
+/** Bytes to packets, without input or output of its own (specification, F 2, F 3, F 5). */
+import { crc16, crc32 } from "./checksums";
+import { BsmError, CorruptError, FormatError, TruncatedError, UnsupportedError } from "./errors";
+import { parseHeader, type Header } from "./header";
+import { checkLimit, type Limits } from "./limits";
+import { parseMap } from "./maps";
+
+export const NEED_DATA = "need data";
+export const END_OF_STREAM = "end of stream";
+export type Signal = typeof NEED_DATA | typeof END_OF_STREAM;
+
+export type Packet =
+    | { type: "header"; header: Header }
+    | { type: "metadata" }
+    | { type: "connectivity" | "partition" | "order"; method: number; data: Uint8Array }
+    | { type: "block"; index: number; coefficients: number; data: Uint8Array }
+    | { type: "gop"; index: number; data: Uint8Array }
+    | { type: "grid"; first: number; count: number; data: Uint8Array }
+    | { type: "refinement"; layer: number; first: number; count: number; data: Uint8Array }
+    | { type: "end"; frames: number; crc: number };
+
+type Kind = Packet["type"];
+
+const PREAMBLE = Uint8Array.of(0x89, 0x42, 0x53, 0x4d, 0);
+const MAGIC_SIZE = 4;
+const KINDS: Record<number, Kind> = {
+    1: "header",
+    2: "metadata",
+    3: "connectivity",
+    4: "partition",
+    5: "order",
+    6: "block",
+    7: "gop",
+    12: "grid",
+    13: "refinement",
+    15: "end",
+};
+const BLOCK_TAG = 6;
+const MAX_VARINT_BYTES = 5;
+
+/** What may follow a frame of each type, metadata and skippable frames left aside (F 3.7, F 3.8). */
+const FOLLOWERS: Record<Kind | "start", Kind[]> = {
+    start: ["header"],
+    header: ["connectivity"],
+    metadata: [],
+    connectivity: ["partition", "order", "block", "gop", "grid", "refinement", "end"],
+    partition: ["order", "block", "gop", "grid", "refinement", "end"],
+    order: ["block", "gop", "grid", "refinement", "end"],
+    block: ["block", "gop", "refinement", "end"],
+    gop: ["gop", "end"],
+    grid: ["grid", "end"],
+    refinement: ["refinement", "end"],
+    end: [],
+};
+
+/** Reads a payload from front to back; what it lacks or has too much is a `CorruptError`. */
+class Cursor {
+    private at = 0;
+
+    constructor(private readonly payload: Uint8Array) {}
+
+    varint(): number {
+        const parsed = parseVarint(this.payload, this.at, this.payload.length);
+        if (!parsed) throw new CorruptError("a payload ends inside a varint");
+        this.at = parsed.end;
+        return parsed.value;
+    }
+
+    take(count: number): Uint8Array {
+        if (count > this.payload.length - this.at) throw new CorruptError(`a payload lacks ${count} bytes`);
+        this.at += count;
+        return this.payload.subarray(this.at - count, this.at);
+    }
+
+    rest(): Uint8Array {
+        return this.take(this.payload.length - this.at);
+    }
+
+    finish(): void {
+        if (this.at !== this.payload.length) throw new CorruptError("a payload has bytes too many");
+    }
+}
+
+/** The varint at `start`, undefined if the data ends inside it (F 1.2). */
+export function parseVarint(data: Uint8Array, start: number, end: number): { value: number; end: number } | undefined {
+    let value = 0;
+    for (let k = 0; k < MAX_VARINT_BYTES && start + k < end; k++) {
+        const byte = data[start + k];
+        value += (byte & 127) * 2 ** (7 * k);
+        if (byte < 128) {
+            if (byte === 0 && k > 0) throw new CorruptError("a varint is not in its shortest form");
+            return { value, end: start + k + 1 };
+        }
+    }
+    if (end - start < MAX_VARINT_BYTES) return undefined;
+    throw new CorruptError("a varint is longer than five bytes");
+}
+
+const PARSERS: Record<Kind, (payload: Cursor, limits: Limits) => Packet> = {
+    header: (payload, limits) => ({ type: "header", header: parseHeader(payload.rest(), limits) }),
+    metadata: (payload, limits) => {
+        const data = payload.rest();
+        checkLimit(limits, "metadataBytes", data.length);
+        for (const [key, value] of parseMap(data)) {
+            if (key.type !== "string" || value.type === "array") throw new CorruptError("metadata of a wrong type");
+        }
+        return { type: "metadata" };
+    },
+    connectivity: (payload) => ({ type: "connectivity", method: payload.take(1)[0], data: payload.rest() }),
+    partition: (payload) => ({ type: "partition", method: payload.take(1)[0], data: payload.rest() }),
+    order: (payload) => ({ type: "order", method: payload.take(1)[0], data: payload.rest() }),
+    block: (payload) => ({ type: "block", index: payload.varint(), coefficients: payload.varint(), data: payload.rest() }),
+    gop: (payload) => ({ type: "gop", index: payload.varint(), data: payload.rest() }),
+    grid: (payload) => ({ type: "grid", first: payload.varint(), count: payload.varint(), data: payload.rest() }),
+    refinement: (payload) => {
+        const [layer, first, count] = [payload.varint(), payload.varint(), payload.varint()];
+        return { type: "refinement", layer, first, count, data: payload.rest() };
+    },
+    end: (payload) => {
+        const frames = payload.varint();
+        const crc = payload.take(4);
+        payload.finish();
+        return { type: "end", frames, crc: littleEndian(crc) };
+    },
+};
+
+function littleEndian(bytes: Uint8Array): number {
+    return bytes.reduceRight((value, byte) => value * 256 + byte, 0);
+}
+
+/** Which packet may follow which, and what it must have to agree with the header. */
+class Grammar {
+    header?: Header;
+    private last: Kind | "start" = "start";
+    private metadataSeen = false;
+    private nextBlock = 0;
+    private nextFrame = 0;
+    private nextVertex = 0;
+    private layer = 0;
+
+    /** Whether the header announces frames of a kind that it must announce (F 3.6). */
+    announces(kind: Kind): boolean {
+        if (kind === "grid") return !this.header || this.header.grid.length > 0;
+        return kind !== "refinement" || !this.header || this.header.refinements.length > 0;
+    }
+
+    get ended(): boolean {
+        return this.last === "end";
+    }
+
+    /** Take note of a packet, or throw what is wrong with it. */
+    advance(packet: Packet): void {
+        if (packet.type === "metadata") {
+            if (this.metadataSeen || !["header", "connectivity", "partition", "order"].includes(this.last)) {
+                throw new CorruptError("metadata may not come here");
+            }
+            this.metadataSeen = true;
+            return;
+        }
+        if (!FOLLOWERS[this.last].includes(packet.type)) throw new CorruptError(`${packet.type} may not come here`);
+        if (packet.type === "header") this.header = packet.header;
+        if (packet.type === "block") this.checkBlock(packet.index, packet.coefficients, this.header!);
+        if (packet.type === "gop") this.checkGop(packet.index, this.header!);
+        if (packet.type === "grid") this.checkChunk(packet.first, packet.count, this.header!);
+        if (packet.type === "refinement") this.checkRefinement(packet, this.header!);
+        if (packet.type === "partition" && this.header!.grid.length > 0) throw new CorruptError("parts where there are no blocks");
+        if (packet.type === "end" && this.header!.grid.length > 0 && this.nextVertex < this.header!.vertices) {
+            throw new CorruptError(`the positions end at vertex ${this.nextVertex} of ${this.header!.vertices}`);
+        }
+        this.last = packet.type;
+    }
+
+    private checkRefinement(packet: Extract<Packet, { type: "refinement" }>, header: Header): void {
+        const layers = header.refinements.length / 2;
+        if (packet.layer >= layers) throw new CorruptError(`layer ${packet.layer} of ${layers}`);
+        if (packet.layer < this.layer) throw new CorruptError("layers must ascend");
+        if (packet.layer > this.layer) this.nextVertex = 0;
+        this.layer = packet.layer;
+        this.checkChunk(packet.first, packet.count, header);
+    }
+
+    private checkChunk(first: number, count: number, header: Header): void {
+        if (first !== this.nextVertex) throw new CorruptError(`vertices from ${first} on where those from ${this.nextVertex} on must follow`);
+        if (count === 0 || count > header.vertices - first) throw new CorruptError(`${count} vertices from ${first} on`);
+        this.nextVertex = first + count;
+    }
+
+    private checkBlock(index: number, coefficients: number, header: Header): void {
+        if (index < this.nextBlock) throw new CorruptError("the indices of blocks must ascend");
+        if (index >= header.blocks) throw new CorruptError(`block ${index} of ${header.blocks}`);
+        if (coefficients > header.coefficients) throw new CorruptError(`${coefficients} coefficients are too many`);
+        this.nextBlock = index + 1;
+    }
+
+    private checkGop(index: number, header: Header): void {
+        if (index < this.nextFrame) throw new CorruptError("the indices of GOPs must ascend");
+        if (header.gopFrames === 0) throw new CorruptError("a GOP in the stream of a static mesh");
+        if (header.frames > 0 && index >= header.frames) throw new CorruptError(`a GOP from frame ${index} on`);
+        this.nextFrame = index + 1;
+    }
+}
+
+/** Strict: the first thing wrong is thrown, and thrown again by every later call. */
+export class Reader {
+    private buffer = new Uint8Array(0);
+    private begin = 0;
+    private end = 0;
+    private offset = 0;
+    private frames = 0;
+    private crc = 0;
+    private started = false;
+    private eof = false;
+    private error?: BsmError;
+    private readonly grammar = new Grammar();
+
+    constructor(private readonly limits: Limits) {}
+
+    /** Take more bytes of the stream, any number of them. */
+    receiveData(data: Uint8Array): void {
+        if (this.eof) throw new Error("bytes were given to a reader after receiveEof");
+        if (this.error || data.length === 0) return;
+        if (this.end + data.length > this.buffer.length) this.makeRoom(data.length);
+        this.buffer.set(data, this.end);
+        this.end += data.length;
+    }
+
+    /** Take note that no more bytes will come. */
+    receiveEof(): void {
+        this.eof = true;
+    }
+
+    /** Where the packet given last ended, in bytes of the stream. */
+    get position(): number {
+        return this.offset;
+    }
+
+    /** The next packet, `NEED_DATA`, or `END_OF_STREAM` after END and `receiveEof`. */
+    nextPacket(): Packet | Signal {
+        if (this.error) throw this.error;
+        try {
+            return this.next();
+        } catch (error) {
+            if (error instanceof BsmError) {
+                this.error = error.located({ offset: this.offset, frame: this.started ? this.frames : undefined });
+                this.buffer = new Uint8Array(0);
+            }
+            throw error;
+        }
+    }
+
+    private makeRoom(count: number): void {
+        const size = this.end - this.begin;
+        const grown = size + count > this.buffer.length / 2 ? new Uint8Array(2 * (size + count) + 1024) : this.buffer;
+        grown.set(this.buffer.subarray(this.begin, this.end));
+        this.buffer = grown;
+        this.begin = 0;
+        this.end = size;
+    }
+
+    private next(): Packet | Signal {
+        if (!this.started && !this.start()) return NEED_DATA;
+        while (!this.grammar.ended) {
+            const frame = this.frame();
+            if (!frame) return this.incomplete();
+            const packet = this.parse(frame.type, frame.payload);
+            this.consume(frame.size);
+            if (packet) return packet;
+        }
+        if (this.end > this.begin) throw new CorruptError("bytes behind END");
+        return this.eof ? END_OF_STREAM : NEED_DATA;
+    }
+
+    private start(): boolean {
+        const present = this.buffer.subarray(this.begin, Math.min(this.end, this.begin + PREAMBLE.length));
+        for (let i = 0; i < present.length; i++) {
+            if (present[i] === PREAMBLE[i]) continue;
+            if (i < MAGIC_SIZE) throw new FormatError("not a BSM stream: it does not begin with 89 42 53 4D", { offset: 0 });
+            throw new UnsupportedError(`stream version ${present[i]} is not one that this decoder reads`, { offset: i });
+        }
+        if (present.length < PREAMBLE.length) {
+            this.incomplete();
+            return false;
+        }
+        this.crc = crc32(PREAMBLE);
+        this.drop(PREAMBLE.length);
+        this.started = true;
+        return true;
+    }
+
+    private incomplete(): Signal {
+        if (!this.eof) return NEED_DATA;
+        throw new TruncatedError("the stream ends before its END frame; get the rest of it", {
+            offset: this.offset + this.end - this.begin,
+        });
+    }
+
+    private frame(): { type: number; payload: Uint8Array; size: number } | undefined {
+        const tag = parseVarint(this.buffer, this.begin, this.end);
+        if (!tag) return undefined;
+        const type = tag.value % 16;
+        const length = Math.floor(tag.value / 16);
+        checkLimit(this.limits, "frameBytes", length);
+        const sum = tag.end + length;
+        const end = sum + (type === BLOCK_TAG ? 2 : 4);
+        if (end > this.end) return undefined;
+        const body = this.buffer.subarray(this.begin, sum);
+        const expected = type === BLOCK_TAG ? crc16(body) : crc32(body);
+        if (littleEndian(this.buffer.subarray(sum, end)) !== expected) {
+            throw new CorruptError(`the checksum of a frame of type ${type} and ${length} bytes is wrong`);
+        }
+        return { type, payload: this.buffer.slice(tag.end, sum), size: end - this.begin };
+    }
+
+    /** The packet in a frame, checked against everything before it; undefined for one to be skipped. */
+    private parse(type: number, payload: Uint8Array): Packet | undefined {
+        if (type >= 8 && type <= 11) {
+            if (!this.grammar.header) throw new CorruptError("the first frame must be HEADER");
+            return undefined;
+        }
+        const kind = KINDS[type];
+        if (!kind || !this.grammar.announces(kind)) throw new UnsupportedError(`frame type ${type} is unknown to this decoder`);
+        const packet = PARSERS[kind](new Cursor(payload), this.limits);
+        this.grammar.advance(packet);
+        if (packet.type === "end") {
+            if (packet.frames !== this.frames) throw new CorruptError(`END counts ${packet.frames} frames before it`);
+            if (packet.crc !== this.crc) throw new CorruptError("the CRC-32 of the whole stream is wrong");
+        }
+        return packet;
+    }
+
+    private consume(size: number): void {
+        this.crc = crc32(this.buffer.subarray(this.begin, this.begin + size), this.crc);
+        this.frames++;
+        this.drop(size);
+    }
+
+    private drop(count: number): void {
+        this.begin += count;
+        this.offset += count;
+    }
+}

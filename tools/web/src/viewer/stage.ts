@@ -1,0 +1,91 @@
+/** Camera, light and the mesh on a canvas. */
+import { AmbientLight, BufferAttribute, BufferGeometry, Color, DirectionalLight, DoubleSide, Mesh, MeshStandardMaterial, PerspectiveCamera, Scene, Spherical, WebGLRenderer } from "three";
+import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
+
+const TURN = Math.PI / 24;
+const ZOOM = 1.1;
+
+export class Stage {
+    private readonly renderer: WebGLRenderer;
+    private readonly camera = new PerspectiveCamera(35, 1, 0.01, 100);
+    private readonly scene = new Scene();
+    private readonly controls: OrbitControls;
+    private readonly material = new MeshStandardMaterial({ color: 0x7d8fa9, roughness: 0.7, side: DoubleSide });
+    private mesh = new Mesh(new BufferGeometry(), this.material);
+
+    constructor(private readonly canvas: HTMLCanvasElement) {
+        this.renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true });
+        this.renderer.setPixelRatio(devicePixelRatio);
+        this.controls = new OrbitControls(this.camera, canvas);
+        this.controls.addEventListener("change", () => this.draw());
+        this.camera.position.set(0.5, 0.4, 2.1);
+        const light = new DirectionalLight(0xffffff, 2.2);
+        light.position.set(1, 2, 3);
+        this.camera.add(light);
+        this.scene.add(this.camera, new AmbientLight(0xffffff, 0.8), this.mesh);
+        this.controls.update();
+        canvas.addEventListener("keydown", (event) => this.turn(event));
+        new ResizeObserver(() => this.fit()).observe(canvas.parentElement!);
+    }
+
+    /** Show a geometry whose bounding box has this centre and diagonal. */
+    show(geometry: BufferGeometry, center: number[], diagonal: number): void {
+        this.scene.remove(this.mesh);
+        this.mesh.geometry.dispose();
+        this.mesh = new Mesh(geometry, this.material);
+        this.mesh.frustumCulled = false;
+        this.mesh.scale.setScalar(1 / diagonal);
+        this.mesh.position.set(-center[0] / diagonal, -center[1] / diagonal, -center[2] / diagonal);
+        this.scene.add(this.mesh);
+        this.draw();
+    }
+
+    set wireframe(on: boolean) {
+        this.material.wireframe = on;
+        this.draw();
+    }
+
+    /** Colour each vertex by the block that it came with, from blue for the first of `count` to red for the last. */
+    colour(origin: Int32Array, count: number, on: boolean): void {
+        const { geometry } = this.mesh;
+        if (on) {
+            const palette = Array.from({ length: count }, (_, block) => new Color().setHSL(0.68 * (1 - block / Math.max(count - 1, 1)), 0.75, 0.55));
+            const colours = new Float32Array(3 * origin.length);
+            origin.forEach((block, vertex) => block >= 0 && palette[block].toArray(colours, 3 * vertex));
+            geometry.setAttribute("color", new BufferAttribute(colours, 3));
+        }
+        if (this.material.vertexColors !== on) {
+            this.material.vertexColors = on;
+            this.material.color.set(on ? 0xffffff : 0x7d8fa9);
+            this.material.needsUpdate = true;
+        }
+        this.draw();
+    }
+
+    draw(): void {
+        this.renderer.render(this.scene, this.camera);
+    }
+
+    private fit(): void {
+        const { clientWidth, clientHeight } = this.canvas.parentElement!;
+        this.renderer.setSize(clientWidth, clientHeight, false);
+        this.camera.aspect = clientWidth / Math.max(clientHeight, 1);
+        this.camera.updateProjectionMatrix();
+        this.draw();
+    }
+
+    private turn(event: KeyboardEvent): void {
+        const place = new Spherical().setFromVector3(this.camera.position.clone().sub(this.controls.target));
+        if (event.key === "ArrowLeft") place.theta -= TURN;
+        else if (event.key === "ArrowRight") place.theta += TURN;
+        else if (event.key === "ArrowUp") place.phi -= TURN;
+        else if (event.key === "ArrowDown") place.phi += TURN;
+        else if (event.key === "+") place.radius /= ZOOM;
+        else if (event.key === "-") place.radius *= ZOOM;
+        else return;
+        event.preventDefault();
+        this.camera.position.setFromSpherical(place.makeSafe()).add(this.controls.target);
+        this.controls.update();
+        this.draw();
+    }
+}

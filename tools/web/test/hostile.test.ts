@@ -1,0 +1,78 @@
+/** Damaged streams: every one ends in an error of the package or in a mesh, soon and within the memory allowed. */
+import assert from "node:assert/strict";
+import { readdirSync, readFileSync } from "node:fs";
+import { join } from "node:path";
+import test from "node:test";
+import { BsmError, LimitError, TruncatedError, decode } from "../src/index";
+import { crc16, crc32 } from "../src/checksums";
+import { parseVarint } from "../src/reader";
+import { BUILDS, compile, eventsOf, meshOfEvents, VECTORS } from "./shared";
+
+const MEMORY = 2 ** 26;
+const STREAMS = readdirSync(VECTORS)
+    .filter((name) => name.startsWith("good-") && name.endsWith(".bsm"))
+    .map((name) => readFileSync(join(VECTORS, name)));
+
+/** Numbers in [0, 1), the same in every run (Park and Miller, 1988). */
+function* numbers(seed: number): Generator<number, never> {
+    for (let state = seed; ; ) yield (state = (state * 48271) % 2147483647) / 2147483647;
+}
+
+/** The stream with the right checksum in every frame, so that damage reaches what is behind it. */
+function mended(stream: Uint8Array): Uint8Array {
+    const view = new DataView(stream.buffer, stream.byteOffset, stream.byteLength);
+    for (let at = 5; at < stream.length; ) {
+        let tag;
+        try {
+            tag = parseVarint(stream, at, stream.length);
+        } catch {
+            return stream;
+        }
+        if (!tag) return stream;
+        const end = tag.end + Math.floor(tag.value / 16);
+        const type = tag.value % 16;
+        const size = type === 6 ? 2 : 4;
+        if (end + size > stream.length) return stream;
+        if (type === 15 && end - tag.end > 4) view.setUint32(end - 4, crc32(stream.subarray(0, at)), true);
+        if (type === 6) view.setUint16(end, crc16(stream.subarray(at, end)), true);
+        else view.setUint32(end, crc32(stream.subarray(at, end)), true);
+        at = end + size;
+    }
+    return stream;
+}
+
+for (const build of BUILDS) {
+    const kernels = compile(build);
+
+    test(`${build} mutated streams`, { timeout: 120_000 }, async () => {
+        const compiled = await kernels;
+        const random = numbers(20);
+        const next = (count: number): number => Math.floor(random.next().value * count);
+        let refused = 0;
+        for (let k = 0; k < 1500; k++) {
+            const stream = Uint8Array.from(STREAMS[next(STREAMS.length)]);
+            for (let changes = 1 + next(3); changes > 0; changes--) stream[5 + next(stream.length - 5)] = next(256);
+            try {
+                decode(compiled, k % 3 ? mended(stream) : stream, { memory: MEMORY, work: 1e9 });
+            } catch (error) {
+                assert.ok(error instanceof BsmError, `${error}`);
+                refused++;
+            }
+        }
+        assert.ok(refused > 1000);
+    });
+
+    test(`${build} every beginning of a stream is truncated`, async () => {
+        const compiled = await kernels;
+        const stream = readFileSync(join(VECTORS, "good-details.bsm"));
+        for (let size = 0; size < stream.length; size++) {
+            assert.throws(() => meshOfEvents(eventsOf(compiled, stream.subarray(0, size), stream.length)), TruncatedError);
+        }
+    });
+}
+
+test("memory is limited", async () => {
+    const compiled = await compile(BUILDS[0]);
+    const stream = readFileSync(join(VECTORS, "good-fine.bsm"));
+    assert.throws(() => decode(compiled, stream, { memory: 400_000 }), LimitError);
+});

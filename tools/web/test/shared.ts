@@ -1,0 +1,35 @@
+/** What tests share: kernels, vectors, and how a stream is decoded in pieces. */
+import { readFileSync } from "node:fs";
+import { join } from "node:path";
+import { Decoder, END_OF_STREAM, Kernels, NEED_DATA, type Event, type Limits, type Mesh } from "../src/index";
+
+export const WEB = process.cwd();
+export const VECTORS = join(WEB, "../../spec/vectors");
+export const BUILDS = ["kernels.wasm", "kernels-scalar.wasm"];
+
+export function compile(build: string): Promise<Kernels> {
+    return Kernels.compile(readFileSync(join(WEB, "built", build)));
+}
+
+/** All events of a stream that comes in pieces of `size` bytes; the error is thrown behind them. */
+export function* eventsOf(kernels: Kernels, data: Uint8Array, size: number, limits: Partial<Limits> = {}): Generator<Event> {
+    const decoder = new Decoder(kernels, limits);
+    for (let at = 0; at < data.length || at === 0; at += Math.max(size, 1)) {
+        decoder.receiveData(data.subarray(at, at + size));
+        for (let event; (event = decoder.nextEvent()) !== NEED_DATA; ) yield event as Event;
+    }
+    decoder.receiveEof();
+    for (let event; (event = decoder.nextEvent()) !== END_OF_STREAM; ) yield event as Event;
+}
+
+/** The mesh that block events add up to. */
+export function meshOfEvents(events: Iterable<Event>): Mesh {
+    let positions = new Float64Array(0);
+    let faces = new Int32Array(0);
+    for (const event of events) {
+        if (event.type === "header") positions = new Float64Array(3 * event.header.vertices).fill(NaN);
+        if (event.type === "connectivity") faces = Int32Array.from(event.faces);
+        if (event.type === "block" || event.type === "refinement") event.vertices.forEach((v, i) => positions.set(event.positions.subarray(3 * i, 3 * i + 3), 3 * v));
+    }
+    return { positions, faces };
+}

@@ -1,0 +1,66 @@
+/** Every vector of the specification: decoded within its tolerance, or refused with the right kind of error. */
+import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
+import { join } from "node:path";
+import test from "node:test";
+import { decode, type Kernels, type Mesh } from "../src/index";
+import { readNpz, type NumpyArray } from "./npz";
+import { BUILDS, compile, eventsOf, meshOfEvents, VECTORS } from "./shared";
+
+interface Vector {
+    name: string;
+    error?: string;
+    rms?: number;
+    peak?: number;
+}
+
+const { vectors } = JSON.parse(readFileSync(join(VECTORS, "manifest.json"), "utf8")) as { vectors: Vector[] };
+/** What this decoder does not do: sequences are refused as unsupported, and given vertices ignored (F 9). */
+const LEFT_OUT = /^(good|bad)-(sequence|splits)/;
+const WAYS: [string, (kernels: Kernels, data: Uint8Array) => Mesh][] = [
+    ["whole", decode],
+    ["in events", (kernels, data) => meshOfEvents(eventsOf(kernels, data, data.length))],
+    ["byte by byte", (kernels, data) => meshOfEvents(eventsOf(kernels, data, 1))],
+];
+
+for (const build of BUILDS) {
+    const kernels = compile(build);
+    for (const vector of vectors) {
+        for (const [way, take] of WAYS) {
+            const skip = LEFT_OUT.test(vector.name) && "sequences are not decoded, and given vertices ignored";
+            test(`${build} ${vector.name} ${way}`, { skip }, async () => {
+                const data = readFileSync(join(VECTORS, `${vector.name}.bsm`));
+                const compiled = await kernels;
+                if (vector.error) assert.throws(() => take(compiled, data), { name: errorName(vector.error) });
+                else compare(take(compiled, data), readNpz(readFileSync(join(VECTORS, `${vector.name}.npz`))), vector);
+            });
+        }
+    }
+}
+
+function errorName(kind: string): string {
+    return `${kind[0].toUpperCase()}${kind.slice(1)}Error`;
+}
+
+function compare(mesh: Mesh, expected: Record<string, NumpyArray>, { rms = 0, peak = 0 }: Vector): void {
+    const { positions, faces } = expected;
+    assert.deepEqual(mesh.faces, faces.values);
+    assert.equal(mesh.positions.length, positions.values.length);
+    const lowest = [Infinity, Infinity, Infinity];
+    const highest = [-Infinity, -Infinity, -Infinity];
+    positions.values.forEach((value, i) => {
+        lowest[i % 3] = Math.min(lowest[i % 3], value);
+        highest[i % 3] = Math.max(highest[i % 3], value);
+    });
+    const diagonal = Math.hypot(...highest.map((value, d) => value - lowest[d]));
+    let total = 0;
+    let largest = 0;
+    for (let v = 0; v < positions.values.length; v += 3) {
+        const difference = Math.hypot(...[0, 1, 2].map((d) => mesh.positions[v + d] - positions.values[v + d])) / diagonal;
+        total += difference ** 2;
+        largest = Math.max(largest, difference);
+        assert.ok(!Number.isNaN(difference), "a position is missing");
+    }
+    assert.ok(Math.sqrt((3 * total) / positions.values.length) <= rms, `rms ${Math.sqrt((3 * total) / positions.values.length)}`);
+    assert.ok(largest <= peak, `peak ${largest}`);
+}
