@@ -81,8 +81,9 @@ def encode_one(args: argparse.Namespace, console: Console) -> Facts:
     taken = size_of(args.input)
     console.note(
         f"{args.input} -> {args.output}: {vertices} vertices, {faces} faces, {came_to(taken, size)}, "
-        f"{8 * size / vertices:.2f} bits per vertex; normals {error.theta_deg:.2f} degrees off, largest error "
-        f"{100 * error.max_error_relative:.3g} % of the diagonal, {error.nmsve_db:.2f} dB; {seconds:.2f} s"
+        f"{8 * size / vertices:.2f} bits per vertex; farthest vertex {100 * error.max_error_relative:.3g} % of the "
+        f"diagonal, normals {error.angle_deg:.2f} degrees by area and {error.theta_deg:.2f} by face, "
+        f"{error.nmsve_db:.2f} dB; {seconds:.2f} s"
     )
     return {
         "input": args.input,
@@ -94,6 +95,7 @@ def encode_one(args: argparse.Namespace, console: Console) -> Facts:
         "bytes": size,
         "bpv_total": 8 * size / vertices,
         "theta_deg": error.theta_deg,
+        "angle_deg": error.angle_deg,
         "nmsve_db": finite(error.nmsve_db),
         "max_error_relative": error.max_error_relative,
         "seconds": seconds,

@@ -1,5 +1,12 @@
 """Denoising: a coarse spectral step, a hand-over, a fine step on face normals, and a mode that chooses by itself."""
 
+from bitstream.errors import DependencyError
+
+try:
+    import scipy.sparse  # noqa: F401  # the one library that nothing else in `codec` needs
+except ImportError:
+    raise DependencyError("denoising needs scipy: pip install 'bsm-codec[denoise]'") from None
+
 from codec.denoise.automatic import AutomaticChoice, denoise_automatically
 from codec.denoise.coarse import CoarseFilter
 from codec.denoise.filters.fine import FINE_STEPS

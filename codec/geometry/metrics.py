@@ -31,6 +31,8 @@ class Comparison:
         ``10 * log10(nmsve)``; minus infinity where the meshes are equal.
     theta_deg : float
         Mean angle between corresponding face normals, degrees, see `theta`.
+    angle_deg : float
+        The same with every face counted by its area, as contracts do: what a viewer sees.
     rms, max_error : float
         Root mean square and largest distance between corresponding vertices, in the mesh's own unit.
     rms_relative, max_error_relative : float
@@ -40,6 +42,7 @@ class Comparison:
     nmsve: float
     nmsve_db: float
     theta_deg: float
+    angle_deg: float
     rms: float
     rms_relative: float
     max_error: float
@@ -61,7 +64,10 @@ class Reference:
         self.scale = _scale(self.positions)
         self._neighbours = vertex_neighbours(self.faces, len(self.positions))
         self._laplacian = geometric_laplacian(self.positions, self._neighbours)
-        self._normals = face_normals(self.positions, self.faces)
+        areas, centroids = np.empty(len(self.faces)), np.empty((len(self.faces), 3))
+        self._normals = np.empty((len(self.faces), 3))
+        _kernels.face_geometry(self.positions, self.faces, centroids, areas, self._normals)
+        self._areas: Floats = areas / (areas.sum() or 1.0)
         counted = self._normals.any(axis=1)
         self._shares: Floats = np.asarray(counted / max(1, int(counted.sum())), np.float64)
 
@@ -74,6 +80,10 @@ class Reference:
     def theta(self, decoded: Positions) -> float:
         """The function `theta` against this original."""
         return math.degrees(_kernels.weighted_angle(self._normals, self._shares, self._checked(decoded), self.faces))
+
+    def angle(self, decoded: Positions) -> float:
+        """Mean angle between corresponding normals, degrees, faces counted by their area."""
+        return math.degrees(_kernels.weighted_angle(self._normals, self._areas, self._checked(decoded), self.faces))
 
     def mnd(self, decoded: Positions) -> float:
         """The function `mnd` against this original."""
@@ -89,6 +99,7 @@ class Reference:
             nmsve=visual,
             nmsve_db=decibel(visual),
             theta_deg=self.theta(decoded),
+            angle_deg=self.angle(decoded),
             rms=rms,
             rms_relative=rms / self.scale,
             max_error=largest,

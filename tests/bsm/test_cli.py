@@ -238,6 +238,20 @@ def test_a_missing_package_has_its_code(folder, tmp_path, monkeypatch, capsys):
     assert "pip install" in capsys.readouterr().err
 
 
+@pytest.mark.parametrize("words", [["denoise", "sample.ply"], ["demo"]])
+def test_scipy_is_asked_for_where_it_is_needed(words, folder, tmp_path):
+    hidden = "import sys; sys.modules['scipy'] = None; from bsm.__main__ import run; run()"
+    words = [str(folder / word) if word == "sample.ply" else word for word in words]
+    done = subprocess.run(
+        [sys.executable, "-c", hidden, *words, "-o", str(tmp_path / "out.ply")],
+        cwd=ROOT,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 8 and "pip install 'bsm-codec[" in done.stderr and done.stderr.count("\n") == 1
+
+
 def test_force_overwrites(folder, tmp_path):
     output = tmp_path / "a.bsm"
     output.write_bytes(b"old")

@@ -30,7 +30,7 @@ class Model:
     @property
     def comparison(self):
         error = self.step**self.power
-        return Comparison(error, 10 * math.log10(error), 1e3 * error, error, error, error, error)
+        return Comparison(error, 10 * math.log10(error), 1e3 * error, 1e3 * error, error, error, error, error)
 
 
 @given(
