@@ -1,4 +1,4 @@
-/** Dictionaries of blocks: orthogonal iterations and exact eigenvectors (specification, M 7.4, M 8). */
+/** Dictionaries of blocks: orthogonal iterations, and solutions (specification, M 7.4, M 8). */
 import type { Block } from "./blocks";
 import { NumericError } from "./errors";
 import type { Doubles, Memory } from "./kernels";
