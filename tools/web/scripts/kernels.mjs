@@ -29,6 +29,7 @@ const SOURCES = [
     "codec/basis/solver/cholesky.simd.c",
     "codec/basis/solver/cholesky_qr.simd.c",
     "codec/basis/solver/fronts.c",
+    "codec/basis/solver/householder.c",
     "codec/basis/solver/panels.simd.c",
     "codec/basis/solver/substitution.simd.c",
     "codec/blocks/bisection.c",
@@ -50,8 +51,9 @@ const KERNELS = [
     "code_labels", "points_of_levels", "code_rows", "code_block", "vertex_faces", "bisect", "refine_partition",
     "group_by_label", "chain_parts", "grow_blocks", "order_scratch", "order_block", "add_copies", "collect_edges",
     "dissect", "find_borders", "factorize_fronts", "solve_columns", "cosines", "iteration_space", "iterate",
-    "cholesky_onorm", "reconstruct", "look_around", "block_normals", "apply_powers", "combine_powers", "find_rings",
-    "filter_rows", "link_corners", "order_vertices", "code_grid", "code_levels", "local_frames", "add_levels",
+    "cholesky_onorm", "householder", "reconstruct", "look_around", "block_normals", "apply_powers",
+    "combine_powers", "find_rings", "filter_rows", "link_corners", "order_vertices", "code_grid", "code_levels",
+    "local_frames", "add_levels",
 ];
 
 const FLAGS = [

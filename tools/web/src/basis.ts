@@ -1,11 +1,17 @@
-/** Dictionaries of blocks: orthogonal iterations and exact eigenvectors (specification, M 7.4, M 8). */
+/** Dictionaries of blocks: orthogonal iterations, and solutions (specification, M 7.4, M 8). */
 import type { Block } from "./blocks";
-import { canonicalEigenvectors, householder } from "./dense";
+import { NumericError } from "./errors";
 import type { Doubles, Memory } from "./kernels";
 
 /** Independence of the columns from which one pass of Cholesky QR is enough, and from which two are. */
 const ONCE = 1e-3;
 const TWICE = 1e-11;
+/** What makes a basis exact, and the share of hash columns that it starts with (M 8.5). */
+const EXACT_POWER = 2;
+const EXACT_ITERATIONS = 128;
+const EXACT_SHIFT = 2 ** -5;
+const START_NOISE = 0.25;
+export const EXACT_SOLVES = EXACT_POWER * EXACT_ITERATIONS;
 /** Doubles more than a kernel uses of an array that it begins where a cache line does. */
 const PADDING = 7;
 
@@ -33,10 +39,11 @@ function factorize(memory: Memory, block: Block, shift: Float64Array): Factor {
     const factor = { values: memory.doubles(block.fronts.size + PADDING), inverse: memory.doubles(n) };
     memory.scratch(() => {
         const diagonal = memory.copy(degreesOf(block).map((degree, row) => degree + shift[row]));
+        const weights = memory.copy(new Float64Array(block.neighbours.length).fill(1));
         const column = memory.words(n + 1);
         const scratch = memory.doubles(2 * (n + 16) + PADDING);
         const { offsets, neighbours, fronts } = block;
-        memory.run("factorize_fronts", offsets, neighbours, diagonal, fronts.parts, column, scratch, factor.values, factor.inverse);
+        memory.run("factorize_fronts", offsets, neighbours, weights, diagonal, fronts.parts, column, scratch, factor.values, factor.inverse);
     });
     return factor;
 }
@@ -121,21 +128,32 @@ function solvedOnorm(memory: Memory, block: Block, factor: Factor, start: Matrix
         const solved = solve(memory, block, factor, memory.copy(start.values, columns));
         const subspace = memory.doubles(rows * columns, columns);
         const independence = memory.run("cholesky_onorm", solved, ONCE, iterationScratch(memory, rows, columns), subspace);
-        const values = independence >= TWICE ? subspace.view.slice() : householder(solved.view, rows, columns);
-        return { rows, columns, values };
+        if (independence < TWICE) householder(memory, solved, subspace);
+        return { rows, columns, values: subspace.view.slice() };
     });
 }
 
-/** The `width` lowest eigenvectors of L + diagonal (M 8.5). */
-export function exactBasis(block: Block, springs: Float64Array, width: number): Matrix {
-    const n = block.size;
-    const laplacian = new Float64Array(n * n);
-    const [offsets, neighbours] = [block.offsets.view, block.neighbours.view];
-    for (let row = 0; row < n; row++) {
-        for (let i = offsets[row]; i < offsets[row + 1]; i++) laplacian[row * n + neighbours[i]] = -1;
-        laplacian[row * n + row] = offsets[row + 1] - offsets[row] + springs[row];
-    }
-    return { rows: n, columns: width, values: canonicalEigenvectors(laplacian, n, width) };
+/** Q of the QR factorisation with positive diagonal of columns close to dependent (M 8.1); they are overwritten. */
+function householder(memory: Memory, columns: Doubles, q: Doubles): void {
+    if (!columns.view.every(Number.isFinite)) throw new NumericError("the subspace iteration produced a value that is not finite");
+    memory.scratch(() => memory.run("householder", columns, memory.doubles(3 * columns.columns!), q));
+}
+
+/** The exact basis of L + springs (M 8.5). */
+export function exactBasis(memory: Memory, block: Block, springs: Float64Array, width: number): Matrix {
+    const start = cosineColumns(memory, block.size, 0, width);
+    const noisy = start.values.map((value, i) => value + START_NOISE * hashEntry(Math.floor(i / width), i % width));
+    const shift = springs.map((spring) => spring + EXACT_SHIFT);
+    return orthogonalIteration(memory, block, { ...start, values: noisy }, shift, EXACT_POWER, EXACT_ITERATIONS);
+}
+
+/** Fixed pseudo-random numbers in [-1, 1) (M 8.6). */
+function hashEntry(row: number, column: number): number {
+    let z = BigInt.asUintN(64, ((BigInt(row) << 32n) + BigInt(column) + 1n) * 0x9e3779b97f4a7c15n);
+    z = BigInt.asUintN(64, (z ^ (z >> 30n)) * 0xbf58476d1ce4e5b9n);
+    z = BigInt.asUintN(64, (z ^ (z >> 27n)) * 0x94d049bb133111ebn);
+    z ^= z >> 31n;
+    return Number(z >> 11n) * 2 ** -52 - 1;
 }
 
 /** U E, shape (rows, width), for coefficients E of so many columns (M 10.2). */

@@ -1,9 +1,9 @@
 /** One chain of blocks: what its blocks know of those before them (specification, M 7 to M 11). */
-import { cosineColumns, degreesOf, exactBasis, orthogonalIteration, reconstruct, resized, solveColumns, type Matrix } from "./basis";
+import { cosineColumns, degreesOf, EXACT_SOLVES, exactBasis, orthogonalIteration, reconstruct, resized, solveColumns, type Matrix } from "./basis";
 import { makeBlock, type Block, type Blocks } from "./blocks";
 import { CoefficientModel, unpackLevels } from "./coefficients";
 import { Coder } from "./entropy";
-import { CorruptError, LimitError, NumericError } from "./errors";
+import { CorruptError, NumericError } from "./errors";
 import type { Header } from "./header";
 import type { Bytes, Doubles, Ints, Longs, Memory } from "./kernels";
 import { checkLimit, type Limits } from "./limits";
@@ -29,9 +29,17 @@ export interface DecodedBlock {
     weights: Float64Array;
 }
 
-/** Solutions for each column of a block, at most. */
-export function solvesOf(header: Header): number {
-    return header.power * Math.max(header.iterations, header.keyIterations);
+/** Solutions for each column of a block that follows another, or of one that does not. */
+export function solvesOf(header: Header, follows: boolean): number {
+    return isExact(header, follows) ? EXACT_SOLVES : header.power * iterationsOf(header, follows);
+}
+
+function isExact(header: Header, follows: boolean): boolean {
+    return header.basis === 1 || (header.keySeed === 1 && !follows);
+}
+
+function iterationsOf(header: Header, follows: boolean): number {
+    return follows || header.seeding === 1 ? header.iterations : header.keyIterations;
 }
 
 export function chainLength(header: Header): number {
@@ -47,10 +55,6 @@ export class Allowance {
     spend(work: number): void {
         this.spent += work;
         checkLimit(this.limits, "work", this.spent);
-    }
-
-    checkMemory(bytes: number): void {
-        if (bytes > this.limits.memory) throw new LimitError(`memory = ${bytes} bytes is over the limit`);
     }
 }
 
@@ -160,22 +164,23 @@ export class ChainDecoder {
     /** Take the work of a block from what is allowed (M 14.4). */
     private spend(block: Block, columns: number): void {
         const { work, entries } = block.fronts;
-        if (this.header.basis === 1) {
-            this.allowance.checkMemory(24 * block.size ** 2);
-            this.allowance.spend(work + 30 * block.size ** 3);
-        } else {
-            this.allowance.spend(2 * work + solvesOf(this.header) * columns * (4 * entries + 8 * block.size * columns));
-        }
+        const solves = solvesOf(this.header, this.predecessor(block) !== undefined);
+        this.allowance.spend(2 * work + solves * columns * (4 * entries + 8 * block.size * columns));
+    }
+
+    /** The dictionary that a block starts from, if it follows another. */
+    private predecessor(block: Block): Matrix | undefined {
+        return this.header.seeding === 0 && this.subspace?.rows === block.size ? this.subspace : undefined;
     }
 
     /** U of a block (M 8.3 to M 8.5). */
     private dictionary(block: Block, springs: Float64Array, width: number): Matrix {
-        const { header, memory, subspace } = this;
-        if (header.basis === 1) return exactBasis(block, springs, width);
-        const independent = header.seeding === 1;
-        const follows = subspace !== undefined && subspace.rows === block.size && !independent;
-        const start = follows ? resized(memory, subspace, width) : cosineColumns(memory, block.size, 0, width);
-        const iterations = follows || independent ? header.iterations : header.keyIterations;
+        const { header, memory } = this;
+        const previous = this.predecessor(block);
+        const follows = previous !== undefined;
+        if (isExact(header, follows)) return exactBasis(memory, block, springs, width);
+        const start = follows ? resized(memory, previous, width) : cosineColumns(memory, block.size, 0, width);
+        const iterations = iterationsOf(header, follows);
         const shift = springs.map((spring) => spring + header.shift);
         return orthogonalIteration(memory, block, start, shift, header.power, iterations);
     }

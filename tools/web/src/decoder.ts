@@ -198,8 +198,8 @@ export class Decoder {
         const { blocks, blockSize } = header;
         const width = Math.max(header.coefficients, header.details);
         checkLimit(this.limits, "coefficients", width);
-        const orthogonal = solvesOf(header) * (40 * blockSize * width + 8 * blockSize * width ** 2);
-        checkLimit(this.limits, "work", header.basis === 1 ? 30 * blocks * blockSize ** 3 : blocks * (200 * blockSize + orthogonal));
+        const solves = Math.max(solvesOf(header, true), solvesOf(header, false));
+        checkLimit(this.limits, "work", blocks * blockSize * (200 + solves * (40 * width + 8 * width ** 2)));
     }
 
     private acceptConnectivity(method: number, data: Uint8Array): void {

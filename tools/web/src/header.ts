@@ -35,6 +35,7 @@ export interface Header {
     grid: number[];
     lattice: number[];
     refinements: number[];
+    keySeed: number;
 }
 
 interface Field {
@@ -81,6 +82,7 @@ const FIELDS: Record<keyof Header, Field> = {
     grid: { key: 28, type: "ints", low: 0, high: 2 ** 20 - 1, default: [], lengths: [0, 3] },
     lattice: { key: 29, type: "ints", low: 1, high: COUNT, default: [], lengths: [0, 2] },
     refinements: { key: 30, type: "floats", low: 0, high: 64, default: [], lengths: [0, 8] },
+    keySeed: { key: 31, type: "method", low: 0, high: 1, default: 0 },
 };
 
 const LIMITED = ["vertices", "faces", "blocks", "blockSize", "coefficients", "frames", "gopFrames"] as const;
