@@ -15,7 +15,9 @@ from bsm.commands.encode_options import ENCODE_FLAGS
 from bsm.evaluation.sample import knot
 from bsm.exits import EXITS
 from bsm.files.mesh import read_mesh, write_mesh
+from codec.geometry.mesh import TriangleMesh
 from tests.bsm.program import ROOT, bsm
+from tests.shapes import torus
 
 SMALL = ["--block-size", "150", "--threads", "1", "--step", "0.004"]
 
@@ -327,3 +329,12 @@ def test_the_flags_are_fields_and_show_their_defaults():
             assert ("yes" if default else "no") in shown
         elif default is not None:
             assert f"{default}" in shown, flag.field
+
+
+def test_an_unwelded_file_compares_with_its_stream(tmp_path, capsys):
+    corners = torus().positions[torus().faces].reshape(-1, 3)
+    write_mesh(tmp_path / "soup.ply", TriangleMesh(corners, np.arange(len(corners)).reshape(-1, 3)))
+    words = [str(tmp_path / "soup.ply"), str(tmp_path / "soup.bsm")]
+    assert main(["encode", words[0], "-q"]) == 0
+    assert main(["compare", *words, "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)["max_error_relative"] <= 0.01
