@@ -53,6 +53,8 @@ def reorder(mesh: TriangleMesh, order: Order) -> TriangleMesh:
 def in_order_of(original: TriangleMesh, other: TriangleMesh, order: Order | None = None) -> Positions:
     """The positions of `other`, numbered as in `original`; neither may have vertices that no face uses.
 
+    Where vertices of `original` at one position are one of `other`, they have its position.
+
     Parameters
     ----------
     original, other : TriangleMesh
@@ -66,6 +68,14 @@ def in_order_of(original: TriangleMesh, other: TriangleMesh, order: Order | None
     MeshError
         If the faces are not the same.
     """
+    if len(original.positions) > len(other.positions):
+        from codec.static.joining import join
+
+        joined = join(original, keep=False)
+        if len(joined.mesh.positions) == len(other.positions):
+            by_joined = None if order is None else joined.index[order].astype(np.int64)
+            numbered = in_order_of(joined.mesh, other, by_joined)[joined.index]
+            return np.where(joined.index[:, None] < 0, original.positions, numbered)
     if len(original.positions) != len(other.positions) or len(original.faces) != len(other.faces):
         raise MeshError(
             f"the meshes differ: {len(original.positions)} and {len(other.positions)} vertices in faces, "

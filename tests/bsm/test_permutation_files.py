@@ -7,6 +7,9 @@ from bitstream.errors import FormatError, MeshError
 from bsm.evaluation.sample import knot
 from bsm.files.permutation import in_order_of, read_permutation, reorder, write_permutation
 from codec.geometry.mesh import TriangleMesh
+from codec.static.decoder import decode
+from codec.static.encoder import Encoder
+from codec.static.options import EncodeOptions
 
 SAMPLE = knot(600)
 
@@ -96,3 +99,12 @@ def test_files(tmp_path, order):
         np.save(path, wrong)
         with pytest.raises(FormatError):
             read_permutation(path)
+
+
+def test_vertices_that_were_made_one_are_compared_with_that_one():
+    mesh = knot(200)
+    soup = TriangleMesh(mesh.positions[mesh.faces].reshape(-1, 3), np.arange(mesh.faces.size).reshape(-1, 3))
+    encoder = Encoder(soup, EncodeOptions(grid=16))
+    decoded = decode(encoder.encode())
+    for order in (None, encoder.vertex_order):
+        assert np.abs(in_order_of(soup, decoded, order) - soup.positions).max() < 1e-3
