@@ -11,6 +11,7 @@ const ROOT = join(WEB, "../..");
 const SOURCES = [
     "bitstream/coefficients/adaptive.c",
     "bitstream/coefficients/contexts.c",
+    "bitstream/coefficients/matrices.c",
     "bitstream/coefficients/trellis.c",
     "bitstream/connectivity/conquest.c",
     "bitstream/connectivity/halfedges.c",
@@ -32,12 +33,14 @@ const SOURCES = [
     "codec/basis/solver/householder.c",
     "codec/basis/solver/panels.simd.c",
     "codec/basis/solver/substitution.simd.c",
+    "codec/basis/weighted.c",
     "codec/blocks/bisection.c",
     "codec/blocks/blend.c",
     "codec/blocks/overlap.c",
     "codec/blocks/partition.c",
     "codec/geometry/graph.c",
     "codec/geometry/incidence.c",
+    "codec/sequence/row_prediction.c",
     "codec/signal/detail.c",
     "codec/signal/frames.c",
     "codec/signal/predict.c",
@@ -53,7 +56,7 @@ const KERNELS = [
     "dissect", "find_borders", "factorize_fronts", "solve_columns", "cosines", "iteration_space", "iterate",
     "cholesky_onorm", "householder", "reconstruct", "look_around", "block_normals", "apply_powers",
     "combine_powers", "find_rings", "filter_rows", "link_corners", "order_vertices", "code_grid", "code_levels",
-    "local_frames", "add_levels",
+    "local_frames", "add_levels", "code_matrix", "project", "cotangents", "hold", "pull", "follow_rows",
 ];
 
 const FLAGS = [

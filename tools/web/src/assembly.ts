@@ -87,9 +87,9 @@ export class Assembly {
         const blended = this.blended.view;
         moved.forEach((vertex, i) => positions.set(blended.subarray(3 * vertex, 3 * vertex + 3), 3 * i));
         positions.set(this.smoothed(finished), 3 * moved.length);
-        // What levels move later is not final.
+        // What levels or frames move later is not final.
         const final = new Uint8Array(vertices.length);
-        if (this.header.refinements.length === 0) final.fill(1, moved.length);
+        if (this.header.refinements.length === 0 && this.header.gopFrames === 0) final.fill(1, moved.length);
         return { vertices, positions: inMeshUnits(positions, this.header), final };
     }
 

@@ -23,7 +23,7 @@ export interface Matrix {
 }
 
 /** C and D^-1 of L + diagonal = P^T C D C^T P. */
-interface Factor {
+export interface Factor {
     values: Doubles;
     inverse: Doubles;
 }
@@ -34,12 +34,20 @@ export function degreesOf(block: Block): Float64Array {
     return Float64Array.from({ length: block.size }, (_, row) => offsets[row + 1] - offsets[row]);
 }
 
-function factorize(memory: Memory, block: Block, shift: Float64Array): Factor {
+/** Sum of the weights of each row. */
+function diagonalOf(block: Block): Float64Array {
+    if (!block.weights) return degreesOf(block);
+    const [offsets, weights] = [block.offsets.view, block.weights.view];
+    return Float64Array.from({ length: block.size }, (_, row) => weights.subarray(offsets[row], offsets[row + 1]).reduce((a, b) => a + b, 0));
+}
+
+/** C and D^-1 of L with `shift` on its diagonal. */
+export function factorize(memory: Memory, block: Block, shift: Float64Array): Factor {
     const n = block.size;
     const factor = { values: memory.doubles(block.fronts.size + PADDING), inverse: memory.doubles(n) };
     memory.scratch(() => {
-        const diagonal = memory.copy(degreesOf(block).map((degree, row) => degree + shift[row]));
-        const weights = memory.copy(new Float64Array(block.neighbours.length).fill(1));
+        const diagonal = memory.copy(diagonalOf(block).map((sum, row) => sum + shift[row]));
+        const weights = block.weights ?? memory.copy(new Float64Array(block.neighbours.length).fill(1));
         const column = memory.words(n + 1);
         const scratch = memory.doubles(2 * (n + 16) + PADDING);
         const { offsets, neighbours, fronts } = block;
@@ -48,7 +56,7 @@ function factorize(memory: Memory, block: Block, shift: Float64Array): Factor {
     return factor;
 }
 
-function solve(memory: Memory, block: Block, factor: Factor, columns: Doubles): Doubles {
+export function solve(memory: Memory, block: Block, factor: Factor, columns: Doubles): Doubles {
     const width = columns.columns!;
     const solution = memory.doubles(columns.length, width);
     memory.scratch(() => {

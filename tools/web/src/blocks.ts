@@ -1,6 +1,6 @@
 /** Graph, parts and blocks of a mesh, all integers (specification, M 2 to M 6). */
 import { CorruptError, LimitError } from "./errors";
-import type { Ints, Memory, Words } from "./kernels";
+import type { Doubles, Ints, Memory, Words } from "./kernels";
 
 const REFINEMENT_PASSES = 2n;
 const LEAF = 16n;
@@ -40,6 +40,8 @@ export interface Block {
     offsets: Ints;
     neighbours: Ints;
     fronts: Fronts;
+    /** Of the entries of `neighbours`; without them all are 1. */
+    weights?: Doubles;
 }
 
 /** How matrices with the pattern of a block are factorised; in the order of the kernels' structure. */
@@ -158,10 +160,9 @@ export function membersOf(blocks: Blocks, index: number): Ints {
     return blocks.members.part(blocks.starts[index], blocks.starts[index + 1] - blocks.starts[index]);
 }
 
-/** Order the rows of one block (M 6). */
-export function makeBlock(memory: Memory, blocks: Blocks, index: number): Block {
-    const { offsets: around, neighbours: beside } = blocks.graph;
-    const rows = membersOf(blocks, index);
+/** Order the rows of a block of these vertices (M 6). */
+export function makeBlock(memory: Memory, graph: Graph, rows: Ints): Block {
+    const { offsets: around, neighbours: beside } = graph;
     const size = rows.length;
     const vertices = memory.ints(size);
     const offsets = memory.ints(size + 1);

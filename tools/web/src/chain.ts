@@ -1,6 +1,6 @@
 /** One chain of blocks: what its blocks know of those before them (specification, M 7 to M 11). */
 import { cosineColumns, degreesOf, EXACT_SOLVES, exactBasis, orthogonalIteration, reconstruct, resized, solveColumns, type Matrix } from "./basis";
-import { makeBlock, type Block, type Blocks } from "./blocks";
+import { makeBlock, membersOf, type Block, type Blocks } from "./blocks";
 import { CoefficientModel, unpackLevels } from "./coefficients";
 import { Coder } from "./entropy";
 import { CorruptError, NumericError } from "./errors";
@@ -8,7 +8,7 @@ import type { Header } from "./header";
 import type { Bytes, Doubles, Ints, Longs, Memory } from "./kernels";
 import { checkLimit, type Limits } from "./limits";
 
-const TETHER = 2 ** -16;
+export const TETHER = 2 ** -16;
 const SOFTNESS = 2 ** -10;
 const LEAST_NORMAL = 2 ** -33;
 
@@ -32,6 +32,20 @@ export interface DecodedBlock {
 /** Solutions for each column of a block that follows another, or of one that does not. */
 export function solvesOf(header: Header, follows: boolean): number {
     return isExact(header, follows) ? EXACT_SOLVES : header.power * iterationsOf(header, follows);
+}
+
+/** Take the work of a block with a dictionary of so many columns from what is allowed (M 14.4). */
+export function spendOn(allowance: Allowance, header: Header, block: Block, columns: number, follows: boolean): void {
+    const { work, entries } = block.fronts;
+    allowance.spend(2 * work + solvesOf(header, follows) * columns * (4 * entries + 8 * block.size * columns));
+}
+
+/** U of a block that follows none (M 8.3 to M 8.5). */
+export function keyDictionary(memory: Memory, header: Header, block: Block, springs: Float64Array, width: number): Matrix {
+    if (isExact(header, false)) return exactBasis(memory, block, springs, width);
+    const start = cosineColumns(memory, block.size, 0, width);
+    const shift = springs.map((spring) => spring + header.shift);
+    return orthogonalIteration(memory, block, start, shift, header.power, iterationsOf(header, false));
 }
 
 function isExact(header: Header, follows: boolean): boolean {
@@ -111,11 +125,11 @@ export class ChainDecoder {
     decode(index: number, width: number, payload: Uint8Array): DecodedBlock {
         return this.memory.scratch(() => {
             const { header, memory } = this;
-            const block = makeBlock(memory, this.blocks, index);
+            const block = makeBlock(memory, this.blocks.graph, membersOf(this.blocks, index));
             const { points, details } = this.readPoints(payload, width, block);
             const columns = Math.min(Math.max(width, details.length), block.size);
             const { springs, pulls } = this.lookAround(block);
-            this.spend(block, columns);
+            spendOn(this.allowance, this.header, block, columns, this.predecessor(block) !== undefined);
             const subspace = this.dictionary(block, springs, columns);
             const coefficients = points.map((point) => (point * header.step) / 2);
             const positions = reconstruct(memory, subspace, coefficients, 3);
@@ -161,13 +175,6 @@ export class ChainDecoder {
         });
     }
 
-    /** Take the work of a block from what is allowed (M 14.4). */
-    private spend(block: Block, columns: number): void {
-        const { work, entries } = block.fronts;
-        const solves = solvesOf(this.header, this.predecessor(block) !== undefined);
-        this.allowance.spend(2 * work + solves * columns * (4 * entries + 8 * block.size * columns));
-    }
-
     /** The dictionary that a block starts from, if it follows another. */
     private predecessor(block: Block): Matrix | undefined {
         return this.header.seeding === 0 && this.subspace?.rows === block.size ? this.subspace : undefined;
@@ -177,12 +184,9 @@ export class ChainDecoder {
     private dictionary(block: Block, springs: Float64Array, width: number): Matrix {
         const { header, memory } = this;
         const previous = this.predecessor(block);
-        const follows = previous !== undefined;
-        if (isExact(header, follows)) return exactBasis(memory, block, springs, width);
-        const start = follows ? resized(memory, previous, width) : cosineColumns(memory, block.size, 0, width);
-        const iterations = iterationsOf(header, follows);
+        if (header.basis === 1 || !previous) return keyDictionary(memory, header, block, springs, width);
         const shift = springs.map((spring) => spring + header.shift);
-        return orthogonalIteration(memory, block, start, shift, header.power, iterations);
+        return orthogonalIteration(memory, block, resized(memory, previous, width), shift, header.power, header.iterations);
     }
 
     /** Move rows along their normals (M 11.3, M 11.4). */

@@ -9,6 +9,7 @@ import type { Header } from "./header";
 import type { Ints, Kernels, Memory } from "./kernels";
 import { checkLimit, DEFAULT_LIMITS, type Limits } from "./limits";
 import { END_OF_STREAM, NEED_DATA, Reader, type Packet, type Signal } from "./reader";
+import { Sequence } from "./sequence";
 
 const CONNECTIVITY_METHOD = 1;
 const PARTITION_METHOD = 0;
@@ -45,15 +46,28 @@ export interface EndEvent {
     type: "end";
 }
 
-export type Event = HeaderEvent | ConnectivityEvent | BlockEvent | RefinementEvent | EndEvent;
+export type Event = HeaderEvent | ConnectivityEvent | BlockEvent | RefinementEvent | FrameEvent | EndEvent;
 
-/** A whole mesh: positions, shape (n, 3), and faces, shape (m, 3). */
+/** A whole mesh, or the first frame of a sequence: positions, shape (n, 3), and faces, shape (m, 3). */
 export interface Mesh {
     positions: Float64Array;
     faces: Int32Array;
 }
 
-type Item = Event | DecodedBlock;
+/** A frame of a sequence: its number from 0, and its positions, shape (n, 3). */
+export interface FrameEvent {
+    type: "frame";
+    index: number;
+    positions: Float64Array;
+}
+
+/** A frame that is made when it is its turn. */
+interface ComingFrame {
+    frame: number;
+    make: () => Float64Array;
+}
+
+type Item = Event | DecodedBlock | ComingFrame;
 
 /**
  * Takes the bytes of a stream as they come, and gives events as soon as they can be known.
@@ -82,6 +96,7 @@ export class Decoder {
     private grid?: Grid;
     private chunks = 0;
     private refinement?: Refinement;
+    private sequence?: Sequence;
 
     constructor(kernels: Kernels, limits: Partial<Limits> = {}) {
         this.limits = { ...DEFAULT_LIMITS, ...limits };
@@ -109,16 +124,25 @@ export class Decoder {
     nextEvent(): Event | Signal {
         const item = this.nextItem();
         if (typeof item === "string" || "type" in item) return item;
+        if ("make" in item) return { type: "frame", index: item.frame, positions: this.made(item) };
         return this.guarded(() => ({ type: "block", index: item.index, ...this.numbered(this.assembly!.changes(item)) }), item.index);
     }
 
     /** Decode the rest of a complete stream; faster than asking for events. */
     finish(): Mesh {
         this.receiveEof();
+        let first: Float64Array | undefined;
         for (let item; (item = this.nextItem()) !== END_OF_STREAM; ) {
-            if (typeof item === "object" && !("type" in item)) this.assembly!.add(item);
+            if (typeof item === "string" || "type" in item) continue;
+            if ("make" in item) first ??= this.made(item);
+            else this.assembly!.add(item);
         }
-        return { positions: this.guarded(() => this.arranged(this.wholePositions())), faces: this.shownFaces() };
+        return { positions: first ?? this.guarded(() => this.arranged(this.wholePositions())), faces: this.shownFaces() };
+    }
+
+    /** A frame's positions in the unit of the mesh. */
+    private made(frame: ComingFrame): Float64Array {
+        return this.guarded(() => this.arranged(inMeshUnits(frame.make(), this.header!)));
     }
 
     private nextItem(): Item | Signal {
@@ -174,6 +198,8 @@ export class Decoder {
                 return this.acceptOrder(packet.method, packet.data);
             case "block":
                 return this.acceptBlock(packet.index, packet.coefficients, packet.data);
+            case "gop":
+                return this.acceptGop(packet.index, packet.data);
             case "grid":
                 return this.acceptGrid(packet.first, packet.count, packet.data);
             case "refinement":
@@ -184,7 +210,9 @@ export class Decoder {
     }
 
     private acceptHeader(header: Header): void {
-        if (header.gopFrames > 0) throw new UnsupportedError("this is a sequence, which this decoder does not play");
+        if (header.gopFrames > 0 && (header.smoothing > 0 || header.details > 0)) {
+            throw new UnsupportedError("smoothing and details of sequences are unknown to this decoder");
+        }
         if (header.grid.length === 0) this.checkWork(header);
         if (header.prediction.length > 1 || !header.prediction.every((value) => value > 0 && value < MAX_STIFFNESS)) {
             throw new CorruptError(`the prediction has the parameters ${header.prediction}, one stiffness is legal`);
@@ -198,7 +226,9 @@ export class Decoder {
         const { blocks, blockSize } = header;
         const width = Math.max(header.coefficients, header.details);
         checkLimit(this.limits, "coefficients", width);
-        const solves = Math.max(solvesOf(header, true), solvesOf(header, false));
+        const ownParts = header.gopFrames > 0 ? solvesOf(header, false) : 0;
+        const solves = Math.max(solvesOf(header, true), solvesOf(header, false)) + ownParts;
+        if (ownParts > 0) checkLimit(this.limits, "sequenceBytes", 8 * blocks * blockSize * header.coefficients);
         checkLimit(this.limits, "work", blocks * blockSize * (200 + solves * (40 * width + 8 * width ** 2)));
     }
 
@@ -245,6 +275,17 @@ export class Decoder {
         this.queue.push({ type: "block", index: this.chunks++, ...this.numbered(changes) });
     }
 
+    private acceptGop(index: number, data: Uint8Array): void {
+        const blocks = this.built();
+        this.expect(this.header!.blocks);
+        if (!this.sequence) {
+            this.memory.release(this.behindMesh);
+            const base = this.assembly!.base();
+            this.sequence = new Sequence(this.memory, this.header!, blocks, this.limits, this.faces!, base, this.allowance);
+        }
+        this.sequence.decode(index, data).forEach((make, t) => this.queue.push({ frame: index + t, make }));
+    }
+
     private acceptRefinement(layer: number, first: number, count: number, data: Uint8Array): void {
         this.built();
         this.expect(this.header!.blocks);
@@ -282,6 +323,8 @@ export class Decoder {
         }
         this.built();
         this.expect(this.header!.blocks);
+        if (this.header!.frames > 0 && !this.sequence) throw new CorruptError("a sequence without frames");
+        this.sequence?.finish();
         this.queue.push({ type: "end" });
     }
 

@@ -11,6 +11,8 @@ export interface Limits {
     gopFrames: number;
     frameBytes: number;
     metadataBytes: number;
+    /** Bytes of the dictionaries of a sequence, and of one of its GOPs. */
+    sequenceBytes: number;
     /** Floating point operations of the dictionaries, by the estimate of the specification. */
     work: number;
     /** Bytes that the decoder's own memory may grow to. */
@@ -27,6 +29,7 @@ export const DEFAULT_LIMITS: Readonly<Limits> = {
     gopFrames: 1024,
     frameBytes: 2 ** 28,
     metadataBytes: 2 ** 16,
+    sequenceBytes: 2 ** 31,
     work: 5e13,
     memory: 2 ** 31,
 };

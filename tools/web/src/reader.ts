@@ -54,7 +54,7 @@ const FOLLOWERS: Record<Kind | "start", Kind[]> = {
 };
 
 /** Reads a payload from front to back; what it lacks or has too much is a `CorruptError`. */
-class Cursor {
+export class Cursor {
     private at = 0;
 
     constructor(private readonly payload: Uint8Array) {}

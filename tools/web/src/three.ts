@@ -1,6 +1,7 @@
 /** BSM streams in three.js: a loader that fills one geometry block by block while the bytes arrive. */
 import { BufferAttribute, BufferGeometry, Loader, type LoadingManager } from "three";
 import { Decoder, NEED_DATA, type BlockEvent, type Event, type RefinementEvent } from "./decoder";
+import { UnsupportedError } from "./errors";
 import type { Header } from "./header";
 import type { Kernels } from "./kernels";
 import type { Limits } from "./limits";
@@ -56,9 +57,14 @@ export class GeometryFiller {
     }
 
     private accept(event: Event): void {
-        if (event.type === "header") this.header = event.header;
+        if (event.type === "header") this.acceptHeader(event.header);
         if (event.type === "connectivity") this.acceptFaces(event.faces);
         if (event.type === "block" || event.type === "refinement") this.acceptBlock(event);
+    }
+
+    private acceptHeader(header: Header): void {
+        if (header.gopFrames > 0) throw new UnsupportedError("this is a sequence, which is no single geometry");
+        this.header = header;
     }
 
     private acceptFaces(faces: Int32Array): void {

@@ -22,14 +22,16 @@ export function* eventsOf(kernels: Kernels, data: Uint8Array, size: number, limi
     for (let event; (event = decoder.nextEvent()) !== END_OF_STREAM; ) yield event as Event;
 }
 
-/** The mesh that block events add up to. */
+/** The mesh that block events add up to; of a sequence all its frames, one behind the other. */
 export function meshOfEvents(events: Iterable<Event>): Mesh {
     let positions = new Float64Array(0);
     let faces = new Int32Array(0);
+    const frames: Float64Array[] = [];
     for (const event of events) {
         if (event.type === "header") positions = new Float64Array(3 * event.header.vertices).fill(NaN);
         if (event.type === "connectivity") faces = Int32Array.from(event.faces);
+        if (event.type === "frame") frames.push(event.positions);
         if (event.type === "block" || event.type === "refinement") event.vertices.forEach((v, i) => positions.set(event.positions.subarray(3 * i, 3 * i + 3), 3 * v));
     }
-    return { positions, faces };
+    return { positions: frames.length ? Float64Array.from(frames.flatMap((frame) => [...frame])) : positions, faces };
 }

@@ -1,0 +1,382 @@
+/** Frames of a sequence, which follow the blocks of its first frame (specification, sequence.md). */
+import { factorize, reconstruct, solve, cosineColumns, type Factor, type Matrix } from "./basis";
+import { makeBlock, type Block, type Blocks } from "./blocks";
+import { keyDictionary, spendOn, TETHER, type Allowance } from "./chain";
+import { Coder, makeBank, unsignedSpan, type Bank } from "./entropy";
+import { CorruptError, NumericError, UnsupportedError } from "./errors";
+import type { Header } from "./header";
+import type { Doubles, Ints, Memory } from "./kernels";
+import { checkLimit, type Limits } from "./limits";
+import { Cursor } from "./reader";
+
+const LEARNT = 0;
+const COSINES = 1;
+const KEY_FRAME = 2;
+const NEXT_FRAME = 3;
+const MOST_EXPONENT = 400;
+
+const FLATNESS = 2 ** -12;
+const SMALLNESS = 2 ** -48;
+const SMALLEST_WEIGHT = 2 ** -5;
+const LARGEST_WEIGHT = 8;
+const BEND = 2 ** -6;
+
+const INPUTS = 6;
+const SPAN = unsignedSpan(14) + 2;
+const SLOTS = (5 * 12 * 12 + 12 * 40) * SPAN;
+const LEADING = 24;
+/** Forgetting, ridge, noise, largest level, dense rows, renewal (S 6). */
+const RULES = [0.985, 0.005, 30, 2 ** 23 - 1, 16n, 8n] as const;
+
+/** The data of a GOP (S 2). */
+interface Gop {
+    method: number;
+    frames: number;
+    step: number;
+    components: number;
+    exponents: number[];
+    basis: Uint8Array;
+    levels: Uint8Array;
+}
+
+/** Rows and columns of levels; kept outside of the kernels' memory. */
+interface Levels {
+    rows: number;
+    values: Int32Array;
+}
+
+/** A part of the mesh, what it hangs on, and its dictionary (S 3). */
+interface Part {
+    block: Block;
+    springs: Float64Array;
+    total: number;
+    starts: Ints;
+    outer: Ints;
+    stiffness: Doubles;
+    factor: Factor;
+    basis: Matrix;
+}
+
+/** What low-delay frames refer to, part by part (S 7.2). */
+interface History {
+    levels: Levels[];
+    moments: Float64Array[];
+    latest: Float64Array[];
+    before: Float64Array[];
+}
+
+/** Decodes the GOPs of one sequence; what it keeps lies in memory behind all that the first frame has. */
+export class Sequence {
+    private readonly parts: Part[] = [];
+    private readonly first: Float64Array[];
+    private readonly behindParts: number;
+    private bank!: Bank;
+    private behindBank = 0;
+    private history?: History;
+    private next = 0;
+
+    /** `firstFrame` holds the positions that the blocks add up to, in BSM units. */
+    constructor(
+        private readonly memory: Memory,
+        private readonly header: Header,
+        private readonly blocks: Blocks,
+        private readonly limits: Limits,
+        faces: Ints,
+        firstFrame: Float64Array,
+        allowance: Allowance,
+    ) {
+        const frame = memory.copy(firstFrame, 3);
+        const weights = this.edgeWeights(faces, frame);
+        const rank = memory.ints(blocks.graph.size);
+        for (let index = 0; index < blocks.count; index++) for (const vertex of core(blocks, index).view) rank.view[vertex] = index;
+        for (let index = 0; index < blocks.count; index++) this.parts.push(this.makePart(index, weights, rank, allowance));
+        this.first = this.parts.map((part) => this.difference(part, frame));
+        this.behindParts = memory.mark();
+    }
+
+    /** Frames of the GOP from frame `index` on, each made when it is called; valid until the next GOP. */
+    decode(index: number, data: Uint8Array): (() => Float64Array)[] {
+        const { header } = this;
+        if (index !== this.next) throw new CorruptError(`frame ${index} where frame ${this.next} must follow`);
+        const gop = parseGop(data, header.gopFrames);
+        const columns = gop.method === COSINES ? 3 * gop.frames : gop.components;
+        checkLimit(this.limits, "sequenceBytes", 16 * columns * (header.vertices + 3 * gop.frames));
+        this.next += gop.frames;
+        if (header.frames > 0 && this.next > header.frames) throw new CorruptError(`frame ${this.next - 1} of ${header.frames}`);
+        return gop.method <= COSINES ? this.transformed(gop) : [this.single(gop)];
+    }
+
+    /** Take note that the stream has ended. */
+    finish(): void {
+        const { frames } = this.header;
+        if (frames > 0 && this.next < frames) throw new CorruptError(`the frames end at ${this.next} of ${frames}`);
+    }
+
+    /** Weight of each entry of the graph (S 3.1). */
+    private edgeWeights(faces: Ints, frame: Doubles): Doubles {
+        const { memory, header } = this;
+        const { offsets, neighbours } = this.blocks.graph;
+        const weights = memory.doubles(neighbours.length);
+        weights.view.fill(header.weights === 1 ? 0 : 1);
+        if (header.weights === 0) return weights;
+        memory.run("cotangents", offsets, neighbours, faces, frame, FLATNESS, SMALLNESS, weights);
+        const { view } = weights;
+        if (!view.every(Number.isFinite)) throw new NumericError("the first frame is too large for weights of its edges");
+        view.forEach((sum, i) => {
+            const positive = (sum + Math.sqrt(sum * sum + BEND)) / 2;
+            view[i] = SMALLEST_WEIGHT + (LARGEST_WEIGHT * positive) / (LARGEST_WEIGHT + positive);
+        });
+        return weights;
+    }
+
+    private makePart(index: number, weights: Doubles, rank: Ints, allowance: Allowance): Part {
+        const { memory, header } = this;
+        const { graph } = this.blocks;
+        const binary = makeBlock(memory, graph, core(this.blocks, index));
+        const { size, vertices, offsets, neighbours } = binary;
+        const around = graph.offsets.view;
+        const room = vertices.view.reduce((sum, vertex) => sum + around[vertex + 1] - around[vertex], 0);
+        const [inner, held] = [memory.doubles(neighbours.length), memory.doubles(size)];
+        const [starts, outer, stiffness] = [memory.ints(size + 1), memory.ints(room), memory.doubles(room)];
+        memory.run(
+            "hold", graph.offsets, graph.neighbours, weights, rank, vertices, offsets, neighbours, inner, held, starts, outer, stiffness,
+        );
+        const block = { ...binary, weights: inner };
+        const springs = held.view.slice();
+        const columns = Math.min(header.coefficients, size);
+        spendOn(allowance, header, block, columns, false);
+        const factor = factorize(memory, block, springs.map((spring) => spring + TETHER));
+        const total = springs.reduce((sum, spring) => sum + spring, 0);
+        const basis = keyDictionary(memory, header, block, springs, columns);
+        return { block, springs, total, starts, outer, stiffness, factor, basis };
+    }
+
+    /** P: rows that continue a field (S 3.4). */
+    private extend(part: Part, field: Doubles): Float64Array {
+        const { memory } = this;
+        const { block, springs, total } = part;
+        const width = field.columns!;
+        if (total === 0) return new Float64Array(block.size * width);
+        return memory.scratch(() => {
+            const pulls = memory.doubles(block.size * width, width);
+            memory.run("pull", part.starts, part.outer, part.stiffness, field, pulls);
+            const { view } = pulls;
+            const mean = new Float64Array(width);
+            view.forEach((pull, i) => (mean[i % width] += pull / total));
+            view.forEach((pull, i) => (view[i] = pull - springs[Math.floor(i / width)] * mean[i % width]));
+            return solve(memory, block, part.factor, pulls).view.map((value, i) => value + mean[i % width]);
+        });
+    }
+
+    /** D of a field that is known (S 3.5). */
+    private difference(part: Part, field: Doubles): Float64Array {
+        const { memory } = this;
+        const width = field.columns!;
+        const rest = this.extend(part, field);
+        const values = field.view;
+        part.block.vertices.view.forEach((vertex, row) => {
+            for (let i = 0; i < width; i++) rest[row * width + i] = values[vertex * width + i] - rest[row * width + i];
+        });
+        return memory.scratch(() => {
+            const { values, columns } = part.basis;
+            const coefficients = memory.doubles(columns * width, width);
+            memory.run("project", memory.copy(values, columns), memory.copy(rest, width), coefficients);
+            return coefficients.view.slice();
+        });
+    }
+
+    /** Fill a part of a field (S 3.5). */
+    private place(part: Part, field: Doubles, difference: Float64Array): void {
+        const width = field.columns!;
+        const rows = this.extend(part, field);
+        reconstruct(this.memory, part.basis, difference, width).forEach((value, i) => (rows[i] += value));
+        const values = field.view;
+        part.block.vertices.view.forEach((vertex, row) => values.set(rows.subarray(row * width, (row + 1) * width), vertex * width));
+    }
+
+    /** A model that has learnt nothing (S 4.1); what lies behind the parts is given back. */
+    private startModel(): void {
+        this.memory.release(this.behindParts);
+        this.bank = makeBank(this.memory, { slots: SLOTS, selectors: 3 * SPAN, inputs: INPUTS, limit: 400, rate: 10 });
+        this.behindBank = this.memory.mark();
+    }
+
+    /** Matrices of levels of so many rows, one behind the other; `references` has one for each, or none: the one before. */
+    private readLevels(data: Uint8Array, rows: number[], columns: number, references?: Levels[]): Levels[] {
+        const { memory } = this;
+        return memory.scratch(() => {
+            const coder = new Coder(memory, data);
+            const slow = memory.longs(columns);
+            const read: Levels[] = [];
+            for (const count of rows) {
+                const reference = references ? references[read.length] : (read.at(-1) ?? { rows: 0, values: new Int32Array(0) });
+                const values = memory.scratch(() => {
+                    const [levels, known] = [memory.ints(count * columns, columns), memory.ints(reference.values.length, columns)];
+                    levels.view.fill(0);
+                    known.view.set(reference.values);
+                    memory.call("code_matrix", coder.parts, this.bank, shaped(memory, levels, count), shaped(memory, known, reference.rows), 0n, slow);
+                    return levels.view.slice();
+                });
+                if (coder.overran) break;
+                read.push({ rows: count, values });
+            }
+            coder.finish();
+            return read;
+        });
+    }
+
+    /** What a closed loop makes of levels (S 6); `moments` is updated. */
+    private follow(known: Float64Array, count: number, levels: Levels, columns: number, moments: Float64Array, step: number): Float64Array {
+        const { memory } = this;
+        const width = count + columns;
+        return memory.scratch(() => {
+            const given = memory.ints(levels.values.length, columns);
+            given.view.set(levels.values);
+            const decoded = memory.doubles(levels.values.length, columns);
+            const state = memory.copy(moments, width);
+            const factor = memory.copy(new Float64Array(moments.length), width);
+            memory.run(
+                "follow_rows", memory.copy(known, count), decoded, given, decoded, state, step, 0, 0, RULES, factor,
+                memory.doubles(width), memory.doubles(width),
+            );
+            moments.set(state.view);
+            const values = decoded.view.slice();
+            if (values.every(Number.isFinite)) return values;
+            throw new NumericError("the levels reconstruct to coefficients that are not finite");
+        });
+    }
+
+    private emptyField(columns: number): Doubles {
+        const field = this.memory.doubles(this.header.vertices * columns, columns);
+        field.view.fill(0);
+        return field;
+    }
+
+    /** Frames of methods 0 and 1 (S 7.1). */
+    private transformed(gop: Gop): (() => Float64Array)[] {
+        const { memory, parts, first } = this;
+        const columns = gop.components;
+        this.history = undefined;
+        this.startModel();
+        const basis = gop.method === LEARNT ? this.learntBasis(gop) : cosineBasis(memory, gop);
+        this.startModel();
+        const levels = this.readLevels(gop.levels, parts.map((part) => part.basis.columns), columns);
+        if (columns === 0) return Array.from({ length: gop.frames }, () => () => new Float64Array(3 * this.header.vertices));
+        const field = this.emptyField(columns);
+        parts.forEach((part, k) => {
+            const moments = emptyMoments(3, columns);
+            this.place(part, field, this.follow(first[k], 3, levels[k], columns, moments, gop.step));
+        });
+        return Array.from({ length: gop.frames }, (_, t) => () => this.frameOf(field, basis, gop.frames, t));
+    }
+
+    /** Frame t of components over a temporal basis. */
+    private frameOf(field: Doubles, basis: Float64Array, frames: number, t: number): Float64Array {
+        const { memory, header } = this;
+        const columns = field.columns!;
+        return memory.scratch(() => {
+            const weights = Float64Array.from({ length: 3 * columns }, (_, i) => basis[((i % 3) * frames + t) * columns + Math.floor(i / 3)]);
+            const positions = memory.doubles(3 * header.vertices, 3);
+            memory.run("reconstruct", field, memory.copy(weights, 3), positions);
+            return positions.view.slice();
+        });
+    }
+
+    /** B of method 0, 3 T rows (S 5.2). */
+    private learntBasis({ frames, components, exponents, basis }: Gop): Float64Array {
+        const steps = exponents.map((exponent) => 2 ** (-exponent / 4));
+        const matrices = this.readLevels(basis, [frames, frames, frames], components);
+        const cosines = temporalCosines(this.memory, frames);
+        const columns = new Float64Array(3 * frames * components);
+        matrices.forEach(({ values }, d) => {
+            const spectrum = Float64Array.from(values, (level, i) => level * steps[i % components]);
+            if (components > 0) columns.set(reconstruct(this.memory, cosines, spectrum, components), d * frames * components);
+        });
+        return columns;
+    }
+
+    /** The frame of methods 2 and 3 (S 7.2). */
+    private single(gop: Gop): () => Float64Array {
+        const { memory, parts, first } = this;
+        if (gop.method === KEY_FRAME) {
+            this.startModel();
+            const levels = first.map(({ length }) => ({ rows: length / 3, values: new Int32Array(length) }));
+            this.history = { levels, moments: first.map(() => emptyMoments(9, 3)), latest: first, before: first };
+        }
+        const { history } = this;
+        if (!history) throw new CorruptError("a frame refers to one that is not there");
+        memory.release(this.behindBank);
+        const levels = this.readLevels(gop.levels, parts.map((part) => part.basis.columns), 3, history.levels);
+        const field = this.emptyField(3);
+        const latest = parts.map((part, k) => {
+            const [start, now, before] = [first[k], history.latest[k], history.before[k]];
+            const known = new Float64Array(3 * now.length);
+            now.forEach((value, i) => {
+                const at = 9 * Math.floor(i / 3) + (i % 3);
+                [known[at], known[at + 3], known[at + 6]] = [start[i], value, value - before[i]];
+            });
+            const difference = this.follow(known, 9, levels[k], 3, history.moments[k], gop.step).map((change, i) => now[i] + change);
+            this.place(part, field, difference);
+            return difference;
+        });
+        this.history = { levels, moments: history.moments, latest, before: history.latest };
+        return () => field.view.slice();
+    }
+}
+
+function core({ members, starts, cores }: Blocks, index: number): Ints {
+    return members.part(starts[index], cores[index]);
+}
+
+/** A matrix as kernels take it, of any number of columns, none included. */
+function shaped(memory: Memory, place: Ints, rows: number): Ints | readonly [Ints, bigint] {
+    return place.columns! > 0 ? place : [memory.ints(rows), 0n];
+}
+
+function emptyMoments(known: number, columns: number): Float64Array {
+    return new Float64Array((known + Math.min(columns, LEADING)) * (known + columns));
+}
+
+/** The orthonormal cosines over time, a row for each frame (S 5.1). */
+function temporalCosines(memory: Memory, frames: number): Matrix {
+    const cosines = cosineColumns(memory, frames, 0, frames);
+    const values = cosines.values.map((value, i) => value * Math.sqrt((i % frames ? 2 : 1) / frames));
+    return { ...cosines, values };
+}
+
+/** B of method 1, 3 T rows (S 5.1). */
+function cosineBasis(memory: Memory, { frames, components }: Gop): Float64Array {
+    const { values } = temporalCosines(memory, frames);
+    const basis = new Float64Array(3 * frames * components);
+    for (let i = 0; i < components; i++) {
+        const [f, d] = [Math.floor(i / 3), i % 3];
+        for (let t = 0; t < frames; t++) basis[(d * frames + t) * components + i] = values[t * frames + f];
+    }
+    return basis;
+}
+
+/** The data of a GOP of a sequence whose longest has so many frames (S 2). */
+function parseGop(data: Uint8Array, longest: number): Gop {
+    const cursor = new Cursor(data);
+    const method = cursor.take(1)[0];
+    if (method > NEXT_FRAME) throw new UnsupportedError(`GOP method ${method} is unknown to this decoder`);
+    const frames = cursor.varint();
+    const most = method <= COSINES ? longest : 1;
+    if (frames < 1 || frames > most) throw new CorruptError(`a GOP of ${frames} frames where 1 to ${most} are legal`);
+    const bytes = cursor.take(4);
+    const step = new DataView(bytes.buffer, bytes.byteOffset, 4).getFloat32(0, true);
+    if (!(step > 0 && step < Infinity)) throw new CorruptError(`a GOP with the step ${step}`);
+    const components = method <= COSINES ? cursor.varint() : 3;
+    if (components > 3 * frames) throw new CorruptError(`${components} components for ${frames} frames`);
+    const exponents: number[] = [];
+    let basis = new Uint8Array(0);
+    if (method === LEARNT) {
+        for (let exponent = 0; exponents.length < components; exponents.push(exponent)) {
+            const code = cursor.varint();
+            exponent += code % 2 ? -(code + 1) / 2 : code / 2;
+            if (exponent < 0 || exponent > MOST_EXPONENT) throw new CorruptError(`the exponent ${exponent} of a basis`);
+        }
+        basis = cursor.take(cursor.varint()).slice();
+    }
+    return { method, frames, step, components, exponents, basis, levels: cursor.rest() };
+}
