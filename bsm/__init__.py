@@ -50,7 +50,7 @@ if TYPE_CHECKING:
         encode_sequence as encode_sequence, load as load, save as save,
     )
     from bsm.files.mesh import read_mesh as read_mesh
-    from bsm.files.polygons import MeshFile as MeshFile
+    from bsm.files.formats.polygons import MeshFile as MeshFile
     from codec.denoise import DenoiseOptions as DenoiseOptions
     from codec.geometry.mesh import TriangleMesh as TriangleMesh
     from codec.geometry.metrics import Comparison as Comparison
@@ -58,7 +58,7 @@ if TYPE_CHECKING:
     from codec.sequence.encoder import SequenceEncoder as SequenceEncoder
     from codec.sequence.options import SequenceOptions as SequenceOptions
     from codec.sequence.targets import SequenceTarget as SequenceTarget
-    from codec.static.contract import Contract as Contract
+    from codec.static.quality.contract import Contract as Contract
     from codec.static.decoder import Decoder as Decoder
     from codec.static.encoder import Encoder as Encoder
     from codec.static.events import (
@@ -66,7 +66,7 @@ if TYPE_CHECKING:
         HeaderEvent as HeaderEvent, LossEvent as LossEvent, RefinementEvent as RefinementEvent,
     )
     from codec.static.options import PRESETS as PRESETS, EncodeOptions as EncodeOptions
-    from codec.static.targets import Target as Target
+    from codec.static.quality.targets import Target as Target
 # isort: on
 # fmt: on
 
@@ -82,7 +82,7 @@ _ROOMS = {
     "bitstream.limits": "Limits",
     "bsm.api": "compare decode decode_sequence denoise encode encode_sequence load save",
     "bsm.files.mesh": "read_mesh",
-    "bsm.files.polygons": "MeshFile",
+    "bsm.files.formats.polygons": "MeshFile",
     "codec.denoise": "DenoiseOptions",
     "codec.geometry.mesh": "TriangleMesh",
     "codec.geometry.metrics": "Comparison",
@@ -90,12 +90,12 @@ _ROOMS = {
     "codec.sequence.encoder": "SequenceEncoder",
     "codec.sequence.options": "SequenceOptions",
     "codec.sequence.targets": "SequenceTarget",
-    "codec.static.contract": "Contract",
+    "codec.static.quality.contract": "Contract",
     "codec.static.decoder": "Decoder",
     "codec.static.encoder": "Encoder",
     "codec.static.events": "BlockEvent ConnectivityEvent EndEvent HeaderEvent LossEvent RefinementEvent",
     "codec.static.options": "PRESETS EncodeOptions",
-    "codec.static.targets": "Target",
+    "codec.static.quality.targets": "Target",
 }
 _HOMES = {name: room for room, names in _ROOMS.items() for name in names.split()}
 

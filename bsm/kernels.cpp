@@ -2,7 +2,7 @@
 #include "bitstream/kernel.hpp"
 
 extern "C" {
-#include "bsm/files/walk.h"
+#include "bsm/files/formats/walk.h"
 }
 
 using namespace nb::literals;

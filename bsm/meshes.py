@@ -10,12 +10,12 @@ import numpy.typing as npt
 
 from bitstream.errors import ArgumentError, MeshError
 from bitstream.limits import DEFAULT_LIMITS
+from bsm.files.formats.polygons import MeshFile, Polygons
+from bsm.files.formats.with_trimesh import joined
 from bsm.files.mesh import read_mesh
 from bsm.files.pipes import Input
-from bsm.files.polygons import MeshFile, Polygons
 from bsm.files.rows import Ints, ranges
 from bsm.files.stream import decode_whole, is_stream
-from bsm.files.with_trimesh import joined
 from codec.geometry.mesh import TriangleMesh
 
 _POINTS = ("vertices", "points", "positions")

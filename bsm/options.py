@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from codec.denoise import DenoiseOptions
     from codec.sequence.options import SequenceOptions
     from codec.static.options import EncodeOptions
-    from codec.static.targets import Target
+    from codec.static.quality.targets import Target
 
 TARGETS = {
     "nmsve_db": "nmsve_db",
@@ -55,7 +55,7 @@ def encode_options(*, preset: str = "balanced", **keywords: Any) -> EncodeOption
         If a value is outside its range, or options exclude each other.
     """
     from codec.static.options import CODING, PRESETS, EncodeOptions
-    from codec.static.targets import Target
+    from codec.static.quality.targets import Target
 
     base: EncodeOptions = _named("preset", PRESETS, preset)
     given = _fields("a mesh", EncodeOptions, _with_length(keywords), TARGETS, Target)
@@ -66,7 +66,7 @@ def encode_options(*, preset: str = "balanced", **keywords: Any) -> EncodeOption
 
 def _with_length(keywords: Mapping[str, Any]) -> dict[str, Any]:
     """Keywords, a `max_error` with a unit among them as the contract that it is."""
-    from codec.static.contract import Contract
+    from codec.static.quality.contract import Contract
 
     given = dict(keywords)
     text = given.get("max_error")

@@ -11,7 +11,7 @@ extern "C" {
 #include "codec/blocks/blend.h"
 #include "codec/blocks/overlap.h"
 #include "codec/blocks/partition.h"
-#include "codec/denoise/estimate.h"
+#include "codec/denoise/noise/estimate.h"
 #include "codec/denoise/filters/fast_effective.h"
 #include "codec/denoise/filters/guidance.h"
 #include "codec/denoise/filters/kernel.h"
@@ -32,7 +32,7 @@ extern "C" {
 #include "codec/signal/predict.h"
 #include "codec/signal/smooth.h"
 #include "codec/signal/transform.h"
-#include "codec/static/shaping.h"
+#include "codec/static/quality/shaping.h"
 }
 
 template <>

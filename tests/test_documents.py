@@ -15,7 +15,7 @@ import pytest
 
 from bsm.evaluation.sample import knot
 from bsm.files.mesh import write_mesh
-from codec.denoise.noise import gaussian_along_normals
+from codec.denoise.noise.gaussian import gaussian_along_normals
 from codec.geometry.mesh import TriangleMesh
 
 ROOT = Path(__file__).parents[1]

@@ -21,8 +21,8 @@ from pathlib import Path
 
 import numpy as np
 
+from bsm.files.formats.npz import read_arrays
 from bsm.files.mesh import read_mesh
-from bsm.files.npz import read_arrays
 from bsm.paper.sequences import noisy_frames, time_sequence
 from codec.denoise.automatic import denoise_automatically
 from codec.denoise.coarse import CoarseFilter

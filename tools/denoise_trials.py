@@ -14,12 +14,12 @@ from pathlib import Path
 import numpy as np
 
 from bitstream.errors import BsmError
+from bsm.files.formats.npz import read_arrays
 from bsm.files.mesh import read_mesh
-from bsm.files.npz import read_arrays
 from codec.denoise import FrameDenoiser, denoise_automatically
 from codec.denoise.coarse import CoarseFilter
 from codec.denoise.filters.topology import Topology
-from codec.denoise.noise import (
+from codec.denoise.noise.gaussian import (
     correlated_along_normals,
     gaussian_along_axis,
     gaussian_along_normals,

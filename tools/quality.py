@@ -38,7 +38,7 @@ from codec.static.decoder import decode
 from codec.static.encoder import Encoder, encode
 from codec.static.joining import join
 from codec.static.options import PRESETS, EncodeOptions
-from codec.static.targets import Target
+from codec.static.quality.targets import Target
 
 Result = TypeVar("Result")
 

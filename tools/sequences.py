@@ -18,7 +18,7 @@ import numpy as np
 
 from bitstream.container.reader import END_OF_STREAM
 from bsm.evaluation.sequences import Point, draco_point, pca_point
-from bsm.files.npz import read_arrays
+from bsm.files.formats.npz import read_arrays
 from bsm.files.output import open_output
 from codec.geometry.mesh import Faces, Positions, TriangleMesh
 from codec.sequence.decoder import SequenceDecoder

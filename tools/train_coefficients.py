@@ -47,8 +47,8 @@ from bitstream.container.header import Header
 from bitstream.container.reader import Reader, Signal
 from bitstream.entropy.range_coder import Bank, make_bank
 from bsm.files.mesh import read_mesh
-from codec.static.coding import detail_rows
 from codec.static.encoder import encode
+from codec.static.layers.coding import detail_rows
 from codec.static.options import EncodeOptions
 from codec.static.rules import chain_rules
 

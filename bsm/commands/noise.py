@@ -70,7 +70,7 @@ def run(args: argparse.Namespace, console: Console) -> None:
 
 
 def _generator(args: argparse.Namespace) -> Callable[[TriangleMesh], Positions]:
-    from codec.denoise import noise
+    from codec.denoise.noise import gaussian as noise
 
     sigma, seed = args.sigma, args.seed
     if args.fraction is not None and args.kind not in ("impulsive", "part"):

@@ -14,7 +14,7 @@ from codec.geometry.metrics import Reference
 from codec.static.decoder import decode
 from codec.static.encoder import Encoder
 from codec.static.options import EncodeOptions
-from codec.static.targets import Target
+from codec.static.quality.targets import Target
 
 DRACO_LEVEL = 10
 THETA = 7.0

@@ -19,16 +19,16 @@ from typing import BinaryIO, cast
 from bitstream.container.wire import MAGIC
 from bitstream.errors import CorruptError, FormatError, MeshError, OptionError, TruncatedError
 from bitstream.limits import DEFAULT_LIMITS, Limits
-from bsm.files.npz import other_arrays, read_arrays, write_npz
-from bsm.files.obj import read_obj, write_obj
-from bsm.files.off import read_off, write_off
+from bsm.files.formats.npz import other_arrays, read_arrays, write_npz
+from bsm.files.formats.obj import read_obj, write_obj
+from bsm.files.formats.off import read_off, write_off
+from bsm.files.formats.ply import read_ply, write_ply
+from bsm.files.formats.polygons import MeshFile, Polygons
+from bsm.files.formats.stl import read_stl, write_stl
+from bsm.files.formats.with_openmesh import read_with_openmesh
+from bsm.files.formats.with_trimesh import read_with_trimesh
 from bsm.files.output import open_output
 from bsm.files.pipes import Input, Source, as_input
-from bsm.files.ply import read_ply, write_ply
-from bsm.files.polygons import MeshFile, Polygons
-from bsm.files.stl import read_stl, write_stl
-from bsm.files.with_openmesh import read_with_openmesh
-from bsm.files.with_trimesh import read_with_trimesh
 from codec.geometry.mesh import TriangleMesh
 
 _READERS: dict[str, Callable[[bytes], Polygons]] = {

@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from bitstream.errors import FormatError, MeshError
-from bsm.files.npy import write_npy
+from bsm.files.formats.npy import write_npy
 from bsm.files.output import open_output
 from bsm.files.pipes import read_bytes
 from codec.geometry.mesh import Faces, Positions, TriangleMesh

@@ -20,9 +20,9 @@ from pathlib import Path
 import numpy as np
 
 from bitstream.errors import FormatError, MeshError, OptionError
+from bsm.files.formats.npy import NPY, read_npy, write_npy
+from bsm.files.formats.npz import Archive, npz_frames, npz_shape, open_npz_sequence, read_arrays
 from bsm.files.mesh import MESH_FORMATS, format_mesh, format_of_name, read_mesh
-from bsm.files.npy import NPY, read_npy, write_npy
-from bsm.files.npz import Archive, npz_frames, npz_shape, open_npz_sequence, read_arrays
 from bsm.files.output import open_output
 from bsm.files.pipes import Input, Source, as_input, is_pipe
 from codec.geometry.mesh import Faces, Positions, TriangleMesh

@@ -16,7 +16,7 @@ from codec.blocks.overlap import block_size, grow_blocks
 from codec.blocks.partition import metis_partition
 from codec.denoise.coarse import BLOCK_SIZE, KEEP, OVERLAP, RULES, CoarseFilter
 from codec.denoise.frames import GROUP, Frames, filter_frames
-from codec.denoise.noise import gaussian_along_normals
+from codec.denoise.noise.gaussian import gaussian_along_normals
 from codec.geometry.graph import Graph, graph_of_faces
 from codec.geometry.mesh import Faces
 from codec.geometry.metrics import theta

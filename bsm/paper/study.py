@@ -13,10 +13,10 @@ import numpy.typing as npt
 from bitstream.errors import OptionError
 from bsm.evaluation.render import DEFAULT_VIEW, view_matrix
 from bsm.evaluation.sample import knot
+from bsm.files.formats.npz import read_arrays
 from bsm.files.mesh import format_of_name, read_mesh
-from bsm.files.npz import read_arrays
 from bsm.paper.shapes import ball, box, swaying
-from codec.denoise.noise import gaussian_along_normals
+from codec.denoise.noise.gaussian import gaussian_along_normals
 from codec.geometry.mesh import Faces, Positions, TriangleMesh
 from codec.geometry.metrics import Reference
 

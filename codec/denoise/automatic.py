@@ -8,11 +8,11 @@ import numpy as np
 
 from codec.choices import named
 from codec.denoise.coarse import CoarseFilter
-from codec.denoise.estimate import NoiseLevel
 from codec.denoise.filters.topology import Topology
-from codec.denoise.finding import Finding, find_noise
-from codec.denoise.outliers import Outliers, find_outliers
-from codec.denoise.probe import Probe
+from codec.denoise.noise.estimate import NoiseLevel
+from codec.denoise.noise.finding import Finding, find_noise
+from codec.denoise.noise.outliers import Outliers, find_outliers
+from codec.denoise.noise.probe import Probe
 from codec.denoise.recipe import Recipe, Step, blend, perform
 from codec.denoise.rehearsal import GOALS, MOST_MEMBERS, Rehearsal
 from codec.denoise.safety import Verdict, judge, keep_good, restraint
@@ -53,8 +53,8 @@ class AutomaticChoice:
     steps : tuple of Step
         The result is their mean; none: the mesh is best left alone.
     kind : str
-        Of the noise, see `codec.denoise.finding.Finding`; "outliers" where single vertices were all there was, and
-        "unsteady" where noise was removed in time alone.
+        Of the noise, see `codec.denoise.noise.finding.Finding`; "outliers" where single vertices were all there was,
+        and "unsteady" where noise was removed in time alone.
     reason : str
         A sentence on what was found.
     noise : NoiseLevel

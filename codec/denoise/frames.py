@@ -13,10 +13,10 @@ from bitstream.errors import HarmError, MeshError
 from codec.denoise.automatic import AutomaticChoice, Patient, choose, treat
 from codec.denoise.coarse import BLOCK_SIZE, KEEP, CoarseFilter
 from codec.denoise.filters.fine import fine_step
-from codec.denoise.finding import Finding, find_noise
 from codec.denoise.handover import hand_over
+from codec.denoise.noise.finding import Finding, find_noise
+from codec.denoise.noise.outliers import find_outliers
 from codec.denoise.options import DenoiseOptions
-from codec.denoise.outliers import find_outliers
 from codec.denoise.safety import judge, keep_good
 from codec.denoise.temporal import FEWEST_FRAMES, TemporalFilter
 from codec.geometry.mesh import Faces, Positions

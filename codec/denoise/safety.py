@@ -11,8 +11,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from codec.denoise.filters.topology import Mask
-from codec.denoise.finding import Finding
-from codec.denoise.probe import Probe
+from codec.denoise.noise.finding import Finding
+from codec.denoise.noise.probe import Probe
 from codec.geometry.mesh import Positions
 
 MOST = 1.25

@@ -19,8 +19,8 @@ from bitstream.limits import DEFAULT_LIMITS, Limits
 from codec.arrays import Faces, Matrix, Positions
 from codec.blocks.blend import Blend
 from codec.sequence.gop import GopDecoder, make_setting
-from codec.static.block_coder import ChainDecoder
 from codec.static.events import ConnectivityEvent, EndEvent, HeaderEvent, LossEvent, unreadable
+from codec.static.layers.block_coder import ChainDecoder
 from codec.static.preamble import Beginning, Body, Structure
 from codec.static.rules import chain_rules
 from codec.static.stages import Arrival, Ended, Stage, StreamDecoder, misplaced

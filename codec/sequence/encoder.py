@@ -24,11 +24,11 @@ from codec.sequence.targets import SequenceComparison, compare_sequences
 from codec.signal.chain import ChainRules
 from codec.signal.quantize import smallest_step
 from codec.static.assembly import blended
-from codec.static.block_coder import CodedBlock, Progress, encode_blocks
-from codec.static.coding import Adaptive
+from codec.static.layers.block_coder import CodedBlock, Progress, encode_blocks
+from codec.static.layers.coding import Adaptive
 from codec.static.preamble import Parts, Prepared, prepare
+from codec.static.quality.targets import search_step
 from codec.static.rules import STIFFNESS, Scheme
-from codec.static.targets import search_step
 from codec.static.units import single
 
 FINEST_STEP = 2e-5

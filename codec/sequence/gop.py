@@ -26,7 +26,7 @@ from codec.sequence.row_prediction import (
     trajectories,
 )
 from codec.sequence.temporal import WORTH, bits_estimate, learn_basis, projection
-from codec.static.block_coder import Progress
+from codec.static.layers.block_coder import Progress
 from codec.static.rules import Scheme
 from codec.static.work import Allowance
 

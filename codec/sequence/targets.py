@@ -10,7 +10,7 @@ import numpy as np
 
 from codec.arrays import Faces, Positions
 from codec.geometry.metrics import Reference, kg_error
-from codec.static.targets import Target
+from codec.static.quality.targets import Target
 
 
 @dataclass(frozen=True)

@@ -13,7 +13,6 @@ from bitstream.errors import BsmError, CorruptError, OptionError, UnsupportedErr
 from bitstream.limits import DEFAULT_LIMITS, Limits
 from codec.geometry.mesh import TriangleMesh
 from codec.static.assembly import Assembly, DecodedBlock
-from codec.static.block_coder import ChainDecoder
 from codec.static.events import (
     BlockEvent,
     ConnectivityEvent,
@@ -23,12 +22,13 @@ from codec.static.events import (
     RefinementEvent,
     unreadable,
 )
-from codec.static.grid import GridStage
+from codec.static.layers.block_coder import ChainDecoder
+from codec.static.layers.grid import GridStage
+from codec.static.layers.refinement import PendingLevels, RefinementStage
 from codec.static.preamble import Beginning, Body, Structure
-from codec.static.refinement import PendingLevels, RefinementStage
+from codec.static.quality.whole import Complete
 from codec.static.rules import chain_rules
 from codec.static.stages import Arrival, Stage, StreamDecoder, misplaced
-from codec.static.whole import Complete
 from codec.static.work import Allowance, check_work
 from codec.threads import Lanes, Pending
 

@@ -15,18 +15,18 @@ from codec.geometry.closeness import Original
 from codec.geometry.mesh import TriangleMesh
 from codec.geometry.metrics import Comparison, Reference
 from codec.signal.quantize import smallest_step
-from codec.static.block_coder import Progress
-from codec.static.contract import Contract
-from codec.static.draft import Draft
-from codec.static.fulfilment import Fulfilment
 from codec.static.joining import Joined, join
-from codec.static.ladders import WIDEST, Blocks, Grids, Ladder, Refined
-from codec.static.lattices import rounded
+from codec.static.layers.block_coder import Progress
 from codec.static.options import EncodeOptions
 from codec.static.preamble import Parts, Prepared, prepare
-from codec.static.shaping import Shaper
-from codec.static.spectral import Spectral
-from codec.static.targets import search_step
+from codec.static.quality.contract import Contract
+from codec.static.quality.draft import Draft
+from codec.static.quality.fulfilment import Fulfilment
+from codec.static.quality.ladders import WIDEST, Blocks, Grids, Ladder, Refined
+from codec.static.quality.lattices import rounded
+from codec.static.quality.shaping import Shaper
+from codec.static.quality.spectral import Spectral
+from codec.static.quality.targets import search_step
 
 DETAILED_ANGLE = 4.5
 """Below this mean angle of normals, blocks alone are larger than refined ones."""

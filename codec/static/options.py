@@ -6,9 +6,9 @@ from dataclasses import dataclass
 
 from bitstream.errors import OptionError
 from codec.choices import check_options
-from codec.static.contract import ANY_ANGLE, Contract
+from codec.static.quality.contract import ANY_ANGLE, Contract
+from codec.static.quality.targets import Target
 from codec.static.rules import BASES, BLENDS, KEY_SEEDS, SEEDS
-from codec.static.targets import Target
 
 CHOICES = {
     "basis": BASES,

@@ -12,7 +12,7 @@ from codec.blocks.blend import copy_weights
 from codec.blocks.overlap import Block, Blocks
 from codec.signal.chain import ChainRules
 from codec.signal.predict import MAX_STIFFNESS
-from codec.static.coding import Coding, coding_of
+from codec.static.layers.coding import Coding, coding_of
 
 BASES = ("oi", "svd")
 SEEDS = ("previous", "independent")

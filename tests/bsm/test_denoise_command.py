@@ -11,13 +11,13 @@ import pytest
 from bitstream.errors import CorruptError, FormatError, MeshError
 from bsm.commands.denoise import FINE, GOALS, HAND_OVERS
 from bsm.commands.noise import KINDS
+from bsm.files.formats.npz import npz_frames, npz_shape
 from bsm.files.mesh import read_mesh, write_mesh
-from bsm.files.npz import npz_frames, npz_shape
 from codec.denoise import FINE_STEPS, DenoiseOptions, FrameDenoiser, denoise_automatically
 from codec.denoise import GOALS as LIBRARY_GOALS
 from codec.denoise import HAND_OVERS as LIBRARY_HAND_OVERS
 from codec.denoise.frames import GROUP, OVERLAP, WINDOW
-from codec.denoise.noise import gaussian_along_normals
+from codec.denoise.noise.gaussian import gaussian_along_normals
 from codec.geometry.mesh import TriangleMesh
 from codec.geometry.metrics import mnd, rms_over_edge, theta
 from codec.threads import available_threads

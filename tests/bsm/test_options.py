@@ -11,9 +11,9 @@ from bsm.options import SEQUENCE_STEPS, TARGETS, denoise_options, encode_options
 from codec.denoise import DenoiseOptions
 from codec.sequence.options import SequenceOptions
 from codec.sequence.targets import SequenceTarget
-from codec.static.contract import Contract
 from codec.static.options import PRESETS, EncodeOptions
-from codec.static.targets import Target
+from codec.static.quality.contract import Contract
+from codec.static.quality.targets import Target
 
 
 def test_without_keywords_everything_is_the_default():

@@ -8,7 +8,7 @@ import pytest
 
 from bitstream.errors import CorruptError, FormatError, MeshError, OptionError, TruncatedError
 from bsm.cli import main
-from bsm.files.npy import read_npy
+from bsm.files.formats.npy import read_npy
 from bsm.files.sequence import open_sequence, sequence_kind, sequence_writer
 from tests.motion import bending
 

@@ -14,7 +14,7 @@ from bitstream.fields.levels import LevelsEncoder
 from codec.geometry.mesh import TriangleMesh
 from codec.static.encoder import Encoder, encode
 from codec.static.options import EncodeOptions
-from codec.static.spectral import Base, Spectral
+from codec.static.quality.spectral import Base, Spectral
 from tools.vectors.good import BASE, Good
 from tools.vectors.meshes import hub, patch, shuffled, tangled, tetrahedron, together, torus, triangle
 

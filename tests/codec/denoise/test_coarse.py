@@ -9,7 +9,7 @@ from bitstream.errors import OptionError
 from codec.denoise.coarse import RULES, CoarseFilter
 from codec.denoise.filters.topology import Topology
 from codec.denoise.handover import HAND_OVERS, hand_over
-from codec.denoise.noise import gaussian_along_normals
+from codec.denoise.noise.gaussian import gaussian_along_normals
 from codec.geometry.graph import graph_of_faces
 from codec.geometry.metrics import theta
 from codec.signal.chain import ChainRules

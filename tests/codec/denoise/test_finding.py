@@ -5,8 +5,8 @@ import pytest
 
 from codec.denoise import denoise_automatically
 from codec.denoise.filters.topology import Topology
-from codec.denoise.finding import Finding, find_noise
-from codec.denoise.noise import (
+from codec.denoise.noise.finding import Finding, find_noise
+from codec.denoise.noise.gaussian import (
     correlated_along_normals,
     gaussian_along_axis,
     gaussian_along_normals,
@@ -14,8 +14,8 @@ from codec.denoise.noise import (
     impulsive,
     uniform_along_normals,
 )
-from codec.denoise.outliers import find_outliers
-from codec.denoise.probe import Probe
+from codec.denoise.noise.outliers import find_outliers
+from codec.denoise.noise.probe import Probe
 from codec.denoise.safety import judge, keep_good, restraint
 from codec.geometry.mesh import Faces, Positions
 from codec.geometry.metrics import mean_edge_length

@@ -5,7 +5,7 @@ import pytest
 
 from bitstream.errors import OptionError
 from codec.denoise.filters.fine import FINE_STEPS, FineStep, fine_step
-from codec.denoise.noise import gaussian_along_normals
+from codec.denoise.noise.gaussian import gaussian_along_normals
 from codec.geometry.metrics import theta
 from tests.codec.denoise.denoise_shapes import Partners, cube, grid, sphere
 

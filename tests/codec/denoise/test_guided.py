@@ -8,7 +8,7 @@ from codec.denoise.filters.guided import GuidedFilter, guided_normal_filtering, 
 from codec.denoise.filters.kernel import filter_normals
 from codec.denoise.filters.topology import Topology
 from codec.denoise.filters.vertex_update import face_geometry
-from codec.denoise.noise import gaussian_along_normals
+from codec.denoise.noise.gaussian import gaussian_along_normals
 from codec.geometry.metrics import theta
 from tests.codec.denoise.denoise_shapes import Partners, cube, grid
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from bitstream.errors import OptionError
-from codec.denoise.noise import (
+from codec.denoise.noise.gaussian import (
     correlated_along_normals,
     gaussian_along_axis,
     gaussian_along_normals,

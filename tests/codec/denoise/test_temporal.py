@@ -5,7 +5,7 @@ import pytest
 
 from codec.denoise import FrameDenoiser
 from codec.denoise.frames import OVERLAP, WINDOW
-from codec.denoise.noise import gaussian_along_normals
+from codec.denoise.noise.gaussian import gaussian_along_normals
 from codec.denoise.temporal import FEWEST_FRAMES, TemporalFilter, noise_deviation, shrunk
 from codec.geometry.metrics import mean_edge_length, theta
 from tests.codec.denoise.denoise_shapes import sphere

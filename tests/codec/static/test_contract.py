@@ -14,12 +14,12 @@ from bitstream.errors import MeshError, OptionError, TargetError
 from bsm.files.mesh import read_mesh
 from codec.geometry.closeness import Original
 from codec.geometry.mesh import TriangleMesh
-from codec.static.contract import Contract
 from codec.static.decoder import decode
 from codec.static.encoder import Encoder
-from codec.static.fulfilment import Fulfilment
 from codec.static.options import PRESETS, EncodeOptions
-from codec.static.targets import Target
+from codec.static.quality.contract import Contract
+from codec.static.quality.fulfilment import Fulfilment
+from codec.static.quality.targets import Target
 from tests.conftest import mesh_folder
 from tests.shapes import patch, tetrahedron, together, torus
 

@@ -12,7 +12,7 @@ from codec.geometry.metrics import Comparison, compare
 from codec.static.decoder import decode
 from codec.static.encoder import Encoder
 from codec.static.options import EncodeOptions
-from codec.static.targets import Target, search_step
+from codec.static.quality.targets import Target, search_step
 from tests.shapes import torus
 
 

@@ -1,5 +1,5 @@
 /* The random-walk Laplacian: every vertex less the mean of its neighbours; zero where it has none. */
-#include "codec/denoise/estimate.h"
+#include "codec/denoise/noise/estimate.h"
 
 void minus_mean(ConstDoubles2 values, ConstLongs starts, ConstInts members, Doubles2 rest) {
     int64_t width = values.columns;

@@ -15,7 +15,7 @@ from codec.signal.detail import Surface, make_surface
 from codec.signal.quantize import packed_range, smallest_step
 from codec.signal.smooth import smoothing_spectrum
 from codec.signal.transform import project
-from codec.static.coding import Adaptive, Coding, Layered, Packed
+from codec.static.layers.coding import Adaptive, Coding, Layered, Packed
 from codec.static.options import EncodeOptions
 from codec.static.preamble import Prepared
 from codec.static.rules import STIFFNESS, Scheme

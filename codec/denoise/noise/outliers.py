@@ -14,7 +14,7 @@ import numpy as np
 from scipy.sparse import linalg
 
 from codec.denoise.filters.vertex_update import Floats
-from codec.denoise.probe import Probe
+from codec.denoise.noise.probe import Probe
 from codec.geometry.incidence import Rows
 from codec.geometry.mesh import Positions
 from codec.geometry.metrics import mean_edge_length

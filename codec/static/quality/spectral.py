@@ -13,12 +13,12 @@ from codec.geometry.closeness import Original
 from codec.signal.frames import displaced, in_frames, local_frames
 from codec.signal.smooth import smooth
 from codec.static.assembly import blended
-from codec.static.block_coder import ChainEncoder, Progress, encode_blocks
-from codec.static.draft import Draft
+from codec.static.layers.block_coder import ChainEncoder, Progress, encode_blocks
+from codec.static.layers.refinement import encode_layer
 from codec.static.options import EncodeOptions
-from codec.static.plan import Planner
 from codec.static.preamble import Prepared
-from codec.static.refinement import encode_layer
+from codec.static.quality.draft import Draft
+from codec.static.quality.plan import Planner
 from codec.static.units import single
 
 

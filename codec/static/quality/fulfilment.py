@@ -19,14 +19,14 @@ from bitstream.errors import TargetError
 from bitstream.fields.grid import MOST_LARGEST
 from codec.arrays import Levels, Matrix
 from codec.geometry.closeness import Closeness, Original
-from codec.static.block_coder import Progress
-from codec.static.contract import ANY_ANGLE, Contract
-from codec.static.draft import Draft
-from codec.static.lattices import Shaped, rounded
+from codec.static.layers.block_coder import Progress
 from codec.static.options import EncodeOptions
 from codec.static.preamble import FEW_VERTICES, Prepared
-from codec.static.shaping import Aim, Shaper
-from codec.static.spectral import Base, Spectral, base_step
+from codec.static.quality.contract import ANY_ANGLE, Contract
+from codec.static.quality.draft import Draft
+from codec.static.quality.lattices import Shaped, rounded
+from codec.static.quality.shaping import Aim, Shaper
+from codec.static.quality.spectral import Base, Spectral, base_step
 
 PLAIN_ANGLE = 6.0
 """From this angle on, blocks with a detail layer are tried before refinement."""

@@ -7,7 +7,7 @@ import re
 import numpy as np
 
 from bitstream.errors import FormatError, MeshError
-from bsm.files.polygons import Polygons
+from bsm.files.formats.polygons import Polygons
 from bsm.files.rows import Rows, as_integers, point_row, text_table, without_comments
 from codec.geometry.mesh import TriangleMesh
 

@@ -6,8 +6,8 @@ import numpy as np
 
 from codec.denoise.filters.topology import Topology
 from codec.denoise.filters.vertex_update import Floats, face_geometry, vertex_normals
-from codec.denoise.finding import Finding
-from codec.denoise.probe import Probe
+from codec.denoise.noise.finding import Finding
+from codec.denoise.noise.probe import Probe
 from codec.geometry.mesh import Positions
 
 MOST_STEPS = 12

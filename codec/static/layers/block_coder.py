@@ -14,7 +14,7 @@ from codec.basis.dynamic_size import DynamicSize
 from codec.signal.chain import Chain
 from codec.signal.predict import extend
 from codec.static.assembly import DecodedBlock
-from codec.static.coding import Ground
+from codec.static.layers.coding import Ground
 from codec.static.rules import Scheme
 from codec.static.work import Allowance, block_work
 from codec.threads import ordered_map

@@ -9,7 +9,7 @@ import numpy as np
 
 from bitstream.errors import BsmError, DependencyError, FormatError
 from bitstream.limits import Limits
-from bsm.files.polygons import Polygons
+from bsm.files.formats.polygons import Polygons
 
 
 def read_with_trimesh(data: bytes, path: str | None, kind: str, limits: Limits) -> Polygons:

@@ -17,7 +17,7 @@ from pathlib import Path
 import numpy as np
 
 from bitstream.errors import DependencyError, FormatError
-from bsm.files.polygons import Polygons
+from bsm.files.formats.polygons import Polygons
 from codec.geometry.mesh import TriangleMesh
 
 

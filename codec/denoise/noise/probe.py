@@ -14,7 +14,7 @@ from scipy import sparse
 
 from codec.denoise.filters.topology import Mask, Topology
 from codec.denoise.filters.vertex_update import Floats, face_geometry, vertex_normals
-from codec.denoise.windows import Windows
+from codec.denoise.noise.windows import Windows
 from codec.geometry.mesh import Positions
 
 FINE = 2

@@ -23,8 +23,8 @@ from codec.signal.frames import displaced, local_frames
 from codec.static.assembly import Assembly
 from codec.static.events import Losses, LossEvent, RefinementEvent, unreadable
 from codec.static.preamble import Structure
+from codec.static.quality.whole import Complete
 from codec.static.stages import Arrival, Stage, misplaced
-from codec.static.whole import Complete
 from codec.threads import Lanes, Pending
 
 CHUNK = 1 << 15

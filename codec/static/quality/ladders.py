@@ -11,14 +11,14 @@ from dataclasses import dataclass, replace
 from typing import Protocol
 
 from codec.geometry.closeness import Original
-from codec.static.block_coder import Progress
-from codec.static.draft import Draft
-from codec.static.lattices import Shaped
+from codec.static.layers.block_coder import Progress
 from codec.static.options import EncodeOptions
 from codec.static.preamble import Prepared
-from codec.static.shaping import Aim, Shaper
-from codec.static.spectral import Base, Spectral, base_step
-from codec.static.targets import COARSEST_STEP
+from codec.static.quality.draft import Draft
+from codec.static.quality.lattices import Shaped
+from codec.static.quality.shaping import Aim, Shaper
+from codec.static.quality.spectral import Base, Spectral, base_step
+from codec.static.quality.targets import COARSEST_STEP
 
 WIDEST = 0.18
 """Columns of a dictionary over the rows of a block."""

@@ -18,8 +18,8 @@ from codec.arrays import Indices, Levels, Positions
 from codec.geometry.mesh import TriangleMesh
 from codec.static.events import BlockEvent, Changes, Losses, LossEvent, unreadable
 from codec.static.preamble import Structure
+from codec.static.quality.whole import Complete
 from codec.static.stages import Arrival, Stage, misplaced
-from codec.static.whole import Complete
 
 CHUNK = 1 << 15
 """Vertices of a frame: large meshes are seen while they arrive."""

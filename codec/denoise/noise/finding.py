@@ -14,8 +14,8 @@ import numpy as np
 
 from codec.denoise.filters.topology import Mask
 from codec.denoise.filters.vertex_update import Floats
-from codec.denoise.probe import BOUND, SHARE, Probe
-from codec.denoise.windows import FEWEST, Windows
+from codec.denoise.noise.probe import BOUND, SHARE, Probe
+from codec.denoise.noise.windows import FEWEST, Windows
 from codec.geometry.mesh import Positions
 from codec.geometry.metrics import mean_edge_length
 

@@ -14,7 +14,7 @@ from typing import BinaryIO, TypeAlias
 import numpy as np
 
 from bitstream.errors import BsmError, CorruptError, FormatError, LimitError, MeshError
-from bsm.files.npy import Array, read_header, size_of
+from bsm.files.formats.npy import Array, read_header, size_of
 from codec.geometry.mesh import Faces, Positions, TriangleMesh
 
 Archive: TypeAlias = "str | os.PathLike[str] | BinaryIO"

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 
 from bitstream.errors import FormatError, MeshError
-from bsm.files.polygons import Polygons
+from bsm.files.formats.polygons import Polygons
 from bsm.files.rows import Rows, point_row, require_lines, text_table, without_comments
 from codec.geometry.mesh import TriangleMesh
 

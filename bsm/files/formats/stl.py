@@ -7,7 +7,7 @@ import re
 import numpy as np
 
 from bitstream.errors import FormatError, MeshError, TruncatedError
-from bsm.files.polygons import Polygons
+from bsm.files.formats.polygons import Polygons
 from bsm.files.rows import Doubles, Rows, single_suffices
 from codec.geometry.mesh import TriangleMesh
 

@@ -9,10 +9,10 @@ from bitstream.errors import TargetError
 from bitstream.fields.grid import MOST_LARGEST
 from bitstream.fields.lattice import find_lattice
 from codec.arrays import Levels, Matrix, Positions
-from codec.static.draft import Draft
-from codec.static.grid import Grid, encode_grid
+from codec.static.layers.grid import Grid, encode_grid
 from codec.static.preamble import Prepared
-from codec.static.shaping import Aim, Shaper
+from codec.static.quality.draft import Draft
+from codec.static.quality.shaping import Aim, Shaper
 from codec.static.units import single
 
 MOST_SINGLE = 1e38

@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from bitstream.errors import FormatError, MeshError, TruncatedError
-from bsm.files.polygons import Polygons
+from bsm.files.formats.polygons import Polygons
 from bsm.files.rows import Ints, Rows, as_integers, ranges, require_lines, single_suffices
 from codec.geometry.mesh import TriangleMesh
 
@@ -248,7 +248,7 @@ def _uniform_lists(element: Element, order: str, body: bytes, offset: int, place
 
 def _ragged_lists(element: Element, order: str, body: bytes, offset: int, place: int) -> _Lists:
     """Lists of different lengths, found by walking over the bytes."""
-    from bsm.files.walk import walk_rows
+    from bsm.files.formats.walk import walk_rows
 
     # Every row is at least as long as its numbers and the lengths of its lists.
     widths = [

@@ -1,0 +1,1 @@
+"""One module a format, each with what reads and writes it."""

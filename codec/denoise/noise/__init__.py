@@ -1,0 +1,1 @@
+"""Noise: made, found, and known for what it is."""
