@@ -16,7 +16,8 @@ from bsm.files.permutation import in_order_of
 from bsm.files.pipes import Input, Source, read_bytes, read_chunks
 from bsm.files.stream import decode_whole
 from bsm.meshes import as_mesh, read_any
-from codec.geometry.mesh import Faces, Positions, TriangleMesh
+from codec.arrays import Faces, Positions
+from codec.geometry.mesh import TriangleMesh
 
 if TYPE_CHECKING:
     import numpy.typing as npt

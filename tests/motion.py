@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from codec.geometry.mesh import Faces, Positions
+from codec.arrays import Faces, Positions
 from tests.shapes import torus
 
 

@@ -24,13 +24,13 @@ import numpy as np
 from bsm.files.formats.npz import read_arrays
 from bsm.files.mesh import read_mesh
 from bsm.paper.sequences import noisy_frames, time_sequence
+from codec.arrays import Faces, Positions
 from codec.denoise.automatic import denoise_automatically
 from codec.denoise.coarse import CoarseFilter
 from codec.denoise.filters.fine import FINE_STEPS
 from codec.denoise.filters.guided import GuidedFilter, guided_normal_filtering
 from codec.denoise.filters.topology import Topology
 from codec.denoise.handover import HAND_OVERS
-from codec.geometry.mesh import Faces, Positions
 from codec.geometry.metrics import Reference, compare, theta
 from tools.denoise_trials import TRIALS
 

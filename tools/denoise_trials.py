@@ -16,6 +16,7 @@ import numpy as np
 from bitstream.errors import BsmError
 from bsm.files.formats.npz import read_arrays
 from bsm.files.mesh import read_mesh
+from codec.arrays import Faces, Positions
 from codec.denoise import FrameDenoiser, denoise_automatically
 from codec.denoise.coarse import CoarseFilter
 from codec.denoise.filters.topology import Topology
@@ -29,7 +30,6 @@ from codec.denoise.noise.gaussian import (
     uniform_along_normals,
 )
 from codec.denoise.recipe import Recipe, iterates
-from codec.geometry.mesh import Faces, Positions
 from codec.geometry.metrics import Reference, mean_edge_length, theta
 
 Kind = Callable[[Positions, Faces, float], Positions]

@@ -30,8 +30,9 @@ import numpy as np
 from bitstream.errors import BsmError
 from bsm.evaluation.draco import encode_draco
 from bsm.files.mesh import read_mesh
+from codec.arrays import Positions
 from codec.geometry.closeness import Original
-from codec.geometry.mesh import Positions, TriangleMesh
+from codec.geometry.mesh import TriangleMesh
 from codec.geometry.metrics import theta
 from codec.geometry.surface_distance import surface_distance
 from codec.static.decoder import decode

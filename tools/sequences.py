@@ -20,7 +20,8 @@ from bitstream.container.reader import END_OF_STREAM
 from bsm.evaluation.sequences import Point, draco_point, pca_point
 from bsm.files.formats.npz import read_arrays
 from bsm.files.output import open_output
-from codec.geometry.mesh import Faces, Positions, TriangleMesh
+from codec.arrays import Faces, Positions
+from codec.geometry.mesh import TriangleMesh
 from codec.sequence.decoder import SequenceDecoder
 from codec.sequence.encoder import SequenceEncoder
 from codec.sequence.options import SequenceOptions

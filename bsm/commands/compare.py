@@ -12,7 +12,8 @@ from bsm.files.mesh import read_mesh
 from bsm.files.permutation import in_order_of, read_permutation
 from bsm.files.pipes import read_chunks
 from bsm.files.stream import decode_whole, is_stream
-from codec.geometry.mesh import Positions, TriangleMesh
+from codec.arrays import Positions
+from codec.geometry.mesh import TriangleMesh
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

@@ -19,7 +19,8 @@ from bsm.files.mesh import MESH_FORMATS, format_mesh, format_of_name, read_mesh
 from bsm.files.naming import output_inside, refuse_terminal
 from bsm.files.output import open_output, refuse_to_overwrite
 from bsm.files.sequence import Frames, open_sequence, sequence_kind, sequence_writer
-from codec.geometry.mesh import Positions, TriangleMesh
+from codec.arrays import Positions
+from codec.geometry.mesh import TriangleMesh
 
 if TYPE_CHECKING:
     from codec.denoise import AutomaticChoice, DenoiseOptions, Step

@@ -13,7 +13,8 @@ from bsm.exits import about
 from bsm.files.mesh import MESH_FORMATS, format_mesh, format_of_name, read_mesh
 from bsm.files.naming import refuse_terminal
 from bsm.files.output import open_output, refuse_to_overwrite
-from codec.geometry.mesh import Positions, TriangleMesh
+from codec.arrays import Positions
+from codec.geometry.mesh import TriangleMesh
 
 KINDS = ("gaussian", "isotropic", "uniform", "impulsive", "axis", "correlated", "part")
 

@@ -16,7 +16,8 @@ from bsm.files.pipes import read_chunks
 from bsm.files.sequence import open_sequence
 from bsm.files.sequence_stream import SequenceStream, all_frames, numbered, numbers_of, peek_header
 from bsm.files.stream import is_stream
-from codec.geometry.mesh import Faces, Positions, TriangleMesh
+from codec.arrays import Faces, Positions
+from codec.geometry.mesh import TriangleMesh
 from codec.sequence.targets import compare_sequences
 
 Sequence = tuple[Positions, Faces]

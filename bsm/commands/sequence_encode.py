@@ -17,7 +17,7 @@ from bsm.console import Console, finite
 from bsm.files.output import open_output
 from bsm.files.permutation import write_permutation
 from bsm.files.sequence import Frames
-from codec.geometry.mesh import Positions
+from codec.arrays import Positions
 
 
 def encode_sequence(args: argparse.Namespace, console: Console, source: Frames) -> Facts:

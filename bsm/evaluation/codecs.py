@@ -8,7 +8,8 @@ from typing import Any, Protocol
 
 from bsm.evaluation.draco import decode_draco, encode_draco, positions_in_order
 from bsm.files.stream import inspect_stream
-from codec.geometry.mesh import Positions, TriangleMesh
+from codec.arrays import Positions
+from codec.geometry.mesh import TriangleMesh
 from codec.static.decoder import decode
 from codec.static.encoder import Encoder
 from codec.static.options import EncodeOptions

@@ -13,7 +13,8 @@ import numpy as np
 import numpy.typing as npt
 
 from bitstream.errors import DependencyError, MeshError
-from codec.geometry.mesh import Positions, TriangleMesh
+from codec.arrays import Positions
+from codec.geometry.mesh import TriangleMesh
 
 Triangles = npt.NDArray[np.int64]
 

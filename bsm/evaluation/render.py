@@ -6,7 +6,7 @@ import numpy as np
 import numpy.typing as npt
 
 from codec import _kernels
-from codec.geometry.mesh import Faces, Positions
+from codec.arrays import Faces, Positions
 
 Image = npt.NDArray[np.float64]
 _LIGHT = np.array([0.35, 0.5, 0.79])

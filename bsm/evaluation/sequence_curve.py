@@ -15,7 +15,7 @@ from bsm.evaluation.plots import draw_sequence_rates
 from bsm.evaluation.sequences import draco_point, pca_point
 from bsm.evaluation.tables import number, table
 from bsm.files.output import open_output
-from codec.geometry.mesh import Faces, Positions
+from codec.arrays import Faces, Positions
 from codec.sequence.encoder import SequenceEncoder
 from codec.sequence.options import SequenceOptions
 

@@ -14,7 +14,8 @@ import numpy as np
 
 from bitstream.connectivity.faces import encode_connectivity
 from bsm.evaluation.draco import decode_draco, encode_draco, positions_in_order
-from codec.geometry.mesh import Faces, Positions, TriangleMesh
+from codec.arrays import Faces, Positions
+from codec.geometry.mesh import TriangleMesh
 from codec.sequence.targets import compare_sequences
 
 Point = dict[str, Any]

@@ -13,7 +13,8 @@ from bitstream.errors import FormatError, MeshError
 from bsm.files.formats.npy import write_npy
 from bsm.files.output import open_output
 from bsm.files.pipes import read_bytes
-from codec.geometry.mesh import Faces, Positions, TriangleMesh
+from codec.arrays import Faces, Positions
+from codec.geometry.mesh import TriangleMesh
 
 if TYPE_CHECKING:
     from bitstream.connectivity.faces import EncodedConnectivity

@@ -25,7 +25,8 @@ from bsm.files.formats.npz import Archive, npz_frames, npz_shape, open_npz_seque
 from bsm.files.mesh import MESH_FORMATS, format_mesh, format_of_name, read_mesh
 from bsm.files.output import open_output
 from bsm.files.pipes import Input, Source, as_input, is_pipe
-from codec.geometry.mesh import Faces, Positions, TriangleMesh
+from codec.arrays import Faces, Positions
+from codec.geometry.mesh import TriangleMesh
 
 ZIP = b"PK\x03\x04"
 SEQUENCE_FORMATS = ("npz", "npy", *(name for name in MESH_FORMATS if name != "npz"))

@@ -12,7 +12,8 @@ from bitstream.container.packets import Header
 from bitstream.container.reader import NEED_DATA, Reader
 from bitstream.errors import BsmError, TruncatedError
 from bsm.files.stream import events
-from codec.geometry.mesh import Faces, Positions, TriangleMesh
+from codec.arrays import Faces, Positions
+from codec.geometry.mesh import TriangleMesh
 
 Note = Callable[[str], None]
 

@@ -16,11 +16,12 @@ from bsm.paper.iterations import SEGMENTS
 from bsm.paper.pictures import diagram, normal_colors, portrait
 from bsm.paper.segments import blocks_of, parts_of
 from bsm.paper.study import Model, Study
+from codec.arrays import Positions
 from codec.denoise import FINE_STEPS, denoise_automatically
 from codec.denoise.coarse import RULES, CoarseFilter
 from codec.denoise.filters.guided import GuidedFilter, guided_normal_filtering
 from codec.denoise.filters.topology import Topology
-from codec.geometry.mesh import Positions, TriangleMesh
+from codec.geometry.mesh import TriangleMesh
 from codec.geometry.metrics import face_normals
 
 COUNTS = (1, 2, 5, 20)

@@ -17,11 +17,11 @@ from bsm.paper.pictures import portrait
 from bsm.paper.published import POWERS, TIMES
 from bsm.paper.segments import blocks_of, parts_of
 from bsm.paper.study import ROLES, Model, Study
+from codec.arrays import Positions
 from codec.basis.laplacian import dense_laplacian
 from codec.blocks.blend import Blend, degree_weights
 from codec.blocks.overlap import Blocks
 from codec.denoise.coarse import KEEP, RULES, CoarseFilter
-from codec.geometry.mesh import Positions
 from codec.geometry.metrics import decibel
 from codec.signal.chain import Chain
 from codec.signal.predict import unheld

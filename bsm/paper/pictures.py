@@ -15,7 +15,7 @@ from bsm.evaluation.plots import import_matplotlib
 from bsm.evaluation.render import bounds_of, render
 from bsm.paper.exhibit import Picture
 from bsm.paper.study import Model
-from codec.geometry.mesh import Faces, Positions
+from codec.arrays import Faces, Positions
 
 Colors = npt.NDArray[np.float64]
 _GOLDEN = 0.618034

@@ -13,12 +13,12 @@ from bsm.paper.overlap import EXACT
 from bsm.paper.pictures import error_colors, part_colors, portrait
 from bsm.paper.published import BUNNY
 from bsm.paper.study import Model, Study
+from codec.arrays import Positions
 from codec.blocks.blend import degree_weights
 from codec.blocks.overlap import Blocks, block_size, grow_blocks
 from codec.blocks.partition import Partition, metis_partition
 from codec.denoise.coarse import OVERLAP, CoarseFilter
 from codec.geometry.graph import graph_of_faces
-from codec.geometry.mesh import Positions
 from codec.geometry.metrics import face_normals
 
 _UNSTATED = "The paper does not say how strong its noise is, and the level of MND follows it; compare the trend."

@@ -11,6 +11,7 @@ from bsm.paper.exhibit import Cell, Column, Exhibit, Table
 from bsm.paper.iterations import fastest
 from bsm.paper.pictures import portrait
 from bsm.paper.study import Study
+from codec.arrays import Faces
 from codec.basis.laplacian import Laplacian, laplacian_of
 from codec.blocks.overlap import block_size, grow_blocks
 from codec.blocks.partition import metis_partition
@@ -18,7 +19,6 @@ from codec.denoise.coarse import BLOCK_SIZE, KEEP, OVERLAP, RULES, CoarseFilter
 from codec.denoise.frames import GROUP, Frames, filter_frames
 from codec.denoise.noise.gaussian import gaussian_along_normals
 from codec.geometry.graph import Graph, graph_of_faces
-from codec.geometry.mesh import Faces
 from codec.geometry.metrics import theta
 from codec.signal.chain import Chain, ChainRules
 from codec.signal.predict import unheld

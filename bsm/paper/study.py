@@ -16,8 +16,9 @@ from bsm.evaluation.sample import knot
 from bsm.files.formats.npz import read_arrays
 from bsm.files.mesh import format_of_name, read_mesh
 from bsm.paper.shapes import ball, box, swaying
+from codec.arrays import Faces, Positions
 from codec.denoise.noise.gaussian import gaussian_along_normals
-from codec.geometry.mesh import Faces, Positions, TriangleMesh
+from codec.geometry.mesh import TriangleMesh
 from codec.geometry.metrics import Reference
 
 Item = TypeVar("Item")

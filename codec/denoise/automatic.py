@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from codec.arrays import Faces, Positions
 from codec.choices import named
 from codec.denoise.coarse import CoarseFilter
 from codec.denoise.filters.topology import Topology
@@ -17,7 +18,6 @@ from codec.denoise.recipe import Recipe, Step, blend, perform
 from codec.denoise.rehearsal import GOALS, MOST_MEMBERS, Rehearsal
 from codec.denoise.safety import Verdict, judge, keep_good, restraint
 from codec.denoise.sample import sample
-from codec.geometry.mesh import Faces, Positions
 from codec.geometry.metrics import mean_edge_length
 from codec.geometry.welding import weld
 

@@ -12,11 +12,11 @@ import numpy as np
 import numpy.typing as npt
 
 from bitstream.errors import OptionError
+from codec.arrays import Faces, Indices
 from codec.blocks.blend import degree_weights
 from codec.blocks.overlap import Block, Blocks, block_size, grow_blocks
 from codec.blocks.partition import metis_partition
-from codec.geometry.graph import Indices, graph_of_faces
-from codec.geometry.mesh import Faces
+from codec.geometry.graph import graph_of_faces
 from codec.signal.chain import Chain, ChainRules
 from codec.threads import ordered_map
 

@@ -10,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from bitstream.errors import HarmError, MeshError
+from codec.arrays import Faces, Positions
 from codec.denoise.automatic import AutomaticChoice, Patient, choose, treat
 from codec.denoise.coarse import BLOCK_SIZE, KEEP, CoarseFilter
 from codec.denoise.filters.fine import fine_step
@@ -19,7 +20,6 @@ from codec.denoise.noise.outliers import find_outliers
 from codec.denoise.options import DenoiseOptions
 from codec.denoise.safety import judge, keep_good
 from codec.denoise.temporal import FEWEST_FRAMES, TemporalFilter
-from codec.geometry.mesh import Faces, Positions
 from codec.geometry.welding import weld
 from codec.threads import ordered_map
 

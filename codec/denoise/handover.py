@@ -6,11 +6,11 @@ from typing import Protocol
 
 import numpy as np
 
+from codec.arrays import Positions
 from codec.choices import named
 from codec.denoise.filters.guided import GuidedFilter
 from codec.denoise.filters.topology import Topology
 from codec.denoise.filters.vertex_update import face_geometry
-from codec.geometry.mesh import Positions
 
 SIGMA_R = 0.3
 

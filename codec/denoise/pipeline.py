@@ -5,9 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from bitstream.errors import MeshError
+from codec.arrays import Faces
 from codec.denoise.frames import FrameDenoiser, Frames
 from codec.denoise.options import DenoiseOptions
-from codec.geometry.mesh import Faces, TriangleMesh
+from codec.geometry.mesh import TriangleMesh
 
 
 def denoise(

@@ -16,13 +16,13 @@ from itertools import islice
 
 import numpy as np
 
+from codec.arrays import Positions
 from codec.denoise.coarse import CoarseFilter
 from codec.denoise.noise.estimate import NoiseLevel, estimate_noise
 from codec.denoise.noise.finding import Finding
 from codec.denoise.noise.probe import Probe
 from codec.denoise.noise.synthesis import Synthesis
 from codec.denoise.recipe import Recipe, Step, blend, iterates, perform
-from codec.geometry.mesh import Positions
 from codec.geometry.metrics import Reference, mean_edge_length
 from codec.threads import ordered_map
 

@@ -8,9 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from codec import _kernels
-from codec.arrays import Mask
-from codec.geometry.graph import Indices
-from codec.geometry.mesh import Faces, Positions
+from codec.arrays import Faces, Indices, Mask, Positions
 from codec.geometry.metrics import Floats
 
 

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from codec.geometry.graph import Indices
-from codec.geometry.mesh import Faces, Positions
+from codec.arrays import Faces, Indices, Positions
 
 
 def weld(positions: Positions, faces: Faces) -> tuple[Positions, Faces, Indices]:

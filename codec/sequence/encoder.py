@@ -133,7 +133,7 @@ class SequenceEncoder:
         scale = float(np.linalg.norm(np.ptp(frames[0], axis=0))) or 1.0
         reach = max(float(np.abs(frame - frames[0].mean(axis=0)).max()) for frame in frames) / scale
         values = 3 * min(self.options.gop, len(frames)) * 2 * self.options.block_size
-        return 2.0 * reach * np.sqrt(values) / LARGEST_LEVEL
+        return float(2.0 * reach * np.sqrt(values) / LARGEST_LEVEL)
 
     def attempt(self, frames: Sequence[Matrix], step: float, progress: Progress | None = None) -> SequenceAttempt:
         """Encode with a given step, and see what the decoder will."""

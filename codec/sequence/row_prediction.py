@@ -50,7 +50,7 @@ def _cosines(frames: int) -> Matrix:
     """The orthonormal cosine transform (DCT-II), shape (T, T): row t, column frequency."""
     columns = cosine_columns(frames, 0, frames) * np.sqrt(2.0 / frames)
     columns[:, 0] = np.sqrt(1.0 / frames)
-    return columns
+    return np.asarray(columns)
 
 
 def cosine_basis(frames: int) -> Matrix:

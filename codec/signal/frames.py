@@ -46,4 +46,4 @@ def displaced(positions: Positions, frames: Matrix, levels: Levels, step: float,
 
 def in_frames(offsets: Positions, frames: Matrix) -> Matrix:
     """Offsets, shape (n, 3), in the axes of frames, shape (n, 9): along the normal and the tangents, shape (n, 3)."""
-    return np.einsum("nij,nj->ni", frames.reshape(-1, 3, 3), offsets)
+    return np.asarray(np.einsum("nij,nj->ni", frames.reshape(-1, 3, 3), offsets))

@@ -89,4 +89,4 @@ def join(mesh: TriangleMesh, *, keep: bool) -> Joined:
 def _degenerate(faces: Indices) -> Mask:
     """Which faces name a vertex twice."""
     a, b, c = faces.T
-    return (a == b) | (b == c) | (a == c)
+    return np.asarray((a == b) | (b == c) | (a == c))

@@ -28,7 +28,7 @@ class Units:
 
     def into(self, positions: Positions) -> Matrix:
         """Positions of the mesh in BSM units."""
-        return (positions - np.array(self.center)) / self.scale
+        return np.asarray((positions - np.array(self.center)) / self.scale)
 
     def back(self, positions: Matrix) -> Positions:
         """Positions in BSM units as the mesh has them.
@@ -42,7 +42,7 @@ class Units:
             moved = positions * self.scale + np.array(self.center)
         if not np.isfinite(moved).all():
             raise NumericError("positions are not finite in the unit of the mesh")
-        return moved
+        return np.asarray(moved)
 
 
 def units_of(mesh: TriangleMesh) -> Units:

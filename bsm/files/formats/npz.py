@@ -15,7 +15,8 @@ import numpy as np
 
 from bitstream.errors import BsmError, CorruptError, FormatError, LimitError, MeshError
 from bsm.files.formats.npy import Array, read_header, size_of
-from codec.geometry.mesh import Faces, Positions, TriangleMesh
+from codec.arrays import Faces, Positions
+from codec.geometry.mesh import TriangleMesh
 
 Archive: TypeAlias = "str | os.PathLike[str] | BinaryIO"
 """A path, or a seekable binary file."""

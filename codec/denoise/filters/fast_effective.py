@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from codec import _kernels
+from codec.arrays import Faces, Positions
 from codec.denoise.filters.topology import Topology
 from codec.denoise.filters.vertex_update import face_geometry, follow_normals
-from codec.geometry.mesh import Faces, Positions
 
 THRESHOLD = 0.5
 VERTEX_ITERATIONS = 50

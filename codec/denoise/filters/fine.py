@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Protocol
 
+from codec.arrays import Faces, Positions
 from codec.choices import named
 from codec.denoise.filters.bilateral_normal import bilateral_normal_filtering
 from codec.denoise.filters.fast_effective import fast_effective_denoising
@@ -11,7 +12,6 @@ from codec.denoise.filters.guided import guided_normal_filtering
 from codec.denoise.filters.l0 import l0_minimisation
 from codec.denoise.filters.non_iterative import non_iterative_smoothing
 from codec.denoise.filters.vertex_bilateral import bilateral_mesh_denoising
-from codec.geometry.mesh import Faces, Positions
 
 
 class FineStep(Protocol):

@@ -6,6 +6,7 @@ from collections.abc import Callable
 
 import numpy as np
 
+from codec.arrays import Faces, Positions
 from codec.denoise.filters.guidance import patch_guidance
 from codec.denoise.filters.kernel import filter_normals
 from codec.denoise.filters.reach import reach, themselves
@@ -17,7 +18,6 @@ from codec.denoise.filters.vertex_update import (
     follow_normals,
     mean_centroid_distance,
 )
-from codec.geometry.mesh import Faces, Positions
 
 SIGMA_R = 0.35
 RADIUS = 2.0

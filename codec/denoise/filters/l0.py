@@ -6,10 +6,9 @@ import numpy as np
 from scipy import sparse
 from scipy.sparse.linalg import splu
 
+from codec.arrays import Faces, Indices, Positions
 from codec.denoise.filters.topology import Topology
 from codec.denoise.filters.vertex_update import Floats, face_geometry
-from codec.geometry.graph import Indices
-from codec.geometry.mesh import Faces, Positions
 from codec.geometry.metrics import mean_edge_length
 
 BETA_FIRST = 1e-3
@@ -103,4 +102,4 @@ def _area_weights(positions: Positions, stencils: Indices) -> Floats:
 
 
 def _dot(a: Floats, b: Floats) -> Floats:
-    return np.einsum("ij,ij->i", a, b)
+    return np.asarray(np.einsum("ij,ij->i", a, b))

@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from codec import _kernels
+from codec.arrays import Faces, Positions
 from codec.denoise.filters.reach import reach
 from codec.denoise.filters.topology import Topology
 from codec.denoise.filters.vertex_update import face_geometry
-from codec.geometry.mesh import Faces, Positions
 from codec.geometry.metrics import mean_edge_length
 
 SPATIAL = 1.0

@@ -6,8 +6,8 @@ import numpy as np
 import numpy.typing as npt
 
 from codec import _kernels
+from codec.arrays import Positions
 from codec.geometry.incidence import Rows
-from codec.geometry.mesh import Positions
 
 Floats = npt.NDArray[np.float64]
 

@@ -9,9 +9,8 @@ import numpy as np
 import numpy.typing as npt
 
 from codec import _kernels
-from codec.geometry.graph import Indices
+from codec.arrays import Faces, Indices
 from codec.geometry.incidence import Rows, vertex_faces, vertex_neighbours
-from codec.geometry.mesh import Faces
 
 Mask = npt.NDArray[np.bool_]
 

@@ -8,10 +8,9 @@ import numpy as np
 import numpy.typing as npt
 
 from codec import _kernels
+from codec.arrays import Faces, Indices, Positions
 from codec.denoise.filters.topology import Mask, Topology
-from codec.geometry.graph import Indices
 from codec.geometry.incidence import Rows
-from codec.geometry.mesh import Faces, Positions
 
 Floats = npt.NDArray[np.float64]
 

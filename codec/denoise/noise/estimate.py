@@ -12,9 +12,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from codec import _kernels
+from codec.arrays import Positions
 from codec.denoise.filters.topology import Topology
 from codec.denoise.filters.vertex_update import Floats, face_geometry, vertex_normals
-from codec.geometry.mesh import Positions
 from codec.geometry.metrics import mean_edge_length
 
 ORDER = 4
@@ -71,7 +71,7 @@ def add_noise(positions: Positions, level: NoiseLevel, topology: Topology, seed:
     normals = vertex_normals(face_geometry(positions, topology.faces).normals, topology.around)
     white = np.random.default_rng(seed).normal(size=positions.shape)
     along = np.einsum("ij,ij->i", white, normals)[:, None] * normals
-    return positions + level.normal * along + level.tangential * (white - along)
+    return np.asarray(positions + level.normal * along + level.tangential * (white - along))
 
 
 def _split(vectors: Floats, normals: Floats) -> tuple[float, float]:

@@ -12,11 +12,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from codec.arrays import Positions
 from codec.denoise.filters.topology import Mask
 from codec.denoise.filters.vertex_update import Floats
 from codec.denoise.noise.probe import BOUND, SHARE, Probe
 from codec.denoise.noise.windows import FEWEST, Windows
-from codec.geometry.mesh import Positions
 from codec.geometry.metrics import mean_edge_length
 
 FEWEST_WINDOWS, FEWEST_INNER = 5, 3

@@ -10,9 +10,9 @@ from __future__ import annotations
 import numpy as np
 
 from bitstream.errors import OptionError
+from codec.arrays import Faces, Positions
 from codec.denoise.filters.vertex_update import Floats, face_geometry, vertex_normals
 from codec.geometry.incidence import vertex_faces, vertex_neighbours
-from codec.geometry.mesh import Faces, Positions
 from codec.geometry.metrics import mean_edge_length
 
 

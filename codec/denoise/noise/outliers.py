@@ -13,10 +13,10 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.sparse import linalg
 
+from codec.arrays import Positions
 from codec.denoise.filters.vertex_update import Floats
 from codec.denoise.noise.probe import Probe
 from codec.geometry.incidence import Rows
-from codec.geometry.mesh import Positions
 from codec.geometry.metrics import mean_edge_length
 
 CLEAR = 0.7

@@ -12,10 +12,10 @@ import numpy as np
 import numpy.typing as npt
 from scipy import sparse
 
+from codec.arrays import Positions
 from codec.denoise.filters.topology import Mask, Topology
 from codec.denoise.filters.vertex_update import Floats, face_geometry, vertex_normals
 from codec.denoise.noise.windows import Windows
-from codec.geometry.mesh import Positions
 
 FINE = 2
 FINEST = 6
@@ -66,12 +66,12 @@ class Probe:
     def _finest_gain(self) -> Floats:
         # The rows of the sixth power are too full to be formed: their norms are estimated with random signs.
         signs = np.random.default_rng(0).choice(np.array([-1.0, 1.0]), (self.topology.n, GAIN_PROBES))
-        return np.sqrt(np.square(self._repeated(signs)).mean(axis=1))
+        return np.asarray(np.sqrt(np.square(self._repeated(signs)).mean(axis=1)))
 
     def fine(self, values: Floats) -> Floats:
         """What two Laplacians leave of `values`, shape (n, d), as standard deviations of white noise."""
         operator, gain = self.fine_operator
-        return operator @ values / np.where(gain > 0.0, gain, np.inf)[:, None]
+        return np.asarray(operator @ values / np.where(gain > 0.0, gain, np.inf)[:, None])
 
     def finest(self, values: Floats) -> Floats:
         """What six Laplacians leave."""
@@ -88,7 +88,7 @@ class Probe:
         )
         normals = normals + self.average @ normals
         length = np.linalg.norm(normals, axis=1, keepdims=True)
-        return normals / np.where(length > 0.0, length, 1.0)
+        return np.asarray(normals / np.where(length > 0.0, length, 1.0))
 
     def correlated(self, white: Floats, steps: int) -> Floats:
         """White values, shape (n, d), averaged half and half with their neighbours as often as `steps` says."""

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
+from codec.arrays import Positions
 from codec.denoise.filters.topology import Topology
 from codec.denoise.filters.vertex_update import Floats, face_geometry, vertex_normals
 from codec.denoise.noise.finding import Finding
 from codec.denoise.noise.probe import Probe
-from codec.geometry.mesh import Positions
 
 MOST_STEPS = 12
 
@@ -54,7 +54,7 @@ class Synthesis:
         if self._steps:
             amount *= self._strength / amount.std()
         across = np.where(finding.levels > 0.0, self._tangential, 0.0)[:, None] * (white - along * normals)
-        return positions + finding.levels[:, None] * amount * normals + across
+        return np.asarray(positions + finding.levels[:, None] * amount * normals + across)
 
 
 def _normals(positions: Positions, topology: Topology) -> Floats:

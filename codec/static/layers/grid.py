@@ -46,7 +46,7 @@ class Grid:
 
     def positions(self, coded: Levels) -> Positions:
         """Of coded values, shape (n, 3), in the mesh's unit."""
-        return spread(coded, self.lattice) * self.step + np.array(self.origin)
+        return np.asarray(spread(coded, self.lattice) * self.step + np.array(self.origin))
 
     @property
     def fields(self) -> dict[str, Any]:

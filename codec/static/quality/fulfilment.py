@@ -260,7 +260,7 @@ class Fulfilment:
     def _first_cell(self) -> float:
         """The step of a grid that should be about right."""
         angle = self._contract.angle
-        return min(4.9 * angle**-0.35 * math.radians(angle) * self._edge, 1.6 * self._reach, COARSEST)
+        return float(min(4.9 * angle**-0.35 * math.radians(angle) * self._edge, 1.6 * self._reach, COARSEST))
 
     def _grids(self) -> Iterator[Draft]:
         shaped = Shaped(self._prepared, self._shaper)

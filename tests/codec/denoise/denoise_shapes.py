@@ -6,7 +6,8 @@ from collections.abc import Callable
 
 import numpy as np
 
-from codec.geometry.mesh import Faces, Positions, TriangleMesh
+from codec.arrays import Faces, Positions
+from codec.geometry.mesh import TriangleMesh
 
 Partners = Callable[[str, str], tuple[TriangleMesh, TriangleMesh]]
 

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from codec.arrays import Faces, Positions
 from codec.denoise import denoise_automatically
 from codec.denoise.filters.topology import Topology
 from codec.denoise.noise.finding import Finding, find_noise
@@ -17,7 +18,6 @@ from codec.denoise.noise.gaussian import (
 from codec.denoise.noise.outliers import find_outliers
 from codec.denoise.noise.probe import Probe
 from codec.denoise.safety import judge, keep_good, restraint
-from codec.geometry.mesh import Faces, Positions
 from codec.geometry.metrics import mean_edge_length
 from tests.codec.denoise.denoise_shapes import cube, sphere
 
