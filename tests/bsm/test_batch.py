@@ -294,7 +294,8 @@ def test_one_bar_for_a_search_with_the_time_left(tmp_path):
 
 
 def test_a_bar_for_sequences(tmp_path):
-    positions, faces = knot(20_000).positions, knot(20_000).faces
+    mesh = knot(80_000)
+    positions, faces = mesh.positions, mesh.faces
     frames = np.array([positions * (1 + 0.1 * np.sin(t / 3)) for t in range(12)])
     np.savez(tmp_path / "a.npz", positions=frames, faces=faces)
     words = ["encode", tmp_path / "a.npz", "-o", tmp_path / "a.bsm", "--keep", "1", "--block-size", "200"]
