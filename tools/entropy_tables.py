@@ -7,12 +7,13 @@ Specification, C 2.1, C 2.2 and C 2.6. With --check, nothing is written, and wha
 
 from __future__ import annotations
 
-import argparse
 import sys
 from pathlib import Path
 
 import numpy as np
 import numpy.typing as npt
+
+from tools.c_tables import rows, write_or_check
 
 PATH = Path(__file__).parents[1] / "bitstream" / "entropy" / "tables.c"
 ONE = 1 << 16
@@ -58,7 +59,7 @@ def reciprocal_table() -> npt.NDArray[np.int32]:
 def source() -> str:
     """The file."""
     return _HEAD + "".join(
-        f"\nconst {kind} {name}[{len(table)}] = {{\n{_rows(table)}}};\n"
+        f"\nconst {kind} {name}[{len(table)}] = {{\n{rows(table)}}};\n"
         for kind, name, table in (
             ("uint16_t", "SQUASH", squash_table()),
             ("int16_t", "STRETCH", stretch_table()),
@@ -67,21 +68,9 @@ def source() -> str:
     )
 
 
-def _rows(table: npt.NDArray[np.int32]) -> str:
-    rows = (table[k : k + 16] for k in range(0, len(table), 16))
-    return "".join("    " + ", ".join(map(str, row)) + ",\n" for row in rows)
-
-
 def main() -> int:
     """Run the command."""
-    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("--check", action="store_true", help="write nothing; exit code 1 if the file is not up to date")
-    if not parser.parse_args().check:
-        PATH.write_text(source())
-    elif PATH.read_text() != source():
-        print(f"{PATH} is not what python -m tools.entropy_tables writes", file=sys.stderr)
-        return 1
-    return 0
+    return write_or_check(PATH, source(), "tools.entropy_tables", __doc__.split("\n")[0])
 
 
 if __name__ == "__main__":

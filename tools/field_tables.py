@@ -7,9 +7,10 @@ Specification, V 4.1 and V 4.2. With --check, nothing is written, and what is th
 
 from __future__ import annotations
 
-import argparse
 import sys
 from pathlib import Path
+
+from tools.c_tables import rows, write_or_check
 
 PATH = Path(__file__).parents[1] / "bitstream" / "fields" / "tables.c"
 ONE = 1 << 128
@@ -94,7 +95,7 @@ def source() -> str:
     """The file."""
     odds, less = odds_tables()
     return _HEAD + "".join(
-        f"\nconst {kind} {name}[{len(table)}] = {{\n{_rows(table)}}};\n"
+        f"\nconst {kind} {name}[{len(table)}] = {{\n{rows(table)}}};\n"
         for kind, name, table in (
             ("int32_t", "SURVIVAL", survival_table()),
             ("int16_t", "ODDS", odds),
@@ -103,21 +104,9 @@ def source() -> str:
     )
 
 
-def _rows(table: list[int]) -> str:
-    rows = (table[k : k + 16] for k in range(0, len(table), 16))
-    return "".join("    " + ", ".join(map(str, row)) + ",\n" for row in rows)
-
-
 def main() -> int:
     """Run the command."""
-    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("--check", action="store_true", help="write nothing; exit code 1 if the file is not up to date")
-    if not parser.parse_args().check:
-        PATH.write_text(source())
-    elif PATH.read_text() != source():
-        print(f"{PATH} is not what python -m tools.field_tables writes", file=sys.stderr)
-        return 1
-    return 0
+    return write_or_check(PATH, source(), "tools.field_tables", __doc__.split("\n")[0])
 
 
 if __name__ == "__main__":
