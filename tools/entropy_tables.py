@@ -59,7 +59,7 @@ def reciprocal_table() -> npt.NDArray[np.int32]:
 def source() -> str:
     """The file."""
     return _HEAD + "".join(
-        f"\nconst {kind} {name}[{len(table)}] = {{\n{rows(table)}}};\n"
+        f"\nconst {kind} {name}[{len(table)}] = {{\n{rows(table.tolist())}}};\n"
         for kind, name, table in (
             ("uint16_t", "SQUASH", squash_table()),
             ("int16_t", "STRETCH", stretch_table()),

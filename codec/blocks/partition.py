@@ -66,7 +66,7 @@ def metis_partition(graph: Graph, parts: int) -> Partition:
     try:
         import pymetis
     except ImportError:
-        raise DependencyError("METIS is not installed: pip install 'bsm-codec[paper]'") from None
+        raise DependencyError("METIS is not installed: pip install pymetis") from None
     if parts == 1:
         return partition_of_labels(np.zeros(graph.size, np.int32))
     adjacency = pymetis.CSRAdjacency(graph.offsets, graph.neighbours)
