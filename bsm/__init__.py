@@ -52,6 +52,7 @@ if TYPE_CHECKING:
     from bsm.files.mesh import read_mesh as read_mesh
     from bsm.files.formats.polygons import MeshFile as MeshFile
     from codec.denoise import DenoiseOptions as DenoiseOptions
+    from codec.geometry.attributes import Attribute as Attribute
     from codec.geometry.mesh import TriangleMesh as TriangleMesh
     from codec.geometry.metrics import Comparison as Comparison
     from codec.sequence.decoder import FrameEvent as FrameEvent, SequenceDecoder as SequenceDecoder
@@ -84,6 +85,7 @@ _ROOMS = {
     "bsm.files.mesh": "read_mesh",
     "bsm.files.formats.polygons": "MeshFile",
     "codec.denoise": "DenoiseOptions",
+    "codec.geometry.attributes": "Attribute",
     "codec.geometry.mesh": "TriangleMesh",
     "codec.geometry.metrics": "Comparison",
     "codec.sequence.decoder": "FrameEvent SequenceDecoder",

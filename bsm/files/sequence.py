@@ -88,7 +88,8 @@ def open_sequence(source: Source, file_format: str | None = None, reader: str | 
         return None
     if shape[0] == 0:
         raise MeshError("this npz file holds a sequence without frames")
-    mesh = TriangleMesh(next(npz_frames(archive)), *read_arrays(archive, "faces"))
+    (faces,) = read_arrays(archive, "faces")
+    mesh = TriangleMesh(next(npz_frames(archive)), faces)
     return Frames(mesh.faces, shape[0], npz_frames(archive))
 
 

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -11,6 +13,10 @@ import numpy.typing as npt
 
 from bitstream.errors import MeshError
 from codec.arrays import Faces, Order, Positions
+from codec.geometry.attributes import Attribute
+
+Metadata = Mapping[str, str | int | float | bytes]
+"""Whatever an author wants to say of a mesh."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -24,15 +30,22 @@ class TriangleMesh:
     faces : array_like, shape (m, 3)
         Indices into `positions`, counter-clockwise seen from outside; stored as int32. Any set of triangles is
         allowed: degenerate, repeated, non-manifold and inconsistently oriented ones too.
+    attributes : sequence of Attribute
+        Of its vertices, corners and faces; names differ.
+    metadata : mapping from str to str, int, float or bytes
+        What belongs to the whole mesh: a name, a unit, an author, ...
 
     Raises
     ------
     MeshError
-        If a shape is wrong, a coordinate is not finite, an index is out of range, or there is no face.
+        If a shape is wrong, a coordinate is not finite, an index is out of range, there is no face, or an attribute is
+        not of this mesh.
     """
 
     positions: Positions
     faces: Faces
+    attributes: tuple[Attribute, ...] = ()
+    metadata: Metadata = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         positions = _as_array(self.positions, "positions", np.float64)
@@ -57,6 +70,13 @@ class TriangleMesh:
         faces.setflags(write=False)
         object.__setattr__(self, "positions", positions)
         object.__setattr__(self, "faces", faces)
+        object.__setattr__(self, "attributes", tuple(self.attributes))
+        object.__setattr__(self, "metadata", MappingProxyType(dict(self.metadata)))
+        names = [attribute.name for attribute in self.attributes]
+        if len(set(names)) < len(names):
+            raise MeshError(f"two attributes have the same name, of {', '.join(names)}")
+        for attribute in self.attributes:
+            attribute.check(len(positions), len(faces))
 
     @property
     def diagonal(self) -> float:
@@ -71,7 +91,12 @@ class TriangleMesh:
         if len(kept) == len(used):
             return self, kept
         renumber = np.cumsum(used) - 1
-        return TriangleMesh(self.positions[kept], renumber[self.faces]), kept
+        every_face = np.arange(len(self.faces))
+        attributes = tuple(attribute.taken(kept, every_face) for attribute in self.attributes)
+        return (
+            replace(self, positions=self.positions[kept], faces=renumber[self.faces], attributes=attributes),
+            kept,
+        )
 
 
 def _as_array(values: Any, name: str, kind: type[np.float64] | None = None) -> npt.NDArray[Any]:

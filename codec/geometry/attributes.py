@@ -1,0 +1,115 @@
+"""What a mesh carries beside its shape: colours, normals, texture coordinates, and numbers of any meaning."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Any, Literal, get_args
+
+import numpy as np
+import numpy.typing as npt
+
+from bitstream.errors import MeshError
+from codec.arrays import Indices, Order
+
+Domain = Literal["vertex", "corner", "face"]
+Semantic = Literal["generic", "color", "normal", "texcoord"]
+
+MOST_COMPONENTS = 4
+MOST_NAME_BYTES = 255
+_KINDS = ("uint8", "int8", "uint16", "int16", "uint32", "int32", "float32", "float64")
+
+
+@dataclass(frozen=True, eq=False)
+class Attribute:
+    """One named attribute; its arrays are read-only copies.
+
+    Parameters
+    ----------
+    name : str
+        Not empty; a mesh has at most one attribute of a name. The field's usual names are "color", "normal" and
+        "texcoord", with a number behind for a second one.
+    values : array_like, shape (k, c) or (k,), 1 <= c <= 4
+        Integers of at most 32 bits, or floats of 32 or 64, which are finite; (k,) is stored as (k, 1). Wider integers
+        that fit into 32 bits are stored so, truth values as uint8. Colours are uint8 or uint16, or floats from 0 to 1.
+    domain : {"vertex", "corner", "face"}
+        What has a value: each vertex (k = n), each face (k = m), or each corner of each face.
+    semantic : {"generic", "color", "normal", "texcoord"}
+        What the values mean; it tells how they are best coded.
+    indices : array_like, shape (m, 3), optional
+        For corners: which of the values each corner of each face has; None: corner i of face f has value 3 f + i.
+
+    Raises
+    ------
+    MeshError
+        If a shape or a type is wrong, a value is not finite, or an index is out of range.
+    """
+
+    name: str
+    values: npt.NDArray[Any]
+    domain: Domain = "vertex"
+    semantic: Semantic = "generic"
+    indices: Indices | None = None
+
+    def __post_init__(self) -> None:
+        what = f"the attribute {self.name!r}"
+        if not self.name or len(self.name.encode()) > MOST_NAME_BYTES:
+            raise MeshError(f"the name of an attribute must have 1 to {MOST_NAME_BYTES} bytes: {self.name!r}")
+        if self.domain not in get_args(Domain) or self.semantic not in get_args(Semantic):
+            raise MeshError(f"{what} is of no domain or meaning that is known: {self.domain!r}, {self.semantic!r}")
+        values = _stored(np.array(self.values), what)
+        if self.domain == "corner":
+            indices = np.arange(len(values)).reshape(-1, 3) if self.indices is None else np.array(self.indices)
+            if indices.ndim != 2 or indices.shape[1] != 3 or indices.dtype.kind not in "iu":
+                raise MeshError(f"the indices of {what} must be integers of shape (m, 3)")
+            if indices.size and not (indices.min() >= 0 and indices.max() < len(values)):
+                raise MeshError(f"an index of {what} is outside 0..{len(values) - 1}")
+            indices = indices.astype(np.int32)
+            indices.setflags(write=False)
+            object.__setattr__(self, "indices", indices)
+        elif self.indices is not None:
+            raise MeshError(f"{what} has indices, but is not of corners")
+        values.setflags(write=False)
+        object.__setattr__(self, "values", values)
+
+    @property
+    def components(self) -> int:
+        """Numbers in a value."""
+        return int(self.values.shape[1])
+
+    def check(self, vertices: int, faces: int) -> None:
+        """Raise `MeshError` if it is not of a mesh of so many vertices and faces."""
+        rows = len(self.values) if self.indices is None else len(self.indices)
+        expected = vertices if self.domain == "vertex" else faces
+        if rows != expected:
+            raise MeshError(
+                f"the attribute {self.name!r} has {rows} rows, where the mesh has {expected} "
+                f"{'vertices' if self.domain == 'vertex' else 'faces'}"
+            )
+
+    def taken(self, vertices: Order, faces: Order) -> Attribute:
+        """That of the mesh whose vertex j was vertex `vertices[j]` and whose face i was face `faces[i]` here."""
+        if self.indices is None:
+            return replace(self, values=self.values[vertices if self.domain == "vertex" else faces])
+        used, where = np.unique(self.indices[faces], return_inverse=True)
+        return replace(self, values=self.values[used], indices=where.reshape(-1, 3).astype(np.int32))
+
+
+def _stored(values: npt.NDArray[Any], what: str) -> npt.NDArray[Any]:
+    if values.ndim == 1:
+        values = values[:, None]
+    if values.ndim != 2 or not 1 <= values.shape[1] <= MOST_COMPONENTS:
+        raise MeshError(f"the values of {what} must have shape (k,) or (k, 1 to {MOST_COMPONENTS}), not {values.shape}")
+    if values.dtype == bool:
+        values = values.astype(np.uint8)
+    elif values.dtype == np.float16:
+        values = values.astype(np.float32)
+    elif values.dtype in (np.int64, np.uint64):
+        narrow = np.int32 if values.size == 0 or values.max() < 1 << 31 else np.uint32
+        if values.size and not np.iinfo(narrow).min <= values.min() <= values.max() <= np.iinfo(narrow).max:
+            raise MeshError(f"the values of {what} do not fit into 32 bits")
+        values = values.astype(narrow)
+    if values.dtype.name not in _KINDS:
+        raise MeshError(f"the values of {what} must be integers or floats of at most 64 bits, not {values.dtype}")
+    if values.dtype.kind == "f" and not np.isfinite(values).all():
+        raise MeshError(f"a value of {what} is not finite")
+    return np.ascontiguousarray(values)
