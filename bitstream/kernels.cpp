@@ -4,6 +4,7 @@
 extern "C" {
 #include "bitstream/coefficients/adaptive.h"
 #include "bitstream/coefficients/matrices.h"
+#include "bitstream/coefficients/priors.h"
 #include "bitstream/coefficients/rate_distortion.h"
 #include "bitstream/coefficients/trellis.h"
 #include "bitstream/connectivity/appearance.h"
@@ -42,6 +43,8 @@ NB_MODULE(_kernels, m) {
         "value"_a, "node"_a);
     m.def("code_signed", checked<code_one_signed>, "coder"_a, "bank"_a, "contexts"_a, "selector"_a, "unary"_a,
         "value"_a);
+
+    m.def("priors", [] { return nb::bytes(PRIORS, PRIORS_BYTES); });
 
     m.def("match_halfedges", checked<match_halfedges>, "origin"_a, "starts"_a, "by_high"_a, "order"_a, "twin"_a,
         Unlocked());

@@ -553,7 +553,7 @@ def hash_columns(rows, columns):
 
 # ---------------------------------------------------------------- M 9: coefficients
 
-EXPERIENCE = Path(__file__).parent.parent / "bitstream" / "coefficients" / "priors.bin"
+EXPERIENCE = Path(__file__).parent / "priors.bin"
 EXPERIENCE_SHA256 = "2a44d8f808d49ca9672132ecc3cc14e6ce99bec020504b7a96d206d4cfc47b34"
 NEIGHBOURS, BINS, NODES, EXPECTATIONS = 20, 48, 38, 3
 
