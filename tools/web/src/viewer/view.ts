@@ -200,6 +200,11 @@ export class View {
         if (!playback) return;
         playback.playing = !playback.playing;
         if (playback.playing && over && playback.frame === geometry.frames.length - 1) playback.seek(0);
+        this.label(playback);
+    }
+
+    private label({ playing }: Playback): void {
+        this.play.textContent = playing ? "Pause" : "Play";
     }
 
     private seek(frame: number): void {
@@ -221,7 +226,7 @@ export class View {
         const total = geometry.header!.frames || there;
         this.frame.max = String(total - 1);
         this.frame.value = String(this.frameShown);
-        this.play.textContent = playback.playing ? "Pause" : "Play";
+        this.label(playback);
         const ahead = there < total ? `, ${there} are there` : "";
         this.part("time").textContent = `${this.frameShown + 1} of ${total}${ahead}; ${spent((this.frameShown / playback.rate) * SECOND)}`;
         this.frame.setAttribute("aria-valuetext", `frame ${this.frameShown + 1} of ${total}`);
