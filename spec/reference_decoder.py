@@ -242,6 +242,7 @@ def parse_header(payload):
     require(h["blocks"] <= h["vertices"], "more blocks than vertices")
     require(h["block_size"] <= h["vertices"], "blocks larger than the mesh")
     require(h["grid"] or h["blocks"] * h["block_size"] >= h["vertices"], "blocks too small")
+    require(h["blocks"] * h["block_size"] <= 16 * h["vertices"] + 65536, "blocks overlap too much")
     require(h["coefficients"] <= h["block_size"], "more coefficients than rows")
     require(h["details"] <= h["block_size"], "more details than rows")
     require((h["details"] > 0) == (h["detail_step"] > 0), "details without a step, or a step without details")

@@ -13,6 +13,8 @@ COUNT = 2**31 - 1
 METHODS = 255
 Kind: TypeAlias = type[Any]
 MOST_GRID = 2**20 - 1
+MOST_COPIES, FREE_COPIES = 16, 1 << 16
+"""Rows of all blocks together, at most: so many for each vertex, and so many more."""
 
 
 @dataclass(frozen=True)
@@ -227,6 +229,7 @@ def _block_rules(header: Header) -> dict[str, bool]:
         "more blocks than vertices": header.blocks > header.vertices,
         "blocks larger than the mesh": header.block_size > header.vertices,
         "blocks too small to cover the mesh": header.blocks * header.block_size < header.vertices,
+        "blocks that overlap too much": header.blocks * header.block_size > MOST_COPIES * header.vertices + FREE_COPIES,
         "more coefficients than a block has vertices": header.coefficients > header.block_size,
         "more details than a block has vertices": header.details > header.block_size,
         "details without a step, or a step without details": (header.details > 0) != (header.detail_step > 0),

@@ -35,6 +35,8 @@ from codec.threads import Lanes, Pending
 Result = TypeVar("Result")
 MOST_LAYERS = 4
 """Layers of refinement that a stream can have."""
+ROWS_AHEAD = 1 << 16
+"""Rows of blocks, besides one for each vertex, that may wait to be asked for: what is decoded has to be kept."""
 
 Event: TypeAlias = HeaderEvent | ConnectivityEvent | BlockEvent | RefinementEvent | LossEvent | EndEvent | Signal
 
@@ -160,11 +162,13 @@ class Decoder(StreamDecoder[Item]):
         if layers is not None and layers < 1:
             raise OptionError("at least one layer must be decoded")
         lanes, allowance = Lanes(threads), Allowance(limits)
+        self._most_ahead = 1
         wishes = Wishes(tolerant, MOST_LAYERS if layers is None else layers - 1)
 
         def begin(structure: Structure) -> Stage[Item]:
             if structure.header.grid:
                 return GridStage(structure, tolerant)
+            self._most_ahead = most_ahead(structure.header)
             return BlockStage(structure, wishes, lanes, allowance)
 
         body = Body(limits, check=lambda header: check_header(header, limits), begin=begin)
@@ -248,10 +252,15 @@ class Decoder(StreamDecoder[Item]):
             raise
 
     def _next_item(self) -> Item:
-        """Read every packet whose bytes are there, so that chains can be decoded side by side, and give the first."""
-        while self._read():
+        """Read ahead what bytes are there for, so that chains can be decoded side by side, and give the first item."""
+        while len(self._queue) < self._most_ahead and self._read():
             pass
         return self._queue.popleft() if self._queue else self._signal()
+
+
+def most_ahead(header: Header) -> int:
+    """How many blocks may be read before the first of them is asked for: as many rows as vertices, and `ROWS_AHEAD`."""
+    return 1 + (header.vertices + ROWS_AHEAD) // header.block_size
 
 
 def check_header(header: Header, limits: Limits) -> None:

@@ -18,10 +18,10 @@ from bitstream.connectivity.faces import decode_connectivity, encode_connectivit
 from bitstream.connectivity.order import decode_arrangement, encode_arrangement
 from bitstream.connectivity.partition import decode_labels, encode_labels
 from bitstream.container import packets
-from bitstream.container.header import Header
+from bitstream.container.header import FREE_COPIES, MOST_COPIES, Header
 from bitstream.container.splits import Splits, decode_splits, encode_splits
 from bitstream.container.wire import Cursor, FrameType, write_varint
-from bitstream.errors import CorruptError, UnsupportedError
+from bitstream.errors import CorruptError, OptionError, UnsupportedError
 from bitstream.limits import Limits
 from codec.arrays import Faces, Indices, Matrix, Order, Positions
 from codec.blocks.overlap import Blocks, block_size, grow_blocks
@@ -105,8 +105,19 @@ class Prepared:
 
     @property
     def size(self) -> int:
-        """n_d."""
-        return block_size(self.partition, self.parts.overlap)
+        """n_d.
+
+        Raises
+        ------
+        OptionError
+            If blocks of this size would hold more copies of each vertex than a stream may.
+        """
+        size, parts, vertices = block_size(self.partition, self.parts.overlap), self.partition.parts, self.graph.size
+        if parts * size > MOST_COPIES * vertices + FREE_COPIES:
+            raise OptionError(
+                f"{parts} blocks of {size} of {vertices} vertices overlap too much; take a smaller one"
+            )
+        return size
 
     @cached_property
     def blocks(self) -> Blocks:
