@@ -2,6 +2,7 @@
 #include "bitstream/kernel.hpp"
 
 extern "C" {
+#include "bitstream/attributes/seams.h"
 #include "bitstream/coefficients/adaptive.h"
 #include "bitstream/coefficients/matrices.h"
 #include "bitstream/coefficients/priors.h"
@@ -74,6 +75,9 @@ NB_MODULE(_kernels, m) {
     m.def("order_vertices", checked<order_vertices>, "corners"_a, "order"_a, "scratch"_a, Unlocked());
     m.def("code_grid", checked<code_grid>, "coder"_a, "model"_a, "corners"_a, "grid"_a, "first"_a, "count"_a,
         Unlocked());
+    m.def("code_edges", checked<code_edges>, "coder"_a, "bank"_a, "corners"_a, "seams"_a, "others"_a, "ends"_a,
+        Unlocked());
+    m.def("join_corners", checked<join_corners>, "corners"_a, "seams"_a, "joined"_a, "first"_a, Unlocked());
     m.def("code_levels", checked<code_levels>, "coder"_a, "model"_a, "corners"_a, "levels"_a, "first"_a, "count"_a,
         Unlocked());
 }
