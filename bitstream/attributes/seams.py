@@ -121,7 +121,7 @@ def _make_bank() -> Bank:
 
 
 def _others(earlier: tuple[Flags, ...], size: int) -> Flags:
-    """What the last two attributes have at each edge: 3 times the last, plus the one before: 0 unknown, 1 no seam, 2 seam."""
+    """What the last two attributes have at each edge, 3 times the last: 0 unknown, 1 no seam, 2 seam."""
     others = np.zeros(size, np.uint8)
     for factor, seams in zip((3, 1), earlier[::-1], strict=False):
         others += (factor * (1 + (seams == SEAM))).astype(np.uint8)
