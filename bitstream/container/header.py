@@ -61,11 +61,11 @@ class Field:
         return type(value) is self.type
 
 
-def _plain(kind: Kind, value: Any) -> int | float | str | bytes:
+def _plain(kind: Kind, value: Any) -> Any:
     if kind in (str, bytes):
         if type(value) is not kind:
             raise TypeError(f"it must be of type {kind.__name__}")
-        return value  # type: ignore[no-any-return]
+        return value
     return operator.index(value) if kind is int else float(value)
 
 

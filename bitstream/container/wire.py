@@ -197,6 +197,11 @@ class Cursor:
         """Everything that is left."""
         return self.take(len(self._payload) - self._offset)
 
+    @property
+    def ended(self) -> bool:
+        """Whether nothing is left."""
+        return self._offset == len(self._payload)
+
     def finish(self) -> None:
         """Check that nothing is left."""
         if self._offset != len(self._payload):
