@@ -17,7 +17,9 @@ Kind = Literal["plain", "texcoord", "normal", "color"]
 
 
 class ValueEncoder:
-    def __init__(self, faces: Ints, values: Ints, largest: tuple[int, ...], kind: Kind, geometry: Ints | None = None) -> None:
+    def __init__(
+        self, faces: Ints, values: Ints, largest: tuple[int, ...], kind: Kind, geometry: Ints | None = None
+    ) -> None:
         self._coders = [LevelsEncoder(faces, values[:, [column]]) for column in range(values.shape[1])]
 
     def chunk(self, count: int) -> bytes:

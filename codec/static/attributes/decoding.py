@@ -1,4 +1,4 @@
-"""Frames of attributes to the attributes of a mesh: the stage of the decoder behind positions, and what it ends with."""
+"""Frames of attributes to attributes of a mesh: the decoder's stage behind positions, and what it ends with."""
 
 from __future__ import annotations
 

@@ -137,8 +137,9 @@ def _carry(
     recomputed = result.fields["coding"] == RECOMPUTED
     vertices = len(place.corners.rank)
     domain, origin, seams, joins, seams_of = FACE, AS_CODED, b"", None, 0
+    chosen: Order
     if attribute.domain == "face":
-        chosen = rows
+        chosen = rows.astype(np.int64)
     else:
         numbers = row_numbers(values if recomputed else result.levels)[rows]
         chosen = np.zeros(vertices, np.int64)
@@ -170,15 +171,17 @@ def _carry(
     return Carried(declaration, seams, surface, levels, said), joins
 
 
-def _rows(place: Place, attribute: Attribute) -> tuple[Order, Indices, Order]:
+def _rows(place: Place, attribute: Attribute) -> tuple[Order, Order, Order]:
     """The rows of an attribute's values that are coded; which of these faces or corners have, and loose vertices."""
     loose = place.loose if attribute.domain == "vertex" else np.zeros(0, np.int64)
+    rows: Indices | Order
     if attribute.domain == "face":
         rows = place.faces
     else:
         rows = place.of_corners(place.given.faces if attribute.indices is None else attribute.indices)
     every = np.concatenate([rows.ravel(), loose])
-    used, numbers = np.unique(every, return_inverse=True)
+    used, inverse = np.unique(every, return_inverse=True)
+    numbers = np.asarray(inverse, np.int64).ravel()
     return used, numbers[: rows.size].reshape(rows.shape), numbers[rows.size :]
 
 

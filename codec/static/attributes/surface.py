@@ -9,7 +9,7 @@ import numpy as np
 from bitstream.attributes.seams import Joins
 from bitstream.container.declaration import FACE, VERTEX, Declaration
 from codec.arrays import Faces, Indices, Levels, Matrix, Order
-from codec.static.preamble import Numbering
+from codec.static.numbering import Numbering
 
 
 @dataclass(frozen=True, eq=False)
@@ -106,10 +106,6 @@ def recomputed(surface: Surface, positions: Matrix) -> Matrix:
     normals = np.zeros((len(surface.vertices), 3))
     for corner in range(3):
         for axis in range(3):
-            normals[:, axis] += np.bincount(
-                surface.faces[:, corner], weights=across[:, axis], minlength=len(normals)
-            )
+            normals[:, axis] += np.bincount(surface.faces[:, corner], weights=across[:, axis], minlength=len(normals))
     lengths = np.linalg.norm(normals, axis=1, keepdims=True)
     return np.where(lengths > 0.0, normals / np.where(lengths > 0.0, lengths, 1.0), [0.0, 0.0, 1.0])
-
-
