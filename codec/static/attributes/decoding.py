@@ -10,18 +10,17 @@ from typing import Any, Protocol
 import numpy as np
 
 from bitstream.attributes.seams import Joins, decode_seams
-from bitstream.attributes.values import FaceValueDecoder, ValueDecoder
 from bitstream.container import packets
 from bitstream.container.declaration import CORNER, RECOMPUTED, Declaration
 from bitstream.container.reader import Signal
-from bitstream.errors import BsmError, CorruptError
+from bitstream.errors import CorruptError
 from bitstream.fields.corners import Corners, corners_of
 from bitstream.limits import Limits
 from codec.arrays import Faces, Levels
 from codec.geometry.attributes import Attribute
 from codec.geometry.mesh import TriangleMesh
 from codec.static.attributes.levels import KINDS, restored
-from codec.static.attributes.pieces import decoder_of, from_pieces
+from codec.static.attributes.pieces import PieceDecoder, from_pieces
 from codec.static.attributes.relief import Solid
 from codec.static.attributes.surface import (
     Arrangement,
@@ -136,12 +135,13 @@ class Valued:
         if declaration.coding != RECOMPUTED and declaration.rows != expected:
             raise CorruptError(f"attribute {declaration.name!r} has {declaration.rows} values where {expected} belong")
         self._rows = expected
+        self._coder: PieceDecoder | None = None
 
     def decode(self, packet: packets.Values, relief: Levels | None) -> AttributeEvent:
         """Decode a chunk of its values."""
         if self._coder is None:
-            self._coder_made = decoder_of(self.declaration, self._surface, relief, self._structure.limits)
-        coder = self._coder_made
+            self._coder = PieceDecoder(self.declaration, self._surface, relief, self._structure.limits)
+        coder = self._coder
         if packet.first != coder.coded:
             raise CorruptError(f"attribute {self.declaration.name!r} lacks the values before {packet.first}")
         rows, pieces = coder.chunk(packet.data, packet.count)
@@ -177,12 +177,6 @@ class Valued:
             SEMANTICS[declaration.semantic],  # type: ignore[arg-type]
             arrangement.indices,
         )
-
-    _coder_made: ValueDecoder | FaceValueDecoder
-
-    @property
-    def _coder(self) -> ValueDecoder | FaceValueDecoder | None:
-        return getattr(self, "_coder_made", None)
 
     @cached_property
     def arrangement(self) -> Arrangement:
@@ -285,8 +279,3 @@ class ValuesStage:
     def _end(self, queue: deque[Any]) -> None:
         self._ended = True
         queue.append(Complete(self._attributed))
-
-
-def lost(error: BsmError) -> LossEvent:
-    """What a tolerant decoder reports of an attribute."""
-    return LossEvent(None, error)

@@ -26,7 +26,7 @@ from codec.geometry.attributes import Attribute
 from codec.geometry.mesh import Metadata, TriangleMesh
 from codec.geometry.splitting import row_numbers
 from codec.static.attributes.levels import KINDS, Words, quantized
-from codec.static.attributes.pieces import encoder_of, leans, to_pieces
+from codec.static.attributes.pieces import PieceEncoder, leans, to_pieces
 from codec.static.attributes.quality import Quality
 from codec.static.attributes.relief import FARTHEST, Solid, relief_exponent
 from codec.static.attributes.surface import Surface, surface_of
@@ -106,7 +106,7 @@ class Carried:
         if self.declaration.coding == RECOMPUTED:
             return ()
         pieces = to_pieces(self.declaration, self.levels)
-        encoder = encoder_of(self.declaration, self.surface, pieces, relief)
+        encoder = PieceEncoder(self.declaration, self.surface, pieces, relief)
         return tuple(encoder.chunk(count) for _, count in _chunks(self.declaration.rows))
 
 

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from bitstream.attributes.values import canonical_levels, octahedral_normals
 from bitstream.container.declaration import BITS, LEVELS, OCTAHEDRAL, RECOMPUTED, Declaration
 from bitstream.errors import OptionError, TargetError
 from codec.static.attributes.quality import LEAST_NORMAL_BITS, MOST_BITS, MOST_NORMAL_BITS, Quality
@@ -44,7 +45,7 @@ def restored(declaration: Declaration, levels: Words) -> Values:
     """Values of levels, shape (k, words) (A 5)."""
     kind = np.dtype(KINDS[declaration.kind])
     if declaration.coding == OCTAHEDRAL:
-        return _directions(levels, declaration.largest[0]).astype(kind)
+        return octahedral_normals(levels, declaration.largest[0] // 2).astype(kind)
     offset = np.array(declaration.offsets)
     if declaration.coding == BITS:
         return _of_bits(levels + offset.astype(np.int64), kind)
@@ -162,7 +163,7 @@ def _octahedral(values: Values, quality: Quality, name: str) -> Quantized:
     for bits in tried:
         largest = 2**bits - 2
         levels = _places(units, largest)
-        off = float(_angles(_directions(levels, largest).astype(values.dtype), units).max())
+        off = float(_angles(octahedral_normals(levels, largest // 2).astype(values.dtype), units).max())
         if quality.way == "bits" or off <= quality.amount:
             break
     else:
@@ -192,19 +193,8 @@ def _sample(values: Values, fields: dict[str, Any]) -> Declaration:
     return Declaration(name="x", kind=kind, components=values.shape[1], rows=1, **fields)
 
 
-def _directions(levels: Words, largest: int) -> Reals:
-    """Unit vectors of places on the square, shape (k, 2), 0 to `largest` (A 5.3)."""
-    middle = largest // 2
-    u, v = ((levels[:, axis] - middle) / middle for axis in range(2))
-    z = 1.0 - np.abs(u) - np.abs(v)
-    folded = np.maximum(-z, 0.0)
-    x, y = u - np.copysign(folded, u + 0.0), v - np.copysign(folded, v + 0.0)
-    vectors = np.stack([x, y, z], axis=1)
-    return np.asarray(vectors / np.linalg.norm(vectors, axis=1, keepdims=True))
-
-
 def _places(units: Reals, largest: int) -> Words:
-    """The places nearest to unit vectors."""
+    """The places nearest to unit vectors, on a square of 0 to `largest`."""
     middle = largest // 2
     flat = units / np.abs(units).sum(axis=1, keepdims=True)
     x, y, z = flat.T
@@ -212,14 +202,14 @@ def _places(units: Reals, largest: int) -> Words:
     u = np.where(below, np.copysign(1.0 - np.abs(y), x), x) * middle + middle
     v = np.where(below, np.copysign(1.0 - np.abs(x), y), y) * middle + middle
     best = np.stack([np.floor(u), np.floor(v)], axis=1).clip(0, largest).astype(np.int64)
-    closeness = (_directions(best, largest) * units).sum(axis=1)
+    closeness = (octahedral_normals(best, middle) * units).sum(axis=1)
     for right in range(2):
         for up in range(2):
             place = np.stack([np.floor(u) + right, np.floor(v) + up], axis=1).clip(0, largest).astype(np.int64)
-            close = (_directions(place, largest) * units).sum(axis=1)
+            close = (octahedral_normals(place, middle) * units).sum(axis=1)
             better = close > closeness
             best[better], closeness[better] = place[better], close[better]
-    return best
+    return canonical_levels(best, middle).astype(np.int64)
 
 
 def _angles(vectors: Values, units: Reals) -> Reals:

@@ -4,11 +4,19 @@ from __future__ import annotations
 
 import numpy as np
 
-from bitstream.attributes.values import FaceValueDecoder, FaceValueEncoder, Kind, ValueDecoder, ValueEncoder
-from bitstream.container.declaration import COLOR, FACE, LEVELS, OCTAHEDRAL, TEXCOORD, Declaration
+from bitstream.attributes.values import (
+    MOST_COMPONENTS,
+    FaceValueDecoder,
+    FaceValueEncoder,
+    Kind,
+    ValueDecoder,
+    ValueEncoder,
+)
+from bitstream.container.declaration import FACE, LEVELS, OCTAHEDRAL, TEXCOORD, Declaration
+from bitstream.container.wire import Cursor, write_varint
 from bitstream.errors import CorruptError
 from bitstream.limits import Limits
-from codec.arrays import Levels
+from codec.arrays import Indices, Levels
 from codec.static.attributes.levels import Words
 from codec.static.attributes.surface import Surface
 
@@ -52,33 +60,72 @@ def kind_of(declaration: Declaration) -> Kind:
     """How numbers are predicted."""
     if declaration.coding == OCTAHEDRAL:
         return "normal"
-    if declaration.coding == LEVELS and declaration.semantic == TEXCOORD and declaration.components == 2:
-        return "texcoord"
-    return "color" if declaration.coding == LEVELS and declaration.semantic == COLOR else "plain"
+    plain = declaration.coding == LEVELS and max(declaration.largest) <= MOST_WHOLE
+    return "texcoord" if plain and declaration.semantic == TEXCOORD and declaration.words == 2 else "scalar"
 
 
 def leans(declaration: Declaration) -> bool:
     """Whether numbers are predicted from positions, should these be there."""
-    return declaration.domain != FACE and kind_of(declaration) in ("normal", "texcoord")
+    return declaration.domain != FACE and kind_of(declaration) != "scalar"
 
 
-def encoder_of(
-    declaration: Declaration, surface: Surface, pieces: Levels, relief: Levels | None
-) -> ValueEncoder | FaceValueEncoder:
-    """A coder of numbers, shape (k, pieces); `relief`, shape (n, 3), if it leans on positions."""
-    largest = largest_pieces(declaration)
-    if declaration.domain == FACE:
-        return FaceValueEncoder(surface.faces, pieces, largest)
-    geometry = None if relief is None else surface.relief(relief)
-    return ValueEncoder(surface.faces, pieces, largest, kind_of(declaration), geometry)
+class PieceEncoder:
+    """Codes the numbers of an attribute, shape (k, pieces), at most `MOST_COMPONENTS` of each value at a time.
+
+    `relief`: positions of the vertices, shape (n, 3), if they are predicted from these.
+    """
+
+    def __init__(self, declaration: Declaration, surface: Surface, pieces: Levels, relief: Levels | None) -> None:
+        def make(some: slice) -> ValueEncoder | FaceValueEncoder:
+            largest = largest_pieces(declaration)[some]
+            if declaration.domain == FACE:
+                return FaceValueEncoder(surface.faces, pieces[:, some], largest)
+            geometry = None if relief is None else surface.relief(relief)
+            kind = kind_of(declaration)
+            return ValueEncoder(surface.faces, pieces[:, some], largest, kind, geometry, surface.places)
+
+        self._coders = [make(some) for some in _groups(declaration)]
+
+    def chunk(self, count: int) -> bytes:
+        """Code the next `count` values: where there are several groups, each with its length before it."""
+        parts = [coder.chunk(count) for coder in self._coders]
+        return parts[0] if len(parts) == 1 else b"".join(write_varint(len(part)) + part for part in parts)
 
 
-def decoder_of(
-    declaration: Declaration, surface: Surface, relief: Levels | None, limits: Limits
-) -> ValueDecoder | FaceValueDecoder:
-    """Twin of `encoder_of`."""
-    largest = largest_pieces(declaration)
-    if declaration.domain == FACE:
-        return FaceValueDecoder(surface.faces, largest, limits)
-    geometry = None if relief is None else surface.relief(relief)
-    return ValueDecoder(surface.faces, len(surface.vertices), largest, kind_of(declaration), geometry, limits)
+class PieceDecoder:
+    """Twin of `PieceEncoder`; raises as `ValueDecoder`."""
+
+    def __init__(self, declaration: Declaration, surface: Surface, relief: Levels | None, limits: Limits) -> None:
+        def make(some: slice) -> ValueDecoder | FaceValueDecoder:
+            largest = largest_pieces(declaration)[some]
+            if declaration.domain == FACE:
+                return FaceValueDecoder(surface.faces, largest, limits)
+            geometry = None if relief is None else surface.relief(relief)
+            kind, size = kind_of(declaration), len(surface.vertices)
+            return ValueDecoder(surface.faces, size, largest, kind, geometry, surface.places, limits)
+
+        self._coders = [make(some) for some in _groups(declaration)]
+
+    @property
+    def coded(self) -> int:
+        """How many values are decoded."""
+        return min(coder.coded for coder in self._coders)
+
+    def chunk(self, payload: bytes, count: int) -> tuple[Indices, Levels]:
+        """The numbers of the next `count` values, and their pieces, shape (count, pieces)."""
+        cursor, found = Cursor(payload), []
+        rows = np.arange(self.coded, self.coded + count, dtype=np.int32)
+        for coder in self._coders:
+            part = cursor.take(cursor.varint()) if len(self._coders) > 1 else cursor.rest()
+            if isinstance(coder, FaceValueDecoder):
+                found.append(coder.chunk(part, count))
+            else:
+                rows, pieces = coder.chunk(part, count)
+                found.append(pieces)
+        cursor.finish()
+        return rows, np.concatenate(found, axis=1)
+
+
+def _groups(declaration: Declaration) -> list[slice]:
+    starts = range(0, len(largest_pieces(declaration)), MOST_COMPONENTS)
+    return [slice(start, start + MOST_COMPONENTS) for start in starts]

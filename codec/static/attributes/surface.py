@@ -27,6 +27,12 @@ class Surface:
     faces: Faces
     vertices: Indices
 
+    @property
+    def places(self) -> Indices:
+        """Equal numbers for values at the same vertex."""
+        apart = np.iinfo(np.int32).max - np.arange(len(self.vertices), dtype=np.int32)
+        return np.where(self.vertices < 0, apart, self.vertices).astype(np.int32)
+
     def relief(self, relief: Levels) -> Levels:
         """Where values are, given where vertices are, shape (n, 3); those of no vertex at the origin."""
         return np.where(self.vertices[:, None] < 0, 0, relief[self.vertices]).astype(np.int32)
