@@ -264,19 +264,14 @@ def header_from_entries(entries: list[tuple[Any, Any]]) -> Header:
         For everything else that no encoder writes.
     """
     names = {declared.key: name for name, declared in HEADER_FIELDS.items()}
+    _refuse_unknown(entries, names)
     values: dict[str, Any] = {}
     for key, value in entries:
-        if type(key) is not int or key < 0:
-            raise CorruptError(f"header key {key!r} is not an unsigned integer")
         if key >= FIRST_IGNORABLE_KEY:
             continue
-        if key not in names:
-            raise UnsupportedError(f"header key {key} is unknown to this decoder, and the stream cannot do without it")
         name, declared = names[key], HEADER_FIELDS[names[key]]
         if not declared.accepts(value):
             raise CorruptError(f"header field {name} has type {type(value).__name__}")
-        if declared.type is int and declared.high < value <= declared.reserved:
-            raise UnsupportedError(f"header field {name} names method {value}, unknown to this decoder")
         values[name] = declared.normalise(value)
         if name in HEADER_DEFAULTS and values[name] == HEADER_DEFAULTS[name]:
             raise CorruptError(f"header field {name} is stored although it has its default value")
@@ -287,3 +282,19 @@ def header_from_entries(entries: list[tuple[Any, Any]]) -> Header:
         return Header(**values)
     except OptionError as error:
         raise CorruptError(error.message) from error
+
+
+def _refuse_unknown(entries: list[tuple[Any, Any]], names: dict[int, str]) -> None:
+    """What is of a later version is told as that, whatever else may seem to be wrong with it."""
+    for key, value in entries:
+        if type(key) is not int or key < 0:
+            raise CorruptError(f"header key {key!r} is not an unsigned integer")
+        if key not in names:
+            if key < FIRST_IGNORABLE_KEY:
+                raise UnsupportedError(
+                    f"header key {key} is unknown to this decoder, and the stream cannot do without it"
+                )
+            continue
+        declared = HEADER_FIELDS[names[key]]
+        if declared.type is int and declared.accepts(value) and declared.high < value <= declared.reserved:
+            raise UnsupportedError(f"header field {names[key]} names method {value}, unknown to this decoder")
