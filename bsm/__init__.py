@@ -63,7 +63,7 @@ if TYPE_CHECKING:
     from codec.static.decoder import Decoder as Decoder
     from codec.static.encoder import Encoder as Encoder
     from codec.static.events import (
-        BlockEvent as BlockEvent, ConnectivityEvent as ConnectivityEvent, EndEvent as EndEvent,
+        AttributeEvent as AttributeEvent, BlockEvent as BlockEvent, ConnectivityEvent as ConnectivityEvent, EndEvent as EndEvent,
         HeaderEvent as HeaderEvent, LossEvent as LossEvent, RefinementEvent as RefinementEvent,
     )
     from codec.static.options import PRESETS as PRESETS, EncodeOptions as EncodeOptions
@@ -95,7 +95,7 @@ _ROOMS = {
     "codec.static.quality.contract": "Contract",
     "codec.static.decoder": "Decoder",
     "codec.static.encoder": "Encoder",
-    "codec.static.events": "BlockEvent ConnectivityEvent EndEvent HeaderEvent LossEvent RefinementEvent",
+    "codec.static.events": "AttributeEvent BlockEvent ConnectivityEvent EndEvent HeaderEvent LossEvent RefinementEvent",
     "codec.static.options": "PRESETS EncodeOptions",
     "codec.static.quality.targets": "Target",
 }

@@ -43,11 +43,13 @@ def summarise(info: StreamInfo) -> dict[str, Any]:
             "partition": info.partition,
             "order": info.order,
             "coefficients": info.coefficient_bytes,
+            "attributes": info.attribute_bytes,
             "framing": info.framing,
             "total": info.total,
         },
         "frames": info.frames,
         "gops": [asdict(gop) for gop in info.gops],
+        "attributes": [asdict(attribute) for attribute in info.attributes],
         "bpv_total": info.bpv_total,
         "bpvf_total": info.bpvf_total,
         "bpv_geometry": info.bpv_geometry,
@@ -72,9 +74,19 @@ def _worded(summary: Facts) -> str:
         *shares,
         f"bits per vertex: {summary['bpv_total']:.3f} in all, {summary['bpv_geometry']:.3f} for the coefficients, "
         f"{summary['bpv_paper']:.3f} by the paper's formula",
+        *map(_attribute_line, summary["attributes"]),
         *(f"{name}: {value}" for name, value in summary["metadata"].items()),
     ]
     return "\n".join(lines)
+
+
+def _attribute_line(attribute: dict[str, Any]) -> str:
+    what = f"{attribute['components']} x {attribute['kind']} per {attribute['domain']}, {attribute['semantic']}"
+    seams = f", {attribute['seams']} of them for seams" if attribute["seams"] else ""
+    return (
+        f"attribute {attribute['name']}: {what}, {attribute['values']} values, {attribute['coding']}, "
+        f"{attribute['bytes']} bytes{seams}"
+    )
 
 
 def _sequence_lines(summary: dict[str, Any]) -> list[str]:
