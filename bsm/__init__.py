@@ -47,7 +47,7 @@ if TYPE_CHECKING:
     from bitstream.limits import Limits as Limits
     from bsm.api import (
         compare as compare, decode as decode, decode_sequence as decode_sequence, denoise as denoise, encode as encode,
-        encode_sequence as encode_sequence, load as load, save as save,
+        encode_many as encode_many, encode_sequence as encode_sequence, load as load, save as save,
     )
     from bsm.files.mesh import read_mesh as read_mesh
     from bsm.files.formats.polygons import MeshFile as MeshFile
@@ -81,7 +81,7 @@ _ROOMS = {
         "OptionError TargetError TruncatedError UnsupportedError"
     ),
     "bitstream.limits": "Limits",
-    "bsm.api": "compare decode decode_sequence denoise encode encode_sequence load save",
+    "bsm.api": "compare decode decode_sequence denoise encode encode_many encode_sequence load save",
     "bsm.files.mesh": "read_mesh",
     "bsm.files.formats.polygons": "MeshFile",
     "codec.denoise": "DenoiseOptions",

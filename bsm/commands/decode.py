@@ -10,6 +10,7 @@ from bitstream.errors import OptionError
 from bsm.batch import Facts, add_inputs, came_to, plan, run_jobs, size_of
 from bsm.commands import sequence_decode
 from bsm.console import Console
+from bsm.farm.run import anywhere, may_replace
 from bsm.files.mesh import MESH_FORMATS, format_mesh, format_of_name
 from bsm.files.naming import output_inside, refuse_terminal
 from bsm.files.output import open_output, refuse_to_overwrite
@@ -58,7 +59,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
     if args.blocks is not None and args.tolerant:
         raise OptionError("--blocks stops early and --tolerant goes on: choose one")
     refuse_terminal(jobs[0].output)
-    args.given, args.many = args.output, len(jobs) > 1
+    args.given, args.many = args.output and (anywhere(args.output) if args.dask else args.output), len(jobs) > 1
     return run_jobs(args, console, decode_one, jobs)
 
 
@@ -74,7 +75,7 @@ def decode_one(args: argparse.Namespace, console: Console) -> Facts:
     kind = args.format or ("ply" if output == "-" else format_of_name(output))
     if kind not in MESH_FORMATS:
         raise OptionError(f"{output}: the name tells no mesh format; use --format, one of {', '.join(MESH_FORMATS)}")
-    refuse_to_overwrite(output, args.force)
+    refuse_to_overwrite(output, may_replace(args, output))
     begin = time.perf_counter()
     if args.tolerant:
         mesh = decode_what_is_left(chunks, lambda text: console.note(f"{args.input}: {text}"))
@@ -86,7 +87,7 @@ def decode_one(args: argparse.Namespace, console: Console) -> Facts:
     seconds = time.perf_counter() - begin
     if args.permutation:
         mesh = reorder(mesh, read_permutation(args.permutation))
-    with open_output(output, overwrite=args.force) as file:
+    with open_output(output, overwrite=may_replace(args, output)) as file:
         written = file.write(format_mesh(mesh, kind))
     vertices, faces = len(mesh.positions), len(mesh.faces)
     taken = size_of(args.input)

@@ -15,6 +15,7 @@ from bitstream.errors import OptionError
 from bsm.batch import Facts, add_inputs, plan, run_jobs, size_of
 from bsm.commands.reader import add_reader_flag
 from bsm.console import Console, Progress
+from bsm.farm.run import may_replace
 from bsm.files.mesh import MESH_FORMATS, format_mesh, format_of_name, read_mesh
 from bsm.files.naming import output_inside, refuse_terminal
 from bsm.files.output import open_output, refuse_to_overwrite
@@ -126,7 +127,7 @@ def _denoise_mesh(args: argparse.Namespace, console: Console, options: DenoiseOp
     kind = args.format if args.output == "-" else format_of_name(args.output)
     if kind not in MESH_FORMATS:
         raise OptionError(f"{args.output}: the name tells no mesh format; use one of .{', .'.join(MESH_FORMATS)}")
-    refuse_to_overwrite(args.output, args.force)
+    refuse_to_overwrite(args.output, may_replace(args, args.output))
 
     from codec.denoise import FrameDenoiser
 
@@ -140,7 +141,7 @@ def _denoise_mesh(args: argparse.Namespace, console: Console, options: DenoiseOp
     _tell(console, denoiser.choice)
     _tell_moved(console, mesh.positions, positions)
     seconds = time.perf_counter() - begin
-    with open_output(args.output, overwrite=args.force) as file:
+    with open_output(args.output, overwrite=may_replace(args, args.output)) as file:
         file.write(format_mesh(TriangleMesh(positions, mesh.faces), kind))
     console.note(f"{args.input}: {len(mesh.positions)} vertices -> {args.output}, {seconds:.2f} s")
     return _result(len(positions), len(mesh.faces), 1, seconds, denoiser.choice, options)
@@ -157,7 +158,7 @@ def _denoise_sequence(
     begin = time.perf_counter()
     denoiser = FrameDenoiser(first, source.faces, options, goal=args.goal, force=args.force)
     count = 0
-    writer = sequence_writer(args.output, kind, source.faces, source.count, overwrite=args.force)
+    writer = sequence_writer(args.output, kind, source.faces, source.count, overwrite=may_replace(args, args.output))
     with writer as write, console.progress("denoising", "frames") as progress:
         for frame in denoiser(_counted(chain([first], source.frames), source.count, progress)):
             write(frame)

@@ -7,7 +7,7 @@ from dataclasses import asdict
 from typing import Any
 
 from bitstream.container.wire import VERSION
-from bsm.batch import Facts, Job, add_inputs, run_jobs
+from bsm.batch import Facts, Job, add_inputs, input_names, run_jobs
 from bsm.console import Console
 from bsm.files.pipes import read_chunks
 from bsm.files.stream import StreamInfo, inspect_stream
@@ -20,7 +20,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace, console: Console) -> int:
     """Describe all inputs."""
-    return run_jobs(args, console, info_of_one, [Job(name) for name in args.inputs], _worded)
+    return run_jobs(args, console, info_of_one, [Job(name) for name in input_names(args.inputs)], _worded)
 
 
 def info_of_one(args: argparse.Namespace, console: Console) -> Facts:
