@@ -28,6 +28,7 @@ from codec.blocks.overlap import Blocks, block_size, grow_blocks
 from codec.blocks.partition import Partition, derive_partition, metis_partition, partition_of_labels
 from codec.geometry.graph import Graph, component_sizes, graph_of_faces
 from codec.geometry.mesh import TriangleMesh
+from codec.signal.chain import Rounding, unchanged
 from codec.static.events import Changes, ConnectivityEvent, HeaderEvent, LossEvent, unreadable
 from codec.static.rules import Scheme, scheme_of
 from codec.static.stages import Arrival, Stage, misplaced
@@ -114,9 +115,7 @@ class Prepared:
         """
         size, parts, vertices = block_size(self.partition, self.parts.overlap), self.partition.parts, self.graph.size
         if parts * size > MOST_COPIES * vertices + FREE_COPIES:
-            raise OptionError(
-                f"{parts} blocks of {size} of {vertices} vertices overlap too much; take a smaller one"
-            )
+            raise OptionError(f"{parts} blocks of {size} of {vertices} vertices overlap too much; take a smaller one")
         return size
 
     @cached_property
@@ -257,6 +256,8 @@ class Structure:
     numbering : Numbering
     partition : Partition, optional
         That was sent; None: it is derived.
+    rounding : callable
+        See `ChainRules`.
     """
 
     header: Header
@@ -264,6 +265,7 @@ class Structure:
     graph: Graph
     numbering: Numbering
     partition: Partition | None
+    rounding: Rounding = unchanged
 
     @property
     def units(self) -> Units:
@@ -284,16 +286,18 @@ class Structure:
         largest = int(np.diff(partition.bounds).max())
         if largest > header.block_size:
             raise CorruptError(f"a part of {largest} vertices in blocks of {header.block_size}")
-        return scheme_of(header, self.faces, grow_blocks(self.graph, partition, header.block_size))
+        blocks = grow_blocks(self.graph, partition, header.block_size)
+        return scheme_of(header, self.faces, blocks, self.rounding)
 
 
 @dataclass(frozen=True)
 class Body:
-    """What a decoder is for: which headers it takes, and what comes behind the preamble."""
+    """What a decoder is for: which headers it takes, what comes behind the preamble, and how numbers are rounded."""
 
     limits: Limits
     check: Callable[[Header], None]
     begin: Callable[[Structure], Stage[Any]]
+    rounding: Rounding = unchanged
 
 
 @dataclass(frozen=True, eq=False)
@@ -352,7 +356,7 @@ class Connected:
                 raise unreadable(arrival)
             case _:
                 following = self.body.begin(
-                    Structure(self.header, self.faces, self.graph, self.numbering, self.partition)
+                    Structure(self.header, self.faces, self.graph, self.numbering, self.partition, self.body.rounding)
                 )
                 queue.append(self.numbering.event(self.header.vertices))
                 return following.accept(arrival, queue)

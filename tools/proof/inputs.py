@@ -98,7 +98,8 @@ _SHAPES: tuple[Callable[[Random], TriangleMesh], ...] = (
 def _noise(random: Random, positions: Positions) -> Positions:
     size = 10.0 ** random.uniform(-6, 0)
     noise: Positions = np.random.default_rng(random.randrange(1 << 30)).normal(size=positions.shape)
-    return positions + size * noise
+    moved: Positions = positions + size * noise
+    return moved
 
 
 _DEFORMATIONS: tuple[Callable[[Random, Positions], Positions], ...] = (
