@@ -545,10 +545,25 @@ def orthogonal_iterations(laplacian, start, diagonal, power, iterations):
     return subspace
 
 
+def noisy_columns(rows, columns):
+    """M 8.3, M 8.5."""
+    return cosine_columns(rows, 0, columns) + 0.25 * hash_columns(rows, columns)
+
+
+def connected(laplacian):
+    """M 8.3: whether the graph is in one piece."""
+    found, waiting = {0}, [0]
+    while waiting:
+        for row in np.flatnonzero(laplacian[waiting.pop()]).tolist():
+            if row not in found:
+                found.add(row)
+                waiting.append(row)
+    return len(found) == len(laplacian)
+
+
 def exact_basis(laplacian, columns, springs):
     """M 8.5."""
-    rows = len(laplacian)
-    start = cosine_columns(rows, 0, columns) + 0.25 * hash_columns(rows, columns)
+    start = noisy_columns(len(laplacian), columns)
     return orthogonal_iterations(laplacian, start, springs + 2.0**-5, 2, 128)
 
 
@@ -557,7 +572,9 @@ def key_dictionary(header, laplacian, columns, springs):
     if header["basis"] == 1 or header["key_seed"] == 1:
         return exact_basis(laplacian, columns, springs)
     iterations = header["iterations"] if header["seeding"] == 1 else header["key_iterations"]
-    start = cosine_columns(len(laplacian), 0, columns)
+    start = (
+        cosine_columns(len(laplacian), 0, columns) if connected(laplacian) else noisy_columns(len(laplacian), columns)
+    )
     return orthogonal_iterations(laplacian, start, springs + header["shift"], header["power"], iterations)
 
 
@@ -987,6 +1004,8 @@ class Chain:
             return key_dictionary(header, block.laplacian, columns, springs)
         had = self.subspace.shape[1]
         start = np.concatenate([self.subspace, cosine_columns(block.size, had, max(had, columns))], axis=1)[:, :columns]
+        if not connected(block.laplacian):
+            start = start + 2.0**-8 * hash_columns(block.size, columns)
         diagonal = springs + header["shift"]
         return orthogonal_iterations(block.laplacian, start, diagonal, header["power"], header["iterations"])
 

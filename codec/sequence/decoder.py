@@ -19,6 +19,7 @@ from bitstream.limits import DEFAULT_LIMITS, Limits
 from codec.arrays import Faces, Matrix, Positions
 from codec.blocks.blend import Blend
 from codec.sequence.gop import GopDecoder, make_setting
+from codec.signal.chain import Rounding, unchanged
 from codec.static.events import ConnectivityEvent, EndEvent, HeaderEvent, LossEvent, unreadable
 from codec.static.layers.block_coder import ChainDecoder
 from codec.static.preamble import Beginning, Body, Structure
@@ -212,6 +213,8 @@ class SequenceDecoder(StreamDecoder[Item]):
         whole in any case.
     start : int
         Give no frame before this one; GOPs that it does not need are not decoded.
+    rounding : callable, optional
+        What is done to the numbers that dictionaries and predictions start from; see `ChainRules`.
     """
 
     def __init__(
@@ -221,12 +224,14 @@ class SequenceDecoder(StreamDecoder[Item]):
         *,
         tolerant: bool = False,
         start: int = 0,
+        rounding: Rounding = unchanged,
     ) -> None:
         wishes = Wishes(limits, threads, tolerant, start)
         body = Body(
             limits,
             check=lambda header: check_header(header, limits),
             begin=lambda structure: FirstFrame(structure, wishes),
+            rounding=rounding,
         )
         super().__init__(Beginning(body), limits, tolerant=tolerant)
 
