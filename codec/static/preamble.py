@@ -114,9 +114,7 @@ class Prepared:
         """
         size, parts, vertices = block_size(self.partition, self.parts.overlap), self.partition.parts, self.graph.size
         if parts * size > MOST_COPIES * vertices + FREE_COPIES:
-            raise OptionError(
-                f"{parts} blocks of {size} of {vertices} vertices overlap too much; take a smaller one"
-            )
+            raise OptionError(f"{parts} blocks of {size} of {vertices} vertices overlap too much; take a smaller one")
         return size
 
     @cached_property
