@@ -197,6 +197,7 @@ FIELDS = {
     "lattice": (29, [0, 2], 1, COUNT, []),
     "refinements": (30, (0, 8), 0.0, 64.0, []),
     "key_seed": (31, "method", 0, 1, 0),
+    "borders": (32, "method", 0, 1, 0),
 }
 
 
@@ -252,6 +253,7 @@ def parse_header(payload):
     require(all(2.0**-40 <= step <= 1 for step in steps), "a step of a refinement is out of range")
     require(all(ratio == 0 or ratio >= 1 / 16 for ratio in ratios), "a ratio of a refinement is out of range")
     require(not h["refinements"] or not h["gop_frames"], "refinements of a sequence")
+    require(h["refinements"] or not h["borders"], "borders without refinements")
     for name, most in (  # F 4.7
         ("vertices", MOST_VERTICES),
         ("faces", MOST_FACES),
@@ -942,7 +944,8 @@ def refine(mesh, positions, refinements):
     frames = [normals, *(axis - (normals @ axis / along)[:, None] * (pole + normals) for axis in axes)]
     refined = positions.copy()
     for layer, (step, ratio) in enumerate(zip(given[::2], given[1::2])):  # M 17.3
-        reader = LevelsReader(mesh.faces, count, 3 if ratio else 1)
+        last = layer == len(given) // 2 - 1
+        reader = LevelsReader(mesh.faces, count, 3 if ratio else 1, borders=last and mesh.header["borders"] == 1)
         for number, _, size, payload in refinements:
             if number == layer:
                 reader.read(payload, size)
