@@ -64,8 +64,8 @@ if TYPE_CHECKING:
     from codec.static.decoder import Decoder as Decoder
     from codec.static.encoder import Encoder as Encoder
     from codec.static.events import (
-        AttributeEvent as AttributeEvent, BlockEvent as BlockEvent, ConnectivityEvent as ConnectivityEvent, EndEvent as EndEvent,
-        HeaderEvent as HeaderEvent, LossEvent as LossEvent, RefinementEvent as RefinementEvent,
+        AttributeEvent as AttributeEvent, BlockEvent as BlockEvent, ConnectivityEvent as ConnectivityEvent,
+        EndEvent as EndEvent, HeaderEvent as HeaderEvent, LossEvent as LossEvent, RefinementEvent as RefinementEvent,
     )
     from codec.static.options import PRESETS as PRESETS, EncodeOptions as EncodeOptions
     from codec.static.quality.targets import Target as Target

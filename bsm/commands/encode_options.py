@@ -128,14 +128,15 @@ def add_coding_flags(parser: argparse.ArgumentParser) -> None:
         type=named_quality,
         metavar="NAME=QUALITY",
         default=argparse.SUPPRESS,
-        help="how well an attribute is kept: exact, 12bits, 0.01 (a bound), 1%%, 2deg, recompute or none; the name * is any "
-        "other one; may be repeated",
+        help="how an attribute is kept: exact, 12bits, 0.01 (a bound), 1%%, 2deg, recompute or none; the name * is "
+        "any other one; may be repeated",
     )
     group.add_argument(
         "--no-attributes",
         dest="attributes",
         action="append_const",
         const=("*", "none"),
+        default=argparse.SUPPRESS,
         help="leave out all attributes that --attribute does not name",
     )
     group.add_argument(

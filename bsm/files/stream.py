@@ -59,9 +59,9 @@ class AttributeInfo:
 class StreamInfo:
     """What a stream consists of, known without decoding it; sizes in bytes.
 
-    `connectivity`, `partition`, `order`, `coefficient_bytes` and `attribute_bytes` count what the packets carry; `framing`
-    is all the rest: preamble, header, metadata, tags, checksums and the end. The `coefficients` of a sequence are those
-    of its first frame.
+    `connectivity`, `partition`, `order`, `coefficient_bytes` and `attribute_bytes` count what the packets carry;
+    `framing` is all the rest: preamble, header, metadata, tags, checksums and the end. The `coefficients` of a sequence
+    are those of its first frame.
     """
 
     header: packets.Header
