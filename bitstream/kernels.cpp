@@ -2,8 +2,12 @@
 #include "bitstream/kernel.hpp"
 
 extern "C" {
+#include "bitstream/attributes/faces.h"
+#include "bitstream/attributes/seams.h"
+#include "bitstream/attributes/values.h"
 #include "bitstream/coefficients/adaptive.h"
 #include "bitstream/coefficients/matrices.h"
+#include "bitstream/coefficients/priors.h"
 #include "bitstream/coefficients/rate_distortion.h"
 #include "bitstream/coefficients/trellis.h"
 #include "bitstream/connectivity/appearance.h"
@@ -30,6 +34,8 @@ BSM_STRUCT(Corners, ConstInts2, Ints, Ints, Ints, Ints)
 BSM_STRUCT(ValueModel, Words, Words, Ints2, Ints2)
 BSM_STRUCT(Grid, ConstInts, ConstInts, Ints2, Ints2, Longs2, Longs2, Longs2)
 BSM_STRUCT(Levels, Ints2, Ints2, Ints2, Longs2)
+BSM_STRUCT(Values, ConstInts, ConstInts, ConstInts, ConstInts2, Ints2, Ints2, Longs2, Longs2, Longs2, Ints2, Longs)
+BSM_STRUCT(FaceValues, ConstInts, Ints2, Ints2, Ints2)
 
 using namespace nb::literals;
 
@@ -42,6 +48,8 @@ NB_MODULE(_kernels, m) {
         "value"_a, "node"_a);
     m.def("code_signed", checked<code_one_signed>, "coder"_a, "bank"_a, "contexts"_a, "selector"_a, "unary"_a,
         "value"_a);
+
+    m.def("priors", [] { return nb::bytes(PRIORS, PRIORS_BYTES); });
 
     m.def("match_halfedges", checked<match_halfedges>, "origin"_a, "starts"_a, "by_high"_a, "order"_a, "twin"_a,
         Unlocked());
@@ -71,6 +79,18 @@ NB_MODULE(_kernels, m) {
     m.def("order_vertices", checked<order_vertices>, "corners"_a, "order"_a, "scratch"_a, Unlocked());
     m.def("code_grid", checked<code_grid>, "coder"_a, "model"_a, "corners"_a, "grid"_a, "first"_a, "count"_a,
         Unlocked());
+    m.def("code_edges", checked<code_edges>, "coder"_a, "bank"_a, "corners"_a, "seams"_a, "others"_a, "ends"_a,
+        Unlocked());
+    m.def("join_corners", checked<join_corners>, "corners"_a, "seams"_a, "joined"_a, "first"_a, Unlocked());
     m.def("code_levels", checked<code_levels>, "coder"_a, "model"_a, "corners"_a, "levels"_a, "first"_a, "count"_a,
+        Unlocked());
+
+    m.def("code_scalars", checked<code_scalars>, "coder"_a, "model"_a, "corners"_a, "values"_a, "first"_a, "count"_a,
+        Unlocked());
+    m.def("code_texcoords", checked<code_texcoords>, "coder"_a, "model"_a, "corners"_a, "values"_a, "first"_a, "count"_a,
+        Unlocked());
+    m.def("code_normals", checked<code_normals>, "coder"_a, "model"_a, "corners"_a, "values"_a, "first"_a, "count"_a,
+        Unlocked());
+    m.def("code_faces", checked<code_faces>, "coder"_a, "model"_a, "corners"_a, "values"_a, "first"_a, "count"_a,
         Unlocked());
 }

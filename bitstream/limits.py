@@ -29,7 +29,10 @@ class Limits:
     sequence_bytes: float = 1 << 31
     """Memory for the dictionaries of a sequence, and for the coefficients of a GOP."""
     field_bytes: float = 1 << 32
-    """Memory for decoding a grid or a layer of refinement."""
+    """Memory for decoding a grid or a layer of refinement, or the values of an attribute."""
+    attributes: int = 255
+    attribute_values: int = 1 << 28
+    """Numbers of an attribute: its values times their components."""
 
     def check(self, name: str, value: float) -> None:
         """Raise `LimitError` if `value` exceeds the limit called `name`."""

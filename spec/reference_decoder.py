@@ -242,6 +242,7 @@ def parse_header(payload):
     require(h["blocks"] <= h["vertices"], "more blocks than vertices")
     require(h["block_size"] <= h["vertices"], "blocks larger than the mesh")
     require(h["grid"] or h["blocks"] * h["block_size"] >= h["vertices"], "blocks too small")
+    require(h["blocks"] * h["block_size"] <= 16 * h["vertices"] + 65536, "blocks overlap too much")
     require(h["coefficients"] <= h["block_size"], "more coefficients than rows")
     require(h["details"] <= h["block_size"], "more details than rows")
     require((h["details"] > 0) == (h["detail_step"] > 0), "details without a step, or a step without details")
@@ -553,7 +554,7 @@ def hash_columns(rows, columns):
 
 # ---------------------------------------------------------------- M 9: coefficients
 
-EXPERIENCE = Path(__file__).parent.parent / "bitstream" / "coefficients" / "priors.bin"
+EXPERIENCE = Path(__file__).parent / "priors.bin"
 EXPERIENCE_SHA256 = "2a44d8f808d49ca9672132ecc3cc14e6ce99bec020504b7a96d206d4cfc47b34"
 NEIGHBOURS, BINS, NODES, EXPECTATIONS = 20, 48, 38, 3
 

@@ -1,6 +1,6 @@
-"""Learn what the coefficient coder knows beforehand (`bitstream/coefficients/priors.bin`) from a folder of meshes.
+"""Learn what the coefficient coder knows beforehand (`spec/priors.bin`) from a folder of meshes.
 
-    python -m tools.train_coefficients MESHES [--output bitstream/coefficients/priors.bin] [--rounds 2]
+    python -m tools.train_coefficients MESHES [--output spec/priors.bin] [--rounds 2]
 
 The meshes are encoded with several steps and block sizes; the levels are taken from these streams. Meshes that serve
 to evaluate the codec are left out, see `TRAINING_MESHES`. The result replaces a part of the format: streams of the
@@ -184,7 +184,7 @@ def main() -> None:
     """Run the command."""
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("meshes", type=Path, help="folder with the training meshes")
-    parser.add_argument("--output", type=Path, default=Path("bitstream/coefficients/priors.bin"))
+    parser.add_argument("--output", type=Path, default=Path("spec/priors.bin"))
     arguments = parser.parse_args()
     meshes = [read_mesh(arguments.meshes / f"{name}.ply").mesh for name in TRAINING_MESHES]
     streams = (encode(mesh, options) for mesh in meshes for options in SETTINGS)

@@ -1,20 +1,20 @@
 """What the coefficient coder knows before it has seen anything: weights and first probabilities, learnt from meshes.
 
 A block has few coefficients, so a coder that starts from nothing spends much of the stream on learning. The numbers
-here were learnt once, by `tools/train_coefficients.py`; they are part of the format.
+here were learnt once, by `tools/train_coefficients.py`; they are part of the format, and stand in `spec/priors.bin`,
+which the build makes a part of the kernels.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cache
-from pathlib import Path
 
 import numpy as np
 import numpy.typing as npt
 
+from bitstream._kernels import priors
 from bitstream.coefficients.contexts import BINS, NEIGHBOURS, SITUATIONS
-from bitstream.errors import DependencyError
 
 EXPECTATIONS = 3
 """From everything, from the same block alone, from earlier blocks alone; each is a context of its own."""
@@ -23,7 +23,6 @@ NODES = 38
 SELECTORS = 2
 """Sets of mixing weights for each node: first block of a chain, later blocks."""
 
-_FILE = "priors.bin"
 _SHAPES = {
     "expectations": (EXPECTATIONS, SITUATIONS, NEIGHBOURS),
     "mixing": (SELECTORS * NODES, EXPECTATIONS),
@@ -89,16 +88,7 @@ def detail_experience() -> Experience:
 
 @cache
 def shipped_experiences() -> tuple[Experience, ...]:
-    """The experiences that are part of the format, one behind the other in their file.
-
-    Raises
-    ------
-    DependencyError
-        If the installation lacks the file.
-    """
-    try:
-        data = Path(__file__).with_name(_FILE).read_bytes()
-        size = len(data) // 2
-        return Experience.from_bytes(data[:size]), Experience.from_bytes(data[size:])
-    except (OSError, ValueError) as error:
-        raise DependencyError(f"{_FILE} is missing or damaged, install the package again: {error}") from None
+    """The experiences that are part of the format, one behind the other in their file."""
+    data = priors()
+    size = len(data) // 2
+    return Experience.from_bytes(data[:size]), Experience.from_bytes(data[size:])

@@ -31,11 +31,14 @@ class Arrangement:
         Original number of each decoded face.
     faces : int32 array, shape (m, 3)
         The original faces: order, numbering and first corners.
+    turns : int32 array, shape (m,)
+        Which corner of its decoded face is the first of each original face.
     """
 
     vertex_order: Ints
     face_order: Ints
     faces: Ints
+    turns: Ints
 
 
 def encode_arrangement(faces: npt.ArrayLike, encoded: EncodedConnectivity) -> bytes:
@@ -72,7 +75,9 @@ def decode_arrangement(payload: bytes, faces: Ints, vertex_count: int) -> Arrang
     face_order[suggested] = suggested_order
     original = np.empty_like(turned)
     original[suggested_order] = turned
-    return Arrangement(vertex_order, face_order, _turn(original, rotations))
+    turns = np.empty_like(suggested_order)
+    turns[suggested_order] = np.argmin(vertex_order[faces][suggested], axis=1)
+    return Arrangement(vertex_order, face_order, _turn(original, rotations), (turns + rotations) % 3)
 
 
 def _suggest(faces: Ints) -> tuple[npt.NDArray[np.intp], Ints]:

@@ -2,28 +2,43 @@
 
 from __future__ import annotations
 
+from bitstream.container.declaration import CORNER, Declaration
 from bitstream.container.layout import FRAME_TYPES
-from bitstream.container.packets import Block, End, Gop, Grid, Header, Packet, Partition, Refinement
+from bitstream.container.packets import (
+    Attribute,
+    Block,
+    End,
+    Gop,
+    Grid,
+    Header,
+    Packet,
+    Partition,
+    Refinement,
+    Values,
+)
 from bitstream.container.wire import FrameType
 
 _BODY = frozenset({FrameType.BLOCK, FrameType.GOP, FrameType.GRID, FrameType.REFINEMENT, FrameType.END})
+_TAIL = frozenset({FrameType.VALUES, FrameType.END})
 
 FOLLOWERS: dict[FrameType | None, frozenset[FrameType]] = {
     None: frozenset({FrameType.HEADER}),
     FrameType.HEADER: frozenset({FrameType.CONNECTIVITY}),
-    FrameType.CONNECTIVITY: _BODY | {FrameType.PARTITION, FrameType.ORDER},
-    FrameType.PARTITION: _BODY | {FrameType.ORDER},
-    FrameType.ORDER: _BODY,
-    FrameType.BLOCK: frozenset({FrameType.BLOCK, FrameType.GOP, FrameType.REFINEMENT, FrameType.END}),
+    FrameType.CONNECTIVITY: _BODY | {FrameType.PARTITION, FrameType.ORDER, FrameType.ATTRIBUTE},
+    FrameType.PARTITION: _BODY | {FrameType.ORDER, FrameType.ATTRIBUTE},
+    FrameType.ORDER: _BODY | {FrameType.ATTRIBUTE},
+    FrameType.ATTRIBUTE: _BODY | {FrameType.ATTRIBUTE, FrameType.VALUES},
+    FrameType.BLOCK: _TAIL | {FrameType.BLOCK, FrameType.GOP, FrameType.REFINEMENT},
     FrameType.GOP: frozenset({FrameType.GOP, FrameType.END}),
-    FrameType.GRID: frozenset({FrameType.GRID, FrameType.END}),
-    FrameType.REFINEMENT: frozenset({FrameType.REFINEMENT, FrameType.END}),
+    FrameType.GRID: _TAIL | {FrameType.GRID},
+    FrameType.REFINEMENT: _TAIL | {FrameType.REFINEMENT},
+    FrameType.VALUES: _TAIL | {FrameType.GOP},
     FrameType.END: frozenset(),
 }
 """What may follow a frame of each type (None: the preamble), METADATA and skippable frames left aside."""
 
 METADATA_FOLLOWS: frozenset[FrameType | None] = frozenset(
-    {FrameType.HEADER, FrameType.CONNECTIVITY, FrameType.PARTITION, FrameType.ORDER}
+    {FrameType.HEADER, FrameType.CONNECTIVITY, FrameType.PARTITION, FrameType.ORDER, FrameType.ATTRIBUTE}
 )
 
 
@@ -55,6 +70,9 @@ class Grammar:
         self._next_frame = 0
         self._next_vertex = 0  # of the grid, or of the layer
         self._layer = 0
+        self._declared: dict[int, Declaration] = {}
+        self._valued = 0  # the attribute that values have come for last
+        self._next_value = 0
         self._lossy = False
 
     @property
@@ -75,6 +93,8 @@ class Grammar:
             announced = {
                 FrameType.GRID: bool(self.header.grid),
                 FrameType.REFINEMENT: bool(self.header.refinements),
+                FrameType.ATTRIBUTE: bool(self.header.attributes),
+                FrameType.VALUES: bool(self.header.attributes),
             }
         return announced.get(frame_type, True)
 
@@ -99,6 +119,10 @@ class Grammar:
             self._next_vertex = packet.first + packet.count
         if isinstance(packet, Refinement):
             self._layer = packet.layer
+        if isinstance(packet, Attribute):
+            self._declared[packet.index] = packet.declaration
+        if isinstance(packet, Values):
+            self._valued, self._next_value = packet.attribute, packet.first + packet.count
         if frame_type is FrameType.METADATA:
             self._metadata_seen = True
         else:
@@ -113,7 +137,13 @@ class Grammar:
     def _disagreement(self, packet: Packet) -> str | None:
         if self.header is None:
             return None
+        if isinstance(packet, Block | Gop | Grid | Values | End) and self._lacks_attributes(self.header):
+            return f"{len(self._declared)} of {self.header.attributes} attributes are declared"
         match packet:
+            case Attribute():
+                return self._attribute_problem(self.header, packet)
+            case Values():
+                return self._values_problem(packet)
             case Block():
                 return self._block_disagreement(self.header, packet)
             case Gop():
@@ -124,8 +154,60 @@ class Grammar:
                 return self._refinement_disagreement(self.header, packet)
             case Partition() if self.header.grid:
                 return "a PARTITION where there are no blocks"
+            case End() if not self._lossy and (missing := self._missing_values()):
+                return missing
             case End() if self.header.grid and self._next_vertex < self.header.vertices and not self._lossy:
                 return f"the positions end at vertex {self._next_vertex} of {self.header.vertices}"
+        return None
+
+    def _lacks_attributes(self, header: Header) -> bool:
+        return len(self._declared) < header.attributes and not self._lossy
+
+    def _attribute_problem(self, header: Header, attribute: Attribute) -> str | None:
+        index, declaration = attribute.index, attribute.declaration
+        following = max(self._declared, default=-1) + 1
+        if index < following or (index > following and not self._lossy) or index >= header.attributes:
+            return f"attribute {index} of {header.attributes}, where attribute {following} must follow"
+        if declaration.name in {other.name for other in self._declared.values()}:
+            return f"a second attribute is called {declaration.name!r}"
+        if attribute.seams and (declaration.domain != CORNER or declaration.seams_of):
+            return "seams of an attribute that has none of its own"
+        if declaration.seams_of:
+            shared = self._declared.get(declaration.seams_of - 1)
+            if shared is None and not (self._lossy and declaration.seams_of <= index):
+                return f"the seams of attribute {declaration.seams_of - 1}, which does not come before"
+            if shared is not None and (shared.domain != CORNER or shared.seams_of):
+                return f"the seams of attribute {declaration.seams_of - 1}, which has none of its own"
+        first = declaration.leans > 0 and not any(other.leans for other in self._declared.values())
+        if (declaration.relief > 0) != (first and not header.grid) and not self._lossy:
+            return "relief belongs to the first attribute that leans on the positions of blocks, and to no other"
+        if declaration.leans and header.gop_frames:
+            return "an attribute of a sequence that leans on positions"
+        return None
+
+    def _values_problem(self, values: Values) -> str | None:
+        declared = self._declared.get(values.attribute)
+        if declared is None:
+            return f"values of attribute {values.attribute}, which is not declared"
+        if values.attribute < self._valued:
+            return f"values of attribute {values.attribute} come behind those of {self._valued}; they must ascend"
+        following = self._next_value if values.attribute == self._valued else 0
+        if values.first < following or (values.first > following and not self._lossy):
+            return f"values from {values.first} on where those from {following} on must follow"
+        if not 0 < values.count <= declared.rows - values.first:
+            return f"{values.count} values from {values.first} on, of {declared.rows}"
+        if values.attribute > self._valued and not self._lossy:
+            return self._missing_values(before=values.attribute)
+        return None
+
+    def _missing_values(self, before: int | None = None) -> str | None:
+        """What lacks of the values of the attributes, or of those before one."""
+        for index, declared in self._declared.items():
+            if before is not None and index >= before:
+                break
+            done = declared.rows if index < self._valued else self._next_value if index == self._valued else 0
+            if done < declared.rows:
+                return f"the values of attribute {index} end at {done} of {declared.rows}"
         return None
 
     def _block_disagreement(self, header: Header, block: Block) -> str | None:

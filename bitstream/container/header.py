@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import operator
 from dataclasses import MISSING, dataclass, field, fields
-from typing import Any, TypeAlias
+from typing import Any, TypeAlias, TypeVar
 
 from bitstream.errors import CorruptError, OptionError, UnsupportedError
 
@@ -12,7 +12,11 @@ FIRST_IGNORABLE_KEY = 64
 COUNT = 2**31 - 1
 METHODS = 255
 Kind: TypeAlias = type[Any]
+Record = TypeVar("Record")
 MOST_GRID = 2**20 - 1
+MOST_COPIES, FREE_COPIES = 16, 1 << 16
+"""Rows of all blocks together, at most: so many for each vertex, and so many more."""
+MOST_ATTRIBUTES = 255
 
 
 @dataclass(frozen=True)
@@ -20,7 +24,8 @@ class Field:
     """How one header field is stored: its msgpack key, its type and the closed range of its legal values.
 
     `reserved` is the largest value that a later version may give a meaning to: above `high`, and up to there, a
-    value is unsupported and not corrupt. Of a list, `item` is the type and `lengths` bounds the number of its entries.
+    value is unsupported and not corrupt. Of a list, `item` is the type and `lengths` bounds the number of its entries;
+    of text and bytes, the range is that of their length in bytes.
     """
 
     key: int
@@ -40,6 +45,8 @@ class Field:
     def problem(self, value: Any) -> str | None:
         """What is wrong with a normalised value, or None."""
         items = value if self.type is tuple else (value,)
+        if self.type in (str, bytes):
+            items = (len(value.encode() if isinstance(value, str) else value),)
         least, most = self.lengths
         if self.type is tuple and not least <= len(items) <= most:
             return f"has {len(items)} entries, legal are {least} to {most}"
@@ -54,7 +61,11 @@ class Field:
         return type(value) is self.type
 
 
-def _plain(kind: Kind, value: Any) -> int | float:
+def _plain(kind: Kind, value: Any) -> Any:
+    if kind in (str, bytes):
+        if type(value) is not kind:
+            raise TypeError(f"it must be of type {kind.__name__}")
+        return value
     return operator.index(value) if kind is int else float(value)
 
 
@@ -81,6 +92,16 @@ def reals(key: int, low: float, high: float, lengths: tuple[int, int], default: 
 def integers(key: int, low: int, high: int, lengths: tuple[int, int], default: tuple[int, ...]) -> Any:
     """Declare a field that is a list of integers."""
     return field(default=default, metadata={"wire": Field(key, tuple, low, high, lengths=lengths, item=int)})
+
+
+def text(key: int, low: int, high: int) -> Any:
+    """Declare a text of so many bytes of UTF-8."""
+    return field(metadata={"wire": Field(key, str, low, high)})
+
+
+def binary(key: int, high: int) -> Any:
+    """Declare bytes, none of them by default."""
+    return field(default=b"", metadata={"wire": Field(key, bytes, 0, high)})
 
 
 @dataclass(frozen=True)
@@ -172,18 +193,11 @@ class Header:
     """Step and ratio of each layer of refinement, one pair after another; see `layers`."""
     key_seed: int = method(31, known=2)
     """Block without predecessor: 0: `key_iterations` from cosines; 1: exact eigenbasis."""
+    attributes: int = integer(33, 0, MOST_ATTRIBUTES, default=0)
+    """How many attributes the mesh has."""
 
     def __post_init__(self) -> None:
-        for name, declared in HEADER_FIELDS.items():
-            given = getattr(self, name)
-            try:
-                value = declared.normalise(given)
-            except (TypeError, ValueError, OverflowError) as error:
-                raise OptionError(f"header field {name} cannot be {given!r}: {error}") from error
-            problem = declared.problem(value)
-            if problem:
-                raise OptionError(f"header field {name} {problem}")
-            object.__setattr__(self, name, value)
+        normalise_fields(self, "header")
         problem = contradiction(self)
         if problem:
             raise OptionError(f"header contradicts itself: {problem}")
@@ -194,8 +208,32 @@ class Header:
         return tuple(map(Layer, self.refinements[::2], self.refinements[1::2]))
 
 
-HEADER_FIELDS: dict[str, Field] = {item.name: item.metadata["wire"] for item in fields(Header)}
-HEADER_DEFAULTS: dict[str, Any] = {item.name: item.default for item in fields(Header) if item.default is not MISSING}
+def fields_of(kind: Kind) -> dict[str, Field]:
+    """The declared fields of a class, by name."""
+    return {item.name: item.metadata["wire"] for item in fields(kind)}
+
+
+def defaults_of(kind: Kind) -> dict[str, Any]:
+    """The defaults of those that have one."""
+    return {item.name: item.default for item in fields(kind) if item.default is not MISSING}
+
+
+HEADER_FIELDS: dict[str, Field] = fields_of(Header)
+HEADER_DEFAULTS: dict[str, Any] = defaults_of(Header)
+
+
+def normalise_fields(record: Any, what: str) -> None:
+    """Make the values of a record's fields plain, in place; raise `OptionError` for one that is not legal."""
+    for name, declared in fields_of(type(record)).items():
+        given = getattr(record, name)
+        try:
+            value = declared.normalise(given)
+        except (TypeError, ValueError, OverflowError) as error:
+            raise OptionError(f"{what} field {name} cannot be {given!r}: {error}") from error
+        problem = declared.problem(value)
+        if problem:
+            raise OptionError(f"{what} field {name} {problem}")
+        object.__setattr__(record, name, value)
 
 
 def contradiction(header: Header) -> str | None:
@@ -215,7 +253,7 @@ def _grid_rules(header: Header) -> dict[str, bool]:
     } | {
         f"a grid, and {name}": getattr(header, name) != default
         for name, default in HEADER_DEFAULTS.items()
-        if name not in ("grid", "lattice", "center", "scale")
+        if name not in ("grid", "lattice", "center", "scale", "attributes")
     }
 
 
@@ -227,6 +265,7 @@ def _block_rules(header: Header) -> dict[str, bool]:
         "more blocks than vertices": header.blocks > header.vertices,
         "blocks larger than the mesh": header.block_size > header.vertices,
         "blocks too small to cover the mesh": header.blocks * header.block_size < header.vertices,
+        "blocks that overlap too much": header.blocks * header.block_size > MOST_COPIES * header.vertices + FREE_COPIES,
         "more coefficients than a block has vertices": header.coefficients > header.block_size,
         "more details than a block has vertices": header.details > header.block_size,
         "details without a step, or a step without details": (header.details > 0) != (header.detail_step > 0),
@@ -242,16 +281,27 @@ def _block_rules(header: Header) -> dict[str, bool]:
 
 def header_to_entries(header: Header) -> list[tuple[int, Any]]:
     """(key, value) of every field that is not at its default, keys ascending."""
+    return entries_of(header)
+
+
+def header_from_entries(entries: list[tuple[Any, Any]]) -> Header:
+    """The header that `header_to_entries` came from; raises as `record_of`."""
+    return record_of(Header, "header", entries)
+
+
+def entries_of(record: Any) -> list[tuple[int, Any]]:
+    """(key, value) of every field that is not at its default, keys ascending."""
+    defaults = defaults_of(type(record))
     entries = [
-        (declared.key, getattr(header, name))
-        for name, declared in HEADER_FIELDS.items()
-        if name not in HEADER_DEFAULTS or getattr(header, name) != HEADER_DEFAULTS[name]
+        (declared.key, getattr(record, name))
+        for name, declared in fields_of(type(record)).items()
+        if name not in defaults or getattr(record, name) != defaults[name]
     ]
     return sorted(entries)
 
 
-def header_from_entries(entries: list[tuple[Any, Any]]) -> Header:
-    """The header that `header_to_entries` came from; keys from 64 on are ignored.
+def record_of(kind: type[Record], what: str, entries: list[tuple[Any, Any]]) -> Record:
+    """The record that `entries_of` came from; keys from 64 on are ignored.
 
     Raises
     ------
@@ -260,27 +310,28 @@ def header_from_entries(entries: list[tuple[Any, Any]]) -> Header:
     CorruptError
         For everything else that no encoder writes.
     """
-    names = {declared.key: name for name, declared in HEADER_FIELDS.items()}
+    declarations, defaults = fields_of(kind), defaults_of(kind)
+    names = {declared.key: name for name, declared in declarations.items()}
     values: dict[str, Any] = {}
     for key, value in entries:
         if type(key) is not int or key < 0:
-            raise CorruptError(f"header key {key!r} is not an unsigned integer")
+            raise CorruptError(f"{what} key {key!r} is not an unsigned integer")
         if key >= FIRST_IGNORABLE_KEY:
             continue
         if key not in names:
-            raise UnsupportedError(f"header key {key} is unknown to this decoder, and the stream cannot do without it")
-        name, declared = names[key], HEADER_FIELDS[names[key]]
+            raise UnsupportedError(f"{what} key {key} is unknown to this decoder, and the stream cannot do without it")
+        name, declared = names[key], declarations[names[key]]
         if not declared.accepts(value):
-            raise CorruptError(f"header field {name} has type {type(value).__name__}")
+            raise CorruptError(f"{what} field {name} has type {type(value).__name__}")
         if declared.type is int and declared.high < value <= declared.reserved:
-            raise UnsupportedError(f"header field {name} names method {value}, unknown to this decoder")
+            raise UnsupportedError(f"{what} field {name} names method {value}, unknown to this decoder")
         values[name] = declared.normalise(value)
-        if name in HEADER_DEFAULTS and values[name] == HEADER_DEFAULTS[name]:
-            raise CorruptError(f"header field {name} is stored although it has its default value")
-    missing = [name for name in HEADER_FIELDS if name not in HEADER_DEFAULTS and name not in values]
+        if name in defaults and values[name] == defaults[name]:
+            raise CorruptError(f"{what} field {name} is stored although it has its default value")
+    missing = [name for name in declarations if name not in defaults and name not in values]
     if missing:
-        raise CorruptError(f"header lacks {', '.join(missing)}")
+        raise CorruptError(f"{what} lacks {', '.join(missing)}")
     try:
-        return Header(**values)
+        return kind(**values)
     except OptionError as error:
         raise CorruptError(error.message) from error

@@ -9,9 +9,11 @@ import math
 from collections.abc import Callable
 from typing import Any, TypeVar
 
-from bitstream.container.header import header_from_entries, header_to_entries
+from bitstream.container.declaration import Declaration
+from bitstream.container.header import entries_of, header_from_entries, header_to_entries, record_of
 from bitstream.container.maps import parse_map, write_map
 from bitstream.container.packets import (
+    Attribute,
     Block,
     Connectivity,
     End,
@@ -23,12 +25,13 @@ from bitstream.container.packets import (
     Packet,
     Partition,
     Refinement,
+    Values,
 )
 from bitstream.container.wire import Cursor, FrameType, write_varint
 from bitstream.errors import CorruptError, OptionError
 from bitstream.limits import Limits
 
-LIMITED_FIELDS = ("vertices", "faces", "blocks", "block_size", "coefficients", "frames", "gop_frames")
+LIMITED_FIELDS = ("vertices", "faces", "blocks", "block_size", "coefficients", "frames", "gop_frames", "attributes")
 
 Coded = TypeVar("Coded", Connectivity, Partition, Order)
 
@@ -128,6 +131,33 @@ def parse_refinement(payload: bytes, limits: Limits) -> Refinement:
     return Refinement(cursor.varint(), cursor.varint(), cursor.varint(), cursor.rest())
 
 
+def write_attribute(attribute: Attribute) -> bytes:
+    """Varint index, varint length of a map from field keys to values, this map, coded seams."""
+    entries = write_map(entries_of(attribute.declaration))
+    return write_varint(attribute.index) + write_varint(len(entries)) + entries + attribute.seams
+
+
+def parse_attribute(payload: bytes, limits: Limits) -> Attribute:
+    """Inverse of `write_attribute`; counts are checked against `limits`."""
+    cursor = Cursor(payload)
+    index, length = cursor.varint(), cursor.varint()
+    declaration = record_of(Declaration, "attribute", parse_map(cursor.take(length)))
+    limits.check("attribute_values", declaration.rows * max(1, declaration.words))
+    return Attribute(index, declaration, cursor.rest())
+
+
+def write_values(values: Values) -> bytes:
+    """Varint attribute, varint number of the first value, varint number of values, coded values."""
+    numbers = (values.attribute, values.first, values.count)
+    return b"".join(map(write_varint, numbers)) + values.data
+
+
+def parse_values(payload: bytes, limits: Limits) -> Values:
+    """Inverse of `write_values`."""
+    cursor = Cursor(payload)
+    return Values(cursor.varint(), cursor.varint(), cursor.varint(), cursor.rest())
+
+
 def write_end(end: End) -> bytes:
     """Varint number of frames, CRC-32 little-endian."""
     return write_varint(end.frames) + end.crc.to_bytes(4, "little")
@@ -147,10 +177,12 @@ FRAME_TYPES: dict[type, FrameType] = {
     Connectivity: FrameType.CONNECTIVITY,
     Partition: FrameType.PARTITION,
     Order: FrameType.ORDER,
+    Attribute: FrameType.ATTRIBUTE,
     Block: FrameType.BLOCK,
     Gop: FrameType.GOP,
     Grid: FrameType.GRID,
     Refinement: FrameType.REFINEMENT,
+    Values: FrameType.VALUES,
     End: FrameType.END,
 }
 
@@ -164,6 +196,8 @@ WRITERS: dict[FrameType, Callable[[Any], bytes]] = {
     FrameType.GOP: write_gop,
     FrameType.GRID: write_grid,
     FrameType.REFINEMENT: write_refinement,
+    FrameType.ATTRIBUTE: write_attribute,
+    FrameType.VALUES: write_values,
     FrameType.END: write_end,
 }
 
@@ -177,5 +211,7 @@ PARSERS: dict[FrameType, Callable[[bytes, Limits], Packet]] = {
     FrameType.GOP: parse_gop,
     FrameType.GRID: parse_grid,
     FrameType.REFINEMENT: parse_refinement,
+    FrameType.ATTRIBUTE: parse_attribute,
+    FrameType.VALUES: parse_values,
     FrameType.END: parse_end,
 }

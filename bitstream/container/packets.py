@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import TypeAlias
 
+from bitstream.container.declaration import Declaration
 from bitstream.container.header import Header
 from bitstream.container.wire import FrameType
 from bitstream.errors import OptionError
@@ -87,6 +88,25 @@ class Refinement:
 
 
 @dataclass(frozen=True)
+class Attribute:
+    """An attribute of the mesh, counted from 0, and its coded seams, if it has any of its own."""
+
+    index: int
+    declaration: Declaration
+    seams: bytes = b""
+
+
+@dataclass(frozen=True)
+class Values:
+    """The coded values of an attribute: `count` of them, from number `first` of the order of coding on."""
+
+    attribute: int
+    first: int
+    count: int
+    data: bytes
+
+
+@dataclass(frozen=True)
 class End:
     """The last frame: how many were before it, and the CRC-32 of all bytes before it."""
 
@@ -108,12 +128,16 @@ class Damaged:
     reason: str
 
 
-Packet: TypeAlias = Header | Metadata | Connectivity | Partition | Order | Block | Gop | Grid | Refinement | End
+Packet: TypeAlias = (
+    Header | Metadata | Connectivity | Partition | Order | Attribute | Block | Gop | Grid | Refinement | Values | End
+)
 
 __all__ = [
+    "Attribute",
     "Block",
     "Connectivity",
     "Damaged",
+    "Declaration",
     "End",
     "Gop",
     "Grid",
@@ -124,4 +148,5 @@ __all__ = [
     "Packet",
     "Partition",
     "Refinement",
+    "Values",
 ]

@@ -21,6 +21,7 @@ SKIPPABLE_TYPES = range(8, 12)
 class FrameType(IntEnum):
     """What a frame carries; the low four bits of its tag."""
 
+    VALUES = 0
     HEADER = 1
     METADATA = 2
     CONNECTIVITY = 3
@@ -30,6 +31,7 @@ class FrameType(IntEnum):
     GOP = 7
     GRID = 12
     REFINEMENT = 13
+    ATTRIBUTE = 14
     END = 15
 
 
@@ -194,6 +196,11 @@ class Cursor:
     def rest(self) -> bytes:
         """Everything that is left."""
         return self.take(len(self._payload) - self._offset)
+
+    @property
+    def ended(self) -> bool:
+        """Whether nothing is left."""
+        return self._offset == len(self._payload)
 
     def finish(self) -> None:
         """Check that nothing is left."""

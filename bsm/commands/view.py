@@ -7,17 +7,15 @@ import itertools
 import webbrowser
 from pathlib import Path
 
-from bitstream.errors import UnsupportedError
 from bsm.console import Console
 from bsm.files.output import open_output
 from bsm.files.pipes import read_chunks
-from bsm.files.sequence_stream import peek_header
 from bsm.viewer.page import PageServer, page_with_streams
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare what the command takes."""
-    parser.add_argument("inputs", metavar="IN", nargs="+", help="stream of a static mesh, or - for standard input")
+    parser.add_argument("inputs", metavar="IN", nargs="+", help="stream, of a mesh or a sequence, or - for a pipe")
     parser.add_argument(
         "--save",
         metavar="PAGE.html",
@@ -52,10 +50,7 @@ def _read_streams(inputs: list[str]) -> dict[str, bytes]:
     """Bytes of all inputs by their names; a damaged stream is for the page to tell."""
     streams: dict[str, bytes] = {}
     for path in inputs:
-        header, chunks = peek_header(read_chunks(path))
-        if header is not None and header.gop_frames:
-            raise UnsupportedError(f"{path} is a sequence; the page shows static meshes only")
-        streams[_free_name(Path(path).name, streams)] = b"".join(chunks)
+        streams[_free_name(Path(path).name, streams)] = b"".join(read_chunks(path))
     return streams
 
 

@@ -114,7 +114,7 @@ def grow_blocks(graph: Graph, partition: Partition, size: int) -> Blocks:
         graph.offsets, graph.neighbours, partition.order, partition.bounds, chain, size, seen, starts, members
     )
     cores = np.diff(partition.bounds)[chain]
-    return Blocks(graph, chain, cores, starts, members[:count].copy())
+    return Blocks(graph, chain, cores, starts, members[:count])
 
 
 def _ordered(graph: Graph, rows: Indices) -> Block:

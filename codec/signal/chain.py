@@ -57,6 +57,11 @@ class ChainRules:
             return EXACT_SOLVES
         return self.power * (self.iterations if follows or self.independent else self.key_iterations)
 
+    @property
+    def alone(self) -> bool:
+        """Whether every block is a chain of its own, so that none knows of another."""
+        return self.independent or self.key_interval == 1
+
     def chain_starts(self, blocks: int) -> range:
         """Indices of the key blocks among `blocks` blocks."""
         return range(0, blocks, self.chain_length(blocks))
@@ -90,7 +95,7 @@ class Chain:
 
     def __init__(self, rules: ChainRules, graph: Graph) -> None:
         self._rules = rules
-        self._known = None if rules.stiffness is None else Known(graph, rules.stiffness)
+        self._known = None if rules.stiffness is None or rules.alone else Known(graph, rules.stiffness)
         self._subspace: Matrix | None = None
 
     def around(self, block: Block) -> Surroundings:

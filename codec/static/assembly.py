@@ -12,8 +12,9 @@ from codec.blocks.blend import Blend
 from codec.blocks.overlap import Blocks
 from codec.geometry.mesh import TriangleMesh
 from codec.signal.smooth import DEGREE, LocalFilter, smooth
+from codec.static.attributes.relief import Solid
 from codec.static.events import Changes, Losses
-from codec.static.preamble import Numbering
+from codec.static.numbering import Numbering
 from codec.static.units import Units
 
 
@@ -74,6 +75,13 @@ class Assembly:
         everything = np.arange(self._graph.size, dtype=np.int32)
         decoded = self._units.back(smooth(self._graph, self._blend.positions(everything), self._smoothing))
         return TriangleMesh(self._numbering.arranged(decoded), self._numbering.faces)
+
+    def solid(self) -> Solid | None:
+        """Decoded positions, once every block is in; None if one was lost."""
+        if self._lost:
+            return None
+        everything = np.arange(self._graph.size, dtype=np.int32)
+        return Solid(smooth(self._graph, self._blend.positions(everything), self._smoothing))
 
     def base(self) -> tuple[Matrix, Mask]:
         """What refinement adds to: all positions in BSM units, shape (n, 3), and which of them, and of the vertices

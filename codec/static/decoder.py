@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import deque
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TypeAlias, TypeVar
 
 from bitstream.container import packets
@@ -13,7 +13,9 @@ from bitstream.errors import BsmError, CorruptError, OptionError, UnsupportedErr
 from bitstream.limits import DEFAULT_LIMITS, Limits
 from codec.geometry.mesh import TriangleMesh
 from codec.static.assembly import Assembly, DecodedBlock
+from codec.static.attributes.decoding import PendingValues, ValuesStage, completed
 from codec.static.events import (
+    AttributeEvent,
     BlockEvent,
     ConnectivityEvent,
     EndEvent,
@@ -35,8 +37,12 @@ from codec.threads import Lanes, Pending
 Result = TypeVar("Result")
 MOST_LAYERS = 4
 """Layers of refinement that a stream can have."""
+ROWS_AHEAD = 1 << 16
+"""Rows of blocks, besides one for each vertex, that may wait to be asked for: what is decoded has to be kept."""
 
-Event: TypeAlias = HeaderEvent | ConnectivityEvent | BlockEvent | RefinementEvent | LossEvent | EndEvent | Signal
+Event: TypeAlias = (
+    HeaderEvent | ConnectivityEvent | BlockEvent | RefinementEvent | AttributeEvent | LossEvent | EndEvent | Signal
+)
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,7 +53,7 @@ class PendingBlock:
     assembly: Assembly
 
 
-Item: TypeAlias = Event | PendingBlock | PendingLevels | Complete
+Item: TypeAlias = Event | PendingBlock | PendingLevels | PendingValues | Complete
 
 
 @dataclass(frozen=True)
@@ -84,8 +90,9 @@ class BlockStage:
                     and self._structure.header.layers
                     and not self._wishes.refinements
                 ):
-                    queue.append(Complete(self._assembly))
-                    return Complete(self._assembly)
+                    complete = completed(self._assembly, self._structure)
+                    queue.append(complete)
+                    return complete
             case packets.Refinement():
                 self._skip_to(self._scheme.blocks.count, queue)
                 wishes = self._wishes
@@ -93,6 +100,10 @@ class BlockStage:
                     self._assembly, self._structure, self._lanes, wishes.refinements, wishes.tolerant
                 )
                 return refinement.accept(arrival, queue)
+            case packets.Values():
+                self._skip_to(self._scheme.blocks.count, queue)
+                values = ValuesStage(self._assembly, self._structure, self._wishes.tolerant)
+                return values.accept(arrival, queue)
             case packets.Damaged():
                 queue.append(LossEvent(None, unreadable(arrival)))
             case packets.End():
@@ -100,7 +111,7 @@ class BlockStage:
             case Signal.END_OF_STREAM:
                 if not self._ended:  # a tolerant reader may find no END
                     self._end(queue)
-                return Complete(self._assembly)
+                return completed(self._assembly, self._structure)
             case _:
                 raise misplaced(arrival)
         return self
@@ -126,7 +137,7 @@ class BlockStage:
     def _end(self, queue: deque[Item]) -> None:
         self._skip_to(self._scheme.blocks.count, queue)
         self._ended = True
-        queue.append(Complete(self._assembly))
+        queue.append(completed(self._assembly, self._structure))
 
 
 class Decoder(StreamDecoder[Item]):
@@ -160,14 +171,16 @@ class Decoder(StreamDecoder[Item]):
         if layers is not None and layers < 1:
             raise OptionError("at least one layer must be decoded")
         lanes, allowance = Lanes(threads), Allowance(limits)
+        self._most_ahead = 1
         wishes = Wishes(tolerant, MOST_LAYERS if layers is None else layers - 1)
 
         def begin(structure: Structure) -> Stage[Item]:
             if structure.header.grid:
                 return GridStage(structure, tolerant)
+            self._most_ahead = most_ahead(structure.header)
             return BlockStage(structure, wishes, lanes, allowance)
 
-        body = Body(limits, check=lambda header: check_header(header, limits), begin=begin)
+        body = Body(limits, check=lambda header: check_header(header, limits), begin=begin, tolerant=tolerant)
         super().__init__(Beginning(body), limits, tolerant=tolerant)
         self._lanes = lanes
 
@@ -188,6 +201,8 @@ class Decoder(StreamDecoder[Item]):
                 return self._block_event(block)
             case PendingLevels() as levels:
                 return self._refinement_event(levels)
+            case PendingValues() as values:
+                return self._attribute_event(values)
             case Complete(whole):
                 return EndEvent(whole.losses())
             case event:
@@ -208,9 +223,11 @@ class Decoder(StreamDecoder[Item]):
                     assembly.add(self._result(pending))
                 case PendingLevels(layer, levels, refined):
                     refined.add(layer, *self._result(levels))
+                case PendingValues() as values:
+                    self._attribute_event(values)
         match self._stage:
             case Complete(whole):
-                return whole.mesh()
+                return replace(whole.mesh(), metadata=self.metadata) if self.metadata else whole.mesh()
             case _:
                 raise misplaced(END_OF_STREAM)
 
@@ -239,6 +256,14 @@ class Decoder(StreamDecoder[Item]):
         except BsmError as error:
             raise self._fail(error) from None
 
+    def _attribute_event(self, values: PendingValues) -> AttributeEvent | LossEvent:
+        try:
+            return values.attributed.add(values.packet)
+        except BsmError as error:
+            if not self._tolerant:
+                raise self._fail(error) from None
+            return LossEvent(None, error)
+
     def _result(self, pending: Pending[Result]) -> Result:
         try:
             return pending.result()
@@ -248,10 +273,15 @@ class Decoder(StreamDecoder[Item]):
             raise
 
     def _next_item(self) -> Item:
-        """Read every packet whose bytes are there, so that chains can be decoded side by side, and give the first."""
-        while self._read():
+        """Read ahead what bytes are there for, so that chains can be decoded side by side, and give the first item."""
+        while len(self._queue) < self._most_ahead and self._read():
             pass
         return self._queue.popleft() if self._queue else self._signal()
+
+
+def most_ahead(header: Header) -> int:
+    """How many blocks may be read before the first of them is asked for: as many rows as vertices, and `ROWS_AHEAD`."""
+    return 1 + (header.vertices + ROWS_AHEAD) // header.block_size
 
 
 def check_header(header: Header, limits: Limits) -> None:

@@ -11,10 +11,13 @@ import numpy as np
 from bitstream.container.header import Header
 from bitstream.errors import OptionError, TargetError
 from codec.arrays import Order
+from codec.geometry.attributes import Attribute
 from codec.geometry.closeness import Original
 from codec.geometry.mesh import TriangleMesh
 from codec.geometry.metrics import Comparison, Reference
 from codec.signal.quantize import smallest_step
+from codec.static.attributes.encoding import Carried, carry, place_of, with_attributes
+from codec.static.attributes.quality import Quality, default_quality, parse_quality
 from codec.static.joining import Joined, join
 from codec.static.layers.block_coder import Progress
 from codec.static.options import EncodeOptions
@@ -80,8 +83,10 @@ class Encoder:
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """What was changed on the way in."""
-        return self._joined.notes
+        """What was changed on the way in, and what becomes of attributes."""
+        left = [one.name for one, quality in self._wanted if quality.way == "none"]
+        said = (*(one.said for one in self._carried), *([f"left out: {', '.join(left)}"] if left else []))
+        return (*self._joined.notes, *said)
 
     @property
     def mesh(self) -> TriangleMesh:
@@ -138,6 +143,9 @@ class Encoder:
 
     def draft(self, progress: Progress | None = None) -> Draft:
         """What the options ask for, without a target."""
+        return self._dressed(self._bare(progress))
+
+    def _bare(self, progress: Progress | None) -> Draft:
         options = self.options
         if options.grid is not None:
             return rounded(self._prepared, options.grid)
@@ -147,7 +155,7 @@ class Encoder:
 
     def result(self, progress: Progress | None = None) -> Attempt:
         """What `encode` gives, with a comparison of what it decodes to."""
-        return self.search(progress) if self.options.target is not None else self._judged(self.draft(progress))
+        return self.search(progress) if self.options.target is not None else self._judged(self._bare(progress))
 
     def search(self, progress: Progress | None = None) -> Attempt:
         """Look for the smallest stream that meets the options' target, or for the best one of a size.
@@ -203,8 +211,38 @@ class Encoder:
         yield Grids(prepared, shaper)
 
     def _judged(self, draft: Draft) -> Attempt:
+        draft = self._dressed(draft)
         decoded = self._prepared.units.into(draft.decoded)
         return Attempt(draft.frames, draft.header, draft.coefficients, self._reference.compare(decoded))
+
+    def _dressed(self, draft: Draft) -> Draft:
+        """A draft with all that the mesh carries."""
+        if not self._carried and not self._given.metadata:
+            return draft
+        return with_attributes(draft, self._prepared, self._carried, self._given.metadata)
+
+    @cached_property
+    def _wanted(self) -> list[tuple[Attribute, Quality]]:
+        """The attributes of the given mesh, and what is asked of each."""
+        given, asked = self._given.attributes, dict(self.options.attributes)
+        unknown = sorted(set(asked) - {one.name for one in given} - {"*"})
+        if unknown:
+            there = ", ".join(one.name for one in given) or "none"
+            raise OptionError(f"the mesh has no attribute {unknown[0]!r}; there are: {there}")
+        return [(one, self._quality(one, asked)) for one in given]
+
+    def _quality(self, attribute: Attribute, asked: dict[str, str]) -> Quality:
+        if attribute.name in asked:
+            return parse_quality(asked[attribute.name])
+        floats = attribute.values.dtype.kind == "f" and attribute.components == 3
+        if self.options.normals == "recompute" and attribute.semantic == "normal" and floats:
+            return Quality("recompute")
+        return parse_quality(asked["*"]) if "*" in asked else default_quality(attribute, self.options.grade)
+
+    @cached_property
+    def _carried(self) -> tuple[Carried, ...]:
+        wanted = [(one, quality) for one, quality in self._wanted if quality.way != "none"]
+        return carry(place_of(self._given, self._joined, self._prepared), wanted) if wanted else ()
 
     @cached_property
     def _joined(self) -> Joined:

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
+import numpy.typing as npt
 
 from bitstream.container.header import Header
 from bitstream.container.packets import Damaged
@@ -100,6 +101,30 @@ class RefinementEvent:
     layer: int
     vertices: Indices
     positions: Positions
+
+
+@dataclass(frozen=True, eq=False)
+class AttributeEvent:
+    """Values of an attribute have been decoded.
+
+    Parameters
+    ----------
+    name : str
+    domain : {"vertex", "corner", "face"}
+    semantic : {"generic", "color", "normal", "texcoord"}
+    indices : int32 array, shape (m, 3), optional
+        For corners: which of all values of the attribute each corner has.
+    rows : int32 array, shape (r,)
+        Numbers of values that are known from now on: of vertices or faces, or what `indices` refer to.
+    values : array, shape (r, c)
+    """
+
+    name: str
+    domain: str
+    semantic: str
+    indices: Indices | None
+    rows: Indices
+    values: npt.NDArray[Any]
 
 
 @dataclass(frozen=True)

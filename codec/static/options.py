@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 from bitstream.errors import OptionError
 from codec.choices import check_options
+from codec.static.attributes.quality import Grade, parse_quality
 from codec.static.quality.contract import ANY_ANGLE, Contract
 from codec.static.quality.targets import Target
 from codec.static.rules import BASES, BLENDS, KEY_SEEDS, SEEDS
@@ -16,6 +18,7 @@ CHOICES = {
     "key_seed": KEY_SEEDS,
     "blend": BLENDS,
     "partition": ("derived", "metis"),
+    "normals": ("keep", "recompute"),
 }
 RANGES: dict[str, tuple[float, float]] = {
     "keep": (1e-6, 1.0),
@@ -95,6 +98,13 @@ class EncodeOptions:
         of `CODING` is given: who says how to code gets that.
     grid : int, optional
         Keep every position exactly as a grid of so many bits along the longest side rounds it.
+    attributes : mapping of str to str, or pairs
+        How well attributes are kept, by their names; "*" is any other: "exact"; "12bits" of each number, of normals on
+        an octahedron; "0.01", a bound, or "1%" of the range; "2deg" for normals; "recompute" for normals; "none". Where
+        nothing is said, whole numbers are exact, and floats in as many bits as their kind and the promise of positions
+        suggest; the encoder's notes say so.
+    normals : str
+        "keep", or "recompute": normals that nothing is said of are not sent, but made from the decoded mesh.
     threads : int, optional
         None: one per core.
 
@@ -128,10 +138,15 @@ class EncodeOptions:
     target: Target | None = None
     contract: Contract | None = BALANCED
     grid: int | None = None
+    attributes: Mapping[str, str] | tuple[tuple[str, str], ...] = ()
+    normals: str = "keep"
     threads: int | None = None
 
     def __post_init__(self) -> None:
         check_options(self, CHOICES, RANGES)
+        object.__setattr__(self, "attributes", tuple(sorted(dict(self.attributes).items())))
+        for text in dict(self.attributes).values():
+            parse_quality(text)
         if self.detail_ratio and (self.bits is not None or self.doi is not None):
             raise OptionError("a detail layer excludes a fixed number of bits and dynamic subspaces")
         if self.doi is not None and not 0.0 < self.doi[0] < self.doi[1]:
@@ -147,6 +162,16 @@ class EncodeOptions:
         if self.grid is not None or self.target is not None or self.says_how:
             return None
         return self.contract
+
+    @property
+    def grade(self) -> Grade:
+        """How well attributes are kept that nothing is said of."""
+        if self.grid is not None:
+            return "fine"
+        farthest = (
+            self.promise.farthest if self.promise is not None and not self.promise.absolute else BALANCED.farthest
+        )
+        return "fine" if farthest <= FINE else "small" if farthest >= SMALL else "balanced"
 
     @property
     def first_step(self) -> float:
@@ -184,6 +209,8 @@ DETAIL_RATIO = 3.0
 
 CODING = ("step", "keep", "coefficients", "detail", "bits", "doi", "smoothing")
 """Options that say how blocks are coded, and not what shall come of it."""
+FINE, SMALL = 0.001, 0.02
+"""Promises of positions, from which on attributes are kept better, or less well."""
 STEP, COARSE_STEP, COARSE_ANGLE = 0.004, 0.006, 10.0
 """Of blocks with a detail layer, and of those beyond an angle."""
 

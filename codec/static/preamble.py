@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Callable
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
@@ -18,17 +18,19 @@ from bitstream.connectivity.faces import decode_connectivity, encode_connectivit
 from bitstream.connectivity.order import decode_arrangement, encode_arrangement
 from bitstream.connectivity.partition import decode_labels, encode_labels
 from bitstream.container import packets
-from bitstream.container.header import Header
+from bitstream.container.header import FREE_COPIES, MOST_COPIES, Header
 from bitstream.container.splits import Splits, decode_splits, encode_splits
 from bitstream.container.wire import Cursor, FrameType, write_varint
-from bitstream.errors import CorruptError, UnsupportedError
+from bitstream.errors import BsmError, CorruptError, OptionError, UnsupportedError
 from bitstream.limits import Limits
-from codec.arrays import Faces, Indices, Matrix, Order, Positions
+from codec.arrays import Faces, Indices, Matrix, Order
 from codec.blocks.overlap import Blocks, block_size, grow_blocks
 from codec.blocks.partition import Partition, derive_partition, metis_partition, partition_of_labels
 from codec.geometry.graph import Graph, component_sizes, graph_of_faces
 from codec.geometry.mesh import TriangleMesh
-from codec.static.events import Changes, ConnectivityEvent, HeaderEvent, LossEvent, unreadable
+from codec.static.attributes.decoding import Declarations
+from codec.static.events import HeaderEvent, LossEvent, unreadable
+from codec.static.numbering import Numbering
 from codec.static.rules import Scheme, scheme_of
 from codec.static.stages import Arrival, Stage, misplaced
 from codec.static.units import Units, units_of
@@ -67,8 +69,12 @@ class Prepared:
         The given vertex that is coded as each vertex.
     vertex_order, face_order : int64 arrays, shapes (n,) and (m,)
         The given vertex and face that the decoder's user will know by each number.
+    coding_faces : int64 array, shape (m,)
+        The given face that is coded as each face.
     notes : tuple of str
         What was changed.
+    joined_faces : int32 array, shape (m, 3)
+        The given faces.
     """
 
     mesh: TriangleMesh
@@ -80,7 +86,18 @@ class Prepared:
     coding_order: Order
     vertex_order: Order
     face_order: Order
+    coding_faces: Order
     notes: tuple[str, ...]
+    joined_faces: Faces
+
+    @cached_property
+    def turns(self) -> Order:
+        """The corner of its joined face that is the first of each coded one, shape (m,)."""
+        numbers = np.empty(len(self.coding_order), np.int64)
+        numbers[self.coding_order] = np.arange(len(numbers))
+        given = numbers[self.joined_faces[self.coding_faces]]
+        turned = [(np.roll(given, -k, axis=1) == self.mesh.faces).all(axis=1) for k in range(3)]
+        return np.asarray(np.argmax(turned, axis=0))
 
     @cached_property
     def positions(self) -> Matrix:
@@ -105,8 +122,17 @@ class Prepared:
 
     @property
     def size(self) -> int:
-        """n_d."""
-        return block_size(self.partition, self.parts.overlap)
+        """n_d.
+
+        Raises
+        ------
+        OptionError
+            If blocks of this size would hold more copies of each vertex than a stream may.
+        """
+        size, parts, vertices = block_size(self.partition, self.parts.overlap), self.partition.parts, self.graph.size
+        if parts * size > MOST_COPIES * vertices + FREE_COPIES:
+            raise OptionError(f"{parts} blocks of {size} of {vertices} vertices overlap too much; take a smaller one")
+        return size
 
     @cached_property
     def blocks(self) -> Blocks:
@@ -170,67 +196,10 @@ def prepare(mesh: TriangleMesh, parts: Parts, *, keep_order: bool, splits: Split
         coding_order=coding_order,
         vertex_order=kept if keep_order else coding_order,
         face_order=np.arange(len(used.faces)) if keep_order else connectivity.face_order.astype(np.int64),
+        coding_faces=connectivity.face_order.astype(np.int64),
         notes=(f"{dropped} vertices that no face uses were left out",) if dropped else (),
+        joined_faces=mesh.faces,
     )
-
-
-@dataclass(frozen=True, eq=False)
-class Numbering:
-    """How the user of a mesh numbers what was coded.
-
-    Parameters
-    ----------
-    faces : int32 array, shape (m, 3)
-        As the user knows them.
-    source : int32 array, shape (k,), optional
-        What each of the user's vertices was coded as, -1: not at all; None: as what has its number.
-    loose : float64 array, shape (l, 3)
-        Positions of the user's vertices that were not coded.
-    """
-
-    faces: Faces
-    source: Indices | None = None
-    loose: Positions = field(default_factory=lambda: np.zeros((0, 3)))
-
-    def event(self, coded: int) -> ConnectivityEvent:
-        """What a user has to know of it, where so many vertices are coded."""
-        if self.source is None:
-            loose = np.zeros(0, np.int32)
-        else:
-            loose = np.flatnonzero(self.source < 0).astype(np.int32)
-        size = coded if self.source is None else len(self.source)
-        return ConnectivityEvent(self.faces, size, Changes(loose, self.loose, np.ones(len(loose), np.bool_)))
-
-    def of(self, vertices: Indices) -> Indices:
-        """The user's numbers of coded vertices, of all copies of each."""
-        return self.spread(vertices)[0]
-
-    def spread(self, vertices: Indices) -> tuple[Indices, Order | slice]:
-        """The user's numbers of coded vertices, and for each the row of `vertices` that it is a copy of."""
-        if self._rows is None:
-            return vertices, slice(None)
-        starts, members = self._rows
-        counts = starts[vertices + 1] - starts[vertices]
-        rows = np.repeat(np.arange(len(vertices)), counts)
-        within = np.arange(len(rows)) - np.repeat(np.cumsum(counts) - counts, counts)
-        return members[starts[vertices][rows] + within], rows
-
-    def arranged(self, positions: Positions) -> Positions:
-        """Positions of all coded vertices, shape (n, 3), as the user numbers them, shape (k, 3)."""
-        if self.source is None:
-            return positions
-        arranged = positions[self.source]
-        arranged[self.source < 0] = self.loose
-        return arranged
-
-    @cached_property
-    def _rows(self) -> tuple[Order, Indices] | None:
-        """Where each coded vertex's numbers begin, and all of these."""
-        if self.source is None:
-            return None
-        order = np.argsort(self.source, kind="stable").astype(np.int32)[len(self.loose) :]
-        coded = self.source[order]
-        return np.searchsorted(coded, np.arange(coded.max(initial=-1) + 2)), order
 
 
 @dataclass(frozen=True, eq=False)
@@ -246,6 +215,9 @@ class Structure:
     numbering : Numbering
     partition : Partition, optional
         That was sent; None: it is derived.
+    declarations : Declarations
+        Attributes.
+    limits : Limits
     """
 
     header: Header
@@ -253,6 +225,8 @@ class Structure:
     graph: Graph
     numbering: Numbering
     partition: Partition | None
+    declarations: Declarations
+    limits: Limits
 
     @property
     def units(self) -> Units:
@@ -283,6 +257,7 @@ class Body:
     limits: Limits
     check: Callable[[Header], None]
     begin: Callable[[Structure], Stage[Any]]
+    tolerant: bool = False
 
 
 @dataclass(frozen=True, eq=False)
@@ -312,18 +287,20 @@ class Opened:
         _check_method("connectivity", arrival.method, CONNECTIVITY_METHOD)
         header = self.header
         faces = decode_connectivity(arrival.data, header.vertices, header.faces, self.body.limits)
-        return Connected(self.body, header, faces, graph_of_faces(faces, header.vertices), Numbering(faces))
+        graph, declarations = graph_of_faces(faces, header.vertices), Declarations(faces, header.vertices)
+        return Connected(self.body, header, faces, graph, Numbering(faces), declarations)
 
 
 @dataclass(frozen=True, eq=False)
 class Connected:
-    """The faces are known, and what has come of labels and order; the parts are derived unless labels come."""
+    """The faces are known, and what has come of labels, order and attributes; parts are derived unless labels come."""
 
     body: Body
     header: Header
     faces: Faces
     graph: Graph
     numbering: Numbering
+    declarations: Declarations
     partition: Partition | None = None
 
     def accept(self, arrival: Arrival, queue: deque[Any]) -> Stage[Any]:
@@ -334,17 +311,36 @@ class Connected:
                 return replace(self, partition=partition_of_labels(labels))
             case packets.Order(method, data):
                 return replace(self, numbering=self._numbering(method, data))
-            case packets.Damaged(type=FrameType.BLOCK):
+            case packets.Attribute():
+                return self._declared(arrival, queue)
+            case packets.Damaged(type=FrameType.BLOCK | FrameType.ATTRIBUTE):
                 queue.append(LossEvent(None, unreadable(arrival)))
                 return self
             case packets.Damaged():
                 raise unreadable(arrival)
             case _:
                 following = self.body.begin(
-                    Structure(self.header, self.faces, self.graph, self.numbering, self.partition)
+                    Structure(
+                        self.header,
+                        self.faces,
+                        self.graph,
+                        self.numbering,
+                        self.partition,
+                        self.declarations,
+                        self.body.limits,
+                    )
                 )
                 queue.append(self.numbering.event(self.header.vertices))
                 return following.accept(arrival, queue)
+
+    def _declared(self, packet: packets.Attribute, queue: deque[Any]) -> Stage[Any]:
+        try:
+            return replace(self, declarations=self.declarations.add(packet))
+        except BsmError as error:
+            if not self.body.tolerant:
+                raise
+            queue.append(LossEvent(None, error))
+            return self
 
     def _numbering(self, method: int, data: bytes) -> Numbering:
         split = method == SPLITS_METHOD and not self.header.gop_frames
@@ -356,9 +352,10 @@ class Connected:
         source = np.empty(self.header.vertices, np.int32)
         source[order.vertex_order] = np.arange(len(source), dtype=np.int32)
         if not split:
-            return Numbering(order.faces, source)
+            return Numbering(order.faces, source, arrangement=order)
         splits = decode_splits(cursor.rest(), order.faces, len(source), self.body.limits)
-        return Numbering(splits.faces, np.where(splits.source < 0, -1, source[splits.source]), splits.loose)
+        given = np.where(splits.source < 0, -1, source[splits.source])
+        return Numbering(splits.faces, given, splits.loose, order, splits=True)
 
 
 def _check_method(what: str, method: int, known: int) -> None:

@@ -8,11 +8,12 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections import deque
+from collections.abc import Mapping
 from dataclasses import dataclass
 from types import TracebackType
 from typing import Any, Generic, Protocol, TypeAlias, TypeVar
 
-from bitstream.container.packets import Damaged, Metadata, Packet
+from bitstream.container.packets import Damaged, Metadata, MetadataValue, Packet
 from bitstream.container.reader import END_OF_STREAM, NEED_DATA, Reader, Signal
 from bitstream.container.tolerant import TolerantReader
 from bitstream.errors import BsmError, CorruptError
@@ -72,6 +73,8 @@ class StreamDecoder(ABC, Generic[Item]):
         self._reader = TolerantReader(limits) if tolerant else Reader(limits)
         self._queue: deque[Item] = deque()
         self._stage = first
+        self.metadata: Mapping[str, MetadataValue] = {}
+        """What the author has said of the mesh, as far as it has come."""
 
     def __enter__(self: Self) -> Self:
         return self
@@ -101,7 +104,9 @@ class StreamDecoder(ABC, Generic[Item]):
             packet = self._reader.next_packet()
             if packet is NEED_DATA:
                 return False
-            if not isinstance(packet, Metadata):
+            if isinstance(packet, Metadata):
+                self.metadata = packet.entries
+            else:
                 self._stage = self._stage.accept(packet, self._queue)
         except BsmError as error:
             span = self._reader.last_frame

@@ -2,6 +2,7 @@
 
 import base64
 import json
+import os
 import re
 import shutil
 import subprocess
@@ -10,10 +11,16 @@ import urllib.error
 import urllib.request
 from pathlib import Path
 
+import numpy as np
 import pytest
 
+import bsm
 from bsm.cli import main
 
+needs_packages = pytest.mark.skipif(
+    shutil.which("node") is None or not (Path(__file__).parents[2] / "tools/web/node_modules").is_dir(),
+    reason="no packages: npm ci in tools/web, with node",
+)
 ROOT = Path(__file__).parents[2]
 VECTORS = ROOT / "spec" / "vectors"
 WEB = ROOT / "tools" / "web"
@@ -43,11 +50,6 @@ def test_page_is_not_overwritten_unasked(tmp_path):
     assert page.read_text() == "mine"
 
 
-def test_sequence_is_refused(capsys):
-    assert main(["view", str(VECTORS / "good-sequence-one.bsm"), "--save", "unused.html"]) == 5
-    assert "sequence" in capsys.readouterr().err
-
-
 def test_server_has_the_page_and_its_streams():
     stream = VECTORS / "good-chain.bsm"
     command = [sys.executable, "-m", "bsm", "view", str(stream), str(stream), "--no-open"]
@@ -67,17 +69,32 @@ def test_server_has_the_page_and_its_streams():
             server.terminate()
 
 
-@pytest.mark.skipif(shutil.which("node") is None, reason="no node")
-@pytest.mark.skipif(not (WEB / "node_modules").is_dir(), reason="no packages: npm ci in tools/web")
-@pytest.mark.parametrize("tests", ["vectors", "hostile", "browser"])
-def test_javascript(tests):
-    """The decoder in node, and the page in Chromium where there is one."""
-    run = subprocess.run(["node", "scripts/test.mjs", tests], cwd=WEB, capture_output=True, text=True, timeout=300)
+def javascript(tests: str, **environment: str) -> None:
+    command = ["node", "scripts/test.mjs", tests]
+    run = subprocess.run(
+        command, cwd=WEB, env=os.environ | environment, capture_output=True, text=True, timeout=300, check=False
+    )
     assert run.returncode == 0, run.stdout + run.stderr
 
 
-@pytest.mark.skipif(shutil.which("node") is None, reason="no node")
-@pytest.mark.skipif(not (WEB / "node_modules").is_dir(), reason="no packages: npm ci in tools/web")
+@needs_packages
+@pytest.mark.parametrize("tests", ["vectors", "hostile", "browser"])
+def test_javascript(tests):
+    """The decoder in node, and the page in Chromium where there is one."""
+    javascript(tests)
+
+
+@needs_packages
+@pytest.mark.real
+def test_real_sequence_plays(meshes, tmp_path):
+    with np.load(meshes / "dynamic" / "horse_gallop.npz") as arrays:
+        positions, faces = arrays["positions"][:16], arrays["faces"]
+    stream = tmp_path / "horse.bsm"
+    stream.write_bytes(bsm.encode_sequence(positions, faces, gop=8, frame_rate=25))
+    javascript("browser", BSM_SEQUENCE=str(stream))
+
+
+@needs_packages
 def test_what_is_built_is_what_the_sources_build():
     run = subprocess.run(["node", "scripts/build.mjs", "--check"], cwd=WEB, capture_output=True, text=True)
     assert run.returncode == 0, run.stdout + run.stderr

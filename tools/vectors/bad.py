@@ -234,6 +234,11 @@ HEADERS: dict[str, Bad] = {
     "bad-blocks-many": Bad("more blocks than vertices", "corrupt", _entries(blocks=57)),
     "bad-block-large": Bad("blocks larger than the mesh", "corrupt", _entries(block_size=57)),
     "bad-blocks-small": Bad("blocks too small to cover the mesh", "corrupt", _entries(block_size=20)),
+    "bad-blocks-overlap": Bad(
+        "blocks that overlap too much",
+        "corrupt",
+        _entries(vertices=5000, faces=10_000, blocks=3000, block_size=50),
+    ),
     "bad-coefficients-many": Bad("more coefficients than rows", "corrupt", _entries(coefficients=50)),
     "bad-details-many": Bad("more details than rows", "corrupt", _entries(details=50, detail_step=0.5)),
     "bad-details-no-step": Bad("details without a step", "corrupt", _entries(details=5)),
@@ -262,7 +267,7 @@ HEADERS: dict[str, Bad] = {
         "more work than a decoder should grant",
         "limit",
         _entries(
-            vertices=2**24, faces=2**25, blocks=2**17, block_size=8192, coefficients=4096, power=64, key_iterations=1000
+            vertices=2**24, faces=2**25, blocks=2**15, block_size=8192, coefficients=4096, power=64, key_iterations=1000
         ),
     ),
     "bad-key-order": Bad("keys that descend", "corrupt", _map(_reversed)),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -14,7 +15,7 @@ from codec.basis.dynamic_size import DynamicSize
 from codec.signal.chain import Chain
 from codec.signal.predict import extend
 from codec.static.assembly import DecodedBlock
-from codec.static.layers.coding import Ground
+from codec.static.layers.coding import Coding, Ground
 from codec.static.rules import Scheme
 from codec.static.work import Allowance, block_work
 from codec.threads import ordered_map
@@ -68,8 +69,16 @@ class ChainDecoder:
         self._scheme = scheme
         self._allowance = allowance
         self._next = number * scheme.rules.chain_length(scheme.blocks.count)
-        self._chain = Chain(scheme.rules, scheme.blocks.graph)
-        self._coding = scheme.coding.begin()
+
+    # Made by the first block that is decoded: chains may wait for their turn in any number.
+
+    @cached_property
+    def _chain(self) -> Chain:
+        return Chain(self._scheme.rules, self._scheme.blocks.graph)
+
+    @cached_property
+    def _coding(self) -> Coding:
+        return self._scheme.coding.begin()
 
     def decode(self, packet: packets.Block) -> DecodedBlock:
         """Decode the chain's next block; once one is missing or broken, the rest of the chain cannot be decoded."""

@@ -16,9 +16,10 @@ from bitstream.fields.grid import GridDecoder, GridEncoder
 from bitstream.fields.lattice import spread
 from codec.arrays import Indices, Levels, Positions
 from codec.geometry.mesh import TriangleMesh
+from codec.static.attributes.decoding import ValuesStage, completed
+from codec.static.attributes.relief import Solid
 from codec.static.events import BlockEvent, Changes, Losses, LossEvent, unreadable
 from codec.static.preamble import Structure
-from codec.static.quality.whole import Complete
 from codec.static.stages import Arrival, Stage, misplaced
 
 CHUNK = 1 << 15
@@ -78,12 +79,14 @@ class GridStage:
         self._chunks = 0
         self._broken = False
         self._ended = False
-        self._result = OnGrid(structure, np.zeros((size, 3)), np.zeros(size, np.bool_))
+        self._result = OnGrid(structure, np.zeros((size, 3)), np.zeros((size, 3), np.int32), np.zeros(size, np.bool_))
 
     def accept(self, arrival: Arrival, queue: deque[Any]) -> Stage[Any]:
         match arrival:
             case packets.Grid():
                 self._decode(arrival, queue)
+            case packets.Values():
+                return ValuesStage(self._result, self._structure, self._tolerant).accept(arrival, queue)
             case packets.Damaged():
                 self._lose(unreadable(arrival), queue)
             case packets.End():
@@ -91,7 +94,7 @@ class GridStage:
             case Signal.END_OF_STREAM:
                 if not self._ended:  # a tolerant reader may find no END
                     self._end(queue)
-                return Complete(self._result)
+                return completed(self._result, self._structure)
             case _:
                 raise misplaced(arrival)
         return self
@@ -110,6 +113,7 @@ class GridStage:
             return
         positions = self._grid.positions(coded)
         self._result.positions[vertices] = positions
+        self._result.places[vertices] = coded
         self._result.known[vertices] = True
         numbers, rows = self._structure.numbering.spread(vertices)
         queue.append(BlockEvent(self._chunks, Changes(numbers, positions[rows], np.ones(len(numbers), np.bool_))))
@@ -121,21 +125,26 @@ class GridStage:
 
     def _end(self, queue: deque[Any]) -> None:
         self._ended = True
-        queue.append(Complete(self._result))
+        queue.append(completed(self._result, self._structure))
 
 
 @dataclass(frozen=True, eq=False)
 class OnGrid:
-    """What has been decoded: positions in the mesh's unit, shape (n, 3), as coded, and which of them are known."""
+    """What has been decoded: positions in the mesh's unit and places on the grid, shape (n, 3), and which are known."""
 
     structure: Structure
     positions: Positions
+    places: Levels
     known: np.ndarray[Any, np.dtype[np.bool_]]
 
     def mesh(self) -> TriangleMesh:
         """The mesh in its own unit."""
         numbering = self.structure.numbering
         return TriangleMesh(numbering.arranged(self.positions), numbering.faces)
+
+    def solid(self) -> Solid | None:
+        """Decoded positions; None if some are missing."""
+        return Solid(self.positions, self.places) if self.known.all() else None
 
     def losses(self) -> Losses:
         """What is missing."""

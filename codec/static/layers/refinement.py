@@ -21,9 +21,10 @@ from codec.arrays import Indices, Levels, Mask, Matrix
 from codec.geometry.mesh import TriangleMesh
 from codec.signal.frames import displaced, local_frames
 from codec.static.assembly import Assembly
+from codec.static.attributes.decoding import ValuesStage, completed
+from codec.static.attributes.relief import Solid
 from codec.static.events import Losses, LossEvent, RefinementEvent, unreadable
 from codec.static.preamble import Structure
-from codec.static.quality.whole import Complete
 from codec.static.stages import Arrival, Stage, misplaced
 from codec.threads import Lanes, Pending
 
@@ -67,6 +68,7 @@ class RefinementStage:
         self._layers = layers
         self._tolerant = tolerant
         self._ended = False
+        self._structure = structure
         self._refined = Refined(assembly, structure)
         self._decoders = [LayerDecoder(structure.faces, header.vertices, layer) for layer in header.layers]
 
@@ -78,6 +80,8 @@ class RefinementStage:
                 self._decode(arrival, queue)
             case packets.Damaged():
                 queue.append(LossEvent(None, unreadable(arrival)))
+            case packets.Values():
+                return ValuesStage(self._refined, self._structure, self._tolerant).accept(arrival, queue)
             case packets.End():
                 self._complete(queue)
             case Signal.END_OF_STREAM:
@@ -92,7 +96,7 @@ class RefinementStage:
         queue.append(PendingLevels(packet.layer, pending, self._refined))
 
     def _complete(self, queue: deque[Any]) -> Stage[Any]:
-        complete = Complete(self._refined)
+        complete = completed(self._refined, self._structure)
         if not self._ended:
             queue.append(complete)
         self._ended = True
@@ -145,6 +149,11 @@ class Refined:
         """The mesh in its own unit."""
         numbering = self._structure.numbering
         return TriangleMesh(numbering.arranged(self._structure.units.back(self._base[0])), numbering.faces)
+
+    def solid(self) -> Solid | None:
+        """Decoded positions; None if any of it is missing."""
+        lost = self.losses()
+        return None if len(lost.missing) or len(lost.degraded) else Solid(self._base[0])
 
     def losses(self) -> Losses:
         """What is missing or less good: also what a layer has begun to refine and not reached."""

@@ -10,7 +10,7 @@ from bitstream.container import packets
 from bitstream.container.header import Header
 from bitstream.container.packets import Packet
 from bitstream.container.writer import Writer
-from codec.arrays import Positions
+from codec.arrays import Levels, Positions
 
 
 @dataclass(frozen=True, eq=False)
@@ -24,11 +24,14 @@ class Draft:
         All behind the header.
     decoded : float64 array, shape (n, 3)
         What the decoder makes of it, in the mesh's unit.
+    places : int32 array, shape (n, 3), optional
+        On a grid: what is coded.
     """
 
     header: Header
     body: tuple[Packet, ...]
     decoded: Positions
+    places: Levels | None = None
 
     @cached_property
     def frames(self) -> tuple[bytes, ...]:

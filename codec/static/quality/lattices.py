@@ -23,7 +23,7 @@ def grid_draft(prepared: Prepared, grid: Grid, places: Levels) -> Draft:
     """The stream of places on a grid, shape (n, 3), none negative."""
     header = Header(vertices=prepared.graph.size, faces=len(prepared.mesh.faces), **grid.fields)
     body = (*prepared.before_grid, *encode_grid(prepared.mesh.faces, grid, places))
-    return Draft(header, body, grid.positions(places))
+    return Draft(header, body, grid.positions(places), places)
 
 
 def rounded(prepared: Prepared, bits: int) -> Draft:

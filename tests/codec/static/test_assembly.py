@@ -9,7 +9,7 @@ from bitstream.errors import NumericError
 from codec.blocks.overlap import Blocks
 from codec.geometry.graph import graph_of_faces
 from codec.static.assembly import Assembly, DecodedBlock, blended
-from codec.static.preamble import Numbering
+from codec.static.numbering import Numbering
 from codec.static.units import Units
 
 FACES = np.array([[0, 1, 2], [1, 2, 3], [2, 3, 4]], np.int32)

@@ -6,11 +6,21 @@ import { build } from "esbuild";
 import { compileKernels, compiler, WEB } from "./kernels.mjs";
 
 const PAGE = join(WEB, "../../bsm/viewer/page.html");
-const OPTIONS = { bundle: true, minify: true, format: "esm", target: "es2022", charset: "utf8", loader: { ".wasm": "binary" }, legalComments: "none", logLevel: "warning", write: false };
+const SOURCES = join(WEB, "src");
+const OPTIONS = { bundle: true, minify: true, format: "esm", target: "es2022", charset: "utf8", loader: { ".wasm": "binary", ".html": "text" }, legalComments: "none", logLevel: "warning", write: false };
 const BUNDLED = ["three", "fzstd"];
 
+/** Lets a script import another as text, bundled to run in a thread of its own: `worker:./path.ts`. */
+const THREADS = {
+    name: "threads",
+    setup({ onResolve, onLoad }) {
+        onResolve({ filter: /^worker:/ }, ({ path, resolveDir }) => ({ path: join(resolveDir, path.slice("worker:".length)), namespace: "thread" }));
+        onLoad({ filter: /./, namespace: "thread" }, async ({ path }) => ({ contents: await bundle(path, { format: "iife" }), loader: "text" }));
+    },
+};
+
 async function bundle(entry, options = {}) {
-    const result = await build({ ...OPTIONS, ...options, entryPoints: [join(WEB, "src", entry)] });
+    const result = await build({ ...OPTIONS, plugins: [THREADS], ...options, entryPoints: [entry] });
     return result.outputFiles[0].text;
 }
 
@@ -27,14 +37,14 @@ function filled(page, places) {
 
 /** Path and content of everything that is built of TypeScript. */
 async function products() {
-    const script = (await bundle("viewer/viewer.ts")).replaceAll("</script", "<\\/script");
-    const escaped = licences(BUNDLED).replaceAll("&", "&amp;").replaceAll("<", "&lt;");
+    const define = { LICENCES: JSON.stringify(licences(BUNDLED)) };
+    const script = (await bundle(join(SOURCES, "viewer/viewer.ts"), { define })).replaceAll("</script", "<\\/script");
     const page = readFileSync(join(WEB, "src/viewer/page.html"), "utf8");
     return [
-        [join(WEB, "built/bsm.js"), await bundle("index.ts")],
-        [join(WEB, "built/three.js"), await bundle("three.ts", { external: ["three"] })],
+        [join(WEB, "built/bsm.js"), await bundle(join(SOURCES, "index.ts"))],
+        [join(WEB, "built/three.js"), await bundle(join(SOURCES, "three.ts"), { external: ["three"] })],
         [join(WEB, "built/LICENSES.txt"), `${licences(BUNDLED)}\n`],
-        [PAGE, filled(page, { licences: escaped, script })],
+        [PAGE, filled(page, { script })],
     ];
 }
 

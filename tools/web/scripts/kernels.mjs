@@ -81,7 +81,7 @@ export function compileKernels(vectors) {
     const folder = mkdtempSync(join(tmpdir(), "bsm-kernels-"));
     try {
         const priors = join(folder, "priors.c");
-        const numbers = readFileSync(join(ROOT, "bitstream/coefficients/priors.bin"));
+        const numbers = readFileSync(join(ROOT, "spec/priors.bin"));
         writeFileSync(priors, `const unsigned char PRIORS[${numbers.length}] = {${[...numbers].join(",")}};\n`);
         const target = join(folder, "kernels.wasm");
         const options = [...FLAGS, "-Oz", ...(vectors ? ["-msimd128"] : [])];

@@ -55,10 +55,10 @@ export interface Mesh {
 }
 
 /** A frame of a sequence: its number from 0, and its positions, shape (n, 3). */
-export interface FrameEvent {
+export interface FrameEvent<Positions = Float64Array> {
     type: "frame";
     index: number;
-    positions: Float64Array;
+    positions: Positions;
 }
 
 /** A frame that is made when it is its turn. */

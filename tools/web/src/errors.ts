@@ -7,6 +7,13 @@ export interface Place {
     block?: number;
 }
 
+/** An error as it goes from one thread to another. */
+export interface Described {
+    name: string;
+    problem: string;
+    place: Place;
+}
+
 /** Base of all errors of this package. */
 export class BsmError extends Error {
     // Written out in every class: a bundler shortens the names of classes.
@@ -19,6 +26,10 @@ export class BsmError extends Error {
     ) {
         super(problem);
         this.located(place);
+    }
+
+    get described(): Described {
+        return { name: this.name, problem: this.problem, place: this.place };
     }
 
     /** Fill in the places that are not known yet, and return the same error. */
@@ -65,4 +76,12 @@ export class LimitError extends BsmError {
 /** The mathematics broke down: a value that is not finite. */
 export class NumericError extends BsmError {
     override readonly name = "NumericError";
+}
+
+const CLASSES = [FormatError, UnsupportedError, CorruptError, TruncatedError, LimitError, NumericError];
+
+/** The error that another thread described. */
+export function errorLike({ name, problem, place }: Described): BsmError {
+    const kind = CLASSES.find((kind) => new kind("").name === name) ?? BsmError;
+    return new kind(problem, place);
 }

@@ -85,6 +85,10 @@ const FIELDS: Record<keyof Header, Field> = {
     keySeed: { key: 31, type: "method", low: 0, high: 1, default: 0 },
 };
 
+/** Rows of all blocks together, at most: so many for each vertex, and so many more (F 4.6). */
+const MOST_COPIES = 16;
+const FREE_COPIES = 65536;
+
 const LIMITED = ["vertices", "faces", "blocks", "blockSize", "coefficients", "frames", "gopFrames"] as const;
 
 /** The header in a payload; its counts are checked against `limits`. */
@@ -178,6 +182,7 @@ function blockRules(header: Header): [string, boolean][] {
         ["more blocks than vertices", blocks > vertices],
         ["blocks larger than the mesh", blockSize > vertices],
         ["blocks too small to cover the mesh", blocks * blockSize < vertices],
+        ["blocks that overlap too much", blocks * blockSize > MOST_COPIES * vertices + FREE_COPIES],
         ["more coefficients than a block has vertices", coefficients > blockSize],
         ["more details than a block has vertices", details > blockSize],
         ["details without a step, or a step without details", details > 0 !== detailStep > 0],

@@ -54,7 +54,8 @@ type Exports = Record<string, unknown> & { memory: WebAssembly.Memory };
 
 /** The compiled kernels, and what they start from; one for any number of decoders. */
 export class Kernels {
-    private constructor(private readonly module: WebAssembly.Module) {}
+    /** Of a module that is compiled already; it may be sent to other threads. */
+    constructor(readonly module: WebAssembly.Module) {}
 
     /** Compile the bytes of one of the two builds. */
     static async compile(bytes: BufferSource): Promise<Kernels> {

@@ -13,6 +13,8 @@ export interface Limits {
     metadataBytes: number;
     /** Bytes of the dictionaries of a sequence, and of one of its GOPs. */
     sequenceBytes: number;
+    /** Bytes of the frames that a geometry keeps to show them again. */
+    keptBytes: number;
     /** Floating point operations of the dictionaries, by the estimate of the specification. */
     work: number;
     /** Bytes that the decoder's own memory may grow to. */
@@ -30,6 +32,7 @@ export const DEFAULT_LIMITS: Readonly<Limits> = {
     frameBytes: 2 ** 28,
     metadataBytes: 2 ** 16,
     sequenceBytes: 2 ** 31,
+    keptBytes: 2 ** 30,
     work: 5e13,
     memory: 2 ** 31,
 };

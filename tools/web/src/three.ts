@@ -1,101 +1,122 @@
-/** BSM streams in three.js: a loader that fills one geometry block by block while the bytes arrive. */
+/** BSM streams in three.js: a geometry that fills while the bytes arrive, and a loader. */
 import { BufferAttribute, BufferGeometry, Loader, type LoadingManager } from "three";
-import { Decoder, NEED_DATA, type BlockEvent, type Event, type RefinementEvent } from "./decoder";
-import { UnsupportedError } from "./errors";
+import type { BlockEvent, Event, RefinementEvent } from "./decoder";
 import type { Header } from "./header";
 import type { Kernels } from "./kernels";
-import type { Limits } from "./limits";
+import { checkLimit, DEFAULT_LIMITS, type Limits } from "./limits";
+import { DecoderThread, type DrawnEvent } from "./thread";
 
 /** What happens to a geometry while it is filled. */
 export interface Progress {
     /** The faces are there; the geometry draws nothing yet. */
-    onConnectivity?: (geometry: BufferGeometry) => void;
+    onConnectivity?: (geometry: BSMGeometry) => void;
     /** A block, a chunk of a grid, or levels of a layer are in the geometry: what they moved, and the geometry. */
-    onBlock?: (block: BlockEvent | RefinementEvent, geometry: BufferGeometry) => void;
+    onBlock?: (block: BlockEvent | RefinementEvent, geometry: BSMGeometry) => void;
+    /** A frame of a sequence is there to be shown: its number, and the geometry. */
+    onFrame?: (index: number, geometry: BSMGeometry) => void;
 }
 
 /**
- * Fills a geometry from a stream that comes in pieces.
+ * A geometry made of the events of a stream.
  *
  * The index holds all faces from the beginning, sorted so that those whose corners are known come first, and the
  * draw range ends behind them: a block makes its faces visible, and nothing is copied twice.
  */
-export class GeometryFiller {
-    readonly geometry = new BufferGeometry();
-    /** The block that each vertex came with, -1 as long as it is not there. */
-    origin = new Int32Array(0);
+export class BSMGeometry extends BufferGeometry {
     /** What the stream says of itself, as soon as that is there. */
     header?: Header;
-    private readonly decoder: Decoder;
+    /** The block that each vertex came with, -1 as long as it is not there. */
+    origin = new Int32Array(0);
+    /** How many quality layers have moved each vertex. */
+    depth = new Uint8Array(0);
+    /** Quality layers that are there for every vertex. */
+    layers = 0;
+    /** Blocks, or chunks of a grid, that are there. */
+    blocks = 0;
+    /** Positions of the frames of a sequence that are there, for `showFrame`. */
+    readonly frames: Float32Array[] = [];
+    private readonly limits: Limits;
     private faces: Int32Array = new Int32Array(0);
     private waiting = new Uint8Array(0);
     private facesAround: { starts: Int32Array; members: Int32Array } = { starts: new Int32Array(1), members: new Int32Array(0) };
+    private touched = new Uint8Array(0);
     private drawn = 0;
-    private blocks = 0;
 
     constructor(
-        kernels: Kernels,
         private readonly progress: Progress = {},
         limits: Partial<Limits> = {},
     ) {
-        this.decoder = new Decoder(kernels, limits);
+        super();
+        this.limits = { ...DEFAULT_LIMITS, ...limits };
     }
 
-    /** Take bytes, and bring the geometry up to them; the blocks decoded so far. */
-    receiveData(data: Uint8Array): number {
-        this.decoder.receiveData(data);
-        for (let event; (event = this.decoder.nextEvent()) !== NEED_DATA; ) this.accept(event as Event);
-        return this.blocks;
+    /** Frames per second; 0: the stream is no sequence, or does not say. */
+    get frameRate(): number {
+        return this.header?.frameRate ?? 0;
     }
 
-    /** Take note that no more bytes will come, and finish the geometry; throws if bytes are missing. */
-    finish(): BufferGeometry {
-        this.decoder.receiveEof();
-        this.decoder.nextEvent();
-        this.geometry.computeBoundingSphere();
-        return this.geometry;
-    }
-
-    private accept(event: Event): void {
-        if (event.type === "header") this.acceptHeader(event.header);
+    /** Bring the geometry up to an event. */
+    accept(event: Event | DrawnEvent): void {
+        if (event.type === "header") this.header = event.header;
         if (event.type === "connectivity") this.acceptFaces(event.faces);
         if (event.type === "block" || event.type === "refinement") this.acceptBlock(event);
+        if (event.type === "frame") this.acceptFrame(event.index, event.positions);
+        if (event.type === "end") this.computeBoundingSphere();
     }
 
-    private acceptHeader(header: Header): void {
-        if (header.gopFrames > 0) throw new UnsupportedError("this is a sequence, which is no single geometry");
-        this.header = header;
+    /** Take the positions of a frame that is there. */
+    showFrame(index: number): void {
+        const positions = this.getAttribute("position") as BufferAttribute;
+        (positions.array as Float32Array).set(this.frames[index]);
+        positions.needsUpdate = true;
+        this.touched.fill(1);
+        this.updateNormals();
     }
 
     private acceptFaces(faces: Int32Array): void {
         const size = faces.reduce((most, vertex) => Math.max(most, vertex), -1) + 1;
         this.faces = faces;
         this.origin = new Int32Array(size).fill(-1);
+        this.depth = new Uint8Array(size);
+        this.touched = new Uint8Array(size);
         this.waiting = new Uint8Array(faces.length / 3).fill(3);
         this.facesAround = aroundVertices(faces, size);
-        this.geometry.setAttribute("position", new BufferAttribute(new Float32Array(3 * size), 3));
-        this.geometry.setAttribute("normal", new BufferAttribute(new Float32Array(3 * size), 3));
-        this.geometry.setIndex(new BufferAttribute(new Uint32Array(faces.length), 1));
-        this.geometry.setDrawRange(0, 0);
-        this.progress.onConnectivity?.(this.geometry);
+        this.setAttribute("position", new BufferAttribute(new Float32Array(3 * size), 3));
+        this.setAttribute("normal", new BufferAttribute(new Float32Array(3 * size), 3));
+        this.setIndex(new BufferAttribute(new Uint32Array(faces.length), 1));
+        this.setDrawRange(0, 0);
+        this.progress.onConnectivity?.(this);
     }
 
     private acceptBlock(block: BlockEvent | RefinementEvent): void {
         const { starts, members } = this.facesAround;
-        const positions = this.geometry.getAttribute("position") as BufferAttribute;
-        const index = this.geometry.getIndex()!;
+        const positions = this.getAttribute("position") as BufferAttribute;
+        const index = this.getIndex()!;
         block.vertices.forEach((vertex, i) => {
             positions.setXYZ(vertex, block.positions[3 * i], block.positions[3 * i + 1], block.positions[3 * i + 2]);
+            for (let k = starts[vertex]; k < starts[vertex + 1]; k++) for (let c = 0; c < 3; c++) this.touched[this.faces[3 * members[k] + c]] = 1;
             if (this.origin[vertex] >= 0) return;
             this.origin[vertex] = this.blocks;
             for (let k = starts[vertex]; k < starts[vertex + 1]; k++) if (--this.waiting[members[k]] === 0) this.draw(members[k], index);
         });
-        this.updateNormals(block.vertices);
+        this.updateNormals();
         positions.needsUpdate = true;
         index.needsUpdate = true;
-        this.geometry.setDrawRange(0, this.drawn);
+        this.setDrawRange(0, this.drawn);
         if (block.type === "block") this.blocks++;
-        this.progress.onBlock?.(block, this.geometry);
+        else this.deepen(block);
+        this.progress.onBlock?.(block, this);
+    }
+
+    private deepen({ layer, vertices }: RefinementEvent): void {
+        for (const vertex of vertices) this.depth[vertex] = layer + 1;
+        if (this.depth.every((depth) => depth > layer)) this.layers = layer + 1;
+    }
+
+    private acceptFrame(index: number, positions: ArrayLike<number>): void {
+        checkLimit(this.limits, "keptBytes", 4 * positions.length * (this.frames.length + 1));
+        this.frames.push(positions instanceof Float32Array ? positions : Float32Array.from(positions));
+        this.progress.onFrame?.(index, this);
     }
 
     private draw(face: number, index: BufferAttribute): void {
@@ -103,22 +124,28 @@ export class GeometryFiller {
         this.drawn += 3;
     }
 
-    /** Normals of some vertices and of those beside them, from the faces that are there. */
-    private updateNormals(vertices: Int32Array): void {
+    /** Normals of the vertices that were touched, from the faces that are there. */
+    private updateNormals(): void {
+        const { faces, touched, waiting } = this;
         const { starts, members } = this.facesAround;
-        const touched = new Set<number>();
-        for (const vertex of vertices) {
-            for (let k = starts[vertex]; k < starts[vertex + 1]; k++) for (let c = 0; c < 3; c++) touched.add(this.faces[3 * members[k] + c]);
-        }
-        const positions = (this.geometry.getAttribute("position") as BufferAttribute).array;
-        const normals = this.geometry.getAttribute("normal") as BufferAttribute;
-        for (const vertex of touched) {
+        const p = (this.getAttribute("position") as BufferAttribute).array;
+        const normals = this.getAttribute("normal") as BufferAttribute;
+        for (let vertex = 0; vertex < touched.length; vertex++) {
+            if (!touched[vertex]) continue;
+            touched[vertex] = 0;
             let [x, y, z] = [0, 0, 0];
             for (let k = starts[vertex]; k < starts[vertex + 1]; k++) {
-                if (this.waiting[members[k]] > 0) continue;
-                const [a, b, c] = [0, 1, 2].map((corner) => 3 * this.faces[3 * members[k] + corner]);
-                const [ux, uy, uz] = [0, 1, 2].map((d) => positions[b + d] - positions[a + d]);
-                const [vx, vy, vz] = [0, 1, 2].map((d) => positions[c + d] - positions[a + d]);
+                const face = members[k];
+                if (waiting[face] > 0) continue;
+                const a = 3 * faces[3 * face];
+                const b = 3 * faces[3 * face + 1];
+                const c = 3 * faces[3 * face + 2];
+                const ux = p[b] - p[a];
+                const uy = p[b + 1] - p[a + 1];
+                const uz = p[b + 2] - p[a + 2];
+                const vx = p[c] - p[a];
+                const vy = p[c + 1] - p[a + 1];
+                const vz = p[c + 2] - p[a + 2];
                 x += uy * vz - uz * vy;
                 y += uz * vx - ux * vz;
                 z += ux * vy - uy * vx;
@@ -140,24 +167,30 @@ function aroundVertices(faces: Int32Array, size: number): { starts: Int32Array; 
     return { starts, members };
 }
 
-/** Loads BSM streams, as DRACOLoader loads its own; the geometry is also there block by block, by `onBlock`. */
-export class BSMLoader extends Loader<BufferGeometry> {
+/**
+ * Loads BSM streams, as DRACOLoader loads its own; `progress` hears of the geometry while it fills.
+ *
+ * Decoding is done in a thread of its own. The geometry of a sequence is that of its first frame; `frames` and
+ * `showFrame` have the others.
+ */
+export class BSMLoader extends Loader<BSMGeometry> {
     constructor(
         private readonly kernels: Kernels | Promise<Kernels>,
         manager?: LoadingManager,
+        private readonly limits: Partial<Limits> = {},
     ) {
         super(manager);
     }
 
     override load(
         url: string,
-        onLoad: (geometry: BufferGeometry) => void,
+        onLoad: (geometry: BSMGeometry) => void,
         onProgress?: (event: ProgressEvent) => void,
         onError?: (error: unknown) => void,
-        onBlock?: Progress["onBlock"],
+        progress?: Progress,
     ): void {
         this.manager.itemStart(url);
-        this.stream(url, onProgress, { onBlock })
+        this.stream(url, onProgress, progress)
             .then(onLoad)
             .catch((error) => {
                 if (onError) onError(error);
@@ -167,21 +200,53 @@ export class BSMLoader extends Loader<BufferGeometry> {
             .finally(() => this.manager.itemEnd(url));
     }
 
-    private async stream(url: string, onProgress: ((event: ProgressEvent) => void) | undefined, progress: Progress): Promise<BufferGeometry> {
+    private async stream(url: string, onProgress?: (event: ProgressEvent) => void, progress?: Progress): Promise<BSMGeometry> {
         const response = await fetch(new URL(this.path + url, globalThis.document?.baseURI ?? url), {
             headers: this.requestHeader,
             credentials: this.withCredentials ? "include" : "same-origin",
         });
         if (!response.ok || !response.body) throw new Error(`${url}: ${response.status} ${response.statusText}`);
         const total = Number(response.headers.get("content-length") ?? 0);
-        const filler = new GeometryFiller(await this.kernels, progress);
-        const reader = response.body.getReader();
-        let loaded = 0;
-        for (let piece; !(piece = await reader.read()).done; ) {
-            loaded += piece.value.length;
-            filler.receiveData(piece.value);
-            onProgress?.(new ProgressEvent("progress", { lengthComputable: total > 0, loaded, total }));
+        const geometry = new BSMGeometry(progress, this.limits);
+        const decoding = new Decoding(await this.kernels, geometry, this.limits);
+        try {
+            const reader = response.body.getReader();
+            let loaded = 0;
+            for (let piece; !(piece = await Promise.race([reader.read(), decoding.failure])).done; ) {
+                loaded += piece.value.length;
+                decoding.thread.receiveData(piece.value);
+                onProgress?.(new ProgressEvent("progress", { lengthComputable: total > 0, loaded, total }));
+            }
+            decoding.thread.receiveEof();
+            await decoding.end;
+            return geometry;
+        } finally {
+            decoding.thread.close();
         }
-        return filler.finish();
+    }
+}
+
+/** A thread that fills a geometry, as promises. */
+class Decoding {
+    readonly thread: DecoderThread;
+    /** Kept when the stream has come to its end; broken by what goes wrong before. */
+    readonly end: Promise<void>;
+    /** Never kept. */
+    readonly failure: Promise<never>;
+
+    constructor(kernels: Kernels, geometry: BSMGeometry, limits: Partial<Limits>) {
+        let [ended, failed]: [() => void, (error: unknown) => void] = [() => {}, () => {}];
+        this.end = new Promise((keep, fail) => ([ended, failed] = [keep, fail]));
+        this.failure = new Promise((_, fail) => void this.end.catch(fail));
+        this.failure.catch(() => {});
+        const onEvent = (event: DrawnEvent): void => {
+            try {
+                geometry.accept(event);
+            } catch (error) {
+                return failed(error);
+            }
+            if (event.type === "end") ended();
+        };
+        this.thread = new DecoderThread(kernels, { onEvent, onError: failed }, limits);
     }
 }

@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
-import { join } from "node:path";
+import { basename, join } from "node:path";
 import test, { after, before, describe } from "node:test";
 import { pathToFileURL } from "node:url";
 import { inflateSync } from "node:zlib";
@@ -16,6 +16,8 @@ const FLAGS = [
 ];
 const PAGE = join(WEB, "../../bsm/viewer/page.html");
 const STREAM = "good-labels";
+/** One of the specification, and a real one if it is named. */
+const SEQUENCES = [join(VECTORS, "good-sequence-learnt.bsm"), ...(process.env.BSM_SEQUENCE ? [process.env.BSM_SEQUENCE] : [])];
 
 /** The page with streams in it, as `bsm view --save` writes it. */
 function savedPage(folder: string, streams: Record<string, Uint8Array>): string {
@@ -95,23 +97,23 @@ describe("the page in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromium a
     });
 
     test("cuts the stream at any byte, and goes on", async () => {
-        await page.locator("#cut").fill("0");
+        await page.getByLabel("Cut the stream behind byte").fill("0");
         await page.waitForFunction(() => document.body.dataset.blocks === "0");
-        await page.locator("#cut").focus();
+        await page.getByLabel("Cut the stream behind byte").focus();
         await page.keyboard.press("End");
         await state("complete");
     });
 
     test("streams over a slow link, block by block", async () => {
-        await page.locator("#rate").fill(String((whole.length * 8) / 1e6 / 2));
-        await page.locator("#again").click();
+        await page.getByLabel("Link, Mbit/s").fill(String((whole.length * 8) / 1e6 / 2));
+        await page.getByRole("button", { name: "Stream again" }).click();
         const seen = new Set<string>();
         for (const start = Date.now(); Date.now() - start < 10_000; ) {
             seen.add((await page.locator("body").getAttribute("data-blocks")) ?? "");
             if ((await page.locator("body").getAttribute("data-state")) === "complete") break;
         }
         assert.ok(seen.size > 2, `blocks seen: ${[...seen]}`);
-        await page.locator("#rate").fill("0");
+        await page.getByLabel("Link, Mbit/s").fill("0");
     });
 
     test("the keyboard turns the mesh", async () => {
@@ -121,11 +123,87 @@ describe("the page in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromium a
         assert.notDeepEqual(await page.locator("canvas").screenshot(), before);
     });
 
-    test("every control has a name for those who do not see it", async () => {
-        const snapshot = await page.locator("form").ariaSnapshot();
-        for (const name of ["Stream", "Cut the stream", "Link, Mbit/s", "Stream again", "Colour blocks", "Wireframe"]) {
-            assert.match(snapshot, new RegExp(name));
+    test("the keyboard reaches every control, in their order, and each has a name", async () => {
+        const name = (): Promise<string> =>
+            page.evaluate(() => {
+                const active = document.activeElement as HTMLElement;
+                const label = (active as HTMLInputElement).labels?.[0]?.textContent ?? active.getAttribute("aria-label");
+                return (label ?? active.textContent ?? "").trim().split(/[\n,.(:]/)[0].trim();
+            });
+        await page.locator("canvas").focus();
+        const met = [await name()];
+        for (let k = 0; k < 7; k++) {
+            await page.keyboard.press("Tab");
+            met.push(await name());
         }
+        const expected = ["The mesh", "Stream whole", "Cut the stream behind byte", "Link", "Stream again", "Colour", "Wireframe", "Licences"];
+        assert.deepEqual(met.map((found, i) => found.startsWith(expected[i])), expected.map(() => true), met.join(" | "));
+        await page.getByRole("group", { name: "Link" }).getByRole("slider", { name: "Cut the stream" }).focus();
+        await page.getByRole("combobox", { name: "Colour" }).selectOption("blocks");
+        await page.waitForFunction(() => document.body.textContent!.includes("the first block of the chain"));
+        await page.getByRole("combobox", { name: "Colour" }).selectOption("plain");
+    });
+
+    const frameOf = (): Promise<number> => page.evaluate(() => Number(document.body.dataset.frame ?? -1));
+
+    for (const path of SEQUENCES) {
+        test(`plays, holds and seeks ${basename(path)}`, async () => {
+            await page.goto(savedPage(folder, { sequence: readFileSync(path) }));
+            await state("complete");
+            await page.waitForFunction(() => Number(document.body.dataset.frame) > 0, undefined, { timeout: 20_000 });
+            const slider = page.getByRole("slider", { name: "Frame" });
+            await page.getByRole("button", { name: "Pause" }).click();
+            const held = await frameOf();
+            await page.waitForTimeout(300);
+            assert.equal(await frameOf(), held);
+            await slider.focus();
+            await page.keyboard.press("Home");
+            await page.waitForFunction(() => document.body.dataset.frame === "0");
+            const first = await page.locator("canvas").screenshot();
+            await page.keyboard.press("End");
+            const last = await page.evaluate(() => document.querySelector<HTMLInputElement>("[name=frame]")!.max);
+            await page.waitForFunction((last) => document.body.dataset.frame === last, last);
+            assert.match((await slider.getAttribute("aria-valuetext")) ?? "", /^frame \d+ of \d+$/);
+            const { share } = silhouette(await page.locator("canvas").screenshot());
+            assert.ok(share > 0.01 && share < 0.6, `share ${share}`);
+            assert.notDeepEqual(await page.locator("canvas").screenshot(), first);
+            await page.getByLabel("Begin again at the end").uncheck();
+            await page.getByRole("button", { name: "Play" }).click();
+            await page.waitForFunction(() => document.querySelector("[name=play]")!.textContent === "Play");
+            assert.equal(await frameOf(), Number(last));
+            assert.deepEqual(complaints, []);
+        });
+    }
+
+    test("fills a geometry of three.js from an address", async () => {
+        const script = `
+            import { BSMLoader } from "/bsm/three.js";
+            import { Kernels } from "/bsm/bsm.js";
+            const kernels = Kernels.compile(await (await fetch("/bsm/kernels.wasm")).arrayBuffer());
+            const seen = { blocks: 0, frames: 0, bytes: 0 };
+            const take = (name) => new Promise((keep, fail) => new BSMLoader(kernels).load(name, keep, (event) => (seen.bytes = event.loaded), fail, {
+                onBlock: () => seen.blocks++,
+                onFrame: () => seen.frames++,
+            }));
+            const whole = await take("/stream/${STREAM}.bsm");
+            const sequence = await take("/stream/good-sequence-learnt.bsm");
+            const problem = await take("/stream/bad-sequence-long.bsm").catch((error) => error.name);
+            window.found = { ...seen, drawn: whole.drawRange.count, faces: whole.index.count, kept: sequence.frames.length, problem };`;
+        const html = `<script type="importmap">{"imports": {"three": "/three/three.module.js"}}</script><script type="module">${script}</script>`;
+        await page.route("https://bsm.test/**", (route) => {
+            const [, place, name] = /test\/(\w*)\/?(.*)$/.exec(route.request().url())!;
+            const folders: Record<string, string> = { bsm: join(WEB, "built"), three: join(WEB, "node_modules/three/build"), stream: VECTORS };
+            return place ? route.fulfill({ path: join(folders[place], name) }) : route.fulfill({ contentType: "text/html", body: html });
+        });
+        await page.goto("https://bsm.test/");
+        const found = (await (await page.waitForFunction(() => (window as unknown as { found: unknown }).found, undefined, { timeout: 20_000 })).jsonValue()) as Record<string, number | string>;
+        complaints.splice(0, complaints.length, ...complaints.filter((address) => !address.startsWith("https://bsm.test/")));
+        assert.equal(found.drawn, found.faces);
+        assert.ok(Number(found.blocks) > 2 && Number(found.bytes) > 0);
+        assert.equal(found.frames, found.kept);
+        assert.ok(Number(found.kept) > 1);
+        assert.equal(found.problem, "CorruptError");
+        assert.deepEqual(complaints, []);
     });
 
     test("says what is wrong with a damaged stream", async () => {

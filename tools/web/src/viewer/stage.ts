@@ -1,16 +1,19 @@
 /** Camera, light and the mesh on a canvas. */
-import { AmbientLight, BufferAttribute, BufferGeometry, Color, DirectionalLight, DoubleSide, Mesh, MeshStandardMaterial, PerspectiveCamera, Scene, Spherical, WebGLRenderer } from "three";
+import { AmbientLight, BufferAttribute, BufferGeometry, DirectionalLight, DoubleSide, Mesh, MeshStandardMaterial, PerspectiveCamera, Scene, Spherical, WebGLRenderer } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 
 const TURN = Math.PI / 24;
 const ZOOM = 1.1;
+const PLAIN = 0x7d8fa9;
+const WHITE = 0xffffff;
 
 export class Stage {
     private readonly renderer: WebGLRenderer;
     private readonly camera = new PerspectiveCamera(35, 1, 0.01, 100);
     private readonly scene = new Scene();
     private readonly controls: OrbitControls;
-    private readonly material = new MeshStandardMaterial({ color: 0x7d8fa9, roughness: 0.7, side: DoubleSide });
+    private readonly material = new MeshStandardMaterial({ color: PLAIN, roughness: 0.7, side: DoubleSide });
+    private readonly watch = new ResizeObserver(() => this.fit());
     private mesh = new Mesh(new BufferGeometry(), this.material);
 
     constructor(private readonly canvas: HTMLCanvasElement) {
@@ -25,7 +28,7 @@ export class Stage {
         this.scene.add(this.camera, new AmbientLight(0xffffff, 0.8), this.mesh);
         this.controls.update();
         canvas.addEventListener("keydown", (event) => this.turn(event));
-        new ResizeObserver(() => this.fit()).observe(canvas.parentElement!);
+        this.watch.observe(canvas.parentElement!);
     }
 
     /** Show a geometry whose bounding box has this centre and diagonal. */
@@ -45,18 +48,13 @@ export class Stage {
         this.draw();
     }
 
-    /** Colour each vertex by the block that it came with, from blue for the first of `count` to red for the last. */
-    colour(origin: Int32Array, count: number, on: boolean): void {
-        const { geometry } = this.mesh;
-        if (on) {
-            const palette = Array.from({ length: count }, (_, block) => new Color().setHSL(0.68 * (1 - block / Math.max(count - 1, 1)), 0.75, 0.55));
-            const colours = new Float32Array(3 * origin.length);
-            origin.forEach((block, vertex) => block >= 0 && palette[block].toArray(colours, 3 * vertex));
-            geometry.setAttribute("color", new BufferAttribute(colours, 3));
-        }
+    /** Colour the vertices, three numbers from 0 to 1 each; or none of them. */
+    colour(colours?: Float32Array): void {
+        const on = colours !== undefined;
+        if (colours) this.mesh.geometry.setAttribute("color", new BufferAttribute(colours, 3));
         if (this.material.vertexColors !== on) {
             this.material.vertexColors = on;
-            this.material.color.set(on ? 0xffffff : 0x7d8fa9);
+            this.material.color.set(on ? WHITE : PLAIN);
             this.material.needsUpdate = true;
         }
         this.draw();
@@ -64,6 +62,15 @@ export class Stage {
 
     draw(): void {
         this.renderer.render(this.scene, this.camera);
+    }
+
+    /** Give back what the machine's graphics hold. */
+    dispose(): void {
+        this.watch.disconnect();
+        this.controls.dispose();
+        this.mesh.geometry.dispose();
+        this.material.dispose();
+        this.renderer.dispose();
     }
 
     private fit(): void {

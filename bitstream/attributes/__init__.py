@@ -1,0 +1,1 @@
+"""What vertices, corners and faces carry beside positions: seams, and integers on both sides of them."""

@@ -1,0 +1,33 @@
+/* What is known around a vertex before its values. See places.c. */
+#ifndef BSM_PLACES_H
+#define BSM_PLACES_H
+
+#include "bitstream/attributes/values.h"
+#include "bitstream/fields/learner.h"
+
+enum { MOST_BASES = 8, MOST_TWINS = 8, WHOLE = 1 << 16 };
+
+/* An edge of the vertex's triangles of which both ends are known. */
+typedef struct {
+    int32_t a, b, c, tip;  /* c: the known vertex behind it, or -1; tip: its corner */
+    int32_t along, beside; /* where the vertex is, seen from the edge, in 2^-16 of its length */
+    int32_t share[3];      /* of a, b, c in what continues their triangle to the vertex; 2^16 together */
+    int32_t error, weight;
+} Base;
+
+typedef struct {
+    Around around;
+    int bases, number, valence; /* number: of bases, capped */
+    Base base[MOST_BASES];      /* best-behaved first */
+    int32_t twin;               /* the known vertex at this place that was coded last, or -1 */
+    int32_t error;              /* mean size of the gaps around, or -1 */
+} Place;
+
+void survey(const Work *work, int32_t v, Place *place);
+int32_t balance(const Work *work, const Around *around, int component, int32_t otherwise);
+int32_t fold_at(const Work *work, int32_t v, const Base *base, int component);
+int64_t square_root(uint64_t x);
+
+INLINE int32_t limited(int64_t term) { return within(term, -MOST_TERM, MOST_TERM); }
+
+#endif

@@ -1,0 +1,118 @@
+/* Edges across which an attribute changes, and the corners that share a value (specification, A 3 and A 4). */
+#include "bitstream/attributes/seams.h"
+
+enum {
+    NO_SEAM, SEAM, OPEN, UNKNOWN, /* an edge, as the corner that faces it has it; OPEN: no corner faces it from beyond */
+    KNOWN = 3, WRITTEN = 4,       /* what both sides know of it; that it is a seam, which only a writer knows yet */
+    INPUTS = 4,
+    ENDS = 32, /* states of a vertex */
+    OTHERS = 9,
+    ENDS_CONTEXT = 0,
+    OTHERS_CONTEXT = ENDS_CONTEXT + ENDS * ENDS,
+    SIDES_CONTEXT = OTHERS_CONTEXT + OTHERS * 16,
+    OTHER_CONTEXT = SIDES_CONTEXT + 256,
+    SLOTS = OTHER_CONTEXT + OTHERS,
+};
+
+enum { KNOWN_SEAMS, LEFT, BORDER, END_COLUMNS }; /* of a vertex: seams that are known, edges that are not, open edges */
+
+/* Of an end of an edge. */
+INLINE int state_of(const int32_t *end) {
+    return (int)(least(end[KNOWN_SEAMS], 3) * 8 + least(end[LEFT], 3) * 2 + (end[BORDER] > 0));
+}
+
+static bool code_edge(RangeCoder *coder, const Mixer *mixer, const Corners *c, const uint8_t *seams, const uint8_t *others,
+    int32_t *ends, int32_t k, bool seam) {
+    int32_t beyond = c->opposite.data[k];
+    int32_t *u = ends + END_COLUMNS * c->faces.data[next_corner(k)], *v = ends + END_COLUMNS * c->faces.data[previous_corner(k)];
+    u[LEFT]--;
+    v[LEFT]--;
+    int su = state_of(u), sv = state_of(v);
+    int high = (int)largest(su, sv), low = (int)least(su, sv), pair = (high >> 3) * 4 + (low >> 3);
+    int here = (seams[next_corner(k)] & KNOWN) * 4 + (seams[previous_corner(k)] & KNOWN);
+    int there = (seams[next_corner(beyond)] & KNOWN) * 4 + (seams[previous_corner(beyond)] & KNOWN);
+    int other = others[k];
+    const int64_t contexts[INPUTS] = {
+        ENDS_CONTEXT + high * ENDS + low,
+        OTHERS_CONTEXT + other * 16 + pair,
+        SIDES_CONTEXT + here * 16 + there,
+        OTHER_CONTEXT + other,
+    };
+    seam = code_mixed_bit(coder, mixer, INPUTS, contexts, 0, other, seam);
+    u[KNOWN_SEAMS] += seam;
+    v[KNOWN_SEAMS] += seam;
+    return seam;
+}
+
+/* Code for each edge that two corners face whether it is a seam; `seams` has an entry for each corner, for the edge that
+ * it faces. `ends`: three numbers for each vertex, scratch. Returns how many seams
+ * there are, or -1 where the data is beyond its end. */
+int64_t code_edges(Coder given, Bank bank, Corners corners, Bytes seams, ConstBytes others, Ints2 ends) {
+    RangeCoder coder;
+    Mixer mixer;
+    int64_t size = corners.corners.size, n = corners.rank.size;
+    if (!open_coder(&coder, given) || !open_bank(&mixer, bank, SLOTS, OTHERS, INPUTS) || !fits_corners(&corners)
+        || seams.size != size || others.size != size || ends.rows != n || ends.columns != END_COLUMNS)
+        return MISUSED;
+    for (int64_t k = 0; k < size; k++)
+        if (others.data[k] >= OTHERS) return MISUSED;
+    for (int64_t i = 0; i < END_COLUMNS * n; i++) ends.data[i] = 0;
+    uint8_t *seam = seams.data;
+    int64_t count = 0;
+    for (int32_t k = 0; k < size; k++) {
+        bool open = corners.opposite.data[k] < 0;
+        int32_t *u = ends.data + END_COLUMNS * corners.faces.data[next_corner(k)];
+        int32_t *v = ends.data + END_COLUMNS * corners.faces.data[previous_corner(k)];
+        if (open) u[BORDER]++, v[BORDER]++;
+        else if (corners.opposite.data[k] > k) u[LEFT]++, v[LEFT]++;
+        seam[k] = open ? OPEN : (uint8_t)(UNKNOWN | (seam[k] == SEAM ? WRITTEN : 0));
+    }
+    for (int32_t k = 0; k < size && !overran(&coder); k++) {
+        int32_t beyond = corners.opposite.data[k];
+        if (beyond <= k) continue;
+        bool is_seam = code_edge(&coder, &mixer, &corners, seam, others.data, ends.data, k, seam[k] & WRITTEN);
+        seam[k] = seam[beyond] = is_seam ? SEAM : NO_SEAM;
+        count += is_seam;
+    }
+    close_coder(&coder, given);
+    return overran(&coder) ? -1 : count;
+}
+
+static int32_t root_of(int32_t *joined, int32_t k) {
+    while (joined[k] != k) k = joined[k] = joined[joined[k]];
+    return k;
+}
+
+static void join(int32_t *joined, int32_t a, int32_t b) {
+    a = root_of(joined, a);
+    b = root_of(joined, b);
+    joined[largest(a, b)] = (int32_t)least(a, b);
+}
+
+/* Give corners of one vertex that meet at an edge which is no seam one number, numbers in the order of their first
+ * corners, which come into `first`. Returns how many there are. */
+int64_t join_corners(Corners corners, ConstBytes seams, Ints joined, Ints first) {
+    int64_t size = corners.corners.size;
+    if (!fits_corners(&corners) || seams.size != size || joined.size != size || first.size != size) return MISUSED;
+    const int32_t *vertex = corners.faces.data;
+    for (int32_t k = 0; k < size; k++) joined.data[k] = k;
+    for (int32_t k = 0; k < size; k++) {
+        int32_t beyond = corners.opposite.data[k];
+        if (beyond <= k || seams.data[k] != NO_SEAM) continue;
+        int32_t a = next_corner(k), b = previous_corner(k), c = next_corner(beyond), d = previous_corner(beyond);
+        bool turned = vertex[a] != vertex[d]; /* the faces run along the edge in one direction */
+        join(joined.data, a, turned ? c : d);
+        join(joined.data, b, turned ? d : c);
+    }
+    int32_t count = 0;
+    for (int32_t k = 0; k < size; k++) { /* a corner is joined to one before it, which has its number, or to itself */
+        if (joined.data[k] != k) {
+            joined.data[k] = joined.data[joined.data[k]];
+        } else {
+            first.data[count] = k;
+            joined.data[k] = -1 - count++;
+        }
+    }
+    for (int32_t k = 0; k < size; k++) joined.data[k] = -1 - joined.data[k];
+    return count;
+}

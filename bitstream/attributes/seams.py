@@ -1,0 +1,136 @@
+"""Seams: edges across which an attribute of corners changes; the corners of a vertex between them share a value."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+import numpy.typing as npt
+
+from bitstream import _kernels
+from bitstream.entropy.range_coder import (
+    Bank,
+    Coder,
+    finish_reading,
+    finish_writing,
+    make_bank,
+    start_reading,
+    start_writing,
+)
+from bitstream.fields.corners import Corners
+
+Ints = npt.NDArray[np.int32]
+Flags = npt.NDArray[np.uint8]
+
+NO_SEAM, SEAM, OPEN = 0, 1, 2
+"""Of the edge that a corner faces; OPEN: no corner faces it from beyond, and nothing is shared across it."""
+
+_INPUTS = 4
+_OTHERS = 9
+_SLOTS = 32 * 32 + 9 * 16 + 256 + 9
+
+
+@dataclass(frozen=True, eq=False)
+class Joins:
+    """Which corners share a value.
+
+    Parameters
+    ----------
+    corners : Corners
+    seams : uint8 array, shape (3 m,)
+        NO_SEAM, SEAM or OPEN for the edge that each corner faces.
+    """
+
+    corners: Corners
+    seams: Flags
+
+    @cached_property
+    def _joined(self) -> tuple[Ints, Ints]:
+        joined, first = (np.empty(len(self.seams), np.int32) for _ in range(2))
+        count = _kernels.join_corners(self.corners, self.seams, joined, first)
+        return joined.reshape(-1, 3), first[:count].copy()
+
+    @property
+    def faces(self) -> Ints:
+        """Number of the value of each corner, shape (m, 3); values are numbered by their first corners."""
+        return self._joined[0]
+
+    @property
+    def first(self) -> Ints:
+        """First corner of each value, ascending."""
+        return self._joined[1]
+
+    @property
+    def vertices(self) -> Ints:
+        """The vertex of each value."""
+        return self.corners.faces.ravel()[self.first]
+
+
+def find_seams(corners: Corners, values: npt.ArrayLike) -> Flags:
+    """The seams of `values`, integers, shape (m, 3): where they differ on the two sides of an edge, at either end."""
+    given, size = np.asarray(values).ravel(), len(corners.opposite)
+    vertex, beyond = corners.faces.ravel(), corners.opposite
+    here = np.flatnonzero(beyond >= 0)
+    there = beyond[here]
+    a, b, c, d = _next(here), _previous(here), _next(there), _previous(there)
+    turned = vertex[a] != vertex[d]
+    differ = (given[a] != given[np.where(turned, c, d)]) | (given[b] != given[np.where(turned, d, c)])
+    seams = np.full(size, OPEN, np.uint8)
+    seams[here] = differ
+    return seams
+
+
+def encode_seams(corners: Corners, seams: Flags, earlier: tuple[Flags, ...] = ()) -> bytes:
+    """Code seams.
+
+    Parameters
+    ----------
+    corners : Corners
+    seams : uint8 array, shape (3 m,)
+    earlier : tuple of uint8 arrays
+        Seams of attributes that both sides know; the last two help.
+    """
+    coder = start_writing(len(seams) + 64)
+    _code(coder, corners, seams.copy(), earlier)
+    return finish_writing(coder)
+
+
+def decode_seams(payload: bytes, corners: Corners, earlier: tuple[Flags, ...] = ()) -> Flags:
+    """Twin of `encode_seams`.
+
+    Raises
+    ------
+    CorruptError, TruncatedError
+        If `payload` is not of the seams of these corners.
+    """
+    coder = start_reading(payload)
+    seams = np.zeros(len(corners.opposite), np.uint8)
+    _code(coder, corners, seams, earlier)
+    finish_reading(coder)
+    return seams
+
+
+def _code(coder: Coder, corners: Corners, seams: Flags, earlier: tuple[Flags, ...]) -> None:
+    ends = np.empty((len(corners.rank), 3), np.int32)
+    _kernels.code_edges(coder, _make_bank(), corners, seams, _others(earlier, len(seams)), ends)
+
+
+def _make_bank() -> Bank:
+    return make_bank(_SLOTS, _OTHERS, _INPUTS, limit=255)
+
+
+def _others(earlier: tuple[Flags, ...], size: int) -> Flags:
+    """What the last two attributes have at each edge, 3 times the last: 0 unknown, 1 no seam, 2 seam."""
+    others = np.zeros(size, np.uint8)
+    for factor, seams in zip((3, 1), earlier[::-1], strict=False):
+        others += (factor * (1 + (seams == SEAM))).astype(np.uint8)
+    return others
+
+
+def _next(corners: npt.NDArray[np.integer]) -> npt.NDArray[np.integer]:
+    return np.where(corners % 3 == 2, corners - 2, corners + 1)
+
+
+def _previous(corners: npt.NDArray[np.integer]) -> npt.NDArray[np.integer]:
+    return np.where(corners % 3 == 0, corners + 2, corners - 1)

@@ -1,0 +1,156 @@
+/* Texture coordinates, predicted from the shapes of the triangles (specification, A 5). */
+#include "bitstream/attributes/places.h"
+
+enum { AXES = 2, TERMS = 7, GUESSES = BASES * AXES * VALENCES, LEARNERS = GUESSES + BASES * AXES };
+
+typedef struct { /* where a base says that the vertex is, 1/16 */
+    int32_t similar[AXES], affine[AXES], across[AXES];
+} Claim;
+
+typedef struct {
+    Place place;
+    Claim claim[MOST_BASES], all;
+    int32_t mean[AXES], spread[AXES], drift[AXES], rise[AXES], run[AXES];
+} Chart;
+
+INLINE const int32_t *at(const Values *g, int32_t v) { return g->values.data + AXES * (int64_t)v; }
+
+/* Which way round a, b, c are. */
+static int turn_of(const Values *g, int32_t a, int32_t b, int32_t c) {
+    const int32_t *p = at(g, a), *q = at(g, b), *r = at(g, c);
+    int64_t cross = (int64_t)(q[0] - p[0]) * (r[1] - p[1]) - (int64_t)(q[1] - p[1]) * (r[0] - p[0]);
+    return cross > 0 ? 1 : cross < 0 ? -1 : 0;
+}
+
+static void claim(const Values *g, const Base *base, Claim *claim) {
+    const int32_t *a = at(g, base->a), *b = at(g, base->b), *c = base->c >= 0 ? at(g, base->c) : b;
+    int turn = base->c >= 0 ? turn_of(g, base->b, base->a, base->c) : 0;
+    if (turn == 0) turn = g->turn.data[0] >= 0 ? 1 : -1;
+    int64_t edge[AXES] = {b[0] - a[0], b[1] - a[1]}, beyond[AXES] = {-edge[1] * turn, edge[0] * turn};
+    for (int j = 0; j < AXES; j++) {
+        claim->across[j] = FINE * (a[j] + b[j] - c[j]);
+        claim->similar[j] = claim->affine[j] = FINE * a[j] + (int32_t)((base->along * edge[j] + base->beside * beyond[j]) >> 12);
+        if (base->c >= 0) claim->affine[j] = FINE * a[j] + limited((base->share[1] * edge[j] + (int64_t)base->share[2] * (c[j] - a[j])) >> 12);
+    }
+}
+
+static void average(const Values *g, int32_t last, Chart *p) {
+    const Around *r = &p->place.around;
+    int bases = p->place.bases;
+    for (int j = 0; j < AXES; j++) {
+        int64_t near = 0, drift = 0, similar = 0, affine = 0, across = 0, spread = 0;
+        int32_t weights = 0;
+        for (int i = 0; i < r->neighbours; i++) {
+            near += at(g, r->neighbour[i])[j] * FINE;
+            drift += g->gaps.data[AXES * (int64_t)r->neighbour[i] + j];
+        }
+        p->mean[j] = r->neighbours > 0 ? divided(near, r->neighbours) : last < 0 ? 0 : at(g, last)[j] * FINE;
+        p->drift[j] = r->neighbours > 0 ? divided(drift, r->neighbours) : 0;
+        p->all.similar[j] = p->all.affine[j] = p->all.across[j] = p->mean[j];
+        p->spread[j] = p->run[j] = p->rise[j] = 0;
+        if (bases == 0) continue;
+        for (int i = 0; i < bases; i++) {
+            const Claim *c = &p->claim[i];
+            int64_t weight = p->place.base[i].weight;
+            similar += weight * c->similar[j], affine += weight * c->affine[j], across += weight * c->across[j];
+            weights += (int32_t)weight;
+        }
+        p->all.similar[j] = divided(similar, weights);
+        p->all.affine[j] = divided(affine, weights);
+        p->all.across[j] = divided(across, weights);
+        for (int i = 0; i < bases; i++) {
+            const Claim *c = &p->claim[i];
+            spread += size_of(c->affine[j] - p->all.affine[j]) + size_of(c->similar[j] - p->all.similar[j]);
+        }
+        p->spread[j] = divided(spread, 2 * bases);
+        int32_t a = at(g, p->place.base[0].a)[j], b = at(g, p->place.base[0].b)[j];
+        p->run[j] = (b - a) * FINE;
+        p->rise[j] = p->all.similar[j] - (a + b) * (FINE / 2);
+    }
+}
+
+/* How an error of the first component goes on in the second, if it is along (x, y). */
+static int32_t along(int64_t error, int64_t x, int64_t y) {
+    while (largest(largest(x, -x), largest(y, -y)) >= 1 << 18) x >>= 1, y >>= 1;
+    return limited(within(error, -(1 << 24), 1 << 24) * x * y / (x * x + (x * x + y * y) / 64 + 1));
+}
+
+static bool code_axis(Work *w, const Chart *p, int32_t v, int j, int32_t *hits, int32_t *first) {
+    const Values *g = &w->values;
+    int32_t most = g->largest.data[j], far = FINE * most, base = p->all.similar[j];
+    int bases = p->place.number;
+    const Base *best = &p->place.base[0];
+    const Claim *one = bases > 0 ? &p->claim[0] : &p->all, *two = bases > 1 ? &p->claim[1] : one;
+    int32_t term[TERMS] = {p->all.affine[j] - base, p->all.across[j] - base, p->mean[j] - base,
+        j > 0 ? along(*first, p->rise[0], p->rise[1]) : 0, j > 0 ? along(*first, p->run[0], p->run[1]) : 0, p->drift[j], one->similar[j] - base};
+    for (int i = 0; i < TERMS; i++) term[i] = limited(term[i]);
+    Learner *learners = (Learner *)g->learners.data;
+    Learner *guess = learners + (bases * AXES + j) * VALENCES + p->place.valence;
+    Learner *size = learners + GUESSES + bases * AXES + j;
+    int32_t shift = foretell(guess, TERMS, term, far);
+
+    int32_t error_near = p->place.error >= 0 ? p->place.error : far;
+    int32_t hint[HINTS] = {error_near, p->spread[j], j > 0 ? size_of(*first) : 0, size_of(p->all.affine[j] - base)};
+    for (int i = 0; i < HINTS; i++) hint[i] = limited(hint[i]);
+    int32_t typical = bases > 0 ? within(foretell(size, HINTS, hint, far), hint[0] / 8 + 1, far) : hint[0];
+    int32_t bucket = size_class(typical >> 1), unit = typical / 2 + 4;
+    Expectation e;
+    int32_t twin = p->place.twin;
+    e.prediction[0] = base;
+    e.prediction[1] = p->all.affine[j];
+    e.prediction[2] = one->affine[j];
+    e.prediction[3] = twin >= 0 ? at(g, twin)[j] * FINE : two->affine[j];
+    e.prediction[4] = nearest_seen(g, j, within(whole(base + shift), 0, most)) * FINE;
+    e.prediction[5] = p->place.around.neighbours > 0 ? at(g, p->place.around.neighbour[0])[j] * FINE : p->mean[j];
+    e.prediction[6] = base + shift;
+    for (int i = 0; i < PREDICTIONS; i++) e.prediction[i] = within(e.prediction[i], 0, far);
+    int32_t off[PREDICTIONS];
+    for (int i = 0; i < PREDICTIONS; i++) off[i] = e.prediction[i] - e.prediction[6];
+
+    int kind = bases * AXES + j;
+    e.scale = typical;
+    e.asks = MOST_ASKS;
+    e.scale_context = bucket * 2 + (twin >= 0);
+    e.hit_context = (j == 0 ? 0 : *hits != 0 ? 2 : 1) * 8 + bases * 2 + (twin >= 0);
+    e.context[0] = bucket * 8 + kind;
+    e.context[1] = three_classes(off[0], off[1], off[2], FINE / 2, FINE / 2);
+    e.context[2] = three_classes(off[1], off[2], p->mean[j] - e.prediction[6], unit, unit);
+    e.context[3] = three_classes(off[4], p->all.across[j] - e.prediction[6], off[3], FINE / 2, unit);
+    e.context[4] = 0;
+    if (bases > 0) {
+        const int32_t *gaps = g->gaps.data + j;
+        int64_t a = AXES * (int64_t)best->a, b = AXES * (int64_t)best->b, c = best->c >= 0 ? AXES * (int64_t)best->c : a;
+        e.context[4] = three_classes(gaps[a], gaps[b], gaps[c], unit, unit);
+    }
+    e.context[5] = j == 0 ? 0 : *hits + (1 << PREDICTIONS);
+    e.set = j;
+    int32_t value = code_value(&w->coder, &w->model, &e, w->coder.reading ? 0 : at(g, v)[j]);
+    if (value < 0 || value > most) return false;
+    keep_value(g, v, j, value);
+    int32_t error = value * FINE - base, gap = error - shift;
+    g->gaps.data[AXES * (int64_t)v + j] = bases > 0 ? gap : 0;
+    *hits = hits_of(&e, value);
+    if (j == 0) *first = gap;
+    learn(guess, TERMS, term, error, typical);
+    learn(size, HINTS, hint, (int32_t)least(size_of(gap), 8 * (int64_t)typical + 64), typical);
+    return true;
+}
+
+static bool code_vertex(Work *w, int32_t v, int32_t last) {
+    const Values *g = &w->values;
+    Chart p;
+    survey(w, v, &p.place);
+    for (int i = 0; i < p.place.bases; i++) claim(g, &p.place.base[i], &p.claim[i]);
+    average(g, last, &p);
+    int32_t hits = 0, first = 0;
+    for (int j = 0; j < AXES; j++)
+        if (!code_axis(w, &p, v, j, &hits, &first)) return false;
+    for (int i = 0; i < p.place.bases; i++) g->turn.data[0] += turn_of(g, p.place.base[i].a, p.place.base[i].b, v);
+    return true;
+}
+
+int64_t code_texcoords(Coder coder, ValueModel model, Corners corners, Values values, int64_t first, int64_t count) {
+    if (values.values.columns != AXES) return MISUSED;
+    Work work = {.model = model, .corners = corners, .values = values};
+    return code_vertices(coder, &work, LEARNERS, first, count, code_vertex);
+}

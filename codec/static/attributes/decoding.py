@@ -1,0 +1,281 @@
+"""Frames of attributes to attributes of a mesh: the decoder's stage behind positions, and what it ends with."""
+
+from __future__ import annotations
+
+from collections import deque
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Any, Protocol
+
+import numpy as np
+
+from bitstream.attributes.seams import Joins, decode_seams
+from bitstream.container import packets
+from bitstream.container.declaration import CORNER, RECOMPUTED, Declaration
+from bitstream.container.reader import Signal
+from bitstream.errors import CorruptError
+from bitstream.fields.corners import Corners, corners_of
+from bitstream.limits import Limits
+from codec.arrays import Faces, Levels
+from codec.geometry.attributes import Attribute
+from codec.geometry.mesh import TriangleMesh
+from codec.static.attributes.levels import KINDS, restored
+from codec.static.attributes.pieces import PieceDecoder, from_pieces
+from codec.static.attributes.relief import Solid
+from codec.static.attributes.surface import (
+    Arrangement,
+    Surface,
+    arrangement_of,
+    loose_of,
+    recomputed,
+    surface_of,
+)
+from codec.static.events import AttributeEvent, Losses, LossEvent, unreadable
+from codec.static.numbering import Numbering
+from codec.static.quality.whole import Complete
+from codec.static.stages import Arrival, Stage, misplaced
+
+SEMANTICS = ("generic", "color", "normal", "texcoord")
+
+
+@dataclass(frozen=True, eq=False)
+class Declared:
+    """An attribute before its values.
+
+    Parameters
+    ----------
+    index : int
+    declaration : Declaration
+    joins : Joins, optional
+        Where corners have values of their own.
+    """
+
+    index: int
+    declaration: Declaration
+    joins: Joins | None
+
+
+@dataclass(frozen=True, eq=False)
+class Declarations:
+    """The attributes that have been declared, over faces as they were coded."""
+
+    faces: Faces
+    vertices: int
+    known: tuple[Declared, ...] = ()
+
+    def add(self, packet: packets.Attribute) -> Declarations:
+        """With one more.
+
+        Raises
+        ------
+        CorruptError, TruncatedError
+            If its seams are none of these faces, or those of an attribute that is missing.
+        """
+        one = Declared(packet.index, packet.declaration, self._joins(packet))
+        return replace(self, known=(*self.known, one))
+
+    def _joins(self, packet: packets.Attribute) -> Joins | None:
+        declaration = packet.declaration
+        if declaration.domain != CORNER:
+            return None
+        if declaration.seams_of:
+            shared = [one.joins for one in self.known if one.index == declaration.seams_of - 1]
+            if not shared or shared[0] is None:
+                raise CorruptError(f"the seams of {declaration.name!r} are those of an attribute that is missing")
+            return shared[0]
+        if len(self.known) < packet.index:
+            raise CorruptError(f"the seams of {declaration.name!r} depend on those of an attribute that is missing")
+        earlier = tuple(one.joins.seams for one in self._with_seams)
+        return Joins(self._corners, decode_seams(packet.seams, self._corners, earlier))
+
+    @property
+    def _with_seams(self) -> list[Any]:
+        return [one for one in self.known if one.joins is not None and not one.declaration.seams_of]
+
+    @property
+    def _corners(self) -> Corners:
+        """Made once for all attributes."""
+        return self._with_seams[0].joins.corners if self._with_seams else corners_of(self.faces, self.vertices)
+
+
+class Whole(Protocol):
+    """What a decoder has put together, before attributes."""
+
+    def mesh(self) -> TriangleMesh: ...
+    def losses(self) -> Losses: ...
+    def solid(self) -> Solid | None:
+        """Decoded positions, in the order of coding; None where some are missing or not as the encoder had them."""
+
+
+class Shaped(Protocol):
+    """What is known of a mesh when its attributes come; a part of `Structure`."""
+
+    @property
+    def declarations(self) -> Declarations: ...
+    @property
+    def numbering(self) -> Numbering: ...
+    @property
+    def limits(self) -> Limits: ...
+
+
+class Valued:
+    """One attribute, while its values come."""
+
+    def __init__(self, declared: Declared, structure: Shaped) -> None:
+        declaration, declarations = declared.declaration, structure.declarations
+        self.declaration = declaration
+        self.complete = declaration.coding == RECOMPUTED
+        self._declared = declared
+        self._structure = structure
+        self._loose = loose_of(declaration, structure.numbering)
+        self._surface: Surface = surface_of(
+            declaration.domain, declarations.faces, declarations.vertices, self._loose, declared.joins
+        )
+        expected = len(self._surface.vertices) if declaration.domain != 2 else len(declarations.faces)
+        if declaration.coding != RECOMPUTED and declaration.rows != expected:
+            raise CorruptError(f"attribute {declaration.name!r} has {declaration.rows} values where {expected} belong")
+        self._rows = expected
+        self._coder: PieceDecoder | None = None
+
+    def decode(self, packet: packets.Values, relief: Levels | None) -> AttributeEvent:
+        """Decode a chunk of its values."""
+        if self._coder is None:
+            self._coder = PieceDecoder(self.declaration, self._surface, relief, self._structure.limits)
+        coder = self._coder
+        if packet.first != coder.coded:
+            raise CorruptError(f"attribute {self.declaration.name!r} lacks the values before {packet.first}")
+        rows, pieces = coder.chunk(packet.data, packet.count)
+        self._values[rows] = restored(self.declaration, from_pieces(self.declaration, pieces))
+        self.complete = coder.coded == self._rows
+        fresh = np.zeros(self._rows, np.bool_)
+        fresh[rows] = True
+        shown = np.flatnonzero(fresh[self.arrangement.rows]).astype(np.int32)
+        return AttributeEvent(
+            self.declaration.name,
+            self.arrangement.domain,
+            SEMANTICS[self.declaration.semantic],
+            self.arrangement.indices,
+            shown,
+            self._values[self.arrangement.rows[shown]],
+        )
+
+    def attribute(self, solid: Solid | None) -> Attribute | None:
+        """As the user knows it; None where it is not whole."""
+        declaration = self.declaration
+        values = self._values
+        if declaration.coding == RECOMPUTED:
+            if solid is None:
+                return None
+            values = recomputed(self._surface, solid.positions).astype(KINDS[declaration.kind])
+        elif not self.complete:
+            return None
+        arrangement = self.arrangement
+        return Attribute(
+            declaration.name,
+            values[arrangement.rows],
+            arrangement.domain,  # type: ignore[arg-type]
+            SEMANTICS[declaration.semantic],  # type: ignore[arg-type]
+            arrangement.indices,
+        )
+
+    @cached_property
+    def arrangement(self) -> Arrangement:
+        """How it is given to the user."""
+        return arrangement_of(self.declaration, self._surface, self._structure.numbering, self._rows)
+
+    @cached_property
+    def _values(self) -> Any:
+        return np.zeros((self._rows, self.declaration.components), KINDS[self.declaration.kind])
+
+
+class Attributed:
+    """A mesh with its attributes."""
+
+    def __init__(self, whole: Whole, structure: Shaped) -> None:
+        self._whole = whole
+        self._valued = {one.index: Valued(one, structure) for one in structure.declarations.known}
+        first = [one.declaration for one in structure.declarations.known if one.declaration.leans]
+        self._leaning = first[0] if first else None
+
+    def add(self, packet: packets.Values) -> AttributeEvent:
+        """Decode a chunk of values.
+
+        Raises
+        ------
+        BsmError
+            If it cannot be: also if the attribute leans on positions that are missing.
+        """
+        valued = self._valued.get(packet.attribute)
+        if valued is None:
+            raise CorruptError(f"attribute {packet.attribute} is not declared")
+        return valued.decode(packet, self._relief if valued.declaration.leans else None)
+
+    def mesh(self) -> TriangleMesh:
+        """The mesh in its own unit, with the attributes that are whole."""
+        asked = any(one.declaration.coding == RECOMPUTED for one in self._valued.values())
+        solid = self._whole.solid() if asked else None
+        found = [one.attribute(solid) for one in self._valued.values()]
+        return replace(self._whole.mesh(), attributes=tuple(one for one in found if one is not None))
+
+    def losses(self) -> Losses:
+        """What of it is missing or less good."""
+        return self._whole.losses()
+
+    def solid(self) -> Solid | None:
+        """Decoded positions."""
+        return self._whole.solid()
+
+    def missing(self) -> list[str]:
+        """Names of the attributes that are not whole."""
+        return [one.declaration.name for one in self._valued.values() if not one.complete]
+
+    @cached_property
+    def _relief(self) -> Levels:
+        solid, first = self._whole.solid(), self._leaning
+        if solid is None or first is None:
+            raise CorruptError("positions are missing that attributes are predicted from")
+        if solid.places is None and not first.relief:
+            raise CorruptError("the attribute is missing that says how positions are rounded")
+        return solid.relief(first.relief, first.doubts)
+
+
+@dataclass(frozen=True, eq=False)
+class PendingValues:
+    """Values of an attribute that wait for the positions before them."""
+
+    packet: packets.Values
+    attributed: Attributed
+
+
+def completed(whole: Whole, structure: Shaped) -> Complete:
+    """The end of a decoder's way, where no values came."""
+    return Complete(Attributed(whole, structure) if structure.declarations.known else whole)
+
+
+class ValuesStage:
+    """All positions are there, or known to be lost; values of attributes come."""
+
+    def __init__(self, whole: Whole, structure: Shaped, tolerant: bool) -> None:
+        self._attributed = Attributed(whole, structure)
+        self._tolerant = tolerant
+        self._ended = False
+
+    def accept(self, arrival: Arrival, queue: deque[Any]) -> Stage[Any]:
+        match arrival:
+            case packets.Values():
+                queue.append(PendingValues(arrival, self._attributed))
+            case packets.Damaged():
+                queue.append(LossEvent(None, unreadable(arrival)))
+            case packets.End():
+                self._end(queue)
+            case Signal.END_OF_STREAM:
+                if not self._ended:  # a tolerant reader may find no END
+                    self._end(queue)
+                return Complete(self._attributed)
+            case _:
+                raise misplaced(arrival)
+        return self
+
+    def _end(self, queue: deque[Any]) -> None:
+        self._ended = True
+        queue.append(Complete(self._attributed))

@@ -1,0 +1,232 @@
+"""The attributes of a given mesh to the frames of a stream."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+
+from bitstream.attributes.seams import Joins, encode_seams, find_seams
+from bitstream.container import packets
+from bitstream.container.declaration import (
+    AS_CODED,
+    CORNER,
+    FACE,
+    OTHERWISE,
+    RECOMPUTED,
+    VERTEX,
+    Declaration,
+)
+from bitstream.container.packets import Packet
+from bitstream.fields.corners import Corners, corners_of
+from codec.arrays import Indices, Levels, Order
+from codec.geometry.attributes import Attribute
+from codec.geometry.mesh import Metadata, TriangleMesh
+from codec.geometry.splitting import row_numbers
+from codec.static.attributes.levels import KINDS, Words, quantized
+from codec.static.attributes.pieces import PieceEncoder, leans, to_pieces
+from codec.static.attributes.quality import Quality
+from codec.static.attributes.relief import FARTHEST, Solid, relief_exponent
+from codec.static.attributes.surface import Surface, surface_of
+from codec.static.joining import Joined
+from codec.static.preamble import Prepared
+from codec.static.quality.draft import Draft
+
+CHUNK = 1 << 15
+"""Values of a frame."""
+SEMANTICS = ("generic", "color", "normal", "texcoord")
+
+
+@dataclass(frozen=True, eq=False)
+class Place:
+    """Where a given mesh's vertices, faces and corners are in the order of coding.
+
+    Parameters
+    ----------
+    given : TriangleMesh
+    corners : Corners
+        Of the coded faces.
+    faces : int64 array, shape (m,)
+        The given face that is coded as each.
+    turns : int64 array, shape (m,)
+        The corner of the given face that is its first.
+    loose : int64 array
+        Given vertices that no face uses, where the stream holds them.
+    """
+
+    given: TriangleMesh
+    corners: Corners
+    faces: Order
+    turns: Order
+    loose: Order
+
+    def of_corners(self, rows: Indices) -> Indices:
+        """What corners of the given faces have, shape (m', 3), in the order of coding, shape (m, 3)."""
+        ordered = rows[self.faces]
+        return np.take_along_axis(ordered, (self.turns[:, None] + np.arange(3)) % 3, axis=1)
+
+
+def place_of(given: TriangleMesh, joined: Joined, prepared: Prepared) -> Place:
+    """That of a mesh that was joined and prepared."""
+    loose = np.flatnonzero(joined.index < 0) if joined.splits is not None else np.zeros(0, np.int64)
+    corners = corners_of(prepared.mesh.faces, len(prepared.mesh.positions))
+    return Place(given, corners, joined.kept[prepared.coding_faces], prepared.turns, loose)
+
+
+@dataclass(frozen=True, eq=False)
+class Carried:
+    """An attribute in the order of coding, before positions are known.
+
+    Parameters
+    ----------
+    declaration : Declaration
+    seams : bytes
+        As they are sent; none where there are none of its own.
+    surface : Surface
+    levels : int64 array, shape (k, words)
+    said : str
+        What has become of it.
+    """
+
+    declaration: Declaration
+    seams: bytes
+    surface: Surface
+    levels: Words
+    said: str
+
+    @cached_property
+    def plain(self) -> tuple[bytes, ...]:
+        """The chunks of its values, predicted without positions."""
+        return self.chunks(None)
+
+    def chunks(self, relief: Levels | None) -> tuple[bytes, ...]:
+        """The chunks of its values."""
+        if self.declaration.coding == RECOMPUTED:
+            return ()
+        pieces = to_pieces(self.declaration, self.levels)
+        encoder = PieceEncoder(self.declaration, self.surface, pieces, relief)
+        return tuple(encoder.chunk(count) for _, count in _chunks(self.declaration.rows))
+
+
+def carry(place: Place, wanted: Iterable[tuple[Attribute, Quality]]) -> tuple[Carried, ...]:
+    """Attributes in the order of coding.
+
+    Raises
+    ------
+    OptionError, TargetError
+        If a quality makes no sense, or cannot be kept.
+    """
+    carried: list[Carried] = []
+    known: list[tuple[int, Joins]] = []
+    for attribute, quality in wanted:
+        one, joins = _carry(place, attribute, quality, known)
+        if one.declaration.domain == CORNER and not one.declaration.seams_of and joins is not None:
+            known.append((len(carried), joins))
+        carried.append(one)
+    return tuple(carried)
+
+
+def _carry(
+    place: Place, attribute: Attribute, quality: Quality, known: list[tuple[int, Joins]]
+) -> tuple[Carried, Joins | None]:
+    used, rows, loose = _rows(place, attribute)
+    values = attribute.values[used]
+    result = quantized(values, attribute.semantic, quality, attribute.name)
+    recomputed = result.fields["coding"] == RECOMPUTED
+    vertices = len(place.corners.rank)
+    domain, origin, seams, joins, seams_of = FACE, AS_CODED, b"", None, 0
+    chosen: Order
+    if attribute.domain == "face":
+        chosen = rows.astype(np.int64)
+    else:
+        numbers = row_numbers(values if recomputed else result.levels)[rows]
+        chosen = np.zeros(vertices, np.int64)
+        chosen[place.corners.faces.ravel()] = rows.ravel()
+        differ = numbers != row_numbers(values if recomputed else result.levels)[chosen][place.corners.faces]
+        domain = CORNER if differ.any() else VERTEX
+        origin = AS_CODED if domain == {"vertex": VERTEX, "corner": CORNER}[attribute.domain] else OTHERWISE
+        if domain == CORNER:
+            joins = Joins(place.corners, find_seams(place.corners, numbers))
+            same = [index for index, other in known if (other.seams == joins.seams).all()]
+            seams_of = same[0] + 1 if same else 0
+            seams = b"" if same else encode_seams(place.corners, joins.seams, tuple(each.seams for _, each in known))
+            chosen = rows.ravel()[joins.first]
+        chosen = np.concatenate([chosen, loose])
+    levels = result.levels[:0] if recomputed else result.levels[chosen]
+    declaration = Declaration(
+        name=attribute.name,
+        domain=domain,
+        origin=origin,
+        semantic=SEMANTICS.index(attribute.semantic),
+        kind=KINDS.index(attribute.values.dtype.name),
+        components=attribute.components,
+        rows=len(levels),
+        seams_of=seams_of,
+        **result.fields,
+    )
+    surface = surface_of(domain, place.corners.faces, vertices, len(loose), joins)
+    said = f"{attribute.name}: {attribute.semantic} per {attribute.domain}, {result.said}"
+    return Carried(declaration, seams, surface, levels, said), joins
+
+
+def _rows(place: Place, attribute: Attribute) -> tuple[Order, Order, Order]:
+    """The rows of an attribute's values that are coded; which of these faces or corners have, and loose vertices."""
+    loose = place.loose if attribute.domain == "vertex" else np.zeros(0, np.int64)
+    rows: Indices | Order
+    if attribute.domain == "face":
+        rows = place.faces
+    else:
+        rows = place.of_corners(place.given.faces if attribute.indices is None else attribute.indices)
+    every = np.concatenate([rows.ravel(), loose])
+    used, inverse = np.unique(every, return_inverse=True)
+    numbers = np.asarray(inverse, np.int64).ravel()
+    return used, numbers[: rows.size].reshape(rows.shape), numbers[rows.size :]
+
+
+def with_attributes(draft: Draft, prepared: Prepared, carried: tuple[Carried, ...], metadata: Metadata) -> Draft:
+    """A draft that carries attributes and metadata, too."""
+    before = sum(isinstance(packet, packets.Connectivity | packets.Partition | packets.Order) for packet in draft.body)
+    head, body = draft.body[:before], draft.body[before:]
+    told: tuple[Packet, ...] = (packets.Metadata(dict(metadata)),) if metadata else ()
+    declared: list[Packet] = []
+    values: list[Packet] = []
+    header = draft.header
+    if carried:
+        leaning = _Leaning(draft, prepared)
+        for index, one in enumerate(carried):
+            declaration, relief = leaning.of(one.declaration)
+            chunks = one.plain if relief is None else one.chunks(relief)
+            declared.append(packets.Attribute(index, declaration, one.seams))
+            for (first, count), data in zip(_chunks(declaration.rows), chunks, strict=True):
+                values.append(packets.Values(index, first, count, data))
+        header = replace(header, attributes=len(carried))
+    return replace(draft, header=header, body=(*told, *head, *declared, *body, *values))
+
+
+class _Leaning:
+    """Positions for the attributes that lean on them; the first of these says how they are rounded."""
+
+    def __init__(self, draft: Draft, prepared: Prepared) -> None:
+        self._solid = Solid(prepared.units.into(draft.decoded), draft.places)
+        units = prepared.units
+        self._usable = max(map(abs, units.center)) <= FARTHEST * units.scale or draft.places is not None
+        self._faces = prepared.mesh.faces
+        self._relief: Levels | None = None
+
+    def of(self, declaration: Declaration) -> tuple[Declaration, Levels | None]:
+        """What an attribute declares, and the positions that it leans on, shape (n, 3), or None."""
+        if not leans(declaration) or not self._usable:
+            return declaration, None
+        exponent, doubts = 0, b""
+        if self._relief is None:
+            if self._solid.places is None:
+                exponent = relief_exponent(self._solid.positions, self._faces)
+                doubts = self._solid.doubts(exponent)
+            self._relief = self._solid.relief(exponent, doubts)
+        return replace(declaration, leans=1, relief=exponent, doubts=doubts), self._relief
+
+
+def _chunks(rows: int) -> list[tuple[int, int]]:
+    return [(first, min(CHUNK, rows - first)) for first in range(0, rows, CHUNK)]

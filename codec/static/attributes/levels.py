@@ -1,0 +1,245 @@
+"""Values of attributes as whole numbers, and back: `quantized` and `restored` are twins."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from bitstream.attributes.values import canonical_levels, octahedral_normals
+from bitstream.container.declaration import BITS, LEVELS, OCTAHEDRAL, RECOMPUTED, Declaration
+from bitstream.errors import OptionError, TargetError
+from codec.static.attributes.quality import LEAST_NORMAL_BITS, MOST_BITS, MOST_NORMAL_BITS, Quality
+
+Values = npt.NDArray[Any]
+Words = npt.NDArray[np.int64]
+Reals = npt.NDArray[np.float64]
+
+KINDS = ("uint8", "int8", "uint16", "int16", "uint32", "int32", "float32", "float64")
+MOST_LEVEL = 2**32 - 1
+_SLACK = 1.0 - 2.0**-20
+_USUAL_STEPS = (1.0, 1.0 / 255.0, 1.0 / 65535.0)
+
+
+@dataclass(frozen=True, eq=False)
+class Quantized:
+    """Values as whole numbers.
+
+    Parameters
+    ----------
+    fields : dict
+        Of a declaration: coding, largest, offset, step.
+    levels : int64 array, shape (k, words)
+    said : str
+        What has become of the values.
+    """
+
+    fields: dict[str, Any]
+    levels: Words
+    said: str
+
+
+def restored(declaration: Declaration, levels: Words) -> Values:
+    """Values of levels, shape (k, words) (A 5)."""
+    kind = np.dtype(KINDS[declaration.kind])
+    if declaration.coding == OCTAHEDRAL:
+        return octahedral_normals(levels, declaration.largest[0] // 2).astype(kind)
+    offset = np.array(declaration.offsets)
+    if declaration.coding == BITS:
+        return _of_bits(levels + offset.astype(np.int64), kind)
+    values = offset + np.array(declaration.steps) * levels
+    return values.astype(kind) if declaration.is_float else values.astype(np.int64).astype(kind)
+
+
+def quantized(values: Values, semantic: str, quality: Quality, name: str) -> Quantized:
+    """Values, shape (k, c), as whole numbers that keep what is asked.
+
+    Raises
+    ------
+    OptionError
+        If that makes no sense for such values.
+    TargetError
+        If it cannot be kept.
+    """
+    is_float, normals = values.dtype.kind == "f", semantic == "normal" and values.shape[1] == 3
+    if quality.way == "recompute":
+        if not (is_float and normals):
+            raise OptionError(f"{name!r}: only normals of three floats can be recomputed")
+        return Quantized({"coding": RECOMPUTED}, np.zeros((0, 0), np.int64), "recomputed from the decoded mesh")
+    if quality.way == "angle" or (quality.way == "bits" and normals and is_float):
+        if not (is_float and normals):
+            raise OptionError(f"{name!r}: only normals of three floats can be kept to an angle")
+        return _octahedral(values, quality, name)
+    if not is_float:
+        return _whole(values, quality)
+    if quality.way == "exact" or (quality.way == "bits" and quality.amount > MOST_BITS):
+        return _exact(values)
+    return _rounded(values, semantic, quality, name)
+
+
+def _whole(values: Values, quality: Quality) -> Quantized:
+    """Integers: exact, or in steps that are whole numbers, too."""
+    wide = values.astype(np.int64)
+    low = wide.min(axis=0)
+    extent = int((wide - low).max())
+    step = 1
+    if quality.way == "bits":
+        step = -(-extent // (2 ** int(quality.amount) - 1)) or 1
+    elif quality.way in ("bound", "share"):
+        bound = quality.amount if quality.way == "bound" else quality.amount / 100.0 * extent
+        step = 2 * int(bound) + 1
+    most = wide.max(axis=0)
+    # The last level may not lie beyond the range of the kind: where it would, begin so much lower.
+    levels = (wide - low + step // 2) // step
+    beyond = low + levels.max(axis=0) * step - most
+    room = low - np.iinfo(values.dtype).min
+    low = low - np.clip(beyond, 0, np.minimum(step // 2, room))
+    levels = (wide - low + step // 2) // step
+    while (low + levels.max(axis=0) * step > np.iinfo(values.dtype).max).any():
+        levels = np.minimum(levels, (np.iinfo(values.dtype).max - low) // step)
+    said = "exact" if step == 1 else f"in steps of {step}"
+    return Quantized(_affine(LEVELS, levels, low.astype(float), float(step)), levels, said)
+
+
+def _exact(values: Values) -> Quantized:
+    """Floats, to the bit: as multiples of a usual step where they are, or as the whole numbers that their bits are."""
+    for step in _USUAL_STEPS:
+        low = np.floor(values.astype(np.float64).min(axis=0) / step)
+        if not (np.abs(low).max() < 2.0**40):
+            continue
+        levels = np.rint(values / step - low).astype(np.int64)
+        if levels.max() <= MOST_LEVEL:
+            offset = low * step
+            back = (offset + step * levels).astype(values.dtype)
+            if (back.view(np.uint8) == values.view(np.uint8)).all():
+                return Quantized(_affine(LEVELS, levels, offset, step), levels, "exact")
+    words = _bits_of(values)
+    low = words.min(axis=0)
+    levels = words - low
+    return Quantized(_affine(BITS, levels, low.astype(float), 1.0), levels, "exact")
+
+
+def _rounded(values: Values, semantic: str, quality: Quality, name: str) -> Quantized:
+    """Floats in steps."""
+    wide = values.astype(np.float64)
+    low, high = wide.min(axis=0), wide.max(axis=0)
+    extent = float((high - low).max())
+    if not np.isfinite(extent):
+        raise OptionError(f"{name!r}: its range is beyond that of numbers; keep it exact")
+    most = 2 ** int(quality.amount) - 1 if quality.way == "bits" else 0
+    if quality.way == "bits":
+        unit = semantic == "color" and low.min() >= 0.0 and high.max() <= 1.0
+        step = 1.0 / most if unit else extent / most
+        low = np.zeros_like(low) if unit else low
+        bound = step / 2
+    else:
+        bound = quality.amount if quality.way == "bound" else quality.amount / 100.0 * extent
+        step = 2.0 * bound * _SLACK
+    if not step > 0.0:
+        step = bound = 1.0
+    counts = (high - low) / step
+    if counts.max() > MOST_LEVEL:
+        raise OptionError(f"{name!r}: a bound of {bound:g} is too fine for its range; keep it exact")
+    levels = np.rint((wide - low) / step).astype(np.int64)
+    fields = _affine(LEVELS, levels, low, step)
+    back = restored(_sample(values, fields), levels).astype(np.float64)
+    error = float(np.abs(back - wide).max())
+    last = float(np.spacing(np.abs(values).max()))
+    if error > (bound if quality.way != "bits" else bound * (1 + 1e-6) + last):
+        raise TargetError(f"{name!r}: {values.dtype} cannot be kept within {bound:g}; the best is {error:g}")
+    return Quantized(fields, levels, f"within {error:.3g}" if error else "exact")
+
+
+def _octahedral(values: Values, quality: Quality, name: str) -> Quantized:
+    """Normals as points of an octahedron, unfolded to a square."""
+    wide = values.astype(np.float64)
+    lengths = np.linalg.norm(wide, axis=1, keepdims=True)
+    units = np.where(lengths > 0.0, wide / np.where(lengths > 0.0, lengths, 1.0), [0.0, 0.0, 1.0])
+    tried = range(LEAST_NORMAL_BITS, MOST_NORMAL_BITS + 1)
+    if quality.way == "bits":
+        tried = range(max(LEAST_NORMAL_BITS, min(int(quality.amount), MOST_NORMAL_BITS)), MOST_NORMAL_BITS + 1)[:1]
+    for bits in tried:
+        largest = 2**bits - 2
+        levels = _places(units, largest)
+        off = float(_angles(octahedral_normals(levels, largest // 2).astype(values.dtype), units).max())
+        if quality.way == "bits" or off <= quality.amount:
+            break
+    else:
+        raise TargetError(f"{name!r}: normals can be kept within {off:.2g} degrees, not {quality.amount:g}")
+    said = [f"{bits} bits, within {off:.2g} degrees"]
+    if not (lengths > 0.0).all():
+        said.append(f"{int((lengths == 0.0).sum())} of no length")
+    if np.abs(lengths - 1.0)[lengths > 0.0].max(initial=0.0) > 1e-3:
+        said.append("made one long")
+    fields = {"coding": OCTAHEDRAL, "largest": (largest, largest)}
+    return Quantized(fields, levels, ", ".join(said))
+
+
+def _affine(coding: int, levels: Words, offset: Reals, step: float) -> dict[str, Any]:
+    """Fields of a declaration; what is at its default is left out."""
+    return {
+        "coding": coding,
+        "largest": tuple(int(value) for value in levels.max(axis=0)),
+        "offset": tuple(float(value) + 0.0 for value in offset) if (offset != 0.0).any() else (),
+        "step": (step,) if step != 1.0 else (),
+    }
+
+
+def _sample(values: Values, fields: dict[str, Any]) -> Declaration:
+    """A declaration to restore by."""
+    kind = KINDS.index(values.dtype.name)
+    return Declaration(name="x", kind=kind, components=values.shape[1], rows=1, **fields)
+
+
+def _places(units: Reals, largest: int) -> Words:
+    """The places nearest to unit vectors, on a square of 0 to `largest`."""
+    middle = largest // 2
+    flat = units / np.abs(units).sum(axis=1, keepdims=True)
+    x, y, z = flat.T
+    below = z < 0.0
+    u = np.where(below, np.copysign(1.0 - np.abs(y), x), x) * middle + middle
+    v = np.where(below, np.copysign(1.0 - np.abs(x), y), y) * middle + middle
+    best = np.stack([np.floor(u), np.floor(v)], axis=1).clip(0, largest).astype(np.int64)
+    closeness = (octahedral_normals(best, middle) * units).sum(axis=1)
+    for right in range(2):
+        for up in range(2):
+            place = np.stack([np.floor(u) + right, np.floor(v) + up], axis=1).clip(0, largest).astype(np.int64)
+            close = (octahedral_normals(place, middle) * units).sum(axis=1)
+            better = close > closeness
+            best[better], closeness[better] = place[better], close[better]
+    return canonical_levels(best, middle).astype(np.int64)
+
+
+def _angles(vectors: Values, units: Reals) -> Reals:
+    """Degrees between directions."""
+    wide = vectors.astype(np.float64)
+    across = np.linalg.norm(np.cross(wide, units), axis=1)
+    return np.asarray(np.degrees(np.arctan2(across, (wide * units).sum(axis=1))))
+
+
+def _bits_of(values: Values) -> Words:
+    """The bits of floats as whole numbers of 32 bits that ascend with them; of doubles two each, the higher first."""
+    size = values.dtype.itemsize
+    kind = np.dtype(f"u{size}")
+    bits, top = values.view(kind), kind.type(1) << kind.type(8 * size - 1)
+    ordered = np.where(bits & top, ~bits, bits | top)
+    if size == 4:
+        return np.asarray(ordered.astype(np.int64))
+    pairs = np.stack([ordered >> np.uint64(32), ordered & np.uint64(MOST_LEVEL)], axis=2)
+    return pairs.reshape(len(values), -1).astype(np.int64)
+
+
+def _of_bits(words: Words, kind: np.dtype[Any]) -> Values:
+    """Twin of `_bits_of`; what is no finite number is 0."""
+    unsigned = np.dtype(f"u{kind.itemsize}")
+    if kind.itemsize == 8:
+        pairs = words.reshape(len(words), -1, 2).astype(np.uint64)
+        ordered = pairs[:, :, 0] << np.uint64(32) | pairs[:, :, 1]
+    else:
+        ordered = words.astype(np.uint32)
+    top = unsigned.type(1) << unsigned.type(8 * kind.itemsize - 1)
+    bits = np.where(ordered & top, ordered ^ top, ~ordered)
+    values = np.ascontiguousarray(bits.astype(unsigned)).view(kind)
+    return np.where(np.isfinite(values), values, kind.type(0))

@@ -1,0 +1,131 @@
+"""The coders of an attribute's numbers: what they are told, and numbers that are too large for them in two pieces."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from bitstream.attributes.values import (
+    MOST_COMPONENTS,
+    FaceValueDecoder,
+    FaceValueEncoder,
+    Kind,
+    ValueDecoder,
+    ValueEncoder,
+)
+from bitstream.container.declaration import FACE, LEVELS, OCTAHEDRAL, TEXCOORD, Declaration
+from bitstream.container.wire import Cursor, write_varint
+from bitstream.errors import CorruptError
+from bitstream.limits import Limits
+from codec.arrays import Indices, Levels
+from codec.static.attributes.levels import Words
+from codec.static.attributes.surface import Surface
+
+MOST_WHOLE = (1 << 20) - 1
+"""Larger levels are coded in two pieces."""
+PIECE_BITS = 16
+
+
+def largest_pieces(declaration: Declaration) -> tuple[int, ...]:
+    """Largest value of each number that is coded for a value: of a larger level its upper bits, then the lower ones."""
+    pieces: list[int] = []
+    for largest in declaration.largest:
+        pieces += [largest] if largest <= MOST_WHOLE else [largest >> PIECE_BITS, (1 << PIECE_BITS) - 1]
+    return tuple(pieces)
+
+
+def to_pieces(declaration: Declaration, levels: Words) -> Levels:
+    """Levels, shape (k, words), as numbers that are coded, shape (k, pieces)."""
+    columns = []
+    for largest, level in zip(declaration.largest, levels.T, strict=True):
+        columns += [level] if largest <= MOST_WHOLE else [level >> PIECE_BITS, level & ((1 << PIECE_BITS) - 1)]
+    return np.stack(columns, axis=1).astype(np.int32)
+
+
+def from_pieces(declaration: Declaration, pieces: Levels) -> Words:
+    """Twin of `to_pieces`; raises `CorruptError` for levels that are too large."""
+    columns, at = [], 0
+    for largest in declaration.largest:
+        level = pieces[:, at].astype(np.int64)
+        if largest > MOST_WHOLE:
+            at += 1
+            level = level << PIECE_BITS | pieces[:, at]
+        if level.max(initial=0) > largest:
+            raise CorruptError(f"a level of attribute {declaration.name!r} is above {largest}")
+        columns.append(level)
+        at += 1
+    return np.stack(columns, axis=1)
+
+
+def kind_of(declaration: Declaration) -> Kind:
+    """How numbers are predicted."""
+    if declaration.coding == OCTAHEDRAL:
+        return "normal"
+    plain = declaration.coding == LEVELS and max(declaration.largest) <= MOST_WHOLE
+    return "texcoord" if plain and declaration.semantic == TEXCOORD and declaration.words == 2 else "scalar"
+
+
+def leans(declaration: Declaration) -> bool:
+    """Whether numbers are predicted from positions, should these be there."""
+    return declaration.domain != FACE and kind_of(declaration) != "scalar"
+
+
+class PieceEncoder:
+    """Codes the numbers of an attribute, shape (k, pieces), at most `MOST_COMPONENTS` of each value at a time.
+
+    `relief`: positions of the vertices, shape (n, 3), if they are predicted from these.
+    """
+
+    def __init__(self, declaration: Declaration, surface: Surface, pieces: Levels, relief: Levels | None) -> None:
+        def make(some: slice) -> ValueEncoder | FaceValueEncoder:
+            largest = largest_pieces(declaration)[some]
+            if declaration.domain == FACE:
+                return FaceValueEncoder(surface.faces, pieces[:, some], largest)
+            geometry = None if relief is None else surface.relief(relief)
+            kind = kind_of(declaration)
+            return ValueEncoder(surface.faces, pieces[:, some], largest, kind, geometry, surface.places)
+
+        self._coders = [make(some) for some in _groups(declaration)]
+
+    def chunk(self, count: int) -> bytes:
+        """Code the next `count` values: where there are several groups, each with its length before it."""
+        parts = [coder.chunk(count) for coder in self._coders]
+        return parts[0] if len(parts) == 1 else b"".join(write_varint(len(part)) + part for part in parts)
+
+
+class PieceDecoder:
+    """Twin of `PieceEncoder`; raises as `ValueDecoder`."""
+
+    def __init__(self, declaration: Declaration, surface: Surface, relief: Levels | None, limits: Limits) -> None:
+        def make(some: slice) -> ValueDecoder | FaceValueDecoder:
+            largest = largest_pieces(declaration)[some]
+            if declaration.domain == FACE:
+                return FaceValueDecoder(surface.faces, largest, limits)
+            geometry = None if relief is None else surface.relief(relief)
+            kind, size = kind_of(declaration), len(surface.vertices)
+            return ValueDecoder(surface.faces, size, largest, kind, geometry, surface.places, limits)
+
+        self._coders = [make(some) for some in _groups(declaration)]
+
+    @property
+    def coded(self) -> int:
+        """How many values are decoded."""
+        return min(coder.coded for coder in self._coders)
+
+    def chunk(self, payload: bytes, count: int) -> tuple[Indices, Levels]:
+        """The numbers of the next `count` values, and their pieces, shape (count, pieces)."""
+        cursor, found = Cursor(payload), []
+        rows = np.arange(self.coded, self.coded + count, dtype=np.int32)
+        for coder in self._coders:
+            part = cursor.take(cursor.varint()) if len(self._coders) > 1 else cursor.rest()
+            if isinstance(coder, FaceValueDecoder):
+                found.append(coder.chunk(part, count))
+            else:
+                rows, pieces = coder.chunk(part, count)
+                found.append(pieces)
+        cursor.finish()
+        return rows, np.concatenate(found, axis=1)
+
+
+def _groups(declaration: Declaration) -> list[slice]:
+    starts = range(0, len(largest_pieces(declaration)), MOST_COMPONENTS)
+    return [slice(start, start + MOST_COMPONENTS) for start in starts]

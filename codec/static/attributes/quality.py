@@ -1,0 +1,88 @@
+"""How well attributes are kept: what a user may ask for, and what is done where nothing is asked for."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from typing import Literal
+
+from bitstream.errors import OptionError
+from codec.geometry.attributes import Attribute
+
+Way = Literal["exact", "bits", "bound", "share", "angle", "recompute", "none"]
+Grade = Literal["small", "balanced", "fine"]
+
+MOST_BITS = 24
+"""Of a float; who wants more wants it exact."""
+LEAST_NORMAL_BITS, MOST_NORMAL_BITS = 2, 16
+
+_FORMS: tuple[tuple[str, Way], ...] = (
+    (r"(\d+) ?bits?", "bits"),
+    (r"([\d.eE+-]+) ?deg(?:rees)?", "angle"),
+    (r"([\d.eE+-]+) ?%", "share"),
+    (r"([\d.eE+-]+)", "bound"),
+)
+_PLAIN: tuple[Way, ...] = ("exact", "recompute", "none")
+NORMAL_BITS: dict[Grade, int] = {"small": 8, "balanced": 10, "fine": 12}
+COLOR_BITS: dict[Grade, int] = {"small": 8, "balanced": 8, "fine": 16}
+TEXCOORD_BITS: dict[Grade, int] = {"small": 12, "balanced": 12, "fine": 14}
+GENERIC_BITS: dict[Grade, int] = {"small": 16, "balanced": 16, "fine": 20}
+
+
+@dataclass(frozen=True)
+class Quality:
+    """What is asked of an attribute.
+
+    Parameters
+    ----------
+    way : str
+        "exact"; "bits": so many of each number; "bound": no number is farther off; "share": the same in percent of the
+        largest range; "angle": no normal is more degrees off; "recompute": normals are made from the decoded mesh;
+        "none": it is left out.
+    amount : float
+        Of bits, of the attribute's own unit, percent, or degrees.
+    """
+
+    way: Way
+    amount: float = 0.0
+
+    def __post_init__(self) -> None:
+        if self.way in ("bound", "share", "angle") and not 0.0 < self.amount < float("inf"):
+            raise OptionError(f"the quality of an attribute must be above 0, not {self.amount:g}")
+        if self.way == "bits" and not 1 <= self.amount <= 32:
+            raise OptionError(f"an attribute can have 1 to 32 bits, not {self.amount:g}")
+
+    def __str__(self) -> str:
+        unit = {"bits": " bits", "share": " %", "angle": " degrees"}.get(self.way, "")
+        return self.way if self.way in _PLAIN else f"{self.amount:g}{unit}"
+
+
+def parse_quality(text: str) -> Quality:
+    """The quality that a user means: "exact", "12bits", "0.01", "1%", "2deg", "recompute" or "none".
+
+    Raises
+    ------
+    OptionError
+        If it is none of these.
+    """
+    for plain in _PLAIN:
+        if text == plain:
+            return Quality(plain)
+    for form, way in _FORMS:
+        found = re.fullmatch(form, text.strip())
+        if found:
+            try:
+                return Quality(way, float(found[1]))
+            except ValueError:
+                break
+    raise OptionError(
+        f"the quality of an attribute is exact, 12bits, 0.01 (a bound), 1%, 2deg, recompute or none, not {text!r}"
+    )
+
+
+def default_quality(attribute: Attribute, grade: Grade) -> Quality:
+    """What is kept of an attribute of which nothing is asked."""
+    if attribute.values.dtype.kind != "f":
+        return Quality("exact")
+    bits = {"normal": NORMAL_BITS, "color": COLOR_BITS, "texcoord": TEXCOORD_BITS, "generic": GENERIC_BITS}
+    return Quality("bits", bits[attribute.semantic][grade])

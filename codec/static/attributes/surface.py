@@ -1,0 +1,117 @@
+"""Where the coded values of an attribute are, and which of them the user of a mesh knows by which number."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from bitstream.attributes.seams import Joins
+from bitstream.container.declaration import FACE, VERTEX, Declaration
+from codec.arrays import Faces, Indices, Levels, Matrix, Order
+from codec.static.numbering import Numbering
+
+
+@dataclass(frozen=True, eq=False)
+class Surface:
+    """The values of an attribute as vertices of a mesh of their own.
+
+    Parameters
+    ----------
+    faces : int32 array, shape (m, 3)
+        Numbers of values; of an attribute of faces, of the vertices.
+    vertices : int32 array, shape (k,)
+        The vertex at which each value is, -1: none, for what no face uses; empty for an attribute of faces.
+    """
+
+    faces: Faces
+    vertices: Indices
+
+    @property
+    def places(self) -> Indices:
+        """Equal numbers for values at the same vertex."""
+        apart = np.iinfo(np.int32).max - np.arange(len(self.vertices), dtype=np.int32)
+        return np.where(self.vertices < 0, apart, self.vertices).astype(np.int32)
+
+    def relief(self, relief: Levels) -> Levels:
+        """Where values are, given where vertices are, shape (n, 3); those of no vertex at the origin."""
+        return np.where(self.vertices[:, None] < 0, 0, relief[self.vertices]).astype(np.int32)
+
+
+def surface_of(domain: int, faces: Faces, vertices: int, loose: int, joins: Joins | None) -> Surface:
+    """That of a domain of values.
+
+    Parameters
+    ----------
+    domain : int
+    faces : int32 array, shape (m, 3)
+        As they are coded.
+    vertices, loose : int
+        How many are coded, and how many values there are for what no face uses.
+    joins : Joins, optional
+        For CORNER.
+    """
+    if domain == FACE:
+        return Surface(faces, np.zeros(0, np.int32))
+    at = np.arange(vertices, dtype=np.int32) if joins is None else joins.vertices
+    corners = faces if joins is None else joins.faces
+    return Surface(corners, np.concatenate([at, np.full(loose, -1, np.int32)]).astype(np.int32))
+
+
+@dataclass(frozen=True, eq=False)
+class Arrangement:
+    """How an attribute is given to the user.
+
+    Parameters
+    ----------
+    domain : str
+        "vertex", "corner" or "face".
+    rows : int64 array
+        The coded value that each of the user's is.
+    indices : int32 array, shape (m, 3), optional
+        For corners: which of the user's values each has.
+    """
+
+    domain: str
+    rows: Order
+    indices: Indices | None = None
+
+
+def arrangement_of(declaration: Declaration, surface: Surface, numbering: Numbering, rows: int) -> Arrangement:
+    """That of an attribute of `rows` coded values."""
+    everything = np.arange(rows, dtype=np.int64)
+    corners = numbering.corners
+    if declaration.domain == FACE:
+        return Arrangement("face", everything if corners is None else corners[:, 0].astype(np.int64) // 3)
+    indices = surface.faces if corners is None else surface.faces.ravel()[corners]
+    by_vertex = declaration.by_vertex and (declaration.domain == VERTEX or numbering.splits)
+    if not by_vertex:
+        return Arrangement("corner", everything, indices)
+    if declaration.domain == VERTEX and numbering.source is None:
+        return Arrangement("vertex", everything)
+    assert numbering.source is not None
+    loose = np.cumsum(numbering.source < 0) - 1 + rows - int((numbering.source < 0).sum())
+    if declaration.domain == VERTEX:
+        found = numbering.source.astype(np.int64)
+    else:
+        found = np.zeros(len(numbering.source), np.int64)
+        found[numbering.faces.ravel()[::-1]] = indices.ravel()[::-1]
+    return Arrangement("vertex", np.where(numbering.source < 0, loose, found))
+
+
+def loose_of(declaration: Declaration, numbering: Numbering) -> int:
+    """How many values there are for vertices that no face uses."""
+    return len(numbering.loose) if declaration.by_vertex else 0
+
+
+def recomputed(surface: Surface, positions: Matrix) -> Matrix:
+    """Normals of the values of a surface: those of the faces around, by area (A 7); shape (k, 3)."""
+    places = positions[surface.vertices] if len(surface.vertices) else positions
+    a, b, c = (places[surface.faces[:, corner]] for corner in range(3))
+    across = np.cross(b - a, c - a)
+    normals = np.zeros((len(surface.vertices), 3))
+    for corner in range(3):
+        for axis in range(3):
+            normals[:, axis] += np.bincount(surface.faces[:, corner], weights=across[:, axis], minlength=len(normals))
+    lengths = np.linalg.norm(normals, axis=1, keepdims=True)
+    return np.where(lengths > 0.0, normals / np.where(lengths > 0.0, lengths, 1.0), [0.0, 0.0, 1.0])

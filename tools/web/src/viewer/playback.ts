@@ -1,0 +1,52 @@
+/** When which frame of a sequence is shown. */
+
+const UNKNOWN_RATE = 30;
+/** Seconds of frames that must be there before playing goes on behind a wait. */
+const RESERVE = 0.5;
+
+/** Goes through the frames that are there; where they end too early, it waits for half a second of them. */
+export class Playback {
+    playing: boolean;
+    loop = true;
+    private at = 0;
+    private before = 0;
+    private waiting = true;
+
+    /** Frames per second; 0: unknown. */
+    constructor(
+        private readonly given: number,
+        playing: boolean,
+    ) {
+        this.playing = playing;
+    }
+
+    get rate(): number {
+        return this.given > 0 ? this.given : UNKNOWN_RATE;
+    }
+
+    /** The frame to be shown now. */
+    get frame(): number {
+        return Math.floor(this.at);
+    }
+
+    seek(frame: number): void {
+        this.at = frame;
+    }
+
+    /** Go on to the time `now`, in milliseconds; `there` frames have come, and if `all`, no more will. */
+    step(now: number, there: number, all: boolean): void {
+        const passed = ((now - this.before) / 1000) * this.rate;
+        this.before = now;
+        if (there === 0) return;
+        if (this.waiting) this.waiting = !all && there - this.at < RESERVE * this.rate;
+        else if (this.playing) this.at += passed;
+        if (this.at < there) return;
+        if (all && this.playing && this.loop) {
+            this.at = 0;
+        } else {
+            this.at = there - 1;
+            this.playing &&= !all;
+            this.waiting = !all;
+        }
+    }
+}

@@ -1,0 +1,282 @@
+/** A stream as it arrives, cut at any byte, over a link of any speed; sequences play. */
+import type { Header } from "../header";
+import type { Kernels } from "../kernels";
+import { DecoderThread } from "../thread";
+import { BSMGeometry } from "../three";
+import { coloursOf, errorsOf, LEGENDS, type Errors, type Scheme } from "./colours";
+import { Playback } from "./playback";
+import { Stage } from "./stage";
+import template from "./view.html";
+
+/** Draco's file of a mesh that keeps the normals as well as the stream. */
+export interface Rival {
+    bytes: number;
+    bits: number;
+    theta: number;
+}
+
+/** A stream, and what it is compared with: the original's positions as the stream numbers them. */
+export interface Content {
+    stream: Uint8Array;
+    original?: Float32Array;
+    draco?: Rival;
+}
+
+const SECOND = 1000;
+
+/** Middle and diagonal of the box that a mesh fills, about, in its own unit. */
+function extentOf({ center, scale, grid, lattice }: Header): { center: number[]; diagonal: number } {
+    if (grid.length === 0) return { center, diagonal: scale };
+    const cell = lattice.length > 0 ? (scale * lattice[0]) / lattice[1] : scale;
+    return { center: center.map((origin, d) => origin + (cell * grid[d]) / 2), diagonal: cell * Math.max(Math.hypot(...grid), 1) };
+}
+
+function counted(count: number): string {
+    return count.toLocaleString("en");
+}
+
+function spent(milliseconds: number): string {
+    return `${(milliseconds / SECOND).toFixed(2)} s`;
+}
+
+/** The controls and the canvas, in any element of a page; it says how far it is in `data-state`. */
+export class View {
+    readonly streams: HTMLSelectElement;
+    private readonly stage: Stage;
+    private readonly cut: HTMLInputElement;
+    private readonly rate: HTMLInputElement;
+    private readonly frame: HTMLInputElement;
+    private readonly colour: HTMLSelectElement;
+    private readonly play: HTMLButtonElement;
+    private content: Content = { stream: new Uint8Array(0) };
+    private geometry = new BSMGeometry();
+    private thread?: DecoderThread;
+    private playback?: Playback;
+    private errors?: Errors;
+    private fed = 0;
+    private started = 0;
+    private firstDrawn?: number;
+    private completed?: number;
+    private over = true;
+    private shown = true;
+    private stale = false;
+    private frameShown = -1;
+    private closed = false;
+
+    constructor(
+        private readonly root: HTMLElement,
+        private readonly kernels: Kernels,
+        licences: string,
+    ) {
+        root.classList.add("bsm");
+        root.innerHTML = template;
+        this.streams = this.control("stream");
+        [this.cut, this.rate, this.frame] = [this.control("cut"), this.control("rate"), this.control("frame")];
+        [this.colour, this.play] = [this.control("colour"), this.control("play")];
+        const [wireframe, loop] = [this.control<HTMLInputElement>("wireframe"), this.control<HTMLInputElement>("loop")];
+        this.part("licences").textContent = licences;
+        this.stage = new Stage(root.querySelector("canvas")!);
+        wireframe.addEventListener("change", () => (this.stage.wireframe = wireframe.checked));
+        this.colour.addEventListener("change", () => (this.stale = true));
+        this.control("again").addEventListener("click", () => this.restart());
+        this.play.addEventListener("click", () => this.toggle());
+        this.frame.addEventListener("input", () => this.seek(Number(this.frame.value)));
+        loop.addEventListener("change", () => this.playback && (this.playback.loop = loop.checked));
+        root.querySelector("form")!.addEventListener("submit", (event) => event.preventDefault());
+        const go = (now: number): void => {
+            if (this.closed) return;
+            this.step(now);
+            requestAnimationFrame(go);
+        };
+        requestAnimationFrame(go);
+    }
+
+    /** Show another stream from its first byte on. */
+    open(content: Content): void {
+        this.content = content;
+        this.cut.max = String(content.stream.length);
+        this.cut.value = this.cut.max;
+        const error = this.colour.querySelector<HTMLOptionElement>("[value=error]")!;
+        error.hidden = error.disabled = !content.original;
+        if (error.selected && error.disabled) this.colour.value = "plain";
+        this.restart();
+    }
+
+    /** Say that there is nothing to show. */
+    fail(problem: string): void {
+        this.over = true;
+        this.part("problem").textContent = problem;
+        this.root.dataset.state = "failed";
+    }
+
+    /** Stop, and give back what it holds. */
+    close(): void {
+        this.closed = true;
+        this.thread?.close();
+        this.stage.dispose();
+    }
+
+    private control<Kind extends HTMLElement>(name: string): Kind {
+        return this.root.querySelector<Kind>(`[name=${name}]`)!;
+    }
+
+    private part(name: string): HTMLElement {
+        return this.root.querySelector<HTMLElement>(`[data-part=${name}]`)!;
+    }
+
+    /** Decode from the first byte on; what is shown stays until there is something else. */
+    private restart(): void {
+        this.thread?.close();
+        const geometry = new BSMGeometry({ onBlock: () => this.drawn(), onFrame: () => this.begin(geometry) });
+        this.geometry = geometry;
+        this.playback = undefined;
+        this.fed = 0;
+        this.frameShown = -1;
+        this.firstDrawn = this.completed = undefined;
+        this.errors = undefined;
+        this.shown = this.over = false;
+        this.started = performance.now();
+        this.part("problem").textContent = "";
+        this.root.dataset.state = "loading";
+        this.thread = new DecoderThread(this.kernels, {
+            onEvent: (event) => {
+                geometry.accept(event);
+                if (event.type === "end") this.end();
+            },
+            onError: (error) => this.fail(`This stream cannot be decoded further. ${error.name}: ${error.message}`),
+            onTaken: (bytes) => bytes === this.fed && this.show(),
+        });
+    }
+
+    /** Go on for one picture. */
+    private step(now: number): void {
+        if (Number(this.cut.value) < this.fed) this.restart();
+        const allowed = this.allowed();
+        if (!this.over && this.fed < allowed) {
+            this.thread!.receiveData(this.content.stream.subarray(this.fed, allowed));
+            this.fed = allowed;
+            if (allowed === this.content.stream.length) this.thread!.receiveEof();
+        }
+        this.playOn(now);
+        if (this.stale && this.shown) this.paint();
+        this.report();
+    }
+
+    private allowed(): number {
+        const rate = Number(this.rate.value);
+        const link = rate > 0 ? (rate * (performance.now() - this.started)) / 8e-3 : Infinity;
+        return Math.floor(Math.min(Number(this.cut.value), link));
+    }
+
+    /** Put the geometry on the stage, if it is not there. */
+    private show(): void {
+        const { header } = this.geometry;
+        if (this.shown || this.closed) return;
+        this.shown = this.stale = true;
+        const { center, diagonal } = header ? extentOf(header) : { center: [0, 0, 0], diagonal: 1 };
+        this.stage.show(this.geometry, center, diagonal);
+    }
+
+    private drawn(): void {
+        this.firstDrawn ??= performance.now() - this.started;
+        this.show();
+        this.stale = true;
+    }
+
+    private end(): void {
+        this.over = true;
+        this.completed = performance.now() - this.started;
+        this.root.dataset.state = "complete";
+    }
+
+    /** Frames are there: begin to play them, unless the page's reader wants less motion. */
+    private begin(geometry: BSMGeometry): void {
+        this.playback ??= new Playback(geometry.frameRate, !matchMedia("(prefers-reduced-motion: reduce)").matches);
+        this.playback.loop = this.control<HTMLInputElement>("loop").checked;
+    }
+
+    private toggle(): void {
+        const { playback, geometry, over } = this;
+        if (!playback) return;
+        playback.playing = !playback.playing;
+        if (playback.playing && over && playback.frame === geometry.frames.length - 1) playback.seek(0);
+        this.label(playback);
+    }
+
+    private label({ playing }: Playback): void {
+        this.play.textContent = playing ? "Pause" : "Play";
+    }
+
+    private seek(frame: number): void {
+        this.playback?.seek(Math.min(frame, this.geometry.frames.length - 1));
+    }
+
+    private playOn(now: number): void {
+        const { playback, geometry } = this;
+        const part = this.part("sequence");
+        part.hidden = !playback;
+        if (!playback) return;
+        const there = geometry.frames.length;
+        playback.step(now, there, this.over);
+        if (playback.frame !== this.frameShown) {
+            this.frameShown = playback.frame;
+            geometry.showFrame(this.frameShown);
+            this.stale = true;
+        }
+        const total = geometry.header!.frames || there;
+        this.frame.max = String(total - 1);
+        this.frame.value = String(this.frameShown);
+        this.label(playback);
+        const ahead = there < total ? `, ${there} are there` : "";
+        this.part("time").textContent = `${this.frameShown + 1} of ${total}${ahead}; ${spent((this.frameShown / playback.rate) * SECOND)}`;
+        this.frame.setAttribute("aria-valuetext", `frame ${this.frameShown + 1} of ${total}`);
+        this.root.dataset.frame = String(this.frameShown);
+    }
+
+    /** Colours and errors of what is there. */
+    private paint(): void {
+        const { original } = this.content;
+        const scheme = this.colour.value as Scheme;
+        this.stale = false;
+        this.errors = original && this.geometry.origin.length > 0 ? errorsOf(this.geometry, original) : undefined;
+        this.part("legend").textContent = LEGENDS[scheme];
+        this.stage.colour(coloursOf(this.geometry, scheme, this.errors?.distances));
+    }
+
+    private report(): void {
+        const { fed, geometry, content, errors, root } = this;
+        const length = content.stream.length;
+        const share = length ? Math.round((100 * fed) / length) : 0;
+        this.say("bytes", `${counted(fed)} of ${counted(length)} bytes (${share} %)`);
+        this.say("status", this.statusText());
+        const times = [["first faces", this.firstDrawn], ["complete", this.completed]] as const;
+        this.say("times", times.flatMap(([name, time]) => (time === undefined ? [] : [`${name} after ${spent(time)}`])).join("; "));
+        this.say("draco", this.rivalText());
+        const percent = (value: number): string => `${(100 * value).toPrecision(3)} %`;
+        this.say("error", errors ? `Off the original: ${percent(errors.rms)} of the diagonal (rms), at most ${percent(errors.farthest)}; normals ${errors.angle.toFixed(2)} degrees` : "");
+        root.dataset.blocks = String(geometry.blocks);
+    }
+
+    private statusText(): string {
+        const { header, blocks, layers } = this.geometry;
+        if (!header) return "";
+        const parts = header.blocks ? `${blocks} of ${header.blocks} blocks` : `${blocks} chunks of a grid`;
+        const most = header.refinements.length / 2;
+        const quality = most > 0 ? `, ${layers} of ${most} quality layers` : "";
+        const frames = header.gopFrames > 0 ? `, ${header.frames || "any number of"} frames` : "";
+        return `${parts}${quality}, ${counted(header.vertices)} vertices${frames}`;
+    }
+
+    private rivalText(): string {
+        const { draco } = this.content;
+        if (!draco) return "";
+        const rate = Number(this.rate.value);
+        const time = rate > 0 ? `: there after ${spent((8 * draco.bytes) / rate / 1e3)}` : "";
+        return `Draco's file, ${draco.bits} bits, ${draco.theta.toFixed(2)} degrees, has ${counted(draco.bytes)} bytes${time}`;
+    }
+
+    private say(part: string, text: string): void {
+        const element = this.part(part);
+        if (element.textContent !== text) element.textContent = text;
+    }
+}
