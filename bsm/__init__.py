@@ -47,7 +47,7 @@ if TYPE_CHECKING:
     from bitstream.limits import Limits as Limits
     from bsm.api import (
         compare as compare, decode as decode, decode_sequence as decode_sequence, denoise as denoise, encode as encode,
-        encode_sequence as encode_sequence, load as load, save as save,
+        encode_many as encode_many, encode_sequence as encode_sequence, load as load, save as save,
     )
     from bsm.files.mesh import read_mesh as read_mesh
     from bsm.files.formats.polygons import MeshFile as MeshFile
@@ -63,8 +63,8 @@ if TYPE_CHECKING:
     from codec.static.decoder import Decoder as Decoder
     from codec.static.encoder import Encoder as Encoder
     from codec.static.events import (
-        BlockEvent as BlockEvent, ConnectivityEvent as ConnectivityEvent, EndEvent as EndEvent,
-        HeaderEvent as HeaderEvent, LossEvent as LossEvent, RefinementEvent as RefinementEvent,
+        AttributeEvent as AttributeEvent, BlockEvent as BlockEvent, ConnectivityEvent as ConnectivityEvent,
+        EndEvent as EndEvent, HeaderEvent as HeaderEvent, LossEvent as LossEvent, RefinementEvent as RefinementEvent,
     )
     from codec.static.options import PRESETS as PRESETS, EncodeOptions as EncodeOptions
     from codec.static.quality.targets import Target as Target
@@ -81,7 +81,7 @@ _ROOMS = {
         "OptionError TargetError TruncatedError UnsupportedError"
     ),
     "bitstream.limits": "Limits",
-    "bsm.api": "compare decode decode_sequence denoise encode encode_sequence load save",
+    "bsm.api": "compare decode decode_sequence denoise encode encode_many encode_sequence load save",
     "bsm.files.mesh": "read_mesh",
     "bsm.files.formats.polygons": "MeshFile",
     "codec.denoise": "DenoiseOptions",
@@ -95,7 +95,7 @@ _ROOMS = {
     "codec.static.quality.contract": "Contract",
     "codec.static.decoder": "Decoder",
     "codec.static.encoder": "Encoder",
-    "codec.static.events": "BlockEvent ConnectivityEvent EndEvent HeaderEvent LossEvent RefinementEvent",
+    "codec.static.events": "AttributeEvent BlockEvent ConnectivityEvent EndEvent HeaderEvent LossEvent RefinementEvent",
     "codec.static.options": "PRESETS EncodeOptions",
     "codec.static.quality.targets": "Target",
 }

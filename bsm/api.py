@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
@@ -68,6 +68,70 @@ def encode(
     given = as_mesh(mesh)
     given = replace(given, metadata={**given.metadata, **metadata}) if metadata else given
     return encode_mesh(given, _chosen(options, EncodeOptions, keywords, keywords_to.encode_options))
+
+
+def encode_many(
+    sources: Iterable[str | os.PathLike[str]],
+    target: str | os.PathLike[str] | None = None,
+    /,
+    *,
+    jobs: int = 1,
+    dask: str | None = None,
+    report: str | os.PathLike[str] | None = None,
+    resume: bool = False,
+    overwrite: bool = False,
+    **keywords: Any,
+) -> list[dict[str, Any]]:
+    """Compress mesh files, as ``bsm encode`` does; one that fails stops no other.
+
+    Parameters
+    ----------
+    sources : iterable of paths
+        Or URLs, where fsspec is installed.
+    target : path, optional
+        A folder, or a URL that ends in a slash; None: beside each source.
+    jobs : int
+        Files to work on at a time, each in a process, which imports the main module of the program again: let that work
+        under ``if __name__ == "__main__"``; 0: one per core.
+    dask : str, optional
+        The scheduler of a Dask cluster, to work there instead.
+    report : path, optional
+        A JSON file to write what came of each file to, while the work goes on.
+    resume : bool
+        Go on from the report: leave what is whole and as it would be made.
+    overwrite : bool
+        Whether files that are there already are replaced.
+    **keywords
+        As `encode` takes them.
+
+    Returns
+    -------
+    list of dict
+        What came of each file, in their order, as ``bsm encode --json`` says it; where it failed, "error" and "exit",
+        the exit code that it would have had.
+
+    Raises
+    ------
+    BsmError, OSError
+        If nothing can be begun: wrong options, outputs that would replace each other, no cluster, ...
+    """
+    from bsm.batch import plan
+    from bsm.cli import command_parser
+    from bsm.commands.encode import encode_one, one_thread_each
+    from bsm.console import Console
+    from bsm.farm.run import run_many
+
+    keywords_to.encode_options(**keywords)
+    args = command_parser("encode").parse_command(["sources"])
+    wishes = {"jobs": jobs, "dask": dask, "report": report and os.fspath(report), "resume": resume, "force": overwrite}
+    kinds = {name: f"target_{kind}" for name, kind in keywords_to.TARGETS.items()}
+    given = {kinds.get(name, name): value for name, value in keywords.items()}
+    for name, value in {**wishes, **given, "quiet": True}.items():
+        setattr(args, name, value)
+    folder = None if target is None else os.fspath(target).rstrip("/") + "/"
+    planned = plan([os.fspath(source) for source in sources], folder, lambda _: ".bsm")
+    one_thread_each(args, planned)
+    return run_many(args, Console(quiet=True), encode_one, planned)
 
 
 def decode(stream: Source, *, limits: Limits = DEFAULT_LIMITS, threads: int | None = None) -> TriangleMesh:

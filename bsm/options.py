@@ -148,6 +148,10 @@ def _checked(name: str, value: Any, hint: Any) -> Any:
             return float(value)
         if kind is int and number and isinstance(value, Integral):
             return int(value)
+        if get_origin(kind) is Mapping and isinstance(value, Mapping):
+            return value
+        if get_origin(kind) is tuple and get_args(kind)[-1] is Ellipsis and isinstance(value, (tuple, list)):
+            return tuple(value)
         if get_origin(kind) is tuple and isinstance(value, (tuple, list)) and len(value) == len(get_args(kind)):
             return tuple(_checked(name, item, part) for item, part in zip(value, get_args(kind), strict=True))
         if isinstance(kind, type) and kind not in (int, float) and isinstance(value, kind):

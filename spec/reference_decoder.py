@@ -203,13 +203,15 @@ FIELDS = {
 def parse_header(payload):
     """F 4."""
     names = {field[0]: name for name, field in FIELDS.items()}
-    header = {}
-    for key, value in canonical_map(payload):
+    header, entries = {}, canonical_map(payload)
+    for key, value in entries:  # F 4.8: what is unsupported comes first
         require(type(key) is int, "a header key is not an integer")
+        method = key in names and FIELDS[names[key]][1] == "method"
+        if (key < 64 and key not in names) or (method and type(value) is int and FIELDS[names[key]][3] < value <= 255):
+            raise UnsupportedError(f"header key {key} = {value}")
+    for key, value in entries:
         if key >= 64:
             continue  # F 4.2
-        if key not in names:
-            raise UnsupportedError(f"header key {key}")
         name = names[key]
         _, kind, low, high, default = FIELDS[name]
         if type(kind) in (tuple, list):  # F 4.4
@@ -220,8 +222,6 @@ def parse_header(payload):
         else:
             require(type(value) is (float if kind is float else int), f"{name} has a wrong type")
             items = [value]
-        if kind == "method" and high < value <= 255:
-            raise UnsupportedError(f"{name} {value}")
         require(value != default, f"{name} is stored although it has its default")  # F 4.3
         require(all(low <= v <= high for v in items), f"{name} is outside its legal range")  # F 4.5
         header[name] = value
@@ -265,10 +265,32 @@ def parse_header(payload):
     return header
 
 
+class Packets(dict):
+    """Payloads by the type of their frames, up to the end of the stream or its first fault, which is kept (F 3.13)."""
+
+    fault = None
+
+    def require(self, condition, problem):
+        """What is missing is missing because of the fault, if there is one."""
+        if self.fault and not condition:
+            raise self.fault
+        require(condition, problem)
+
+
 def parse_stream(stream):
     """F 3.7 to F 3.10 and F 5: the header, and the payloads of each type behind it."""
+    packets = Packets({kind: [] for kind in (HEADER, CONNECTIVITY, PARTITION, ORDER, BLOCK, GOP, GRID, REFINEMENT)})
+    try:
+        read_frames(stream, packets)
+    except tuple(EXIT_CODES) as fault:
+        packets.fault = fault
+    packets.require(packets[HEADER], "there is no HEADER")
+    return packets[HEADER][0], packets
+
+
+def read_frames(stream, packets):
+    """Checks frame after frame, and puts what they hold into `packets`."""
     header, last, metadata_seen = None, None, False
-    packets = {CONNECTIVITY: [], PARTITION: [], ORDER: [], BLOCK: [], GOP: [], GRID: [], REFINEMENT: []}
     order = {HEADER: 0, CONNECTIVITY: 1, PARTITION: 2, ORDER: 3, BLOCK: 4, GOP: 5, GRID: 5, REFINEMENT: 5, END: 6}
     for kind, payload, offset, number in frames_of(stream):
         if header is None:
@@ -328,6 +350,7 @@ def parse_stream(stream):
         last = place
         if kind == HEADER:
             header = parsed
+            packets[HEADER].append(header)
         elif kind == END:  # F 5.5
             covered = sum(packet[2] for packet in packets[GRID])
             require(not header["grid"] or covered == header["vertices"], "positions are missing")  # F 3.11
@@ -335,7 +358,6 @@ def parse_stream(stream):
             require(int.from_bytes(payload[at:], "little") == zlib.crc32(stream[:offset]), "CRC of the stream is wrong")
         else:
             packets[kind].append(parsed)
-    return header, packets
 
 
 # ---------------------------------------------------------------- M 3 to M 6: blocks
@@ -780,31 +802,40 @@ def check_work(header):
     require_limit(work, MOST_WORK, "work")
 
 
+def data_of(packets, kind, known):
+    """F 5.2: what is behind the method of the only frame of a type."""
+    method, data = packets[kind][0]
+    if method not in known:
+        raise UnsupportedError(f"method {method} in a frame of type {kind}")
+    return data
+
+
 class Mesh:
     """What a stream says before its blocks: header, faces, graph, and the cores of the blocks in their order."""
 
     def __init__(self, header, packets):
         self.header = header
         orders = (1,) if header["gop_frames"] else (1, 2)
-        for kind, known in ((CONNECTIVITY, (1,)), (PARTITION, (0,)), (ORDER, orders)):
-            if packets[kind] and packets[kind][0][0] not in known:
-                raise UnsupportedError(f"method {packets[kind][0][0]} in a frame of type {kind}")
         vertices, parts = header["vertices"], header["blocks"]
-        self.faces = decode_connectivity(packets[CONNECTIVITY][0][1], vertices, header["faces"], MOST_VERTICES)
+        packets.require(packets[CONNECTIVITY], "there is no CONNECTIVITY")
+        coded = data_of(packets, CONNECTIVITY, (1,))
+        self.faces = decode_connectivity(coded, vertices, header["faces"], MOST_VERTICES)
         self.graph = neighbours_of(self.faces, vertices)
         self.numbers, self.arranged, self.loose = [[v] for v in range(vertices)], self.faces, {}
+        if packets[PARTITION]:
+            labels = decode_labels(data_of(packets, PARTITION, (0,)), self.graph, parts)
         if packets[ORDER]:
-            self.arrange(*packets[ORDER][0])
+            data = data_of(packets, ORDER, orders)
+            self.arrange(packets[ORDER][0][0], data)
         if header["grid"]:
             return
-        if packets[PARTITION]:
-            labels = decode_labels(packets[PARTITION][0][1], self.graph, parts)
-        else:
+        if not (packets[BLOCK] or packets[GOP] or packets[REFINEMENT]):
+            packets.require(False, "a block is missing")  # M 10.3
+        if not packets[PARTITION]:
             labels = derive_labels(self.graph, parts)
         cores = [[v for v in range(vertices) if labels[v] == part] for part in range(parts)]
         require(max(map(len, cores)) <= header["block_size"], "a part is larger than a block")  # M 5.2
         self.cores = [cores[part] for part in chain_of(self.graph, labels, parts)]
-        require([index for index, _, _ in packets[BLOCK]] == list(range(parts)), "a block is missing")
 
     def result(self, positions):
         """M 12.5: positions of n vertices in the unit of the mesh, each under its numbers."""
@@ -964,7 +995,8 @@ def decode_blocks(mesh, blocks):
     """M 5 to M 12.1: the blended positions, in BSM units."""
     header, blended = mesh.header, Known(mesh.header["vertices"])
     length = 1 if header["seeding"] == 1 else header["key_interval"] or header["blocks"]
-    for index, width, payload in blocks:
+    for expected, (index, width, payload) in enumerate(blocks):
+        require(index == expected, "a block is missing")  # M 10.3
         if index % length == 0:
             chain = Chain(mesh)
         core = mesh.cores[index]
@@ -977,7 +1009,7 @@ def decode_blocks(mesh, blocks):
             2: np.isin(block.vertices, core).astype(float),
         }[header["blend"]]
         blended.add(block, positions, weights)
-    return blended.sums / blended.weights[:, None]
+    return blended
 
 
 # ---------------------------------------------------------------- S: sequences
@@ -1191,7 +1223,7 @@ def edge_weights(mesh, positions):
 
 
 def decode_frames(mesh, gops, first_frame):
-    """S 7: all frames, in BSM units."""
+    """S 7: all frames, in the unit of the mesh."""
     rank = {v: index for index, core in enumerate(mesh.cores) for v in core}
     weight = edge_weights(mesh, first_frame)
     parts = [Part(mesh, weight, core, rank) for core in mesh.cores]
@@ -1209,7 +1241,7 @@ def decode_frames(mesh, gops, first_frame):
             for part, matrix, known in zip(parts, matrices, first):
                 part.place(field, Loop(3, gop.columns).decode(known, matrix, gop.step))
             wide = (field @ basis.T).reshape(len(field), 3, gop.frames)
-            frames += [wide[:, :, t] for t in range(gop.frames)]
+            frames += [mesh.result(wide[:, :, t]) for t in range(gop.frames)]
             continue
         if gop.method == 2:  # S 7.2
             zeros = [np.zeros(shape, int) for shape in shapes]
@@ -1223,8 +1255,7 @@ def decode_frames(mesh, gops, first_frame):
             now.append(latest[k] + loops[k].decode(known, matrices[k], gop.step))
             part.place(field, now[k])
         history = [model, loops, matrices, now, latest]
-        frames.append(field)
-    require(mesh.header["frames"] in (0, len(frames)), "frames are missing")
+        frames.append(mesh.result(field))
     return frames
 
 
@@ -1233,22 +1264,26 @@ def decode(stream):
     header, packets = parse_stream(stream)
     if header["gop_frames"] and (header["smoothing"] or header["details"]):
         raise UnsupportedError("smoothing or details in a sequence")  # S 1.1
-    check_work(header)
     prediction = header["prediction"]
     require(len(prediction) <= 1 and all(0 < k < 2.0**16 for k in prediction), "illegal prediction")  # M 7.5
+    check_work(header)
     mesh = Mesh(header, packets)
     if header["grid"]:
-        decoded = mesh.numbered(decode_grid(mesh, packets[GRID]))
-        return decoded, np.array(mesh.arranged, np.int32).reshape(-1, 3)
-    positions = decode_blocks(mesh, packets[BLOCK])
+        places = decode_grid(mesh, packets[GRID])
+        packets.require(not packets.fault, "")
+        return mesh.numbered(places), np.array(mesh.arranged, np.int32).reshape(-1, 3)
+    blended = decode_blocks(mesh, packets[BLOCK])
+    packets.require(len(packets[BLOCK]) == header["blocks"], "a block is missing")  # M 10.3
+    positions = blended.sums / blended.weights[:, None]
     if header["gop_frames"]:
         frames = decode_frames(mesh, packets[GOP], positions)
-        shape = (len(frames), header["vertices"], 3)
-        decoded = np.array([mesh.result(frame) for frame in frames]).reshape(shape)
+        packets.require(not packets.fault and header["frames"] in (0, len(frames)), "frames are missing")  # S 1.2
+        decoded = np.array(frames).reshape(len(frames), header["vertices"], 3)
     else:
         positions = smooth(mesh.graph, positions, header["smoothing"])
         if header["refinements"]:
             positions = refine(mesh, positions, packets[REFINEMENT])
+        packets.require(not packets.fault, "")
         decoded = mesh.result(positions)
     return decoded, np.array(mesh.arranged, np.int32).reshape(-1, 3)
 

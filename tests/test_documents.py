@@ -24,8 +24,8 @@ PROGRAMS = r"(?:bsm|python3?|pytest|ruff|\.ci/run|\.venv|eval|cat)"
 BY_CI = r"\.ci/run|\.venv/bin/|^pytest|^ruff|^bsm --help$|tools\.fuzz"
 """What .ci/run itself does, or is."""
 NEEDS_FOLDER = r"MESHES|SEQUENCES|FOLDER|MESH\.\.\.|bsm bench"
-HELP_ONLY = r"bsm view|tools\.vectors|tools\.train_coefficients"
-"""What would change the repository, and does so in tests of its own."""
+HELP_ONLY = r"s3://|bsm view|tools\.vectors|tools\.train_coefficients"
+"""What would change the repository, and does so in tests of its own, or needs machines of others."""
 PLACES = {"MESH": "bunny.ply", "spec/": f"{ROOT}/spec/", "IN.bsm": "bunny.bsm", "OUT.npz": "reference.npz", " N": " 1"}
 
 

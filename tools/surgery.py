@@ -9,6 +9,7 @@ import msgpack
 
 from bitstream.container.maps import write_map
 from bitstream.container.wire import FrameType, parse_frame, write_frame, write_preamble, write_varint
+from bitstream.errors import BsmError
 from bitstream.limits import DEFAULT_LIMITS
 
 Frames = list[tuple[int, bytes]]
@@ -44,6 +45,15 @@ def stream_of(frames: Frames) -> bytes:
 def header_entries(payload: bytes) -> dict[int, Any]:
     """Key and value of every field that a header stores."""
     return dict(msgpack.unpackb(payload, strict_map_key=False))
+
+
+def first_entries(stream: bytes) -> dict[int, Any]:
+    """What the header of a stream stores, whatever comes behind it; nothing if there is none that can be read."""
+    try:
+        frame = parse_frame(stream, len(write_preamble()), DEFAULT_LIMITS)
+        return header_entries(frame.payload) if frame is not None and frame.type == FrameType.HEADER else {}
+    except (BsmError, ValueError, TypeError):
+        return {}
 
 
 def with_header(stream: bytes, **changes: Any) -> bytes:

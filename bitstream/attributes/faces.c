@@ -1,7 +1,7 @@
 /* Values of faces, predicted from coded faces beside them and from the face before (specification, A 7). */
 #include "bitstream/attributes/faces.h"
 
-enum { SIDES = 3 };
+enum { SIDES = 3, MEMORIES = 256 };
 
 typedef struct { /* known faces beside this one, those that agree in the component before first */
     int number;
@@ -24,7 +24,7 @@ static void find_beside(const Corners *c, const FaceValues *g, int32_t f, int j,
 static bool code_component(RangeCoder *coder, const ValueModel *model, const Corners *c, FaceValues *g, int32_t f, int j, int32_t *hits) {
     Beside b;
     find_beside(c, g, f, j, &b);
-    int32_t most = g->largest.data[j], *recent = g->recent.data + 2 * j, near[SIDES];
+    int32_t most = g->largest.data[j], *memory = g->memory.data + (MEMORIES + 1) * j, *next = memory + MEMORIES, near[SIDES];
     int32_t last = f > 0 ? of_face(g, f - 1, j) : 0;
     int64_t sum = 0, errors = 0, spread = 0;
     for (int i = 0; i < b.number; i++) {
@@ -34,17 +34,20 @@ static bool code_component(RangeCoder *coder, const ValueModel *model, const Cor
     int32_t mean = b.number > 0 ? divided(sum * FINE, b.number) : last * FINE;
     for (int i = 0; i < b.number; i++) spread += size_of(near[i] * FINE - mean);
     for (int i = b.number; i < SIDES; i++) near[i] = last;
+    uint32_t known = (uint32_t)near[0] * 31 + (uint32_t)last;
+    for (int i = 0; i < j; i++) known = (i == 0 ? 0 : known * 31) + (uint32_t)of_face(g, f, i);
+    int32_t *usual = memory + (known * 0x9E3779B1u >> 24);
     Expectation e;
     e.prediction[0] = near[0] * FINE;
     e.prediction[1] = near[1] * FINE;
     e.prediction[2] = near[2] * FINE;
     e.prediction[3] = last * FINE;
-    e.prediction[4] = recent[0] * FINE;
-    e.prediction[5] = (int32_t)least(recent[1], most) * FINE;
+    e.prediction[4] = *usual * FINE;
+    e.prediction[5] = (int32_t)least(*next, most) * FINE;
     e.prediction[6] = mean;
     e.scale = b.number > 0 ? divided(errors + spread, b.number) + 1 : FINE * most / 4;
     e.asks = MOST_ASKS;
-    int32_t alike = (near[0] == near[1]) + 2 * (near[1] == near[2]) + 4 * (near[0] == last) + 8 * (last == recent[0]);
+    int32_t alike = (near[0] == near[1]) + 2 * (near[1] == near[2]) + 4 * (near[0] == last) + 8 * (*usual == near[0]);
     int32_t later = (int32_t)least(j, 1), bucket = size_class(e.scale);
     e.scale_context = bucket * MOST_COMPONENTS + j;
     e.hit_context = (b.number * 2 + (near[0] == last)) * 2 + (j == 0 ? near[0] == near[1] : *hits != 0) + 16 * later;
@@ -61,8 +64,8 @@ static bool code_component(RangeCoder *coder, const ValueModel *model, const Cor
     g->values.data[g->values.columns * f + j] = value;
     g->gaps.data[g->gaps.columns * f + j] = value * FINE - mean;
     *hits = hits_of(&e, value);
-    if (value != last) recent[0] = last;
-    if (value >= recent[1]) recent[1] = value + 1;
+    *usual = value;
+    if (value >= *next) *next = value + 1;
     return true;
 }
 
@@ -70,7 +73,7 @@ static bool fits(const ValueModel *model, const Corners *corners, const FaceValu
     int64_t columns = g->largest.size;
     bool fit = fits_values(model) && fits_corners(corners) && columns >= 1 && columns <= MOST_COMPONENTS
         && g->values.rows == corners->faces.rows && g->values.columns == columns && g->gaps.rows == g->values.rows
-        && g->gaps.columns == columns && g->recent.rows == columns && g->recent.columns == 2;
+        && g->gaps.columns == columns && g->memory.rows == columns && g->memory.columns == MEMORIES + 1;
     for (int j = 0; j < columns && fit; j++) fit = g->largest.data[j] >= 0 && g->largest.data[j] < 1 << 20;
     return fit;
 }

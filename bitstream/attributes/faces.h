@@ -9,7 +9,7 @@ typedef struct {
     ConstInts largest; /* c: values of each component are 0 .. largest, below 2^20 */
     Ints2 values;      /* m x c */
     Ints2 gaps;        /* m x c: value less guess, in 1/16 */
-    Ints2 recent;      /* c x 2: the value before that of the last face that differs from it; one more than the greatest */
+    Ints2 memory;      /* c x 257: what came last in each of 256 contexts, and one more than the greatest so far */
 } FaceValues;
 
 int64_t code_faces(Coder coder, ValueModel model, Corners corners, FaceValues values, int64_t first, int64_t count);

@@ -1,7 +1,7 @@
 /* Normals on an octahedron, predicted from the surface (specification, A 6). */
 #include "bitstream/attributes/places.h"
 
-enum { AXES = 3, PAIR = 2, TERMS = 7, GUESSES = BASES * PAIR * VALENCES, LEARNERS = GUESSES + BASES * PAIR, MOST_CORNERS_SEEN = 64 };
+enum { AXES = 3, PAIR = 2, MOST_CORNERS_SEEN = 64 };
 
 /* A direction is three numbers whose absolute values add up to 16 times the size of the octahedron. */
 typedef struct {
@@ -102,8 +102,7 @@ static void expect(const Corners *corners, const Values *g, int32_t v, int64_t b
 typedef struct {
     Place place;
     View view;
-    int32_t by_area[PAIR], by_angle[PAIR], alike[PAIR], mean[PAIR], drift[PAIR], across[PAIR], nearest[PAIR], twin[PAIR], first[PAIR];
-    bool found;
+    int32_t by_area[PAIR], by_angle[PAIR], alike[PAIR], mean[PAIR], drift[PAIR], across[PAIR], nearest[PAIR], twin[PAIR];
 } Sight;
 
 INLINE Direction *direction_at(const Values *g, int32_t v) { return (Direction *)(g->directions.data + 2 * AXES * (int64_t)v); }
@@ -158,19 +157,15 @@ static void look(const Work *w, int32_t v, int32_t last, Sight *s) {
 
 static bool code_axis(Work *w, const Sight *s, int j, int32_t *pair, int32_t *gaps, int32_t *hits) {
     const Values *g = &w->values;
-    int32_t far = s->view.size, base = s->by_area[j];
     const Place *p = &s->place;
-    int bases = p->number;
-    int32_t term[TERMS] = {s->by_angle[j] - base, s->alike[j] - base, s->drift[j] - base, s->mean[j] - base, s->across[j] - base, s->nearest[j] - base, j > 0 ? gaps[0] : 0};
-    for (int i = 0; i < TERMS; i++) term[i] = limited(term[i]);
-    Learner *learners = (Learner *)g->learners.data;
-    Learner *guess = learners + (bases * PAIR + j) * VALENCES + p->valence;
-    Learner *size = learners + GUESSES + bases * PAIR + j;
-    int32_t shift = foretell(guess, TERMS, term, far);
-    int32_t error_near = p->error >= 0 ? p->error : FINE;
-    int32_t hint[HINTS] = {error_near, size_of(term[0]) + size_of(term[1]), j > 0 ? size_of(gaps[0]) : 0, size_of(term[5])};
-    int32_t typical = within(foretell(size, HINTS, hint, far), hint[0] / 8 + 1, far);
-    int32_t bucket = size_class(typical), unit = typical / 2 + 4;
+    int32_t far = s->view.size, base = s->by_area[j], angle = s->by_angle[j] - base, alike = s->alike[j] - base;
+    int32_t first = j > 0 ? gaps[0] : 0, near = s->nearest[j] - base;
+    Forecast f = {.term = {angle, alike, s->drift[j] - base, s->mean[j] - base, s->across[j] - base, near, first},
+        .hint = {p->error >= 0 ? p->error : FINE, size_of(angle) + size_of(alike), size_of(first), size_of(near)}};
+    choose_learners(&f, g, PAIR, j, p->number, p->valence);
+    foresee(&f, far, true);
+    int32_t guess = base + f.shift, bucket = size_class(f.typical), unit = f.typical / 2 + 4, twin = p->twin >= 0;
+
     Expectation e;
     e.prediction[0] = base;
     e.prediction[1] = s->by_angle[j];
@@ -178,29 +173,28 @@ static bool code_axis(Work *w, const Sight *s, int j, int32_t *pair, int32_t *ga
     e.prediction[3] = s->twin[j];
     e.prediction[4] = s->nearest[j];
     e.prediction[5] = s->mean[j];
-    e.prediction[6] = base + shift;
-    for (int i = 0; i < PREDICTIONS; i++) e.prediction[i] = within(e.prediction[i], -far, far);
+    e.prediction[6] = guess;
     int32_t off[PREDICTIONS];
+    for (int i = 0; i < PREDICTIONS; i++) e.prediction[i] = within(e.prediction[i], -far, far);
     for (int i = 0; i < PREDICTIONS; i++) off[i] = e.prediction[i] - e.prediction[6];
-    bool twin = p->twin >= 0;
-    e.scale = typical;
+
+    e.scale = f.typical;
     e.asks = MOST_ASKS;
-    e.scale_context = (bucket * 2 + twin) * 2 + j;
-    e.hit_context = (j == 0 ? 0 : *hits != 0 ? 2 : 1) * 8 + bases * 2 + twin;
-    e.context[0] = bucket * 8 + bases * 2 + j;
+    e.scale_context = (bucket * 2 + twin) * PAIR + j;
+    e.hit_context = (j == 0 ? 0 : *hits != 0 ? 2 : 1) * 8 + p->number * 2 + twin;
+    e.context[0] = (bucket * BASES + p->number) * PAIR + j;
     e.context[1] = three_classes(off[0], off[1], off[2], FINE / 2, FINE / 2);
     e.context[2] = three_classes(off[3], off[4], off[5], FINE / 2, unit);
     e.context[3] = ((s->view.pole * 2 + (s->view.sign > 0)) * PAIR + j) * VALENCES + p->valence;
-    e.context[4] = three_classes(off[0], off[4], j > 0 ? gaps[0] : 0, FINE / 4, FINE / 4);
+    e.context[4] = three_classes(off[0], off[4], first, FINE / 4, FINE / 4);
     e.context[5] = j == 0 ? 0 : *hits + (1 << PREDICTIONS);
     e.set = j;
+
     int32_t value = code_value(&w->coder, &w->model, &e, w->coder.reading ? 0 : pair[j] / FINE);
-    if (value * FINE < -far || value * FINE > far) return false;
+    if (value < -far / FINE || value > far / FINE) return false;
     pair[j] = value * FINE;
-    gaps[j] = pair[j] - base - shift;
     *hits = hits_of(&e, value);
-    learn(guess, TERMS, term, pair[j] - base, typical);
-    learn(size, HINTS, hint, (int32_t)least(size_of(gaps[j]), 8 * (int64_t)typical + 64), typical);
+    gaps[j] = take(&f, pair[j] - base);
     return true;
 }
 
@@ -231,5 +225,5 @@ int64_t code_normals(Coder coder, ValueModel model, Corners corners, Values valu
         || largest[0] != largest[1] || largest[0] < 2 || largest[0] % 2 != 0)
         return MISUSED;
     Work work = {.model = model, .corners = corners, .values = values};
-    return code_vertices(coder, &work, LEARNERS, first, count, code_vertex);
+    return code_vertices(coder, &work, learners_of(PAIR), first, count, code_vertex);
 }

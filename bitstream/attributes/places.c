@@ -123,3 +123,12 @@ int32_t fold_at(const Work *w, int32_t v, const Base *base, int j) {
     }
     return FINE / 2 * sum;
 }
+
+/* The gaps around the best base, in three classes; 0 if there is none. */
+int32_t gap_classes(const Work *w, const Place *p, int j, int32_t unit) {
+    const Values *g = &w->values;
+    const Base *best = &p->base[0];
+    if (p->bases == 0) return 0;
+    int32_t third = best->c >= 0 ? best->c : best->a;
+    return three_classes(gap_at(g, best->a, j), gap_at(g, best->b, j), gap_at(g, third, j), unit, unit);
+}

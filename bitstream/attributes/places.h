@@ -2,8 +2,7 @@
 #ifndef BSM_PLACES_H
 #define BSM_PLACES_H
 
-#include "bitstream/attributes/values.h"
-#include "bitstream/fields/learner.h"
+#include "bitstream/attributes/forecast.h"
 
 enum { MOST_BASES = 8, MOST_TWINS = 8, WHOLE = 1 << 16 };
 
@@ -26,8 +25,7 @@ typedef struct {
 void survey(const Work *work, int32_t v, Place *place);
 int32_t balance(const Work *work, const Around *around, int component, int32_t otherwise);
 int32_t fold_at(const Work *work, int32_t v, const Base *base, int component);
+int32_t gap_classes(const Work *work, const Place *place, int component, int32_t unit);
 int64_t square_root(uint64_t x);
-
-INLINE int32_t limited(int64_t term) { return within(term, -MOST_TERM, MOST_TERM); }
 
 #endif

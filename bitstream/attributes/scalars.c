@@ -1,10 +1,8 @@
 /* Colours and other numbers, predicted from coded neighbours (specification, A 4). */
 #include "bitstream/attributes/places.h"
 
-enum { TERMS = 7, GUESSES = MOST_COMPONENTS * BASES * VALENCES, LEARNERS = GUESSES + MOST_COMPONENTS * BASES };
-
 typedef struct { /* of the components of this vertex so far */
-    int32_t hits, gap[MOST_COMPONENTS];
+    int32_t hits, gap[MOST_COMPONENTS], off[MOST_COMPONENTS]; /* off: value less mean of the neighbours */
 } Before;
 
 typedef struct { /* of one component around the vertex, in 1/16 */
@@ -53,64 +51,66 @@ static void find_trend(const Work *w, const Place *p, int32_t v, int32_t last, i
     t->closing = balance(w, r, j, t->straight);
 }
 
+/* The neighbour, or the twin, that is most like v in the components before j; none before the first. */
+static int32_t find_like(const Values *g, const Place *p, int32_t v, int j) {
+    int32_t like = -1;
+    int64_t least_away = INT64_MAX;
+    for (int i = -1; i < p->around.neighbours && j > 0; i++) {
+        int32_t u = i < 0 ? p->twin : p->around.neighbour[i];
+        if (u < 0) continue;
+        int64_t away = 0;
+        for (int k = 0; k < j; k++) away += size_of(value_at(g, u, k) - value_at(g, v, k));
+        if (away < least_away) least_away = away, like = u;
+    }
+    return like;
+}
+
 static bool code_component(Work *w, const Place *p, int32_t v, int32_t last, int j, Before *own) {
     const Values *g = &w->values;
     const Around *r = &p->around;
-    int32_t most = g->largest.data[j], far = FINE * most, near = r->neighbours, number = p->number, twin = p->twin;
+    int32_t most = g->largest.data[j], far = FINE * most, near = r->neighbours, twin = p->twin;
     int32_t one = j > 0 ? own->gap[j - 1] : 0, two = j > 1 ? own->gap[j - 2] : 0;
     Trend t;
     find_trend(w, p, v, last, j, &t);
-    int32_t mean = t.mean;
-    int32_t term[TERMS] = {t.straight - mean, t.bent - mean, t.closing, t.length, t.fold, j > 0 ? one : t.drift,
-        j > 1 ? two : t.beside - mean};
-    for (int i = 0; i < TERMS; i++) term[i] = limited(term[i]);
-    Learner *learners = (Learner *)g->learners.data;
-    Learner *guess = learners + (j * BASES + number) * VALENCES + p->valence;
-    Learner *size = learners + GUESSES + j * BASES + number;
-    int32_t shift = foretell(guess, TERMS, term, far);
+    int32_t mean = t.mean, bend = t.bent - mean;
+    Forecast f = {.term = {t.straight - mean, bend, t.closing, t.length, t.fold, j > 0 ? own->off[j - 1] : t.drift,
+                      j > 1 ? own->off[j - 2] : t.beside - mean},
+        .hint = {t.error, t.spread, size_of(one), size_of(bend)}};
+    choose_learners(&f, g, MOST_COMPONENTS, j, p->number, p->valence);
+    foresee(&f, far, near > 0);
+    int32_t guess = mean + f.shift, bucket = size_class(f.typical >> 1), unit = f.typical / 2 + 4;
 
-    int32_t hint[HINTS] = {t.error, t.spread, size_of(one), size_of(t.bent - mean)};
-    for (int i = 0; i < HINTS; i++) hint[i] = limited(hint[i]);
-    int32_t typical = near > 0 ? within(foretell(size, HINTS, hint, far), hint[0] / 8 + 1, far) : hint[0];
-    int32_t bucket = size_class(typical >> 1), unit = typical / 2 + 4;
-
-    int32_t first = near > 0 ? value_at(g, r->neighbour[0], j) * FINE : mean;
+    int32_t first = near > 0 ? value_at(g, r->neighbour[0], j) * FINE : mean, like = find_like(g, p, v, j);
     Expectation e;
     e.prediction[0] = mean;
     e.prediction[1] = t.bent;
     e.prediction[2] = p->bases > 0 ? t.straight : first;
     e.prediction[3] = twin >= 0 ? value_at(g, twin, j) * FINE : near > 1 ? value_at(g, r->neighbour[1], j) * FINE : mean;
-    e.prediction[4] = nearest_seen(g, j, within(whole(mean + shift), 0, most)) * FINE;
-    e.prediction[5] = first;
-    e.prediction[6] = mean + shift;
+    e.prediction[4] = nearest_seen(g, j, within(whole(guess), 0, most)) * FINE;
+    e.prediction[5] = like < 0 ? first : (value_at(g, like, j) + value_at(g, v, j - 1) - value_at(g, like, j - 1)) * FINE;
+    e.prediction[6] = guess;
     int32_t off[PREDICTIONS];
     for (int i = 0; i < PREDICTIONS; i++) e.prediction[i] = within(e.prediction[i], 0, far);
     for (int i = 0; i < PREDICTIONS; i++) off[i] = e.prediction[i] - e.prediction[6];
 
-    e.scale = typical;
+    e.scale = f.typical;
     e.asks = MOST_ASKS;
     e.scale_context = (bucket * 2 + (twin >= 0)) * MOST_COMPONENTS + j;
-    e.hit_context = (j == 0 ? 0 : own->hits != 0 ? 2 : 1) * 8 + number * 2 + (twin >= 0);
-    e.context[0] = (bucket * BASES + number) * MOST_COMPONENTS + j;
+    e.hit_context = (j == 0 ? 0 : own->hits != 0 ? 2 : 1) * 8 + p->number * 2 + (twin >= 0);
+    e.context[0] = (bucket * BASES + p->number) * MOST_COMPONENTS + j;
     e.context[1] = three_classes(off[0], off[1], off[2], FINE / 2, FINE / 2);
     e.context[2] = three_classes(off[0], off[1], t.beside - e.prediction[6], unit, unit);
-    e.context[3] = j > 0 ? three_classes(one, two, off[3], unit, unit) : within(whole(mean + shift), 0, 511);
-    e.context[4] = 0;
-    if (number > 0) {
-        const Base *b = &p->base[0];
-        e.context[4] = three_classes(gap_at(g, b->a, j), gap_at(g, b->b, j), gap_at(g, b->c >= 0 ? b->c : b->a, j), unit, unit);
-    }
-    e.context[5] = j > 0 ? (j << PREDICTIONS) + own->hits : size_class(t.spread) * BASES + number;
+    e.context[3] = j > 0 ? three_classes(one, two, off[5], unit, unit) : within(whole(guess), 0, CONTEXT_SIZE - 1);
+    e.context[4] = gap_classes(w, p, j, unit);
+    e.context[5] = j > 0 ? (j << PREDICTIONS) + own->hits : size_class(t.spread) * BASES + p->number;
     e.set = (int32_t)least(j, WEIGHT_SETS - 1);
 
     int32_t value = code_value(&w->coder, &w->model, &e, w->coder.reading ? 0 : value_at(g, v, j));
     if (value < 0 || value > most) return false;
     keep_value(g, v, j, value);
-    int32_t error = value * FINE - mean, gap = error - shift;
-    g->gaps.data[g->gaps.columns * v + j] = own->gap[j] = gap;
     own->hits = hits_of(&e, value);
-    learn(guess, TERMS, term, error, typical);
-    learn(size, HINTS, hint, (int32_t)least(size_of(gap), 8 * (int64_t)typical + 64), typical);
+    own->off[j] = value * FINE - mean;
+    own->gap[j] = g->gaps.data[g->gaps.columns * v + j] = take(&f, own->off[j]);
     return true;
 }
 
@@ -125,5 +125,5 @@ static bool code_vertex(Work *w, int32_t v, int32_t last) {
 
 int64_t code_scalars(Coder coder, ValueModel model, Corners corners, Values values, int64_t first, int64_t count) {
     Work work = {.model = model, .corners = corners, .values = values};
-    return code_vertices(coder, &work, LEARNERS, first, count, code_vertex);
+    return code_vertices(coder, &work, learners_of(MOST_COMPONENTS), first, count, code_vertex);
 }

@@ -1,7 +1,7 @@
 /* Texture coordinates, predicted from the shapes of the triangles (specification, A 5). */
 #include "bitstream/attributes/places.h"
 
-enum { AXES = 2, TERMS = 7, GUESSES = BASES * AXES * VALENCES, LEARNERS = GUESSES + BASES * AXES };
+enum { AXES = 2 };
 
 typedef struct { /* where a base says that the vertex is, 1/16 */
     int32_t similar[AXES], affine[AXES], across[AXES];
@@ -77,62 +77,48 @@ static int32_t along(int64_t error, int64_t x, int64_t y) {
 
 static bool code_axis(Work *w, const Chart *p, int32_t v, int j, int32_t *hits, int32_t *first) {
     const Values *g = &w->values;
-    int32_t most = g->largest.data[j], far = FINE * most, base = p->all.similar[j];
-    int bases = p->place.number;
-    const Base *best = &p->place.base[0];
-    const Claim *one = bases > 0 ? &p->claim[0] : &p->all, *two = bases > 1 ? &p->claim[1] : one;
-    int32_t term[TERMS] = {p->all.affine[j] - base, p->all.across[j] - base, p->mean[j] - base,
-        j > 0 ? along(*first, p->rise[0], p->rise[1]) : 0, j > 0 ? along(*first, p->run[0], p->run[1]) : 0, p->drift[j], one->similar[j] - base};
-    for (int i = 0; i < TERMS; i++) term[i] = limited(term[i]);
-    Learner *learners = (Learner *)g->learners.data;
-    Learner *guess = learners + (bases * AXES + j) * VALENCES + p->place.valence;
-    Learner *size = learners + GUESSES + bases * AXES + j;
-    int32_t shift = foretell(guess, TERMS, term, far);
+    const Around *r = &p->place.around;
+    int32_t most = g->largest.data[j], far = FINE * most, base = p->all.affine[j], number = p->place.number;
+    int32_t twin = p->place.twin, like = p->all.similar[j] - base;
+    const Claim *one = p->place.bases > 0 ? &p->claim[0] : &p->all, *two = p->place.bases > 1 ? &p->claim[1] : one;
+    Forecast f = {.term = {like, p->all.across[j] - base, p->mean[j] - base, j > 0 ? along(*first, p->rise[0], p->rise[1]) : 0,
+                      j > 0 ? along(*first, p->run[0], p->run[1]) : 0, p->drift[j], one->affine[j] - base},
+        .hint = {p->place.error >= 0 ? p->place.error : far, p->spread[j], j > 0 ? size_of(*first) : 0, size_of(like)}};
+    choose_learners(&f, g, AXES, j, number, p->place.valence);
+    foresee(&f, far, number > 0);
+    int32_t guess = base + f.shift, bucket = size_class(f.typical >> 1), unit = f.typical / 2 + 4;
 
-    int32_t error_near = p->place.error >= 0 ? p->place.error : far;
-    int32_t hint[HINTS] = {error_near, p->spread[j], j > 0 ? size_of(*first) : 0, size_of(p->all.affine[j] - base)};
-    for (int i = 0; i < HINTS; i++) hint[i] = limited(hint[i]);
-    int32_t typical = bases > 0 ? within(foretell(size, HINTS, hint, far), hint[0] / 8 + 1, far) : hint[0];
-    int32_t bucket = size_class(typical >> 1), unit = typical / 2 + 4;
     Expectation e;
-    int32_t twin = p->place.twin;
     e.prediction[0] = base;
-    e.prediction[1] = p->all.affine[j];
+    e.prediction[1] = p->all.similar[j];
     e.prediction[2] = one->affine[j];
     e.prediction[3] = twin >= 0 ? at(g, twin)[j] * FINE : two->affine[j];
-    e.prediction[4] = nearest_seen(g, j, within(whole(base + shift), 0, most)) * FINE;
-    e.prediction[5] = p->place.around.neighbours > 0 ? at(g, p->place.around.neighbour[0])[j] * FINE : p->mean[j];
-    e.prediction[6] = base + shift;
-    for (int i = 0; i < PREDICTIONS; i++) e.prediction[i] = within(e.prediction[i], 0, far);
+    e.prediction[4] = nearest_seen(g, j, within(whole(guess), 0, most)) * FINE;
+    e.prediction[5] = r->neighbours > 0 ? at(g, r->neighbour[0])[j] * FINE : p->mean[j];
+    e.prediction[6] = guess;
     int32_t off[PREDICTIONS];
+    for (int i = 0; i < PREDICTIONS; i++) e.prediction[i] = within(e.prediction[i], 0, far);
     for (int i = 0; i < PREDICTIONS; i++) off[i] = e.prediction[i] - e.prediction[6];
 
-    int kind = bases * AXES + j;
-    e.scale = typical;
+    e.scale = f.typical;
     e.asks = MOST_ASKS;
-    e.scale_context = bucket * 2 + (twin >= 0);
-    e.hit_context = (j == 0 ? 0 : *hits != 0 ? 2 : 1) * 8 + bases * 2 + (twin >= 0);
-    e.context[0] = bucket * 8 + kind;
+    e.scale_context = (bucket * BASES + number) * AXES + j;
+    e.hit_context = (j == 0 ? 0 : *hits != 0 ? 2 : 1) * 8 + number * 2 + (twin >= 0);
+    e.context[0] = (bucket * BASES + number) * AXES + j;
     e.context[1] = three_classes(off[0], off[1], off[2], FINE / 2, FINE / 2);
     e.context[2] = three_classes(off[1], off[2], p->mean[j] - e.prediction[6], unit, unit);
     e.context[3] = three_classes(off[4], p->all.across[j] - e.prediction[6], off[3], FINE / 2, unit);
-    e.context[4] = 0;
-    if (bases > 0) {
-        const int32_t *gaps = g->gaps.data + j;
-        int64_t a = AXES * (int64_t)best->a, b = AXES * (int64_t)best->b, c = best->c >= 0 ? AXES * (int64_t)best->c : a;
-        e.context[4] = three_classes(gaps[a], gaps[b], gaps[c], unit, unit);
-    }
+    e.context[4] = gap_classes(w, &p->place, j, unit);
     e.context[5] = j == 0 ? 0 : *hits + (1 << PREDICTIONS);
     e.set = j;
+
     int32_t value = code_value(&w->coder, &w->model, &e, w->coder.reading ? 0 : at(g, v)[j]);
     if (value < 0 || value > most) return false;
     keep_value(g, v, j, value);
-    int32_t error = value * FINE - base, gap = error - shift;
-    g->gaps.data[AXES * (int64_t)v + j] = bases > 0 ? gap : 0;
     *hits = hits_of(&e, value);
+    int32_t gap = take(&f, value * FINE - base);
+    g->gaps.data[AXES * (int64_t)v + j] = number > 0 ? gap : 0; /* where nothing was known, errors tell nothing */
     if (j == 0) *first = gap;
-    learn(guess, TERMS, term, error, typical);
-    learn(size, HINTS, hint, (int32_t)least(size_of(gap), 8 * (int64_t)typical + 64), typical);
     return true;
 }
 
@@ -152,5 +138,5 @@ static bool code_vertex(Work *w, int32_t v, int32_t last) {
 int64_t code_texcoords(Coder coder, ValueModel model, Corners corners, Values values, int64_t first, int64_t count) {
     if (values.values.columns != AXES) return MISUSED;
     Work work = {.model = model, .corners = corners, .values = values};
-    return code_vertices(coder, &work, LEARNERS, first, count, code_vertex);
+    return code_vertices(coder, &work, learners_of(AXES), first, count, code_vertex);
 }

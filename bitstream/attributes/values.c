@@ -1,7 +1,5 @@
 /* What all kinds of values share (specification, A 1, A 2). */
-#include "bitstream/attributes/values.h"
-
-#include "bitstream/fields/learner.h"
+#include "bitstream/attributes/forecast.h"
 
 enum { MOST_LARGEST = (1 << 20) - 1, WORDS_SEARCHED = 4 };
 

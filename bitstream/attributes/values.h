@@ -9,7 +9,6 @@ enum {
     MOST_COMPONENTS = 4,
     VALENCES = 6,
     BASES = 4, /* numbers of known edges that are told apart: 0 to 3 or more */
-    HINTS = 4, /* of what to expect of the size of an error */
 };
 
 /* As Python keeps it; n vertices of c components. */

@@ -50,7 +50,7 @@ class _FaceValues(NamedTuple):
     largest: Ints
     values: Ints
     gaps: Ints
-    recent: Ints
+    memory: Ints
 
 
 _Kernel = Callable[[Coder, ValueModel, Corners, _Values, int, int], int]
@@ -227,7 +227,7 @@ class _FaceValueCoder:
             top,
             np.zeros((count, components), np.int32),
             np.zeros((count, components), np.int32),
-            np.zeros((components, 2), np.int32),
+            np.zeros((components, 257), np.int32),
         )
         model = make_model()
 
@@ -446,6 +446,6 @@ def _coder_of(kind: Kind, largest: Ints) -> tuple[_Kernel, Longs]:
         start[:guesses, :2] = 16384
         return _kernels.code_scalars, start
     if kind == "texcoord":
-        start[:guesses, 0] = 32768
+        start[:guesses, 0] = 8192
         return _kernels.code_texcoords, start
     return _kernels.code_normals, start

@@ -312,19 +312,14 @@ def record_of(kind: type[Record], what: str, entries: list[tuple[Any, Any]]) -> 
     """
     declarations, defaults = fields_of(kind), defaults_of(kind)
     names = {declared.key: name for name, declared in declarations.items()}
+    _refuse_unknown(entries, names, declarations, what)
     values: dict[str, Any] = {}
     for key, value in entries:
-        if type(key) is not int or key < 0:
-            raise CorruptError(f"{what} key {key!r} is not an unsigned integer")
         if key >= FIRST_IGNORABLE_KEY:
             continue
-        if key not in names:
-            raise UnsupportedError(f"{what} key {key} is unknown to this decoder, and the stream cannot do without it")
         name, declared = names[key], declarations[names[key]]
         if not declared.accepts(value):
             raise CorruptError(f"{what} field {name} has type {type(value).__name__}")
-        if declared.type is int and declared.high < value <= declared.reserved:
-            raise UnsupportedError(f"{what} field {name} names method {value}, unknown to this decoder")
         values[name] = declared.normalise(value)
         if name in defaults and values[name] == defaults[name]:
             raise CorruptError(f"{what} field {name} is stored although it has its default value")
@@ -335,3 +330,21 @@ def record_of(kind: type[Record], what: str, entries: list[tuple[Any, Any]]) -> 
         return kind(**values)
     except OptionError as error:
         raise CorruptError(error.message) from error
+
+
+def _refuse_unknown(
+    entries: list[tuple[Any, Any]], names: dict[int, str], declarations: dict[str, Any], what: str
+) -> None:
+    """What is of a later version is told as that, whatever else may seem to be wrong with it."""
+    for key, value in entries:
+        if type(key) is not int or key < 0:
+            raise CorruptError(f"{what} key {key!r} is not an unsigned integer")
+        if key not in names:
+            if key < FIRST_IGNORABLE_KEY:
+                raise UnsupportedError(
+                    f"{what} key {key} is unknown to this decoder, and the stream cannot do without it"
+                )
+            continue
+        declared = declarations[names[key]]
+        if declared.type is int and declared.accepts(value) and declared.high < value <= declared.reserved:
+            raise UnsupportedError(f"{what} field {names[key]} names method {value}, unknown to this decoder")

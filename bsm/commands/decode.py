@@ -10,6 +10,7 @@ from bitstream.errors import OptionError
 from bsm.batch import Facts, add_inputs, came_to, plan, run_jobs, size_of
 from bsm.commands import sequence_decode
 from bsm.console import Console
+from bsm.farm.run import anywhere, may_replace
 from bsm.files.mesh import WRITTEN_FORMATS, format_of_name, save_written, written_mesh
 from bsm.files.naming import output_inside, refuse_terminal
 from bsm.files.output import refuse_to_overwrite
@@ -60,7 +61,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
     if args.blocks is not None and args.tolerant:
         raise OptionError("--blocks stops early and --tolerant goes on: choose one")
     refuse_terminal(jobs[0].output)
-    args.given, args.many = args.output, len(jobs) > 1
+    args.given, args.many = args.output and (anywhere(args.output) if args.dask else args.output), len(jobs) > 1
     return run_jobs(args, console, decode_one, jobs)
 
 
@@ -76,7 +77,7 @@ def decode_one(args: argparse.Namespace, console: Console) -> Facts:
     kind = args.format or ("ply" if output == "-" else format_of_name(output))
     if kind not in WRITTEN_FORMATS:
         raise OptionError(f"{output}: the name tells no mesh format; use --format, one of {', '.join(WRITTEN_FORMATS)}")
-    refuse_to_overwrite(output, args.force)
+    refuse_to_overwrite(output, may_replace(args, output))
     begin = time.perf_counter()
     if args.tolerant:
         mesh = decode_what_is_left(chunks, lambda text: console.note(f"{args.input}: {text}"))
@@ -89,7 +90,7 @@ def decode_one(args: argparse.Namespace, console: Console) -> Facts:
     if args.permutation:
         mesh = reorder(mesh, read_permutation(args.permutation))
     file = written_mesh(mesh, kind, "mesh" if output == "-" else output)
-    left_out = save_written(output, file, overwrite=args.force)
+    left_out = save_written(output, file, overwrite=may_replace(args, output), overwrite_beside=args.force)
     if left_out:
         console.note(f"{args.input}: {kind} cannot hold {', '.join(left_out)}")
     written = len(file.data)

@@ -15,6 +15,7 @@ from bitstream.errors import OptionError
 from bsm.batch import Facts, add_inputs, plan, run_jobs, size_of
 from bsm.commands.reader import add_reader_flag
 from bsm.console import Console, Progress
+from bsm.farm.run import may_replace
 from bsm.files.mesh import MESH_FORMATS, format_of_name, read_mesh, save_written, written_mesh
 from bsm.files.naming import output_inside, refuse_terminal
 from bsm.files.output import refuse_to_overwrite
@@ -125,7 +126,7 @@ def _denoise_mesh(args: argparse.Namespace, console: Console, options: DenoiseOp
     kind = args.format if args.output == "-" else format_of_name(args.output)
     if kind not in MESH_FORMATS:
         raise OptionError(f"{args.output}: the name tells no mesh format; use one of .{', .'.join(MESH_FORMATS)}")
-    refuse_to_overwrite(args.output, args.force)
+    refuse_to_overwrite(args.output, may_replace(args, args.output))
 
     from codec.denoise import FrameDenoiser
 
@@ -140,7 +141,9 @@ def _denoise_mesh(args: argparse.Namespace, console: Console, options: DenoiseOp
     _tell_moved(console, mesh.positions, positions)
     seconds = time.perf_counter() - begin
     moved, stale = mesh.moved(positions)
-    left_out = save_written(args.output, written_mesh(moved, kind, args.output), overwrite=args.force)
+    replace = may_replace(args, args.output)
+    written = written_mesh(moved, kind, args.output)
+    left_out = save_written(args.output, written, overwrite=replace, overwrite_beside=args.force)
     if left_out or stale:
         console.note(f"{args.input}: left out: {', '.join((*stale, *left_out))}")
     console.note(f"{args.input}: {len(mesh.positions)} vertices -> {args.output}, {seconds:.2f} s")
@@ -158,7 +161,7 @@ def _denoise_sequence(
     begin = time.perf_counter()
     denoiser = FrameDenoiser(first, source.faces, options, goal=args.goal, force=args.force)
     count = 0
-    writer = sequence_writer(args.output, kind, source.faces, source.count, overwrite=args.force)
+    writer = sequence_writer(args.output, kind, source.faces, source.count, overwrite=may_replace(args, args.output))
     with writer as write, console.progress("denoising", "frames") as progress:
         for frame in denoiser(_counted(chain([first], source.frames), source.count, progress)):
             write(frame)

@@ -4,14 +4,16 @@ from __future__ import annotations
 
 import argparse
 import time
+from collections.abc import Sequence
 from dataclasses import replace
 
 from bitstream.errors import OptionError
-from bsm.batch import Facts, add_inputs, came_to, plan, refuse_collisions, run_jobs, size_of
+from bsm.batch import Facts, Job, add_inputs, came_to, plan, refuse_collisions, run_jobs, size_of
 from bsm.commands.encode_options import add_encode_flags, encode_options
 from bsm.commands.reader import add_reader_flag
 from bsm.commands.sequence_options import add_sequence_flags, refuse_sequence_flags
 from bsm.console import Console, finite
+from bsm.farm.run import may_replace
 from bsm.files.mesh import MESH_FORMATS, read_mesh
 from bsm.files.naming import refuse_terminal
 from bsm.files.output import open_output, refuse_to_overwrite
@@ -54,8 +56,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
     if jobs[0].output == "-" and args.json:
         raise OptionError("--json and -o - would both write to standard output")
     refuse_terminal(jobs[0].output)
-    if args.jobs != 1 and len(jobs) > 1 and not hasattr(args, "threads"):
-        args.threads = 1
+    one_thread_each(args, jobs)
     return run_jobs(args, console, encode_one, jobs)
 
 
@@ -68,10 +69,16 @@ def metadata_of(args: argparse.Namespace) -> dict[str, str]:
     return {name: value for name, _, value in pairs}
 
 
+def one_thread_each(args: argparse.Namespace, jobs: Sequence[Job]) -> None:
+    """Let jobs that are done side by side have a thread each, unless something else was said."""
+    if (args.jobs != 1 or args.dask) and len(jobs) > 1 and not hasattr(args, "threads"):
+        args.threads = 1
+
+
 def encode_one(args: argparse.Namespace, console: Console) -> Facts:
     """Encode one input and say what came out."""
     for path in filter(None, (args.output, args.permutation)):
-        refuse_to_overwrite(path, args.force)
+        refuse_to_overwrite(path, may_replace(args, path))
 
     from codec.static.encoder import Encoder
 
@@ -85,7 +92,8 @@ def encode_one(args: argparse.Namespace, console: Console) -> Facts:
     mesh = replace(source.mesh, metadata={**source.mesh.metadata, **metadata_of(args)})
     begin = time.perf_counter()
     encoder = Encoder(mesh, options)
-    with open_output(args.output, overwrite=args.force) as file, console.progress("encoding") as progress:
+    overwrite = may_replace(args, args.output)
+    with open_output(args.output, overwrite=overwrite) as file, console.progress("encoding") as progress:
         attempt = encoder.result(progress)
         for chunk in attempt.frames:
             file.write(chunk)

@@ -67,6 +67,7 @@ ENCODE_FLAGS = (
     EncodeFlag("blend", str, "degree|uniform|own", "weights of a vertex's copies in several blocks (default degree)"),
     EncodeFlag("predict", bool, "", "predict coefficients from blocks already coded (default: yes)"),
     EncodeFlag("keep_order", bool, "", "store the order of vertices and faces (default: no)"),
+    EncodeFlag("normals", str, "keep|recompute", "recompute: send none, the decoder makes them (default keep)"),
     EncodeFlag("threads", int, "N", "threads to use (default: one per core)"),
 )
 
@@ -96,6 +97,14 @@ def number_or_length(text: str) -> float | str:
         return text
 
 
+def named_quality(text: str) -> tuple[str, str]:
+    """NAME=QUALITY taken apart."""
+    name, separator, quality = text.rpartition("=")
+    if not (name and separator):
+        raise argparse.ArgumentTypeError(f"NAME=QUALITY is expected, such as texcoord=12bits, not {text!r}")
+    return name, quality
+
+
 def add_encode_flags(parser: argparse.ArgumentParser) -> None:
     """Add presets, targets and the flags of `add_coding_flags`."""
     wishes = parser.add_argument_group("what to reach", "a target is met in closed loop, on what the decoder will see")
@@ -113,6 +122,24 @@ def add_coding_flags(parser: argparse.ArgumentParser) -> None:
     for flag in ENCODE_FLAGS:
         flag.add(group)
     group.add_argument(
+        "--attribute",
+        dest="attributes",
+        action="append",
+        type=named_quality,
+        metavar="NAME=QUALITY",
+        default=argparse.SUPPRESS,
+        help="how an attribute is kept: exact, 12bits, 0.01 (a bound), 1%%, 2deg, recompute or none; the name * is "
+        "any other one; may be repeated",
+    )
+    group.add_argument(
+        "--no-attributes",
+        dest="attributes",
+        action="append_const",
+        const=("*", "none"),
+        default=argparse.SUPPRESS,
+        help="leave out all attributes that --attribute does not name",
+    )
+    group.add_argument(
         "--doi",
         nargs=2,
         type=float,
@@ -125,6 +152,8 @@ def add_coding_flags(parser: argparse.ArgumentParser) -> None:
 def given_options(args: argparse.Namespace) -> dict[str, Any]:
     """The fields of `EncodeOptions` that were given on the command line, presets and targets left aside."""
     given = {flag.field: getattr(args, flag.field) for flag in ENCODE_FLAGS if hasattr(args, flag.field)}
+    if getattr(args, "attributes", None):
+        given["attributes"] = dict(args.attributes)
     if hasattr(args, "doi"):
         given["doi"] = tuple(args.doi)
     return given

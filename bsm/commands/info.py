@@ -8,7 +8,7 @@ from dataclasses import asdict
 from typing import Any
 
 from bitstream.container.wire import VERSION
-from bsm.batch import Facts, Job, add_inputs, run_jobs
+from bsm.batch import Facts, Job, add_inputs, input_names, run_jobs
 from bsm.console import Console
 from bsm.files.pipes import read_chunks
 from bsm.files.stream import StreamInfo, inspect_stream
@@ -21,7 +21,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace, console: Console) -> int:
     """Describe all inputs."""
-    return run_jobs(args, console, info_of_one, [Job(name) for name in args.inputs], _worded)
+    return run_jobs(args, console, info_of_one, [Job(name) for name in input_names(args.inputs)], _worded)
 
 
 def info_of_one(args: argparse.Namespace, console: Console) -> Facts:
@@ -44,11 +44,13 @@ def summarise(info: StreamInfo) -> dict[str, Any]:
             "partition": info.partition,
             "order": info.order,
             "coefficients": info.coefficient_bytes,
+            "attributes": info.attribute_bytes,
             "framing": info.framing,
             "total": info.total,
         },
         "frames": info.frames,
         "gops": [asdict(gop) for gop in info.gops],
+        "attributes": [asdict(attribute) for attribute in info.attributes],
         "bpv_total": info.bpv_total,
         "bpvf_total": info.bpvf_total,
         "bpv_geometry": info.bpv_geometry,
@@ -75,6 +77,7 @@ def _worded(summary: Facts) -> str:
         *shares,
         f"bits per vertex: {summary['bpv_total']:.3f} in all, {summary['bpv_geometry']:.3f} for the coefficients, "
         f"{summary['bpv_paper']:.3f} by the paper's formula",
+        *map(_attribute_line, summary["attributes"]),
         *_metadata_lines(summary),
     ]
     return "\n".join(lines)
@@ -84,6 +87,15 @@ def _metadata_lines(summary: dict[str, Any]) -> list[str]:
     sizes = summary["metadata_bytes"]
     said = {name: f"{sizes[name]} bytes" if name in sizes else value for name, value in summary["metadata"].items()}
     return ["metadata:", *(f"  {name}: {value}" for name, value in said.items())] if said else []
+
+
+def _attribute_line(attribute: dict[str, Any]) -> str:
+    what = f"{attribute['components']} x {attribute['kind']} per {attribute['domain']}, {attribute['semantic']}"
+    seams = f", {attribute['seams']} of them for seams" if attribute["seams"] else ""
+    return (
+        f"attribute {attribute['name']}: {what}, {attribute['values']} values, {attribute['coding']}, "
+        f"{attribute['bytes']} bytes{seams}"
+    )
 
 
 def _sequence_lines(summary: dict[str, Any]) -> list[str]:

@@ -10,6 +10,7 @@ from collections.abc import Iterator
 from bitstream.errors import OptionError
 from bsm.batch import Facts, size_of
 from bsm.console import Console
+from bsm.farm.run import may_replace
 from bsm.files.naming import default_output, output_inside
 from bsm.files.output import refuse_to_overwrite
 from bsm.files.permutation import read_permutation, reorder
@@ -35,7 +36,7 @@ def decode_sequence(args: argparse.Namespace, console: Console, chunks: Iterator
         raise OptionError("--blocks is for meshes, and this is a sequence")
     output = _output(args)
     kind = sequence_kind(output, args.format)
-    refuse_to_overwrite(output, args.force)
+    refuse_to_overwrite(output, may_replace(args, output))
     begin = time.perf_counter()
     first, last = _range(args.frames)
     stream = SequenceStream(chunks, console.note if args.tolerant else None, first)
@@ -48,7 +49,7 @@ def decode_sequence(args: argparse.Namespace, console: Console, chunks: Iterator
     order, faces = numbers_of(mesh.positions), mesh.faces
     count = 0
     with (
-        sequence_writer(output, kind, faces, expected, overwrite=args.force) as write,
+        sequence_writer(output, kind, faces, expected, overwrite=may_replace(args, output)) as write,
         console.progress("decoding", "frames") as progress,
     ):
         for number, frame in stream.frames():

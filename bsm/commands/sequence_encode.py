@@ -14,6 +14,7 @@ import numpy as np
 from bsm.batch import Facts, came_to, size_of
 from bsm.commands.sequence_options import sequence_options
 from bsm.console import Console, finite
+from bsm.farm.run import may_replace
 from bsm.files.output import open_output
 from bsm.files.permutation import write_permutation
 from bsm.files.sequence import Frames
@@ -29,7 +30,8 @@ def encode_sequence(args: argparse.Namespace, console: Console, source: Frames, 
     encoder = SequenceEncoder(source.faces, sequence_options(args), source.count, metadata)
     heard = Echo()
     size = 0
-    with open_output(args.output, overwrite=args.force) as file, console.progress("encoding") as progress:
+    replace = may_replace(args, args.output)
+    with open_output(args.output, overwrite=replace) as file, console.progress("encoding") as progress:
         for chunk in encoder.chunks(heard.taken(source.frames), progress):
             size += file.write(chunk)
             file.flush()

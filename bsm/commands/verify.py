@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 
-from bsm.batch import Facts, Job, add_inputs, run_jobs
+from bsm.batch import Facts, Job, add_inputs, input_names, run_jobs
 from bsm.console import Console
 from bsm.files.pipes import read_chunks
 from bsm.files.sequence_stream import decode_through
@@ -19,7 +19,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace, console: Console) -> int:
     """Check all inputs; what is wrong is raised."""
-    return run_jobs(args, console, verify_one, [Job(name) for name in args.inputs])
+    return run_jobs(args, console, verify_one, [Job(name) for name in input_names(args.inputs)])
 
 
 def verify_one(args: argparse.Namespace, console: Console) -> Facts:

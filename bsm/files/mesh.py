@@ -32,6 +32,7 @@ from bsm.files.formats.with_openmesh import read_with_openmesh
 from bsm.files.formats.with_trimesh import read_with_trimesh
 from bsm.files.formats.written import Written
 from bsm.files.output import can_be_replaced, open_output, refuse_to_overwrite
+from bsm.files.remote import is_url
 from bsm.files.pipes import Input, Source, as_input
 from codec.geometry.mesh import TriangleMesh
 
@@ -167,18 +168,31 @@ def write_mesh(path: str | os.PathLike[str], mesh: TriangleMesh, *, overwrite: b
     return save_written(path, written, overwrite=overwrite)
 
 
-def save_written(path: str | os.PathLike[str], written: Written, *, overwrite: bool) -> tuple[str, ...]:
-    """Write a mesh file and what lies beside it; returns what is left out. Beside a pipe nothing can lie."""
-    beside = written.beside if os.fspath(path) != "-" and can_be_replaced(path) else {}
-    folder = Path(path).parent
+def save_written(
+    path: str | os.PathLike[str], written: Written, *, overwrite: bool, overwrite_beside: bool | None = None
+) -> tuple[str, ...]:
+    """Write a mesh file, and before it what lies beside it; returns what is left out. Beside a pipe nothing can lie.
+
+    What lies beside is replaced if `overwrite_beside` is true; None: if `overwrite` is.
+    """
+    beside = {beside_it: written.beside[name] for name in written.beside if (beside_it := _sibling(path, name))}
+    replace_beside = overwrite if overwrite_beside is None else overwrite_beside
+    refuse_to_overwrite(path, overwrite)
     for name in beside:
-        refuse_to_overwrite(folder / name, overwrite)
+        refuse_to_overwrite(name, replace_beside)
+    for name, data in beside.items():
+        with open_output(name, overwrite=replace_beside) as file:
+            file.write(data)
     with open_output(path, overwrite=overwrite) as file:
         file.write(written.data)
-    for name, data in beside.items():
-        with open_output(folder / name, overwrite=overwrite) as file:
-            file.write(data)
-    return (*written.left_out, *(name for name in written.beside if name not in beside))
+    return (*written.left_out, *(() if beside else written.beside))
+
+
+def _sibling(path: str | os.PathLike[str], name: str) -> str | None:
+    """A file in the same folder; None if there is no folder."""
+    if isinstance(path, str) and is_url(path):
+        return f"{path.rpartition('/')[0]}/{name}"
+    return str(Path(path).parent / name) if os.fspath(path) != "-" and can_be_replaced(path) else None
 
 
 def format_of_name(path: str | os.PathLike[str]) -> str | None:

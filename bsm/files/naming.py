@@ -7,6 +7,7 @@ import sys
 from pathlib import Path
 
 from bitstream.errors import OptionError
+from bsm.files.remote import beside, inside, is_url, name_in
 
 
 def default_output(path: str, suffix: str) -> str:
@@ -19,6 +20,11 @@ def default_output(path: str, suffix: str) -> str:
     """
     if path == "-":
         return "-"
+    if is_url(path):
+        url = beside(path, _with_suffix(path, suffix).name)
+        if url == path:
+            raise OptionError(f"the output would replace the input {path}; name another with -o")
+        return url
     output = _with_suffix(path, suffix)
     if output == Path(path):
         raise OptionError(f"the output would replace the input {path}; name another with -o")
@@ -33,10 +39,15 @@ def output_inside(folder: str, path: str, suffix: str) -> str:
     OptionError
         If the input has no name.
     """
-    return str(Path(folder, _with_suffix(path, suffix).name))
+    name = _with_suffix(path, suffix).name
+    return inside(folder, name) if is_url(folder) else str(Path(folder, name))
 
 
 def _with_suffix(path: str, suffix: str) -> Path:
+    if is_url(path):
+        if not name_in(path):
+            raise OptionError(f"{path} gives the output no name; name it with -o")
+        return Path(name_in(path)).with_suffix(suffix)
     if glob.has_magic(path) and not Path(path).exists():
         raise OptionError(f"{path} names many files; name the output with -o")
     name = Path(path).name

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import errno
+import glob
 import os
 import re
 import signal
@@ -14,6 +15,8 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 from types import FrameType
 from typing import BinaryIO
+
+from bsm.files.remote import is_url, open_remote_output, refuse_to_replace
 
 _TEMPORARY = ".part"
 # What the shell has opened: `>(...)`, or `> file`.
@@ -31,7 +34,8 @@ def open_output(path: str | os.PathLike[str], *, overwrite: bool = False) -> Ite
 
     The bytes go to a temporary file in the same folder, which is flushed to the disk and then renamed; any error,
     Ctrl-C and SIGTERM remove it. "-" is standard output, where nothing can be taken back; neither can it in a device,
-    a named pipe, or what the shell has opened (``/dev/stdout``, ``>(...)``), wherever that leads.
+    a named pipe, or what the shell has opened (``/dev/stdout``, ``>(...)``), wherever that leads. A URL is written
+    through fsspec.
 
     Raises
     ------
@@ -43,6 +47,10 @@ def open_output(path: str | os.PathLike[str], *, overwrite: bool = False) -> Ite
     if os.fspath(path) == "-":
         yield sys.stdout.buffer
         sys.stdout.buffer.flush()
+        return
+    if isinstance(path, str) and is_url(path):
+        with open_remote_output(path, overwrite=overwrite) as remote:
+            yield remote
         return
     if os.path.isdir(path):
         raise IsADirectoryError(errno.EISDIR, "the output is a folder", os.fspath(path))
@@ -74,8 +82,19 @@ def open_output(path: str | os.PathLike[str], *, overwrite: bool = False) -> Ite
 
 def refuse_to_overwrite(path: str | os.PathLike[str], overwrite: bool) -> None:
     """Raise `FileExistsError` if `path` is a file and `overwrite` is false; ask before long work."""
-    if not overwrite and os.fspath(path) != "-" and os.path.isfile(path) and can_be_replaced(path):
+    if isinstance(path, str) and is_url(path):
+        refuse_to_replace(path, overwrite)
+    elif not overwrite and os.fspath(path) != "-" and os.path.isfile(path) and can_be_replaced(path):
         raise FileExistsError(errno.EEXIST, "the output exists already; -f overwrites it", os.fspath(path))
+
+
+def remove_abandoned(path: str) -> None:
+    """Remove what is left of attempts to write `path` that were cut off; nobody else may be writing it."""
+    if is_url(path) or not can_be_replaced(path):
+        return
+    target = Path(os.path.realpath(path))
+    for part in target.parent.glob(f".{glob.escape(target.name[:200])}.????????{_TEMPORARY}"):
+        part.unlink(missing_ok=True)
 
 
 def _descriptor(path: str | os.PathLike[str]) -> int | None:

@@ -9,9 +9,10 @@ from collections.abc import Iterator
 from typing import BinaryIO, TypeAlias, Union, cast
 
 from bitstream.errors import ArgumentError, FormatError, LimitError
+from bsm.files.remote import is_url, open_remote, without_scheme_of_files
 
 Source: TypeAlias = Union[str, "os.PathLike[str]", bytes, bytearray, memoryview, BinaryIO, "Input"]
-"""A path ("-" is standard input), any buffer, or a binary file, which need not be seekable."""
+"""A path ("-" is standard input) or URL, any buffer, or a binary file, which need not be seekable."""
 
 _CHUNK = 1 << 18
 _MAX_BYTES = 1 << 32
@@ -44,7 +45,7 @@ class Input:
         self._opened = False
         self._held = b""
         if isinstance(source, (str, os.PathLike)):
-            self.name = os.fsdecode(source)
+            self.name = without_scheme_of_files(os.fsdecode(source))
         elif hasattr(source, "read"):
             self._file = cast(BinaryIO, source)
             self.name = str(getattr(source, "name", ""))
@@ -110,7 +111,7 @@ class Input:
                 raise FormatError("this is a folder, not a file")
             self._opened = self.name != "-"
             # Closed at its end, or where `chunks` ends.
-            self._file = open(self.name, "rb") if self._opened else cast(BinaryIO, sys.stdin.buffer)  # noqa: SIM115
+            self._file = _opened(self.name) if self._opened else cast(BinaryIO, sys.stdin.buffer)
         read = getattr(self._file, "read1", self._file.read)
         piece = read(_CHUNK)
         if isinstance(piece, str):
@@ -124,6 +125,10 @@ class Input:
         if self._opened and self._file is not None:
             self._file.close()
             self._file, self._opened = io.BytesIO(), False
+
+
+def _opened(name: str) -> BinaryIO:
+    return open_remote(name) if is_url(name) else open(name, "rb")
 
 
 def as_input(source: Source) -> Input:

@@ -25,6 +25,7 @@ from bsm.files.formats.npz import Archive, npz_frames, npz_shape, open_npz_seque
 from bsm.files.mesh import MESH_FORMATS, format_mesh, format_of_name, read_mesh
 from bsm.files.output import open_output
 from bsm.files.pipes import Input, Source, as_input, is_pipe
+from bsm.files.remote import is_url
 from codec.arrays import Faces, Positions
 from codec.geometry.mesh import TriangleMesh
 
@@ -73,7 +74,7 @@ def open_sequence(source: Source, file_format: str | None = None, reader: str | 
     if is_pipe(source) and file_format != "npy":
         return None
     given = as_input(source)
-    if os.path.isdir(given.name) or (glob.has_magic(given.name) and not os.path.exists(given.name)):
+    if not is_url(given.name) and _names_many(given.name):
         return _files(_frame_files(given.name), file_format, reader)
     if file_format not in (None, "npz", "npy"):
         return None
@@ -116,12 +117,18 @@ def sequence_writer(
             write_npy(file, faces)
             yield lambda frame: write_npy(file, frame)
     else:
+        if is_url(path):
+            raise OptionError(f"{path}: frames are written to a folder of this machine, or as an npz")
         folder = Path(path)
         folder.mkdir(parents=True, exist_ok=True)
         if any(folder.iterdir()) and not overwrite:
             raise FileExistsError(17, "the folder is not empty; -f writes into it", path)
         numbers = iter(range(sys.maxsize))
         yield lambda frame: _write_frame(folder / f"{next(numbers):05d}.{kind}", TriangleMesh(frame, faces), kind)
+
+
+def _names_many(path: str) -> bool:
+    return os.path.isdir(path) or (glob.has_magic(path) and not os.path.exists(path))
 
 
 def _write_frame(path: Path, mesh: TriangleMesh, kind: str) -> None:

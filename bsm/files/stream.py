@@ -12,6 +12,7 @@ import numpy.typing as npt
 
 from bitstream.container import packets
 from bitstream.container.gop import parse_gop_body
+from bitstream.container.layout import write_attribute
 from bitstream.container.reader import END_OF_STREAM, NEED_DATA, Reader, read_packets
 from bitstream.container.wire import MAGIC
 from bitstream.errors import MeshError, OptionError
@@ -40,18 +41,34 @@ class GopInfo:
 
 
 @dataclass(frozen=True)
+class AttributeInfo:
+    """An attribute: what it is, how many values it has, and its bytes, seams among them."""
+
+    name: str
+    domain: str
+    semantic: str
+    kind: str
+    components: int
+    values: int
+    coding: str
+    seams: int
+    bytes: int
+
+
+@dataclass(frozen=True)
 class StreamInfo:
     """What a stream consists of, known without decoding it; sizes in bytes.
 
-    `connectivity`, `partition`, `order` and `coefficient_bytes` count what the packets carry; `framing` is all the
-    rest: preamble, header, metadata, tags, checksums and the end. The `coefficients` of a sequence are those of its
-    first frame.
+    `connectivity`, `partition`, `order`, `coefficient_bytes` and `attribute_bytes` count what the packets carry;
+    `framing` is all the rest: preamble, header, metadata, tags, checksums and the end. The `coefficients` of a sequence
+    are those of its first frame.
     """
 
     header: packets.Header
     metadata: packets.Metadata
     coefficients: tuple[int, ...]
     gops: tuple[GopInfo, ...]
+    attributes: tuple[AttributeInfo, ...]
     connectivity: int
     partition: int
     order: int
@@ -60,8 +77,14 @@ class StreamInfo:
 
     @property
     def framing(self) -> int:
-        """Bytes that carry neither connectivity nor partition, order or coefficients."""
-        return self.total - self.connectivity - self.partition - self.order - self.coefficient_bytes
+        """Bytes that carry neither connectivity nor partition, order, coefficients or attributes."""
+        coded = self.connectivity + self.partition + self.order + self.coefficient_bytes + self.attribute_bytes
+        return self.total - coded
+
+    @property
+    def attribute_bytes(self) -> int:
+        """Bytes of all attributes: declarations, seams and values."""
+        return sum(attribute.bytes for attribute in self.attributes)
 
     @property
     def bpv_total(self) -> float:
@@ -112,12 +135,19 @@ def inspect_stream(chunks: Iterator[bytes], limits: Limits = DEFAULT_LIMITS) -> 
     coefficients: list[int] = []
     gops: list[GopInfo] = []
     sizes: Counter[type] = Counter()
+    declared: list[packets.Attribute] = []
+    lengths: Counter[int] = Counter()
     reader = Reader(limits)
     for packet in read_packets(chunks, reader):
         if isinstance(packet, packets.Header):
             header = packet
         elif isinstance(packet, packets.Metadata):
             metadata = packet
+        elif isinstance(packet, packets.Attribute):
+            declared.append(packet)
+            lengths[packet.index] += len(write_attribute(packet))
+        elif isinstance(packet, packets.Values):
+            lengths[packet.attribute] += len(packet.data)
         elif not isinstance(packet, packets.End | packets.Damaged):
             sizes[type(packet)] += len(packet.data)
         if isinstance(packet, packets.Block):
@@ -132,11 +162,27 @@ def inspect_stream(chunks: Iterator[bytes], limits: Limits = DEFAULT_LIMITS) -> 
         metadata,
         tuple(coefficients),
         tuple(gops),
+        tuple(_attribute_info(packet, lengths[packet.index]) for packet in declared),
         connectivity=sizes[packets.Connectivity],
         partition=sizes[packets.Partition],
         order=sizes[packets.Order],
         coefficient_bytes=sum(sizes[kind] for kind in (packets.Block, packets.Gop, packets.Grid, packets.Refinement)),
         total=reader.last_frame.offset + reader.last_frame.length,
+    )
+
+
+def _attribute_info(packet: packets.Attribute, size: int) -> AttributeInfo:
+    declared = packet.declaration
+    return AttributeInfo(
+        declared.name,
+        ("vertex", "corner", "face")[declared.domain],
+        ("generic", "color", "normal", "texcoord")[declared.semantic],
+        ("uint8", "int8", "uint16", "int16", "uint32", "int32", "float32", "float64")[declared.kind],
+        declared.components,
+        declared.rows,
+        ("levels", "octahedral", "bits", "recomputed")[declared.coding],
+        len(packet.seams),
+        size,
     )
 
 

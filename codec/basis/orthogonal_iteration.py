@@ -14,9 +14,10 @@ from codec import _kernels
 from codec.arrays import Matrix
 from codec.basis.laplacian import Laplacian, check_rows, factorize, solve
 
-ONCE, TWICE = 1e-3, 1e-11
-"""Independence of the columns (`factorize_gram` of solver/cholesky_qr.c) from which Cholesky QR is orthogonal to
-1e-12 after one pass, and to working precision after two."""
+ONCE, TWICE = 1e-5, 1e-11
+"""Independence (`factorize_gram` of solver/cholesky_qr.simd.c) of the columns of a panel from which Cholesky QR is
+orthogonal to 1e-11 after one pass; and of all columns, from which the whole is to 1e-10. Beyond that, Onorm after every
+solution."""
 
 EXACT_POWER, EXACT_ITERATIONS, EXACT_SHIFT = 2, 128, 2.0**-5
 """What makes a basis exact: the sum of the Rayleigh quotients of any first columns is then within a thousandth of that
@@ -39,8 +40,8 @@ def cosine_columns(rows: int, first: int, last: int) -> Matrix:
 def onorm(columns: Matrix) -> Matrix:
     """Q of the QR factorisation with positive diagonal of `columns`, shape (n, c), n >= c.
 
-    Cholesky QR; twice where the columns are so close to dependent that once would not be orthogonal to working
-    precision, and Householder reflections where that is not safe either. All of them compute the same Q.
+    Cholesky QR panel by panel, and Householder reflections where the columns are too close to dependent for that. Both
+    compute the same Q.
 
     Raises
     ------

@@ -10,6 +10,8 @@ import numpy as np
 import pytest
 
 from bitstream import _kernels
+from bitstream.attributes import seams as attribute_seams
+from bitstream.attributes import values
 from bitstream.coefficients import adaptive, contexts, matrices, rate_distortion, trellis
 from bitstream.coefficients.adaptive import CoefficientModel
 from bitstream.connectivity import conquest, faces, halfedges, partition, permutation, seams
@@ -24,6 +26,7 @@ MODULES = (
     *(adaptive, contexts, matrices, rate_distortion, trellis),
     *(conquest, faces, halfedges, partition, permutation, seams, range_coder),
     *(corners, grid, levels),
+    *(attribute_seams, values),
 )
 
 
@@ -91,6 +94,25 @@ def test_every_kernel_defends_itself(refusals: dict[str, int]) -> None:
     np.testing.assert_array_equal(found, positions[places])
     payload = levels.LevelsEncoder(decoded, positions - 3).chunk(vertices)
     np.testing.assert_array_equal(levels.LevelsDecoder(decoded, vertices, 3).chunk(payload, vertices)[1], positions - 3)
+
+    linked = corners.corners_of(decoded, vertices)
+    torn = attribute_seams.find_seams(linked, given % 5)
+    payload = attribute_seams.encode_seams(linked, torn)
+    np.testing.assert_array_equal(attribute_seams.decode_seams(payload, linked), torn)
+    assert attribute_seams.Joins(linked, torn).faces.shape == decoded.shape
+    for kind, offered in {"plain": positions, "texcoord": positions[:, :2]}.items():
+        payload = values.ValueEncoder(decoded, offered, offered.max(axis=0), kind, positions).chunk(vertices)
+        decoder = values.ValueDecoder(decoded, vertices, offered.max(axis=0), kind, positions)
+        places, found = decoder.chunk(payload, vertices)
+        np.testing.assert_array_equal(found, offered[places])
+    normals = values.octahedral_levels(positions - 3.5, 63)
+    payload = values.ValueEncoder(decoded, normals, (126, 126), "normal", positions).chunk(vertices)
+    places, found = values.ValueDecoder(decoded, vertices, (126, 126), "normal", positions).chunk(payload, vertices)
+    np.testing.assert_array_equal(found, normals[places])
+    groups = (np.arange(len(decoded)) // 9)[:, None]
+    payload = values.FaceValueEncoder(decoded, groups, groups.max(axis=0)).chunk(len(groups))
+    found = values.FaceValueDecoder(decoded, groups.max(axis=0)).chunk(payload, len(groups))
+    np.testing.assert_array_equal(found, groups)
 
     chosen = rate_distortion.choose_levels(CoefficientModel(60), 300 * given.astype(np.int64), 0.1).levels
     payload = adaptive.encode_blocks(CoefficientModel(60), [chosen])

@@ -10,6 +10,7 @@ import sys
 import urllib.error
 import urllib.request
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -82,6 +83,69 @@ def javascript(tests: str, **environment: str) -> None:
 def test_javascript(tests):
     """The decoder in node, and the page in Chromium where there is one."""
     javascript(tests)
+
+
+def told_by_python(data: bytes, kind: type[bsm.Decoder | bsm.SequenceDecoder]) -> dict[str, Any]:
+    """Events of a tolerant decoder, as far as it comes, and the name of the error that it ends with."""
+    events: list[list[Any]] = []
+    with kind(bsm.Limits(work=1e10), tolerant=True) as decoder:
+        decoder.receive_data(data)
+        decoder.receive_eof()
+        try:
+            while (event := decoder.next_event()) is not bsm.END_OF_STREAM:
+                events.append(essence(event))
+        except bsm.BsmError as error:
+            return {"events": events, "error": type(error).__name__}
+    return {"events": events, "error": None}
+
+
+def essence(event: Any) -> list[Any]:
+    match event:
+        case bsm.BlockEvent():
+            return ["block", event.index, len(event.vertices)]
+        case bsm.RefinementEvent():
+            return ["refinement", event.layer, len(event.vertices)]
+        case bsm.FrameEvent():
+            return ["frame", event.index]
+        case bsm.LossEvent():
+            frames = event.frames
+            return ["loss", event.block, frames.start, len(frames), type(event.error).__name__]
+        case bsm.EndEvent():
+            return ["end", *(sorted(map(int, part)) for part in (event.losses.missing, event.losses.degraded))]
+    return [type(event).__name__.removesuffix("Event").lower()]
+
+
+DAMAGED = {
+    bsm.Decoder: [
+        "labels",
+        "keys",
+        "details",
+        "layers",
+        "refined",
+        "grid-chunks",
+        "smoothing",
+        "splits-seams",
+        "skippable",
+    ],
+    bsm.SequenceDecoder: ["sequence-cosines", "sequence-learnt", "sequence-low-delay"],
+}
+
+
+@needs_packages
+def test_damage_is_survived_as_in_python(tmp_path):
+    random = np.random.default_rng(16)
+    for number in range(160):
+        kind = bsm.SequenceDecoder if number % 4 == 0 else bsm.Decoder
+        data = bytearray((VECTORS / f"good-{random.choice(DAMAGED[kind])}.bsm").read_bytes())
+        for _ in range(random.integers(1, 3)):
+            at = random.integers(20, len(data))
+            if random.random() < 0.2:
+                del data[at : at + random.integers(1, 30)]
+            elif at < len(data):
+                data[at] ^= random.integers(1, 256)
+        (tmp_path / f"{number}.bsm").write_bytes(data)
+        (tmp_path / f"{number}.json").write_text(json.dumps(told_by_python(bytes(data), kind)))
+    javascript("recovery", BSM_DAMAGED=str(tmp_path))
 
 
 @needs_packages

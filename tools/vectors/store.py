@@ -11,10 +11,13 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from bitstream.container.header import HEADER_FIELDS
+from tools.surgery import first_entries
+
 FOLDER = Path(__file__).parents[2] / "spec" / "vectors"
 MANIFEST = "manifest.json"
 RMS, PEAK = 1e-9, 1e-8
-"""How far positions may be from the expected ones, in bounding-box diagonals of the expected mesh (or first frame)."""
+"""How far positions may be from the expected ones, in extents of the expected mesh."""
 
 
 @dataclass(frozen=True)
@@ -57,14 +60,35 @@ class Vector:
             return "the faces differ"
         if positions.shape != right.shape:
             return f"positions of shape {positions.shape} instead of {right.shape}"
-        diagonal = float(
-            np.linalg.norm(np.ptp(right.reshape(-1, len(right[0]), 3)[0] if right.ndim == 3 else right, 0))
-        )
-        distance = np.linalg.norm(positions - right, axis=-1) / diagonal
-        rms, peak = float(np.sqrt((distance**2).mean())), float(distance.max())
+        rms, peak = distance(positions, right, scale_of(self.stream.read_bytes()))
         if not (rms <= self.rms and peak <= self.peak):
             return f"positions are off by {rms:.1e} (rms; {self.rms:g} is granted) and {peak:.1e} ({self.peak:g})"
         return None
+
+
+def scale_of(stream: bytes) -> float:
+    """The header's `scale`; 0 where there is no header that can be read."""
+    entries = first_entries(stream)
+    scale = entries.get(HEADER_FIELDS["scale"].key, 1.0 if entries else 0.0)
+    return abs(scale) if isinstance(scale, float) else 0.0
+
+
+def extent(positions: npt.NDArray[Any], scale: float) -> float:
+    """The unit of tolerances (M 15.3): of `scale`, the diagonal and what rounding leaves of either, the greatest."""
+    points = positions.reshape(-1, 3).astype(np.float64)
+    if len(points) == 0:
+        return scale or 1.0
+    diagonal = float(np.linalg.norm(np.ptp(points / 2, axis=0)) * 2)
+    return max(scale, diagonal, 2.0**-20 * float(np.abs(points).max())) or 1.0
+
+
+def distance(positions: npt.NDArray[Any], expected: npt.NDArray[Any], scale: float) -> tuple[float, float]:
+    """Root mean square and greatest distance between positions of one shape, in extents of the expected ones."""
+    unit = extent(expected, scale)
+    apart = np.linalg.norm(positions / unit - expected / unit, axis=-1)
+    if apart.size == 0:
+        return 0.0, 0.0
+    return float(np.sqrt((apart**2).mean())), float(apart.max())
 
 
 def read_manifest() -> list[Vector]:

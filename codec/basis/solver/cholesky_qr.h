@@ -3,19 +3,9 @@
 
 #include "codec/basis/solver/panels.h"
 
-/* What one pass needs besides the panels: a second matrix of their size, and two upper triangular ones, kept alike. */
-typedef struct {
-    Panels product, triangle, inverse;
-} QrSpace;
+/* Doubles of scratch that it takes: two matrices of a panel's columns, and the length of every column. */
+INLINE int64_t qr_size(const Panels *panels) { return 2 * LANES * LANES + panels->columns; }
 
-INLINE int64_t qr_size(const Panels *panels) { return panels_size(panels) + 2 * panels->columns * panels->columns; }
-
-INLINE QrSpace qr_space(const Panels *panels, double *memory) {
-    int64_t c = panels->columns;
-    double *triangles = memory + panels_size(panels);
-    return (QrSpace){{memory, panels->rows, c}, {triangles, c, c}, {triangles + c * c, c, c}};
-}
-
-double LEVEL(cholesky_qr)(Panels *panels, int64_t c, QrSpace *space);
+double LEVEL(cholesky_qr)(Panels *panels, int64_t c, double once, double *scratch);
 
 #endif

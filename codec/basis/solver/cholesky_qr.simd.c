@@ -1,11 +1,15 @@
-/* Cholesky QR of a tall matrix: Onorm of the paper's Algorithm 1 (specification, M 8.1) as Q = X C^-1, X^T X = C^T C.
+/* Onorm of the paper's Algorithm 1 (specification, M 8.1): Q of a QR factorisation, panel by panel.
+ *
+ * A panel is made orthonormal by Cholesky QR, X C^-1 with X^T X = C^T C, and what it spans is then taken out of all
+ * later panels: modified Gram-Schmidt by blocks. Squaring the condition of a whole matrix would cost half the digits;
+ * this squares that of a panel only, and where even that is too much the panel is done again, which is cheap.
  *
  * Every entry is the sum of its terms in the order of the rows, or of the columns, that it runs over, each product
  * fused with the sum.
  */
 #include "codec/basis/solver/cholesky_qr.h"
 
-/* `rows` rows and some vectors side by side of X^T X. */
+/* `rows` rows and some vectors side by side of X^T Y. */
 INLINE void gram_tile(const int vectors, const int rows, const double *left, int64_t left_apart, const double *right,
                       int64_t right_apart, int64_t size, double *result, int64_t apart) {
     Vector sums[8][VECTORS];
@@ -18,42 +22,40 @@ INLINE void gram_tile(const int vectors, const int rows, const double *left, int
         EACH(v, vectors) store(result + i * apart + v * WIDTH, sums[i][v]);
 }
 
-/* X^T X on and above the diagonal. */
-static void gram(const Panels *x, const Panels *product) {
-    for (int64_t b = 0; b < panel_count(x); b++) {
-        Panel right = panel_at(x, b), result = panel_at(product, b);
-        for (int64_t i = 0; i < right.first + right.apart; i += WIDTH) {
-            Panel left = panel_at(x, i / LANES);
-            int64_t skip = i < right.first ? 0 : i - right.first, apart = right.apart;
-            const double *from = left.data + i % LANES, *source = right.data + skip;
-            double *to = result.data + i * apart + skip;
+/* Eight rows of X^T Y from column `skip` of Y on; `left` is X from one of its columns on. */
+INLINE void gram_rows(const double *left, int64_t left_apart, Panel y, int64_t skip, int64_t size, double *result) {
+    const double *right = y.data + skip;
+    int64_t apart = y.apart;
+    result += skip;
 #if SIDE == 1
-            for (int64_t v = 0; v < apart - skip; v += WIDTH) {
-                gram_tile(1, 4, from, left.apart, source + v, apart, x->rows, to + v, apart);
-                gram_tile(1, 4, from + 4, left.apart, source + v, apart, x->rows, to + 4 * apart + v, apart);
-            }
-#else
-            switch ((apart - skip) / WIDTH) {
-                case 1: gram_tile(1, 8, from, left.apart, source, apart, x->rows, to, apart); break;
-                case 2: gram_tile(2, 8, from, left.apart, source, apart, x->rows, to, apart); break;
-                case 3: gram_tile(3, 8, from, left.apart, source, apart, x->rows, to, apart); break;
-                default:
-                    gram_tile(4, 4, from, left.apart, source, apart, x->rows, to, apart);
-                    gram_tile(4, 4, from + 4, left.apart, source, apart, x->rows, to + 4 * apart, apart);
-            }
-#endif
-        }
+    for (int64_t v = 0; v < apart - skip; v += WIDTH) {
+        gram_tile(1, 4, left, left_apart, right + v, apart, size, result + v, apart);
+        gram_tile(1, 4, left + 4, left_apart, right + v, apart, size, result + 4 * apart + v, apart);
     }
+#else
+    switch ((apart - skip) / WIDTH) {
+        case 1: gram_tile(1, 8, left, left_apart, right, apart, size, result, apart); break;
+        case 2: gram_tile(2, 8, left, left_apart, right, apart, size, result, apart); break;
+        case 3: gram_tile(3, 8, left, left_apart, right, apart, size, result, apart); break;
+        default:
+            gram_tile(4, 4, left, left_apart, right, apart, size, result, apart);
+            gram_tile(4, 4, left + 4, left_apart, right, apart, size, result + 4 * apart, apart);
+    }
+#endif
+}
+
+/* X^T X on and above the diagonal. */
+static void gram(Panel x, int64_t rows, double *product) {
+    for (int64_t i = 0; i < x.apart; i += WIDTH) gram_rows(x.data + i, x.apart, x, i, rows, product + i * x.apart);
 }
 
 /* Part of row j of a triangle, at `panel`, less what the rows before it take: the sum of column[k] times row k. */
-INLINE void reduce_row(const int vectors, double *panel, int64_t apart, int64_t j, const double *column,
-                       int64_t column_apart) {
+INLINE void reduce_row(const int vectors, double *panel, int64_t apart, int64_t j, const double *column) {
     Vector row[VECTORS];
     EACH(v, vectors) row[v] = load(panel + j * apart + v * WIDTH);
     for (int64_t k = 0; k < j; k++)
         EACH(v, vectors)
-            row[v] = add_scaled(row[v], -column[k * column_apart], load(panel + k * apart + v * WIDTH));
+            row[v] = add_scaled(row[v], -column[k * apart], load(panel + k * apart + v * WIDTH));
     EACH(v, vectors) store(panel + j * apart + v * WIDTH, row[v]);
 }
 
@@ -61,60 +63,46 @@ INLINE void reduce_row(const int vectors, double *panel, int64_t apart, int64_t 
  *
  * Returns the least squared sine of the angle between a column of X and the space of those before it; 0 if C could not
  * be computed. It is what limits the accuracy of X C^-1: the lengths of the columns do not. */
-static double factorize_gram(const Panels *product, int64_t c) {
+static double factorize_gram(double *product, int64_t apart, int64_t c) {
     double independence = 1.0;
     for (int64_t j = 0; j < c; j++) {
-        Panel own = panel_at(product, j / LANES);
-        const double *column = own.data + j % LANES;
-        const double *pivot = column + j * own.apart;
-        double before = *pivot;
-        for (int64_t b = j / LANES; b < panel_count(product); b++) {
-            Panel panel = panel_at(product, b);
-            int64_t skip = largest(0, j - panel.first) / WIDTH;
-            WITH_VECTORS(panel.apart / WIDTH - skip, panel.data + skip * WIDTH, reduce_row, panel.apart, j, column, own.apart);
-        }
-        double squared = *pivot;
+        double *row = product + j * apart, before = row[j];
+        int64_t skip = j / WIDTH;
+        WITH_VECTORS(apart / WIDTH - skip, product + skip * WIDTH, reduce_row, apart, j, product + j);
+        double squared = row[j];
         if (!(squared > 0.0 && squared < __builtin_inf())) return 0.0;
         if (squared / before < independence) independence = squared / before;
         double scale = 1.0 / __builtin_sqrt(squared);
-        for (int64_t b = j / LANES; b < panel_count(product); b++) {
-            Panel panel = panel_at(product, b);
-            double *row = panel.data + j * panel.apart;
-            for (int64_t p = largest(0, j - panel.first) / WIDTH * WIDTH; p < panel.apart; p += WIDTH)
-                store(row + p, scaled(load(row + p), scale));
-        }
+        for (int64_t p = skip * WIDTH; p < apart; p += WIDTH) store(row + p, scaled(load(row + p), scale));
     }
     return independence;
 }
 
-/* Part of row j of the inverse of a triangle whose columns before `last` count, and whose pivot is 1 / scale. */
-INLINE void invert_row(const int vectors, double *panel, int64_t apart, int64_t j, int64_t last, const Panels *triangle,
+/* Part of row j of the inverse of a triangle of c rows whose pivot is 1 / scale; `row` is that of the triangle. */
+INLINE void invert_row(const int vectors, double *inverse, int64_t apart, int64_t j, int64_t c, const double *row,
                        double scale) {
-    Vector row[VECTORS];
-    EACH(v, vectors) row[v] = zeros();
-    for (int64_t k = j + 1; k < last; k++) {
-        double share = -*panel_entry(triangle, j, k) * scale;
-        EACH(v, vectors) row[v] = add_scaled(row[v], share, load(panel + k * apart + v * WIDTH));
+    Vector sums[VECTORS];
+    EACH(v, vectors) sums[v] = zeros();
+    for (int64_t k = j + 1; k < c; k++) {
+        double share = -row[k] * scale;
+        EACH(v, vectors) sums[v] = add_scaled(sums[v], share, load(inverse + k * apart + v * WIDTH));
     }
-    EACH(v, vectors) store(panel + j * apart + v * WIDTH, row[v]);
+    EACH(v, vectors) store(inverse + j * apart + v * WIDTH, sums[v]);
 }
 
 /* Inverse of an upper triangular matrix of c rows; what `triangle` holds below its diagonal is not used. */
-static void invert_triangle(const Panels *triangle, int64_t c, const Panels *inverse) {
-    for (int64_t i = 0; i < panels_size(inverse); i += WIDTH) store(inverse->data + i, zeros());
+static void invert_triangle(const double *triangle, int64_t apart, int64_t c, double *inverse) {
+    for (int64_t i = 0; i < apart * apart; i += WIDTH) store(inverse + i, zeros());
     for (int64_t j = c - 1; j >= 0; j--) {
-        double scale = 1.0 / *panel_entry(triangle, j, j);
-        for (int64_t b = j / LANES; b < panel_count(inverse); b++) {
-            Panel panel = panel_at(inverse, b);
-            int64_t skip = largest(0, j - panel.first) / WIDTH, last = least(c, panel.first + panel.apart);
-            WITH_VECTORS(panel.apart / WIDTH - skip, panel.data + skip * WIDTH, invert_row, panel.apart, j, last, triangle,
-                         scale);
-        }
-        *panel_entry(inverse, j, j) = scale;
+        const double *row = triangle + j * apart;
+        double scale = 1.0 / row[j];
+        int64_t skip = j / WIDTH;
+        WITH_VECTORS(apart / WIDTH - skip, inverse + skip * WIDTH, invert_row, apart, j, c, row, scale);
+        inverse[j * apart + j] = scale;
     }
 }
 
-/* Add to four rows of X T the terms of `size` columns of X, for the vectors of a panel of T from the one `from` on. */
+/* Add to four rows of a result, from vector `from` on, the terms of `size` columns of X. */
 INLINE void add_terms(const int vectors, const int from, Vector sums[4][VECTORS], const double *left, int64_t left_apart,
                       const double *t, int64_t t_apart, int64_t size) {
     for (int64_t k = 0; k < size; k++, t += t_apart)
@@ -122,41 +110,85 @@ INLINE void add_terms(const int vectors, const int from, Vector sums[4][VECTORS]
             sums[i][from + v] = add_scaled(sums[i][from + v], left[i * left_apart + k], load(t + (from + v) * WIDTH));
 }
 
-/* Four rows of X T, for vectors of a panel of T from `column` on; below the diagonal T is not looked at. */
-INLINE void multiply_tile(const int vectors, int64_t column, const Panels *x, Panel t, int64_t r, double *result) {
+/* Four rows of X T, for vectors of T from `column` on; below the diagonal T is not looked at. */
+INLINE void multiply_tile(const int vectors, int64_t column, const double *left, const double *t, int64_t apart,
+                          double *result) {
     Vector sums[4][VECTORS];
     EACH(i, 4) EACH(v, vectors) sums[i][v] = zeros();
-    const double *right = t.data + column;
-    for (int64_t first = 0; first < t.first; first += LANES)
-        add_terms(vectors, 0, sums, x->data + first * x->rows + r * LANES, LANES, right + first * t.apart, t.apart, LANES);
-    const double *left = x->data + t.first * x->rows + r * t.apart;
-    right += t.first * t.apart;
-    add_terms(vectors, 0, sums, left, t.apart, right, t.apart, column);
+    add_terms(vectors, 0, sums, left, apart, t + column, apart, column);
     EACH(v, vectors) {
         int64_t k = column + v * WIDTH;
-        add_terms(vectors, v, sums, left + k, t.apart, right + k * t.apart, t.apart, WIDTH);
+        add_terms(vectors, v, sums, left + k, apart, t + k * apart + column, apart, WIDTH);
     }
-    EACH(i, 4) EACH(v, vectors) store(result + i * t.apart + column + v * WIDTH, sums[i][v]);
+    EACH(i, 4) EACH(v, vectors) store(result + i * apart + column + v * WIDTH, sums[i][v]);
 }
 
-/* X T of a matrix X and an upper triangular T. */
-static void multiply(const Panels *x, const Panels *triangle, const Panels *product) {
-    for (int64_t b = 0; b < panel_count(x); b++) {
-        Panel t = panel_at(triangle, b), result = panel_at(product, b);
-        for (int64_t r = 0; r < x->rows; r += 4)
-            WITH_VECTORS(t.apart / WIDTH, 0, multiply_tile, x, t, r, result.data + r * t.apart);
+/* Overwrite X by X T, T upper triangular. */
+static void multiply(Panel x, int64_t rows, const double *t) {
+    double four[4 * LANES];
+    for (int64_t r = 0; r < rows; r += 4) {
+        double *from = x.data + r * x.apart;
+        for (int64_t i = 0; i < 4 * x.apart; i += WIDTH) store(four + i, load(from + i));
+        WITH_VECTORS(x.apart / WIDTH, 0, multiply_tile, four, t, x.apart, from);
     }
 }
 
-/* One pass: overwrites X, of c columns, by Q and returns how independent its columns are (0 to 1); 0 leaves X alone. */
-double LEVEL(cholesky_qr)(Panels *panels, int64_t c, QrSpace *space) {
-    gram(panels, &space->triangle);
-    double independence = factorize_gram(&space->triangle, c);
-    if (independence == 0.0) return 0.0;
-    invert_triangle(&space->triangle, c, &space->inverse);
-    multiply(panels, &space->inverse, &space->product);
-    double *other = panels->data;
-    panels->data = space->product.data;
-    space->product.data = other;
-    return independence;
+/* Four rows of Y less what X times `shares` says, for vectors of Y from `column` on; X is a whole panel. */
+INLINE void take_tile(const int vectors, int64_t column, const double *left, const double *shares, int64_t apart,
+                      double *rows) {
+    Vector sums[4][VECTORS];
+    EACH(i, 4) EACH(v, vectors) sums[i][v] = load(rows + i * apart + column + v * WIDTH);
+    add_terms(vectors, 0, sums, left, LANES, shares + column, apart, LANES);
+    EACH(i, 4) EACH(v, vectors) store(rows + i * apart + column + v * WIDTH, sums[i][v]);
+}
+
+/* Take out of Y what X, orthonormal and a whole panel, spans: Y - X X^T Y. */
+static void take_out(Panel x, Panel y, int64_t rows, double *shares) {
+    for (int64_t i = 0; i < LANES; i += WIDTH) gram_rows(x.data + i, LANES, y, 0, rows, shares + i * y.apart);
+    for (int64_t i = 0; i < LANES * y.apart; i += WIDTH) store(shares + i, scaled(load(shares + i), -1.0));
+    for (int64_t r = 0; r < rows; r += 4)
+        WITH_VECTORS(y.apart / WIDTH, 0, take_tile, x.data + r * LANES, shares, y.apart, y.data + r * y.apart);
+}
+
+/* Squared lengths of the columns of some vectors side by side. */
+INLINE void measure_tile(const int vectors, int64_t column, Panel x, int64_t rows, double *lengths) {
+    Vector sums[VECTORS];
+    EACH(v, vectors) sums[v] = zeros();
+    for (int64_t r = 0; r < rows; r++)
+        EACH(v, vectors) sums[v] = sum_of(sums[v], squared(load(x.data + r * x.apart + column + v * WIDTH)));
+    EACH(v, vectors) store(lengths + column + v * WIDTH, sums[v]);
+}
+
+/* Overwrites X, of c columns, by Q; a panel of columns less independent than `once` is gone over again. Returns how
+ * independent the columns of X are, see `factorize_gram`; 0, and X is lost, if that is nothing. */
+double LEVEL(cholesky_qr)(Panels *panels, int64_t c, double once, double *scratch) {
+    double *triangle = scratch, *other = triangle + LANES * LANES, *lengths = other + LANES * LANES, least_seen = 1.0;
+    int64_t count = panel_count(panels), rows = panels->rows;
+    for (int64_t b = 0; b < count; b++) {
+        Panel panel = panel_at(panels, b);
+        WITH_VECTORS(panel.apart / WIDTH, 0, measure_tile, panel, rows, lengths + panel.first);
+    }
+    for (int64_t b = 0; b < count; b++) {
+        Panel panel = panel_at(panels, b);
+        int64_t own = least(panel.apart, c - panel.first);
+        gram(panel, rows, triangle);
+        double kept = 1.0;
+        for (int64_t j = 0; j < own; j++) {
+            double share = triangle[j * panel.apart + j] / lengths[panel.first + j];
+            if (!(share >= kept)) kept = share;
+        }
+        double independence = factorize_gram(triangle, panel.apart, own);
+        if (!(independence > 0.0 && kept > 0.0)) return 0.0;
+        invert_triangle(triangle, panel.apart, own, other);
+        multiply(panel, rows, other);
+        if (independence < once) {
+            gram(panel, rows, triangle);
+            if (factorize_gram(triangle, panel.apart, own) == 0.0) return 0.0;
+            invert_triangle(triangle, panel.apart, own, other);
+            multiply(panel, rows, other);
+        }
+        if (kept * independence < least_seen) least_seen = kept * independence;
+        for (int64_t later = b + 1; later < count; later++) take_out(panel, panel_at(panels, later), rows, triangle);
+    }
+    return least_seen;
 }

@@ -83,6 +83,11 @@ INLINE Vector add_scaled(Vector sum, double scalar, Vector other) {
     return sum;
 }
 
+INLINE Vector squared(Vector vector) {
+    EACH(i, PARTS) vector.part[i] *= vector.part[i];
+    return vector;
+}
+
 /* The first cache line that begins in an array: arrays come with room for WIDTH - 1 more doubles than are used. */
 INLINE double *aligned(double *array) {
     return (double *)(((uintptr_t)array + (8 * WIDTH - 1)) / (8 * WIDTH) * (8 * WIDTH));

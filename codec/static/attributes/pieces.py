@@ -12,7 +12,7 @@ from bitstream.attributes.values import (
     ValueDecoder,
     ValueEncoder,
 )
-from bitstream.container.declaration import FACE, LEVELS, OCTAHEDRAL, TEXCOORD, Declaration
+from bitstream.container.declaration import COLOR, FACE, LEVELS, OCTAHEDRAL, TEXCOORD, Declaration
 from bitstream.container.wire import Cursor, write_varint
 from bitstream.errors import CorruptError
 from bitstream.limits import Limits
@@ -60,13 +60,17 @@ def kind_of(declaration: Declaration) -> Kind:
     """How numbers are predicted."""
     if declaration.coding == OCTAHEDRAL:
         return "normal"
-    plain = declaration.coding == LEVELS and max(declaration.largest) <= MOST_WHOLE
-    return "texcoord" if plain and declaration.semantic == TEXCOORD and declaration.words == 2 else "scalar"
+    if declaration.coding == LEVELS and max(declaration.largest) <= MOST_WHOLE:
+        if declaration.semantic == TEXCOORD and declaration.words == 2:
+            return "texcoord"
+        if declaration.semantic == COLOR:
+            return "color"
+    return "plain"
 
 
 def leans(declaration: Declaration) -> bool:
     """Whether numbers are predicted from positions, should these be there."""
-    return declaration.domain != FACE and kind_of(declaration) != "scalar"
+    return declaration.domain != FACE and kind_of(declaration) in ("texcoord", "normal")
 
 
 class PieceEncoder:

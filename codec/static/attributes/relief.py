@@ -23,7 +23,7 @@ Ints = npt.NDArray[np.int32]
 MARGIN = 2.0**-26
 """Of BSM units: decoders agree far better than this."""
 MOST_COORDINATE = 1 << 20
-STEPS_PER_EDGE = 32
+STEPS_PER_EDGE = 128
 FARTHEST = 2.0**20
 """Of BSM units between a mesh and the origin of its own: beyond, its positions are too coarse themselves."""
 

@@ -60,6 +60,10 @@ def latticed(origin: tuple[float, ...], step: float, places: Matrix, cells: int)
     return Grid(origin, step, tuple(int(value) for value in points.max(axis=0)), lattice), points
 
 
+LEAST_CELL = 2.0**-40
+"""Of a mesh that is a point, in BSM units."""
+
+
 class Shaped:
     """Shaped grids of one mesh, at one step after another.
 
@@ -86,7 +90,7 @@ class Shaped:
     @property
     def finest(self) -> float:
         """The least step, in BSM units, that a grid can have."""
-        return float((self._prepared.positions - self._low).max()) / (MOST_LARGEST - 4)
+        return max(float((self._prepared.positions - self._low).max()) / (MOST_LARGEST - 4), LEAST_CELL)
 
     def places(self, step: float, aim: Aim, axes: int = 2) -> tuple[float, Levels, Positions]:
         """The step as a header holds it, in the mesh's unit; places; and the positions there, in the mesh's unit."""

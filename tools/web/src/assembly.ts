@@ -41,6 +41,7 @@ export class Assembly {
     private readonly blended: Doubles;
     private readonly number: Ints;
     private readonly rows: Ints;
+    private readonly lost: number[] = [];
 
     constructor(
         private readonly memory: Memory,
@@ -62,6 +63,39 @@ export class Assembly {
     /** Blend one block in. */
     add(block: DecodedBlock): void {
         this.blend.add(block, block.weights);
+    }
+
+    /** Take note that a block will not come. */
+    lose(index: number): void {
+        this.lost.push(index);
+    }
+
+    /** Vertices without any copy, and those that lack one or lie in the filter's reach of one that is missing. */
+    losses(): { missing: Int32Array; degraded: Int32Array } {
+        const touched = this.touched();
+        const weights = this.blend.weights.view;
+        const missing = touched.filter((vertex) => weights[vertex] === 0);
+        const around = touched.length > 0 ? this.around(touched, this.reach) : touched;
+        const known = this.blend.weights.view;
+        return { missing, degraded: around.filter((vertex) => known[vertex] > 0) };
+    }
+
+    /** Vertices whose positions, or those beside them, are not as the encoder had them. */
+    spoilt(): Int32Array {
+        const touched = this.touched();
+        return touched.length > 0 ? this.around(touched, this.reach + 1) : touched;
+    }
+
+    /** Edges from which the filter sees a vertex. */
+    private get reach(): number {
+        return this.header.smoothing > 0 ? DEGREE : 0;
+    }
+
+    /** Vertices of blocks that were lost. */
+    private touched(): Int32Array {
+        const found = new Set<number>();
+        for (const index of this.lost) for (const vertex of membersOf(this.blocks, index).view) found.add(vertex);
+        return Int32Array.from(found);
     }
 
     /** All positions in BSM units, once every block is in. */
@@ -97,7 +131,7 @@ export class Assembly {
     private settle(vertices: Int32Array): void {
         const [sums, weights, blended] = [this.blend.sums.view, this.blend.weights.view, this.blended.view];
         for (const vertex of vertices) {
-            for (let i = 3 * vertex; i < 3 * vertex + 3; i++) blended[i] = sums[i] / weights[vertex];
+            for (let i = 3 * vertex; i < 3 * vertex + 3; i++) blended[i] = weights[vertex] > 0 ? sums[i] / weights[vertex] : 0;
         }
     }
 

@@ -4,7 +4,7 @@ import { NumericError } from "./errors";
 import type { Doubles, Memory } from "./kernels";
 
 /** Independence of the columns from which one pass of Cholesky QR is enough, and from which two are. */
-const ONCE = 1e-3;
+const ONCE = 1e-5;
 const TWICE = 1e-11;
 /** What makes a basis exact, and the share of hash columns that it starts with (M 8.5). */
 const EXACT_POWER = 2;

@@ -3,18 +3,20 @@ import { Assembly, inMeshUnits, type Changes } from "./assembly";
 import { derivePartition, groupLabels, growBlocks, largestPart, makeGraph, type Blocks, type Graph, type Partition } from "./blocks";
 import { Allowance, chainLength, ChainDecoder, solvesOf, type DecodedBlock, type Surface } from "./chain";
 import { decodeArrangement, decodeConnectivity, decodeLabels } from "./connectivity";
-import { BsmError, CorruptError, UnsupportedError } from "./errors";
+import { BsmError, CorruptError, UnsupportedError, type Described } from "./errors";
 import { Grid, Refinement } from "./fields";
 import type { Header } from "./header";
 import type { Ints, Kernels, Memory } from "./kernels";
 import { checkLimit, DEFAULT_LIMITS, type Limits } from "./limits";
-import { END_OF_STREAM, NEED_DATA, Reader, type Packet, type Signal } from "./reader";
+import { Numbering, permuted, split, type Loose } from "./numbering";
+import { Cursor, END_OF_STREAM, NEED_DATA, Reader, type Damaged, type Packet, type Signal } from "./reader";
 import { Sequence } from "./sequence";
+import { TolerantReader } from "./tolerant";
 
 const CONNECTIVITY_METHOD = 1;
 const PARTITION_METHOD = 0;
 const ORDER_METHOD = 1;
-const GIVEN_ORDER_METHOD = 2;
+const SPLITS_METHOD = 2;
 const MAX_STIFFNESS = 65536;
 
 /** The header has arrived. */
@@ -23,10 +25,15 @@ export interface HeaderEvent {
     header: Header;
 }
 
-/** The faces have arrived, three vertices each, in the order that the mesh had if the stream stores that. */
+/**
+ * The faces have arrived, three vertices each, in the order that the mesh had if the stream stores that; how many
+ * vertices there are, and where those are that no face uses.
+ */
 export interface ConnectivityEvent {
     type: "connectivity";
     faces: Int32Array;
+    vertices: number;
+    loose: Loose;
 }
 
 /** A block, or a chunk of a grid, has been decoded: which vertices it moved or finished, and where they are now. */
@@ -41,12 +48,30 @@ export interface RefinementEvent extends Changes {
     layer: number;
 }
 
-/** The stream has come to its end, and its checksum is right. */
-export interface EndEvent {
-    type: "end";
+/** Something could not be decoded, and a tolerant decoder goes on: a block, frames, or bytes of neither. */
+export interface LossEvent {
+    type: "loss";
+    block?: number;
+    frames?: { first: number; count: number };
+    error: Described;
 }
 
-export type Event = HeaderEvent | ConnectivityEvent | BlockEvent | RefinementEvent | FrameEvent | EndEvent;
+/** The stream has come to its end: its checksum is right, or a tolerant decoder has lost something. */
+export interface EndEvent {
+    type: "end";
+    /** Vertices without any position. */
+    missing: Int32Array;
+    /** Vertices that are less good than they were encoded. */
+    degraded: Int32Array;
+}
+
+export type Event = HeaderEvent | ConnectivityEvent | BlockEvent | RefinementEvent | FrameEvent | LossEvent | EndEvent;
+
+/** What a decoder is asked for beside the mesh. */
+export interface Wishes {
+    /** Report damage behind the faces as `LossEvent`, and go on with everything that does not depend on what is lost. */
+    tolerant?: boolean;
+}
 
 /** A whole mesh, or the first frame of a sequence: positions, shape (n, 3), and faces, shape (m, 3). */
 export interface Mesh {
@@ -87,20 +112,26 @@ export class Decoder {
     private graph?: Graph;
     private surface?: Surface;
     private partition?: Partition;
-    private arrangement?: { numbers: Int32Array; faces: Int32Array };
+    private numbering?: Numbering;
     private blocks?: Blocks;
     private assembly?: Assembly;
-    private chain?: { number: number; decoder: ChainDecoder };
+    private chain?: { number: number; decoder: ChainDecoder; next: number };
     private behindMesh = 0;
     private nextIndex = 0;
     private grid?: Grid;
     private chunks = 0;
+    private gridBroken = false;
+    private over = false;
     private refinement?: Refinement;
     private sequence?: Sequence;
 
-    constructor(kernels: Kernels, limits: Partial<Limits> = {}) {
+    constructor(
+        kernels: Kernels,
+        limits: Partial<Limits> = {},
+        private readonly wishes: Wishes = {},
+    ) {
         this.limits = { ...DEFAULT_LIMITS, ...limits };
-        this.reader = new Reader(this.limits);
+        this.reader = wishes.tolerant ? new TolerantReader(this.limits) : new Reader(this.limits);
         this.memory = kernels.instantiate(this.limits.memory);
         this.allowance = new Allowance(this.limits);
     }
@@ -125,7 +156,7 @@ export class Decoder {
         const item = this.nextItem();
         if (typeof item === "string" || "type" in item) return item;
         if ("make" in item) return { type: "frame", index: item.frame, positions: this.made(item) };
-        return this.guarded(() => ({ type: "block", index: item.index, ...this.numbered(this.assembly!.changes(item)) }), item.index);
+        return this.guarded(() => ({ type: "block", index: item.index, ...this.numbering!.spread(this.assembly!.changes(item)) }), item.index);
     }
 
     /** Decode the rest of a complete stream; faster than asking for events. */
@@ -137,12 +168,13 @@ export class Decoder {
             if ("make" in item) first ??= this.made(item);
             else this.assembly!.add(item);
         }
-        return { positions: first ?? this.guarded(() => this.arranged(this.wholePositions())), faces: this.shownFaces() };
+        const { numbering } = this;
+        return { positions: first ?? this.guarded(() => numbering!.arranged(this.wholePositions())), faces: numbering!.faces };
     }
 
     /** A frame's positions in the unit of the mesh. */
     private made(frame: ComingFrame): Float64Array {
-        return this.guarded(() => this.arranged(inMeshUnits(frame.make(), this.header!)));
+        return this.guarded(() => this.numbering!.arranged(inMeshUnits(frame.make(), this.header!)));
     }
 
     private nextItem(): Item | Signal {
@@ -160,6 +192,10 @@ export class Decoder {
         let block: number | undefined;
         try {
             const packet = this.reader.nextPacket();
+            if (packet === END_OF_STREAM && !this.over) {
+                this.acceptEnd(); // a tolerant reader may find no END
+                return undefined;
+            }
             if (typeof packet === "string") return packet;
             if (packet.type === "block") block = packet.index;
             this.accept(packet);
@@ -186,7 +222,7 @@ export class Decoder {
         }
     }
 
-    private accept(packet: Packet): void {
+    private accept(packet: Packet | Damaged): void {
         switch (packet.type) {
             case "header":
                 return this.acceptHeader(packet.header);
@@ -206,7 +242,41 @@ export class Decoder {
                 return this.acceptRefinement(packet.layer, packet.first, packet.count, packet.data);
             case "end":
                 return this.acceptEnd();
+            case "damaged":
+                return this.acceptDamage(packet);
         }
+    }
+
+    /** What `work` does; its error, where that is allowed, is a loss of `block` or of what follows it. */
+    private tolerating(work: () => void, block?: number): boolean {
+        try {
+            work();
+            return true;
+        } catch (error) {
+            // The first frame of a sequence must be whole.
+            if (!this.wishes.tolerant || this.header!.gopFrames > 0 || !(error instanceof BsmError)) throw error;
+            this.lose(error.located({ offset: this.reader.position, block }), block);
+            return false;
+        }
+    }
+
+    private lose(error: BsmError, block?: number): void {
+        if (block !== undefined) this.assembly!.lose(block);
+        this.queue.push({ type: "loss", block, error: error.described });
+    }
+
+    private acceptDamage({ kind, offset, length, reason }: Damaged): void {
+        const error = new CorruptError(`${length} bytes cannot be read: ${reason}`, { offset });
+        const begun = this.blocks ?? this.grid;
+        if (this.header!.gopFrames > 0 && begun) {
+            if (this.nextIndex < this.header!.blocks) throw error;
+            const sequence = this.begunSequence();
+            if (kind !== "end" || !sequence.lossy) sequence.lose(error);
+            return;
+        }
+        if (!begun && kind !== "block") throw error;
+        if (this.grid) this.gridBroken = true;
+        this.lose(error);
     }
 
     private acceptHeader(header: Header): void {
@@ -249,58 +319,90 @@ export class Decoder {
     }
 
     private acceptOrder(method: number, data: Uint8Array): void {
-        if (method === GIVEN_ORDER_METHOD && !this.header!.gopFrames) return; // A decoder may ignore it (F 9).
-        if (method !== ORDER_METHOD) throw new UnsupportedError(`order method ${method} is unknown to this decoder`);
-        this.arrangement = decodeArrangement(this.memory, data, this.faces!, this.header!.vertices);
+        const { memory, faces, header, limits } = this;
+        const splits = method === SPLITS_METHOD && !header!.gopFrames;
+        if (!splits && method !== ORDER_METHOD) throw new UnsupportedError(`order method ${method} is unknown to this decoder`);
+        const cursor = new Cursor(data);
+        const order = splits ? cursor.take(cursor.varint()) : data;
+        const arrangement = decodeArrangement(memory, order, faces!, header!.vertices);
+        this.numbering = splits ? split(cursor.rest(), arrangement.faces, arrangement.numbers, limits) : permuted(arrangement.faces, arrangement.numbers);
     }
 
     private acceptBlock(index: number, coefficients: number, data: Uint8Array): void {
         const blocks = this.built();
-        this.expect(index);
+        this.skipTo(index);
         this.nextIndex++;
-        const number = Math.floor(index / chainLength(this.header!));
+        const length = chainLength(this.header!);
+        const number = Math.floor(index / length);
         if (this.chain?.number !== number) {
             this.memory.release(this.behindMesh);
-            this.chain = { number, decoder: new ChainDecoder(this.memory, this.header!, blocks, this.allowance, this.surface) };
+            const decoder = new ChainDecoder(this.memory, this.header!, blocks, this.allowance, this.surface);
+            this.chain = { number, decoder, next: number * length };
         }
-        this.queue.push(this.chain.decoder.decode(index, coefficients, data));
+        const { chain } = this;
+        this.tolerating(() => {
+            if (chain.next !== index) throw new CorruptError(`the block depends on block ${chain.next}, which is lost`);
+            this.queue.push(chain.decoder.decode(index, coefficients, data));
+            chain.next++;
+        }, index);
     }
 
     private acceptGrid(first: number, count: number, data: Uint8Array): void {
-        if (!this.grid) {
-            this.grid = new Grid(this.memory, this.faces!, this.header!);
-            this.queue.push({ type: "connectivity", faces: this.shownFaces() });
-        }
-        const changes = this.grid.decode(first, count, data);
-        this.queue.push({ type: "block", index: this.chunks++, ...this.numbered(changes) });
+        this.begunGrid();
+        if (this.gridBroken) return;
+        this.gridBroken = !this.tolerating(() => {
+            const changes = this.grid!.decode(first, count, data);
+            this.queue.push({ type: "block", index: this.chunks++, ...this.numbering!.spread(changes) });
+        });
+    }
+
+    private begunGrid(): Grid {
+        if (this.grid) return this.grid;
+        this.announce();
+        return (this.grid = new Grid(this.memory, this.faces!, this.header!));
     }
 
     private acceptGop(index: number, data: Uint8Array): void {
-        const blocks = this.built();
-        this.expect(this.header!.blocks);
-        if (!this.sequence) {
-            this.memory.release(this.behindMesh);
-            const base = this.assembly!.base();
-            this.sequence = new Sequence(this.memory, this.header!, blocks, this.limits, this.faces!, base, this.allowance);
+        const sequence = this.begunSequence();
+        this.tellLostFrames(index);
+        try {
+            sequence.decode(index, data).forEach((make, t) => this.queue.push({ frame: index + t, make }));
+        } catch (error) {
+            if (!this.wishes.tolerant || !(error instanceof BsmError)) throw error;
+            sequence.lose(error.located({ offset: this.reader.position }));
         }
-        this.sequence.decode(index, data).forEach((make, t) => this.queue.push({ frame: index + t, make }));
+    }
+
+    private begunSequence(): Sequence {
+        const blocks = this.built();
+        if (this.sequence) return this.sequence;
+        this.expect(this.header!.blocks);
+        this.memory.release(this.behindMesh);
+        const base = this.assembly!.base();
+        return (this.sequence = new Sequence(this.memory, this.header!, blocks, this.limits, this.faces!, base, this.allowance));
+    }
+
+    /** Report frames that were lost before frame `index`. */
+    private tellLostFrames(index: number, ended = false): void {
+        const lost = this.sequence!.lostBefore(index, ended, this.wishes.tolerant ?? false);
+        if (lost) this.queue.push({ type: "loss", frames: lost.frames, error: lost.error.described });
     }
 
     private acceptRefinement(layer: number, first: number, count: number, data: Uint8Array): void {
-        this.built();
-        this.expect(this.header!.blocks);
-        if (!this.refinement) {
-            this.memory.release(this.behindMesh);
-            this.refinement = new Refinement(this.memory, this.faces!, this.header!, this.assembly!.base());
-        }
-        const changes = this.refinement.decode(layer, first, count, data);
-        this.queue.push({ type: "refinement", layer, ...this.numbered(changes) });
+        const refinement = this.begunRefinement();
+        this.tolerating(() => {
+            const changes = refinement.decode(layer, first, count, data);
+            this.queue.push({ type: "refinement", layer, ...this.numbering!.spread(changes) });
+        });
     }
 
-    /** Vertices by the numbers that the mesh had, if the stream stores them. */
-    private numbered(changes: Changes): Changes {
-        const numbers = this.arrangement?.numbers;
-        return numbers ? { ...changes, vertices: changes.vertices.map((vertex) => numbers[vertex]) } : changes;
+    private begunRefinement(): Refinement {
+        this.built();
+        if (this.refinement) return this.refinement;
+        this.skipTo(this.header!.blocks);
+        this.memory.release(this.behindMesh);
+        const { memory, faces, header, assembly } = this;
+        return (this.refinement = new Refinement(memory, faces!, header!, assembly!.base(), assembly!.spoilt()));
     }
 
     /** All positions in the unit of the mesh, as vertices are numbered in the decoded faces. */
@@ -308,28 +410,48 @@ export class Decoder {
         return this.grid?.positions ?? this.refinement?.whole() ?? inMeshUnits(this.assembly!.base(), this.header!);
     }
 
-    private arranged(positions: Float64Array): Float64Array {
-        const numbers = this.arrangement?.numbers;
-        if (!numbers) return positions;
-        const arranged = new Float64Array(positions.length);
-        numbers.forEach((to, from) => arranged.set(positions.subarray(3 * from, 3 * from + 3), 3 * to));
-        return arranged;
+    private acceptEnd(): void {
+        if (!this.faces) throw new CorruptError("the stream ends before its first block");
+        this.over = true;
+        this.queue.push({ type: "end", ...this.losses() });
     }
 
-    private acceptEnd(): void {
-        if (this.grid) {
-            this.queue.push({ type: "end" });
-            return;
-        }
+    /** What is missing or less good at the end, in numbers of the user's vertices; strict decoders find that nothing is. */
+    private losses(): { missing: Int32Array; degraded: Int32Array } {
+        const { header } = this;
+        const none = new Int32Array(0);
+        const numbered = (vertices: Int32Array): Int32Array =>
+            this.numbering!.spread({ vertices, positions: new Float64Array(3 * vertices.length), final: new Uint8Array(vertices.length) }).vertices;
+        if (header!.grid.length > 0) return { missing: numbered(this.begunGrid().missing), degraded: none };
         this.built();
-        this.expect(this.header!.blocks);
-        if (this.header!.frames > 0 && !this.sequence) throw new CorruptError("a sequence without frames");
-        this.sequence?.finish();
-        this.queue.push({ type: "end" });
+        if (header!.gopFrames > 0) {
+            this.begunSequence();
+            this.tellLostFrames(header!.frames, true);
+            return { missing: none, degraded: none };
+        }
+        this.skipTo(header!.blocks);
+        const { missing, degraded } = this.assembly!.losses();
+        const unrefined = this.refinement?.unrefined() ?? none;
+        const gone = new Set(missing);
+        const worse = new Set([...degraded, ...unrefined.filter((vertex) => !gone.has(vertex))]);
+        return { missing: numbered(missing), degraded: numbered(Int32Array.from(worse)) };
     }
 
     private expect(index: number): void {
         if (index !== this.nextIndex) throw new CorruptError("the frame of a block is missing", { block: this.nextIndex });
+    }
+
+    /** Give up the blocks before `index` that did not come. */
+    private skipTo(index: number): void {
+        for (; this.nextIndex < index; this.nextIndex++) {
+            this.tolerating(() => this.expect(index), this.nextIndex);
+        }
+    }
+
+    private announce(): void {
+        this.numbering ??= new Numbering(this.faces!.view.slice(), this.header!.vertices);
+        const { faces, size, loose } = this.numbering;
+        this.queue.push({ type: "connectivity", faces, vertices: size, loose });
     }
 
     /** The blocks, built when the first of them is needed. */
@@ -342,12 +464,8 @@ export class Decoder {
         this.blocks = growBlocks(memory, graph!, partition, header!.blockSize);
         this.assembly = new Assembly(memory, this.blocks, header!);
         this.behindMesh = memory.mark();
-        this.queue.push({ type: "connectivity", faces: this.shownFaces() });
+        this.announce();
         return this.blocks;
-    }
-
-    private shownFaces(): Int32Array {
-        return this.arrangement?.faces ?? this.faces!.view.slice();
     }
 }
 

@@ -1,7 +1,7 @@
 /** Fields of integers on a mesh: positions on a grid, and levels that refine what blocks decoded to (specification, V, M 17). */
 import { inMeshUnits, type Changes } from "./assembly";
 import { Coder } from "./entropy";
-import { NumericError } from "./errors";
+import { CorruptError, NumericError } from "./errors";
 import type { Header } from "./header";
 import type { Argument, Doubles, Ints, Memory } from "./kernels";
 
@@ -87,6 +87,7 @@ export class Grid {
     private readonly state: Argument[];
     private readonly order: Ints;
     private readonly values: Ints;
+    private coded = 0;
 
     constructor(
         private readonly memory: Memory,
@@ -117,7 +118,9 @@ export class Grid {
 
     decode(first: number, count: number, payload: Uint8Array): Changes {
         const { header, memory } = this;
+        if (first !== this.coded) throw new CorruptError(`positions from number ${this.coded} on are missing; others depend on them`);
         decodeChunk(memory, "code_grid", this.state, payload, first, count);
+        this.coded += count;
         const vertices = this.order.view.slice(first, first + count);
         const values = this.values.view;
         const positions = new Float64Array(3 * count);
@@ -127,6 +130,11 @@ export class Grid {
         inMeshUnits(positions, header);
         vertices.forEach((vertex, i) => this.positions.set(positions.subarray(3 * i, 3 * i + 3), 3 * vertex));
         return { vertices, positions, final: new Uint8Array(count).fill(1) };
+    }
+
+    /** Vertices without a position. */
+    get missing(): Int32Array {
+        return this.order.view.slice(this.coded);
     }
 
     /** The cell of a coded value (V 12), in integers. */
@@ -144,15 +152,21 @@ export class Refinement {
     private readonly behind: number;
     private layer = -1;
     private axes = 1;
+    private coded = 0;
     private levels?: Ints;
     private state: Argument[] = [];
+    private readonly reached: Uint8Array[] = [];
+    private readonly spoilt: Uint8Array;
 
     constructor(
         private readonly memory: Memory,
         private readonly faces: Ints,
         private readonly header: Header,
         base: Float64Array,
+        spoilt: Int32Array,
     ) {
+        this.spoilt = new Uint8Array(header.vertices);
+        for (const vertex of spoilt) this.spoilt[vertex] = 1;
         this.positions = memory.copy(base, 3);
         this.frames = memory.doubles(9 * header.vertices, 9);
         memory.call("local_frames", this.positions, faces, this.frames);
@@ -162,13 +176,30 @@ export class Refinement {
     decode(layer: number, first: number, count: number, payload: Uint8Array): Changes {
         const { header, memory } = this;
         if (layer !== this.layer) this.begin(layer);
+        if (first !== this.coded) throw new CorruptError(`layer ${layer + 1} lacks the vertices before ${first}: the rest is lost`);
         decodeChunk(memory, "code_levels", this.state, payload, first, count);
+        this.coded += count;
         const [step, ratio] = header.refinements.slice(2 * layer, 2 * layer + 2);
         const moved = this.positions.part(3 * first, 3 * count, 3);
         const levels = this.levels!.part(this.axes * first, this.axes * count, this.axes);
+        const before = moved.view.slice();
         memory.call("add_levels", moved, this.frames.part(9 * first, 9 * count, 9), levels, step, ratio);
-        const vertices = Int32Array.from({ length: count }, (_, i) => first + i);
-        return { vertices, positions: inMeshUnits(moved.view.slice(), header), final: new Uint8Array(count) };
+        const spoilt = this.spoilt.subarray(first, first + count);
+        const rows = Int32Array.from({ length: count }, (_, row) => row).filter((row) => !spoilt[row]);
+        const after = moved.view;
+        spoilt.forEach((bad, row) => bad && after.set(before.subarray(3 * row, 3 * row + 3), 3 * row));
+        const positions = new Float64Array(3 * rows.length);
+        rows.forEach((row, i) => positions.set(after.subarray(3 * row, 3 * row + 3), 3 * i));
+        const vertices = rows.map((row) => first + row);
+        for (const vertex of vertices) this.reached[layer][vertex] = 1;
+        return { vertices, positions: inMeshUnits(positions, header), final: new Uint8Array(rows.length) };
+    }
+
+    /** Vertices that a layer which has begun did not reach. */
+    unrefined(): Int32Array {
+        const vertices = Int32Array.from({ length: this.header.vertices }, (_, vertex) => vertex);
+        const begun = this.reached.filter((layer) => layer.includes(1));
+        return vertices.filter((vertex) => begun.some((layer) => !layer[vertex]));
     }
 
     /** All positions in the unit of the mesh. */
@@ -183,6 +214,8 @@ export class Refinement {
         const size = header.vertices;
         memory.release(this.behind);
         this.layer = layer;
+        this.coded = 0;
+        this.reached[layer] = new Uint8Array(size);
         this.axes = header.refinements[2 * layer + 1] === 0 ? 1 : 3;
         const field = (): Ints => zeros(memory.ints(this.axes * size, this.axes));
         this.levels = field();

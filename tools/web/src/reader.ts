@@ -19,6 +19,15 @@ export type Packet =
     | { type: "refinement"; layer: number; first: number; count: number; data: Uint8Array }
     | { type: "end"; frames: number; crc: number };
 
+/** Bytes that a tolerant reader skipped: where, how many, what kind of frame they seem to be, and why. */
+export interface Damaged {
+    type: "damaged";
+    kind?: Kind;
+    offset: number;
+    length: number;
+    reason: string;
+}
+
 type Kind = Packet["type"];
 
 const PREAMBLE = Uint8Array.of(0x89, 0x42, 0x53, 0x4d, 0);
@@ -124,14 +133,37 @@ const PARSERS: Record<Kind, (payload: Cursor, limits: Limits) => Packet> = {
     },
 };
 
+/** What a tag says, and where the frame's payload and the frame end. */
+function frameOf(tag: { value: number; end: number }): { type: number; length: number; sum: number; end: number } {
+    const type = tag.value % 16;
+    const length = Math.floor(tag.value / 16);
+    const sum = tag.end + length;
+    return { type, length, sum, end: sum + (type === BLOCK_TAG ? 2 : 4) };
+}
+
 function littleEndian(bytes: Uint8Array): number {
     return bytes.reduceRight((value, byte) => value * 256 + byte, 0);
+}
+
+/** Everything that may come at any distance behind a packet of a kind. */
+function reachable(kind: Kind | "start"): Kind[] {
+    const found = new Set<Kind>();
+    const pending = [...FOLLOWERS[kind]];
+    for (let next; (next = pending.pop()); ) {
+        if (found.has(next)) continue;
+        found.add(next);
+        pending.push(...FOLLOWERS[next]);
+    }
+    return [...found];
 }
 
 /** Which packet may follow which, and what it must have to agree with the header. */
 class Grammar {
     header?: Header;
+    /** Whether an unknown number of frames was lost. */
+    lossy = false;
     private last: Kind | "start" = "start";
+    private allowed = FOLLOWERS.start;
     private metadataSeen = false;
     private nextBlock = 0;
     private nextFrame = 0;
@@ -148,70 +180,87 @@ class Grammar {
         return this.last === "end";
     }
 
-    /** Take note of a packet, or throw what is wrong with it. */
+    /** The kinds of packets that may come next. */
+    get expected(): Kind[] {
+        const metadata = !this.metadataSeen && ["header", "connectivity", "partition", "order"].includes(this.last);
+        return metadata ? [...this.allowed, "metadata"] : this.allowed;
+    }
+
+    /** Take note that an unknown number of frames is missing here: everything that can come later may come now. */
+    lose(): void {
+        this.allowed = reachable(this.last);
+        this.lossy = true;
+    }
+
+    /** Throw what is wrong with a packet that comes here. */
+    check(packet: Packet): void {
+        if (!this.expected.includes(packet.type)) throw new CorruptError(`${packet.type} may not come here`);
+        const { header } = this;
+        if (!header) return;
+        if (packet.type === "block") this.checkBlock(packet.index, packet.coefficients, header);
+        if (packet.type === "gop") this.checkGop(packet.index, header);
+        if (packet.type === "grid") this.checkChunk(packet.first, packet.count, this.nextVertex, header);
+        if (packet.type === "refinement") this.checkRefinement(packet, header);
+        if (packet.type === "partition" && header.grid.length > 0) throw new CorruptError("parts where there are no blocks");
+        if (packet.type === "end" && header.grid.length > 0 && this.nextVertex < header.vertices && !this.lossy) {
+            throw new CorruptError(`the positions end at vertex ${this.nextVertex} of ${header.vertices}`);
+        }
+    }
+
+    /** Take note of a packet that nothing is wrong with. */
     advance(packet: Packet): void {
         if (packet.type === "metadata") {
-            if (this.metadataSeen || !["header", "connectivity", "partition", "order"].includes(this.last)) {
-                throw new CorruptError("metadata may not come here");
-            }
             this.metadataSeen = true;
             return;
         }
-        if (!FOLLOWERS[this.last].includes(packet.type)) throw new CorruptError(`${packet.type} may not come here`);
         if (packet.type === "header") this.header = packet.header;
-        if (packet.type === "block") this.checkBlock(packet.index, packet.coefficients, this.header!);
-        if (packet.type === "gop") this.checkGop(packet.index, this.header!);
-        if (packet.type === "grid") this.checkChunk(packet.first, packet.count, this.header!);
-        if (packet.type === "refinement") this.checkRefinement(packet, this.header!);
-        if (packet.type === "partition" && this.header!.grid.length > 0) throw new CorruptError("parts where there are no blocks");
-        if (packet.type === "end" && this.header!.grid.length > 0 && this.nextVertex < this.header!.vertices) {
-            throw new CorruptError(`the positions end at vertex ${this.nextVertex} of ${this.header!.vertices}`);
-        }
+        if (packet.type === "block") this.nextBlock = packet.index + 1;
+        if (packet.type === "gop") this.nextFrame = packet.index + 1;
+        if (packet.type === "refinement") this.layer = packet.layer;
+        if (packet.type === "grid" || packet.type === "refinement") this.nextVertex = packet.first + packet.count;
         this.last = packet.type;
+        this.allowed = FOLLOWERS[packet.type];
     }
 
     private checkRefinement(packet: Extract<Packet, { type: "refinement" }>, header: Header): void {
         const layers = header.refinements.length / 2;
         if (packet.layer >= layers) throw new CorruptError(`layer ${packet.layer} of ${layers}`);
         if (packet.layer < this.layer) throw new CorruptError("layers must ascend");
-        if (packet.layer > this.layer) this.nextVertex = 0;
-        this.layer = packet.layer;
-        this.checkChunk(packet.first, packet.count, header);
+        this.checkChunk(packet.first, packet.count, packet.layer > this.layer ? 0 : this.nextVertex, header);
     }
 
-    private checkChunk(first: number, count: number, header: Header): void {
-        if (first !== this.nextVertex) throw new CorruptError(`vertices from ${first} on where those from ${this.nextVertex} on must follow`);
+    private checkChunk(first: number, count: number, following: number, header: Header): void {
+        if (first < following || (first > following && !this.lossy)) {
+            throw new CorruptError(`vertices from ${first} on where those from ${following} on must follow`);
+        }
         if (count === 0 || count > header.vertices - first) throw new CorruptError(`${count} vertices from ${first} on`);
-        this.nextVertex = first + count;
     }
 
     private checkBlock(index: number, coefficients: number, header: Header): void {
         if (index < this.nextBlock) throw new CorruptError("the indices of blocks must ascend");
         if (index >= header.blocks) throw new CorruptError(`block ${index} of ${header.blocks}`);
         if (coefficients > header.coefficients) throw new CorruptError(`${coefficients} coefficients are too many`);
-        this.nextBlock = index + 1;
     }
 
     private checkGop(index: number, header: Header): void {
         if (index < this.nextFrame) throw new CorruptError("the indices of GOPs must ascend");
         if (header.gopFrames === 0) throw new CorruptError("a GOP in the stream of a static mesh");
         if (header.frames > 0 && index >= header.frames) throw new CorruptError(`a GOP from frame ${index} on`);
-        this.nextFrame = index + 1;
     }
 }
 
 /** Strict: the first thing wrong is thrown, and thrown again by every later call. */
 export class Reader {
+    protected begin = 0;
+    protected end = 0;
+    protected eof = false;
+    protected readonly grammar = new Grammar();
     private buffer = new Uint8Array(0);
-    private begin = 0;
-    private end = 0;
     private offset = 0;
     private frames = 0;
     private crc = 0;
     private started = false;
-    private eof = false;
     private error?: BsmError;
-    private readonly grammar = new Grammar();
 
     constructor(private readonly limits: Limits) {}
 
@@ -235,7 +284,7 @@ export class Reader {
     }
 
     /** The next packet, `NEED_DATA`, or `END_OF_STREAM` after END and `receiveEof`. */
-    nextPacket(): Packet | Signal {
+    nextPacket(): Packet | Damaged | Signal {
         if (this.error) throw this.error;
         try {
             return this.next();
@@ -257,13 +306,15 @@ export class Reader {
         this.end = size;
     }
 
-    private next(): Packet | Signal {
+    protected next(): Packet | Damaged | Signal {
         if (!this.started && !this.start()) return NEED_DATA;
         while (!this.grammar.ended) {
             const frame = this.frame();
             if (!frame) return this.incomplete();
             const packet = this.parse(frame.type, frame.payload);
-            this.consume(frame.size);
+            if (packet) this.grammar.advance(packet);
+            this.crc = crc32(this.buffer.subarray(this.begin, this.begin + frame.size), this.crc);
+            this.skip(frame.size);
             if (packet) return packet;
         }
         if (this.end > this.begin) throw new CorruptError("bytes behind END");
@@ -294,25 +345,37 @@ export class Reader {
         });
     }
 
-    private frame(): { type: number; payload: Uint8Array; size: number } | undefined {
-        const tag = parseVarint(this.buffer, this.begin, this.end);
+    /** The frame `ahead` bytes from here; undefined if it is not complete. */
+    protected frame(ahead = 0): { type: number; payload: Uint8Array; size: number } | undefined {
+        const start = this.begin + ahead;
+        const tag = parseVarint(this.buffer, start, this.end);
         if (!tag) return undefined;
-        const type = tag.value % 16;
-        const length = Math.floor(tag.value / 16);
+        const { type, length, sum, end } = frameOf(tag);
         checkLimit(this.limits, "frameBytes", length);
-        const sum = tag.end + length;
-        const end = sum + (type === BLOCK_TAG ? 2 : 4);
         if (end > this.end) return undefined;
-        const body = this.buffer.subarray(this.begin, sum);
+        const body = this.buffer.subarray(start, sum);
         const expected = type === BLOCK_TAG ? crc16(body) : crc32(body);
         if (littleEndian(this.buffer.subarray(sum, end)) !== expected) {
             throw new CorruptError(`the checksum of a frame of type ${type} and ${length} bytes is wrong`);
         }
-        return { type, payload: this.buffer.slice(tag.end, sum), size: end - this.begin };
+        return { type, payload: this.buffer.slice(tag.end, sum), size: end - start };
+    }
+
+    /** What the tag of the frame `ahead` bytes from here says, if it can be read: kind and bytes of the whole frame. */
+    protected tagAt(ahead: number): { kind?: Kind; size: number } | undefined {
+        try {
+            const tag = parseVarint(this.buffer, this.begin + ahead, this.end);
+            if (!tag) return undefined;
+            const { type, end } = frameOf(tag);
+            return { kind: KINDS[type], size: end - this.begin - ahead };
+        } catch (error) {
+            if (error instanceof BsmError) return undefined;
+            throw error;
+        }
     }
 
     /** The packet in a frame, checked against everything before it; undefined for one to be skipped. */
-    private parse(type: number, payload: Uint8Array): Packet | undefined {
+    protected parse(type: number, payload: Uint8Array): Packet | undefined {
         if (type >= 8 && type <= 11) {
             if (!this.grammar.header) throw new CorruptError("the first frame must be HEADER");
             return undefined;
@@ -320,18 +383,18 @@ export class Reader {
         const kind = KINDS[type];
         if (!kind || !this.grammar.announces(kind)) throw new UnsupportedError(`frame type ${type} is unknown to this decoder`);
         const packet = PARSERS[kind](new Cursor(payload), this.limits);
-        this.grammar.advance(packet);
-        if (packet.type === "end") {
+        this.grammar.check(packet);
+        if (packet.type === "end" && !this.grammar.lossy) {
             if (packet.frames !== this.frames) throw new CorruptError(`END counts ${packet.frames} frames before it`);
             if (packet.crc !== this.crc) throw new CorruptError("the CRC-32 of the whole stream is wrong");
         }
         return packet;
     }
 
-    private consume(size: number): void {
-        this.crc = crc32(this.buffer.subarray(this.begin, this.begin + size), this.crc);
+    /** Leave one frame, or bytes that cannot be read, behind. */
+    protected skip(count: number): void {
         this.frames++;
-        this.drop(size);
+        this.drop(count);
     }
 
     private drop(count: number): void {

@@ -3,7 +3,7 @@ import { factorize, reconstruct, solve, cosineColumns, type Factor, type Matrix 
 import { makeBlock, type Block, type Blocks } from "./blocks";
 import { keyDictionary, spendOn, TETHER, type Allowance } from "./chain";
 import { Coder, makeBank, unsignedSpan, type Bank } from "./entropy";
-import { CorruptError, NumericError, UnsupportedError } from "./errors";
+import { CorruptError, NumericError, UnsupportedError, type BsmError } from "./errors";
 import type { Header } from "./header";
 import type { Doubles, Ints, Memory } from "./kernels";
 import { checkLimit, type Limits } from "./limits";
@@ -74,6 +74,9 @@ export class Sequence {
     private behindBank = 0;
     private history?: History;
     private next = 0;
+    private damage?: BsmError;
+    /** Whether a loss was reported. */
+    lossy = false;
 
     /** `firstFrame` holds the positions that the blocks add up to, in BSM units. */
     constructor(
@@ -101,15 +104,31 @@ export class Sequence {
         const gop = parseGop(data, header.gopFrames);
         const columns = gop.method === COSINES ? 3 * gop.frames : gop.components;
         checkLimit(this.limits, "sequenceBytes", 16 * columns * (header.vertices + 3 * gop.frames));
-        this.next += gop.frames;
-        if (header.frames > 0 && this.next > header.frames) throw new CorruptError(`frame ${this.next - 1} of ${header.frames}`);
-        return gop.method <= COSINES ? this.transformed(gop) : [this.single(gop)];
+        const last = index + gop.frames;
+        if (header.frames > 0 && last > header.frames) throw new CorruptError(`frame ${last - 1} of ${header.frames}`);
+        const frames = gop.method <= COSINES ? this.transformed(gop) : [this.single(gop)];
+        this.next = last;
+        return frames;
     }
 
-    /** Take note that the stream has ended. */
-    finish(): void {
-        const { frames } = this.header;
-        if (frames > 0 && this.next < frames) throw new CorruptError(`the frames end at ${this.next} of ${frames}`);
+    /** Take note that frames are lost; how many is known when the next ones come. */
+    lose(error: BsmError): void {
+        this.damage ??= error;
+        this.history = undefined;
+    }
+
+    /** The frames that are missing before frame `index`, or before the end, that nobody may know (0); an error if none may be. */
+    lostBefore(index: number, ended: boolean, tolerant: boolean): { frames: { first: number; count: number }; error: BsmError } | undefined {
+        const first = this.next;
+        const count = Math.max(index - first, 0);
+        if (count === 0 && !(ended && index === 0 && this.damage)) return undefined;
+        const error = this.damage ?? new CorruptError(`${count} frames from number ${first} on are missing`);
+        if (!tolerant) throw error;
+        this.history = undefined;
+        this.damage = undefined;
+        this.lossy = true;
+        this.next += count;
+        return { frames: { first, count }, error };
     }
 
     /** Weight of each entry of the graph (S 3.1). */

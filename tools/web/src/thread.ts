@@ -1,5 +1,5 @@
 /** A decoder in a thread of its own: the page stays free while it works. */
-import type { Event, FrameEvent } from "./decoder";
+import type { Event, FrameEvent, Wishes } from "./decoder";
 import { errorLike, type BsmError, type Described } from "./errors";
 import type { Kernels } from "./kernels";
 import type { Limits } from "./limits";
@@ -9,7 +9,7 @@ import script from "worker:./worker.ts";
 export type DrawnEvent = Exclude<Event, FrameEvent> | FrameEvent<Float32Array>;
 
 /** What is said to the worker: first how to begin, then pieces of the stream, then null for its end. */
-export type Order = { kernels: WebAssembly.Module; limits: Partial<Limits> } | Uint8Array | null;
+export type Order = { kernels: WebAssembly.Module; limits: Partial<Limits>; wishes: Wishes } | Uint8Array | null;
 
 /** What the worker says: an event, what is wrong, or that all bytes so far are decoded. */
 export type Answer = { event: DrawnEvent } | { problem: Described } | { taken: number } | { fault: string };
@@ -27,7 +27,7 @@ export interface Listener {
 export class DecoderThread {
     private readonly worker: Worker;
 
-    constructor(kernels: Kernels, listener: Listener, limits: Partial<Limits> = {}) {
+    constructor(kernels: Kernels, listener: Listener, limits: Partial<Limits> = {}, wishes: Wishes = {}) {
         const url = URL.createObjectURL(new Blob([script], { type: "text/javascript" }));
         this.worker = new Worker(url, { name: "BSM decoder" });
         URL.revokeObjectURL(url);
@@ -37,7 +37,7 @@ export class DecoderThread {
             else listener.onError("problem" in data ? errorLike(data.problem) : new Error(data.fault));
         };
         this.worker.onerror = ({ message }) => listener.onError(new Error(`the decoder's thread does not run: ${message ?? "it could not be started"}`));
-        this.say({ kernels: kernels.module, limits });
+        this.say({ kernels: kernels.module, limits, wishes });
     }
 
     receiveData(data: Uint8Array): void {

@@ -1,6 +1,6 @@
 /** BSM streams in three.js: a geometry that fills while the bytes arrive, and a loader. */
 import { BufferAttribute, BufferGeometry, Loader, type LoadingManager } from "three";
-import type { BlockEvent, Event, RefinementEvent } from "./decoder";
+import type { BlockEvent, ConnectivityEvent, Event, LossEvent, RefinementEvent } from "./decoder";
 import type { Header } from "./header";
 import type { Kernels } from "./kernels";
 import { checkLimit, DEFAULT_LIMITS, type Limits } from "./limits";
@@ -58,9 +58,10 @@ export class BSMGeometry extends BufferGeometry {
     /** Bring the geometry up to an event. */
     accept(event: Event | DrawnEvent): void {
         if (event.type === "header") this.header = event.header;
-        if (event.type === "connectivity") this.acceptFaces(event.faces);
+        if (event.type === "connectivity") this.acceptFaces(event);
         if (event.type === "block" || event.type === "refinement") this.acceptBlock(event);
         if (event.type === "frame") this.acceptFrame(event.index, event.positions);
+        if (event.type === "loss") this.acceptLoss(event);
         if (event.type === "end") this.computeBoundingSphere();
     }
 
@@ -73,15 +74,16 @@ export class BSMGeometry extends BufferGeometry {
         this.updateNormals();
     }
 
-    private acceptFaces(faces: Int32Array): void {
-        const size = faces.reduce((most, vertex) => Math.max(most, vertex), -1) + 1;
+    private acceptFaces({ faces, vertices: size, loose }: ConnectivityEvent): void {
         this.faces = faces;
         this.origin = new Int32Array(size).fill(-1);
         this.depth = new Uint8Array(size);
         this.touched = new Uint8Array(size);
         this.waiting = new Uint8Array(faces.length / 3).fill(3);
         this.facesAround = aroundVertices(faces, size);
-        this.setAttribute("position", new BufferAttribute(new Float32Array(3 * size), 3));
+        const positions = new Float32Array(3 * size);
+        loose.vertices.forEach((vertex, i) => positions.set(loose.positions.subarray(3 * i, 3 * i + 3), 3 * vertex));
+        this.setAttribute("position", new BufferAttribute(positions, 3));
         this.setAttribute("normal", new BufferAttribute(new Float32Array(3 * size), 3));
         this.setIndex(new BufferAttribute(new Uint32Array(faces.length), 1));
         this.setDrawRange(0, 0);
@@ -117,6 +119,12 @@ export class BSMGeometry extends BufferGeometry {
         checkLimit(this.limits, "keptBytes", 4 * positions.length * (this.frames.length + 1));
         this.frames.push(positions instanceof Float32Array ? positions : Float32Array.from(positions));
         this.progress.onFrame?.(index, this);
+    }
+
+    /** Where frames are lost, the one before them stays. */
+    private acceptLoss({ frames }: LossEvent): void {
+        const before = this.frames.at(-1) ?? (this.getAttribute("position")?.array as Float32Array | undefined)?.slice();
+        for (let k = 0; before && k < (frames?.count ?? 0); k++) this.frames.push(before);
     }
 
     private draw(face: number, index: BufferAttribute): void {

@@ -30,7 +30,7 @@ function obey(order: Order): void {
         decoder.receiveData(order);
         taken += order.length;
     } else {
-        decoder = new Decoder(new Kernels(order.kernels), order.limits);
+        decoder = new Decoder(new Kernels(order.kernels), order.limits, order.wishes);
         return;
     }
     tell();

@@ -28,8 +28,11 @@ export function meshOfEvents(events: Iterable<Event>): Mesh {
     let faces = new Int32Array(0);
     const frames: Float64Array[] = [];
     for (const event of events) {
-        if (event.type === "header") positions = new Float64Array(3 * event.header.vertices).fill(NaN);
-        if (event.type === "connectivity") faces = Int32Array.from(event.faces);
+        if (event.type === "connectivity") {
+            faces = Int32Array.from(event.faces);
+            positions = new Float64Array(3 * event.vertices).fill(NaN);
+            event.loose.vertices.forEach((v, i) => positions.set(event.loose.positions.subarray(3 * i, 3 * i + 3), 3 * v));
+        }
         if (event.type === "frame") frames.push(event.positions);
         if (event.type === "block" || event.type === "refinement") event.vertices.forEach((v, i) => positions.set(event.positions.subarray(3 * i, 3 * i + 3), 3 * v));
     }

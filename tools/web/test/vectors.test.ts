@@ -15,8 +15,6 @@ interface Vector {
 }
 
 const { vectors } = JSON.parse(readFileSync(join(VECTORS, "manifest.json"), "utf8")) as { vectors: Vector[] };
-/** What this decoder does not do: given vertices are ignored (F 9). */
-const LEFT_OUT = /^(good|bad)-splits/;
 const WAYS: [string, (kernels: Kernels, data: Uint8Array) => Mesh][] = [
     ["whole", decode],
     ["in events", (kernels, data) => meshOfEvents(eventsOf(kernels, data, data.length))],
@@ -27,8 +25,7 @@ for (const build of BUILDS) {
     const kernels = compile(build);
     for (const vector of vectors) {
         for (const [way, take] of WAYS) {
-            const skip = LEFT_OUT.test(vector.name) && "given vertices are ignored";
-            test(`${build} ${vector.name} ${way}`, { skip }, async () => {
+            test(`${build} ${vector.name} ${way}`, async () => {
                 const data = readFileSync(join(VECTORS, `${vector.name}.bsm`));
                 const compiled = await kernels;
                 if (vector.error) assert.throws(() => take(compiled, data), { name: errorName(vector.error) });

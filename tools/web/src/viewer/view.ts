@@ -1,4 +1,6 @@
 /** A stream as it arrives, cut at any byte, over a link of any speed; sequences play. */
+import type { LossEvent } from "../decoder";
+import { errorLike } from "../errors";
 import type { Header } from "../header";
 import type { Kernels } from "../kernels";
 import { DecoderThread } from "../thread";
@@ -57,6 +59,7 @@ export class View {
     private started = 0;
     private firstDrawn?: number;
     private completed?: number;
+    private losses: LossEvent[] = [];
     private over = true;
     private shown = true;
     private stale = false;
@@ -134,6 +137,7 @@ export class View {
         this.frameShown = -1;
         this.firstDrawn = this.completed = undefined;
         this.errors = undefined;
+        this.losses = [];
         this.shown = this.over = false;
         this.started = performance.now();
         this.part("problem").textContent = "";
@@ -141,11 +145,12 @@ export class View {
         this.thread = new DecoderThread(this.kernels, {
             onEvent: (event) => {
                 geometry.accept(event);
+                if (event.type === "loss") this.lose(event);
                 if (event.type === "end") this.end();
             },
             onError: (error) => this.fail(`This stream cannot be decoded further. ${error.name}: ${error.message}`),
             onTaken: (bytes) => bytes === this.fed && this.show(),
-        });
+        }, {}, { tolerant: true });
     }
 
     /** Go on for one picture. */
@@ -177,6 +182,17 @@ export class View {
         this.stage.show(this.geometry, center, diagonal);
     }
 
+    /** Say what is lost; what could be decoded stays to be seen. */
+    private lose(loss: LossEvent): void {
+        this.losses.push(loss);
+        const blocks = this.losses.flatMap(({ block }) => (block === undefined ? [] : [block]));
+        const frames = this.losses.reduce((sum, { frames }) => sum + (frames?.count ?? 0), 0);
+        const lost = [blocks.length > 0 ? `block${blocks.length > 1 ? "s" : ""} ${blocks.join(", ")}` : "", frames > 0 ? `${frames} frames` : ""];
+        const { name, message } = errorLike(this.losses[0].error);
+        const what = lost.filter(Boolean).join(" and ") || "some bytes";
+        this.part("problem").textContent = `This stream is damaged: ${what} cannot be decoded, the rest is shown. First, ${name}: ${message}`;
+    }
+
     private drawn(): void {
         this.firstDrawn ??= performance.now() - this.started;
         this.show();
@@ -186,7 +202,7 @@ export class View {
     private end(): void {
         this.over = true;
         this.completed = performance.now() - this.started;
-        this.root.dataset.state = "complete";
+        this.root.dataset.state = this.losses.length > 0 ? "damaged" : "complete";
     }
 
     /** Frames are there: begin to play them, unless the page's reader wants less motion. */

@@ -1,0 +1,106 @@
+"""Jobs in processes of this machine, which may die."""
+
+from __future__ import annotations
+
+import argparse
+import multiprocessing
+import os
+import signal
+import threading
+from collections.abc import Generator, Iterator
+from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
+from concurrent.futures.process import BrokenProcessPool
+from contextlib import contextmanager
+from itertools import islice
+
+from bsm.exits import exit_of
+from bsm.farm.jobs import Outcome, Outcomes, Task, Tasks, Work, far_outcome
+from bsm.files.output import Terminated, termination_as_exception
+
+AHEAD = 2
+"""Jobs handed out for each process."""
+
+Handed = dict[int, argparse.Namespace]
+
+
+def in_processes(work: Work, tasks: Tasks, processes: int) -> Outcomes:
+    """Do jobs in so many processes at a time.
+
+    Where one dies, nobody knows which job was too much for it: those that were handed out are tried again, each alone,
+    and one whose process dies again has failed.
+    """
+    waiting = iter(tasks)
+    with termination_as_exception():
+        while suspects := (yield from _until_one_dies(work, waiting, processes)):
+            for task in suspects.items():
+                for number in (yield from _until_one_dies(work, iter([task]), 1)):
+                    yield (
+                        number,
+                        Outcome({}, MemoryError(f"{task[1].input}: its process died, twice")),
+                    )
+
+
+def _until_one_dies(work: Work, tasks: Iterator[Task], processes: int) -> Generator[tuple[int, Outcome], None, Handed]:
+    """Do jobs until there are none, or a process dies; returns what was handed out and has not ended."""
+    # Not forked: threads of this process may hold locks.
+    pool = ProcessPoolExecutor(processes, multiprocessing.get_context("spawn"))
+    handed: Handed = {}
+    futures: dict[Future[Outcome], int] = {}
+    whole = True
+    try:
+        while whole:
+            for number, args in islice(tasks, AHEAD * processes - len(futures)):
+                handed[number] = args
+                with _interrupts_ignored():
+                    futures[pool.submit(_task, work, args)] = number
+            if not futures:
+                break
+            done, _ = wait(futures, return_when=FIRST_COMPLETED)
+            whole = not any(isinstance(future.exception(), BrokenProcessPool) for future in done)
+            yield from _ended(done if whole else wait(futures).done, futures, handed)
+    except BrokenProcessPool:
+        yield from _ended(wait(futures).done, futures, handed)
+    finally:
+        _end(pool, at_once=bool(handed))
+    return handed
+
+
+def _ended(done: set[Future[Outcome]], futures: dict[Future[Outcome], int], handed: Handed) -> Outcomes:
+    """What came of jobs, but for those that died with a process."""
+    for future in done:
+        number = futures.pop(future)
+        if not isinstance(future.exception(), BrokenProcessPool):
+            outcome = future.result()
+            del handed[number]
+            yield number, outcome
+
+
+def _end(pool: ProcessPoolExecutor, *, at_once: bool) -> None:
+    processes = list((pool._processes or {}).values())
+    pool.shutdown(wait=not at_once, cancel_futures=True)
+    if at_once:
+        for process in processes:
+            process.terminate()
+        for process in processes:
+            process.join()
+
+
+def _task(work: Work, args: argparse.Namespace) -> Outcome:
+    try:
+        return far_outcome(work, args)
+    except Terminated:
+        # What was begun is cleared away; nothing else is to be taken up.
+        os._exit(exit_of(Terminated()).code)
+
+
+@contextmanager
+def _interrupts_ignored() -> Iterator[None]:
+    """Let processes that begin here leave Ctrl-C to this one from their first moment on."""
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    before = signal.signal(signal.SIGINT, signal.SIG_IGN)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, before)

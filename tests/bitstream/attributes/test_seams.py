@@ -1,0 +1,129 @@
+"""Seams of attributes to bytes and back, and the corners that share a value."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from bitstream.attributes.seams import NO_SEAM, OPEN, SEAM, Joins, decode_seams, encode_seams, find_seams
+from bitstream.errors import BsmError, CorruptError, TruncatedError
+from bitstream.fields.corners import corners_of
+
+SQUARE = np.array([[0, 1, 2], [0, 2, 3]])
+FAN = np.array([[0, 1, 2], [0, 2, 3], [0, 3, 4], [0, 4, 1]])
+
+
+def brute_joins(corners, values):
+    """Classes of corners, by spreading over edges across which values agree at both ends."""
+    faces = corners.faces
+    parent = {k: k for k in range(faces.size)}
+
+    def root(k):
+        while parent[k] != k:
+            k = parent[k]
+        return k
+
+    flat, vertex = np.asarray(values).ravel(), faces.ravel()
+    for k in range(faces.size):
+        beyond = corners.opposite[k]
+        if beyond < 0:
+            continue
+        here = [3 * (k // 3) + (k + i) % 3 for i in (1, 2)]
+        there = [3 * (beyond // 3) + (beyond + i) % 3 for i in (1, 2)]
+        pairs = [(a, b) for a in here for b in there if vertex[a] == vertex[b]]
+        if all(flat[a] == flat[b] for a, b in pairs):
+            for a, b in pairs:
+                parent[max(root(a), root(b))] = min(root(a), root(b))
+    roots = [root(k) for k in range(faces.size)]
+    numbers = {r: i for i, r in enumerate(sorted(set(roots)))}
+    return np.array([numbers[r] for r in roots]).reshape(-1, 3)
+
+
+meshes = st.integers(1, 9).flatmap(
+    lambda n: st.lists(st.lists(st.integers(0, n - 1), min_size=3, max_size=3), min_size=1, max_size=14)
+)
+
+
+@given(meshes, st.integers(0, 2**32 - 1), st.integers(1, 4))
+def test_any_triangles_come_back(triangles, seed, most):
+    faces = np.array(triangles)
+    corners = corners_of(faces, int(faces.max()) + 1)
+    random = np.random.default_rng(seed)
+    values = random.integers(0, most, faces.shape)
+    earlier = tuple(find_seams(corners, random.integers(0, 2, faces.shape)) for _ in range(seed % 4))
+    seams = find_seams(corners, values)
+    assert (decode_seams(encode_seams(corners, seams, earlier), corners, earlier) == seams).all()
+    joins = Joins(corners, seams)
+    assert (joins.faces == brute_joins(corners, values)).all()
+    assert (np.diff(joins.first) > 0).all()
+    assert (joins.vertices == corners.faces.ravel()[joins.first]).all()
+
+
+def test_a_seam_between_two_triangles():
+    corners = corners_of(SQUARE, 4)
+    seams = find_seams(corners, [[0, 1, 2], [5, 2, 3]])
+    assert seams.tolist() == [OPEN, SEAM, OPEN, OPEN, OPEN, SEAM]
+    assert Joins(corners, seams).faces.tolist() == [[0, 1, 2], [3, 4, 5]]
+    assert Joins(corners, seams).vertices.tolist() == [0, 1, 2, 0, 2, 3]
+
+
+def test_one_seam_in_a_fan_splits_nothing_in_the_middle():
+    corners = corners_of(FAN, 5)
+    values = FAN.copy()
+    values[3, 2] = 9  # vertex 1 differs in the last face; across edge 0-1 lies the first
+    joins = Joins(corners, find_seams(corners, values))
+    assert (find_seams(corners, values) == SEAM).sum() == 2
+    assert len(set(joins.faces[:, 0])) == 1 and joins.faces[3, 2] != joins.faces[0, 1]
+
+
+def test_faces_that_run_the_same_way_along_an_edge_are_joined_at_its_ends():
+    corners = corners_of([[0, 1, 2], [0, 1, 3]], 4)
+    joins = Joins(corners, find_seams(corners, np.array([[0, 1, 2], [0, 1, 3]])))
+    assert joins.faces.tolist() == [[0, 1, 2], [0, 1, 3]]
+
+
+def test_without_seams_there_is_next_to_nothing():
+    rows = [[i * 50 + j for j in range(50)] for i in range(50)]
+    faces = [
+        face
+        for i in range(49)
+        for j in range(49)
+        for face in (
+            [rows[i][j], rows[i][j + 1], rows[i + 1][j]],
+            [rows[i + 1][j], rows[i][j + 1], rows[i + 1][j + 1]],
+        )
+    ]
+    corners = corners_of(faces, 2500)
+    assert len(encode_seams(corners, find_seams(corners, faces))) <= 4
+
+
+def test_seams_of_an_attribute_before_cost_next_to_nothing():
+    random = np.random.default_rng(3)
+    faces = np.array([[i, i + 1, i + 2] for i in range(2000)])
+    corners = corners_of(faces, 2002)
+    seams = find_seams(corners, random.integers(0, 2, faces.shape))
+    alone, known = encode_seams(corners, seams), encode_seams(corners, seams, (seams,))
+    assert len(known) < len(alone) / 8
+
+
+def test_payloads_of_other_seams_are_refused():
+    corners = corners_of(FAN, 5)
+    seams = find_seams(corners, np.arange(12).reshape(4, 3))
+    payload = encode_seams(corners, seams)
+    with pytest.raises(CorruptError):
+        decode_seams(payload + bytes(9), corners)
+    with pytest.raises(TruncatedError):
+        strip = corners_of(np.array([[i, i + 1, i + 2] for i in range(2000)]), 2002)
+        torn = find_seams(strip, np.random.default_rng(0).integers(0, 2, (2000, 3)))
+        decode_seams(encode_seams(strip, torn)[:40], strip)
+    assert (seams != NO_SEAM).all()
+
+
+@given(st.binary(max_size=40))
+def test_any_bytes_are_seams_or_refused(payload):
+    corners = corners_of(FAN, 5)
+    try:
+        seams = decode_seams(payload, corners)
+    except BsmError:
+        return
+    assert set(seams) <= {NO_SEAM, SEAM, OPEN}

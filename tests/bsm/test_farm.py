@@ -1,0 +1,307 @@
+"""Many inputs: on clusters and in processes that die, behind URLs, and from where a run has stopped."""
+
+import http.server
+import json
+import os
+import signal
+import subprocess
+import sys
+import threading
+import time
+from functools import partial
+from pathlib import Path
+
+import pytest
+
+import bsm
+from bitstream.errors import ArgumentError, DependencyError, FormatError, OptionError
+from bsm.cli import command_parser, main
+from bsm.console import Console
+from bsm.evaluation.sample import knot
+from bsm.farm.jobs import Job
+from bsm.farm.run import run_many
+from bsm.files.mesh import read_mesh, write_mesh
+from bsm.files.output import open_output
+from tests.bsm.program import ROOT
+from tests.bsm.program import bsm as program
+from tests.shapes import torus
+
+pytest.importorskip("fsspec")
+
+
+@pytest.fixture(scope="module")
+def sources(tmp_path_factory):
+    """Twelve meshes, each of its own."""
+    folder = tmp_path_factory.mktemp("sources")
+    for number in range(12):
+        write_mesh(folder / f"{number:02}.ply", torus(30 + number, 20))
+    return sorted(map(str, folder.iterdir()))
+
+
+def contents(folder):
+    return {path.name: path.read_bytes() for path in folder.iterdir()}
+
+
+def started(*words):
+    return subprocess.Popen(
+        [sys.executable, "-m", "bsm", *map(str, words)], cwd=ROOT, stderr=subprocess.PIPE, stdout=subprocess.PIPE
+    )
+
+
+def until(condition, process):
+    """Wait for something to happen while a process runs."""
+    end = time.monotonic() + 100
+    while not condition():
+        assert process.poll() is None and time.monotonic() < end
+        time.sleep(0.01)
+
+
+# ------------------------------------------------------------------------------------------------------------ clusters
+
+
+@pytest.fixture(scope="module")
+def cluster():
+    distributed = pytest.importorskip("distributed")
+    with distributed.LocalCluster(
+        n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None, silence_logs=50
+    ) as cluster:
+        yield cluster
+
+
+@pytest.fixture(scope="module")
+def larger(tmp_path_factory):
+    """Ten meshes that take a while."""
+    folder = tmp_path_factory.mktemp("larger")
+    for number in range(10):
+        write_mesh(folder / f"{number:02}.npz", knot(6000, seed=number))
+    return sorted(map(str, folder.iterdir()))
+
+
+def test_a_worker_that_is_killed_loses_nothing_and_repeats_nothing(cluster, larger, tmp_path):
+    distributed = pytest.importorskip("distributed")
+    output, report = tmp_path / "out", tmp_path / "report.json"
+    command = ("encode", *larger, "-o", f"{output}/", "--dask", cluster.scheduler_address, "--report", report, "--json")
+    with distributed.Client(cluster.scheduler_address, set_as_default=False) as client, started(*command) as process:
+        until(lambda: output.exists() and len(list(output.glob("*.bsm"))) >= 2, process)
+        before = client.run(os.getpid)
+        busy = {worker: tasks for worker, tasks in client.processing().items() if tasks}
+        victim = before[next(iter(busy))]
+        os.kill(victim, signal.SIGKILL)
+        printed, said = process.communicate(timeout=120)
+        assert process.returncode == 0, said.decode()
+        assert victim not in client.run(os.getpid).values()
+    told = json.loads(report.read_text())
+    assert told["complete"] and told["totals"]["done"] == 10 and told["totals"]["failed"] == 0
+    assert [file["input"] for file in told["files"]] == larger
+    assert json.loads(printed) == {"files": told["files"]}
+    assert sorted(contents(output)) == [Path(file["output"]).name for file in told["files"]]
+    for file in told["files"]:
+        assert file["bytes"] == os.path.getsize(file["output"])
+        assert Path(file["output"]).read_bytes() == bsm.encode(file["input"], threads=1)
+    lines = said.decode().splitlines()
+    assert sum(" -> " in line and "vertices" in line for line in lines) == 10
+    assert lines[-1].startswith("10 of 10 files") and lines[-12].split() == [
+        *("input", "bytes", "to", "ratio", "error", "seconds")
+    ]
+
+
+def test_a_cluster_goes_on_behind_failures_and_back(cluster, sources, tmp_path):
+    (tmp_path / "no.ply").write_text("nothing")
+    inputs = [*sources[:2], str(tmp_path / "no.ply"), str(tmp_path / "none.ply")]
+    done = bsm.encode_many(inputs, tmp_path / "new", dask=cluster.scheduler_address, theta=5)
+    assert [facts.get("exit") for facts in done] == [None, None, 3, 9]
+    assert sorted(contents(tmp_path / "new")) == ["00.bsm", "01.bsm"]
+    streams = [facts["output"] for facts in done[:2]]
+    assert main(["decode", "-q", *streams, "-o", f"{tmp_path}/back/", "--dask", cluster.scheduler_address]) == 0
+    for name, source in zip(("00.ply", "01.ply"), sources):
+        assert len(read_mesh(tmp_path / "back" / name).mesh.faces) == len(read_mesh(source).mesh.faces)
+
+
+def test_a_job_that_kills_every_worker_has_failed_alone(cluster, tmp_path):
+    jobs = [Job(f"/{name}", str(tmp_path / name)) for name in ("a", "always", "b", "c")]
+    cluster.scheduler.allowed_failures = 0
+    done = run_many(arguments(dask=cluster.scheduler_address), Console(quiet=True), deadly, jobs)
+    cluster.scheduler.allowed_failures = 3
+    assert [facts.get("exit") for facts in done] == [None, 6, None, None]
+    assert {"a", "b", "c"} == {name for name in contents(tmp_path) if "always" not in name}
+
+
+def test_no_scheduler(sources, tmp_path, capsys):
+    pytest.importorskip("distributed")
+    with pytest.MonkeyPatch.context() as patch:
+        import dask
+
+        patch.setitem(dask.config.config["distributed"]["comm"]["timeouts"], "connect", "1s")
+        assert main(["encode", sources[0], "-o", f"{tmp_path}/", "--dask", "tcp://127.0.0.1:1"]) == 9
+    assert "no Dask scheduler answers here" in capsys.readouterr().err
+    assert main(["encode", "-", "-o", "-", "--dask", "tcp://127.0.0.1:1"]) == 2
+
+
+# ----------------------------------------------------------------------------------------------------------- processes
+
+
+def deadly(args, console):
+    """Work that kills its process, always or once; or is at fault."""
+    mark = Path(args.output).with_suffix(".mark")
+    with open_output(args.output, overwrite=args.output in args.replaceable) as file:
+        file.write(b"begun")
+        if "always" in args.input or ("once" in args.input and not mark.exists()):
+            mark.touch()
+            os.kill(os.getpid(), signal.SIGKILL)
+    if "fault" in args.input:
+        raise KeyError("a fault of ours")
+    return {"input": args.input, "output": args.output}
+
+
+def arguments(**more):
+    args = command_parser("encode").parse_command(["x"])
+    return type(args)(**{**vars(args), "quiet": True, **more})
+
+
+def test_a_process_that_dies_takes_only_its_own_job_along(tmp_path):
+    names = ["a", "b", "once", "c", "fault", "always", "d", "e"]
+    jobs = [Job(name, str(tmp_path / name)) for name in names]
+    heard = []
+    done = run_many(arguments(jobs=2), Console(quiet=True), deadly, jobs, lambda job, _: heard.append(job.input))
+    assert heard == names == [facts["input"] for facts in done]
+    assert {facts["input"]: facts["exit"] for facts in done if "error" in facts} == {"fault": 1, "always": 6}
+    assert "KeyError" in done[4]["error"] and "please report" in done[4]["error"]
+    left = {name for name in contents(tmp_path) if not name.endswith(".part")}
+    assert left == {*names, "once.mark", "always.mark"} - {"always"}
+    assert all(".always." in name for name in set(contents(tmp_path)) - left), "only what has no other attempt"
+
+
+# ---------------------------------------------------------------------------------------------------------------- URLs
+
+
+class Server(http.server.SimpleHTTPRequestHandler):
+    def log_message(self, *_):
+        pass
+
+
+@pytest.fixture(scope="module")
+def web(sources):
+    """The address of a server that has the meshes."""
+    handler = partial(Server, directory=str(Path(sources[0]).parent))
+    with http.server.ThreadingHTTPServer(("127.0.0.1", 0), handler) as server:
+        thread = threading.Thread(target=server.serve_forever)
+        thread.start()
+        yield f"http://127.0.0.1:{server.server_address[1]}"
+        server.shutdown()
+        thread.join()
+
+
+def test_inputs_from_the_web(web, sources, tmp_path):
+    pytest.importorskip("aiohttp")
+    names = [f"{web}/00.ply", f"{web}/01.ply?version=2", f"{web}/none.ply"]
+    done = program("encode", *names, "-o", f"{tmp_path}/", "-j", 2, "--json", text=True)
+    files = json.loads(done.stdout)["files"]
+    assert done.returncode == 9 and f"{web}/none.ply: No such file" in done.stderr
+    assert [file.get("input_bytes") for file in files] == [*map(os.path.getsize, sources[:2]), None]
+    for name, source in zip(("00.bsm", "01.bsm"), sources):
+        assert (tmp_path / name).read_bytes() == bsm.encode(source)
+    assert len(bsm.load(names[0]).faces) == len(read_mesh(sources[0]).mesh.faces)
+
+
+def test_nothing_is_written_to_the_web(web, capsys):
+    assert main(["encode", f"{web}/00.ply"]) == 2
+    assert "cannot be written to; name another place with -o" in capsys.readouterr().err
+
+
+def test_there_and_back_in_memory(sources, capsys):
+    assert main(["encode", "-q", *sources[:3], "-o", "memory://farm/new/"]) == 0
+    assert main(["encode", "-q", sources[0], "-o", "memory://farm/new/00.bsm"]) == 9
+    assert "exists already" in capsys.readouterr().err
+    assert main(["decode", "-q", "memory://farm/new/*.bsm", "-o", "memory://farm/back/", "--format", "obj"]) == 0
+    assert main(["verify", "-q", "memory://farm/new/*.bsm"]) == 0
+    assert main(["encode", "memory://farm/back/00.obj", "-o", "memory://farm/back/00.obj", "-f"]) == 2
+    mesh = bsm.load("memory://farm/back/00.obj")
+    assert (mesh.positions == pytest.approx(bsm.decode("memory://farm/new/00.bsm").positions)) or len(mesh.faces)
+    with pytest.raises(FileNotFoundError):
+        bsm.load("memory://farm/back/none.obj")
+    assert main(["decode", "memory://farm/none/*.bsm", "-o", "memory://farm/back/"]) == 9
+
+
+def test_what_fails_leaves_nothing_behind_a_url():
+    with pytest.raises(ValueError, match="half"), open_output("memory://farm/half") as file:
+        file.write(b"half")
+        raise ValueError("half")
+    with pytest.raises(FileNotFoundError):
+        bsm.load("memory://farm/half")
+
+
+def test_files_by_url(sources, tmp_path):
+    assert main(["encode", "-q", Path(sources[0]).as_uri(), "-o", f"{tmp_path.as_uri()}/a%20b.bsm"]) == 0
+    assert list(contents(tmp_path)) == ["a b.bsm"]
+
+
+def test_packages_that_are_missing(monkeypatch):
+    with pytest.raises(OptionError, match="nowhere"):
+        bsm.load("nowhere://a/b.ply")
+    monkeypatch.setitem(sys.modules, "s3fs", None)
+    with pytest.raises(DependencyError, match=r"s3:// needs a package that is missing: pip install 's3fs'"):
+        bsm.load("s3://bucket/a.ply")
+    monkeypatch.setitem(sys.modules, "fsspec", None)
+    with pytest.raises(DependencyError, match=r"pip install 'bsm-codec\[remote\]'"):
+        bsm.load("https://host/a.ply")
+
+
+# -------------------------------------------------------------------------------------------------------------- resume
+
+
+def test_only_what_is_not_as_it_was_is_done_again(sources, tmp_path):
+    inputs = []
+    for source in sources[:6]:
+        inputs.append(str(tmp_path / Path(source).name))
+        Path(inputs[-1]).write_bytes(Path(source).read_bytes())
+    output, report = tmp_path / "out", tmp_path / "report.json"
+
+    def run(names=inputs, **more):
+        done = bsm.encode_many(names, output, report=report, resume=True, **more)
+        told = json.loads(report.read_text())
+        assert told["complete"] and told["files"] == done
+        return {Path(facts["input"]).stem for facts in done if "resumed" not in facts}
+
+    assert run(inputs[:5]) == {"00", "01", "02", "03", "04"}
+    whole = contents(output)
+    assert run(inputs[:5]) == set()
+    (output / "00.bsm").unlink()
+    (output / "01.bsm").write_bytes(whole["01.bsm"][:-1] + b"?")
+    (output / ".01.bsm.abcd_123.part").write_bytes(b"cut off")
+    os.utime(inputs[2], (1, 1))
+    assert run() == {"00", "01", "02", "05"}
+    assert {name: data for name, data in contents(output).items() if name != "05.bsm"} == whole
+    assert run(preset="fine", jobs=2) == {"00", "01", "02", "03", "04", "05"}
+    assert run(preset="fine") == set()
+
+
+def test_a_run_that_was_killed_goes_on(larger, tmp_path):
+    output, report = tmp_path / "out", tmp_path / "report.json"
+    command = ("encode", *larger, "-o", f"{output}/", "--report", report, "--resume")
+    with started(*command) as process:
+        until(lambda: report.exists() and json.loads(report.read_text())["totals"]["done"] >= 2, process)
+        process.kill()
+    told = json.loads(report.read_text())
+    assert not told["complete"] and len(told["files"]) == 10
+    done = program(*command, "--json", "-j", 2, text=True)
+    assert done.returncode == 0, done.stderr
+    files = json.loads(done.stdout)["files"]
+    assert sum("resumed" in file for file in files) == told["totals"]["done"]
+    assert sorted(contents(output)) == [f"{number:02}.bsm" for number in range(10)]
+    assert json.loads(report.read_text())["complete"]
+
+
+def test_what_is_not_ours_is_not_written_over(sources, tmp_path, capsys):
+    (tmp_path / "00.bsm").write_bytes(b"mine")
+    done = bsm.encode_many(sources[:2], tmp_path, report=tmp_path / "r.json", resume=True)
+    assert [facts.get("exit") for facts in done] == [9, None]
+    assert (tmp_path / "00.bsm").read_bytes() == b"mine"
+    with pytest.raises(FileExistsError):
+        bsm.encode_many(sources[:2], tmp_path, report=tmp_path / "r.json")
+    with pytest.raises(OptionError, match="--report"):
+        bsm.encode_many(sources[:2], tmp_path, resume=True)
+    (tmp_path / "r.json").write_text('{"files": 3}')
+    with pytest.raises(FormatError, match="no report"):
+        bsm.encode_many(sources[:2], tmp_path, report=tmp_path / "r.json", resume=True)
+    with pytest.raises(ArgumentError, match="teta"):
+        bsm.encode_many(sources[:2], tmp_path, teta=3)

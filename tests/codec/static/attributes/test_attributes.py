@@ -1,0 +1,337 @@
+"""Attributes of meshes through whole streams."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from bitstream.container import packets
+from bitstream.container.reader import Reader, read_packets
+from bitstream.errors import BsmError, OptionError, TargetError
+from codec.geometry.attributes import Attribute
+from codec.geometry.mesh import TriangleMesh
+from codec.geometry.splitting import split_by_attributes
+from codec.static.decoder import Decoder, decode
+from codec.static.encoder import Encoder, encode
+from codec.static.events import AttributeEvent, EndEvent, LossEvent
+from codec.static.options import PRESETS, EncodeOptions
+from tests.shapes import patch, tetrahedron, torus
+
+KINDS = ("uint8", "int8", "uint16", "int16", "uint32", "int32")
+
+
+def atlas(mesh: TriangleMesh) -> Attribute:
+    """Texture coordinates in two charts, cut along a line of faces."""
+    faces = mesh.faces
+    right = mesh.positions[faces].mean(axis=1)[:, 0] > mesh.positions[:, 0].mean()
+    corners = mesh.positions[faces][:, :, :2] * 0.4 + np.where(right, 0.5, 0.0)[:, None, None]
+    return Attribute("uv", corners.reshape(-1, 2).astype(np.float32), "corner", "texcoord")
+
+
+def normals(mesh: TriangleMesh) -> Attribute:
+    a, b, c = (mesh.positions[mesh.faces[:, k]] for k in range(3))
+    flat = np.cross(b - a, c - a)
+    flat /= np.linalg.norm(flat, axis=1, keepdims=True)
+    return Attribute("normal", np.repeat(flat, 3, axis=0).astype(np.float32), "corner", "normal")
+
+
+def dressed(mesh: TriangleMesh) -> TriangleMesh:
+    """With one attribute of each sort."""
+    random = np.random.default_rng(5)
+    size = len(mesh.positions)
+    colors = (128 + 100 * np.sin(3 * mesh.positions)).astype(np.uint8)
+    group = np.sort(random.integers(0, 9, len(mesh.faces))).astype(np.int32)
+    heat = np.cos(4 * mesh.positions[:, 0])
+    wild = random.normal(size=(size, 2)).astype(np.float32)
+    attributes = (
+        Attribute("color", colors, "vertex", "color"),
+        atlas(mesh),
+        normals(mesh),
+        Attribute("heat", heat),
+        Attribute("group", group, "face"),
+        Attribute("wild", wild),
+    )
+    return replace(mesh, attributes=attributes, metadata={"name": "thing", "unit": "mm", "n": 3})
+
+
+def at_corners(mesh: TriangleMesh, attribute: Attribute) -> np.ndarray:
+    """Values of each corner, shape (m, 3, c)."""
+    if attribute.domain == "face":
+        return np.repeat(attribute.values[:, None], 3, axis=1)
+    return attribute.values[mesh.faces if attribute.indices is None else attribute.indices]
+
+
+def compared(given: TriangleMesh, decoded: TriangleMesh, encoder: Encoder) -> dict[str, float]:
+    """Largest error of each attribute, wherever its corners have come to be."""
+    errors = {}
+    order = encoder.vertex_order
+    for attribute in given.attributes:
+        found = next(one for one in decoded.attributes if one.name == attribute.name)
+        assert (found.semantic, found.values.dtype) == (attribute.semantic, attribute.values.dtype)
+        wanted, had = at_corners(given, attribute)[encoder.face_order], at_corners(decoded, found)
+        # corners of a face may have been turned
+        positions = given.positions[given.faces[encoder.face_order]]
+        best = np.full(len(had), np.inf)
+        for turn in range(3):
+            fits = (np.roll(positions, -turn, axis=1) == given.positions[order[decoded.faces]]).all(axis=(1, 2))
+            off = np.abs(np.roll(wanted, -turn, axis=1).astype(float) - had.astype(float)).max(axis=(1, 2))
+            best = np.where(fits, np.minimum(best, off), best)
+        errors[attribute.name] = float(best.max())
+    return errors
+
+
+@pytest.mark.parametrize(
+    "options",
+    [
+        EncodeOptions(),
+        PRESETS["lossless"],
+        EncodeOptions(keep_order=True),
+        replace(PRESETS["lossless"], keep_order=True),
+    ],
+    ids=["blocks", "grid", "blocks in order", "grid in order"],
+)
+@pytest.mark.parametrize("shape", [patch(30, 24), torus(), tetrahedron()], ids=["patch", "torus", "tetrahedron"])
+def test_everything_comes_back(shape, options):
+    mesh = dressed(shape)
+    encoder = Encoder(mesh, options)
+    decoded = decode(encoder.encode())
+    errors = compared(mesh, decoded, encoder)
+    fine = options.grid is not None
+    assert errors["color"] == errors["group"] == 0.0
+    assert errors["uv"] <= 0.51 * np.ptp(mesh.attributes[1].values, axis=0).max() / (2 ** (14 if fine else 12) - 1)
+    assert errors["normal"] <= (0.002 if fine else 0.006)
+    assert errors["heat"] <= 2.0 / (2 ** (20 if fine else 16) - 1)
+    assert errors["wild"] <= 8.0 / (2**16 - 1)
+    assert dict(decoded.metadata) == dict(mesh.metadata)
+    assert [one.name for one in decoded.attributes] == [one.name for one in mesh.attributes]
+    if options.keep_order:
+        assert (decoded.faces == mesh.faces).all()
+        assert [one.domain for one in decoded.attributes] == [one.domain for one in mesh.attributes]
+    assert any("uv: texcoord per corner" in note for note in encoder.notes)
+
+
+def test_split_files_come_back_split():
+    mesh = split_by_attributes(dressed(torus()))
+    assert len(mesh.positions) > 40 * 24
+    encoder = Encoder(mesh, PRESETS["lossless"])
+    decoded = decode(encoder.encode())
+    assert len(decoded.positions) == 40 * 24, "no gaping geometry"
+    assert max(compared(mesh, decoded, encoder).values()) < 0.002
+    again = split_by_attributes(decoded)
+    sent = {"color", "uv", "normal", "heat", "wild"}
+    assert len(again.positions) <= len(mesh.positions) and {one.name for one in again.attributes} >= sent
+    assert all(one.domain != "corner" for one in again.attributes)
+
+
+def test_split_files_come_back_with_their_indices():
+    mesh = split_by_attributes(dressed(torus()))
+    loose = TriangleMesh(
+        np.concatenate([mesh.positions, [[7.0, 7, 7], [8, 8, 8]]]),
+        mesh.faces,
+        tuple(
+            replace(one, values=np.concatenate([one.values, one.values[:2]])) if one.domain == "vertex" else one
+            for one in mesh.attributes
+        ),
+    )
+    options = replace(PRESETS["lossless"], keep_order=True, attributes={"*": "exact"})
+    decoded = decode(encode(loose, options))
+    assert (decoded.faces == loose.faces).all() and len(decoded.positions) == len(loose.positions)
+    for given, found in zip(loose.attributes, decoded.attributes, strict=True):
+        assert given.domain == found.domain and (given.values == found.values).all()
+
+
+@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("domain", ["vertex", "corner", "face"])
+def test_whole_numbers_are_exact(kind, domain):
+    mesh = patch(9, 7)
+    bounds = np.iinfo(kind)
+    count = {"vertex": len(mesh.positions), "corner": mesh.faces.size, "face": len(mesh.faces)}[domain]
+    random = np.random.default_rng(1)
+    values = random.integers(bounds.min, bounds.max, (count, 4), dtype=np.int64, endpoint=True).astype(kind)
+    values[:2] = [[bounds.min] * 4, [bounds.max] * 4]
+    given = replace(mesh, attributes=(Attribute("x", values, domain),))
+    decoded = decode(encode(given, EncodeOptions(keep_order=True)))
+    found = decoded.attributes[0]
+    assert found.values.dtype == kind and found.domain == domain
+    assert (at_corners(decoded, found) == at_corners(given, given.attributes[0])).all()
+
+
+@pytest.mark.parametrize("kind", [np.float32, np.float64])
+def test_floats_are_exact_to_the_bit(kind):
+    mesh = patch(9, 7)
+    random = np.random.default_rng(2)
+    values = (random.normal(size=(63, 4)) * 10.0 ** random.integers(-30, 30, (63, 4))).astype(kind)
+    values[0] = [0.0, -0.0, np.finfo(kind).max, -np.finfo(kind).tiny]
+    given = replace(mesh, attributes=(Attribute("x", values), Attribute("half", np.arange(63) / 255.0)))
+    decoded = decode(encode(given, EncodeOptions(keep_order=True, attributes={"*": "exact"})))
+    assert decoded.attributes[0].values.tobytes() == values.tobytes()
+    assert (decoded.attributes[1].values == given.attributes[1].values).all()
+
+
+@pytest.mark.parametrize(
+    ("name", "quality", "most"),
+    [
+        ("heat", "0.01", 0.01),
+        ("heat", "1%", 0.02),
+        ("heat", "8bits", 1 / 255),
+        ("color", "10", 10),
+        ("color", "5bits", 4),
+    ],
+)
+def test_bounds_are_kept(name, quality, most):
+    mesh = dressed(torus())
+    encoder = Encoder(mesh, EncodeOptions(attributes={name: quality}))
+    errors = compared(mesh, decode(encoder.encode()), encoder)
+    assert 0.0 < errors[name] <= most
+
+
+@pytest.mark.parametrize("degrees", [10.0, 1.0, 0.05])
+def test_angles_of_normals_are_kept(degrees):
+    mesh = dressed(torus())
+    encoder = Encoder(mesh, EncodeOptions(keep_order=True, attributes={"normal": f"{degrees}deg"}))
+    decoded = decode(encoder.encode())
+    wanted, found = (at_corners(each, each.attributes[2]) for each in (mesh, decoded))
+    off = np.degrees(np.arccos(np.clip((wanted.astype(float) * found).sum(axis=2), -1, 1)))
+    assert degrees / 8 < off.max() <= degrees + 1e-3
+
+
+def test_attributes_can_be_left_out():
+    mesh = dressed(torus())
+    encoder = Encoder(mesh, EncodeOptions(attributes={"*": "none", "uv": "10bits"}))
+    assert [one.name for one in decode(encoder.encode()).attributes] == ["uv"]
+    assert "left out: color, normal, heat, group, wild" in encoder.notes
+
+
+@pytest.mark.parametrize("options", [EncodeOptions(), PRESETS["lossless"]], ids=["blocks", "grid"])
+def test_normals_can_be_recomputed(options):
+    mesh = torus()
+    smooth = replace(mesh, attributes=(Attribute("normal", np.ones((len(mesh.positions), 3)), "vertex", "normal"),))
+    stream = encode(smooth, replace(options, normals="recompute"))
+    decoded = decode(stream)
+    assert len(stream) < len(encode(mesh, options)) + 40
+    found = decoded.attributes[0].values
+    a, b, c = (decoded.positions[decoded.faces[:, k]] for k in range(3))
+    expected = np.zeros_like(found)
+    for corner in range(3):
+        np.add.at(expected, decoded.faces[:, corner], np.cross(b - a, c - a))
+    expected /= np.linalg.norm(expected, axis=1, keepdims=True)
+    np.testing.assert_allclose(found, expected, atol=1e-9)
+
+
+def test_recomputed_normals_keep_their_creases():
+    mesh = replace(tetrahedron(), attributes=(normals(tetrahedron()),))
+    decoded = decode(encode(mesh, replace(PRESETS["lossless"], normals="recompute", keep_order=True)))
+    np.testing.assert_allclose(
+        at_corners(decoded, decoded.attributes[0]), at_corners(mesh, mesh.attributes[0]), atol=1e-6
+    )
+
+
+@pytest.mark.parametrize(
+    ("asked", "error"),
+    [
+        ({"uv": "nonsense"}, OptionError),
+        ({"uv": "-1"}, OptionError),
+        ({"uv": "2deg"}, OptionError),
+        ({"uv": "recompute"}, OptionError),
+        ({"nothing": "exact"}, OptionError),
+        ({"wild": "1e-12"}, BsmError),
+        ({"normal": "1e-9deg"}, TargetError),
+    ],
+)
+def test_what_makes_no_sense_is_refused(asked, error):
+    with pytest.raises(error):
+        encode(dressed(torus()), EncodeOptions(attributes=asked))
+
+
+def test_values_come_as_events():
+    mesh = dressed(torus())
+    stream = encode(mesh, EncodeOptions(keep_order=True))
+    whole = {one.name: one for one in decode(stream).attributes}
+    seen: dict[str, np.ndarray] = {}
+    with Decoder() as decoder:
+        decoder.receive_data(stream)
+        decoder.receive_eof()
+        while not isinstance(event := decoder.next_event(), EndEvent):
+            if isinstance(event, AttributeEvent):
+                rows = seen.setdefault(event.name, np.full_like(whole[event.name].values, 77))
+                rows[event.rows] = event.values
+                assert event.domain == whole[event.name].domain
+                if event.domain == "corner":
+                    assert (event.indices == whole[event.name].indices).all()
+        assert dict(decoder.metadata) == dict(mesh.metadata)
+    assert {name: values.tobytes() for name, values in seen.items()} == {
+        name: one.values.tobytes() for name, one in whole.items()
+    }
+
+
+def frames(stream: bytes) -> list[tuple[object, int, int]]:
+    """Packets, and where their frames begin and end."""
+    reader, found = Reader(), []
+    for packet in read_packets([stream], reader):
+        assert reader.last_frame is not None
+        found.append((packet, reader.last_frame.offset, reader.last_frame.offset + reader.last_frame.length))
+    return found
+
+
+def broken(stream: bytes, begin: int, end: int) -> bytes:
+    middle = (begin + end) // 2
+    return stream[:middle] + bytes([stream[middle] ^ 0x55]) + stream[middle + 1 :]
+
+
+def tolerated(stream: bytes) -> tuple[set[str], int, int]:
+    """Names of attributes that were decoded, losses, and how many vertices are missing."""
+    names, losses = set(), 0
+    with Decoder(tolerant=True) as decoder:
+        decoder.receive_data(stream)
+        decoder.receive_eof()
+        while True:
+            match decoder.next_event():
+                case AttributeEvent(name):
+                    names.add(name)
+                case LossEvent():
+                    losses += 1
+                case EndEvent(lost):
+                    return names, losses, len(lost.missing)
+
+
+def test_what_is_lost_of_one_attribute_spoils_no_other():
+    mesh = dressed(patch(60, 50))
+    stream = encode(mesh)
+    everything = {one.name for one in mesh.attributes}
+    for packet, begin, end in frames(stream):
+        if isinstance(packet, packets.Values):
+            name = mesh.attributes[packet.attribute].name
+            assert tolerated(broken(stream, begin, end)) == (everything - {name}, 1, 0)
+    first = next(begin_end for packet, *begin_end in frames(stream) if isinstance(packet, packets.Block))
+    names, losses, _ = tolerated(broken(stream, *first))
+    assert names == everything - {"uv", "normal"}, "what leans on positions is lost with them"
+    assert losses > 2
+
+
+def test_a_lost_declaration_loses_what_depends_on_it():
+    mesh = dressed(patch(60, 50))
+    stream = encode(mesh)
+    everything = {one.name for one in mesh.attributes}
+    lost = {"color": {"color", "uv", "normal"}, "uv": {"uv", "normal"}, "heat": {"heat"}, "group": {"group"}}
+    for packet, begin, end in frames(stream):
+        if isinstance(packet, packets.Attribute) and packet.declaration.name in lost:
+            names, losses, missing = tolerated(broken(stream, begin, end))
+            assert losses >= 1 and missing == 0
+            assert names >= everything - lost[packet.declaration.name], packet.declaration.name
+            with pytest.raises(BsmError):
+                decode(broken(stream, begin, end))
+
+
+def test_seams_that_two_share_are_sent_once():
+    mesh = dressed(torus())
+    second = replace(mesh.attributes[1], name="uv2", values=1 - mesh.attributes[1].values)
+    mesh = replace(mesh, attributes=(*mesh.attributes, second))
+    declared = [p for p, *_ in frames(encode(mesh)) if isinstance(p, packets.Attribute)]
+    assert [p.declaration.seams_of for p in declared] == [0, 0, 0, 0, 0, 0, 2]
+    assert [bool(p.seams) for p in declared] == [False, True, True, False, False, False, False]
+    encoder = Encoder(mesh)
+    assert max(compared(mesh, decode(encoder.encode()), encoder).values()) < 0.006
+
+
+def test_meshes_without_attributes_are_as_they_were():
+    assert encode(torus()) == encode(replace(dressed(torus()), metadata={}), EncodeOptions(attributes={"*": "none"}))

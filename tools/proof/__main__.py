@@ -1,0 +1,169 @@
+"""Hold the decoders against each other and against everything that can be thrown at them; exit code 1 on any finding.
+
+    python -m tools.proof              the whole proof: a million mutants, three thousand streams on every processor
+    python -m tools.proof --short      a minute of it, for every change
+    python -m tools.proof --mutants 10000000 --only mutants
+
+| suite | what it does |
+|---|---|
+| vectors | every vector by this project's decoder and the reference decoder, on threads, in pieces, tolerantly |
+| mutants | streams of all kinds with something changed behind checksums that are right again: strict, in pieces, tolerant |
+| differential | mutants and random streams by both decoders |
+| encodes | random meshes and sequences with random options: threads, pieces, tolerance, every kind of processor |
+| surroundings | the same in environments of every kind |
+
+Work is cut into shards, each a process of its own that follows from the seed alone. What is done is kept under
+`.cache/proof`, so that the same command goes on where it was stopped; streams that led to findings are kept there, too.
+"""
+
+from __future__ import annotations
+
+import argparse
+import hashlib
+import json
+import os
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor, as_completed
+from dataclasses import asdict, dataclass
+from pathlib import Path
+
+from tools.proof.places import ROOT, build_processors, environments
+from tools.proof.tally import Tally
+
+SHARD_SECONDS = 1800
+MUTANTS, DIFFERENTIAL, ENCODES, SURROUNDINGS = 4000, 1000, 50, 12
+"""Inputs of one shard."""
+WATCHED = ("bitstream", "codec", "tools/proof", "tools/fuzz", "tools/vectors", "spec")
+"""Where a change makes everything unproven again."""
+
+
+@dataclass(frozen=True)
+class Part:
+    """One shard, and what came of it."""
+
+    suite: str
+    number: int
+    size: int
+
+    @property
+    def name(self) -> str:
+        """Of its file."""
+        return f"{self.suite}-{self.number}-{self.size}"
+
+
+def main() -> int:
+    """Run the command."""
+    parser = argparse.ArgumentParser(
+        prog="python -m tools.proof", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("--short", action="store_true", help="a minute of everything; one environment in eight")
+    parser.add_argument("--mutants", type=int, default=1_000_000, metavar="N")
+    parser.add_argument("--differential", type=int, default=20_000, metavar="N")
+    parser.add_argument("--encodes", type=int, default=3_000, metavar="N")
+    parser.add_argument("--only", nargs="+", metavar="SUITE", help="these suites alone")
+    parser.add_argument("--seed", default="0", help="default: %(default)s")
+    parser.add_argument("-j", "--jobs", type=int, default=os.cpu_count() or 1, help="shards at a time (one per core)")
+    parser.add_argument("--folder", type=Path, default=Path(".cache/proof"), help="default: %(default)s")
+    args = parser.parse_args()
+    begin = time.monotonic()
+    if args.short:
+        args.mutants, args.differential, args.encodes = min(args.mutants, 20_000), min(args.differential, 2_000), 100
+    parts = [part for part in plan(args) if not args.only or part.suite in args.only]
+    folder = args.folder.resolve() / f"{args.seed}-{digest()}"
+    print(f"seed {args.seed}, {len(parts)} shards, kept in {folder}", flush=True)
+    if any(part.suite == "encodes" for part in parts):
+        build_processors()
+    tallies: dict[str, Tally] = {part.suite: Tally() for part in parts}
+    with ThreadPoolExecutor(args.jobs) as pool:
+        waiting = {pool.submit(outcome, part, args.seed, folder): part for part in parts}
+        for done in as_completed(waiting):
+            tally = done.result()
+            tallies[waiting[done].suite].add(tally)
+            for finding in tally.findings:
+                print(f"FOUND in {waiting[done].name}: {finding}", flush=True)
+    print("\n".join(table(tallies)))
+    print(f"{time.monotonic() - begin:.0f} s, seed {args.seed}")
+    return 1 if any(tally.findings or tally.escapes for tally in tallies.values()) else 0
+
+
+def plan(args: argparse.Namespace) -> list[Part]:
+    """All shards, the suites in turn, so that a run that is stopped has done a little of everything."""
+    places = range(0, len(environments()), 8 if args.short else 1)
+    queues = [
+        [Part("vectors", number, 2) for number in range(2)],
+        [Part("mutants", *cut) for cut in cuts(args.mutants, MUTANTS)],
+        [Part("differential", *cut) for cut in cuts(args.differential, DIFFERENTIAL)],
+        [Part("encodes", *cut) for cut in cuts(args.encodes, ENCODES)],
+        [Part("surroundings", number, SURROUNDINGS) for number in places],
+    ]
+    shares = [(place / len(queue), part) for queue in queues for place, part in enumerate(queue)]
+    return [part for _, part in sorted(shares, key=lambda share: share[0])]
+
+
+def cuts(count: int, size: int) -> Iterator[tuple[int, int]]:
+    """Numbers and sizes of the shards of so many inputs."""
+    for number, first in enumerate(range(0, count, size)):
+        yield number, min(size, count - first)
+
+
+def outcome(part: Part, seed: str, folder: Path) -> Tally:
+    """What a shard saw, now or before."""
+    kept = folder / f"{part.name}.json"
+    if kept.is_file():
+        return Tally(**json.loads(kept.read_text()))
+    tally = run(part, seed, folder / "findings")
+    folder.mkdir(parents=True, exist_ok=True)
+    kept.write_text(json.dumps(asdict(tally)))
+    return tally
+
+
+def run(part: Part, seed: str, findings: Path) -> Tally:
+    """Run a shard; one that dies is run again, with every input written down before it is tried."""
+    command = [
+        *(sys.executable, "-X", "faulthandler", "-m", "tools.proof.shard", part.suite),
+        *(str(part.number), str(part.size), "--seed", seed, "--findings", str(findings)),
+    ]
+    try:
+        done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False, timeout=SHARD_SECONDS)
+        if done.returncode == 0:
+            return Tally(**json.loads(done.stdout.splitlines()[-1]))
+        careful = [*command[:-1], str(findings / part.name), "--careful"]
+        subprocess.run(careful, cwd=ROOT, capture_output=True, check=False, timeout=SHARD_SECONDS)
+        problem = f"code {done.returncode}, the input is in {findings / part.name}: {done.stderr[-2000:]}"
+    except subprocess.TimeoutExpired:
+        problem = f"did not end within {SHARD_SECONDS} s"
+    return Tally(escapes=1, findings=[problem])
+
+
+def digest() -> str:
+    """Of all sources that the proof is about."""
+    total = hashlib.sha256()
+    for name in WATCHED:
+        for path in sorted((ROOT / name).rglob("*")):
+            if path.is_file() and path.suffix in (".py", ".c", ".h", ".cpp", ".hpp", ".bsm", ".npz", ".bin"):
+                total.update(str(path.relative_to(ROOT)).encode() + path.read_bytes())
+    return total.hexdigest()[:12]
+
+
+def table(tallies: dict[str, Tally]) -> Iterator[str]:
+    """What every suite saw, in lines."""
+    columns = ("inputs", "decoded", "refused", "skipped", "inexact", "differing", "escapes")
+    heads = ("inputs", "decoded", "refused", "skipped", "other bits", "over 1e-9", "escapes")
+    yield " ".join([f"{'suite':14}", *(f"{head:>10}" for head in heads), f"{'worst':>9}", f"{'findings':>9}"])
+    total = Tally()
+    for name, tally in tallies.items():
+        yield _line(name, tally, columns)
+        total.add(tally)
+    yield _line("all", total, columns)
+
+
+def _line(name: str, tally: Tally, columns: tuple[str, ...]) -> str:
+    counts = [f"{getattr(tally, column):>10,}" for column in columns]
+    return " ".join([f"{name:14}", *counts, f"{tally.worst:>9.1e}", f"{len(tally.findings):>9,}"])
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,62 @@
+"""Random streams on this processor: `python -m tools.proof.encodes SEED COUNT FOLDER [--streams OTHER]`.
+
+Writes each stream and what it decodes to into FOLDER; decodes the streams in OTHER, which another processor has
+written, as well. Everything follows from SEED, so streams of two processors can be compared byte by byte.
+"""
+
+from __future__ import annotations
+
+import argparse
+import traceback
+import warnings
+from pathlib import Path
+from random import Random
+
+import numpy as np
+
+import bitstream._kernels
+from bitstream.errors import BsmError
+from tools.proof.decoding import whole
+from tools.proof.inputs import random_stream
+
+
+def random_streams(seed: str, count: int) -> list[bytes | str]:
+    """Streams of so many seeds; a traceback where the encoder fell, and nothing where it refused."""
+    streams: list[bytes | str] = []
+    for k in range(count):
+        try:
+            streams.append(random_stream(Random(f"{seed}/{k}")))
+        except BsmError:
+            streams.append(b"")
+        except Exception:
+            streams.append(traceback.format_exc(limit=-3))
+    return streams
+
+
+def main() -> None:
+    """Run the command."""
+    parser = argparse.ArgumentParser(prog="python -m tools.proof.encodes", description=(__doc__ or "").split("\n")[0])
+    parser.add_argument("seed")
+    parser.add_argument("count", type=int)
+    parser.add_argument("folder", type=Path)
+    parser.add_argument("--streams", type=Path, required=True)
+    args = parser.parse_args()
+    here = Path(__file__).parents[2]
+    if here not in Path(bitstream._kernels.__file__).parents:
+        raise SystemExit(f"the kernels are those of {bitstream._kernels.__file__}, not those of {here}")
+    warnings.simplefilter("ignore")
+    args.folder.mkdir(parents=True, exist_ok=True)
+    for k, stream in enumerate(random_streams(args.seed, args.count)):
+        (args.folder / f"{k}.bsm").write_bytes(stream if isinstance(stream, bytes) else stream.encode())
+    for path in args.streams.glob("*.bsm"):
+        if path.stat().st_size == 0:
+            continue
+        outcome = whole(path.read_bytes())
+        if isinstance(outcome, BsmError):
+            (args.folder / f"{path.stem}.txt").write_text(f"{type(outcome).__name__} {outcome}")
+        else:
+            np.savez(args.folder / f"{path.stem}.npz", positions=outcome[0], faces=outcome[1])
+
+
+if __name__ == "__main__":
+    main()

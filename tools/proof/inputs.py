@@ -1,0 +1,174 @@
+"""Small meshes and sequences of every kind with options of every kind, all from one random number generator."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from random import Random
+from typing import Any
+
+import numpy as np
+
+from codec.arrays import Positions
+from codec.geometry.mesh import TriangleMesh
+from codec.sequence.encoder import encode_sequence
+from codec.sequence.options import SequenceOptions
+from codec.static.encoder import encode
+from codec.static.options import PRESETS, EncodeOptions
+from codec.static.quality.targets import Target
+from tools.fuzz.mutate import mutate_stream
+from tools.fuzz.sweep import mutate
+from tools.vectors.meshes import hub, patch, shuffled, tangled, tetrahedron, together, torus, triangle
+from tools.vectors.store import FOLDER
+
+SEED_BYTES = 4096
+"""Larger vectors are not mutated: they probe size, and cost time."""
+SEQUENCES = 0.25
+"""Share of sequences among random streams."""
+
+
+def vector_seeds() -> list[bytes]:
+    """The vectors, those that are to be refused too."""
+    return [path.read_bytes() for path in sorted(FOLDER.glob("*.bsm")) if path.stat().st_size < SEED_BYTES]
+
+
+def mutant(random: Random, seeds: list[bytes]) -> bytes:
+    """A stream with something changed behind checksums that are right again."""
+    seed = random.choice(seeds)
+    return mutate_stream(seed, 1 << 16, random.randrange(1 << 30), lambda part, size: mutate(random, part)[:size])
+
+
+def random_stream(random: Random) -> bytes:
+    """A mesh or a sequence, encoded with options of any kind.
+
+    Raises
+    ------
+    BsmError
+        Where options exclude each other, or a target cannot be reached.
+    """
+    if random.random() < SEQUENCES:
+        return _sequence(random)
+    return encode(random_mesh(random), _static_options(random))
+
+
+def random_mesh(random: Random) -> TriangleMesh:
+    """Some shape, often deformed."""
+    mesh = random.choice(_SHAPES)(random)
+    for deform in _DEFORMATIONS:
+        if random.random() < 0.12:
+            mesh = TriangleMesh(deform(random, mesh.positions), mesh.faces)
+    if random.random() < 0.15:
+        mesh = shuffled(mesh)
+    return mesh
+
+
+def _soup(random: Random) -> TriangleMesh:
+    """Every face with vertices of its own."""
+    mesh = patch(random.randrange(2, 7), random.randrange(2, 7))
+    return TriangleMesh(mesh.positions[mesh.faces.ravel()], np.arange(mesh.faces.size).reshape(-1, 3))
+
+
+def _disorder(random: Random) -> TriangleMesh:
+    """Faces without any order."""
+    numbers = np.random.default_rng(random.randrange(1 << 30))
+    size = random.randrange(3, 60)
+    faces = numbers.integers(0, size, (random.randrange(1, 2 * size), 3))
+    return TriangleMesh(numbers.normal(size=(size, 3)), faces)
+
+
+def _components(random: Random) -> TriangleMesh:
+    """Up to forty of them."""
+    small = [tetrahedron, triangle, lambda: torus(5, 4), lambda: patch(3, 3)]
+    return together(*(random.choice(small)() for _ in range(random.choice((2, 5, 40)))))
+
+
+_SHAPES: tuple[Callable[[Random], TriangleMesh], ...] = (
+    lambda random: patch(random.randrange(2, 16), random.randrange(2, 16)),
+    lambda random: torus(random.randrange(3, 18), random.randrange(3, 14)),
+    lambda random: torus(random.randrange(3, 18), random.randrange(3, 14), phase=random.random()),
+    lambda random: together(torus(7, 6), patch(6, 5), triangle()),
+    _components,
+    _soup,
+    _disorder,
+    lambda random: tangled(),
+    lambda random: hub(),
+    lambda random: tetrahedron(),
+)
+
+
+def _noise(random: Random, positions: Positions) -> Positions:
+    size = 10.0 ** random.uniform(-6, 0)
+    return positions + np.random.default_rng(random.randrange(1 << 30)).normal(scale=size, size=positions.shape)
+
+
+_DEFORMATIONS: tuple[Callable[[Random, Positions], Positions], ...] = (
+    _noise,
+    lambda random, positions: positions * 10.0 ** random.randrange(-9, 10),
+    lambda random, positions: positions + np.array([1e4, -3e5, 7.0]),
+    lambda random, positions: positions * (1.0, 1.0, 0.0),
+    lambda random, positions: np.round(positions, random.randrange(2)),
+    lambda random, positions: np.float32(positions).astype(np.float64),
+)
+
+
+def _some(random: Random, choices: dict[str, Callable[[], Any]], share: float) -> dict[str, Any]:
+    return {name: make() for name, make in choices.items() if random.random() < share}
+
+
+def _static_options(random: Random) -> EncodeOptions:
+    way = random.randrange(8)
+    given: dict[str, Any] = {"block_size": random.choice((12, 30, 30, 60, 100, 750)), "threads": 1}
+    if way == 0:
+        return EncodeOptions(**{**vars(random.choice(list(PRESETS.values()))), "threads": 1})
+    if way == 1:
+        return EncodeOptions(grid=random.randrange(1, 21), keep_order=random.random() < 0.3, threads=1)
+    if way == 2:
+        given["target"] = Target(random.choice(Target.KINDS), random.choice((0.01, 1.0, 8.0, 400.0)))
+    elif way == 3:
+        given |= {"bits": random.randrange(2, 17), "partition": "metis"}
+    elif way == 4:
+        given["doi"] = (5e-4, 2e-3)
+    else:
+        given["step"] = 2.0 ** -random.randrange(3, 16)
+    return EncodeOptions(**{**_some(random, _static_choices(random), 0.15), **given})
+
+
+def _static_choices(random: Random) -> dict[str, Callable[[], Any]]:
+    return {
+        "keep": lambda: random.choice((0.05, 0.3, 1.0)),
+        "coefficients": lambda: random.choice((1, 4, 20)),
+        "overlap": lambda: random.choice((1.0, 1.15, 2.0)),
+        "partition": lambda: "metis",
+        "basis": lambda: "svd",
+        "seed": lambda: "independent",
+        "key_seed": lambda: random.choice(("svd", "cosines")),
+        "key_interval": lambda: random.choice((0, 1, 2, 5)),
+        "power": lambda: random.choice((1, 2, 8, 16)),
+        "iterations": lambda: random.choice((1, 3, 9)),
+        "key_iterations": lambda: random.choice((1, 8, 40)),
+        "shift": lambda: 10.0 ** random.randrange(-6, 4),
+        "detail": lambda: random.choice((0.0, 0.5, 3.0)),
+        "predict": lambda: False,
+        "smoothing": lambda: random.choice((0.0, 0.5, 8.0)),
+        "blend": lambda: random.choice(("uniform", "own")),
+        "keep_order": lambda: True,
+    }
+
+
+def _sequence(random: Random) -> bytes:
+    mesh = random_mesh(random)
+    speed, frames = 10.0 ** random.uniform(-4, 0), random.randrange(1, 9)
+    still = mesh.positions
+    swing = np.sin(still[:, [1, 2, 0]] * 3 / (np.ptp(still) or 1.0)) * (np.ptp(still) or 1.0)
+    positions = np.array([still + speed * np.sin(0.7 * t) * swing for t in range(frames)])
+    choices: dict[str, Callable[[], Any]] = {
+        "mode": lambda: "low-delay",
+        "gop": lambda: random.choice((1, 2, 3)),
+        "transform": lambda: random.choice(("learnt", "cosine")),
+        "weights": lambda: "binary",
+        "keep": lambda: random.choice((0.005, 0.05, 0.5)),
+        "overlap": lambda: 1.3,
+        "keep_order": lambda: True,
+        "frame_rate": lambda: 25.0,
+    }
+    options = {"step": 2.0 ** -random.randrange(4, 14), "block_size": random.choice((12, 36, 100)), "threads": 1}
+    return encode_sequence(positions, mesh.faces, SequenceOptions(**{**options, **_some(random, choices, 0.4)}))

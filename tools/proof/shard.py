@@ -1,0 +1,263 @@
+"""One shard of a suite in a process of its own: `python -m tools.proof.shard SUITE NUMBER SIZE --seed S`.
+
+Prints what it saw as a line of JSON. Everything follows from the arguments, so a shard that crashes can be run again:
+with `--careful` each input is written to the folder of findings before it is tried.
+"""
+
+from __future__ import annotations
+
+import argparse
+import hashlib
+import importlib
+import json
+import sys
+import time
+import traceback
+import warnings
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import asdict, replace
+from functools import cache
+from pathlib import Path
+from random import Random
+from tempfile import TemporaryDirectory
+from typing import Any
+
+import numpy as np
+
+from bitstream import errors
+from bitstream.errors import BsmError, LimitError
+from tools.fuzz.targets import LIMITS
+from tools.proof.decoding import piecewise, whole
+from tools.proof.encodes import random_streams
+from tools.proof.inputs import mutant, random_stream, vector_seeds
+from tools.proof.places import Place, environments, processors
+from tools.proof.tally import Outcome, Tally
+from tools.vectors.__main__ import try_product
+from tools.vectors.store import read_manifest
+
+SPEC = Path(__file__).parents[2] / "spec"
+SECONDS = 3.0
+"""Of processor time that one input may take under `LIMITS`."""
+FRESH = 3
+"""Streams of new options that each shard mutates beside the vectors."""
+PATIENT = replace(LIMITS, work=3e7, vertices=1 << 10, faces=1 << 11, blocks=1 << 7)
+"""What the reference decoder, which is slow, can do in seconds."""
+
+
+class Shard:
+    """Where a suite takes its random numbers from, and tells what it saw."""
+
+    def __init__(self, name: str, findings: Path, careful: bool) -> None:
+        self.random = Random(name)
+        self.tally = Tally()
+        self._findings = findings
+        self._careful = careful
+
+    @contextmanager
+    def watching(self, stream: bytes) -> Iterator[None]:
+        """Note whatever is no error of a stream, and what takes too long."""
+        if self._careful:
+            self._keep(stream, "crash")
+        begin = time.process_time()
+        try:
+            yield
+        except Exception:
+            self.tally.escapes += 1
+            self.found(stream, traceback.format_exc(limit=-3))
+        if (spent := time.process_time() - begin) > SECONDS:
+            self.tally.escapes += 1
+            self.found(stream, f"{spent:.1f} s of processor time for {len(stream)} bytes")
+
+    def found(self, stream: bytes, problem: str | None) -> None:
+        """Note a finding, if there is one, and keep the stream."""
+        if problem:
+            name = self._keep(stream, hashlib.sha256(stream).hexdigest()[:12])
+            self.tally.findings.append(f"{name}: {problem}")
+
+    def _keep(self, stream: bytes, name: str) -> Path:
+        self._findings.mkdir(parents=True, exist_ok=True)
+        path = self._findings / f"{name}.bsm"
+        path.write_bytes(stream)
+        return path
+
+    def seeds(self) -> list[bytes]:
+        """The vectors, and a few streams that are like none of them."""
+        return vector_seeds() + [stream for stream in (self.fresh() for _ in range(FRESH)) if stream]
+
+    def fresh(self) -> bytes | None:
+        """A random stream, or None if the encoder refused."""
+        try:
+            return random_stream(self.random)
+        except BsmError:
+            return None
+
+
+def vectors(shard: Shard, number: int, size: int) -> None:
+    """Every vector by both decoders, in pieces and on two threads."""
+    for vector in read_manifest()[number::size]:
+        stream = vector.stream.read_bytes()
+        with shard.watching(stream):
+            outcome = whole(stream)
+            shard.tally.saw(outcome)
+            shard.found(stream, try_product(vector))
+            shard.found(stream, shard.tally.hold(stream, reference(stream), outcome))
+            agree(shard, stream, outcome)
+
+
+def mutants(shard: Shard, number: int, size: int) -> None:
+    """Mutants of streams with right checksums: whole, in pieces on two threads, or in tolerant mode."""
+    seeds = shard.seeds()
+    for _ in range(size):
+        stream, way = mutant(shard.random, seeds), shard.random.random()
+        with shard.watching(stream):
+            if way < 0.6:
+                outcome = whole(stream, LIMITS)
+            else:
+                outcome, _ = piecewise(stream, shard.random, LIMITS, threads=1 + (way < 0.7), tolerant=way > 0.8)
+            shard.tally.saw(outcome)
+            shard.found(stream, not_finite(outcome, tolerant=way > 0.8))
+
+
+def differential(shard: Shard, number: int, size: int) -> None:
+    """Mutants and random streams by this project's decoder and the reference decoder."""
+    seeds = shard.seeds()
+    for k in range(size):
+        stream = (shard.fresh() or seeds[0]) if k % 10 == 0 else mutant(shard.random, seeds)
+        with shard.watching(stream):
+            ours = whole(stream, PATIENT)
+        if isinstance(ours, LimitError):
+            shard.tally.skipped += 1
+            continue
+        shard.tally.saw(ours)
+        shard.found(stream, shard.tally.hold(stream, ours, reference(stream)))
+
+
+def encodes(shard: Shard, number: int, size: int) -> None:
+    """Random streams: threads, pieces, tolerance; the same streams and positions on other processors."""
+    _elsewhere(shard, size, processors())
+
+
+def surroundings(shard: Shard, number: int, size: int) -> None:
+    """The same in one environment."""
+    _elsewhere(shard, size, environments()[number : number + 1])
+
+
+def _elsewhere(shard: Shard, size: int, places: tuple[Place, ...]) -> None:
+    seed = f"{shard.random.random()}"
+    with TemporaryDirectory(prefix="bsm-proof-") as folder:
+        streams = _streams(shard, seed, size, Path(folder))
+        for number, place in enumerate(places):
+            there = Path(folder) / str(number)
+            done = place.run("tools.proof.encodes", seed, str(size), str(there), "--streams", folder)
+            if done.returncode:
+                shard.tally.escapes += 1
+                shard.tally.findings.append(f"{place.name}, seed {seed}: code {done.returncode}, {done.stderr[-600:]}")
+                continue
+            for k, stream in streams.items():
+                other = (there / f"{k}.bsm").read_bytes()
+                found = shard.tally.hold(stream, _stored(there / f"{k}"), whole(stream))
+                shard.found(stream, found and f"{place.name}: {found}")
+                if other != stream:
+                    # An encoder may choose otherwise there; what it writes must mean the same everywhere.
+                    shard.tally.inexact += 1
+                    found = shard.tally.hold(other, whole(other), reference(other))
+                    shard.found(other, found and f"encoded by {place.name}: {found}")
+
+
+def _streams(shard: Shard, seed: str, size: int, folder: Path) -> dict[int, bytes]:
+    """What this processor encodes, written to a folder, and decoded in every way."""
+    streams: dict[int, bytes] = {}
+    for k, stream in enumerate(random_streams(seed, size)):
+        if isinstance(stream, str):
+            shard.tally.escapes += 1
+            shard.tally.findings.append(f"encoding {seed}/{k}: {stream}")
+        elif not stream:
+            shard.tally.skipped += 1
+        else:
+            (folder / f"{k}.bsm").write_bytes(stream)
+            streams[k] = stream
+            with shard.watching(stream):
+                outcome = whole(stream)
+                shard.tally.saw(outcome)
+                if isinstance(outcome, BsmError):
+                    shard.found(stream, f"its own encoder's stream is refused: {outcome!r}")
+                agree(shard, stream, outcome)
+    return streams
+
+
+def _stored(path: Path) -> Outcome:
+    """What `tools.proof.encodes` found."""
+    if (refused := path.with_suffix(".txt")).is_file():
+        name, problem = refused.read_text().split(" ", 1)
+        kind: type[BsmError] = getattr(errors, name)
+        return kind(problem)
+    with np.load(path.with_suffix(".npz")) as file:
+        return file["positions"], file["faces"]
+
+
+def agree(shard: Shard, stream: bytes, outcome: Outcome) -> None:
+    """Threads, pieces and tolerance must not change what becomes of a stream."""
+    shard.found(stream, shard.tally.hold(stream, whole(stream, threads=2), outcome, exact=True))
+    one, _losses = piecewise(stream, shard.random, threads=1)
+    two, _losses = piecewise(stream, shard.random, threads=2)
+    rounded = Tally()  # blended in another order, so the last bits may differ
+    shard.found(stream, rounded.hold(stream, one, outcome))
+    shard.tally.differing += rounded.differing
+    shard.found(stream, shard.tally.hold(stream, two, one, exact=True))
+    if not isinstance(outcome, BsmError):
+        tolerant, losses = piecewise(stream, shard.random, tolerant=True)
+        shard.found(
+            stream,
+            shard.tally.hold(stream, tolerant, one, exact=True) or (losses and "losses in a whole stream") or None,
+        )
+
+
+def not_finite(outcome: Outcome, tolerant: bool) -> str | None:
+    """Positions that are none, where they should be; what a tolerant decoder lost has none."""
+    if isinstance(outcome, BsmError) or tolerant or np.isfinite(outcome[0]).all():
+        return None
+    return "positions that are not finite"
+
+
+@cache
+def _reference() -> Any:
+    sys.path.insert(0, str(SPEC))
+    return importlib.import_module("reference_decoder")
+
+
+def reference(stream: bytes) -> Outcome:
+    """By the reference decoder, its errors translated."""
+    module = _reference()
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # it computes on with what is not finite, and looks afterwards
+        try:
+            positions, faces = module.decode(stream)
+            return positions, faces
+        except tuple(module.EXIT_CODES) as error:
+            kind: type[BsmError] = getattr(errors, type(error).__name__)
+            return kind(str(error))
+
+
+SUITES: dict[str, Callable[[Shard, int, int], None]] = {
+    suite.__name__: suite for suite in (vectors, mutants, differential, encodes, surroundings)
+}
+
+
+def main() -> None:
+    """Run the command."""
+    parser = argparse.ArgumentParser(prog="python -m tools.proof.shard", description=(__doc__ or "").split("\n")[0])
+    parser.add_argument("suite", choices=SUITES)
+    parser.add_argument("number", type=int)
+    parser.add_argument("size", type=int)
+    parser.add_argument("--seed", required=True)
+    parser.add_argument("--findings", type=Path, required=True)
+    parser.add_argument("--careful", action="store_true")
+    args = parser.parse_args()
+    shard = Shard(f"{args.seed}/{args.suite}/{args.number}", args.findings, args.careful)
+    SUITES[args.suite](shard, args.number, args.size)
+    print(json.dumps(asdict(shard.tally)))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,97 @@
+"""What a part of the proof has seen, and how two decodings are held against each other."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, fields
+
+import numpy as np
+import numpy.typing as npt
+
+from bitstream.errors import BsmError
+from tools.vectors.store import PEAK, RMS, distance, scale_of
+
+Decoded = tuple[npt.NDArray[np.float64], npt.NDArray[np.int32]]
+"""Positions, shape (n, 3) or (T, n, 3), and faces, shape (m, 3)."""
+Outcome = Decoded | BsmError
+
+
+@dataclass
+class Tally:
+    """Counts of one shard or of many.
+
+    Attributes
+    ----------
+    inputs, decoded, refused : int
+        Streams (or whatever the suite tries); those that gave positions; those that gave an error of their class.
+    skipped : int
+        Inputs that asked for more than the suite grants, and were not tried.
+    inexact, differing : int
+        Comparisons that were not equal to the last bit; that were off by more than the law allows.
+    worst : float
+        Greatest difference, in extents.
+    escapes : int
+        Errors that are none of a stream, crashes, and inputs that took too long.
+    findings : list of str
+        What went wrong, and where the input lies.
+    """
+
+    inputs: int = 0
+    decoded: int = 0
+    refused: int = 0
+    skipped: int = 0
+    inexact: int = 0
+    differing: int = 0
+    escapes: int = 0
+    worst: float = 0.0
+    findings: list[str] = field(default_factory=list)
+
+    def add(self, other: Tally) -> None:
+        """Take in what another has seen."""
+        for item in fields(self):
+            mine, its = getattr(self, item.name), getattr(other, item.name)
+            setattr(self, item.name, max(mine, its) if item.name == "worst" else mine + its)
+
+    def saw(self, outcome: Outcome) -> None:
+        """Take note of what became of an input."""
+        self.inputs += 1
+        if isinstance(outcome, BsmError):
+            self.refused += 1
+        else:
+            self.decoded += 1
+
+    def hold(self, stream: bytes, found: Outcome, expected: Outcome, exact: bool = False) -> str | None:
+        """Compare what became of a stream with what should have; what is wrong with it, or None.
+
+        `exact` asks for equality to the last bit.
+        """
+        problem = self._compared(stream, found, expected, exact)
+        self.differing += problem is not None
+        return problem
+
+    def _compared(self, stream: bytes, found: Outcome, expected: Outcome, exact: bool) -> str | None:
+        if isinstance(found, BsmError) or isinstance(expected, BsmError):
+            told = [
+                error_class(outcome) if isinstance(outcome, BsmError) else "decoded" for outcome in (found, expected)
+            ]
+            return (
+                None
+                if told[0] == told[1]
+                else f"{told[0]} instead of {told[1]}: {found if told[0] != 'decoded' else expected}"
+            )
+        if not np.array_equal(found[1], expected[1]):
+            return "the faces differ"
+        if found[0].shape != expected[0].shape:
+            return f"positions of shape {found[0].shape} instead of {expected[0].shape}"
+        if np.array_equal(found[0], expected[0]):
+            return None
+        rms, peak = distance(found[0], expected[0], scale_of(stream))
+        self.inexact += 1
+        self.worst = max(self.worst, peak)
+        if exact:
+            return f"positions are off by {peak:.1e}, and should be the same to the last bit"
+        return None if rms <= RMS and peak <= PEAK else f"positions are off by {rms:.1e} (rms) and {peak:.1e}"
+
+
+def error_class(error: BsmError) -> str:
+    """The name that the specification has for an error."""
+    return type(error).__name__.removesuffix("Error").lower()
