@@ -32,8 +32,8 @@ from bsm.files.formats.with_openmesh import read_with_openmesh
 from bsm.files.formats.with_trimesh import read_with_trimesh
 from bsm.files.formats.written import Written
 from bsm.files.output import can_be_replaced, open_output, refuse_to_overwrite
-from bsm.files.remote import is_url
 from bsm.files.pipes import Input, Source, as_input
+from bsm.files.remote import is_url
 from codec.geometry.mesh import TriangleMesh
 
 _READERS: dict[str, Callable[[bytes], Polygons]] = {
