@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import chain, islice
+from types import MappingProxyType
 
 import numpy as np
 import numpy.typing as npt
@@ -15,7 +16,7 @@ from bitstream.container.header import Header
 from bitstream.container.writer import Writer
 from bitstream.errors import MeshError, OptionError
 from codec.arrays import Matrix, Order
-from codec.geometry.mesh import TriangleMesh
+from codec.geometry.mesh import Metadata, TriangleMesh
 from codec.sequence.decoder import decode_sequence
 from codec.sequence.gop import GopEncoder, Setting, make_setting
 from codec.sequence.options import SequenceOptions
@@ -82,6 +83,8 @@ class SequenceEncoder:
     options : SequenceOptions
     frames : int
         Number of frames, 0 if it is not known.
+    metadata : mapping from str to str, int, float or bytes
+        What belongs to the whole sequence.
 
     Attributes
     ----------
@@ -93,8 +96,15 @@ class SequenceEncoder:
         What was changed on the way in.
     """
 
-    def __init__(self, faces: npt.ArrayLike, options: SequenceOptions | None = None, frames: int = 0) -> None:
+    def __init__(
+        self,
+        faces: npt.ArrayLike,
+        options: SequenceOptions | None = None,
+        frames: int = 0,
+        metadata: Metadata = MappingProxyType({}),
+    ) -> None:
         self.options = options or SequenceOptions()
+        self._metadata = (packets.Metadata(metadata),) if metadata else ()
         self.vertex_order: Order = np.empty(0, np.int64)
         self.face_order: Order = np.empty(0, np.int64)
         self.notes: tuple[str, ...] = ()
@@ -158,7 +168,8 @@ class SequenceEncoder:
         opening = open_sequence(prepared, options, self._count, tell)
         writer = Writer()
         yield writer.start()
-        for packet in (opening.header, *prepared.before_blocks, *(block.packet for block in opening.blocks)):
+        before = (opening.header, *self._metadata, *prepared.before_blocks)
+        for packet in (*before, *(block.packet for block in opening.blocks)):
             yield writer.write(packet)
         encoder = GopEncoder(opening.setting, options)
         number = 0
@@ -250,9 +261,14 @@ class _Rounds:
         self._done += done == blocks
 
 
-def encode_sequence(positions: npt.ArrayLike, faces: npt.ArrayLike, options: SequenceOptions | None = None) -> bytes:
+def encode_sequence(
+    positions: npt.ArrayLike,
+    faces: npt.ArrayLike,
+    options: SequenceOptions | None = None,
+    metadata: Metadata = MappingProxyType({}),
+) -> bytes:
     """Encode frames, `positions` of shape (T, n, 3), to a complete stream."""
     frames = np.asarray(positions, np.float64)
     if frames.ndim != 3 or frames.shape[2] != 3 or len(frames) == 0:
         raise MeshError(f"the positions of a sequence must have shape (T, n, 3), T > 0, not {frames.shape}")
-    return b"".join(SequenceEncoder(faces, options, len(frames)).chunks(frames))
+    return b"".join(SequenceEncoder(faces, options, len(frames), metadata).chunks(frames))
