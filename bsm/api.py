@@ -4,20 +4,21 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Iterable
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from bitstream.errors import ArgumentError, OptionError
 from bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm import options as keywords_to
-from bsm.files.mesh import MESH_FORMATS, format_mesh, format_of_name
-from bsm.files.output import open_output
+from bsm.files.formats.written import Written
+from bsm.files.mesh import WRITTEN_FORMATS, format_of_name, save_written, written_mesh
 from bsm.files.permutation import in_order_of
 from bsm.files.pipes import Input, Source, read_bytes, read_chunks
 from bsm.files.stream import decode_whole
 from bsm.meshes import as_mesh, read_any
 from codec.arrays import Faces, Positions
-from codec.geometry.mesh import TriangleMesh
+from codec.geometry.mesh import Metadata, TriangleMesh
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -30,7 +31,9 @@ if TYPE_CHECKING:
 _Options = TypeVar("_Options")
 
 
-def encode(mesh: Any, options: EncodeOptions | None = None, /, **keywords: Any) -> bytes:
+def encode(
+    mesh: Any, options: EncodeOptions | None = None, /, *, metadata: Metadata | None = None, **keywords: Any
+) -> bytes:
     """Compress a mesh.
 
     Parameters
@@ -39,6 +42,8 @@ def encode(mesh: Any, options: EncodeOptions | None = None, /, **keywords: Any) 
         A `TriangleMesh`; a mesh of trimesh, pyvista, Open3D or meshio; ``(positions, faces)``; or a file's name.
     options : EncodeOptions, optional
         Instead of keywords.
+    metadata : mapping from str to str, int, float or bytes, optional
+        Added to what the mesh says of itself.
     **keywords
         As on the command line: `preset` ("small", "balanced", "fine", "near-lossless", "lossless"), one target
         (`theta`, `nmsve_db`, `max_error`, `bpv`, `size`), and fields of `EncodeOptions` (`step`, `block_size`,
@@ -60,7 +65,9 @@ def encode(mesh: Any, options: EncodeOptions | None = None, /, **keywords: Any) 
     from codec.static.encoder import encode as encode_mesh
     from codec.static.options import EncodeOptions
 
-    return encode_mesh(as_mesh(mesh), _chosen(options, EncodeOptions, keywords, keywords_to.encode_options))
+    given = as_mesh(mesh)
+    given = replace(given, metadata={**given.metadata, **metadata}) if metadata else given
+    return encode_mesh(given, _chosen(options, EncodeOptions, keywords, keywords_to.encode_options))
 
 
 def encode_many(
@@ -151,7 +158,13 @@ def decode(stream: Source, *, limits: Limits = DEFAULT_LIMITS, threads: int | No
 
 
 def encode_sequence(
-    positions: npt.ArrayLike, faces: npt.ArrayLike, options: SequenceOptions | None = None, /, **keywords: Any
+    positions: npt.ArrayLike,
+    faces: npt.ArrayLike,
+    options: SequenceOptions | None = None,
+    /,
+    *,
+    metadata: Metadata | None = None,
+    **keywords: Any,
 ) -> bytes:
     """Compress an animated mesh.
 
@@ -161,6 +174,8 @@ def encode_sequence(
     faces : array_like of int, shape (m, 3)
     options : SequenceOptions, optional
         Instead of keywords.
+    metadata : mapping from str to str, int, float or bytes, optional
+        What belongs to the whole sequence.
     **keywords
         As on the command line: `preset`, `low_delay`, one target (`kg`, `bpvf`, `theta`, `nmsve_db`), and fields of
         `SequenceOptions` (`step`, `gop`, `frame_rate`, ...).
@@ -169,7 +184,7 @@ def encode_sequence(
     from codec.sequence.options import SequenceOptions
 
     chosen = _chosen(options, SequenceOptions, keywords, keywords_to.sequence_options)
-    return encode_frames(positions, faces, chosen)
+    return encode_frames(positions, faces, chosen, metadata or {})
 
 
 def decode_sequence(
@@ -198,19 +213,26 @@ def load(source: Source, *, limits: Limits = DEFAULT_LIMITS, reader: str | None 
     return read_any(Input(source), limits=limits, reader=reader)
 
 
-def save(mesh: Any, path: str | os.PathLike[str], *, overwrite: bool = True, **keywords: Any) -> None:
+def save(mesh: Any, path: str | os.PathLike[str], *, overwrite: bool = True, **keywords: Any) -> tuple[str, ...]:
     """Write a mesh to a file, as a whole or not at all, in the format of its name.
+
+    Images and, for OBJ, the library of materials are written beside it; their names begin like its own.
 
     Parameters
     ----------
     mesh : mesh, pair of arrays, or path
         As `encode` takes it.
     path : path
-        With the suffix .bsm, .npz, .obj, .off, .ply or .stl.
+        With the suffix .bsm, .glb (with trimesh), .npz, .obj, .off, .ply or .stl.
     overwrite : bool
         Whether a file of this name is replaced.
     **keywords
         Of `encode`, for .bsm only.
+
+    Returns
+    -------
+    tuple of str
+        The names of attributes and metadata that the format cannot hold.
 
     Raises
     ------
@@ -224,15 +246,14 @@ def save(mesh: Any, path: str | os.PathLike[str], *, overwrite: bool = True, **k
     suffix = Path(path).suffix.lower()
     kind = format_of_name(path)
     if suffix == ".bsm":
-        data = encode(mesh, **keywords)
+        written = Written(encode(mesh, **keywords))
     elif kind is None:
-        raise OptionError(f"{path}: the name tells no format; use one of .bsm, .{', .'.join(MESH_FORMATS)}")
+        raise OptionError(f"{path}: the name tells no format; use one of .bsm, .{', .'.join(WRITTEN_FORMATS)}")
     elif keywords:
         raise OptionError(f"{path}: {next(iter(keywords))} is an option of .bsm files only")
     else:
-        data = format_mesh(as_mesh(mesh), kind)
-    with open_output(path, overwrite=overwrite) as file:
-        file.write(data)
+        written = written_mesh(as_mesh(mesh), kind, path)
+    return save_written(path, written, overwrite=overwrite)
 
 
 def denoise(

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Sequence
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -10,13 +12,15 @@ import numpy.typing as npt
 
 from bitstream.errors import ArgumentError, MeshError
 from bitstream.limits import DEFAULT_LIMITS
+from bsm.files.formats.columns import Column
 from bsm.files.formats.polygons import MeshFile, Polygons
-from bsm.files.formats.with_trimesh import joined
+from bsm.files.formats.with_trimesh import joined, polygons_of
 from bsm.files.mesh import read_mesh
 from bsm.files.pipes import Input
 from bsm.files.rows import Ints, ranges
 from bsm.files.stream import decode_whole, is_stream
-from codec.geometry.mesh import TriangleMesh
+from bsm.foreign import columns_of, metadata_of
+from codec.geometry.mesh import Metadata, TriangleMesh
 
 _POINTS = ("vertices", "points", "positions")
 _FACES = ("faces", "triangles")
@@ -33,7 +37,8 @@ def as_mesh(mesh: Any) -> TriangleMesh:
         A `TriangleMesh`; an object with vertices or points, and faces (trimesh, pyvista, Open3D) or cells (meshio); a
         scene of trimesh, whose parts are joined; a pair (positions, faces); or the path of a mesh file or stream. Faces
         are an integer array of shape (m, 3), a larger number of columns or lists of different lengths for polygons,
-        which are cut into triangles, or flat as VTK has them: a count, so many indices, a count, ...
+        which are cut into triangles, or flat as VTK has them: a count, so many indices, a count, ... What the objects
+        have beside that (visuals, point data and cell data, normals and colours) become attributes.
 
     Raises
     ------
@@ -50,11 +55,13 @@ def as_mesh(mesh: Any) -> TriangleMesh:
         return read_any(mesh if isinstance(mesh, Input) else Input(mesh))
     if isinstance(mesh, (tuple, list)) and len(mesh) == 2:
         return _mesh_of_arrays(*mesh)
+    if hasattr(mesh, "visual") and hasattr(mesh, "vertex_attributes"):
+        return polygons_of(mesh).checked(DEFAULT_LIMITS).mesh
     points, faces = _attribute(mesh, _POINTS), _attribute(mesh, _FACES)
     if points is not None and faces is not None:
-        return _mesh_of_arrays(points, faces)
+        return _mesh_of_arrays(points, faces, columns_of(mesh, _SURFACES), metadata_of(mesh))
     if points is not None and hasattr(mesh, "cells_dict"):
-        return _mesh_of_cells(points, mesh.cells_dict)
+        return _mesh_of_cells(points, mesh.cells_dict, columns_of(mesh, _SURFACES))
     if hasattr(mesh, "graph") and hasattr(mesh, "geometry"):
         return joined(mesh, DEFAULT_LIMITS).checked(DEFAULT_LIMITS).mesh
     raise ArgumentError(
@@ -76,20 +83,23 @@ def _attribute(mesh: Any, names: tuple[str, ...]) -> Any:
     return next((value for value in values if value is not None and not callable(value)), None)
 
 
-def _mesh_of_arrays(positions: Any, faces: Any) -> TriangleMesh:
+def _mesh_of_arrays(
+    positions: Any, faces: Any, columns: Sequence[Column] = (), metadata: Metadata = MappingProxyType({})
+) -> TriangleMesh:
+    more = (columns, metadata)
     try:
         table = np.asarray(faces)
     except ValueError:  # lists of different lengths
         rows = [np.asarray(face).reshape(-1) for face in faces]
-        return _mesh_of_polygons(positions, np.array([len(row) for row in rows]), np.concatenate(rows))
+        return _mesh_of_polygons(positions, np.array([len(row) for row in rows]), np.concatenate(rows), *more)
     if table.ndim == 1 and table.size and table.dtype.kind in "iu":
-        return _mesh_of_polygons(positions, *_split(table.astype(np.int64)))
-    if table.ndim == 2 and table.shape[1] > 3:
-        return _mesh_of_polygons(positions, np.full(len(table), table.shape[1]), table.reshape(-1))
+        return _mesh_of_polygons(positions, *_split(table.astype(np.int64)), *more)
+    if table.ndim == 2 and (table.shape[1] > 3 or (table.shape[1] == 3 and len(table) and any(more))):
+        return _mesh_of_polygons(positions, np.full(len(table), table.shape[1]), table.reshape(-1), *more)
     return TriangleMesh(positions, table)
 
 
-def _mesh_of_cells(points: Any, cells: dict[str, npt.NDArray[Any]]) -> TriangleMesh:
+def _mesh_of_cells(points: Any, cells: dict[str, npt.NDArray[Any]], columns: Sequence[Column]) -> TriangleMesh:
     """The surface of a meshio mesh; its lines and single vertices are left out."""
     solid = [name for name in cells if name not in (*_SURFACES, *_NO_SURFACES)]
     if solid:
@@ -98,10 +108,16 @@ def _mesh_of_cells(points: Any, cells: dict[str, npt.NDArray[Any]]) -> TriangleM
     sizes = [np.full(len(table), table.shape[1]) for table in tables]
     nothing = np.empty(0, np.int64)
     corners = [table.reshape(-1) for table in tables]
-    return _mesh_of_polygons(points, np.concatenate([nothing, *sizes]), np.concatenate([nothing, *corners]))
+    return _mesh_of_polygons(points, np.concatenate([nothing, *sizes]), np.concatenate([nothing, *corners]), columns)
 
 
-def _mesh_of_polygons(positions: Any, sizes: Ints, corners: npt.NDArray[Any]) -> TriangleMesh:
+def _mesh_of_polygons(
+    positions: Any,
+    sizes: Ints,
+    corners: npt.NDArray[Any],
+    columns: Sequence[Column] = (),
+    metadata: Metadata = MappingProxyType({}),
+) -> TriangleMesh:
     try:
         points = np.asarray(positions, np.float64)
     except (TypeError, ValueError) as error:
@@ -110,7 +126,9 @@ def _mesh_of_polygons(positions: Any, sizes: Ints, corners: npt.NDArray[Any]) ->
         raise MeshError(f"positions must have shape (n, 3), not {points.shape}")
     if corners.dtype.kind not in "iu":
         raise MeshError(f"faces must be integers, not {corners.dtype}")
-    return Polygons(points, sizes.astype(np.int64), corners.astype(np.int64)).checked(DEFAULT_LIMITS).mesh
+    flat = corners.astype(np.int64)
+    polygons = Polygons(points, sizes.astype(np.int64), flat, columns=tuple(columns), metadata=metadata)
+    return polygons.checked(DEFAULT_LIMITS).mesh
 
 
 def _split(flat: Ints) -> tuple[Ints, Ints]:

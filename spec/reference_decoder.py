@@ -210,6 +210,7 @@ FIELDS = {
     "lattice": (29, [0, 2], 1, COUNT, []),
     "refinements": (30, (0, 8), 0.0, 64.0, []),
     "key_seed": (31, "method", 0, 1, 0),
+    "borders": (32, "method", 0, 1, 0),
     "attributes": (33, int, 0, 255, 0),
 }
 
@@ -275,6 +276,7 @@ def parse_header(payload):
     require(all(2.0**-40 <= step <= 1 for step in steps), "a step of a refinement is out of range")
     require(all(ratio == 0 or ratio >= 1 / 16 for ratio in ratios), "a ratio of a refinement is out of range")
     require(not h["refinements"] or not h["gop_frames"], "refinements of a sequence")
+    require(h["refinements"] or not h["borders"], "borders without refinements")
     for name, most in (  # F 4.7
         ("vertices", MOST_VERTICES),
         ("faces", MOST_FACES),
@@ -612,10 +614,25 @@ def orthogonal_iterations(laplacian, start, diagonal, power, iterations):
     return subspace
 
 
+def noisy_columns(rows, columns):
+    """M 8.3, M 8.5."""
+    return cosine_columns(rows, 0, columns) + 0.25 * hash_columns(rows, columns)
+
+
+def connected(laplacian):
+    """M 8.3: whether the graph is in one piece."""
+    found, waiting = {0}, [0]
+    while waiting:
+        for row in np.flatnonzero(laplacian[waiting.pop()]).tolist():
+            if row not in found:
+                found.add(row)
+                waiting.append(row)
+    return len(found) == len(laplacian)
+
+
 def exact_basis(laplacian, columns, springs):
     """M 8.5."""
-    rows = len(laplacian)
-    start = cosine_columns(rows, 0, columns) + 0.25 * hash_columns(rows, columns)
+    start = noisy_columns(len(laplacian), columns)
     return orthogonal_iterations(laplacian, start, springs + 2.0**-5, 2, 128)
 
 
@@ -624,7 +641,9 @@ def key_dictionary(header, laplacian, columns, springs):
     if header["basis"] == 1 or header["key_seed"] == 1:
         return exact_basis(laplacian, columns, springs)
     iterations = header["iterations"] if header["seeding"] == 1 else header["key_iterations"]
-    start = cosine_columns(len(laplacian), 0, columns)
+    start = (
+        cosine_columns(len(laplacian), 0, columns) if connected(laplacian) else noisy_columns(len(laplacian), columns)
+    )
     return orthogonal_iterations(laplacian, start, springs + header["shift"], header["power"], iterations)
 
 
@@ -996,7 +1015,8 @@ def refine(mesh, positions, refinements):
     frames = [normals, *(axis - (normals @ axis / along)[:, None] * (pole + normals) for axis in axes)]
     refined = positions.copy()
     for layer, (step, ratio) in enumerate(zip(given[::2], given[1::2])):  # M 17.3
-        reader = LevelsReader(mesh.faces, count, 3 if ratio else 1)
+        last = layer == len(given) // 2 - 1
+        reader = LevelsReader(mesh.faces, count, 3 if ratio else 1, borders=last and mesh.header["borders"] == 1)
         for number, _, size, payload in refinements:
             if number == layer:
                 reader.read(payload, size)
@@ -1058,6 +1078,8 @@ class Chain:
             return key_dictionary(header, block.laplacian, columns, springs)
         had = self.subspace.shape[1]
         start = np.concatenate([self.subspace, cosine_columns(block.size, had, max(had, columns))], axis=1)[:, :columns]
+        if not connected(block.laplacian):
+            start = start + 2.0**-8 * hash_columns(block.size, columns)
         diagonal = springs + header["shift"]
         return orthogonal_iterations(block.laplacian, start, diagonal, header["power"], header["iterations"])
 

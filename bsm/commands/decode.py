@@ -11,9 +11,9 @@ from bsm.batch import Facts, add_inputs, came_to, plan, run_jobs, size_of
 from bsm.commands import sequence_decode
 from bsm.console import Console
 from bsm.farm.run import anywhere, may_replace
-from bsm.files.mesh import MESH_FORMATS, format_mesh, format_of_name
+from bsm.files.mesh import WRITTEN_FORMATS, format_of_name, save_written, written_mesh
 from bsm.files.naming import output_inside, refuse_terminal
-from bsm.files.output import open_output, refuse_to_overwrite
+from bsm.files.output import refuse_to_overwrite
 from bsm.files.permutation import read_permutation, reorder
 from bsm.files.pipes import read_chunks
 from bsm.files.sequence import SEQUENCE_FORMATS
@@ -29,7 +29,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "mesh file, or folder for any number of inputs (default: IN with .ply; - for a pipe); for a sequence an npz "
         "(default), or a folder for its frames",
     )
-    parser.add_argument("--format", choices=SEQUENCE_FORMATS, help="format of the output (default: by its name; ply)")
+    parser.add_argument(
+        "--format", choices=(*SEQUENCE_FORMATS, "glb"), help="format of the output (default: by its name; ply)"
+    )
     parser.add_argument("--blocks", type=int, metavar="N", help="stop after N blocks, and write the part that is there")
     parser.add_argument(
         "--layers", type=int, metavar="N", help="stop after N layers: 1 is the base, each refinement one more"
@@ -73,8 +75,8 @@ def decode_one(args: argparse.Namespace, console: Console) -> Facts:
     if Path(output).is_dir():
         output = output_inside(output, args.input, f".{args.format or 'ply'}")
     kind = args.format or ("ply" if output == "-" else format_of_name(output))
-    if kind not in MESH_FORMATS:
-        raise OptionError(f"{output}: the name tells no mesh format; use --format, one of {', '.join(MESH_FORMATS)}")
+    if kind not in WRITTEN_FORMATS:
+        raise OptionError(f"{output}: the name tells no mesh format; use --format, one of {', '.join(WRITTEN_FORMATS)}")
     refuse_to_overwrite(output, may_replace(args, output))
     begin = time.perf_counter()
     if args.tolerant:
@@ -87,8 +89,11 @@ def decode_one(args: argparse.Namespace, console: Console) -> Facts:
     seconds = time.perf_counter() - begin
     if args.permutation:
         mesh = reorder(mesh, read_permutation(args.permutation))
-    with open_output(output, overwrite=may_replace(args, output)) as file:
-        written = file.write(format_mesh(mesh, kind))
+    file = written_mesh(mesh, kind, "mesh" if output == "-" else output)
+    left_out = save_written(output, file, overwrite=may_replace(args, output), overwrite_beside=args.force)
+    if left_out:
+        console.note(f"{args.input}: {kind} cannot hold {', '.join(left_out)}")
+    written = len(file.data)
     vertices, faces = len(mesh.positions), len(mesh.faces)
     taken = size_of(args.input)
     console.note(
@@ -102,4 +107,5 @@ def decode_one(args: argparse.Namespace, console: Console) -> Facts:
         "input_bytes": taken,
         "output_bytes": written,
         "seconds": seconds,
+        "left_out": list(left_out),
     }

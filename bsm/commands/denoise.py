@@ -16,12 +16,11 @@ from bsm.batch import Facts, add_inputs, plan, run_jobs, size_of
 from bsm.commands.reader import add_reader_flag
 from bsm.console import Console, Progress
 from bsm.farm.run import may_replace
-from bsm.files.mesh import MESH_FORMATS, format_mesh, format_of_name, read_mesh
+from bsm.files.mesh import MESH_FORMATS, format_of_name, read_mesh, save_written, written_mesh
 from bsm.files.naming import output_inside, refuse_terminal
-from bsm.files.output import open_output, refuse_to_overwrite
+from bsm.files.output import refuse_to_overwrite
 from bsm.files.sequence import Frames, open_sequence, sequence_kind, sequence_writer
 from codec.arrays import Positions
-from codec.geometry.mesh import TriangleMesh
 
 if TYPE_CHECKING:
     from codec.denoise import AutomaticChoice, DenoiseOptions, Step
@@ -141,8 +140,12 @@ def _denoise_mesh(args: argparse.Namespace, console: Console, options: DenoiseOp
     _tell(console, denoiser.choice)
     _tell_moved(console, mesh.positions, positions)
     seconds = time.perf_counter() - begin
-    with open_output(args.output, overwrite=may_replace(args, args.output)) as file:
-        file.write(format_mesh(TriangleMesh(positions, mesh.faces), kind))
+    moved, stale = mesh.moved(positions)
+    replace = may_replace(args, args.output)
+    written = written_mesh(moved, kind, args.output)
+    left_out = save_written(args.output, written, overwrite=replace, overwrite_beside=args.force)
+    if left_out or stale:
+        console.note(f"{args.input}: left out: {', '.join((*stale, *left_out))}")
     console.note(f"{args.input}: {len(mesh.positions)} vertices -> {args.output}, {seconds:.2f} s")
     return _result(len(positions), len(mesh.faces), 1, seconds, denoiser.choice, options)
 

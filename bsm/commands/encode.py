@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import time
 from collections.abc import Sequence
+from dataclasses import replace
 
 from bitstream.errors import OptionError
 from bsm.batch import Facts, Job, add_inputs, came_to, plan, refuse_collisions, run_jobs, size_of
@@ -33,6 +34,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--permutation", metavar="FILE.npy", help="also write which input vertex each decoded vertex is"
     )
+    parser.add_argument(
+        "--meta",
+        action="append",
+        default=[],
+        metavar="NAME=TEXT",
+        help="also say this of the mesh, for instance name=Bunny or unit=mm; any number of times",
+    )
     add_reader_flag(parser)
     add_encode_flags(parser)
     add_sequence_flags(parser)
@@ -52,6 +60,15 @@ def run(args: argparse.Namespace, console: Console) -> int:
     return run_jobs(args, console, encode_one, jobs)
 
 
+def metadata_of(args: argparse.Namespace) -> dict[str, str]:
+    """What `--meta` says."""
+    pairs = [text.partition("=") for text in args.meta]
+    for name, sign, _ in pairs:
+        if not name or not sign:
+            raise OptionError(f"--meta takes NAME=TEXT, not {name!r}")
+    return {name: value for name, _, value in pairs}
+
+
 def one_thread_each(args: argparse.Namespace, jobs: Sequence[Job]) -> None:
     """Let jobs that are done side by side have a thread each, unless something else was said."""
     if (args.jobs != 1 or args.dask) and len(jobs) > 1 and not hasattr(args, "threads"):
@@ -68,14 +85,15 @@ def encode_one(args: argparse.Namespace, console: Console) -> Facts:
     if sequence := open_sequence(args.input, args.format, args.reader):
         from bsm.commands.sequence_encode import encode_sequence
 
-        return encode_sequence(args, console, sequence)
+        return encode_sequence(args, console, sequence, metadata_of(args))
     refuse_sequence_flags(args)
     options = encode_options(args)
     source = read_mesh(args.input, args.format, reader=args.reader)
+    mesh = replace(source.mesh, metadata={**source.mesh.metadata, **metadata_of(args)})
     begin = time.perf_counter()
-    encoder = Encoder(source.mesh, options)
-    replace = may_replace(args, args.output)
-    with open_output(args.output, overwrite=replace) as file, console.progress("encoding") as progress:
+    encoder = Encoder(mesh, options)
+    overwrite = may_replace(args, args.output)
+    with open_output(args.output, overwrite=overwrite) as file, console.progress("encoding") as progress:
         attempt = encoder.result(progress)
         for chunk in attempt.frames:
             file.write(chunk)

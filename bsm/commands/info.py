@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import base64
 from dataclasses import asdict
 from typing import Any
 
@@ -56,8 +57,10 @@ def summarise(info: StreamInfo) -> dict[str, Any]:
         "bpv_paper": info.bpv_paper,
         "header": {name: getattr(header, name) for name in header.__dataclass_fields__},
         "metadata": {
-            name: value.hex() if isinstance(value, bytes) else value for name, value in info.metadata.entries.items()
+            name: base64.b64encode(value).decode() if isinstance(value, bytes) else value
+            for name, value in info.metadata.entries.items()
         },
+        "metadata_bytes": {n: len(value) for n, value in info.metadata.entries.items() if isinstance(value, bytes)},
     }
 
 
@@ -75,9 +78,15 @@ def _worded(summary: Facts) -> str:
         f"bits per vertex: {summary['bpv_total']:.3f} in all, {summary['bpv_geometry']:.3f} for the coefficients, "
         f"{summary['bpv_paper']:.3f} by the paper's formula",
         *map(_attribute_line, summary["attributes"]),
-        *(f"{name}: {value}" for name, value in summary["metadata"].items()),
+        *_metadata_lines(summary),
     ]
     return "\n".join(lines)
+
+
+def _metadata_lines(summary: dict[str, Any]) -> list[str]:
+    sizes = summary["metadata_bytes"]
+    said = {name: f"{sizes[name]} bytes" if name in sizes else value for name, value in summary["metadata"].items()}
+    return ["metadata:", *(f"  {name}: {value}" for name, value in said.items())] if said else []
 
 
 def _attribute_line(attribute: dict[str, Any]) -> str:

@@ -10,9 +10,9 @@ from bsm.batch import refuse_collisions
 from bsm.commands.reader import add_reader_flag
 from bsm.console import Console, print_json
 from bsm.exits import about
-from bsm.files.mesh import MESH_FORMATS, format_mesh, format_of_name, read_mesh
+from bsm.files.mesh import MESH_FORMATS, format_of_name, read_mesh, save_written, written_mesh
 from bsm.files.naming import refuse_terminal
-from bsm.files.output import open_output, refuse_to_overwrite
+from bsm.files.output import refuse_to_overwrite
 from codec.arrays import Positions
 from codec.geometry.mesh import TriangleMesh
 
@@ -62,8 +62,10 @@ def run(args: argparse.Namespace, console: Console) -> None:
     with about(args.input):
         mesh = read_mesh(args.input, args.format, reader=args.reader).mesh
     noisy = move(mesh)
-    with open_output(args.output, overwrite=args.force) as file:
-        file.write(format_mesh(TriangleMesh(noisy, mesh.faces), kind))
+    moved, stale = mesh.moved(noisy)
+    left_out = save_written(args.output, written_mesh(moved, kind, args.output), overwrite=args.force)
+    if left_out or stale:
+        console.note(f"{args.input}: left out: {', '.join((*stale, *left_out))}")
     rms = rms_over_edge(mesh.positions, noisy, mesh.faces)
     console.note(f"{args.input}: {len(noisy)} vertices moved by {rms:.3f} mean edges (rms) -> {args.output}")
     if args.json:

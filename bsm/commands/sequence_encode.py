@@ -19,14 +19,15 @@ from bsm.files.output import open_output
 from bsm.files.permutation import write_permutation
 from bsm.files.sequence import Frames
 from codec.arrays import Positions
+from codec.geometry.mesh import Metadata
 
 
-def encode_sequence(args: argparse.Namespace, console: Console, source: Frames) -> Facts:
+def encode_sequence(args: argparse.Namespace, console: Console, source: Frames, metadata: Metadata) -> Facts:
     """Encode one sequence; every GOP is written as soon as its frames are there."""
     from codec.sequence.encoder import SequenceEncoder
 
     begin = time.perf_counter()
-    encoder = SequenceEncoder(source.faces, sequence_options(args), source.count)
+    encoder = SequenceEncoder(source.faces, sequence_options(args), source.count, metadata)
     heard = Echo()
     size = 0
     replace = may_replace(args, args.output)

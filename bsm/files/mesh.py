@@ -1,8 +1,8 @@
 """Mesh files: OBJ, OFF, PLY, STL and npz by our own readers and writers, everything else through trimesh.
 
 Coordinates come from the file in double precision; vertices, faces and corners keep their order; what a file holds
-beside them, and what was changed on the way, is named. Files are hostile until they are read: what claims more than it
-holds is refused before anything is allocated for it.
+beside them becomes attributes and metadata; what was changed or left out on the way is named. Files are hostile until
+they are read: what claims more than it holds is refused before anything is allocated for it.
 """
 
 from __future__ import annotations
@@ -13,13 +13,16 @@ import os
 import re
 import zlib
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import BinaryIO, cast
 
 from bitstream.container.wire import MAGIC
-from bitstream.errors import CorruptError, FormatError, MeshError, OptionError, TruncatedError
+from bitstream.errors import CorruptError, FormatError, OptionError, TruncatedError
 from bitstream.limits import DEFAULT_LIMITS, Limits
-from bsm.files.formats.npz import other_arrays, read_arrays, write_npz
+from bsm.files.formats.glb import write_glb
+from bsm.files.formats.materials import fetched
+from bsm.files.formats.npz import read_npz, write_npz
 from bsm.files.formats.obj import read_obj, write_obj
 from bsm.files.formats.off import read_off, write_off
 from bsm.files.formats.ply import read_ply, write_ply
@@ -27,8 +30,10 @@ from bsm.files.formats.polygons import MeshFile, Polygons
 from bsm.files.formats.stl import read_stl, write_stl
 from bsm.files.formats.with_openmesh import read_with_openmesh
 from bsm.files.formats.with_trimesh import read_with_trimesh
-from bsm.files.output import open_output
+from bsm.files.formats.written import Written
+from bsm.files.output import can_be_replaced, open_output, refuse_to_overwrite
 from bsm.files.pipes import Input, Source, as_input
+from bsm.files.remote import is_url
 from codec.geometry.mesh import TriangleMesh
 
 _READERS: dict[str, Callable[[bytes], Polygons]] = {
@@ -37,14 +42,18 @@ _READERS: dict[str, Callable[[bytes], Polygons]] = {
     "ply": read_ply,
     "stl": read_stl,
 }
-_WRITERS: dict[str, Callable[[TriangleMesh], bytes]] = {
+_WRITERS: dict[str, Callable[[TriangleMesh, str], Written]] = {
+    "glb": write_glb,
     "npz": write_npz,
     "obj": write_obj,
     "off": write_off,
     "ply": write_ply,
     "stl": write_stl,
 }
-MESH_FORMATS = tuple(_WRITERS)
+MESH_FORMATS = ("npz", *_READERS)
+"""What we read and write ourselves."""
+WRITTEN_FORMATS = tuple(_WRITERS)
+"""What we write; GLB with trimesh."""
 READERS = ("bsm", "openmesh", "trimesh")
 """Who can be asked to read a file: ourselves, or a library."""
 
@@ -97,22 +106,13 @@ def read_mesh(
     if reader == "trimesh" or kind not in MESH_FORMATS:
         return read_with_trimesh(data, path, kind, limits).checked(limits)
     if kind == "npz":
-        return _read_npz(data, limits)
-    ours = _READERS[kind](data).checked(limits)
+        return read_npz(io.BytesIO(data), limits)
+    polygons = _READERS[kind](data)
+    metadata, notes = fetched(polygons.metadata, Path(path).parent if path else None, limits.metadata_bytes)
+    ours = replace(polygons, metadata=metadata, notes=(*polygons.notes, *notes)).checked(limits)
     if reader == "openmesh":
-        return read_with_openmesh(data, kind, ours.mesh).checked(limits)
+        return read_with_openmesh(data, kind, ours.mesh, limits)
     return ours
-
-
-def _read_npz(data: bytes, limits: Limits) -> MeshFile:
-    positions, faces = read_arrays(io.BytesIO(data), "positions", "faces")
-    if positions.ndim == 3:
-        raise MeshError(f"this npz file holds a sequence of {len(positions)} frames, not one mesh")
-    limits.check("vertices", positions.size // 3)
-    limits.check("faces", faces.size // 3)
-    dropped = other_arrays(io.BytesIO(data))
-    notes = (f"left out: {', '.join(dropped)}",) if dropped else ()
-    return MeshFile(TriangleMesh(positions, faces), notes, dropped)
 
 
 def _unzipped(data: bytes) -> bytes:
@@ -127,12 +127,30 @@ def _unzipped(data: bytes) -> bytes:
 
 
 def format_mesh(mesh: TriangleMesh, file_format: str) -> bytes:
-    """The bytes of a mesh file of one of `MESH_FORMATS`, exact but for float32 where that suffices (STL always)."""
-    return _WRITERS[file_format](mesh)
+    """The bytes of a mesh file of one of `WRITTEN_FORMATS`, exact but for float32 where that suffices."""
+    return written_mesh(mesh, file_format).data
 
 
-def write_mesh(path: str | os.PathLike[str], mesh: TriangleMesh, *, overwrite: bool = True) -> None:
-    """Write a mesh file, as a whole or not at all, in the format of its name.
+def written_mesh(mesh: TriangleMesh, file_format: str, path: str | os.PathLike[str] = "mesh") -> Written:
+    """A mesh as a file of one of `WRITTEN_FORMATS`, what that cannot hold, and what lies beside it.
+
+    Parameters
+    ----------
+    mesh : TriangleMesh
+    file_format : str
+    path : path
+        What the file will be called: the names of those beside it begin like its own.
+    """
+    return _WRITERS[file_format](mesh, Path(path).stem)
+
+
+def write_mesh(path: str | os.PathLike[str], mesh: TriangleMesh, *, overwrite: bool = True) -> tuple[str, ...]:
+    """Write a mesh file, as a whole or not at all, in the format of its name, and the files that belong beside it.
+
+    Returns
+    -------
+    tuple of str
+        What the format cannot hold: names of attributes and metadata.
 
     Raises
     ------
@@ -145,9 +163,36 @@ def write_mesh(path: str | os.PathLike[str], mesh: TriangleMesh, *, overwrite: b
     """
     kind = format_of_name(path)
     if kind not in _WRITERS:
-        raise OptionError(f"{path}: the name tells no mesh format; use one of .{', .'.join(MESH_FORMATS)}")
+        raise OptionError(f"{path}: the name tells no mesh format; use one of .{', .'.join(WRITTEN_FORMATS)}")
+    written = written_mesh(mesh, kind, path)
+    return save_written(path, written, overwrite=overwrite)
+
+
+def save_written(
+    path: str | os.PathLike[str], written: Written, *, overwrite: bool, overwrite_beside: bool | None = None
+) -> tuple[str, ...]:
+    """Write a mesh file, and before it what lies beside it; returns what is left out. Beside a pipe nothing can lie.
+
+    What lies beside is replaced if `overwrite_beside` is true; None: if `overwrite` is.
+    """
+    beside = {beside_it: written.beside[name] for name in written.beside if (beside_it := _sibling(path, name))}
+    replace_beside = overwrite if overwrite_beside is None else overwrite_beside
+    refuse_to_overwrite(path, overwrite)
+    for name in beside:
+        refuse_to_overwrite(name, replace_beside)
+    for name, data in beside.items():
+        with open_output(name, overwrite=replace_beside) as file:
+            file.write(data)
     with open_output(path, overwrite=overwrite) as file:
-        file.write(format_mesh(mesh, kind))
+        file.write(written.data)
+    return (*written.left_out, *(() if beside else written.beside))
+
+
+def _sibling(path: str | os.PathLike[str], name: str) -> str | None:
+    """A file in the same folder; None if there is no folder."""
+    if isinstance(path, str) and is_url(path):
+        return f"{path.rpartition('/')[0]}/{name}"
+    return str(Path(path).parent / name) if os.fspath(path) != "-" and can_be_replaced(path) else None
 
 
 def format_of_name(path: str | os.PathLike[str]) -> str | None:

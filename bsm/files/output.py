@@ -54,7 +54,7 @@ def open_output(path: str | os.PathLike[str], *, overwrite: bool = False) -> Ite
         return
     if os.path.isdir(path):
         raise IsADirectoryError(errno.EISDIR, "the output is a folder", os.fspath(path))
-    if not _can_be_replaced(path):
+    if not can_be_replaced(path):
         descriptor = _descriptor(path)
         with open(path if descriptor is None else os.dup(descriptor), "wb") as device:
             yield device
@@ -84,13 +84,13 @@ def refuse_to_overwrite(path: str | os.PathLike[str], overwrite: bool) -> None:
     """Raise `FileExistsError` if `path` is a file and `overwrite` is false; ask before long work."""
     if isinstance(path, str) and is_url(path):
         refuse_to_replace(path, overwrite)
-    elif not overwrite and os.fspath(path) != "-" and os.path.isfile(path) and _can_be_replaced(path):
+    elif not overwrite and os.fspath(path) != "-" and os.path.isfile(path) and can_be_replaced(path):
         raise FileExistsError(errno.EEXIST, "the output exists already; -f overwrites it", os.fspath(path))
 
 
 def remove_abandoned(path: str) -> None:
     """Remove what is left of attempts to write `path` that were cut off; nobody else may be writing it."""
-    if is_url(path) or not _can_be_replaced(path):
+    if is_url(path) or not can_be_replaced(path):
         return
     target = Path(os.path.realpath(path))
     for part in target.parent.glob(f".{glob.escape(target.name[:200])}.????????{_TEMPORARY}"):
@@ -104,7 +104,7 @@ def _descriptor(path: str | os.PathLike[str]) -> int | None:
     return int(match[1] or match[2]) if match else None
 
 
-def _can_be_replaced(path: str | os.PathLike[str]) -> bool:
+def can_be_replaced(path: str | os.PathLike[str]) -> bool:
     """Whether a file can be put in this place: there is one, or nothing. Links are not followed by hand: what is
     behind /dev/fd/63 may have no name."""
     return _descriptor(path) is None and (os.path.isfile(path) or not os.path.exists(path))

@@ -33,7 +33,7 @@ def denoise(
         If the options would make the mesh worse.
     """
     frames = denoise_frames(mesh.positions[None], mesh.faces, options, goal=goal, force=force)
-    return TriangleMesh(frames[0], mesh.faces)
+    return mesh.moved(frames[0])[0]
 
 
 def denoise_frames(

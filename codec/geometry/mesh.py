@@ -83,6 +83,12 @@ class TriangleMesh:
         """Length of the bounding box's diagonal."""
         return math.hypot(*np.ptp(self.positions, axis=0))
 
+    def moved(self, positions: Positions) -> tuple[TriangleMesh, tuple[str, ...]]:
+        """The mesh with its vertices elsewhere; normals are not of it any more: the names of those left out."""
+        normals = tuple(one.name for one in self.attributes if one.semantic == "normal")
+        kept = tuple(one for one in self.attributes if one.semantic != "normal")
+        return replace(self, positions=positions, attributes=kept), normals
+
     def without_isolated_vertices(self) -> tuple[TriangleMesh, Order]:
         """The mesh of the vertices that some face uses, and their indices here, ascending."""
         used = np.zeros(len(self.positions), dtype=bool)

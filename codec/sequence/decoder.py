@@ -20,6 +20,7 @@ from codec.arrays import Faces, Matrix, Positions
 from codec.blocks.blend import Blend
 from codec.geometry.attributes import Attribute
 from codec.sequence.gop import GopDecoder, make_setting
+from codec.signal.chain import Rounding, unchanged
 from codec.static.attributes.decoding import Carried, without_positions
 from codec.static.events import AttributeEvent, ConnectivityEvent, EndEvent, HeaderEvent, LossEvent, unreadable
 from codec.static.layers.block_coder import ChainDecoder
@@ -233,6 +234,8 @@ class SequenceDecoder(StreamDecoder[Item]):
         whole in any case.
     start : int
         Give no frame before this one; GOPs that it does not need are not decoded.
+    rounding : callable, optional
+        What is done to the numbers that dictionaries and predictions start from; see `ChainRules`.
     """
 
     def __init__(
@@ -242,6 +245,7 @@ class SequenceDecoder(StreamDecoder[Item]):
         *,
         tolerant: bool = False,
         start: int = 0,
+        rounding: Rounding = unchanged,
     ) -> None:
         self._attributes: list[Attribute] = []
         wishes = Wishes(limits, threads, tolerant, start, self._attributes)
@@ -249,6 +253,7 @@ class SequenceDecoder(StreamDecoder[Item]):
             limits,
             check=lambda header: check_header(header, limits),
             begin=lambda structure: FirstFrame(structure, wishes),
+            rounding=rounding,
         )
         super().__init__(Beginning(body), limits, tolerant=tolerant)
 

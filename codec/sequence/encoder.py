@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import chain, islice
+from types import MappingProxyType
 
 import numpy as np
 import numpy.typing as npt
@@ -86,10 +87,10 @@ class SequenceEncoder:
     options : SequenceOptions
     frames : int
         Number of frames, 0 if it is not known.
-    attributes : sequence of Attribute
-        Of the mesh, the same in all frames, at the qualities that the options say.
     metadata : mapping from str to str, int, float or bytes
         What belongs to the whole sequence.
+    attributes : sequence of Attribute
+        Of the mesh, the same in all frames, at the qualities that the options say.
 
     Attributes
     ----------
@@ -106,8 +107,8 @@ class SequenceEncoder:
         faces: npt.ArrayLike,
         options: SequenceOptions | None = None,
         frames: int = 0,
+        metadata: Metadata = MappingProxyType({}),
         attributes: Sequence[Attribute] = (),
-        metadata: Metadata | None = None,
     ) -> None:
         self.options = options or SequenceOptions()
         self.vertex_order: Order = np.empty(0, np.int64)
@@ -116,7 +117,7 @@ class SequenceEncoder:
         self._faces = faces
         self._count = frames
         self._attributes = tuple(attributes)
-        self._metadata = dict(metadata or {})
+        self._metadata = metadata
 
     def chunks(self, frames: Iterable[npt.ArrayLike], progress: Progress | None = None) -> Iterator[bytes]:
         """The stream, stream frame by stream frame; each GOP is given as soon as its frames are there.
@@ -176,7 +177,9 @@ class SequenceEncoder:
         wanted = qualities(self._attributes, dict(options.attributes), "balanced")
         carried = carry(place_of_first_frame(given, prepared), wanted)
         self.notes = tuple(one.said for one in carried)
-        draft = Draft(opening.header, (*prepared.before_blocks, *(block.packet for block in opening.blocks)), given.positions)
+        draft = Draft(
+            opening.header, (*prepared.before_blocks, *(block.packet for block in opening.blocks)), given.positions
+        )
         draft = with_attributes(draft, prepared, carried, self._metadata, still=False)
         writer = Writer()
         yield writer.start()
@@ -276,11 +279,11 @@ def encode_sequence(
     positions: npt.ArrayLike,
     faces: npt.ArrayLike,
     options: SequenceOptions | None = None,
+    metadata: Metadata = MappingProxyType({}),
     attributes: Sequence[Attribute] = (),
-    metadata: Metadata | None = None,
 ) -> bytes:
     """Encode frames, `positions` of shape (T, n, 3), to a complete stream; other arguments as of `SequenceEncoder`."""
     frames = np.asarray(positions, np.float64)
     if frames.ndim != 3 or frames.shape[2] != 3 or len(frames) == 0:
         raise MeshError(f"the positions of a sequence must have shape (T, n, 3), T > 0, not {frames.shape}")
-    return b"".join(SequenceEncoder(faces, options, len(frames), attributes, metadata).chunks(frames))
+    return b"".join(SequenceEncoder(faces, options, len(frames), metadata, attributes).chunks(frames))

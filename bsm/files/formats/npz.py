@@ -1,22 +1,35 @@
-"""npz: the arrays `positions` (of a mesh, or of a sequence of them) and `faces`, as numpy saves them."""
+"""npz: the arrays `positions` (of a mesh, or of a sequence of them) and `faces`, as numpy saves them.
+
+Attributes are arrays called "vertex/color", "face/material", "corner/texcoord" (with "corner/texcoord/indices"); arrays
+of other names are what their shape tells. What a name begins with tells the meaning. "metadata" is the UTF-8 of a JSON
+object, binary values as {"base64": ...} in it.
+"""
 
 from __future__ import annotations
 
+import base64
+import binascii
 import io
+import json
 import lzma
 import os
 import zipfile
 import zlib
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from typing import BinaryIO, TypeAlias
+from typing import Any, BinaryIO, TypeAlias, get_args
 
 import numpy as np
 
 from bitstream.errors import BsmError, CorruptError, FormatError, LimitError, MeshError
+from bitstream.limits import Limits
+from bsm.files.formats.columns import Column, meaning_of
 from bsm.files.formats.npy import Array, read_header, size_of
+from bsm.files.formats.polygons import MeshFile, Polygons
+from bsm.files.formats.written import Written
 from codec.arrays import Faces, Positions
-from codec.geometry.mesh import TriangleMesh
+from codec.geometry.attributes import MOST_COMPONENTS, Domain
+from codec.geometry.mesh import Metadata, TriangleMesh
 
 Archive: TypeAlias = "str | os.PathLike[str] | BinaryIO"
 """A path, or a seekable binary file."""
@@ -128,11 +141,102 @@ def other_arrays(archive: Archive) -> tuple[str, ...]:
         return tuple(name for name in positions.others if name not in ("positions", "faces"))
 
 
-def write_npz(mesh: TriangleMesh) -> bytes:
-    """The npz of a mesh: `positions` as float64, `faces` as int32."""
+def read_npz(archive: Archive, limits: Limits) -> MeshFile:
+    """Read the npz of a mesh.
+
+    Raises
+    ------
+    MeshError, LimitError
+        If it holds a sequence, or no mesh, or a larger one; and as `NpzArray`.
+    """
+    positions, faces = read_arrays(archive, "positions", "faces")
+    if positions.ndim == 3:
+        raise MeshError(f"this npz file holds a sequence of {len(positions)} frames, not one mesh")
+    limits.check("vertices", positions.size // 3)
+    limits.check("faces", faces.size // 3)
+    mesh = TriangleMesh(positions, faces)
+    columns: list[Column] = []
+    dropped: list[str] = []
+    metadata: Metadata = {}
+    names = other_arrays(archive)
+    for name in names:
+        if name.endswith("/indices") and name.removesuffix("/indices") in names:
+            continue
+        try:
+            (values,) = read_arrays(archive, name)
+            if name == "metadata" and values.dtype == np.uint8:
+                metadata = _parse_metadata(values.tobytes())
+                continue
+            column = _column(archive, name, values, mesh, f"{name}/indices" in names)
+        except (MeshError, FormatError):  # no numbers
+            column = None
+        columns += [column] if column else []
+        dropped += [] if column else [name]
+    sizes, corners = np.full(len(mesh.faces), 3), mesh.faces.astype(np.int64).reshape(-1)
+    ours = Polygons(mesh.positions, sizes, corners, (), tuple(dropped), tuple(columns), metadata)
+    return ours.checked(limits)
+
+
+def _column(archive: Archive, name: str, values: Array, mesh: TriangleMesh, indexed: bool) -> Column | None:
+    """An array as the attribute that its name or its shape tells; None: it is of nothing here."""
+    domain, _, rest = name.partition("/")
+    vertices, faces = len(mesh.positions), len(mesh.faces)
+    if domain not in get_args(Domain) or not rest:
+        domain, rest = _domain_of(values.shape, vertices, faces), name
+    indices = None
+    if domain == "corner" and indexed:
+        (indices,) = read_arrays(archive, f"{name}/indices")
+        if indices.dtype.kind not in "iu" or indices.size != 3 * faces:
+            return None
+        indices = indices.reshape(-1).astype(np.int64)
+    elif domain == "corner" and values.ndim == 3:
+        values = values.reshape(-1, values.shape[2])
+    values = values[:, None] if values.ndim == 1 else values
+    rows = {"vertex": vertices, "face": faces, "corner": 3 * faces if indices is None else len(values)}
+    if values.ndim != 2 or not 1 <= values.shape[1] <= MOST_COMPONENTS or rows.get(domain) != len(values):
+        return None
+    return Column(rest, values.astype(values.dtype.newbyteorder("=")), _DOMAINS[domain], meaning_of(rest), indices)
+
+
+_DOMAINS: dict[str, Domain] = {"vertex": "vertex", "face": "face", "corner": "corner"}
+
+
+def _domain_of(shape: tuple[int, ...], vertices: int, faces: int) -> str:
+    if len(shape) == 3:
+        return "corner"
+    return "vertex" if shape[:1] == (vertices,) else "face"
+
+
+def _parse_metadata(data: bytes) -> Metadata:
+    try:
+        entries = json.loads(data)
+        found: dict[str, str | int | float | bytes] = {}
+        for name, value in entries.items():
+            plain = base64.b64decode(value["base64"], validate=True) if isinstance(value, dict) else value
+            if not isinstance(plain, str | int | float | bytes):
+                raise ValueError(f"{name} is neither a text nor a number")
+            found[name] = plain
+    except (ValueError, AttributeError, KeyError, TypeError, RecursionError, binascii.Error) as error:
+        raise CorruptError(f"the metadata of the npz file make no sense: {error}") from error
+    return found
+
+
+def write_npz(mesh: TriangleMesh, stem: str) -> Written:
+    """The npz of a mesh: `positions` as float64, `faces` as int32, and everything else it has."""
+    arrays: dict[str, Array] = {"positions": mesh.positions, "faces": mesh.faces}
+    for attribute in mesh.attributes:
+        arrays[f"{attribute.domain}/{attribute.name}"] = attribute.values
+        if attribute.indices is not None:
+            arrays[f"corner/{attribute.name}/indices"] = attribute.indices
+    if mesh.metadata:
+        entries: dict[str, Any] = {
+            name: {"base64": base64.b64encode(value).decode()} if isinstance(value, bytes) else value
+            for name, value in mesh.metadata.items()
+        }
+        arrays["metadata"] = np.frombuffer(json.dumps(entries).encode(), np.uint8)
     buffer = io.BytesIO()
-    np.savez_compressed(buffer, positions=mesh.positions, faces=mesh.faces)
-    return buffer.getvalue()
+    np.savez_compressed(buffer, **arrays)  # type: ignore[arg-type]
+    return Written(buffer.getvalue())
 
 
 @contextmanager

@@ -3,16 +3,23 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from itertools import count, takewhile
+from typing import Protocol
 
 import numpy as np
 import numpy.typing as npt
 
 from bitstream.errors import FormatError, MeshError, TruncatedError
+from bsm.files.formats.columns import Array, Column, color_column, unused_name
 from bsm.files.formats.polygons import Polygons
+from bsm.files.formats.remarks import parse_remarks, remarks
+from bsm.files.formats.written import Library, Written, left_out
 from bsm.files.rows import Ints, Rows, as_integers, ranges, require_lines, single_suffices
-from codec.geometry.mesh import TriangleMesh
+from codec.geometry.attributes import MOST_COMPONENTS, Attribute, Domain, Semantic
+from codec.geometry.mesh import Metadata, TriangleMesh
+from codec.geometry.splitting import split_by_attributes
 
 _TYPES = {
     "char": "i1", "uchar": "u1", "short": "i2", "ushort": "u2", "int": "i4", "uint": "u4", "float": "f4",
@@ -23,15 +30,22 @@ _ORDERS = {"ascii": "", "binary_little_endian": "<", "binary_big_endian": ">"}
 _LIST_NAMES = ("vertex_indices", "vertex_index")
 _MAX_ELEMENTS = 64
 
-_KNOWN = {
-    "nx": "normals", "ny": "normals", "nz": "normals",
-    "red": "colours", "green": "colours", "blue": "colours", "alpha": "colours",
-    "diffuse_red": "colours", "diffuse_green": "colours", "diffuse_blue": "colours",
-    "s": "texture coordinates", "t": "texture coordinates", "u": "texture coordinates", "v": "texture coordinates",
-    "texture_u": "texture coordinates", "texture_v": "texture coordinates", "texcoord": "texture coordinates",
-    "texnumber": "materials", "material_index": "materials",
-}  # fmt: skip
-"""What properties beside coordinates and corners hold; others are called by their own names."""
+_GROUPS: tuple[tuple[Semantic, tuple[str, ...]], ...] = (
+    ("normal", ("nx", "ny", "nz")),
+    ("color", ("red", "green", "blue", "alpha")),
+    ("color", ("red", "green", "blue")),
+    ("color", ("diffuse_red", "diffuse_green", "diffuse_blue")),
+    ("color", ("r", "g", "b")),
+    ("texcoord", ("u", "v")),
+    ("texcoord", ("s", "t")),
+    ("texcoord", ("texture_u", "texture_v")),
+    ("texcoord", ("texture_s", "texture_t")),
+)
+"""Properties that are one value together."""
+_NAMES = {"texnumber": "material", "material_index": "material"}
+"""What properties are called here, unless by their own names."""
+_IMAGE = "TextureFile"
+"""A comment that begins so names an image; their numbers are those of the property texnumber."""
 
 
 @dataclass(frozen=True)
@@ -58,28 +72,26 @@ class Element:
 
 @dataclass(frozen=True)
 class Header:
-    """The order of the bytes ("" for text), the elements, and where the body begins."""
+    """The order of the bytes ("" for text), the elements, where the body begins, and the comments."""
 
     order: str
     elements: tuple[Element, ...]
     size: int
+    comments: tuple[str, ...] = ()
 
     @property
-    def dropped(self) -> tuple[str, ...]:
-        """What the elements hold beside points and faces."""
-        needed = {"vertex": ("x", "y", "z"), "face": _LIST_NAMES}
-        found = [
-            _KNOWN.get(column.name, column.name)
-            for element in self.elements
-            for column in element.properties
-            if element.name in needed and column.name not in needed[element.name]
-        ]
-        others = [element.name for element in self.elements if element.name not in needed and element.count]
-        return tuple(dict.fromkeys(found + others))
+    def metadata(self) -> Metadata:
+        """What the comments say; images are those of materials."""
+        images = [line.removeprefix(_IMAGE).strip() for line in self.comments if line.startswith(f"{_IMAGE} ")]
+        found = parse_remarks(line for line in self.comments if not line.startswith(f"{_IMAGE} "))
+        for number, name in enumerate(images):
+            found |= {f"image.{number}.name": name, f"material.{number}.map_Kd": number}
+            found.setdefault(f"material.{number}.name", name)
+        return found
 
 
 def read_ply(data: bytes) -> Polygons:
-    """Read a PLY with points and faces, of any byte order."""
+    """Read a PLY with points and faces, of any byte order, and whatever numbers they have."""
     header = parse_header(data)
     names = [element.name for element in header.elements]
     if "tristrips" in names:
@@ -87,7 +99,64 @@ def read_ply(data: bytes) -> Polygons:
     if "vertex" not in names or "face" not in names:
         raise MeshError("this PLY file has no faces; point clouds are not supported")
     body = data[header.size :]
-    return _read_binary(header, body) if header.order else _read_text(header, body)
+    tables = _binary_tables(header, body) if header.order else _text_tables(header, body)
+    vertex, face = tables["vertex"], tables["face"]
+    positions = np.column_stack([vertex.numbers(place).astype(np.float64) for place in _coordinates(vertex.element)])
+    sizes, items = face.lists(corners := _corner_list(face.element))
+    wedges, dropped = _wedges(face, corners, sizes)
+    columns = (*_columns(vertex, "vertex", "xyz"), *_columns(face, "face", ()), *wedges)
+    others = [element.name for element in header.elements if element.name not in ("vertex", "face") and element.count]
+    return Polygons(
+        positions, sizes, as_integers(items, "a vertex index"), (), (*dropped, *others), columns, header.metadata
+    )
+
+
+def _columns(table: _Table, domain: Domain, needed: Sequence[str]) -> Iterator[Column]:
+    """The properties that are numbers, those together that are one value."""
+    properties = table.element.properties
+    places = {
+        column.name: place
+        for place, column in enumerate(properties)
+        if column.length is None and column.name not in needed
+    }
+    for semantic, names in _GROUPS:
+        types = {properties[places[name]].type for name in names if name in places}
+        if all(name in places for name in names) and len(types) == 1:
+            values = np.column_stack([table.numbers(places.pop(name)) for name in names])
+            yield color_column(values, domain) if semantic == "color" else Column(semantic, values, domain, semantic)
+    for name, together in _series({name: properties[place].type for name, place in places.items()}):
+        values = np.column_stack([table.numbers(places[one]) for one in together])
+        yield Column(_NAMES.get(name, name), values, domain)
+
+
+def _series(types: dict[str, str]) -> Iterator[tuple[str, list[str]]]:
+    """Names of properties, those that only differ in a number at the end together: a_0, a_1, ... are a."""
+    left = dict(types)
+    while left:
+        name = next(iter(left))
+        stem = name.removesuffix("_0")
+        like_it = {one for one, kind in left.items() if kind == types[name]}
+        run = list(takewhile(like_it.__contains__, (f"{stem}_{i}" for i in count())))
+        together = run if name.endswith("_0") and 2 <= len(run) <= MOST_COMPONENTS else [name]
+        yield (stem if len(together) > 1 else name), together
+        left = {one: kind for one, kind in left.items() if one not in together}
+
+
+def _wedges(table: _Table, corners: int, sizes: Ints) -> tuple[list[Column], list[str]]:
+    """Texture coordinates of corners, in a list beside that of the vertices; and the lists that mean nothing known."""
+    found, dropped = [], []
+    for place, column in enumerate(table.element.properties):
+        if column.length is None or place == corners:
+            continue
+        lengths, values = table.lists(place)
+        present = lengths == 2 * sizes
+        if column.name != "texcoord" or not (present | (lengths == 0)).all() or not present.any():
+            dropped.append(column.name)
+            continue
+        pairs = np.zeros((int(sizes.sum()), 2), values.dtype)  # a face without any gets zeros
+        pairs[np.repeat(present, sizes)] = values.reshape(-1, 2)
+        found.append(Column("texcoord", pairs, "corner", "texcoord"))
+    return found, dropped
 
 
 def parse_header(data: bytes) -> Header:
@@ -101,12 +170,15 @@ def parse_header(data: bytes) -> Header:
         raise TruncatedError("the PLY header has no end_header")
     order: str | None = None
     elements: list[Element] = []
-    for line in re.split("[\r\n]+", data[begin.end() : end.start()].decode("latin-1")):
+    comments: list[str] = []
+    for line in re.split("[\r\n]+", _decoded(data[begin.end() : end.start()])):
         words = line.split()
         try:
             match words:
-                case [] | ["comment", *_] | ["obj_info", *_]:
+                case []:
                     pass
+                case ["comment" | "obj_info" as keyword, *_]:
+                    comments.append(line.strip().removeprefix(keyword).strip())
                 case ["format", name, *_]:
                     order = _ORDERS[name]
                 case ["element", name, count]:
@@ -121,7 +193,14 @@ def parse_header(data: bytes) -> Header:
             raise FormatError(f"the PLY header has a line that makes no sense: {line[:80]!r}") from None
     if order is None or len(elements) > _MAX_ELEMENTS:
         raise FormatError("the PLY header names no format, or too many elements")
-    return Header(order, tuple(elements), end.end())
+    return Header(order, tuple(elements), end.end(), tuple(comments))
+
+
+def _decoded(text: bytes) -> str:
+    try:
+        return text.decode()
+    except UnicodeDecodeError:
+        return text.decode("latin-1")
 
 
 def _count(text: str) -> int:
@@ -149,63 +228,104 @@ def _corner_list(element: Element) -> int:
     return place
 
 
+class _Table(Protocol):
+    """The rows of an element."""
+
+    element: Element
+
+    def numbers(self, place: int) -> Array:
+        """The property at a place, a number in each row, shape (count,)."""
+
+    def lists(self, place: int) -> tuple[Ints, Array]:
+        """The property at a place, a list in each row: how long they are, and their items one behind the other."""
+
+
 # --------------------------------------------------------------------------------------------------------------- text
 
 
-def _read_text(header: Header, body: bytes) -> Polygons:
+def _text_tables(header: Header, body: bytes) -> dict[str, _Table]:
     """Elements as text: one row, one line."""
     lines = [line for line in body.splitlines() if line.strip()]
     require_lines(len(lines), sum(element.count for element in header.elements))
     ends = np.cumsum([element.count for element in header.elements]).tolist()
-    tables = {element.name: (element, lines[end - element.count : end]) for element, end in zip(header.elements, ends)}
-    vertex, vertex_lines = tables["vertex"]
-    face, face_lines = tables["face"]
-    points, polygons = Rows(vertex_lines, "vertex"), Rows(face_lines, "face")
-    positions = np.column_stack([points.columns(place, 1) for place in _coordinates(vertex)])
-    before = _corner_list(face)
-    if any(column.length for column in face.properties[:before]):
-        raise MeshError("the faces of this PLY file have another list before vertex_indices")
-    sizes, corners = polygons.lists(before)
-    return Polygons(positions, sizes, corners, dropped=header.dropped)
+    return {
+        element.name: _TextTable(element, Rows(lines[end - element.count : end], element.name))
+        for element, end in zip(header.elements, ends)
+        if element.name in ("vertex", "face")
+    }
+
+
+@dataclass
+class _TextTable:
+    element: Element
+    rows: Rows
+
+    def numbers(self, place: int) -> Array:
+        return _typed(self.rows.values[self._starts(place)], self.element.properties[place].type)
+
+    def lists(self, place: int) -> tuple[Ints, Array]:
+        starts = self._starts(place)
+        sizes = self._sizes(starts)
+        items = self.rows.values[ranges(starts + 1, sizes)]
+        return sizes, _typed(items, self.element.properties[place].type)
+
+    def _starts(self, place: int) -> Ints:
+        """Where in all numbers those of a property begin; the number, or all of the list, are there."""
+        offsets = np.zeros(len(self.rows.counts), np.int64)
+        for column in self.element.properties[: place + 1]:
+            begin = offsets
+            self.rows.require(offsets + 1)
+            offsets = offsets + 1 + (self._sizes(self.rows.starts + begin) if column.length else 0)
+            self.rows.require(offsets)
+        return self.rows.starts + begin
+
+    def _sizes(self, starts: Ints) -> Ints:
+        sizes = as_integers(self.rows.values[starts], f"the length of a list of a {self.element.name}")
+        if (sizes < 0).any():
+            raise MeshError(f"{self.element.name} {int(np.argmax(sizes < 0))} has a list of negative length")
+        return sizes
+
+
+def _typed(values: Array, kind: str) -> Array:
+    """Numbers of a text in the type that the header declares, where they are of that type."""
+    with np.errstate(all="ignore"):
+        converted = values.astype(kind)
+        same = np.dtype(kind).kind == "f" or np.array_equal(converted, values)
+    return converted if same else values
 
 
 # ------------------------------------------------------------------------------------------------------------- binary
 
 
-def _read_binary(header: Header, body: bytes) -> Polygons:
+def _binary_tables(header: Header, body: bytes) -> dict[str, _Table]:
     """Elements as bytes, one behind the other."""
-    positions, faces, offset = np.empty((0, 3)), None, 0
+    tables: dict[str, _Table] = {}
+    offset = 0
     for element in header.elements:
-        if not any(column.length for column in element.properties):
-            table = np.dtype([(str(i), header.order + column.type) for i, column in enumerate(element.properties)])
-            _require_bytes(body, offset, element.count * table.itemsize)
-            if element.name == "vertex":
-                rows = np.frombuffer(body, table, element.count, offset)
-                positions = np.column_stack([rows[str(i)].astype(np.float64) for i in _coordinates(element)])
-            offset += element.count * table.itemsize
-        elif element.name == "vertex":
-            _coordinates(element)
-        else:
-            first = next(i for i, column in enumerate(element.properties) if column.length)
-            place = _corner_list(element) if element.name == "face" else first
-            lists = _uniform_lists(element, header.order, body, offset, place)
-            if lists is None:
-                lists = _ragged_lists(element, header.order, body, offset, place)
-            offset = lists.end
-            faces = lists if element.name == "face" else faces
-    if faces is None:
-        _corner_list(next(element for element in header.elements if element.name == "face"))
-        raise MeshError("the faces of this PLY file are not lists")
-    return Polygons(positions, faces.sizes, faces.items(), dropped=header.dropped)
+        table = _uniform_table(element, header.order, body, offset)
+        tables[element.name] = found = table or _ragged_table(element, header.order, body, offset)
+        offset = found.end
+    return tables
 
 
-@dataclass(frozen=True)
-class _Lists:
-    """The lists of one property: their lengths, a function that reads their items, and where the element ends."""
+@dataclass
+class _UniformTable:
+    """Rows of equal length: without lists, or with lists that are all as long as those of the first row."""
 
-    sizes: Ints
-    items: Callable[[], Ints]
+    element: Element
+    rows: Array
     end: int
+
+    def numbers(self, place: int) -> Array:
+        return _native(self.rows[str(place)])
+
+    def lists(self, place: int) -> tuple[Ints, Array]:
+        items = self.rows[str(place)]
+        return np.full(len(items), items.shape[1], dtype=np.int64), _native(items.reshape(-1))
+
+
+def _native(values: Array) -> Array:
+    return values.astype(values.dtype.newbyteorder("="))
 
 
 def _require_bytes(body: bytes, offset: int, needed: int) -> None:
@@ -214,8 +334,8 @@ def _require_bytes(body: bytes, offset: int, needed: int) -> None:
         raise TruncatedError(f"the PLY file is cut short: its header claims {missing} bytes more than there are")
 
 
-def _uniform_lists(element: Element, order: str, body: bytes, offset: int, place: int) -> _Lists | None:
-    """Lists that all have the lengths of the first row's (a mesh of triangles only), else None."""
+def _uniform_table(element: Element, order: str, body: bytes, offset: int) -> _UniformTable | None:
+    """The table of an element, if it is one; else None."""
     fields: list[tuple[str, str] | tuple[str, str, tuple[int]]] = []
     cursor = offset
     for i, column in enumerate(element.properties):
@@ -229,58 +349,138 @@ def _uniform_lists(element: Element, order: str, body: bytes, offset: int, place
             cursor += kind.itemsize
             if not 0 <= length <= len(body):
                 return None
-            fields.append((f"items{i}", order + column.type, (length,)))
+            fields.append((str(i), order + column.type, (length,)))
             cursor += np.dtype(column.type).itemsize * length
         else:
             fields.append((str(i), order + column.type))
             cursor += np.dtype(column.type).itemsize
-    if offset + element.count * (cursor - offset) > len(body):
+    lists = [i for i, column in enumerate(element.properties) if column.length]
+    needed = element.count * (cursor - offset)
+    if not lists:
+        _require_bytes(body, offset, needed)
+    elif offset + needed > len(body):
         return None
-    rows = np.frombuffer(body, np.dtype(fields), element.count, offset)
-    lengths = [rows[f"length{i}"] for i, column in enumerate(element.properties) if column.length]
-    if any((column != column[:1]).any() for column in lengths):
+    rows = np.frombuffer(body, np.dtype(fields), element.count, offset) if needed else np.zeros(0, fields)
+    if any((rows[f"length{i}"] != rows[f"length{i}"][:1]).any() for i in lists):
         return None
-    items = rows[f"items{place}"]
-    sizes = np.full(element.count, items.shape[1], dtype=np.int64)
-    end = offset + element.count * (cursor - offset)
-    return _Lists(sizes, lambda: as_integers(items.reshape(-1), "a vertex index"), end)
+    return _UniformTable(element, rows, offset + needed)
 
 
-def _ragged_lists(element: Element, order: str, body: bytes, offset: int, place: int) -> _Lists:
-    """Lists of different lengths, found by walking over the bytes."""
-    from bsm.files.formats.walk import walk_rows
+@dataclass
+class _RaggedTable:
+    """Rows whose lists differ in length."""
 
-    # Every row is at least as long as its numbers and the lengths of its lists.
-    widths = [
+    element: Element
+    order: str
+    raw: npt.NDArray[np.uint8]
+    begin: int
+    end: int = 0
+
+    def numbers(self, place: int) -> Array:
+        return self.lists(place)[1]
+
+    def lists(self, place: int) -> tuple[Ints, Array]:
+        starts, sizes, _ = self.walk(place)
+        kind = np.dtype(self.order + self.element.properties[place].type)
+        picked: npt.NDArray[np.uint8] = self.raw[ranges(starts, sizes * kind.itemsize)]
+        return sizes, _native(picked.view(kind))
+
+    def walk(self, place: int) -> tuple[Ints, Ints, int]:
+        """Where each row's property begins, how many items it has, and where the last row ends."""
+        from bsm.files.formats.walk import walk_rows
+
+        widths = np.array(_widths(self.element))
+        starts, sizes, end = walk_rows(self.raw, self.begin, self.element.count, widths, place, self.order == ">")
+        if end < 0:
+            raise TruncatedError("the PLY file is cut short: a list runs over its end", offset=-end)
+        return starts, sizes, end
+
+
+def _widths(element: Element) -> list[tuple[int, int]]:
+    """The bytes of the length of each property's lists (0: it is a number), and of an item."""
+    return [
         (np.dtype(column.length).itemsize if column.length else 0, np.dtype(column.type).itemsize)
         for column in element.properties
     ]
-    _require_bytes(body, offset, element.count * sum(length or width for length, width in widths))
-    raw = np.frombuffer(body, np.uint8)
-    starts, sizes, end = walk_rows(raw, offset, element.count, np.array(widths), place, order == ">")
-    if end < 0:
-        raise TruncatedError("the PLY file is cut short: a list runs over its end", offset=-end)
-    kind = np.dtype(order + element.properties[place].type)
 
-    def items() -> Ints:
-        picked: npt.NDArray[np.uint8] = raw[ranges(starts, sizes * kind.itemsize)]
-        return as_integers(picked.view(kind), "a vertex index")
 
-    return _Lists(sizes, items, end)
+def _ragged_table(element: Element, order: str, body: bytes, offset: int) -> _RaggedTable:
+    # Every row is at least as long as its numbers and the lengths of its lists.
+    _require_bytes(body, offset, element.count * sum(length or width for length, width in _widths(element)))
+    table = _RaggedTable(element, order, np.frombuffer(body, np.uint8), offset)
+    return replace(table, end=table.walk(0)[2])
 
 
 # ------------------------------------------------------------------------------------------------------------ writing
 
 
-def write_ply(mesh: TriangleMesh) -> bytes:
-    """The binary PLY of a mesh: coordinates as float where that moves no vertex visibly, else as double."""
-    name, kind = ("float", "<f4") if single_suffices(mesh.positions) else ("double", "<f8")
-    header = (
-        f"ply\nformat binary_little_endian 1.0\nelement vertex {len(mesh.positions)}\n"
-        f"property {name} x\nproperty {name} y\nproperty {name} z\n"
-        f"element face {len(mesh.faces)}\nproperty list uchar int vertex_indices\nend_header\n"
-    )
-    faces = np.empty(len(mesh.faces), [("length", "u1"), ("corners", "<i4", 3)])
-    faces["length"] = 3
-    faces["corners"] = mesh.faces
-    return header.encode() + mesh.positions.astype(kind).tobytes() + faces.tobytes()
+_PLY_TYPES = {
+    "int8": "char", "uint8": "uchar", "int16": "short", "uint16": "ushort", "int32": "int", "uint32": "uint",
+    "float32": "float", "float64": "double",
+}  # fmt: skip
+_PROPERTIES = {
+    ("normal", 3): ("nx", "ny", "nz"),
+    ("color", 3): ("red", "green", "blue"),
+    ("color", 4): ("red", "green", "blue", "alpha"),
+    ("texcoord", 2): ("s", "t"),
+}
+
+
+def write_ply(mesh: TriangleMesh, stem: str) -> Written:
+    """The binary PLY of a mesh: coordinates as float where that moves no vertex visibly, else as double.
+
+    Vertices are split where corners differ in an attribute. Images lie beside it.
+    """
+    library = Library(mesh, stem)
+    mesh = split_by_attributes(mesh)
+    images = [f"{_IMAGE} {name}" for name in library.images.values()]
+    shown = {f"material.{n}.{key}" for n in library.images for key in ("name", "map_Kd")} if images else set()
+    comments, unsaid = remarks(mesh.metadata, library.said | shown)
+    columns = {"vertex": _vertex_fields(mesh), "face": [("vertex_indices", mesh.faces)]}
+    for attribute in mesh.attributes:
+        fields = columns[attribute.domain]
+        names = _property_names(attribute, [name for name, _ in fields])
+        fields += zip(names, attribute.values.T)
+    lines = ["ply", "format binary_little_endian 1.0"]
+    lines += [f"comment {line}" for line in (*images, *comments)]
+    body = []
+    for element, fields in columns.items():
+        length = len(fields[0][1])
+        lines.append(f"element {element} {length}")
+        rows = np.empty(length, _row_type(fields))
+        for name, values in fields:
+            if values.ndim == 2:
+                rows[f"{name} length"] = values.shape[1]
+                lines.append(f"property list uchar {_PLY_TYPES[values.dtype.name]} {name}")
+            else:
+                lines.append(f"property {_PLY_TYPES[values.dtype.name]} {name}")
+            rows[name] = values
+        body.append(rows.tobytes())
+    header = "".join(f"{line}\n" for line in (*lines, "end_header"))
+    return Written(header.encode() + b"".join(body), left_out(mesh, mesh.attributes, unsaid), library.beside)
+
+
+def _vertex_fields(mesh: TriangleMesh) -> list[tuple[str, Array]]:
+    kind = np.float32 if single_suffices(mesh.positions) else np.float64
+    return list(zip("xyz", mesh.positions.astype(kind).T))
+
+
+def _row_type(fields: Sequence[tuple[str, Array]]) -> list[tuple[str, str] | tuple[str, str, int]]:
+    row: list[tuple[str, str] | tuple[str, str, int]] = []
+    for name, values in fields:
+        kind = values.dtype.newbyteorder("<").str
+        row += [(f"{name} length", "u1"), (name, kind, values.shape[1])] if values.ndim == 2 else [(name, kind)]
+    return row
+
+
+def _property_names(attribute: Attribute, taken: list[str]) -> list[str]:
+    """The names of an attribute's properties: those that everybody knows, or its own."""
+    known = _PROPERTIES.get((attribute.semantic, attribute.components))
+    if known and not set(known) & set(taken):
+        return list(known)
+    own = re.sub(r"\s", "_", attribute.name)
+    names: list[str] = []
+    for place in range(attribute.components):
+        wanted = own if attribute.components == 1 else f"{own}_{place}"
+        names.append(unused_name(wanted, attribute.domain, [*taken, *names]))
+    return names

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
 from bitstream.errors import MeshError
 from bitstream.limits import Limits
+from bsm.files.formats.columns import Column, attributes_of
+from bsm.files.formats.remarks import fitting
 from bsm.files.rows import Doubles, Ints
-from codec.geometry.mesh import TriangleMesh
+from codec.geometry.mesh import Metadata, TriangleMesh
 
 _MOST_TURNS = 64
 
@@ -24,8 +26,7 @@ class MeshFile:
     notes : tuple of str
         One sentence for each thing the reader did to the file's content.
     dropped : tuple of str
-        What else the file holds and a `TriangleMesh` does not: "normals", "colours", "texture coordinates",
-        "materials", "groups", ...
+        What else the file holds and `mesh` does not: "lines", "parameter space", "animations", ...
     """
 
     mesh: TriangleMesh
@@ -46,6 +47,10 @@ class Polygons:
         The vertex indices of all polygons, one after the other; they may be wrong.
     notes, dropped : tuple of str
         As those of `MeshFile`.
+    columns : tuple of Column
+        What each point, polygon or corner has beside that.
+    metadata : mapping
+        As that of `TriangleMesh`.
     """
 
     positions: Doubles
@@ -53,6 +58,8 @@ class Polygons:
     corners: Ints
     notes: tuple[str, ...] = ()
     dropped: tuple[str, ...] = ()
+    columns: tuple[Column, ...] = ()
+    metadata: Metadata = field(default_factory=dict)
 
     def checked(self, limits: Limits) -> MeshFile:
         """The mesh of triangles.
@@ -79,15 +86,20 @@ class Polygons:
             notes.append(f"faces with fewer than three corners were left out: {int((sizes < 3).sum())}")
         if (sizes > 3).any():
             notes.append(f"polygons were cut into triangles: {int((sizes > 3).sum())}")
-        triangles, folded = triangulate(positions, sizes, corners)
+        places, owner, folded = triangulate(positions, sizes, corners)
         if folded:
             notes.append(f"polygons so far from convex that their triangles overlap: {folded}")
+        attributes, refused = attributes_of(self.columns, places, owner)
+        metadata, too_large = fitting(self.metadata, limits.metadata_bytes)
+        dropped = (*self.dropped, *refused, *too_large)
         if self.dropped:
             notes.append(f"left out: {', '.join(self.dropped)}")
-        return MeshFile(TriangleMesh(positions, triangles.astype(np.int32)), tuple(notes), self.dropped)
+        notes += [f"left out: {name}, because {why}" for name, why in (refused | too_large).items()]
+        triangles = corners[places].astype(np.int32)
+        return MeshFile(TriangleMesh(positions, triangles, attributes, metadata), tuple(notes), dropped)
 
 
-def triangulate(positions: Doubles, sizes: Ints, corners: Ints) -> tuple[Ints, int]:
+def triangulate(positions: Doubles, sizes: Ints, corners: Ints) -> tuple[Ints, Ints, int]:
     """Cut polygons into triangles, in the order of the polygons.
 
     A polygon becomes the fan around its first corner; where a triangle of that fan faces the other way than the polygon
@@ -103,13 +115,16 @@ def triangulate(positions: Doubles, sizes: Ints, corners: Ints) -> tuple[Ints, i
 
     Returns
     -------
-    triangles : ndarray of int64, shape (m, 3)
+    places : ndarray of int64, shape (m, 3)
+        Where in `corners` those of each triangle are.
+    owner : ndarray of int64, shape (m,)
+        The polygon that each triangle is of.
     folded : int
         Number of polygons that no corner sees as a whole: their triangles overlap.
     """
     if (sizes == 3).all():
-        return corners.reshape(-1, 3), 0
-    positions = positions / max(float(np.abs(positions).max()), 1e-300)  # so that no product overflows
+        return np.arange(len(corners)).reshape(-1, 3), np.arange(len(sizes)), 0
+    scaled = positions / max(float(np.abs(positions).max()), 1e-300)  # so that no product overflows
     pieces = np.maximum(sizes - 2, 0)
     first = np.cumsum(sizes) - sizes
     owner = np.repeat(np.arange(len(sizes)), pieces)
@@ -117,28 +132,28 @@ def triangulate(positions: Doubles, sizes: Ints, corners: Ints) -> tuple[Ints, i
 
     def fans(rows: Ints, turn: int) -> Ints:
         polygon = owner[rows]
-        places = np.column_stack([np.zeros_like(rows), step[rows] + 1, step[rows] + 2]) + turn
-        fan: Ints = corners[first[polygon][:, None] + places % sizes[polygon][:, None]]
+        steps: Ints = np.column_stack([np.zeros_like(rows), step[rows] + 1, step[rows] + 2]) + turn
+        fan: Ints = first[polygon][:, None] + steps % sizes[polygon][:, None]
         return fan
 
-    triangles = fans(np.arange(len(owner)), 0)
-    vectors = _area_vectors(positions, triangles)
+    places: Ints = fans(np.arange(len(owner)), 0)
+    vectors = _area_vectors(scaled, corners[places])
     normals = np.column_stack([np.bincount(owner, weights=axis, minlength=len(sizes)) for axis in vectors.T])
 
     def folded(rows: Ints, candidates: Ints) -> Ints:
-        against = (_area_vectors(positions, candidates) * normals[owner[rows]]).sum(axis=1) < 0
+        against = (_area_vectors(scaled, corners[candidates]) * normals[owner[rows]]).sum(axis=1) < 0
         return np.unique(owner[rows[against]])
 
-    bad = folded(np.arange(len(owner)), triangles)
+    bad: Ints = folded(np.arange(len(owner)), places)
     for turn in range(1, min(int(sizes.max(initial=0)), _MOST_TURNS)):
         if len(bad) == 0:
             break
         rows = np.flatnonzero(np.isin(owner, bad[sizes[bad] > turn]))
         candidates = fans(rows, turn)
         good = ~np.isin(owner[rows], folded(rows, candidates))
-        triangles[rows[good]] = candidates[good]
+        places[rows[good]] = candidates[good]
         bad = np.setdiff1d(bad, owner[rows[good]])
-    return triangles, len(bad)
+    return places, owner, len(bad)
 
 
 def _area_vectors(positions: Doubles, triangles: Ints) -> Doubles:

@@ -7,16 +7,21 @@ import re
 import numpy as np
 
 from bitstream.errors import FormatError, MeshError, TruncatedError
+from bsm.files.formats.columns import Column
 from bsm.files.formats.polygons import Polygons
+from bsm.files.formats.written import Written, face_numbers, left_out
 from bsm.files.rows import Doubles, Rows, single_suffices
 from codec.geometry.mesh import TriangleMesh
 
 _RECORD = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
+_ATTRIBUTE = "attribute"
+"""The number of 16 bits that a triangle has beside its corners; some programs keep colours in it."""
 
 
 def read_stl(data: bytes) -> Polygons:
     """Read a binary or a text STL; corners with exactly equal coordinates are one vertex, in order of appearance."""
-    soup = _soup_binary(data) if _is_binary_stl(data) else _soup_text(data)
+    binary = _is_binary_stl(data)
+    soup = _soup_binary(data) if binary else _soup_text(data)
     soup = soup + 0.0  # so that -0 equals 0 byte by byte too
     order = np.lexsort(soup.T)
     ordered = soup[order]
@@ -30,7 +35,9 @@ def read_stl(data: bytes) -> Polygons:
     corners = np.empty(len(soup), dtype=np.int64)
     corners[order] = rank[np.cumsum(fresh) - 1]
     note = f"STL knows no vertices: {len(soup)} corners with equal coordinates were joined to {len(first)} vertices"
-    return Polygons(soup[first[by_appearance]], np.full(len(soup) // 3, 3), corners, notes=(note,))
+    records = np.frombuffer(data, _RECORD, len(soup) // 3, 84)["attribute"] if binary else np.zeros(0, np.uint16)
+    columns = (Column(_ATTRIBUTE, records[:, None], "face"),) if records.any() else ()
+    return Polygons(soup[first[by_appearance]], np.full(len(soup) // 3, 3), corners, (note,), (), columns)
 
 
 def _is_binary_stl(data: bytes) -> bool:
@@ -58,7 +65,7 @@ def _soup_text(data: bytes) -> Doubles:
     return Rows(lines, "corner").columns(0, 3)
 
 
-def write_stl(mesh: TriangleMesh) -> bytes:
+def write_stl(mesh: TriangleMesh, stem: str) -> Written:
     """The binary STL of a mesh.
 
     Raises
@@ -74,4 +81,10 @@ def write_stl(mesh: TriangleMesh) -> bytes:
     lengths = np.linalg.norm(normals, axis=1, keepdims=True)
     triangles["normal"] = np.divide(normals, lengths, out=np.zeros_like(normals), where=lengths > 0)
     triangles["corners"] = corners
-    return bytes(80) + len(triangles).to_bytes(4, "little") + triangles.tobytes()
+    attribute = face_numbers(mesh, _ATTRIBUTE)
+    if attribute is not None and attribute.values.dtype == np.uint16:
+        triangles["attribute"] = attribute.values[:, 0]
+    else:
+        attribute = None
+    data = bytes(80) + len(triangles).to_bytes(4, "little") + triangles.tobytes()
+    return Written(data, left_out(mesh, [attribute], tuple(mesh.metadata)))

@@ -2,7 +2,8 @@
 
 openmesh builds a half-edge mesh while it reads, and that costs what a codec must keep: it duplicates vertices at
 non-manifold edges, drops faces with repeated corners, and passes coordinates through float32. It hangs on, or crashes
-over, some damaged files, so it is only given what our own readers have understood.
+over, some damaged files, so it is only given what our own readers have understood. It crashes over
+attributes as well, and is not asked for them: they are ours, where the mesh is still the same.
 """
 
 from __future__ import annotations
@@ -12,16 +13,18 @@ import sys
 import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 
 from bitstream.errors import DependencyError, FormatError
-from bsm.files.formats.polygons import Polygons
+from bitstream.limits import Limits
+from bsm.files.formats.polygons import MeshFile, Polygons
 from codec.geometry.mesh import TriangleMesh
 
 
-def read_with_openmesh(data: bytes, kind: str, ours: TriangleMesh) -> Polygons:
+def read_with_openmesh(data: bytes, kind: str, ours: TriangleMesh, limits: Limits) -> MeshFile:
     """Read a file with openmesh.
 
     Parameters
@@ -31,6 +34,7 @@ def read_with_openmesh(data: bytes, kind: str, ours: TriangleMesh) -> Polygons:
         "obj", "off", "ply" or "stl".
     ours : TriangleMesh
         The same file, as our own reader has it.
+    limits : Limits
 
     Raises
     ------
@@ -57,7 +61,12 @@ def read_with_openmesh(data: bytes, kind: str, ours: TriangleMesh) -> Polygons:
     notes = []
     if len(points) != len(ours.positions) or (present.sum(axis=1) - 2).sum() != len(ours.faces):
         notes.append(f"openmesh has made {len(points)} vertices of the {len(ours.positions)} of the file")
-    return Polygons(points, present.sum(axis=1), table[present].astype(np.int64), tuple(notes))
+    names = tuple(attribute.name for attribute in ours.attributes)
+    if len(points) != len(ours.positions) or not np.array_equal(table, ours.faces):
+        corners = table[present].astype(np.int64)
+        theirs = Polygons(points, present.sum(axis=1), corners, tuple(notes), names, metadata=ours.metadata)
+        return theirs.checked(limits)
+    return MeshFile(replace(ours, positions=points), tuple(notes))
 
 
 @contextmanager

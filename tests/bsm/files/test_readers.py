@@ -26,86 +26,6 @@ SQUARE = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n"
 OURS = ("obj", "off", "ply", "stl")
 
 
-# ---------------------------------------------------------------------------------------------- attributes left behind
-
-
-@pytest.mark.parametrize(
-    ("lines", "dropped"),
-    [
-        ("", ()),
-        ("vn 0 0 1\n", ("normals",)),
-        ("vt 0 0\nvt 1 0\n", ("texture coordinates",)),
-        ("mtllib a.mtl\nusemtl red\n", ("materials",)),
-        ("g left\no body\ns 1\n", ("groups", "names of objects")),
-        ("l 1 2\np 3\n", ("lines", "points")),
-        ("v 0 0 1 0.5 0.5 0.5\n", ("colours",)),
-    ],
-)
-def test_what_an_obj_loses(lines, dropped):
-    source = read_mesh(f"v 0 0 0\nv 1 0 0\nv 0 1 0\n{lines}f 1 2 3\n".encode())
-    assert source.dropped == dropped
-    assert source.notes == ((f"left out: {', '.join(dropped)}",) if dropped else ())
-
-
-@pytest.mark.parametrize(
-    ("vertex", "face", "other", "dropped"),
-    [
-        ("", "", "", ()),
-        ("nx ny nz", "", "", ("normals",)),
-        ("red green blue", "red green blue", "", ("colours",)),
-        ("s t quality", "", "", ("texture coordinates", "quality")),
-        ("", "flags", "element edge 1\nproperty int vertex1\n", ("flags", "edge")),
-    ],
-)
-def test_what_a_ply_loses(vertex, face, other, dropped):
-    extra = {
-        name: "".join(f"property float {item}\n" for item in words.split())
-        for name, words in (("vertex", vertex), ("face", face))
-    }
-    header = (
-        "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
-        f"{extra['vertex']}element face 1\nproperty list uchar int vertex_indices\n{extra['face']}{other}end_header\n"
-    )
-    rows = "".join(f"{row}{' 0' * len(vertex.split())}\n" for row in SQUARE.splitlines())
-    body = f"{rows}4 0 1 2 3{' 0' * len(face.split())}\n{'1' if other else ''}\n"
-    assert read_mesh((header + body).encode()).dropped == dropped
-
-
-@pytest.mark.parametrize(
-    ("head", "behind", "colours", "dropped"),
-    [
-        ("OFF", "", "", ()),
-        ("OFF", "", " 255 0 0", ("colours",)),
-        ("NOFF", " 0 0 1", "", ("normals",)),
-        ("STCNOFF", " 0 0 1 9 9 9 1 0 0", "", ("normals", "colours", "texture coordinates")),
-        ("OFF", " 7 8 9", "", ("numbers behind the coordinates",)),
-    ],
-)
-def test_what_an_off_loses(head, behind, colours, dropped):
-    rows = "".join(f"{row}{behind}\n" for row in SQUARE.splitlines())
-    assert read_mesh(f"{head}\n4 1 0\n{rows}4 0 1 2 3{colours}\n".encode()).dropped == dropped
-
-
-def test_what_an_npz_loses(tmp_path):
-    mesh = tetrahedron()
-    np.savez(tmp_path / "a.npz", positions=mesh.positions, faces=mesh.faces, colours=np.zeros(4), uv=np.zeros(2))
-    assert read_mesh(tmp_path / "a.npz").dropped == ("colours", "uv")
-
-
-@pytest.mark.real
-@pytest.mark.parametrize(
-    ("name", "dropped"),
-    [
-        ("fuze_colours.ply", ("colours", "texture coordinates")),
-        ("cortex_sulc.ply", ("sulc",)),
-        ("robot_hand.obj", ("normals", "materials")),
-        ("spot_uv.obj", ("texture coordinates",)),
-    ],
-)
-def test_what_real_files_lose(meshes, name, dropped):
-    assert read_mesh(meshes / "assets" / name).dropped == dropped
-
-
 # --------------------------------------------------------------------------------------------------------------- gzip
 
 
@@ -262,19 +182,3 @@ def test_where_openmesh_is_missing_the_way_out_is_said(monkeypatch):
     monkeypatch.setitem(sys.modules, "openmesh", None)
     with pytest.raises(DependencyError, match=r"pip install 'bsm-codec\[openmesh\]'"):
         read_mesh(format_mesh(tetrahedron(), "ply"), reader="openmesh")
-
-
-@pytest.mark.real
-@pytest.mark.parametrize(
-    ("name", "vertices", "faces", "dropped"),
-    [
-        ("Duck.glb", 2399, 4212, ("normals", "texture coordinates", "materials")),
-        ("BoxTextured.glb", 24, 12, ("normals", "texture coordinates", "materials")),
-        ("cubevc.glb", 54, 48, ("normals", "colours")),
-        ("monkey.glb", 1966, 968, ("normals",)),
-    ],
-)
-def test_real_scenes(trimesh, meshes, name, vertices, faces, dropped):
-    source = read_mesh(meshes / "assets" / name)
-    assert (len(source.mesh.positions), len(source.mesh.faces)) == (vertices, faces)
-    assert source.dropped == dropped

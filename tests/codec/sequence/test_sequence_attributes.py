@@ -40,7 +40,7 @@ def decoded(stream: bytes, *, tolerant: bool = False) -> tuple[dict[str, Attribu
 
 def test_they_come_back_before_the_second_frame():
     options = SequenceOptions(keep_order=True, attributes={"uv": "12bits"})
-    stream = encode_sequence(FRAMES, MESH.faces, options, worn(), {"name": "spin"})
+    stream = encode_sequence(FRAMES, MESH.faces, options, {"name": "spin"}, worn())
     found, frames, losses, order = decoded(stream)
     assert frames == 6 and not losses
     assert order.index("FrameEvent") > max(i for i, name in enumerate(order) if name == AttributeEvent.__name__)
@@ -54,12 +54,12 @@ def test_they_come_back_before_the_second_frame():
 
 def test_they_cost_once():
     bare = [len(encode_sequence(FRAMES[:count], MESH.faces)) for count in (3, 6)]
-    full = [len(encode_sequence(FRAMES[:count], MESH.faces, None, worn())) for count in (3, 6)]
+    full = [len(encode_sequence(FRAMES[:count], MESH.faces, attributes=worn())) for count in (3, 6)]
     assert abs((full[0] - bare[0]) - (full[1] - bare[1])) <= 4
 
 
 def test_what_is_lost_of_one_spoils_nothing_else():
-    stream = encode_sequence(FRAMES, MESH.faces, None, worn())
+    stream = encode_sequence(FRAMES, MESH.faces, attributes=worn())
     reader = Reader()
     for packet in read_packets([stream], reader):
         if isinstance(packet, packets.Values):
@@ -76,4 +76,4 @@ def test_what_is_lost_of_one_spoils_nothing_else():
 def test_normals_cannot_be_recomputed():
     normals = Attribute("normal", np.ones((len(MESH.positions), 3)), "vertex", "normal")
     with pytest.raises(OptionError):
-        encode_sequence(FRAMES, MESH.faces, SequenceOptions(attributes={"normal": "recompute"}), (normals,))
+        encode_sequence(FRAMES, MESH.faces, SequenceOptions(attributes={"normal": "recompute"}), attributes=(normals,))

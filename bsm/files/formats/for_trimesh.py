@@ -1,0 +1,119 @@
+"""A mesh as trimesh has it: what it shows as visuals."""
+
+from __future__ import annotations
+
+import io
+import re
+from typing import Any
+
+import numpy as np
+
+from bsm.files.formats.columns import Array
+from bsm.files.formats.materials import Material, as_gltf, images_in, materials_in
+from bsm.files.formats.with_trimesh import import_trimesh
+from bsm.files.formats.written import face_numbers, first
+from codec.geometry.attributes import Attribute
+from codec.geometry.mesh import Metadata, TriangleMesh
+from codec.geometry.splitting import split_by_attributes
+
+TEXTURES = ("baseColorTexture", "normalTexture", "emissiveTexture", "occlusionTexture", "metallicRoughnessTexture")
+FACTORS = {"baseColorFactor": 4, "emissiveFactor": 3}
+SCALARS = ("metallicFactor", "roughnessFactor", "alphaCutoff", "doubleSided", "name", "alphaMode")
+
+
+def arguments_of(mesh: TriangleMesh) -> dict[str, Any]:
+    """The arguments of `trimesh.Trimesh` that make it of a mesh; vertices are split where corners differ."""
+    trimesh = import_trimesh("meshes of trimesh are made")
+    mesh = split_by_attributes(mesh)
+    normal, color, texcoord = shown_by_trimesh(mesh)
+    of_faces = first(mesh, "color", (3, 4), "face")
+    materials = [_material(trimesh, words, mesh.metadata) for words in materials_in(mesh.metadata).values()]
+    visual = None
+    if texcoord is not None or materials:
+        uv = None if texcoord is None else texcoord.values[:, :2]
+        numbers = face_numbers(mesh, "material")
+        several = numbers is not None and len(materials) > 1
+        material = trimesh.visual.material.MultiMaterial(materials) if several else next(iter(materials), None)
+        of_each = numbers.values[:, 0] if several and numbers is not None else None
+        visual = trimesh.visual.TextureVisuals(uv=uv, material=material, face_materials=of_each)
+        if color is not None:
+            visual.vertex_attributes["color"] = _rgba(color)
+        of_faces = None
+    elif color is not None:
+        visual, of_faces = trimesh.visual.ColorVisuals(vertex_colors=_rgba(color)), None
+    elif of_faces is not None:
+        visual = trimesh.visual.ColorVisuals(face_colors=_rgba(of_faces))
+    shown = {attribute.name for attribute in (normal, color, texcoord, of_faces) if attribute is not None}
+    others = [attribute for attribute in mesh.attributes if attribute.name not in shown]
+    metadata = {
+        "units" if name == "unit" else name: value
+        for name, value in mesh.metadata.items()
+        if not name.startswith(("material.", "image."))
+    }
+    arguments: dict[str, Any] = {
+        "vertices": mesh.positions,
+        "faces": mesh.faces,
+        "vertex_normals": None if normal is None else normal.values,
+        "visual": visual,
+        "vertex_attributes": {a.name: _flat(a.values) for a in others if a.domain == "vertex"},
+        "face_attributes": {a.name: _flat(a.values) for a in others if a.domain == "face"},
+        "metadata": metadata,
+        "process": False,
+    }
+    return {name: value for name, value in arguments.items() if value is not None}
+
+
+def shown_by_trimesh(mesh: TriangleMesh) -> tuple[Attribute | None, Attribute | None, Attribute | None]:
+    """The normals, colours and texture coordinates of vertices that trimesh has a place for."""
+    return (
+        first(mesh, "normal", (3,), "vertex"),
+        first(mesh, "color", (3, 4), "vertex"),
+        first(mesh, "texcoord", (2, 3), "vertex"),
+    )
+
+
+def _flat(values: Array) -> Array:
+    return values[:, 0] if values.shape[1] == 1 else values
+
+
+def _rgba(color: Attribute) -> Array:
+    """Colours as bytes, with an opaque alpha where there is none."""
+    values = color.values
+    if values.dtype == np.uint16:
+        values = values / 65535
+    if values.dtype != np.uint8:
+        values = np.rint(np.clip(values, 0, 1) * 255).astype(np.uint8)
+    opaque = np.full((len(values), 4 - values.shape[1]), 255, np.uint8)
+    return np.hstack([values, opaque])
+
+
+def _material(trimesh: Any, words: Material, metadata: Metadata) -> Any:
+    """A material as trimesh has it."""
+    known: dict[str, Any] = {}
+    images = images_in(metadata)
+    for name, value in as_gltf(words).items():
+        if name in TEXTURES:
+            image = _opened(images.get(value, ("", b""))[1]) if isinstance(value, int) else None
+            known |= {name: image} if image is not None else {}
+        elif name in FACTORS:
+            numbers = re.findall(r"[-+.\de]+", str(value))
+            known |= {name: list(map(float, numbers))} if len(numbers) == FACTORS[name] else {}
+        elif name in ("metallicFactor", "roughnessFactor", "alphaCutoff"):
+            known[name] = float(value)
+        elif name == "doubleSided":
+            known[name] = bool(value)
+        elif name in ("name", "alphaMode"):
+            known[name] = str(value)
+    return trimesh.visual.material.PBRMaterial(**known)
+
+
+def _opened(data: bytes) -> Any:
+    """An image, or None where it cannot be opened."""
+    try:
+        import PIL.Image
+    except ImportError:
+        return None
+    try:
+        return PIL.Image.open(io.BytesIO(data))
+    except (OSError, ValueError, PIL.Image.DecompressionBombError):
+        return None

@@ -1,0 +1,246 @@
+"""trimesh and pyvista open and write .bsm, and what their meshes show goes along; Open3D's meshes are taken."""
+
+import importlib
+import os
+import re
+import subprocess
+import sys
+import tomllib
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import bsm
+from bsm.meshes import as_mesh
+from codec.geometry.attributes import Attribute
+from codec.geometry.mesh import TriangleMesh
+from tests.bsm.files.test_file_attributes import at_corners, attribute, dressed, png
+from tests.shapes import torus
+
+ROOT = Path(__file__).parents[2]
+EXACT = {"preset": "lossless", "keep_order": True, "attributes": {"*": "exact"}}
+SQUARE = np.array([[0.0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]])
+
+
+def painted(**more):
+    """A mesh with texture coordinates that have a seam, normals, a number for each vertex and face, and an image."""
+    mesh = torus(12, 9)
+    m, n = len(mesh.faces), len(mesh.positions)
+    uv = mesh.positions[:, :2].astype(np.float32) / 3
+    indices = mesh.faces.copy()
+    indices[: m // 2] += n  # the first half has texture coordinates of its own
+    attributes = (
+        Attribute("texcoord", np.vstack([uv, uv + 0.5]), "corner", "texcoord", indices),
+        Attribute("height", mesh.positions[:, 2].astype(np.float32)),
+        Attribute("label", np.arange(m) % 7, "face"),
+    )
+    metadata = {
+        "name": "ring",
+        "unit": "mm",
+        "material.0.name": "skin",
+        "material.0.map_Kd": 0,
+        "image.0.data": png(),
+        **more,
+    }
+    return TriangleMesh(mesh.positions, mesh.faces, attributes, metadata)
+
+
+# ------------------------------------------------------------------------------------------------------------ trimesh
+
+
+@pytest.fixture
+def trimesh():
+    pytest.importorskip("PIL")
+    library = pytest.importorskip("trimesh")
+    importlib.import_module("bsm.trimesh")
+    return library
+
+
+def test_trimesh_loads_a_stream(trimesh, tmp_path):
+    mesh = painted()
+    bsm.save(mesh, tmp_path / "a.bsm", **EXACT)
+    for loaded in (trimesh.load_mesh(tmp_path / "a.bsm"), trimesh.load(str(tmp_path / "a.bsm"), force="mesh")):
+        assert isinstance(loaded, trimesh.Trimesh)
+        assert loaded.triangles == pytest.approx(mesh.positions[mesh.faces], abs=1e-3)
+        assert np.array_equal(loaded.visual.uv[loaded.faces], at_corners(mesh, attribute(mesh, "texcoord")))
+        assert loaded.visual.material.name == "skin"
+        assert loaded.visual.material.baseColorTexture.getpixel((0, 0)) == (200, 10, 20)
+        assert np.array_equal(loaded.face_attributes["label"], np.arange(len(mesh.faces)) % 7)
+        assert loaded.vertex_attributes["height"].shape == (len(loaded.vertices),)
+        assert (loaded.units, loaded.metadata["name"]) == ("mm", "ring")
+    scene = trimesh.load_scene(tmp_path / "a.bsm")
+    assert len(scene.geometry) == 1
+
+
+def test_trimesh_exports_a_stream(trimesh, tmp_path):
+    mesh = painted()
+    theirs = bsm.trimesh.to_trimesh(mesh)
+    theirs.export(tmp_path / "b.bsm", **EXACT)
+    assert theirs.export(file_type="bsm", **EXACT) == (tmp_path / "b.bsm").read_bytes()
+    again = bsm.load(tmp_path / "b.bsm")
+    assert again.positions[again.faces] == pytest.approx(mesh.positions[mesh.faces], abs=1e-3)
+    for name in ("texcoord", "height", "label"):
+        assert np.array_equal(at_corners(again, attribute(again, name)), at_corners(mesh, attribute(mesh, name)))
+    assert again.metadata["image.0.data"] == png()
+    assert (again.metadata["unit"], again.metadata["name"]) == ("mm", "ring")
+
+
+@pytest.mark.parametrize("domain", ["vertex", "face"])
+def test_colours_of_trimesh(trimesh, domain):
+    sphere = trimesh.creation.icosphere(subdivisions=2)
+    size = len(sphere.vertices if domain == "vertex" else sphere.faces)
+    colors = np.random.default_rng(1).integers(0, 256, (size, 4), np.uint8)
+    sphere.visual = trimesh.visual.ColorVisuals(sphere, **{f"{domain}_colors": colors})
+    ours = bsm.trimesh.from_trimesh(sphere)
+    assert np.array_equal(attribute(ours, "color").values, colors) and attribute(ours, "color").domain == domain
+    back = bsm.trimesh.to_trimesh(bsm.decode(bsm.encode(sphere, **EXACT)))
+    assert np.array_equal(getattr(back.visual, f"{domain}_colors"), colors) and back.visual.kind == domain
+
+
+def test_several_materials_of_trimesh(trimesh):
+    mesh = dressed()
+    loaded = bsm.trimesh.to_trimesh(mesh)
+    assert [material.name for material in loaded.visual.material.materials] == ["red", "painted"]
+    again = bsm.trimesh.from_trimesh(loaded)
+    assert np.array_equal(attribute(again, "material").values, attribute(mesh, "material").values)
+    assert again.metadata["material.1.name"] == "painted" and again.metadata["image.0.data"] == png()
+
+
+def test_a_scene_of_trimesh(trimesh):
+    first, second = bsm.trimesh.to_trimesh(painted()), trimesh.creation.box()
+    scene = trimesh.Scene({"ring": first, "box": second})
+    ours = bsm.trimesh.from_trimesh(scene)
+    assert ours.metadata["part.0.name"] == "ring" and ours.metadata["part.1.name"] == "box"
+    assert np.bincount(attribute(ours, "part").values[:, 0]).tolist() == [len(first.faces), len(second.faces)]
+    assert as_mesh(scene).metadata == ours.metadata
+
+
+def test_damaged_streams_in_trimesh(trimesh, tmp_path):
+    data = bsm.encode(painted(), **EXACT)
+    (tmp_path / "a.bsm").write_bytes(data[:-30])
+    with pytest.raises(bsm.BsmError):
+        trimesh.load(tmp_path / "a.bsm")
+
+
+def test_hostile_images_and_materials(trimesh):
+    mesh = painted(**{"image.0.data": b"\x89PNG\r\n\x1a\n" + bytes(20), "material.0.Kd": "a b c", "material.5.d": "x"})
+    loaded = bsm.trimesh.to_trimesh(mesh)
+    assert loaded.visual.uv is not None
+
+
+# ------------------------------------------------------------------------------------------------------------ pyvista
+
+
+@pytest.fixture
+def pyvista():
+    library = pytest.importorskip("pyvista", minversion="0.48")
+    importlib.import_module("bsm.pyvista")
+    return library
+
+
+def test_pyvista_and_back(pyvista):
+    mesh = painted()
+    theirs = bsm.pyvista.to_pyvista(mesh)
+    assert theirs.is_all_triangles and theirs.n_cells == len(mesh.faces)
+    assert set(theirs.point_data) == {"texcoord", "height"} and set(theirs.cell_data) == {"label"}
+    assert theirs.active_texture_coordinates.shape == (theirs.n_points, 2)
+    again = bsm.pyvista.from_pyvista(theirs)
+    assert again.metadata == mesh.metadata
+    for name in ("texcoord", "height", "label"):
+        found = attribute(again, name)
+        assert np.array_equal(at_corners(again, found), at_corners(mesh, attribute(mesh, name)))
+        assert found.semantic == attribute(mesh, name).semantic
+
+
+def test_what_pyvista_shows_is_taken(pyvista):
+    sphere = pyvista.Sphere(theta_resolution=8, phi_resolution=6)
+    sphere["quality"] = np.arange(sphere.n_points)
+    sphere.point_data["RGB"] = np.full((sphere.n_points, 3), 7, np.uint8)
+    ours = as_mesh(sphere)
+    assert {(a.name, a.semantic) for a in ours.attributes} == {
+        ("Normals", "normal"),
+        ("quality", "generic"),
+        ("RGB", "color"),
+    }
+    quads = pyvista.PolyData(SQUARE, [4, 0, 1, 2, 3, 3, 0, 2, 1], lines=[2, 0, 1])
+    quads.cell_data["kind"] = [5, 6, 7]  # of the line, the square, the triangle
+    assert attribute(as_mesh(quads), "kind").values[:, 0].tolist() == [6, 6, 7]
+
+
+SCRIPT = """
+import sys
+import numpy, pyvista
+mesh = pyvista.read(sys.argv[1])
+assert set(mesh.point_data) == {"texcoord", "height"}, mesh
+mesh["twice"] = 2 * mesh["height"]
+mesh.save(sys.argv[2], preset="near-lossless")
+again = pyvista.read(sys.argv[2])
+assert numpy.allclose(again["twice"], 2 * again["height"], atol=1e-2)
+try:
+    pyvista.read(sys.argv[3])
+except Exception as error:
+    print(type(error).__name__)
+"""
+
+
+def test_pyvista_by_its_entry_points(pyvista, tmp_path):
+    """As it is when the package is installed: by the entry points of pyproject.toml, and nothing else is imported."""
+    declared = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]["entry-points"]
+    folder = tmp_path / "site" / "bsm_codec_here-0.1.dist-info"
+    folder.mkdir(parents=True)
+    (folder / "METADATA").write_text("Metadata-Version: 2.1\nName: bsm-codec-here\nVersion: 0.1\n")
+    lines = [f"[{group}]\n" + "".join(f"{k} = {v}\n" for k, v in points.items()) for group, points in declared.items()]
+    (folder / "entry_points.txt").write_text("\n".join(lines))
+    bsm.save(painted(), tmp_path / "a.bsm", **EXACT)
+    (tmp_path / "c.bsm").write_bytes(b"nothing")
+    done = subprocess.run(
+        [sys.executable, "-c", SCRIPT, *(str(tmp_path / f"{name}.bsm") for name in "abc")],
+        env={**os.environ, "PYTHONPATH": f"{folder.parent}:{ROOT}"},
+        capture_output=True,
+        text=True,
+        timeout=120,
+        check=False,
+    )
+    assert done.returncode == 0, done.stderr
+    assert done.stdout.strip() == "FormatError"
+    assert bsm.load(tmp_path / "b.bsm").metadata["unit"] == "mm"
+
+
+# ------------------------------------------------------------------------------------------------------------- others
+
+
+def test_open3d():
+    open3d = pytest.importorskip("open3d", exc_type=ImportError)
+    theirs = open3d.geometry.TriangleMesh.create_sphere(resolution=6)
+    theirs.compute_vertex_normals()
+    theirs.vertex_colors = open3d.utility.Vector3dVector(np.full((len(theirs.vertices), 3), 51 / 255))
+    theirs.triangle_uvs = open3d.utility.Vector2dVector(np.random.default_rng(0).random((3 * len(theirs.triangles), 2)))
+    theirs.triangle_material_ids = open3d.utility.IntVector(np.arange(len(theirs.triangles)) % 3)
+    ours = as_mesh(theirs)
+    assert [(a.name, a.domain) for a in ours.attributes] == [
+        ("normal", "vertex"),
+        ("color", "vertex"),
+        ("texcoord", "corner"),
+        ("material", "face"),
+    ]
+    assert (attribute(ours, "color").values == 51).all()
+    uv = np.asarray(theirs.triangle_uvs).reshape(-1, 3, 2)
+    assert at_corners(ours, attribute(ours, "texcoord")) == pytest.approx(uv, abs=1e-6)
+
+
+def test_meshio_data():
+    meshio = pytest.importorskip("meshio")
+    cells = [("line", [[0, 1]]), ("quad", [[0, 1, 2, 3]]), ("triangle", [[0, 1, 2]])]
+    theirs = meshio.Mesh(SQUARE, cells, {"height": [1.0, 2, 3, 4]}, {"kind": [[1], [2], [3]]})
+    ours = as_mesh(theirs)
+    assert attribute(ours, "height").values[:, 0].tolist() == [1, 2, 3, 4]
+    assert attribute(ours, "kind").values[:, 0].tolist() == [3, 2, 2]
+
+
+@pytest.mark.parametrize("library", ["trimesh", "pyvista"])
+def test_where_a_library_is_missing_the_way_out_is_said(library, monkeypatch):
+    monkeypatch.setitem(sys.modules, library, None)
+    monkeypatch.delitem(sys.modules, f"bsm.{library}", raising=False)
+    with pytest.raises(bsm.DependencyError, match=re.escape("pip install 'bsm-codec[")):
+        importlib.import_module(f"bsm.{library}").to_pyvista(painted())
