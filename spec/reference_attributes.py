@@ -23,7 +23,14 @@ from reference_values import FaceReader, ValueReader
 Face = Sequence[int]
 KINDS = ("uint8", "int8", "uint16", "int16", "uint32", "int32", "float32", "float64")
 SEMANTICS = ("generic", "color", "normal", "texcoord")
-RANGES = ((0, 2**8 - 1), (-(2**7), 2**7 - 1), (0, 2**16 - 1), (-(2**15), 2**15 - 1), (0, 2**32 - 1), (-(2**31), 2**31 - 1))
+RANGES = (
+    (0, 2**8 - 1),
+    (-(2**7), 2**7 - 1),
+    (0, 2**16 - 1),
+    (-(2**15), 2**15 - 1),
+    (0, 2**32 - 1),
+    (-(2**31), 2**31 - 1),
+)
 MOST_VALUES = 1 << 28
 
 
@@ -222,7 +229,13 @@ class Attribute:
     """One attribute of a mesh whose faces are known."""
 
     def __init__(
-        self, declared: Declaration, faces: list[Face], vertices: int, loose: int, side: list[int] | None, corners: Corners
+        self,
+        declared: Declaration,
+        faces: list[Face],
+        vertices: int,
+        loose: int,
+        side: list[int] | None,
+        corners: Corners,
     ) -> None:
         self.declared, self.side = declared, side
         self.faces, places = [list(face) for face in faces], list(range(vertices))

@@ -22,6 +22,7 @@ from pathlib import Path
 import msgpack
 import numpy as np
 import zstandard
+from reference_attributes import FIELDS as ATTRIBUTE_FIELDS
 from reference_attributes import (
     KINDS,
     MOST_VALUES,
@@ -32,7 +33,6 @@ from reference_attributes import (
     read_seams,
     relief_of,
 )
-from reference_attributes import FIELDS as ATTRIBUTE_FIELDS
 from reference_connectivity import (
     CorruptError,
     LimitError,
@@ -370,7 +370,9 @@ def read_frames(stream, packets):
         legal = kind == HEADER if last is None else place > last or (place == last and kind in several)
         require(last != 5 or kind in (END, VALUES) or packets.get(kind), f"frame type {kind} may not come here")
         if header and header["grid"]:
-            require(kind in (CONNECTIVITY, ORDER, ATTRIBUTE, GRID, VALUES, END), f"frame type {kind} where there is a grid")
+            require(
+                kind in (CONNECTIVITY, ORDER, ATTRIBUTE, GRID, VALUES, END), f"frame type {kind} where there is a grid"
+            )
         require(legal and (place <= 1 or last >= 1), f"frame type {kind} may not come here")
         if kind in (BLOCK, GOP):
             require(not packets[kind] or parsed[0] > packets[kind][-1][0], "indices must ascend")  # F 3.10
@@ -1355,7 +1357,9 @@ def decode_frames(mesh, gops, first_frame):
 def declared_attributes(mesh, packets):
     """D 1 to D 3.1: the attributes before their values."""
     header, declared = mesh.header, packets[ATTRIBUTE]
-    require(not (header["gop_frames"] and any(one.coding == 3 for one in declared)), "recomputed in a sequence")  # D 4.4
+    require(
+        not (header["gop_frames"] and any(one.coding == 3 for one in declared)), "recomputed in a sequence"
+    )  # D 4.4
     corners = Corners(mesh.faces, header["vertices"], traverse=False)
     attributes, earlier = [], []
     for one in declared:
