@@ -71,13 +71,14 @@ def with_header(stream: bytes, **changes: Any) -> bytes:
 
 
 def with_declaration(stream: bytes, index: int, **changes: Any) -> bytes:
-    """Change, add or (with None) remove fields of the declaration of an attribute."""
+    """Change, add or (with None) remove fields of the declaration of an attribute; `key_40` is one without a name."""
     payload = [payload for kind, payload in frames_of(stream) if kind == FrameType.ATTRIBUTE][index]
     cursor = Cursor(payload)
     number, length = cursor.varint(), cursor.varint()
     entries = dict(parse_map(cursor.take(length)))
     keys = {name: declared.key for name, declared in fields_of(Declaration).items()}
-    entries |= {keys.get(name, name): value for name, value in changes.items()}
+    keys |= {name: int(name.removeprefix("key_")) for name in changes if name.startswith("key_")}
+    entries |= {keys[name]: value for name, value in changes.items()}
     packed = write_map(sorted((key, value) for key, value in entries.items() if value is not None))
     changed = write_varint(number) + write_varint(len(packed)) + packed + cursor.rest()
     return with_payload(stream, FrameType.ATTRIBUTE, changed, index)

@@ -6,8 +6,8 @@
     python -m tools.vectors --write                    make all anew, which only a change of the format justifies
     python -m tools.vectors --example                  print the worked example of spec/mathematics.md
 
-A command must write an npz with `positions`, `faces` and attributes, and end with code 0, or refuse and end with the code
-of its error: 3 format, 4 corrupt or truncated, 5 unsupported, 6 limit, 7 numeric.
+A command must write an npz with `positions`, `faces` and attributes, and end with code 0, or refuse and end with the
+code of its error: 3 format, 4 corrupt or truncated, 5 unsupported, 6 limit, 7 numeric.
 """
 
 from __future__ import annotations

@@ -147,7 +147,7 @@ BAD_ATTRIBUTES: dict[str, Bad] = {
     "bad-attribute-name-long": _declared("a name of 256 bytes", 0, name="x" * 256),
     "bad-attribute-name-twice": _declared("two attributes of one name", 1, name="uv"),
     "unsupported-attribute-key": Bad(
-        "a key that is not known", "unsupported", lambda: with_declaration(_all(), 0, **{"40": 1})
+        "a key that is not known", "unsupported", lambda: with_declaration(_all(), 0, key_40=1)
     ),
     "unsupported-attribute-coding": _declared("a coding that is not known", 0, "unsupported", coding=4),
     "unsupported-attribute-kind": _declared("a type that is not known", 0, "unsupported", kind=8),
