@@ -28,11 +28,8 @@ from codec.blocks.overlap import Blocks, block_size, grow_blocks
 from codec.blocks.partition import Partition, derive_partition, metis_partition, partition_of_labels
 from codec.geometry.graph import Graph, component_sizes, graph_of_faces
 from codec.geometry.mesh import TriangleMesh
-<<<<<<< HEAD
-from codec.signal.chain import Rounding, unchanged
-=======
 from codec.signal.bandwidth import MeasuredSpectrum
->>>>>>> speed
+from codec.signal.chain import Rounding, unchanged
 from codec.static.attributes.decoding import Declarations
 from codec.static.events import HeaderEvent, LossEvent, unreadable
 from codec.static.numbering import Numbering
