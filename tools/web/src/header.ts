@@ -37,6 +37,7 @@ export interface Header {
     refinements: number[];
     keySeed: number;
     borders: number;
+    attributes: number;
 }
 
 interface Field {
@@ -85,6 +86,7 @@ const FIELDS: Record<keyof Header, Field> = {
     refinements: { key: 30, type: "floats", low: 0, high: 64, default: [], lengths: [0, 8] },
     keySeed: { key: 31, type: "method", low: 0, high: 1, default: 0 },
     borders: { key: 32, type: "method", low: 0, high: 1, default: 0 },
+    attributes: { key: 33, type: "int", low: 0, high: 255, default: 0 },
 };
 
 /** Rows of all blocks together, at most: so many for each vertex, and so many more (F 4.6). */
@@ -165,7 +167,7 @@ function checkContradictions(header: Header): void {
     if (broken) throw new CorruptError(`the header contradicts itself: ${broken[0]}`);
 }
 
-const OF_A_GRID: (keyof Header)[] = ["vertices", "faces", "center", "scale", "grid", "lattice"];
+const OF_A_GRID: (keyof Header)[] = ["vertices", "faces", "center", "scale", "grid", "lattice", "attributes"];
 
 function gridRules(header: Header): [string, boolean][] {
     const { vertices, faces, grid, lattice } = header;
