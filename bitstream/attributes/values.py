@@ -92,9 +92,11 @@ class _ValueCoder:
             np.zeros((vertices, components + 1), np.int64),
             np.zeros((components, int(top.max()) // 64 + 1), np.int64),
             make_learners(start),
-            np.zeros((vertices if kind == "normal" else 0, 6), np.int32),
+            np.zeros((vertices if kind == "normal" else 0, 12), np.int32),
             np.zeros(1, np.int64),
         )
+        if kind == "normal":
+            _kernels.expect_normals(corners, self._values)
         model = make_model()
 
         def code(coder: Coder, first: int, count: int) -> int:
