@@ -3,7 +3,8 @@
 
 enum { AXES = 2, WHOLE = 1 << 16, NARROW = 1 << 14, MOST_RATIO = 8 * WHOLE };
 
-/* What is kept: triangles that are counter-clockwise less those that are clockwise; how far neighbours are apart, 1/256. */
+/* What is kept: triangles that are counter-clockwise less those that are clockwise; how far neighbours are apart, in
+ * 1/256. */
 enum { TURN, STRIDE };
 
 typedef struct { /* where a vertex is, seen from an edge, in 2^-16 of its length */
@@ -133,9 +134,9 @@ static bool code_axis(Work *w, const Chart *p, int32_t v, int j, int32_t *hits, 
     int32_t twin = p->place.twin, like = p->all.similar[j] - base;
     const Claim *one = p->place.bases > 0 ? &p->claim[0] : &p->all, *two = p->place.bases > 1 ? &p->claim[1] : one;
     int32_t usual = r->neighbours > 0 ? (int32_t)(g->chart.data[STRIDE] >> 4) : far;
-    Forecast f = {.term = {like, p->all.across[j] - base, p->mean[j] - base, j > 0 ? along(*first, p->rise[0], p->rise[1]) : 0,
-                      j > 0 ? along(*first, p->run[0], p->run[1]) : 0, p->drift[j], one->affine[j] - base},
-        .hint = {number > 0 ? p->place.error : usual, p->spread[j], j > 0 ? size_of(*first) : 0, size_of(like)}};
+    Forecast f = {.term = {like, p->all.across[j] - base, p->mean[j] - base, along(*first, p->rise[0], p->rise[1]),
+                      along(*first, p->run[0], p->run[1]), p->drift[j], one->affine[j] - base},
+        .hint = {number > 0 ? p->place.error : usual, p->spread[j], size_of(*first), size_of(like)}};
     choose_learners(&f, g, AXES, j, number, p->place.valence);
     foresee(&f, far, number > 0);
     int32_t guess = base + f.shift, bucket = size_class(f.typical >> 1), unit = f.typical / 2 + 4;

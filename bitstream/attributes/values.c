@@ -13,7 +13,8 @@ static bool fits(const Work *w, int64_t learners) {
         && g->seen.rows == columns && g->learners.rows == learners && g->learners.columns == LEARNER_COLUMNS
         && g->chart.size == 2;
     for (int j = 0; j < columns && fit; j++)
-        fit = g->largest.data[j] >= 0 && g->largest.data[j] <= MOST_LARGEST && g->largest.data[j] / 64 < g->seen.columns;
+        fit = g->largest.data[j] >= 0 && g->largest.data[j] <= MOST_LARGEST
+            && g->largest.data[j] / 64 < g->seen.columns;
     return fit;
 }
 
