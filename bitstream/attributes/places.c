@@ -72,7 +72,8 @@ int32_t fold_at(const Work *w, int32_t v, const Base *base, int j) {
         int32_t k = side == 0 ? previous_corner(base->tip) : next_corner(base->tip), beyond = c->opposite.data[k];
         if (beyond < 0 || c->rank.data[c->faces.data[beyond]] >= c->rank.data[v]) continue;
         int32_t far = c->faces.data[k], near = far == base->a ? base->b : base->a;
-        sum += value_at(g, far, j) - value_at(g, near, j) + value_at(g, c->faces.data[beyond], j) - value_at(g, base->c, j);
+        sum += value_at(g, far, j) - value_at(g, near, j);
+        sum += value_at(g, c->faces.data[beyond], j) - value_at(g, base->c, j);
     }
     return FINE / 2 * sum;
 }
