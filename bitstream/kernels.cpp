@@ -76,6 +76,7 @@ NB_MODULE(_kernels, m) {
         Unlocked());
 
     m.def("link_corners", checked<link_corners>, "corners"_a, "scratch"_a, Unlocked());
+    m.def("keep_borders", checked<keep_borders>, "corners"_a, Unlocked());
     m.def("order_vertices", checked<order_vertices>, "corners"_a, "order"_a, "scratch"_a, Unlocked());
     m.def("code_grid", checked<code_grid>, "coder"_a, "model"_a, "corners"_a, "grid"_a, "first"_a, "count"_a,
         Unlocked());

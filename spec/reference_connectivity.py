@@ -571,18 +571,26 @@ def read_degenerate(decoder: RangeDecoder, count: int, known: int, vertices: int
 
 def decode_arrangement(payload: bytes, faces: list[Face], vertices: int) -> tuple[list[int], list[Face]]:
     """9: the original number of each vertex, and the original faces."""
+    return arrange(payload, faces, vertices)[:2]
+
+
+def arrange(payload: bytes, faces: list[Face], vertices: int) -> tuple[list[int], list[Face], list[Face]]:
+    """9: the same, and which decoded corner each original one is; corner k of face f is 3 f + k."""
     decoder = RangeDecoder(payload)
     numbers = read_permutation(decoder, vertices)  # 9.1
     places = read_permutation(decoder, len(faces))
     rotations = read_rotations(decoder, len(faces))
     decoder.finish()
     renumbered = [[numbers[corner] for corner in face] for face in faces]  # 9.5
-    suggested = sorted(renumbered, key=lambda face: sorted(face, reverse=True))
+    suggested = sorted(range(len(faces)), key=lambda f: sorted(renumbered[f], reverse=True))
     original: list[Face] = [[]] * len(faces)
-    for place, face in zip(places, suggested):  # 9.6
+    corners: list[Face] = [[]] * len(faces)
+    for place, f in zip(places, suggested):  # 9.6
+        face = renumbered[f]
         first = (face.index(min(face)) + rotations[place]) % 3
         original[place] = face[first:] + face[:first]
-    return numbers, original
+        corners[place] = [3 * f + (first + i) % 3 for i in range(3)]
+    return numbers, original, corners
 
 
 def read_permutation(decoder: RangeDecoder, size: int) -> list[int]:

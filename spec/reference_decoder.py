@@ -1,13 +1,14 @@
 """A decoder of BSM streams, written from the documents of this folder alone: slow, plain, easy to compare with them.
 
 The rules that it follows are named as they are numbered: F for format.md, C for connectivity.md (see
-reference_connectivity.py), V for fields.md (see reference_fields.py), M for mathematics.md, S for sequence.md. numpy is
-used for linear algebra alone, and nothing is shared with the product.
+reference_connectivity.py), V for fields.md (see reference_fields.py), D for declarations.md (see
+reference_attributes.py), A for attributes.md, M for mathematics.md, S for sequence.md. numpy is used for linear algebra
+alone, and nothing is shared with the product.
 
     python spec/reference_decoder.py IN.bsm OUT.npz
 
-writes `positions` (float64, shape (n, 3)) and `faces` (int32, shape (m, 3)). Exit codes are those of
-spec/vectors/README.md.
+writes `positions` (float64, shape (n, 3)), `faces` (int32, shape (m, 3)), and the arrays of attributes that
+spec/vectors/README.md tells of. Exit codes are those of that file, too.
 """
 
 import binascii
@@ -21,13 +22,24 @@ from pathlib import Path
 import msgpack
 import numpy as np
 import zstandard
+from reference_attributes import FIELDS as ATTRIBUTE_FIELDS
+from reference_attributes import (
+    KINDS,
+    MOST_VALUES,
+    SEMANTICS,
+    Attribute,
+    Declaration,
+    check_declarations,
+    read_seams,
+    relief_of,
+)
 from reference_connectivity import (
     CorruptError,
     LimitError,
     Model,
     RangeDecoder,
     TruncatedError,
-    decode_arrangement,
+    arrange,
     decode_connectivity,
     decode_labels,
     neighbours_of,
@@ -35,6 +47,7 @@ from reference_connectivity import (
     read_unsigned,
 )
 from reference_fields import GridReader, LevelsReader, place
+from reference_fields import Mesh as Corners
 
 
 class FormatError(Exception):
@@ -55,7 +68,7 @@ MOST_VERTICES, MOST_FACES = 1 << 24, 1 << 25  # M 14
 MOST_BLOCKS, MOST_ROWS, MOST_COLUMNS = 1 << 17, 8192, 4096
 MOST_FRAMES, MOST_GOP_FRAMES = 1 << 20, 1024
 MOST_FRAME_BYTES, MOST_METADATA_BYTES = 1 << 28, 1 << 16
-MOST_WORK = 5e13
+MOST_WORK, MOST_ATTRIBUTES = 5e13, 255
 
 
 def require(condition, problem):
@@ -131,6 +144,8 @@ def packed_value(value, nested):
 # ---------------------------------------------------------------- F 2, F 3: stream and frames
 
 HEADER, METADATA, CONNECTIVITY, PARTITION, ORDER, BLOCK, GOP, GRID, REFINEMENT, END = 1, 2, 3, 4, 5, 6, 7, 12, 13, 15
+ATTRIBUTE, VALUES = 14, 0
+KNOWN = (HEADER, CONNECTIVITY, PARTITION, ORDER, ATTRIBUTE, BLOCK, GOP, GRID, REFINEMENT, VALUES)
 
 
 def frames_of(stream):
@@ -154,8 +169,6 @@ def frames_of(stream):
         body = stream[offset:end]
         crc = binascii.crc_hqx(body, 0) if kind == BLOCK else zlib.crc32(body)
         require(crc == int.from_bytes(stream[end : end + size], "little"), "checksum of a frame is wrong")  # F 3.3
-        if kind in (0, 14):
-            raise UnsupportedError(f"frame type {kind}")  # F 3.6
         yield kind, stream[start:end], offset, number
         offset, number = end + size, number + 1
         if kind == END:
@@ -197,42 +210,53 @@ FIELDS = {
     "lattice": (29, [0, 2], 1, COUNT, []),
     "refinements": (30, (0, 8), 0.0, 64.0, []),
     "key_seed": (31, "method", 0, 1, 0),
+    "borders": (32, "method", 0, 1, 0),
+    "attributes": (33, int, 0, 255, 0),
 }
 
 
-def parse_header(payload):
-    """F 4."""
-    names = {field[0]: name for name, field in FIELDS.items()}
-    header, entries = {}, canonical_map(payload)
+def parse_fields(payload, fields):
+    """F 4.1 to F 4.5."""
+    names = {field[0]: name for name, field in fields.items()}
+    record, entries = {}, canonical_map(payload)
     for key, value in entries:  # F 4.8: what is unsupported comes first
-        require(type(key) is int, "a header key is not an integer")
-        method = key in names and FIELDS[names[key]][1] == "method"
-        if (key < 64 and key not in names) or (method and type(value) is int and FIELDS[names[key]][3] < value <= 255):
-            raise UnsupportedError(f"header key {key} = {value}")
+        require(type(key) is int, "a key is not an integer")
+        method = key in names and fields[names[key]][1] == "method"
+        if (key < 64 and key not in names) or (method and type(value) is int and fields[names[key]][3] < value <= 255):
+            raise UnsupportedError(f"key {key} = {value}")
     for key, value in entries:
         if key >= 64:
             continue  # F 4.2
         name = names[key]
-        _, kind, low, high, default = FIELDS[name]
+        _, kind, low, high, default = fields[name]
         if type(kind) in (tuple, list):  # F 4.4
             item = float if type(kind) is tuple else int
             require(type(value) is list and all(type(v) is item for v in value), f"{name} has a wrong type")
             require(kind[0] <= len(value) <= kind[1], f"{name} has a wrong length")
             items = value
+        elif kind in (str, bytes):
+            require(type(value) is kind, f"{name} has a wrong type")
+            items = [len(value.encode() if kind is str else value)]
         else:
             require(type(value) is (float if kind is float else int), f"{name} has a wrong type")
             items = [value]
         require(value != default, f"{name} is stored although it has its default")  # F 4.3
         require(all(low <= v <= high for v in items), f"{name} is outside its legal range")  # F 4.5
-        header[name] = value
-    for name, field in FIELDS.items():
-        require(name in header or field[4] is not None, f"{name} is missing")
-        header.setdefault(name, field[4])
-    h = header
+        record[name] = value
+    for name, field in fields.items():
+        require(name in record or field[4] is not None, f"{name} is missing")
+        record.setdefault(name, field[4])
+    return record
+
+
+def parse_header(payload):
+    """F 4."""
+    header = h = parse_fields(payload, FIELDS)
     require(h["vertices"] <= 3 * h["faces"], "more vertices than corners")  # F 4.6
     if h["grid"]:
         others = {name for name in FIELDS if h[name] != FIELDS[name][4]}
-        require(others <= {"vertices", "faces", "center", "scale", "grid", "lattice"}, "a grid, and something else")
+        allowed = {"vertices", "faces", "center", "scale", "grid", "lattice", "attributes"}
+        require(others <= allowed, "a grid, and something else")
         require(len(h["grid"]) == 3, "a grid of other than three axes")
         require(len(h["lattice"]) in (0, 2), "a lattice is not two numbers")
         require(not h["lattice"] or max(h["grid"]) <= h["lattice"][1] <= h["lattice"][0], "a lattice that is none")
@@ -252,6 +276,7 @@ def parse_header(payload):
     require(all(2.0**-40 <= step <= 1 for step in steps), "a step of a refinement is out of range")
     require(all(ratio == 0 or ratio >= 1 / 16 for ratio in ratios), "a ratio of a refinement is out of range")
     require(not h["refinements"] or not h["gop_frames"], "refinements of a sequence")
+    require(h["refinements"] or not h["borders"], "borders without refinements")
     for name, most in (  # F 4.7
         ("vertices", MOST_VERTICES),
         ("faces", MOST_FACES),
@@ -260,6 +285,7 @@ def parse_header(payload):
         ("coefficients", MOST_COLUMNS),
         ("frames", MOST_FRAMES),
         ("gop_frames", MOST_GOP_FRAMES),
+        ("attributes", MOST_ATTRIBUTES),
     ):
         require_limit(h[name], most, name)
     return header
@@ -279,7 +305,7 @@ class Packets(dict):
 
 def parse_stream(stream):
     """F 3.7 to F 3.10 and F 5: the header, and the payloads of each type behind it."""
-    packets = Packets({kind: [] for kind in (HEADER, CONNECTIVITY, PARTITION, ORDER, BLOCK, GOP, GRID, REFINEMENT)})
+    packets = Packets({kind: [] for kind in KNOWN})
     try:
         read_frames(stream, packets)
     except tuple(EXIT_CODES) as fault:
@@ -292,12 +318,15 @@ def read_frames(stream, packets):
     """Checks frame after frame, and puts what they hold into `packets`."""
     header, last, metadata_seen = None, None, False
     order = {HEADER: 0, CONNECTIVITY: 1, PARTITION: 2, ORDER: 3, BLOCK: 4, GOP: 5, GRID: 5, REFINEMENT: 5, END: 6}
+    order |= {ATTRIBUTE: 3.5, VALUES: 5.5}
     for kind, payload, offset, number in frames_of(stream):
         if header is None:
             require(kind == HEADER, "the first frame must be HEADER")  # F 3.7
         if 8 <= kind <= 11:
             continue  # F 3.5
         if header and ((kind == GRID and not header["grid"]) or (kind == REFINEMENT and not header["refinements"])):
+            raise UnsupportedError(f"frame type {kind}")  # F 3.6
+        if header and kind in (ATTRIBUTE, VALUES) and not header["attributes"]:
             raise UnsupportedError(f"frame type {kind}")  # F 3.6
         if kind == METADATA:
             require_limit(len(payload), MOST_METADATA_BYTES, "metadata")
@@ -328,16 +357,22 @@ def read_frames(stream, packets):
             require(layer >= before[0], "layers must ascend")
             require(kind == GRID or layer < len(header["refinements"]) // 2, "a layer that is not announced")
             require(first == following and 0 < count <= header["vertices"] - first, "wrong vertices")  # F 3.11, F 3.12
+        elif kind == ATTRIBUTE:
+            parsed = parse_attribute(payload, packets, header)
+        elif kind == VALUES:
+            parsed = parse_values(payload, packets)
         else:
             count, at = payload_varint(payload, 0)
             require(len(payload) == at + 4, "END has a wrong length")
         place = order[kind]
         # F 3.8: ascending, CONNECTIVITY is required, and only what comes behind ORDER repeats.
-        several = (BLOCK, GOP, GRID, REFINEMENT)
+        several = (ATTRIBUTE, BLOCK, GOP, GRID, REFINEMENT, VALUES)
         legal = kind == HEADER if last is None else place > last or (place == last and kind in several)
-        require(last != 5 or kind == END or packets.get(kind), f"frame type {kind} may not come here")
+        require(last != 5 or kind in (END, VALUES) or packets.get(kind), f"frame type {kind} may not come here")
         if header and header["grid"]:
-            require(kind in (CONNECTIVITY, ORDER, GRID, END), f"frame type {kind} where there is a grid")
+            require(
+                kind in (CONNECTIVITY, ORDER, ATTRIBUTE, GRID, VALUES, END), f"frame type {kind} where there is a grid"
+            )
         require(legal and (place <= 1 or last >= 1), f"frame type {kind} may not come here")
         if kind in (BLOCK, GOP):
             require(not packets[kind] or parsed[0] > packets[kind][-1][0], "indices must ascend")  # F 3.10
@@ -348,16 +383,52 @@ def read_frames(stream, packets):
             require(header["gop_frames"] > 0, "a GOP in a static stream")  # F 5.4
             require(header["frames"] == 0 or parsed[0] < header["frames"], "GOP index too large")
         last = place
+        if header and kind in (BLOCK, GOP, GRID, VALUES, END):
+            require(len(packets[ATTRIBUTE]) == header["attributes"], "attributes are missing")  # F 3.13
         if kind == HEADER:
             header = parsed
+            order[VALUES] = 4.5 if header["gop_frames"] else 5.5  # F 3.14
             packets[HEADER].append(header)
         elif kind == END:  # F 5.5
             covered = sum(packet[2] for packet in packets[GRID])
             require(not header["grid"] or covered == header["vertices"], "positions are missing")  # F 3.11
+            for index in range(header["attributes"]):  # F 3.14
+                require(rows_read(packets, index) == packets[ATTRIBUTE][index].rows, "values are missing")
             require(count == number, "END counts other frames")
             require(int.from_bytes(payload[at:], "little") == zlib.crc32(stream[:offset]), "CRC of the stream is wrong")
         else:
             packets[kind].append(parsed)
+
+
+def parse_attribute(payload, packets, header):
+    """F 5.8."""
+    index, at = payload_varint(payload, 0)
+    size, at = payload_varint(payload, at)
+    require(size <= len(payload) - at, "a declaration ends too early")
+    one = Declaration(parse_fields(payload[at : at + size], ATTRIBUTE_FIELDS), payload[at + size :])
+    require_limit(one.rows * max(1, one.words), MOST_VALUES, "values of an attribute")
+    require(index == len(packets[ATTRIBUTE]) and index < header["attributes"], "a wrong attribute")  # F 3.13
+    check_declarations([*packets[ATTRIBUTE], one], header)
+    return one
+
+
+def parse_values(payload, packets):
+    """F 5.9, F 3.14."""
+    attribute, at = payload_varint(payload, 0)
+    first, at = payload_varint(payload, at)
+    count, at = payload_varint(payload, at)
+    declared = packets[ATTRIBUTE]
+    require(attribute < len(declared), "values of no attribute")
+    require(first == rows_read(packets, attribute), "values do not follow")
+    require(0 < count <= declared[attribute].rows - first, "a wrong number of values")
+    for before in range(attribute):
+        require(rows_read(packets, before) == declared[before].rows, "values are missing")
+    require(not packets[VALUES] or packets[VALUES][-1][0] <= attribute, "attributes must ascend")
+    return attribute, count, payload[at:]
+
+
+def rows_read(packets, attribute):
+    return sum(count for index, count, _ in packets[VALUES] if index == attribute)
 
 
 # ---------------------------------------------------------------- M 3 to M 6: blocks
@@ -545,10 +616,25 @@ def orthogonal_iterations(laplacian, start, diagonal, power, iterations):
     return subspace
 
 
+def noisy_columns(rows, columns):
+    """M 8.3, M 8.5."""
+    return cosine_columns(rows, 0, columns) + 0.25 * hash_columns(rows, columns)
+
+
+def connected(laplacian):
+    """M 8.3: whether the graph is in one piece."""
+    found, waiting = {0}, [0]
+    while waiting:
+        for row in np.flatnonzero(laplacian[waiting.pop()]).tolist():
+            if row not in found:
+                found.add(row)
+                waiting.append(row)
+    return len(found) == len(laplacian)
+
+
 def exact_basis(laplacian, columns, springs):
     """M 8.5."""
-    rows = len(laplacian)
-    start = cosine_columns(rows, 0, columns) + 0.25 * hash_columns(rows, columns)
+    start = noisy_columns(len(laplacian), columns)
     return orthogonal_iterations(laplacian, start, springs + 2.0**-5, 2, 128)
 
 
@@ -557,7 +643,9 @@ def key_dictionary(header, laplacian, columns, springs):
     if header["basis"] == 1 or header["key_seed"] == 1:
         return exact_basis(laplacian, columns, springs)
     iterations = header["iterations"] if header["seeding"] == 1 else header["key_iterations"]
-    start = cosine_columns(len(laplacian), 0, columns)
+    start = (
+        cosine_columns(len(laplacian), 0, columns) if connected(laplacian) else noisy_columns(len(laplacian), columns)
+    )
     return orthogonal_iterations(laplacian, start, springs + header["shift"], header["power"], iterations)
 
 
@@ -822,6 +910,8 @@ class Mesh:
         self.faces = decode_connectivity(coded, vertices, header["faces"], MOST_VERTICES)
         self.graph = neighbours_of(self.faces, vertices)
         self.numbers, self.arranged, self.loose = [[v] for v in range(vertices)], self.faces, {}
+        self.user_corners = [[3 * f + i for i in range(3)] for f in range(len(self.faces))]
+        self.splits = False
         if packets[PARTITION]:
             labels = decode_labels(data_of(packets, PARTITION, (0,)), self.graph, parts)
         if packets[ORDER]:
@@ -856,12 +946,13 @@ class Mesh:
         """C 9, F 9: the numbers that each vertex has, the faces, and vertices in none of them."""
         vertices = self.header["vertices"]
         if method == 1:
-            numbers, self.arranged = decode_arrangement(data, self.faces, vertices)
+            numbers, self.arranged, self.user_corners = arrange(data, self.faces, vertices)
             self.numbers = [[number] for number in numbers]
             return
+        self.splits = True
         size, at = payload_varint(data, 0)  # F 9.1
         require(size <= len(data) - at, "the order ends too early")
-        numbers, faces = decode_arrangement(data[at : at + size], self.faces, vertices)
+        numbers, faces, self.user_corners = arrange(data[at : at + size], self.faces, vertices)
         at += size
         given, at = payload_varint(data, at)
         copies, at = payload_varint(data, at)
@@ -902,12 +993,13 @@ class Mesh:
 
 
 def decode_grid(mesh, grids):
-    """V 12: positions in the unit of the mesh, shape (n, 3)."""
+    """V 12: positions in the unit of the mesh, shape (n, 3), and their coded values."""
     header = mesh.header
     reader = GridReader(mesh.faces, header["vertices"], header["grid"])
     for _, _, count, payload in grids:
         reader.read(payload, count)
-    return np.array([place(x, header["lattice"], header["center"], header["scale"]) for x in reader.x])
+    positions = [place(x, header["lattice"], header["center"], header["scale"]) for x in reader.x]
+    return np.array(positions), reader.x
 
 
 def refine(mesh, positions, refinements):
@@ -925,7 +1017,8 @@ def refine(mesh, positions, refinements):
     frames = [normals, *(axis - (normals @ axis / along)[:, None] * (pole + normals) for axis in axes)]
     refined = positions.copy()
     for layer, (step, ratio) in enumerate(zip(given[::2], given[1::2])):  # M 17.3
-        reader = LevelsReader(mesh.faces, count, 3 if ratio else 1)
+        last = layer == len(given) // 2 - 1
+        reader = LevelsReader(mesh.faces, count, 3 if ratio else 1, borders=last and mesh.header["borders"] == 1)
         for number, _, size, payload in refinements:
             if number == layer:
                 reader.read(payload, size)
@@ -987,6 +1080,8 @@ class Chain:
             return key_dictionary(header, block.laplacian, columns, springs)
         had = self.subspace.shape[1]
         start = np.concatenate([self.subspace, cosine_columns(block.size, had, max(had, columns))], axis=1)[:, :columns]
+        if not connected(block.laplacian):
+            start = start + 2.0**-8 * hash_columns(block.size, columns)
         diagonal = springs + header["shift"]
         return orthogonal_iterations(block.laplacian, start, diagonal, header["power"], header["iterations"])
 
@@ -1259,8 +1354,73 @@ def decode_frames(mesh, gops, first_frame):
     return frames
 
 
+def declared_attributes(mesh, packets):
+    """D 1 to D 3.1: the attributes before their values."""
+    header, declared = mesh.header, packets[ATTRIBUTE]
+    require(
+        not (header["gop_frames"] and any(one.coding == 3 for one in declared)), "recomputed in a sequence"
+    )  # D 4.4
+    corners = Corners(mesh.faces, header["vertices"], traverse=False)
+    attributes, earlier = [], []
+    for one in declared:
+        side = None
+        if one.domain == 1 and one.seams_of:
+            side = attributes[one.seams_of - 1].side
+        elif one.domain == 1:
+            side = read_seams(one.seams, corners, earlier)
+            earlier.append(side)
+        loose = len(mesh.loose) if one.by_vertex else 0
+        attributes.append(Attribute(one, mesh.faces, header["vertices"], loose, side, corners))
+    return attributes
+
+
+def decode_attributes(mesh, packets, attributes, positions, places):
+    """D 3 to D 5: for each attribute its arrays, as spec/vectors/README.md tells; positions are in BSM units."""
+    leaning = [one.declared for one in attributes if one.declared.leans]
+    if leaning and places is None:
+        places = relief_of(positions, leaning[0].relief, leaning[0].doubts)
+    arrays = {}
+    for index, one in enumerate(attributes):
+        declared = one.declared
+        chunks = [(count, data) for attribute, count, data in packets[VALUES] if attribute == index]
+        values = one.recomputed(positions) if declared.coding == 3 else one.read(chunks, places)
+        values, indices, domain = arranged_values(mesh, one, values)
+        name = f"attribute {index} {SEMANTICS[declared.semantic]} {domain} {declared.name}"
+        arrays[name] = np.array(values, KINDS[declared.kind]).reshape(-1, declared.components)
+        if indices is not None:
+            arrays[f"indices {index}"] = np.array(indices, np.int32).reshape(-1, 3)
+    return arrays
+
+
+def arranged_values(mesh, one, values):
+    """D 4.5: values as they are given to the user, the indices of corners, and what has them."""
+    declared, corners = one.declared, mesh.user_corners
+    if declared.domain == 2:
+        return [values[face[0] // 3] for face in corners], None, "face"
+    indices = [[one.faces[k // 3][k % 3] for k in face] for face in corners]
+    if not declared.by_vertex or (declared.domain == 1 and not mesh.splits):
+        return values, indices, "corner"
+    given = [values[0]] * (sum(map(len, mesh.numbers)) + len(mesh.loose))
+    if declared.domain == 0:
+        for numbers, value in zip(mesh.numbers, values):
+            for number in numbers:
+                given[number] = value
+    else:
+        for face, rows in zip(reversed(mesh.arranged), reversed(indices)):
+            for number, row in zip(reversed(face), reversed(rows)):
+                given[number] = values[row]
+    for number, value in zip(sorted(mesh.loose), values[one.of_vertex :]):
+        given[number] = value
+    return given, None, "vertex"
+
+
 def decode(stream):
     """Positions, shape (n, 3) or for a sequence (T, n, 3), and faces, shape (m, 3)."""
+    return decode_all(stream)[:2]
+
+
+def decode_all(stream):
+    """The same, and the arrays of attributes."""
     header, packets = parse_stream(stream)
     if header["gop_frames"] and (header["smoothing"] or header["details"]):
         raise UnsupportedError("smoothing or details in a sequence")  # S 1.1
@@ -1268,10 +1428,13 @@ def decode(stream):
     require(len(prediction) <= 1 and all(0 < k < 2.0**16 for k in prediction), "illegal prediction")  # M 7.5
     check_work(header)
     mesh = Mesh(header, packets)
+    attributes = declared_attributes(mesh, packets)
+    faces = np.array(mesh.arranged, np.int32).reshape(-1, 3)
     if header["grid"]:
-        places = decode_grid(mesh, packets[GRID])
+        positions, places = decode_grid(mesh, packets[GRID])
         packets.require(not packets.fault, "")
-        return mesh.numbered(places), np.array(mesh.arranged, np.int32).reshape(-1, 3)
+        decoded = mesh.numbered(positions)
+        return decoded, faces, decode_attributes(mesh, packets, attributes, positions, places)
     blended = decode_blocks(mesh, packets[BLOCK])
     packets.require(len(packets[BLOCK]) == header["blocks"], "a block is missing")  # M 10.3
     positions = blended.sums / blended.weights[:, None]
@@ -1279,23 +1442,24 @@ def decode(stream):
         frames = decode_frames(mesh, packets[GOP], positions)
         packets.require(not packets.fault and header["frames"] in (0, len(frames)), "frames are missing")  # S 1.2
         decoded = np.array(frames).reshape(len(frames), header["vertices"], 3)
+        positions = None
     else:
         positions = smooth(mesh.graph, positions, header["smoothing"])
         if header["refinements"]:
             positions = refine(mesh, positions, packets[REFINEMENT])
         packets.require(not packets.fault, "")
         decoded = mesh.result(positions)
-    return decoded, np.array(mesh.arranged, np.int32).reshape(-1, 3)
+    return decoded, faces, decode_attributes(mesh, packets, attributes, positions, None)
 
 
 def main():
     stream = Path(sys.argv[1]).read_bytes()
     try:
-        positions, faces = decode(stream)
+        positions, faces, attributes = decode_all(stream)
     except tuple(EXIT_CODES) as error:
         print(f"{type(error).__name__}: {error}", file=sys.stderr)
         return EXIT_CODES[type(error)]
-    np.savez_compressed(sys.argv[2], positions=positions, faces=faces)
+    np.savez_compressed(sys.argv[2], positions=positions, faces=faces, **attributes)
     return 0
 
 

@@ -170,6 +170,18 @@ class Mesh:
                     promote(self.vertex[t], 1 if flap else 0)
         return order
 
+    def keep_borders(self) -> set[int]:
+        """V 11.6: the vertices that are passed over, which no other comes behind."""
+        kept = set()
+        for k in range(len(self.vertex)):
+            ends = {self.vertex[self.next(k)], self.vertex[self.previous(k)]}
+            if k not in self.opposite and len(ends) == 2:
+                kept |= ends
+        passed = set(range(self.vertices)) - kept
+        for v in passed:
+            self.rank[v] = self.vertices
+        return passed
+
     def degree(self, v: int) -> int:
         """deg(v)."""
         return len(self.corners[v])
@@ -646,8 +658,9 @@ def place(values: Triple, lattice: list[int], center: list[float], scale: float)
 class LevelsReader(Field):
     """V 11."""
 
-    def __init__(self, faces: Iterable[Iterable[int]], vertices: int, axes: int) -> None:
+    def __init__(self, faces: Iterable[Iterable[int]], vertices: int, axes: int, *, borders: bool = False) -> None:
         super().__init__(Mesh(faces, vertices, traverse=False))
+        self.passed = self.mesh.keep_borders() if borders else set()
         self.axes = axes
         self.x = [[0] * axes for _ in range(vertices)]
         self.gap = [[0] * axes for _ in range(vertices)]
@@ -655,7 +668,9 @@ class LevelsReader(Field):
         self.learners: dict[tuple[int, int], Learner] = {}
 
     def vertex(self, decoder: RangeDecoder, v: int) -> None:
-        """V 11.2, V 11.3."""
+        """V 11.2, V 11.3, V 11.6."""
+        if v in self.passed:
+            return
         near, flaps = self.mesh.neighbours(v), self.mesh.flaps(v)
         n = len(near)
         busy = rounded(sum(16 * abs(level) for u in near for level in self.x[u]), n) if near else 64

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from bitstream.container.declaration import CORNER, Declaration
+from bitstream.container.declaration import CORNER, RECOMPUTED, Declaration
 from bitstream.container.layout import FRAME_TYPES
 from bitstream.container.packets import (
     Attribute,
@@ -181,8 +181,8 @@ class Grammar:
         first = declaration.leans > 0 and not any(other.leans for other in self._declared.values())
         if (declaration.relief > 0) != (first and not header.grid) and not self._lossy:
             return "relief belongs to the first attribute that leans on the positions of blocks, and to no other"
-        if declaration.leans and header.gop_frames:
-            return "an attribute of a sequence that leans on positions"
+        if header.gop_frames and (declaration.leans or declaration.coding == RECOMPUTED):
+            return "an attribute of a sequence that leans on positions, or is recomputed from them"
         return None
 
     def _values_problem(self, values: Values) -> str | None:

@@ -193,6 +193,8 @@ class Header:
     """Step and ratio of each layer of refinement, one pair after another; see `layers`."""
     key_seed: int = method(31, known=2)
     """Block without predecessor: 0: `key_iterations` from cosines; 1: exact eigenbasis."""
+    borders: int = method(32, known=2)
+    """1: in the last layer of refinement only vertices of borders have levels."""
     attributes: int = integer(33, 0, MOST_ATTRIBUTES, default=0)
     """How many attributes the mesh has."""
 
@@ -275,6 +277,7 @@ def _block_rules(header: Header) -> dict[str, bool]:
         "a ratio of a refinement that is neither 0 nor in 1/16..64": not all(
             x.ratio == 0 or x.ratio >= 1 / 16 for x in header.layers
         ),
+        "borders without refinements": bool(header.borders) and not header.refinements,
         "refinements of a sequence": bool(header.refinements) and header.gop_frames > 0,
     }
 

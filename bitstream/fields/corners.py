@@ -13,6 +13,7 @@ from bitstream.errors import MeshError
 Ints = npt.NDArray[np.int32]
 
 MOST_FACES = (1 << 30) // 3
+PASSED_OVER = 2**31 - 1
 BYTES_PER_VERTEX = 24
 BYTES_PER_FACE = 48
 """Of memory, scratch included, for corners and order."""
@@ -31,7 +32,7 @@ class Corners(NamedTuple):
     opposite : int32 array, shape (3 m,)
         The corner that faces the same edge from the other side, or -1.
     rank : int32 array, shape (n,)
-        When each vertex is coded.
+        When each vertex is coded; `PASSED_OVER`: not at all.
     """
 
     faces: Ints
@@ -72,6 +73,15 @@ def corners_of(faces: npt.ArrayLike, vertices: int) -> Corners:
     )
     _kernels.link_corners(corners, np.full(vertices + size, -1, np.int32))
     return corners
+
+
+def keep_borders(corners: Corners) -> npt.NDArray[np.bool_]:
+    """Let vertices of borders alone be coded: sets `corners.rank`, and returns which these are, shape (n,).
+
+    A border is an edge that a corner without a partner faces: one of one face, or of three, or of five, ...
+    """
+    _kernels.keep_borders(corners)
+    return np.asarray(corners.rank != PASSED_OVER)
 
 
 def traverse(corners: Corners) -> Ints:

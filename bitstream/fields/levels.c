@@ -94,6 +94,7 @@ static bool code_axis(RangeCoder *coder, const ValueModel *model, Levels *l, int
 }
 
 static bool code_vertex(RangeCoder *coder, const ValueModel *model, const Corners *corners, Levels *l, int32_t v) {
+    if (corners->rank.data[v] == PASSED_OVER) return true;
     Place p;
     survey(corners, l, v, &p);
     int32_t own = 0;

@@ -11,7 +11,7 @@ from bitstream import _kernels
 from bitstream.entropy.range_coder import Coder
 from bitstream.errors import MeshError, OptionError
 from bitstream.fields.chunks import Progress
-from bitstream.fields.corners import BYTES_PER_FACE, BYTES_PER_VERTEX, corners_of
+from bitstream.fields.corners import BYTES_PER_FACE, BYTES_PER_VERTEX, corners_of, keep_borders
 from bitstream.fields.model import MODEL_BYTES, TERMS, make_learners, make_model
 from bitstream.limits import DEFAULT_LIMITS, Limits
 
@@ -38,10 +38,11 @@ def levels_charge(vertices: int, faces: int, axes: int) -> int:
 class _LevelsCoder:
     """What encoder and decoder share."""
 
-    def __init__(self, faces: npt.ArrayLike, vertices: int, axes: int) -> None:
+    def __init__(self, faces: npt.ArrayLike, vertices: int, axes: int, borders: bool) -> None:
         if axes not in LEGAL_AXES:
             raise OptionError(f"a vertex has one level or three, not {axes}")
         corners = corners_of(faces, vertices)
+        self._coded = keep_borders(corners) if borders else np.ones(vertices, np.bool_)
         model = make_model()
         self._levels = _Levels(
             np.zeros((vertices, axes), np.int32),
@@ -70,6 +71,8 @@ class LevelsEncoder(_LevelsCoder):
         Any triangles.
     levels : integers, shape (n, 1) or (n, 3)
         At most `MOST_LEVEL` in magnitude: along the normal, and along two tangents.
+    borders : bool
+        Only vertices of borders have levels; those of others are 0, and cost nothing.
 
     Raises
     ------
@@ -79,13 +82,15 @@ class LevelsEncoder(_LevelsCoder):
         If there are two levels per vertex, or more than three.
     """
 
-    def __init__(self, faces: npt.ArrayLike, levels: npt.ArrayLike) -> None:
+    def __init__(self, faces: npt.ArrayLike, levels: npt.ArrayLike, *, borders: bool = False) -> None:
         given = np.asarray(levels)
         if given.ndim != 2 or given.dtype.kind not in "iu":
             raise MeshError("levels must be integers of shape (n, 1) or (n, 3)")
-        super().__init__(faces, *given.shape)
+        super().__init__(faces, given.shape[0], given.shape[1], borders)
         if ((given < -MOST_LEVEL) | (given > MOST_LEVEL)).any():
             raise MeshError(f"levels must be at most {MOST_LEVEL} in magnitude; choose a larger step")
+        if given[~self._coded].any():
+            raise MeshError("a vertex that is on no border has levels")
         self._levels.levels[:] = given
 
     def chunk(self, count: int) -> bytes:
@@ -103,6 +108,8 @@ class LevelsDecoder(_LevelsCoder):
         Their number n.
     axes : int
         Levels per vertex, 1 or 3.
+    borders : bool
+        Only vertices of borders have levels.
     limits : Limits
         `field_bytes` bounds `levels_charge`.
 
@@ -114,9 +121,17 @@ class LevelsDecoder(_LevelsCoder):
         Before anything is allocated.
     """
 
-    def __init__(self, faces: npt.ArrayLike, vertices: int, axes: int, limits: Limits = DEFAULT_LIMITS) -> None:
+    def __init__(
+        self,
+        faces: npt.ArrayLike,
+        vertices: int,
+        axes: int,
+        limits: Limits = DEFAULT_LIMITS,
+        *,
+        borders: bool = False,
+    ) -> None:
         limits.check("field_bytes", levels_charge(vertices, len(np.asarray(faces)), axes))
-        super().__init__(faces, vertices, axes)
+        super().__init__(faces, vertices, axes, borders)
 
     def chunk(self, payload: bytes, count: int) -> tuple[Ints, Ints]:
         """Decode the next `count` vertices.

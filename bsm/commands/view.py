@@ -7,15 +7,22 @@ import itertools
 import webbrowser
 from pathlib import Path
 
+from bitstream.errors import OptionError
+from bsm.commands.reader import add_reader_flag
 from bsm.console import Console
+from bsm.exits import about
+from bsm.files.mesh import read_mesh
 from bsm.files.output import open_output
 from bsm.files.pipes import read_chunks
-from bsm.viewer.page import PageServer, page_with_streams
+from bsm.viewer.content import Content, compared
+from bsm.viewer.page import PageServer, page_with
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare what the command takes."""
     parser.add_argument("inputs", metavar="IN", nargs="+", help="stream, of a mesh or a sequence, or - for a pipe")
+    parser.add_argument("--original", metavar="MESH", help="mesh file that the stream was made of, to compare it with")
+    add_reader_flag(parser)
     parser.add_argument(
         "--save",
         metavar="PAGE.html",
@@ -27,13 +34,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace, console: Console) -> int:
     """Write the page, or serve it until interrupted."""
-    streams = _read_streams(args.inputs)
+    contents = _contents(args)
     if args.save:
         with open_output(args.save, overwrite=args.force) as file:
-            file.write(page_with_streams(streams).encode())
+            file.write(page_with(contents).encode())
         console.note(f"{args.save}: open it in a browser")
         return 0
-    with PageServer(streams, args.port) as server:
+    with PageServer(contents, args.port) as server:
         address = f"http://{server.host}/"
         print(address, flush=True)
         if not args.no_open:
@@ -46,12 +53,19 @@ def run(args: argparse.Namespace, console: Console) -> int:
     return 0
 
 
-def _read_streams(inputs: list[str]) -> dict[str, bytes]:
-    """Bytes of all inputs by their names; a damaged stream is for the page to tell."""
+def _contents(args: argparse.Namespace) -> list[Content]:
+    """All inputs under names of their own; a damaged stream is for the page to tell, unless it is to be compared."""
     streams: dict[str, bytes] = {}
-    for path in inputs:
+    for path in args.inputs:
         streams[_free_name(Path(path).name, streams)] = b"".join(read_chunks(path))
-    return streams
+    if args.original is None:
+        return [Content(name, data) for name, data in streams.items()]
+    if len(streams) > 1:
+        raise OptionError("--original is for one input")
+    with about(args.original):
+        mesh = read_mesh(args.original, reader=args.reader).mesh
+    with about(args.inputs[0]):
+        return [compared(name, data, mesh) for name, data in streams.items()]
 
 
 def _free_name(name: str, taken: dict[str, bytes]) -> str:

@@ -4,36 +4,57 @@ from __future__ import annotations
 
 import base64
 import json
-from collections.abc import Mapping
+from collections.abc import Callable, Sequence
+from dataclasses import asdict
 from http import HTTPStatus
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from importlib.resources import files
+from typing import Any
 
 from bitstream.errors import DependencyError
+from bsm.viewer.content import Content
 
 LOOPBACK = "127.0.0.1"
 
-_SLOT = '<script type="application/json" id="streams">'
+_SLOT = '<script type="application/json" id="bsm-streams">'
+_SCRIPT = "<!-- script -->"
+_BYTES = "application/octet-stream"
+
+Place = Callable[[str, bytes], dict[str, str]]
 
 
-def page_with_streams(streams: Mapping[str, bytes]) -> str:
-    """One page that needs nothing beside it: `streams` by their names are inside."""
-    return _filled([{"name": name, "data": base64.b64encode(data).decode()} for name, data in streams.items()])
+def built(name: str) -> str:
+    """Text of a file that `tools/web` builds.
 
-
-def page_beside_streams(names: list[str]) -> str:
-    """The page for a server that has the streams at the paths /0, /1, ..."""
-    return _filled([{"name": name, "url": f"/{number}"} for number, name in enumerate(names)])
-
-
-def _filled(entries: list[dict[str, str]]) -> str:
+    Raises
+    ------
+    DependencyError
+        If it is missing.
+    """
     try:
-        page = files("bsm.viewer").joinpath("page.html").read_text("utf-8")
+        return files("bsm.viewer").joinpath(name).read_text("utf-8")
     except OSError as error:
-        raise DependencyError(f"the page of the viewer is missing, install the package again: {error}") from None
+        raise DependencyError(f"a part of the viewer is missing, install the package again: {error}") from None
+
+
+def page_with(contents: Sequence[Content]) -> str:
+    """One page that needs nothing beside it: all streams are inside."""
+    return _page(contents, lambda _, data: {"data": base64.b64encode(data).decode()})
+
+
+def _page(contents: Sequence[Content], place: Place) -> str:
+    """The page, with what `place` says of where the bytes are that have a path."""
+    entries: list[dict[str, Any]] = []
+    for number, content in enumerate(contents):
+        entry: dict[str, Any] = {"name": content.name} | place(f"/{number}", content.stream)
+        if content.original is not None:
+            entry["original"] = place(f"/{number}/original", content.original.astype("<f4").tobytes())
+        if content.draco is not None:
+            entry["draco"] = asdict(content.draco)
+        entries.append(entry)
     # Inside a script nothing may look like the end of it.
     listed = json.dumps(entries).replace("<", "\\u003c")
-    return page.replace(f"{_SLOT}[]", _SLOT + listed, 1)
+    return built("page.html").replace(f"{_SLOT}[]", _SLOT + listed, 1).replace(_SCRIPT, built("viewer.js"), 1)
 
 
 class PageServer(ThreadingHTTPServer):
@@ -41,19 +62,22 @@ class PageServer(ThreadingHTTPServer):
 
     Parameters
     ----------
-    streams : mapping of str to bytes
-        By their names.
+    contents : sequence of Content
     port : int
         0: any that is free.
     """
 
     daemon_threads = True
 
-    def __init__(self, streams: Mapping[str, bytes], port: int = 0) -> None:
+    def __init__(self, contents: Sequence[Content], port: int = 0) -> None:
         super().__init__((LOOPBACK, port), _Handler)
-        self.content = {"/": ("text/html; charset=utf-8", page_beside_streams(list(streams)).encode())}
-        for number, data in enumerate(streams.values()):
-            self.content[f"/{number}"] = ("application/octet-stream", data)
+        self.content: dict[str, tuple[str, bytes]] = {}
+
+        def place(path: str, data: bytes) -> dict[str, str]:
+            self.content[path] = (_BYTES, data)
+            return {"url": path}
+
+        self.content["/"] = ("text/html; charset=utf-8", _page(contents, place).encode())
 
     @property
     def host(self) -> str:

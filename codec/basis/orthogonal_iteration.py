@@ -24,7 +24,8 @@ EXACT_POWER, EXACT_ITERATIONS, EXACT_SHIFT = 2, 128, 2.0**-5
 of the lowest eigenvalues, on blocks of surfaces. Eigenvectors of closer eigenvalues nobody needs to tell apart."""
 EXACT_SOLVES = EXACT_POWER * EXACT_ITERATIONS
 START_NOISE = 0.25
-"""How much of the hash columns is added to the cosines that an exact basis begins with."""
+FOLLOWING_NOISE = 2.0**-8
+"""How much of the hash columns is added to cosines, and to a predecessor's orthonormal columns."""
 
 
 def cosine_columns(rows: int, first: int, last: int) -> Matrix:
@@ -98,23 +99,36 @@ def orthogonal_iteration(
     return subspace
 
 
+def follow_columns(previous: Matrix, width: int, noisy: bool) -> Matrix:
+    """The start of a block that follows: the predecessor's columns, and noise where `resized` might lack something."""
+    start = resized(previous, width)
+    return start + FOLLOWING_NOISE * hash_columns(*start.shape) if noisy else start
+
+
+def first_columns(rows: int, width: int, noisy: bool) -> Matrix:
+    """The start of a block that follows none: cosines, and noise where they might lack something.
+
+    What a start does not hold would grow from rounding errors: where a block has several components, each of which is
+    a lowest frequency of its own, or where there are many iterations and the block is as symmetric as cosines are.
+    """
+    start = cosine_columns(rows, 0, width)
+    return start + START_NOISE * hash_columns(rows, width) if noisy else start
+
+
 def resized(previous: Matrix, width: int) -> Matrix:
-    """The start for a block of `width` columns: the predecessor's columns, and cosines where it has fewer."""
+    """The predecessor's columns, `width` of them, and cosines where it has fewer."""
     rows, known = previous.shape
     if known >= width:
         return previous[:, :width]
     return np.concatenate([previous, cosine_columns(rows, known, width)], axis=1)
 
 
-def exact_basis(laplacian: Laplacian, width: int, springs: float | Matrix = 0.0) -> Matrix:
-    """The `width` lowest eigenvectors of L + diag(springs): many orthogonal iterations.
+def exact_basis(laplacian: Laplacian, start: Matrix, springs: float | Matrix = 0.0) -> Matrix:
+    """The lowest eigenvectors of L + diag(springs): many orthogonal iterations from `start`, see `first_columns`.
 
     No eigensolver: within a space of equal eigenvalues that may return any rotation. This is a smooth function of the
-    matrix, the same for all who compute it. The noise in the start is for blocks as symmetric as cosines are: what the
-    start does not hold at all would grow from rounding errors.
+    matrix, the same for all who compute it. The noise in the start is for blocks as symmetric as cosines are.
     """
-    size = laplacian.block.size
-    start = cosine_columns(size, 0, width) + START_NOISE * hash_columns(size, width)
     shift = springs + EXACT_SHIFT
     return orthogonal_iteration(laplacian, start, shift=shift, power=EXACT_POWER, iterations=EXACT_ITERATIONS)
 

@@ -47,3 +47,8 @@ def component_sizes(graph: Graph) -> Indices:
     sizes, waiting = np.zeros(graph.size, np.int32), np.empty(graph.size, np.int32)
     seen = np.zeros(graph.size, np.uint8)
     return sizes[: _kernels.component_sizes(graph.offsets, graph.neighbours, seen, waiting, sizes)]
+
+
+def is_connected(graph: Graph) -> bool:
+    """Whether there is a way between any two vertices."""
+    return len(component_sizes(graph)) == 1

@@ -18,8 +18,11 @@ from bitstream.errors import BsmError, CorruptError, FormatError, UnsupportedErr
 from bitstream.limits import DEFAULT_LIMITS, Limits
 from codec.arrays import Faces, Matrix, Positions
 from codec.blocks.blend import Blend
+from codec.geometry.attributes import Attribute
 from codec.sequence.gop import GopDecoder, make_setting
-from codec.static.events import ConnectivityEvent, EndEvent, HeaderEvent, LossEvent, unreadable
+from codec.signal.chain import Rounding, unchanged
+from codec.static.attributes.decoding import Carried, without_positions
+from codec.static.events import AttributeEvent, ConnectivityEvent, EndEvent, HeaderEvent, LossEvent, unreadable
 from codec.static.layers.block_coder import ChainDecoder
 from codec.static.preamble import Beginning, Body, Structure
 from codec.static.rules import chain_rules
@@ -35,7 +38,7 @@ class FrameEvent:
     positions: Positions
 
 
-Event: TypeAlias = HeaderEvent | ConnectivityEvent | FrameEvent | LossEvent | EndEvent | Signal
+Event: TypeAlias = HeaderEvent | ConnectivityEvent | AttributeEvent | FrameEvent | LossEvent | EndEvent | Signal
 Item: TypeAlias = Event | Iterator[FrameEvent]
 
 
@@ -47,6 +50,8 @@ class Wishes:
     threads: int | None
     tolerant: bool
     start: int
+    attributes: list[Attribute]
+    """Those that have come, for the user."""
 
 
 class FirstFrame:
@@ -59,6 +64,7 @@ class FirstFrame:
         self._allowance = Allowance(wishes.limits)
         self._chain = ChainDecoder(structure.scheme, 0, self._allowance)
         self._next = 0
+        self._carried = Carried(structure)
 
     def accept(self, arrival: Arrival, queue: deque[Item]) -> Stage[Item]:
         count = self._structure.scheme.blocks.count
@@ -66,14 +72,30 @@ class FirstFrame:
             case packets.Block():
                 self._add(arrival)
                 return self
+            case packets.Values() if self._next == count:
+                queue.append(self._values(arrival))
+                return self
             case packets.Damaged() if self._next < count:
                 raise unreadable(arrival)
+            case packets.Damaged(type=FrameType.VALUES):
+                queue.append(LossEvent(None, unreadable(arrival)))
+                return self
         if self._next < count:
             raise CorruptError(f"the first frame ends after {self._next} of {count} blocks")
         everything = np.arange(self._structure.header.vertices, dtype=np.int32)
         return Gops(self._structure, self._blend.positions(everything), self._wishes, self._allowance).accept(
             arrival, queue
         )
+
+    def _values(self, packet: packets.Values) -> AttributeEvent | LossEvent:
+        try:
+            event = self._carried.add(packet, without_positions)
+        except BsmError as error:
+            if not self._wishes.tolerant:
+                raise
+            return LossEvent(None, error)
+        self._wishes.attributes[:] = self._carried.attributes(None)
+        return event
 
     def _add(self, packet: packets.Block) -> None:
         """Decode the next block."""
@@ -212,6 +234,8 @@ class SequenceDecoder(StreamDecoder[Item]):
         whole in any case.
     start : int
         Give no frame before this one; GOPs that it does not need are not decoded.
+    rounding : callable, optional
+        What is done to the numbers that dictionaries and predictions start from; see `ChainRules`.
     """
 
     def __init__(
@@ -221,14 +245,22 @@ class SequenceDecoder(StreamDecoder[Item]):
         *,
         tolerant: bool = False,
         start: int = 0,
+        rounding: Rounding = unchanged,
     ) -> None:
-        wishes = Wishes(limits, threads, tolerant, start)
+        self._attributes: list[Attribute] = []
+        wishes = Wishes(limits, threads, tolerant, start, self._attributes)
         body = Body(
             limits,
             check=lambda header: check_header(header, limits),
             begin=lambda structure: FirstFrame(structure, wishes),
+            rounding=rounding,
         )
         super().__init__(Beginning(body), limits, tolerant=tolerant)
+
+    @property
+    def attributes(self) -> tuple[Attribute, ...]:
+        """Those of the mesh that are the same in all frames, as far as they are whole; all when the first frame is."""
+        return tuple(self._attributes)
 
     def close(self) -> None:
         """Give up what was not asked for."""

@@ -16,6 +16,7 @@ from bitstream.container.header import Header
 from bitstream.container.writer import Writer
 from bitstream.errors import MeshError, OptionError
 from codec.arrays import Matrix, Order
+from codec.geometry.attributes import Attribute
 from codec.geometry.mesh import Metadata, TriangleMesh
 from codec.sequence.decoder import decode_sequence
 from codec.sequence.gop import GopEncoder, Setting, make_setting
@@ -25,9 +26,12 @@ from codec.sequence.targets import SequenceComparison, compare_sequences
 from codec.signal.chain import ChainRules
 from codec.signal.quantize import smallest_step
 from codec.static.assembly import blended
+from codec.static.attributes.encoding import carry, place_of_first_frame, with_attributes
+from codec.static.attributes.quality import qualities
 from codec.static.layers.block_coder import CodedBlock, Progress, encode_blocks
 from codec.static.layers.coding import Adaptive
 from codec.static.preamble import Parts, Prepared, prepare
+from codec.static.quality.draft import Draft
 from codec.static.quality.targets import search_step
 from codec.static.rules import STIFFNESS, Scheme
 from codec.static.units import single
@@ -85,6 +89,8 @@ class SequenceEncoder:
         Number of frames, 0 if it is not known.
     metadata : mapping from str to str, int, float or bytes
         What belongs to the whole sequence.
+    attributes : sequence of Attribute
+        Of the mesh, the same in all frames, at the qualities that the options say.
 
     Attributes
     ----------
@@ -102,14 +108,16 @@ class SequenceEncoder:
         options: SequenceOptions | None = None,
         frames: int = 0,
         metadata: Metadata = MappingProxyType({}),
+        attributes: Sequence[Attribute] = (),
     ) -> None:
         self.options = options or SequenceOptions()
-        self._metadata = (packets.Metadata(metadata),) if metadata else ()
         self.vertex_order: Order = np.empty(0, np.int64)
         self.face_order: Order = np.empty(0, np.int64)
         self.notes: tuple[str, ...] = ()
         self._faces = faces
         self._count = frames
+        self._attributes = tuple(attributes)
+        self._metadata = metadata
 
     def chunks(self, frames: Iterable[npt.ArrayLike], progress: Progress | None = None) -> Iterator[bytes]:
         """The stream, stream frame by stream frame; each GOP is given as soon as its frames are there.
@@ -161,15 +169,21 @@ class SequenceEncoder:
             raise MeshError("a sequence needs at least one frame")
         gops = -(-self._count // (options.gop if options.mode == "gop" else 1))
         tell = _Rounds(progress if gops else None, 1 + gops)
-        given = TriangleMesh(np.asarray(first), np.asarray(self._faces))
+        given = TriangleMesh(np.asarray(first), np.asarray(self._faces), self._attributes)
         parts = Parts(options.block_size, options.overlap)
         prepared = prepare(given, parts, keep_order=options.keep_order)
         self.vertex_order, self.face_order = prepared.vertex_order, prepared.face_order
         opening = open_sequence(prepared, options, self._count, tell)
+        wanted = qualities(self._attributes, dict(options.attributes), "balanced")
+        carried = carry(place_of_first_frame(given, prepared), wanted)
+        self.notes = tuple(one.said for one in carried)
+        draft = Draft(
+            opening.header, (*prepared.before_blocks, *(block.packet for block in opening.blocks)), given.positions
+        )
+        draft = with_attributes(draft, prepared, carried, self._metadata, still=False)
         writer = Writer()
         yield writer.start()
-        before = (opening.header, *self._metadata, *prepared.before_blocks)
-        for packet in (*before, *(block.packet for block in opening.blocks)):
+        for packet in (draft.header, *draft.body):
             yield writer.write(packet)
         encoder = GopEncoder(opening.setting, options)
         number = 0
@@ -266,9 +280,10 @@ def encode_sequence(
     faces: npt.ArrayLike,
     options: SequenceOptions | None = None,
     metadata: Metadata = MappingProxyType({}),
+    attributes: Sequence[Attribute] = (),
 ) -> bytes:
-    """Encode frames, `positions` of shape (T, n, 3), to a complete stream."""
+    """Encode frames, `positions` of shape (T, n, 3), to a complete stream; other arguments as of `SequenceEncoder`."""
     frames = np.asarray(positions, np.float64)
     if frames.ndim != 3 or frames.shape[2] != 3 or len(frames) == 0:
         raise MeshError(f"the positions of a sequence must have shape (T, n, 3), T > 0, not {frames.shape}")
-    return b"".join(SequenceEncoder(faces, options, len(frames), metadata).chunks(frames))
+    return b"".join(SequenceEncoder(faces, options, len(frames), metadata, attributes).chunks(frames))

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 from codec.choices import check_options
 from codec.sequence.targets import SequenceTarget
+from codec.static.attributes.quality import checked_qualities
 
 CHOICES = {
     "mode": ("gop", "low-delay"),
@@ -53,6 +55,8 @@ class SequenceOptions:
         Fraction added before a magnitude is cut to an integer; below 0.5 it widens the dead zone.
     keep_order : bool
         Store the order of vertices and faces, and the first corner of each face.
+    attributes : mapping of str to str, or pairs
+        How well attributes that are the same in all frames are kept, as of a mesh.
     threads : int, optional
         None: one per core.
     target : SequenceTarget, optional
@@ -76,8 +80,10 @@ class SequenceOptions:
     frame_rate: float = 0.0
     rounding: float = 0.4
     keep_order: bool = False
+    attributes: Mapping[str, str] | tuple[tuple[str, str], ...] = ()
     threads: int | None = None
     target: SequenceTarget | None = None
 
     def __post_init__(self) -> None:
         check_options(self, CHOICES, RANGES)
+        object.__setattr__(self, "attributes", checked_qualities(self.attributes))

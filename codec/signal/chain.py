@@ -6,14 +6,29 @@ chains know nothing of each other, which bounds what a lost block costs and lets
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from typing import TypeAlias
 
 from codec.arrays import Matrix
 from codec.basis.laplacian import Laplacian, laplacian_of
-from codec.basis.orthogonal_iteration import EXACT_SOLVES, cosine_columns, exact_basis, orthogonal_iteration, resized
+from codec.basis.orthogonal_iteration import (
+    EXACT_SOLVES,
+    exact_basis,
+    first_columns,
+    follow_columns,
+    orthogonal_iteration,
+)
 from codec.blocks.overlap import Block
-from codec.geometry.graph import Graph
+from codec.geometry.graph import Graph, is_connected
 from codec.signal.predict import Known, Surroundings, unheld
+
+Rounding: TypeAlias = Callable[[Matrix], Matrix]
+
+
+def unchanged(values: Matrix) -> Matrix:
+    """The values themselves."""
+    return values
 
 
 @dataclass(frozen=True)
@@ -34,6 +49,9 @@ class ChainRules:
         z, t_max, t_max of a block without predecessor, and delta.
     stiffness : float, optional
         Of the springs in the prediction, see `codec.signal.predict`; None: no prediction.
+    rounding : callable
+        What becomes of the numbers that dictionaries and predictions start from: nothing, but where it is tried whether
+        a stream bears other rounding errors, see `codec.steadiness`.
     """
 
     exact: bool
@@ -45,6 +63,7 @@ class ChainRules:
     key_iterations: int
     shift: float
     stiffness: float | None
+    rounding: Rounding = unchanged
 
     @property
     def solves(self) -> int:
@@ -83,11 +102,18 @@ def even_interval(interval: int, blocks: int) -> int:
 
 def key_dictionary(rules: ChainRules, laplacian: Laplacian, width: int, springs: Matrix) -> Matrix:
     """U of a block that follows no other, with `width` columns, on springs."""
-    if rules.exact or rules.exact_keys:
-        return exact_basis(laplacian, width, springs)
-    start = cosine_columns(laplacian.block.size, 0, width)
+    block = laplacian.block
+    exact = rules.exact or rules.exact_keys
+    start = rules.rounding(first_columns(block.size, width, exact or in_pieces(block)))
+    if exact:
+        return exact_basis(laplacian, start, springs)
     iterations = rules.iterations if rules.independent else rules.key_iterations
     return orthogonal_iteration(laplacian, start, shift=springs + rules.shift, power=rules.power, iterations=iterations)
+
+
+def in_pieces(block: Block) -> bool:
+    """Whether a block has several components."""
+    return not is_connected(Graph(block.offsets, block.neighbours))
 
 
 class Chain:
@@ -117,11 +143,12 @@ class Chain:
         if rules.exact or not self._follows(laplacian.block):
             return key_dictionary(rules, laplacian, width, around.springs)
         assert self._subspace is not None
-        start, shift = resized(self._subspace, width), around.springs + rules.shift
+        start = rules.rounding(follow_columns(self._subspace, width, in_pieces(laplacian.block)))
+        shift = around.springs + rules.shift
         return orthogonal_iteration(laplacian, start, shift=shift, power=rules.power, iterations=rules.iterations)
 
     def commit(self, block: Block, subspace: Matrix, positions: Matrix) -> None:
         """Make a block, its subspace and its decoded positions, shape (n_i, 3), the predecessor's."""
         self._subspace = subspace
         if self._known is not None:
-            self._known.add(block, positions)
+            self._known.add(block, self._rules.rounding(positions))

@@ -12,6 +12,7 @@ from bitstream.container.reader import END_OF_STREAM, Signal
 from bitstream.errors import BsmError, CorruptError, OptionError, UnsupportedError
 from bitstream.limits import DEFAULT_LIMITS, Limits
 from codec.geometry.mesh import TriangleMesh
+from codec.signal.chain import Rounding, unchanged
 from codec.static.assembly import Assembly, DecodedBlock
 from codec.static.attributes.decoding import PendingValues, ValuesStage, completed
 from codec.static.events import (
@@ -158,6 +159,8 @@ class Decoder(StreamDecoder[Item]):
     layers : int, optional
         How many to decode: 1 is the base alone, and each layer of refinement one more; None: all. What comes behind
         them is not waited for.
+    rounding : callable, optional
+        What is done to the numbers that dictionaries and predictions start from; see `ChainRules`.
     """
 
     def __init__(
@@ -167,6 +170,7 @@ class Decoder(StreamDecoder[Item]):
         *,
         tolerant: bool = False,
         layers: int | None = None,
+        rounding: Rounding = unchanged,
     ) -> None:
         if layers is not None and layers < 1:
             raise OptionError("at least one layer must be decoded")
@@ -180,7 +184,13 @@ class Decoder(StreamDecoder[Item]):
             self._most_ahead = most_ahead(structure.header)
             return BlockStage(structure, wishes, lanes, allowance)
 
-        body = Body(limits, check=lambda header: check_header(header, limits), begin=begin, tolerant=tolerant)
+        body = Body(
+            limits,
+            check=lambda header: check_header(header, limits),
+            begin=begin,
+            tolerant=tolerant,
+            rounding=rounding,
+        )
         super().__init__(Beginning(body), limits, tolerant=tolerant)
         self._lanes = lanes
 

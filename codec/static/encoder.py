@@ -17,7 +17,7 @@ from codec.geometry.mesh import TriangleMesh
 from codec.geometry.metrics import Comparison, Reference
 from codec.signal.quantize import smallest_step
 from codec.static.attributes.encoding import Carried, carry, place_of, with_attributes
-from codec.static.attributes.quality import Quality, default_quality, parse_quality
+from codec.static.attributes.quality import Quality, qualities
 from codec.static.joining import Joined, join
 from codec.static.layers.block_coder import Progress
 from codec.static.options import EncodeOptions
@@ -84,7 +84,8 @@ class Encoder:
     @property
     def notes(self) -> tuple[str, ...]:
         """What was changed on the way in, and what becomes of attributes."""
-        left = [one.name for one, quality in self._wanted if quality.way == "none"]
+        sent = {one.name for one, _ in self._wanted}
+        left = [one.name for one in self._given.attributes if one.name not in sent]
         said = (*(one.said for one in self._carried), *([f"left out: {', '.join(left)}"] if left else []))
         return (*self._joined.notes, *said)
 
@@ -223,26 +224,15 @@ class Encoder:
 
     @cached_property
     def _wanted(self) -> list[tuple[Attribute, Quality]]:
-        """The attributes of the given mesh, and what is asked of each."""
-        given, asked = self._given.attributes, dict(self.options.attributes)
-        unknown = sorted(set(asked) - {one.name for one in given} - {"*"})
-        if unknown:
-            there = ", ".join(one.name for one in given) or "none"
-            raise OptionError(f"the mesh has no attribute {unknown[0]!r}; there are: {there}")
-        return [(one, self._quality(one, asked)) for one in given]
-
-    def _quality(self, attribute: Attribute, asked: dict[str, str]) -> Quality:
-        if attribute.name in asked:
-            return parse_quality(asked[attribute.name])
-        floats = attribute.values.dtype.kind == "f" and attribute.components == 3
-        if self.options.normals == "recompute" and attribute.semantic == "normal" and floats:
-            return Quality("recompute")
-        return parse_quality(asked["*"]) if "*" in asked else default_quality(attribute, self.options.grade)
+        """The attributes that are sent, and what is asked of each."""
+        options = self.options
+        return qualities(self._given.attributes, dict(options.attributes), options.grade, options.normals)
 
     @cached_property
     def _carried(self) -> tuple[Carried, ...]:
-        wanted = [(one, quality) for one, quality in self._wanted if quality.way != "none"]
-        return carry(place_of(self._given, self._joined, self._prepared), wanted) if wanted else ()
+        if not self._wanted:
+            return ()
+        return carry(place_of(self._given, self._joined, self._prepared), self._wanted)
 
     @cached_property
     def _joined(self) -> Joined:

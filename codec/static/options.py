@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from bitstream.errors import OptionError
 from codec.choices import check_options
-from codec.static.attributes.quality import Grade, parse_quality
+from codec.static.attributes.quality import Grade, checked_qualities
 from codec.static.quality.contract import ANY_ANGLE, Contract
 from codec.static.quality.targets import Target
 from codec.static.rules import BASES, BLENDS, KEY_SEEDS, SEEDS
@@ -144,9 +144,7 @@ class EncodeOptions:
 
     def __post_init__(self) -> None:
         check_options(self, CHOICES, RANGES)
-        object.__setattr__(self, "attributes", tuple(sorted(dict(self.attributes).items())))
-        for text in dict(self.attributes).values():
-            parse_quality(text)
+        object.__setattr__(self, "attributes", checked_qualities(self.attributes))
         if self.detail_ratio and (self.bits is not None or self.doi is not None):
             raise OptionError("a detail layer excludes a fixed number of bits and dynamic subspaces")
         if self.doi is not None and not 0.0 < self.doi[0] < self.doi[1]:

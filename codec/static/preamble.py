@@ -28,6 +28,7 @@ from codec.blocks.overlap import Blocks, block_size, grow_blocks
 from codec.blocks.partition import Partition, derive_partition, metis_partition, partition_of_labels
 from codec.geometry.graph import Graph, component_sizes, graph_of_faces
 from codec.geometry.mesh import TriangleMesh
+from codec.signal.chain import Rounding, unchanged
 from codec.static.attributes.decoding import Declarations
 from codec.static.events import HeaderEvent, LossEvent, unreadable
 from codec.static.numbering import Numbering
@@ -218,6 +219,8 @@ class Structure:
     declarations : Declarations
         Attributes.
     limits : Limits
+    rounding : callable
+        See `ChainRules`.
     """
 
     header: Header
@@ -227,6 +230,7 @@ class Structure:
     partition: Partition | None
     declarations: Declarations
     limits: Limits
+    rounding: Rounding = unchanged
 
     @property
     def units(self) -> Units:
@@ -247,17 +251,19 @@ class Structure:
         largest = int(np.diff(partition.bounds).max())
         if largest > header.block_size:
             raise CorruptError(f"a part of {largest} vertices in blocks of {header.block_size}")
-        return scheme_of(header, self.faces, grow_blocks(self.graph, partition, header.block_size))
+        blocks = grow_blocks(self.graph, partition, header.block_size)
+        return scheme_of(header, self.faces, blocks, self.rounding)
 
 
 @dataclass(frozen=True)
 class Body:
-    """What a decoder is for: which headers it takes, and what comes behind the preamble."""
+    """What a decoder is for: which headers it takes, what comes behind the preamble, and how numbers are rounded."""
 
     limits: Limits
     check: Callable[[Header], None]
     begin: Callable[[Structure], Stage[Any]]
     tolerant: bool = False
+    rounding: Rounding = unchanged
 
 
 @dataclass(frozen=True, eq=False)
@@ -328,6 +334,7 @@ class Connected:
                         self.partition,
                         self.declarations,
                         self.body.limits,
+                        self.body.rounding,
                     )
                 )
                 queue.append(self.numbering.event(self.header.vertices))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from bitstream.container.header import Header
@@ -10,7 +10,7 @@ from bitstream.errors import CorruptError
 from codec.arrays import Faces, Matrix
 from codec.blocks.blend import copy_weights
 from codec.blocks.overlap import Block, Blocks
-from codec.signal.chain import ChainRules
+from codec.signal.chain import ChainRules, Rounding, unchanged
 from codec.signal.predict import MAX_STIFFNESS
 from codec.static.layers.coding import Coding, coding_of
 
@@ -74,9 +74,10 @@ class Scheme:
         }
 
 
-def scheme_of(header: Header, faces: Faces, blocks: Blocks) -> Scheme:
+def scheme_of(header: Header, faces: Faces, blocks: Blocks, rounding: Rounding = unchanged) -> Scheme:
     """What the header says; `faces`, shape (m, 3), as the decoder numbers them."""
-    return Scheme(blocks, chain_rules(header), coding_of(header, faces), BLENDS[header.blend])
+    rules = replace(chain_rules(header), rounding=rounding)
+    return Scheme(blocks, rules, coding_of(header, faces), BLENDS[header.blend])
 
 
 def chain_rules(header: Header) -> ChainRules:

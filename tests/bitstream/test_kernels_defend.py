@@ -94,6 +94,8 @@ def test_every_kernel_defends_itself(refusals: dict[str, int]) -> None:
     np.testing.assert_array_equal(found, positions[places])
     payload = levels.LevelsEncoder(decoded, positions - 3).chunk(vertices)
     np.testing.assert_array_equal(levels.LevelsDecoder(decoded, vertices, 3).chunk(payload, vertices)[1], positions - 3)
+    payload = levels.LevelsEncoder(decoded, 0 * positions, borders=True).chunk(vertices)
+    assert not levels.LevelsDecoder(decoded, vertices, 3, borders=True).chunk(payload, vertices)[1].any()
 
     linked = corners.corners_of(decoded, vertices)
     torn = attribute_seams.find_seams(linked, given % 5)

@@ -9,6 +9,7 @@ import subprocess
 import sys
 import urllib.error
 import urllib.request
+from dataclasses import astuple
 from pathlib import Path
 from typing import Any
 
@@ -17,6 +18,9 @@ import pytest
 
 import bsm
 from bsm.cli import main
+from bsm.evaluation.draco import encode_draco
+from bsm.viewer.content import DRACO_LEVEL, compared
+from tests.shapes import torus
 
 needs_packages = pytest.mark.skipif(
     shutil.which("node") is None or not (Path(__file__).parents[2] / "tools/web/node_modules").is_dir(),
@@ -25,7 +29,7 @@ needs_packages = pytest.mark.skipif(
 ROOT = Path(__file__).parents[2]
 VECTORS = ROOT / "spec" / "vectors"
 WEB = ROOT / "tools" / "web"
-SLOT = re.compile(r'<script type="application/json" id="streams">(.*?)</script>', re.DOTALL)
+SLOT = re.compile(r'<script type="application/json" id="bsm-streams">(.*?)</script>', re.DOTALL)
 
 
 def listed(page: str) -> list[dict[str, str]]:
@@ -76,6 +80,44 @@ def javascript(tests: str, **environment: str) -> None:
         command, cwd=WEB, env=os.environ | environment, capture_output=True, text=True, timeout=300, check=False
     )
     assert run.returncode == 0, run.stdout + run.stderr
+
+
+def test_original_is_numbered_as_the_stream(tmp_path):
+    mesh = torus()
+    source, stream, page = tmp_path / "ball.ply", tmp_path / "ball.bsm", tmp_path / "page.html"
+    bsm.save(mesh, source)
+    stream.write_bytes(bsm.encode(mesh))
+    assert main(["view", str(stream), "--original", str(source), "--save", str(page)]) == 0
+    (entry,) = listed(page.read_text("utf-8"))
+    original = np.frombuffer(base64.b64decode(entry["original"]["data"]), "<f4").reshape(-1, 3)
+    decoded = bsm.decode(stream)
+    here, there = bsm.compare((original, decoded.faces), decoded), bsm.compare(mesh, decoded)
+    assert astuple(here) == pytest.approx(astuple(there), rel=1e-3)
+
+
+def test_draco_beside_it_keeps_the_normals_as_well(tmp_path):
+    pytest.importorskip("DracoPy")
+    mesh = torus()
+    data = bsm.encode(mesh, theta=5)
+    draco = compared("ball", data, mesh).draco
+    assert draco
+    assert draco.theta <= bsm.compare(mesh, data).theta_deg
+    assert 100 < draco.bytes == len(encode_draco(in_order(data, mesh), draco.bits, DRACO_LEVEL))
+
+
+def in_order(data: bytes, mesh: bsm.TriangleMesh) -> bsm.TriangleMesh:
+    original = compared("ball", data, mesh).original
+    assert original is not None
+    return bsm.TriangleMesh(original.astype(float), bsm.decode(data).faces)
+
+
+def test_original_of_a_sequence_is_refused(tmp_path, capsys):
+    stream, mesh = str(VECTORS / "good-sequence-one.bsm"), str(tmp_path / "ball.ply")
+    bsm.save(torus(), mesh)
+    assert main(["view", stream, "--original", mesh, "--save", "unused.html"]) != 0
+    assert "sequence" in capsys.readouterr().err
+    assert main(["view", stream, stream, "--original", mesh, "--save", "unused.html"]) != 0
+    assert "one input" in capsys.readouterr().err
 
 
 @needs_packages

@@ -17,6 +17,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from bitstream.errors import BsmError
+from bitstream.fields.corners import corners_of, keep_borders
 from bitstream.fields.grid import MOST_LARGEST, GridDecoder, GridEncoder
 from bitstream.fields.lattice import spread
 from bitstream.fields.levels import MOST_LEVEL, LevelsDecoder, LevelsEncoder
@@ -96,16 +97,21 @@ def test_grids(reference, mesh, largest, kind, seed, chunk, data):
 
 
 @quick
-@given(SOUPS, st.sampled_from([1, 3]), st.sampled_from([1, 9, MOST_LEVEL]), KINDS, SEEDS, CHUNKS, st.data())
-def test_levels(reference, mesh, axes, most, kind, seed, chunk, data):
+@given(
+    SOUPS, st.sampled_from([1, 3]), st.sampled_from([1, 9, MOST_LEVEL]), KINDS, SEEDS, CHUNKS, st.booleans(), st.data()
+)
+def test_levels(reference, mesh, axes, most, kind, seed, chunk, borders, data):
     faces, vertices = mesh
     if not vertices:
         return
     levels = values(vertices, [-most] * axes, [most] * axes, kind, seed)
-    chunks = encode(LevelsEncoder(faces, levels), vertices, chunk)
+    if borders:
+        levels[~keep_borders(corners_of(faces, vertices))] = 0
+    chunks = encode(LevelsEncoder(faces, levels, borders=borders), vertices, chunk)
     for payloads in (chunks, damaged(chunks, data)):
-        expected = outcome(product(LevelsDecoder(faces, vertices, axes)), payloads)
-        assert outcome(plain(reference.LevelsReader(faces.tolist(), vertices, axes)), payloads) == expected
+        expected = outcome(product(LevelsDecoder(faces, vertices, axes, borders=borders)), payloads)
+        reader = reference.LevelsReader(faces.tolist(), vertices, axes, borders=borders)
+        assert outcome(plain(reader), payloads) == expected
 
 
 @pytest.mark.real

@@ -64,20 +64,20 @@ def random_mesh(random: Random) -> TriangleMesh:
 def _soup(random: Random) -> TriangleMesh:
     """Every face with vertices of its own."""
     mesh = patch(random.randrange(2, 7), random.randrange(2, 7))
-    return TriangleMesh(mesh.positions[mesh.faces.ravel()], np.arange(mesh.faces.size).reshape(-1, 3))
+    return TriangleMesh(mesh.positions[mesh.faces.ravel()], np.arange(mesh.faces.size, dtype=np.int32).reshape(-1, 3))
 
 
 def _disorder(random: Random) -> TriangleMesh:
     """Faces without any order."""
     numbers = np.random.default_rng(random.randrange(1 << 30))
     size = random.randrange(3, 60)
-    faces = numbers.integers(0, size, (random.randrange(1, 2 * size), 3))
+    faces = numbers.integers(0, size, (random.randrange(1, 2 * size), 3), np.int32)
     return TriangleMesh(numbers.normal(size=(size, 3)), faces)
 
 
 def _components(random: Random) -> TriangleMesh:
     """Up to forty of them."""
-    small = [tetrahedron, triangle, lambda: torus(5, 4), lambda: patch(3, 3)]
+    small: list[Callable[[], TriangleMesh]] = [tetrahedron, triangle, lambda: torus(5, 4), lambda: patch(3, 3)]
     return together(*(random.choice(small)() for _ in range(random.choice((2, 5, 40)))))
 
 
@@ -97,7 +97,9 @@ _SHAPES: tuple[Callable[[Random], TriangleMesh], ...] = (
 
 def _noise(random: Random, positions: Positions) -> Positions:
     size = 10.0 ** random.uniform(-6, 0)
-    return positions + np.random.default_rng(random.randrange(1 << 30)).normal(scale=size, size=positions.shape)
+    noise: Positions = np.random.default_rng(random.randrange(1 << 30)).normal(size=positions.shape)
+    moved: Positions = positions + size * noise
+    return moved
 
 
 _DEFORMATIONS: tuple[Callable[[Random, Positions], Positions], ...] = (
@@ -106,7 +108,7 @@ _DEFORMATIONS: tuple[Callable[[Random, Positions], Positions], ...] = (
     lambda random, positions: positions + np.array([1e4, -3e5, 7.0]),
     lambda random, positions: positions * (1.0, 1.0, 0.0),
     lambda random, positions: np.round(positions, random.randrange(2)),
-    lambda random, positions: np.float32(positions).astype(np.float64),
+    lambda random, positions: positions.astype(np.float32).astype(np.float64),
 )
 
 

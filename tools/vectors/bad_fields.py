@@ -120,6 +120,12 @@ BAD_FIELDS: dict[str, Bad] = {
     "bad-refinement-ratio": Bad(
         "a ratio below 1/16", "corrupt", lambda: with_header(_refined(), refinements=[0.1, 0.01, 0.1, 3.0])
     ),
+    "bad-borders-alone": Bad(
+        "borders without refinements", "corrupt", lambda: with_header(encode(torus(8, 7), BASE), borders=1)
+    ),
+    "unsupported-borders": Bad(
+        "borders of a kind that is not known", "unsupported", lambda: with_header(_refined(), borders=2)
+    ),
     "bad-refinement-odd": Bad("a step without a ratio", "corrupt", lambda: with_header(_refined(), refinements=[0.1])),
     "bad-refinement-early": Bad(
         "REFINEMENT before the last BLOCK", "corrupt", lambda: stream_of(_early(frames_of(_refined())))

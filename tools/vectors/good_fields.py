@@ -9,6 +9,7 @@ import numpy as np
 from bitstream.container.header import Header, Layer
 from bitstream.container.packets import Grid, Packet, Refinement
 from bitstream.container.writer import write_stream
+from bitstream.fields.corners import corners_of, keep_borders
 from bitstream.fields.grid import GridEncoder
 from bitstream.fields.levels import LevelsEncoder
 from codec.geometry.mesh import TriangleMesh
@@ -60,14 +61,23 @@ def base(mesh: TriangleMesh) -> Base:
     return Spectral(encoder._prepared, BASE).base(BASE.first_step)
 
 
-def refined(mesh: TriangleMesh, layers: tuple[Layer, ...], counts: tuple[tuple[int, ...], ...]) -> bytes:
-    """Blocks with layers of the nearest levels, in chunks of so many vertices; a layer may end early."""
+def refined(
+    mesh: TriangleMesh, layers: tuple[Layer, ...], counts: tuple[tuple[int, ...], ...], *, borders: bool = False
+) -> bytes:
+    """Blocks with layers of the nearest levels, in chunks of so many vertices; a layer may end early.
+
+    With `borders`, the last one has some at vertices of these alone.
+    """
     made = base(mesh)
     faces = made.prepared.mesh.faces
     numbers = tuple(number for layer in layers for number in (layer.step, layer.ratio))
-    packets: list[Packet] = [replace(made.draft.header, refinements=numbers), *made.draft.body]
+    header = replace(made.draft.header, refinements=numbers, borders=int(borders))
+    packets: list[Packet] = [header, *made.draft.body]
     for number, (layer, parts) in enumerate(zip(layers, counts, strict=True)):
-        coder, first = LevelsEncoder(faces, made.wanted(layer)[0]), 0
+        wanted, last = made.wanted(layer)[0], number == len(layers) - 1
+        if borders and last:
+            wanted[~keep_borders(corners_of(faces, len(wanted)))] = 0
+        coder, first = LevelsEncoder(faces, wanted, borders=borders and last), 0
         for count in parts:
             packets.append(Refinement(number, first, count, coder.chunk(count)))
             first += count
@@ -133,6 +143,17 @@ FIELDS: dict[str, Good] = {
     "good-layers": Good(
         "two layers in chunks, the second ends early",
         lambda: refined(_small(), (HEIGHTS, ALL_AXES), ((50, 70), (40, 30))),
+    ),
+    "good-borders": Good(
+        "levels at borders alone behind a layer that all have",
+        lambda: refined(patch(12, 9), (HEIGHTS, ALL_AXES), ((108,), (50, 58)), borders=True),
+    ),
+    "good-borders-tangled": Good(
+        "borders of non-manifold, repeated and degenerate faces",
+        lambda: refined(tangled(), (ALL_AXES,), ((len(tangled().positions),),), borders=True),
+    ),
+    "good-borders-none": Good(
+        "levels at borders of a surface that has none", lambda: refined(_small(), (HEIGHTS,), ((120,),), borders=True)
     ),
     "good-layers-none": Good("layers of which nothing comes", lambda: refined(_small(), (HEIGHTS, ALL_AXES), ((), ()))),
     "good-refined-tangled": Good(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import deque
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any, Protocol
@@ -188,14 +189,47 @@ class Valued:
         return np.zeros((self._rows, self.declaration.components), KINDS[self.declaration.kind])
 
 
+class Carried:
+    """The attributes of a mesh, while their values come."""
+
+    def __init__(self, structure: Shaped) -> None:
+        self._valued = {one.index: Valued(one, structure) for one in structure.declarations.known}
+
+    @property
+    def recomputed(self) -> bool:
+        """Whether some are made from positions."""
+        return any(one.declaration.coding == RECOMPUTED for one in self._valued.values())
+
+    @property
+    def leaning(self) -> Declaration | None:
+        """The first of those that lean on positions."""
+        return next((one.declaration for one in self._valued.values() if one.declaration.leans), None)
+
+    def add(self, packet: packets.Values, relief: Callable[[], Levels]) -> AttributeEvent:
+        """Decode a chunk of values; `relief` gives positions if they lean on these.
+
+        Raises
+        ------
+        BsmError
+            If it cannot be.
+        """
+        valued = self._valued.get(packet.attribute)
+        if valued is None:
+            raise CorruptError(f"attribute {packet.attribute} is not declared")
+        return valued.decode(packet, relief() if valued.declaration.leans else None)
+
+    def attributes(self, solid: Solid | None) -> tuple[Attribute, ...]:
+        """Those that are whole; `solid` for those that are recomputed."""
+        found = [one.attribute(solid) for one in self._valued.values()]
+        return tuple(one for one in found if one is not None)
+
+
 class Attributed:
     """A mesh with its attributes."""
 
     def __init__(self, whole: Whole, structure: Shaped) -> None:
         self._whole = whole
-        self._valued = {one.index: Valued(one, structure) for one in structure.declarations.known}
-        first = [one.declaration for one in structure.declarations.known if one.declaration.leans]
-        self._leaning = first[0] if first else None
+        self._carried = Carried(structure)
 
     def add(self, packet: packets.Values) -> AttributeEvent:
         """Decode a chunk of values.
@@ -205,38 +239,30 @@ class Attributed:
         BsmError
             If it cannot be: also if the attribute leans on positions that are missing.
         """
-        valued = self._valued.get(packet.attribute)
-        if valued is None:
-            raise CorruptError(f"attribute {packet.attribute} is not declared")
-        return valued.decode(packet, self._relief if valued.declaration.leans else None)
+        return self._carried.add(packet, lambda: self._relief)
 
     def mesh(self) -> TriangleMesh:
         """The mesh in its own unit, with the attributes that are whole."""
-        asked = any(one.declaration.coding == RECOMPUTED for one in self._valued.values())
-        solid = self._whole.solid() if asked else None
-        found = [one.attribute(solid) for one in self._valued.values()]
-        return replace(self._whole.mesh(), attributes=tuple(one for one in found if one is not None))
+        solid = self._whole.solid() if self._carried.recomputed else None
+        return replace(self._whole.mesh(), attributes=self._carried.attributes(solid))
 
     def losses(self) -> Losses:
         """What of it is missing or less good."""
         return self._whole.losses()
 
-    def solid(self) -> Solid | None:
-        """Decoded positions."""
-        return self._whole.solid()
-
-    def missing(self) -> list[str]:
-        """Names of the attributes that are not whole."""
-        return [one.declaration.name for one in self._valued.values() if not one.complete]
-
     @cached_property
     def _relief(self) -> Levels:
-        solid, first = self._whole.solid(), self._leaning
+        solid, first = self._whole.solid(), self._carried.leaning
         if solid is None or first is None:
             raise CorruptError("positions are missing that attributes are predicted from")
         if solid.places is None and not first.relief:
             raise CorruptError("the attribute is missing that says how positions are rounded")
         return solid.relief(first.relief, first.doubts)
+
+
+def without_positions() -> Levels:
+    """For attributes of sequences."""
+    raise CorruptError("attributes of a sequence cannot lean on positions")
 
 
 @dataclass(frozen=True, eq=False)

@@ -75,6 +75,12 @@ def place_of(given: TriangleMesh, joined: Joined, prepared: Prepared) -> Place:
     return Place(given, corners, joined.kept[prepared.coding_faces], prepared.turns, loose)
 
 
+def place_of_first_frame(given: TriangleMesh, prepared: Prepared) -> Place:
+    """That of a mesh that was prepared as it was given."""
+    corners = corners_of(prepared.mesh.faces, len(prepared.mesh.positions))
+    return Place(given, corners, prepared.coding_faces, prepared.turns, np.zeros(0, np.int64))
+
+
 @dataclass(frozen=True, eq=False)
 class Carried:
     """An attribute in the order of coding, before positions are known.
@@ -185,8 +191,10 @@ def _rows(place: Place, attribute: Attribute) -> tuple[Order, Order, Order]:
     return used, numbers[: rows.size].reshape(rows.shape), numbers[rows.size :]
 
 
-def with_attributes(draft: Draft, prepared: Prepared, carried: tuple[Carried, ...], metadata: Metadata) -> Draft:
-    """A draft that carries attributes and metadata, too."""
+def with_attributes(
+    draft: Draft, prepared: Prepared, carried: tuple[Carried, ...], metadata: Metadata, *, still: bool = True
+) -> Draft:
+    """A draft that carries attributes and metadata, too; where it is not still, none of them leans on positions."""
     before = sum(isinstance(packet, packets.Connectivity | packets.Partition | packets.Order) for packet in draft.body)
     head, body = draft.body[:before], draft.body[before:]
     told: tuple[Packet, ...] = (packets.Metadata(dict(metadata)),) if metadata else ()
@@ -194,9 +202,9 @@ def with_attributes(draft: Draft, prepared: Prepared, carried: tuple[Carried, ..
     values: list[Packet] = []
     header = draft.header
     if carried:
-        leaning = _Leaning(draft, prepared)
+        leaning = _Leaning(draft, prepared) if still else None
         for index, one in enumerate(carried):
-            declaration, relief = leaning.of(one.declaration)
+            declaration, relief = leaning.of(one.declaration) if leaning else (one.declaration, None)
             chunks = one.plain if relief is None else one.chunks(relief)
             declared.append(packets.Attribute(index, declaration, one.seams))
             for (first, count), data in zip(_chunks(declaration.rows), chunks, strict=True):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
@@ -78,6 +79,40 @@ def parse_quality(text: str) -> Quality:
     raise OptionError(
         f"the quality of an attribute is exact, 12bits, 0.01 (a bound), 1%, 2deg, recompute or none, not {text!r}"
     )
+
+
+def checked_qualities(asked: Mapping[str, str] | tuple[tuple[str, str], ...]) -> tuple[tuple[str, str], ...]:
+    """What is asked of attributes by name, as pairs; raises `OptionError` for a quality that there is not."""
+    pairs = tuple(sorted(dict(asked).items()))
+    for _, text in pairs:
+        parse_quality(text)
+    return pairs
+
+
+def qualities(
+    attributes: Sequence[Attribute], asked: Mapping[str, str], grade: Grade, normals: str = "keep"
+) -> list[tuple[Attribute, Quality]]:
+    """Attributes, and what is asked of each, but for those that are left out.
+
+    Raises
+    ------
+    OptionError
+        If something is asked of an attribute that there is not.
+    """
+    unknown = sorted(set(asked) - {one.name for one in attributes} - {"*"})
+    if unknown:
+        there = ", ".join(one.name for one in attributes) or "none"
+        raise OptionError(f"the mesh has no attribute {unknown[0]!r}; there are: {there}")
+
+    def quality(one: Attribute) -> Quality:
+        if one.name in asked:
+            return parse_quality(asked[one.name])
+        floats = one.values.dtype.kind == "f" and one.components == 3
+        if normals == "recompute" and one.semantic == "normal" and floats:
+            return Quality("recompute")
+        return parse_quality(asked["*"]) if "*" in asked else default_quality(one, grade)
+
+    return [(one, wanted) for one in attributes if (wanted := quality(one)).way != "none"]
 
 
 def default_quality(attribute: Attribute, grade: Grade) -> Quality:

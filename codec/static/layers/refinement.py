@@ -13,7 +13,6 @@ from typing import Any
 import numpy as np
 
 from bitstream.container import packets
-from bitstream.container.header import Layer
 from bitstream.container.reader import Signal
 from bitstream.errors import CorruptError
 from bitstream.fields.levels import LevelsDecoder, LevelsEncoder
@@ -32,9 +31,9 @@ CHUNK = 1 << 15
 """Vertices of a frame."""
 
 
-def encode_layer(faces: Indices, layer: int, levels: Levels) -> list[packets.Refinement]:
-    """The packets of a layer's levels, shape (n, axes)."""
-    encoder, size = LevelsEncoder(faces, levels), len(levels)
+def encode_layer(faces: Indices, layer: int, levels: Levels, *, borders: bool = False) -> list[packets.Refinement]:
+    """The packets of a layer's levels, shape (n, axes); with `borders`, of levels that only vertices of these have."""
+    encoder, size = LevelsEncoder(faces, levels, borders=borders), len(levels)
     chunks = [(start, min(CHUNK, size - start)) for start in range(0, size, CHUNK)]
     return [packets.Refinement(layer, start, count, encoder.chunk(count)) for start, count in chunks]
 
@@ -70,7 +69,7 @@ class RefinementStage:
         self._ended = False
         self._structure = structure
         self._refined = Refined(assembly, structure)
-        self._decoders = [LayerDecoder(structure.faces, header.vertices, layer) for layer in header.layers]
+        self._decoders = [LayerDecoder(structure, number) for number in range(len(header.layers))]
 
     def accept(self, arrival: Arrival, queue: deque[Any]) -> Stage[Any]:
         match arrival:
@@ -106,8 +105,9 @@ class RefinementStage:
 class LayerDecoder:
     """Decodes the packets of one layer, in their order."""
 
-    def __init__(self, faces: Indices, vertices: int, layer: Layer) -> None:
-        self._given = faces, vertices, layer.axes
+    def __init__(self, structure: Structure, layer: int) -> None:
+        self._structure = structure
+        self._layer = layer
 
     def decode(self, packet: packets.Refinement) -> tuple[Indices, Levels]:
         """Vertices and their levels; once a packet is missing or broken, the rest of the layer cannot be decoded."""
@@ -118,7 +118,10 @@ class LayerDecoder:
 
     @cached_property
     def _decoder(self) -> LevelsDecoder:
-        return LevelsDecoder(*self._given)
+        header = self._structure.header
+        borders = bool(header.borders) and self._layer == len(header.layers) - 1
+        axes = header.layers[self._layer].axes
+        return LevelsDecoder(self._structure.faces, header.vertices, axes, borders=borders)
 
 
 class Refined:

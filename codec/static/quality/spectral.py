@@ -74,15 +74,16 @@ class Base:
             self.positions if positions is None else positions, self.frames, levels, layer.step, layer.ratio
         )
 
-    def refined(self, *added: tuple[Layer, Levels]) -> Draft:
-        """With layers of levels, shapes (n, axes)."""
+    def refined(self, *added: tuple[Layer, Levels], borders: bool = False) -> Draft:
+        """With layers of levels, shapes (n, axes); with `borders`, the last has some at vertices of these alone."""
         positions = self.positions
         body = self.draft.body
         for number, (layer, levels) in enumerate(added):
             positions = self.moved(layer, levels, positions)
-            body += tuple(encode_layer(self.prepared.mesh.faces, number, levels))
+            last = number == len(added) - 1
+            body += tuple(encode_layer(self.prepared.mesh.faces, number, levels, borders=borders and last))
         numbers = tuple(number for layer, _ in added for number in (layer.step, layer.ratio))
-        header = replace(self.draft.header, refinements=numbers)
+        header = replace(self.draft.header, refinements=numbers, borders=int(borders))
         return Draft(header, body, self.prepared.units.back(positions))
 
 

@@ -6,7 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from bitstream.container.header import FIRST_IGNORABLE_KEY, HEADER_DEFAULTS, HEADER_FIELDS
+from bitstream.container.declaration import Declaration
+from bitstream.container.header import FIRST_IGNORABLE_KEY, HEADER_FIELDS, Header, defaults_of, fields_of
 from bitstream.container.wire import SKIPPABLE_TYPES, FrameType, checksum
 from tests.bitstream.streams import BARE, encoded, read_all
 
@@ -15,7 +16,7 @@ DOCUMENT = (Path(__file__).parents[3] / "spec" / "format.md").read_text()
 
 def number(value) -> str:
     """A number as the document writes it: extreme powers of two as such."""
-    if value in (2**20 - 1, 2**31 - 1):
+    if value in (2**20 - 1, 2**31 - 1, 2**32 - 1):
         return f"2^{int(value).bit_length()} - 1"
     mantissa, exponent = math.frexp(value)
     if mantissa == 0.5 and not 1e-3 < value < 1e6:
@@ -23,19 +24,25 @@ def number(value) -> str:
     return f"{value:g}"
 
 
-def row(name: str) -> str:
+def row(name: str, record: type = Header) -> str:
     """The line of the document's table for one field, without its meaning."""
-    declared = HEADER_FIELDS[name]
+    declared = fields_of(record)[name]
     least, most = declared.lengths
-    kind = {int: "method" if declared.reserved else "int", float: "float", tuple: "floats"}[declared.type]
+    kind = {
+        int: "method" if declared.reserved else "int",
+        float: "float",
+        tuple: "floats",
+        str: "text",
+        bytes: "binary",
+    }[declared.type]
     if declared.type is tuple:
         kind = "ints" if declared.item is int else kind
         kind += f" [{least}]" if least == most else f" [{least} to {most}]"
-    default = HEADER_DEFAULTS.get(name)
+    default = defaults_of(record).get(name)
     if isinstance(default, tuple):
         shown = f"[{', '.join(map(number, default))}]"
     else:
-        shown = "none" if default is None else number(default)
+        shown = "none" if default in (None, b"") else number(default)
     return f"| {declared.key} | {name} | {kind} | {number(declared.low)} to {number(declared.high)} | {shown} |"
 
 
@@ -43,6 +50,15 @@ def row(name: str) -> str:
 def test_header_field_is_documented(name):
     lines = [line for line in DOCUMENT.splitlines() if line.startswith(row(name))]
     assert len(lines) == 1, f"spec/format.md needs the line: {row(name)} <meaning> |"
+
+
+def test_declarations_are_documented():
+    document = (Path(__file__).parents[3] / "spec" / "declarations.md").read_text()
+    fields = fields_of(Declaration)
+    keys = re.findall(r"^\| (\d+) \|", document, re.MULTILINE)
+    assert [int(key) for key in keys] == [declared.key for declared in fields.values()]
+    for name in fields:
+        assert row(name, Declaration) in document
 
 
 def test_no_other_header_field_is_documented():

@@ -53,7 +53,7 @@ def legal_value(name):
     return st.lists(number, min_size=least, max_size=most).map(tuple)
 
 
-NOT_ALONE = ("blocks", "block_size", "coefficients", "grid", "lattice", "refinements")
+NOT_ALONE = ("blocks", "block_size", "coefficients", "grid", "lattice", "refinements", "borders")
 
 
 @given(st.fixed_dictionaries({}, optional={n: legal_value(n) for n in HEADER_DEFAULTS if n not in NOT_ALONE}))
@@ -115,6 +115,8 @@ def test_contradictions_of_a_grid(changes):
         {"refinements": (0.5, 65.0)},
         {"refinements": (0.5, 0.0) * 5},
         {"refinements": (0.5, 1.0), "gop_frames": 1},
+        {"borders": 1},
+        {"refinements": (0.5, 1.0), "borders": 2},
         {"lattice": (9, 3)},
     ],
 )

@@ -54,6 +54,28 @@ def test_levels_come_back(mesh, axes, most, kind, seed, chunk):
     np.testing.assert_array_equal(found, levels)
 
 
+@quick
+@given(SOUPS, st.sampled_from([1, 3]), KINDS, SEEDS, CHUNKS)
+def test_levels_of_borders_come_back(mesh, axes, kind, seed, chunk):
+    faces, vertices = mesh
+    levels = values(vertices, [-9] * axes, [9] * axes, kind, seed)
+    sides = np.sort(np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]), axis=1)
+    edges, counts = np.unique(sides[sides[:, 0] != sides[:, 1]], axis=0, return_counts=True)
+    inside = np.setdiff1d(np.arange(vertices), edges[counts % 2 == 1])
+    if levels[inside].any():
+        with pytest.raises(MeshError, match="no border"):
+            LevelsEncoder(faces, levels, borders=True)
+    levels[inside] = 0
+    chunks = encode(LevelsEncoder(faces, levels, borders=True), vertices, chunk)
+    found = decode(LevelsDecoder(faces, vertices, axes, borders=True), vertices, axes, chunks)
+    np.testing.assert_array_equal(found, levels)
+
+
+def test_what_has_no_border_costs_nothing():
+    payload = LevelsEncoder(TORUS, np.zeros((108, 3), np.int32), borders=True).chunk(108)
+    assert len(payload) <= 4
+
+
 def position_of(k: np.ndarray) -> np.ndarray:
     """A bumpy place of vertex k of the torus, in integers alone."""
     row, column = k // 9, k % 9

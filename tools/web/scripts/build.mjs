@@ -5,7 +5,7 @@ import { dirname, join, relative } from "node:path";
 import { build } from "esbuild";
 import { compileKernels, compiler, WEB } from "./kernels.mjs";
 
-const PAGE = join(WEB, "../../bsm/viewer/page.html");
+const VIEWER = join(WEB, "../../bsm/viewer");
 const SOURCES = join(WEB, "src");
 const OPTIONS = { bundle: true, minify: true, format: "esm", target: "es2022", charset: "utf8", loader: { ".wasm": "binary", ".html": "text" }, legalComments: "none", logLevel: "warning", write: false };
 const BUNDLED = ["three", "fzstd"];
@@ -28,23 +28,16 @@ function licences(packages) {
     return packages.map((name) => `${name}\n\n${readFileSync(join(WEB, "node_modules", name, "LICENSE"), "utf8").trim()}`).join("\n\n\n");
 }
 
-function filled(page, places) {
-    return Object.entries(places).reduce((text, [name, content]) => {
-        if (!text.includes(`<!-- ${name} -->`)) throw new Error(`the page has no place for ${name}`);
-        return text.replace(`<!-- ${name} -->`, () => content);
-    }, page);
-}
-
 /** Path and content of everything that is built of TypeScript. */
 async function products() {
     const define = { LICENCES: JSON.stringify(licences(BUNDLED)) };
     const script = (await bundle(join(SOURCES, "viewer/viewer.ts"), { define })).replaceAll("</script", "<\\/script");
-    const page = readFileSync(join(WEB, "src/viewer/page.html"), "utf8");
     return [
         [join(WEB, "built/bsm.js"), await bundle(join(SOURCES, "index.ts"))],
         [join(WEB, "built/three.js"), await bundle(join(SOURCES, "three.ts"), { external: ["three"] })],
         [join(WEB, "built/LICENSES.txt"), `${licences(BUNDLED)}\n`],
-        [PAGE, filled(page, { script })],
+        [join(VIEWER, "page.html"), readFileSync(join(SOURCES, "viewer/page.html"), "utf8")],
+        [join(VIEWER, "viewer.js"), script],
     ];
 }
 

@@ -55,7 +55,7 @@ const KERNELS = [
     "group_by_label", "chain_parts", "grow_blocks", "order_scratch", "order_block", "add_copies", "collect_edges",
     "dissect", "find_borders", "factorize_fronts", "solve_columns", "cosines", "iteration_space", "iterate",
     "cholesky_onorm", "householder", "reconstruct", "look_around", "block_normals", "apply_powers",
-    "combine_powers", "find_rings", "filter_rows", "link_corners", "order_vertices", "code_grid", "code_levels",
+    "combine_powers", "find_rings", "filter_rows", "link_corners", "order_vertices", "keep_borders", "code_grid", "code_levels",
     "local_frames", "add_levels", "code_matrix", "project", "cotangents", "hold", "pull", "follow_rows",
 ];
 

@@ -240,6 +240,9 @@ export class Decoder {
                 return this.acceptGrid(packet.first, packet.count, packet.data);
             case "refinement":
                 return this.acceptRefinement(packet.layer, packet.first, packet.count, packet.data);
+            case "attribute":
+            case "values":
+                return; // whole, but not decoded yet
             case "end":
                 return this.acceptEnd();
             case "damaged":

@@ -220,6 +220,8 @@ export class Refinement {
         const field = (): Ints => zeros(memory.ints(this.axes * size, this.axes));
         this.levels = field();
         const learners = makeLearners(memory, 12, (k) => (k % 4 === 0 ? [52000] : [52000, 28000]));
-        this.state = [makeModel(memory), linkCorners(memory, this.faces, size), [this.levels, field(), field(), learners]];
+        const corners = linkCorners(memory, this.faces, size);
+        if (header.borders && 2 * layer === header.refinements.length - 2) memory.call("keep_borders", corners);
+        this.state = [makeModel(memory), corners, [this.levels, field(), field(), learners]];
     }
 }

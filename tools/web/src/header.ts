@@ -36,6 +36,8 @@ export interface Header {
     lattice: number[];
     refinements: number[];
     keySeed: number;
+    borders: number;
+    attributes: number;
 }
 
 interface Field {
@@ -83,6 +85,8 @@ const FIELDS: Record<keyof Header, Field> = {
     lattice: { key: 29, type: "ints", low: 1, high: COUNT, default: [], lengths: [0, 2] },
     refinements: { key: 30, type: "floats", low: 0, high: 64, default: [], lengths: [0, 8] },
     keySeed: { key: 31, type: "method", low: 0, high: 1, default: 0 },
+    borders: { key: 32, type: "method", low: 0, high: 1, default: 0 },
+    attributes: { key: 33, type: "int", low: 0, high: 255, default: 0 },
 };
 
 /** Rows of all blocks together, at most: so many for each vertex, and so many more (F 4.6). */
@@ -155,7 +159,7 @@ function checkContradictions(header: Header): void {
     if (broken) throw new CorruptError(`the header contradicts itself: ${broken[0]}`);
 }
 
-const OF_A_GRID: (keyof Header)[] = ["vertices", "faces", "center", "scale", "grid", "lattice"];
+const OF_A_GRID: (keyof Header)[] = ["vertices", "faces", "center", "scale", "grid", "lattice", "attributes"];
 
 function gridRules(header: Header): [string, boolean][] {
     const { vertices, faces, grid, lattice } = header;
@@ -190,6 +194,7 @@ function blockRules(header: Header): [string, boolean][] {
         ["refinements that are not pairs of step and ratio", steps.length !== ratios.length],
         ["a step of a refinement out of its range", !steps.every((step) => step >= 2 ** -40 && step <= 1)],
         ["a ratio of a refinement out of its range", !ratios.every((ratio) => ratio === 0 || ratio >= 1 / 16)],
+        ["borders without refinements", header.borders > 0 && steps.length === 0],
         ["refinements of a sequence", steps.length > 0 && gopFrames > 0],
     ];
 }

@@ -17,6 +17,8 @@ export type Packet =
     | { type: "gop"; index: number; data: Uint8Array }
     | { type: "grid"; first: number; count: number; data: Uint8Array }
     | { type: "refinement"; layer: number; first: number; count: number; data: Uint8Array }
+    | { type: "attribute"; index: number; data: Uint8Array }
+    | { type: "values"; attribute: number; first: number; count: number; data: Uint8Array }
     | { type: "end"; frames: number; crc: number };
 
 /** Bytes that a tolerant reader skipped: where, how many, what kind of frame they seem to be, and why. */
@@ -33,6 +35,7 @@ type Kind = Packet["type"];
 const PREAMBLE = Uint8Array.of(0x89, 0x42, 0x53, 0x4d, 0);
 const MAGIC_SIZE = 4;
 const KINDS: Record<number, Kind> = {
+    0: "values",
     1: "header",
     2: "metadata",
     3: "connectivity",
@@ -42,6 +45,7 @@ const KINDS: Record<number, Kind> = {
     7: "gop",
     12: "grid",
     13: "refinement",
+    14: "attribute",
     15: "end",
 };
 const BLOCK_TAG = 6;
@@ -52,13 +56,15 @@ const FOLLOWERS: Record<Kind | "start", Kind[]> = {
     start: ["header"],
     header: ["connectivity"],
     metadata: [],
-    connectivity: ["partition", "order", "block", "gop", "grid", "refinement", "end"],
-    partition: ["order", "block", "gop", "grid", "refinement", "end"],
-    order: ["block", "gop", "grid", "refinement", "end"],
-    block: ["block", "gop", "refinement", "end"],
+    connectivity: ["partition", "order", "attribute", "block", "gop", "grid", "refinement", "end"],
+    partition: ["order", "attribute", "block", "gop", "grid", "refinement", "end"],
+    order: ["attribute", "block", "gop", "grid", "refinement", "end"],
+    attribute: ["attribute", "block", "gop", "grid", "refinement", "values", "end"],
+    block: ["block", "gop", "refinement", "values", "end"],
     gop: ["gop", "end"],
-    grid: ["grid", "end"],
-    refinement: ["refinement", "end"],
+    grid: ["grid", "values", "end"],
+    refinement: ["refinement", "values", "end"],
+    values: ["values", "gop", "end"],
     end: [],
 };
 
@@ -125,6 +131,11 @@ const PARSERS: Record<Kind, (payload: Cursor, limits: Limits) => Packet> = {
         const [layer, first, count] = [payload.varint(), payload.varint(), payload.varint()];
         return { type: "refinement", layer, first, count, data: payload.rest() };
     },
+    attribute: (payload) => ({ type: "attribute", index: payload.varint(), data: payload.rest() }),
+    values: (payload) => {
+        const [attribute, first, count] = [payload.varint(), payload.varint(), payload.varint()];
+        return { type: "values", attribute, first, count, data: payload.rest() };
+    },
     end: (payload) => {
         const frames = payload.varint();
         const crc = payload.take(4);
@@ -173,6 +184,7 @@ class Grammar {
     /** Whether the header announces frames of a kind that it must announce (F 3.6). */
     announces(kind: Kind): boolean {
         if (kind === "grid") return !this.header || this.header.grid.length > 0;
+        if (kind === "attribute" || kind === "values") return !this.header || this.header.attributes > 0;
         return kind !== "refinement" || !this.header || this.header.refinements.length > 0;
     }
 
@@ -182,7 +194,7 @@ class Grammar {
 
     /** The kinds of packets that may come next. */
     get expected(): Kind[] {
-        const metadata = !this.metadataSeen && ["header", "connectivity", "partition", "order"].includes(this.last);
+        const metadata = !this.metadataSeen && ["header", "connectivity", "partition", "order", "attribute"].includes(this.last);
         return metadata ? [...this.allowed, "metadata"] : this.allowed;
     }
 

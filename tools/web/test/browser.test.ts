@@ -7,6 +7,7 @@ import test, { after, before, describe } from "node:test";
 import { pathToFileURL } from "node:url";
 import { inflateSync } from "node:zlib";
 import { chromium, type BrowserContext, type Page } from "playwright-core";
+import { readNpz } from "./npz";
 import { VECTORS, WEB } from "./shared";
 
 const CHROMIUM = process.env.CHROMIUM ?? "/usr/bin/chromium";
@@ -14,18 +15,23 @@ const FLAGS = [
     "--no-sandbox", "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update",
     "--disable-sync", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
 ];
-const PAGE = join(WEB, "../../bsm/viewer/page.html");
+const VIEWER = join(WEB, "../../bsm/viewer");
 const STREAM = "good-labels";
 /** One of the specification, and a real one if it is named. */
 const SEQUENCES = [join(VECTORS, "good-sequence-learnt.bsm"), ...(process.env.BSM_SEQUENCE ? [process.env.BSM_SEQUENCE] : [])];
 
 /** The page with streams in it, as `bsm view --save` writes it. */
-function savedPage(folder: string, streams: Record<string, Uint8Array>): string {
-    const list = Object.entries(streams).map(([name, bytes]) => ({ name, data: Buffer.from(bytes).toString("base64") }));
-    const slot = '<script type="application/json" id="streams">';
+function savedPage(folder: string, streams: Record<string, Uint8Array>, more: object = {}): string {
+    const list = Object.entries(streams).map(([name, bytes]) => ({ name, data: base64(bytes), ...more }));
+    const slot = '<script type="application/json" id="bsm-streams">';
     const path = join(folder, "page.html");
-    writeFileSync(path, readFileSync(PAGE, "utf8").replace(`${slot}[]`, () => slot + JSON.stringify(list)));
+    const [page, script] = ["page.html", "viewer.js"].map((name) => readFileSync(join(VIEWER, name), "utf8"));
+    writeFileSync(path, page.replace(`${slot}[]`, () => slot + JSON.stringify(list)).replace("<!-- script -->", () => script));
     return pathToFileURL(path).href;
+}
+
+function base64(bytes: Uint8Array): string {
+    return Buffer.from(bytes).toString("base64");
 }
 
 /** Share of the pixels that differ from the corner, and where their middle is; of an 8-bit PNG. */
@@ -203,6 +209,48 @@ describe("the page in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromium a
         assert.equal(found.frames, found.kept);
         assert.ok(Number(found.kept) > 1);
         assert.equal(found.problem, "CorruptError");
+        assert.deepEqual(complaints, []);
+    });
+
+    test("says how far a mesh is from its original, and how long Draco's file takes", async () => {
+        const { positions } = readNpz(readFileSync(join(VECTORS, `${STREAM}.npz`)));
+        const moved = Float32Array.from(positions.values);
+        for (let i = 0; i < moved.length; i += 3) moved[i] += 0.01;
+        const more = { original: { data: base64(new Uint8Array(moved.buffer)) }, draco: { bytes: 2500, bits: 9, theta: 1.5 } };
+        await page.goto(savedPage(folder, { compared: whole }, more));
+        await state("complete");
+        await page.getByLabel("Link, Mbit/s").fill("0.01");
+        await page.waitForFunction(() => /2,500 bytes: there after 2.00 s/.test(document.body.textContent!));
+        await page.getByLabel("Link, Mbit/s").fill("0");
+        await page.getByRole("combobox", { name: "Colour" }).selectOption("error");
+        const text = await (await page.waitForFunction(() => /Off the original: ([\d.]+) % .* at most ([\d.]+) %; normals ([\d.]+)/.exec(document.body.textContent!)?.slice(1))).jsonValue();
+        const [rms, most, angle] = text!.map(Number);
+        const spans = [0, 1, 2].map((d) => Math.max(...moved.filter((_, i) => i % 3 === d)) - Math.min(...moved.filter((_, i) => i % 3 === d)));
+        const expected = 1 / Math.hypot(...spans);
+        assert.ok(Math.abs(rms / expected - 1) < 0.01 && Math.abs(most / expected - 1) < 0.01, `${rms}, ${most}, not ${expected}`);
+        assert.ok(angle < 0.1);
+    });
+
+    test("is a widget of notebooks", async () => {
+        const script = `
+            import widget from "data:text/javascript;base64,${base64(readFileSync(join(VIEWER, "viewer.js")))}";
+            const bytes = Uint8Array.from(atob("${base64(whole)}"), (c) => c.charCodeAt(0));
+            const traits = { name: "a stream", stream: new DataView(bytes.buffer), original: new DataView(new ArrayBuffer(0)), height: 400 };
+            const listeners = {};
+            const model = { get: (name) => traits[name], on: (name, f) => (listeners[name] = f), off: (name) => delete listeners[name] };
+            const el = document.querySelector("main");
+            window.close = await widget.render({ model, el });
+            window.change = () => listeners["change:stream"]();`;
+        await page.setContent(`<main></main><script type="module">${script}</script>`);
+        const shown = page.locator("main > [data-state=complete]");
+        await shown.waitFor({ timeout: 20_000 });
+        const { share } = silhouette(await page.locator("canvas").screenshot());
+        assert.ok(share > 0.02 && share < 0.6, `share ${share}`);
+        assert.equal(await page.getByRole("combobox", { name: "Stream" }).locator("option").textContent(), "a stream");
+        assert.ok(Math.abs((await page.locator("main > div").boundingBox())!.height - 400) < 2);
+        await page.evaluate(() => (window as unknown as { change: () => void }).change());
+        await shown.waitFor();
+        await page.evaluate(() => window.close());
         assert.deepEqual(complaints, []);
     });
 

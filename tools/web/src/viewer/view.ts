@@ -19,6 +19,7 @@ export interface Rival {
 
 /** A stream, and what it is compared with: the original's positions as the stream numbers them. */
 export interface Content {
+    name: string;
     stream: Uint8Array;
     original?: Float32Array;
     draco?: Rival;
@@ -43,14 +44,14 @@ function spent(milliseconds: number): string {
 
 /** The controls and the canvas, in any element of a page; it says how far it is in `data-state`. */
 export class View {
-    readonly streams: HTMLSelectElement;
+    private readonly streams: HTMLSelectElement;
     private readonly stage: Stage;
     private readonly cut: HTMLInputElement;
     private readonly rate: HTMLInputElement;
     private readonly frame: HTMLInputElement;
     private readonly colour: HTMLSelectElement;
     private readonly play: HTMLButtonElement;
-    private content: Content = { stream: new Uint8Array(0) };
+    private content: Content = { name: "", stream: new Uint8Array(0) };
     private geometry = new BSMGeometry();
     private thread?: DecoderThread;
     private playback?: Playback;
@@ -94,8 +95,15 @@ export class View {
         requestAnimationFrame(go);
     }
 
+    /** Let the reader choose among streams of these names. */
+    offer(names: string[], choose: (index: number) => void): void {
+        names.forEach((name, i) => this.streams.add(new Option(name, String(i))));
+        this.streams.addEventListener("change", () => choose(Number(this.streams.value)));
+    }
+
     /** Show another stream from its first byte on. */
     open(content: Content): void {
+        if (this.streams.length === 0) this.offer([content.name], () => this.restart());
         this.content = content;
         this.cut.max = String(content.stream.length);
         this.cut.value = this.cut.max;

@@ -1,19 +1,30 @@
-/** The page of `bsm view`. */
+/** The page of `bsm view`, and the widget of notebooks: one module that is either, by where it finds itself. */
 import { inlinedKernels } from "../inlined";
 import { View, type Content, type Rival } from "./view";
 
-/** A stream beside the page, or in it in base64; the original likewise, as single precision. */
-interface Source {
-    name: string;
+declare const LICENCES: string;
+
+/** Bytes at an address, or in base64. */
+interface Place {
     url?: string;
     data?: string;
-    original?: { url?: string; data?: string };
+}
+
+/** A stream of the page; the original in single precision, least byte first. */
+interface Source extends Place {
+    name: string;
+    original?: Place;
     draco?: Rival;
 }
 
-declare const LICENCES: string;
+/** What a widget knows of its other half in Python (https://anywidget.dev/en/afm). */
+interface Model {
+    get(name: string): unknown;
+    on(event: string, listener: () => void): void;
+    off(event: string, listener: () => void): void;
+}
 
-async function bytesOf(name: string, { url, data }: { url?: string; data?: string }): Promise<Uint8Array> {
+async function bytesOf(name: string, { url, data }: Place): Promise<Uint8Array> {
     const response = await fetch(url ?? `data:application/octet-stream;base64,${data}`);
     if (!response.ok) throw new Error(`${name}: ${response.status} ${response.statusText}`);
     return new Uint8Array(await response.arrayBuffer());
@@ -21,23 +32,51 @@ async function bytesOf(name: string, { url, data }: { url?: string; data?: strin
 
 async function contentOf(source: Source): Promise<Content> {
     const stream = await bytesOf(source.name, source);
-    const original = source.original && new Float32Array((await bytesOf(source.name, source.original)).buffer);
-    return { stream, original, draco: source.draco };
+    const original = source.original && floats(await bytesOf(source.name, source.original));
+    return { name: source.name, stream, original, draco: source.draco };
 }
 
-async function start(): Promise<void> {
-    const sources = JSON.parse(document.getElementById("streams")!.textContent!) as Source[];
+function floats(bytes: Uint8Array): Float32Array {
+    return new Float32Array(bytes.slice().buffer);
+}
+
+/** Fill the page with the streams that are listed in it. */
+async function fillPage(list: HTMLElement): Promise<void> {
+    const sources = JSON.parse(list.textContent!) as Source[];
     const view = new View(document.body, await inlinedKernels(), LICENCES);
-    sources.forEach((source, i) => view.streams.add(new Option(source.name, String(i))));
-    const open = async (): Promise<void> => {
+    const open = async (index: number): Promise<void> => {
         try {
-            view.open(await contentOf(sources[Number(view.streams.value)]));
+            view.open(await contentOf(sources[index]));
         } catch (error) {
             view.fail(`The stream could not be fetched. ${error instanceof Error ? error.message : error}`);
         }
     };
-    view.streams.addEventListener("change", open);
-    await open();
+    view.offer(sources.map(({ name }) => name), open);
+    await open(0);
 }
 
-void start();
+/** Draw a widget into an element; returns what takes it away. */
+async function render({ model, el }: { model: Model; el: HTMLElement }): Promise<() => void> {
+    const root = el.appendChild(document.createElement("div"));
+    root.style.height = `${model.get("height")}px`;
+    const view = new View(root, await inlinedKernels(), LICENCES);
+    const bytes = (name: string): Uint8Array => {
+        const { buffer, byteOffset, byteLength } = model.get(name) as DataView<ArrayBuffer>;
+        return new Uint8Array(buffer, byteOffset, byteLength);
+    };
+    const open = (): void => {
+        const original = bytes("original");
+        view.open({ name: String(model.get("name")), stream: bytes("stream"), original: original.length > 0 ? floats(original) : undefined });
+    };
+    model.on("change:stream", open);
+    open();
+    return () => {
+        model.off("change:stream", open);
+        view.close();
+    };
+}
+
+export default { render };
+
+const list = document.getElementById("bsm-streams");
+if (list) void fillPage(list);

@@ -1,0 +1,53 @@
+"""bsm.show: what the widget of a notebook is given."""
+
+import sys
+
+import numpy as np
+import pytest
+
+import bsm
+from bsm.viewer.page import built
+from tests.shapes import torus
+
+pytest.importorskip("anywidget")
+MESH = torus()
+
+
+def test_stream_is_shown_as_it_is():
+    data = bsm.encode(MESH)
+    widget = bsm.show(data, height=300)
+    assert (widget.stream, widget.original, widget.height, widget.name) == (data, b"", 300, "mesh")
+    assert "render" in widget._esm and str(widget._esm) == built("viewer.js")
+
+
+def test_mesh_is_encoded_and_compared_with_itself():
+    widget = bsm.show((MESH.positions, MESH.faces), theta=4)
+    decoded = bsm.decode(widget.stream)
+    original = np.frombuffer(widget.original, "<f4").reshape(-1, 3)
+    assert bsm.compare((original, decoded.faces), decoded).theta_deg < 4
+    assert sorted(map(tuple, original)) == sorted(map(tuple, MESH.positions.astype(np.float32)))
+
+
+def test_file_is_read(tmp_path):
+    path = tmp_path / "ball.bsm"
+    path.write_bytes(bsm.encode(MESH))
+    widget = bsm.show(path, original=MESH)
+    assert widget.name == "ball.bsm" and len(widget.original) == 12 * len(MESH.positions)
+
+
+def test_sequence_is_encoded():
+    positions = np.stack([MESH.positions, 1.1 * MESH.positions])
+    widget = bsm.show((positions, MESH.faces), frame_rate=10)
+    assert len(bsm.decode_sequence(widget.stream)[0]) == 2
+
+
+def test_what_is_encoded_is_not_encoded_again():
+    with pytest.raises(bsm.OptionError, match="theta"):
+        bsm.show(bsm.encode(MESH), theta=3)
+
+
+def test_missing_anywidget_is_named(monkeypatch):
+    monkeypatch.setitem(sys.modules, "anywidget", None)
+    monkeypatch.delitem(sys.modules, "bsm.viewer.widget", raising=False)
+    with pytest.raises(bsm.DependencyError, match=r"bsm-codec\[notebook\]"):
+        bsm.show(bsm.encode(MESH))

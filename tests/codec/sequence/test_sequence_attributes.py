@@ -1,0 +1,79 @@
+"""Attributes that are the same in all frames cost once, and survive."""
+
+import numpy as np
+import pytest
+
+from bitstream.container import packets
+from bitstream.container.reader import END_OF_STREAM, Reader, read_packets
+from bitstream.errors import BsmError, OptionError
+from codec.geometry.attributes import Attribute
+from codec.sequence.decoder import FrameEvent, SequenceDecoder, decode_sequence
+from codec.sequence.encoder import encode_sequence
+from codec.sequence.options import SequenceOptions
+from codec.static.events import AttributeEvent, LossEvent
+from tests.shapes import torus
+
+MESH = torus(24, 16)
+FRAMES = np.array([MESH.positions * [1, 1, 1 + 0.1 * k] for k in range(6)])
+
+
+def worn() -> tuple[Attribute, ...]:
+    corners = MESH.positions[MESH.faces][:, :, :2] + (MESH.positions[MESH.faces][:, :1, 2:] > 0)
+    return (
+        Attribute("color", (127 + 100 * np.sin(MESH.positions)).astype(np.uint8), "vertex", "color"),
+        Attribute("uv", corners.reshape(-1, 2).astype(np.float32), "corner", "texcoord"),
+        Attribute("part", np.arange(len(MESH.faces)) // 100, "face"),
+    )
+
+
+def decoded(stream: bytes, *, tolerant: bool = False) -> tuple[dict[str, Attribute], int, int, list[str]]:
+    frames, losses, order = 0, 0, []
+    with SequenceDecoder(tolerant=tolerant) as decoder:
+        decoder.receive_data(stream)
+        decoder.receive_eof()
+        while (event := decoder.next_event()) is not END_OF_STREAM:
+            frames += isinstance(event, FrameEvent)
+            losses += isinstance(event, LossEvent)
+            order.append(type(event).__name__)
+        return {one.name: one for one in decoder.attributes}, frames, losses, order
+
+
+def test_they_come_back_before_the_second_frame():
+    options = SequenceOptions(keep_order=True, attributes={"uv": "12bits"})
+    stream = encode_sequence(FRAMES, MESH.faces, options, {"name": "spin"}, worn())
+    found, frames, losses, order = decoded(stream)
+    assert frames == 6 and not losses
+    assert order.index("FrameEvent") > max(i for i, name in enumerate(order) if name == AttributeEvent.__name__)
+    color, uv, part = worn()
+    assert (found["color"].values == color.values).all() and (found["part"].values == part.values).all()
+    wanted = uv.values[uv.indices]
+    assert np.abs(found["uv"].values[found["uv"].indices] - wanted).max() <= 0.51 * np.ptp(wanted) / 4095
+    positions, faces = decode_sequence(stream)
+    assert positions.shape == FRAMES.shape and (faces == MESH.faces).all()
+
+
+def test_they_cost_once():
+    bare = [len(encode_sequence(FRAMES[:count], MESH.faces)) for count in (3, 6)]
+    full = [len(encode_sequence(FRAMES[:count], MESH.faces, attributes=worn())) for count in (3, 6)]
+    assert abs((full[0] - bare[0]) - (full[1] - bare[1])) <= 4
+
+
+def test_what_is_lost_of_one_spoils_nothing_else():
+    stream = encode_sequence(FRAMES, MESH.faces, attributes=worn())
+    reader = Reader()
+    for packet in read_packets([stream], reader):
+        if isinstance(packet, packets.Values):
+            assert reader.last_frame is not None
+            middle = reader.last_frame.offset + reader.last_frame.length // 2
+            broken = stream[:middle] + bytes([stream[middle] ^ 1]) + stream[middle + 1 :]
+            found, frames, losses, _ = decoded(broken, tolerant=True)
+            assert frames == 6 and losses == 1
+            assert set(found) == {one.name for one in worn()} - {worn()[packet.attribute].name}
+            with pytest.raises(BsmError):
+                decoded(broken)
+
+
+def test_normals_cannot_be_recomputed():
+    normals = Attribute("normal", np.ones((len(MESH.positions), 3)), "vertex", "normal")
+    with pytest.raises(OptionError):
+        encode_sequence(FRAMES, MESH.faces, SequenceOptions(attributes={"normal": "recompute"}), attributes=(normals,))
