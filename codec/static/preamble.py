@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any
 
@@ -28,6 +28,7 @@ from codec.blocks.overlap import Blocks, block_size, grow_blocks
 from codec.blocks.partition import Partition, derive_partition, metis_partition, partition_of_labels
 from codec.geometry.graph import Graph, component_sizes, graph_of_faces
 from codec.geometry.mesh import TriangleMesh
+from codec.signal.bandwidth import MeasuredSpectrum
 from codec.signal.chain import Rounding, unchanged
 from codec.static.attributes.decoding import Declarations
 from codec.static.events import HeaderEvent, LossEvent, unreadable
@@ -90,6 +91,13 @@ class Prepared:
     coding_faces: Order
     notes: tuple[str, ...]
     joined_faces: Faces
+    _spectra: dict[float, MeasuredSpectrum] = field(default_factory=dict, init=False, repr=False)
+
+    def spectrum(self, shift: float) -> MeasuredSpectrum:
+        """How energy falls with frequency, by dictionaries with a delta; measured once."""
+        if shift not in self._spectra:
+            self._spectra[shift] = MeasuredSpectrum(self.blocks, self.positions, shift=shift)
+        return self._spectra[shift]
 
     @cached_property
     def turns(self) -> Order:

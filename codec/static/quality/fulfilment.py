@@ -220,12 +220,10 @@ class Fulfilment:
 
     def _refined(self, base: Base) -> Iterator[Draft]:
         """A base with heights along the normals, if these can bring normals right; with all axes if not."""
-        angle = self._contract.angle
-        ratio = 0.0 if self._original.angle(base.upright) <= angle else 6.0
-        best = self._refinement(base, ratio)
-        if not ratio and (
-            best is None or self._outliers(base.moved(*best.found)) > MANY_OUTLIERS * len(base.positions)
-        ):
+        many = MANY_OUTLIERS * len(base.positions)
+        heights = self._original.angle(base.upright) <= self._contract.angle and self._outliers(base.upright) <= many
+        best = self._refinement(base, 0.0 if heights else 6.0)
+        if heights and (best is None or self._outliers(base.moved(*best.found)) > many):
             best = self._refinement(base, 6.0)
         if best is not None:
             yield self._with_outliers(base, [best.found])

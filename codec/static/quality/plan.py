@@ -28,7 +28,7 @@ BASE_REACH = 4.0
 """With a detail layer, x, y and z go as far as they would pay at a step so many times that of the details."""
 DETAIL_REACH = 0.9
 """Details go as far as would pay at a step so many times their own."""
-SMOOTHING_FACES = 1 << 14
+SMOOTHING_FACES = 1 << 12
 """On more faces than these, smoothing is not tried."""
 SMOOTHING_STEPS = tuple(2.0**k for k in range(-3, 7))
 
@@ -132,9 +132,9 @@ class Planner:
         first, others = np.max(list(chains), axis=0)
         return Packed(width, bits, *packed_range(first, others, bits))
 
-    @cached_property
+    @property
     def _spectrum(self) -> MeasuredSpectrum:
-        return MeasuredSpectrum(self._prepared.blocks, self._prepared.positions, shift=self._options.shift)
+        return self._prepared.spectrum(self._options.shift)
 
     @cached_property
     def _surface(self) -> Surface:

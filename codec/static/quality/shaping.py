@@ -25,7 +25,7 @@ RATES = np.log1p(np.arange(4096.0))
 
 SHARP = 0.4
 """Of the mean angle between faces beside each other: with a median below it, a surface has sharp edges."""
-MOST_FLAPS, MOST_BEND = 1 << 13, 1 << 10
+MOST_FLAPS, MOST_BEND = 1 << 12, 1 << 10
 """What entropy is measured on: so many second differences, and so large ones."""
 
 

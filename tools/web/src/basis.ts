@@ -6,11 +6,13 @@ import type { Doubles, Memory } from "./kernels";
 /** Independence of the columns from which one pass of Cholesky QR is enough, and from which two are. */
 const ONCE = 1e-5;
 const TWICE = 1e-11;
-/** What makes a basis exact, and the share of hash columns that it starts with (M 8.5). */
+/** What makes a basis exact (M 8.5). */
 const EXACT_POWER = 2;
 const EXACT_ITERATIONS = 128;
 const EXACT_SHIFT = 2 ** -5;
+/** The share of hash columns in a start that might lack something, of cosines and of a predecessor's columns (M 8.3). */
 const START_NOISE = 0.25;
+const FOLLOWING_NOISE = 2 ** -8;
 export const EXACT_SOLVES = EXACT_POWER * EXACT_ITERATIONS;
 /** Doubles more than a kernel uses of an array that it begins where a cache line does. */
 const PADDING = 7;
@@ -84,8 +86,42 @@ export function cosineColumns(memory: Memory, rows: number, first: number, last:
     return { rows, columns, values };
 }
 
-/** The start for `width` columns: the predecessor's, and cosines where it has fewer (M 8.3). */
-export function resized(memory: Memory, previous: Matrix, width: number): Matrix {
+/** The start of a block that follows: the predecessor's columns, and noise where the block is in pieces (M 8.3). */
+export function followColumns(memory: Memory, block: Block, previous: Matrix, width: number): Matrix {
+    const start = resized(memory, previous, width);
+    return inPieces(block) ? withNoise(start, FOLLOWING_NOISE) : start;
+}
+
+/** The start of a block that follows none: cosines, and noise where the block is in pieces or the basis exact (M 8.3). */
+export function firstColumns(memory: Memory, block: Block, width: number, exact: boolean): Matrix {
+    const start = cosineColumns(memory, block.size, 0, width);
+    return exact || inPieces(block) ? withNoise(start, START_NOISE) : start;
+}
+
+function withNoise({ rows, columns, values }: Matrix, share: number): Matrix {
+    return { rows, columns, values: values.map((value, i) => value + share * hashEntry(Math.floor(i / columns), i % columns)) };
+}
+
+/** Whether the graph of a block has several components. */
+function inPieces({ size, offsets, neighbours }: Block): boolean {
+    const found = new Uint8Array(size);
+    const waiting = [0];
+    let count = 1;
+    found[0] = 1;
+    for (let row = waiting.pop(); row !== undefined; row = waiting.pop()) {
+        for (let k = offsets.view[row]!; k < offsets.view[row + 1]!; k++) {
+            const next = neighbours.view[k]!;
+            if (found[next]) continue;
+            found[next] = 1;
+            count++;
+            waiting.push(next);
+        }
+    }
+    return count < size;
+}
+
+/** The predecessor's columns, `width` of them, and cosines where it has fewer. */
+function resized(memory: Memory, previous: Matrix, width: number): Matrix {
     if (previous.columns === width) return previous;
     const { rows } = previous;
     const kept = Math.min(previous.columns, width);
@@ -149,10 +185,9 @@ function householder(memory: Memory, columns: Doubles, q: Doubles): void {
 
 /** The exact basis of L + springs (M 8.5). */
 export function exactBasis(memory: Memory, block: Block, springs: Float64Array, width: number): Matrix {
-    const start = cosineColumns(memory, block.size, 0, width);
-    const noisy = start.values.map((value, i) => value + START_NOISE * hashEntry(Math.floor(i / width), i % width));
+    const start = firstColumns(memory, block, width, true);
     const shift = springs.map((spring) => spring + EXACT_SHIFT);
-    return orthogonalIteration(memory, block, { ...start, values: noisy }, shift, EXACT_POWER, EXACT_ITERATIONS);
+    return orthogonalIteration(memory, block, start, shift, EXACT_POWER, EXACT_ITERATIONS);
 }
 
 /** Fixed pseudo-random numbers in [-1, 1) (M 8.6). */

@@ -1,5 +1,5 @@
 /** One chain of blocks: what its blocks know of those before them (specification, M 7 to M 11). */
-import { cosineColumns, degreesOf, EXACT_SOLVES, exactBasis, orthogonalIteration, reconstruct, resized, solveColumns, type Matrix } from "./basis";
+import { degreesOf, EXACT_SOLVES, exactBasis, firstColumns, followColumns, orthogonalIteration, reconstruct, solveColumns, type Matrix } from "./basis";
 import { makeBlock, membersOf, type Block, type Blocks } from "./blocks";
 import { CoefficientModel, unpackLevels } from "./coefficients";
 import { Coder } from "./entropy";
@@ -43,7 +43,7 @@ export function spendOn(allowance: Allowance, header: Header, block: Block, colu
 /** U of a block that follows none (M 8.3 to M 8.5). */
 export function keyDictionary(memory: Memory, header: Header, block: Block, springs: Float64Array, width: number): Matrix {
     if (isExact(header, false)) return exactBasis(memory, block, springs, width);
-    const start = cosineColumns(memory, block.size, 0, width);
+    const start = firstColumns(memory, block, width, false);
     const shift = springs.map((spring) => spring + header.shift);
     return orthogonalIteration(memory, block, start, shift, header.power, iterationsOf(header, false));
 }
@@ -186,7 +186,7 @@ export class ChainDecoder {
         const previous = this.predecessor(block);
         if (header.basis === 1 || !previous) return keyDictionary(memory, header, block, springs, width);
         const shift = springs.map((spring) => spring + header.shift);
-        return orthogonalIteration(memory, block, resized(memory, previous, width), shift, header.power, header.iterations);
+        return orthogonalIteration(memory, block, followColumns(memory, block, previous, width), shift, header.power, header.iterations);
     }
 
     /** Move rows along their normals (M 11.3, M 11.4). */

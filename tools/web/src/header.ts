@@ -99,11 +99,11 @@ const LIMITED = ["vertices", "faces", "blocks", "blockSize", "coefficients", "fr
 export function parseHeader(payload: Uint8Array, limits: Limits): Header {
     const names = new Map(Object.entries(FIELDS).map(([name, field]) => [field.key, name as keyof Header]));
     const header: Partial<Record<keyof Header, number | number[]>> = {};
-    for (const [key, value] of parseMap(payload)) {
-        if (key.type !== "int") throw new CorruptError("a header key is not an integer");
-        if (key.value >= FIRST_IGNORABLE_KEY) continue;
+    const entries = parseMap(payload);
+    for (const [key, value] of entries) refuseUnknown(key, value, names);
+    for (const [key, value] of entries) {
         const name = names.get(Number(key.value));
-        if (name === undefined) throw new UnsupportedError(`header key ${key.value} is unknown to this decoder`);
+        if (name === undefined) continue;
         const found = fieldValue(name, value);
         if (same(found, FIELDS[name].default)) throw new CorruptError(`header field ${name} is stored with its default value`);
         header[name] = found;
@@ -120,6 +120,18 @@ export function parseHeader(payload: Uint8Array, limits: Limits): Header {
     return complete;
 }
 
+/** What is of a later version is told as that, whatever else may seem to be wrong with it (F 4.8). */
+function refuseUnknown(key: Value, value: Value, names: Map<number, keyof Header>): void {
+    if (key.type !== "int") throw new CorruptError("a header key is not an integer");
+    if (key.value >= FIRST_IGNORABLE_KEY) return;
+    const name = names.get(Number(key.value));
+    if (name === undefined) throw new UnsupportedError(`header key ${key.value} is unknown to this decoder`);
+    const { type, high } = FIELDS[name];
+    if (type === "method" && value.type === "int" && value.value > high && value.value <= METHODS) {
+        throw new UnsupportedError(`header field ${name} names method ${value.value}, unknown to this decoder`);
+    }
+}
+
 function fieldValue(name: keyof Header, value: Value): number | number[] {
     const field = FIELDS[name];
     if (field.type === "floats" || field.type === "ints") {
@@ -130,11 +142,7 @@ function fieldValue(name: keyof Header, value: Value): number | number[] {
             });
         }
     } else if (value.type === (field.type === "float" ? "float" : "int")) {
-        const number = Number(value.value);
-        if (field.type === "method" && number > field.high && number <= METHODS) {
-            throw new UnsupportedError(`header field ${name} names method ${number}, unknown to this decoder`);
-        }
-        return number;
+        return Number(value.value);
     }
     throw new CorruptError(`header field ${name} is of type ${value.type}`);
 }
