@@ -62,7 +62,7 @@ class NumericError(Exception):
     """The mathematics broke down."""
 
 
-EXIT_CODES = {FormatError: 3, CorruptError: 4, TruncatedError: 4, UnsupportedError: 5, LimitError: 6, NumericError: 7}
+EXIT_CODES = {FormatError: 3, CorruptError: 4, TruncatedError: 12, UnsupportedError: 5, LimitError: 6, NumericError: 7}
 
 MOST_VERTICES, MOST_FACES = 1 << 24, 1 << 25  # M 14
 MOST_BLOCKS, MOST_ROWS, MOST_COLUMNS = 1 << 17, 8192, 4096
@@ -811,6 +811,7 @@ def unzipped(data, size):
     try:
         parameters = zstandard.get_frame_parameters(frame)
         require(parameters.content_size == size and parameters.window_size <= 1 << 23, "zstd frame of another size")
+        require(not parameters.has_checksum, "a zstd frame with a checksum")
         content = zstandard.ZstdDecompressor().decompress(frame, max_output_size=size, allow_extra_data=False)
     except zstandard.ZstdError as error:
         raise CorruptError(f"zstd frame is damaged: {error}") from None
