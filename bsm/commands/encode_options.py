@@ -73,7 +73,7 @@ ENCODE_FLAGS = (
     EncodeFlag("power", int, "Z", "exponent of the iterated matrix (default 3)"),
     EncodeFlag("iterations", int, "T", "orthogonal iterations per block (default 1)"),
     EncodeFlag("key_iterations", int, "T", "orthogonal iterations of a block that depends on none (default 4)"),
-    EncodeFlag("shift", float, "D", "what is added to the Laplacian's diagonal (default 0.03125)"),
+    EncodeFlag("shift", float, "D", "what is added to the Laplacian's diagonal (default 0.0078125)"),
     EncodeFlag("blend", str, "degree|uniform|own", "weights of a vertex's copies in several blocks (default degree)"),
     EncodeFlag("predict", bool, "", "predict coefficients from blocks already coded (default: yes)"),
     EncodeFlag("keep_order", bool, "", "store the order of vertices and faces (default: no)"),

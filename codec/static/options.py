@@ -135,7 +135,7 @@ class EncodeOptions:
     power: int = 3
     iterations: int = 1
     key_iterations: int = 4
-    shift: float = 2.0**-5
+    shift: float = 2.0**-7
     bits: int | None = None
     step: float | None = None
     detail: float | None = None
