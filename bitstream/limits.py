@@ -23,7 +23,7 @@ class Limits:
     frames: int = 1 << 20
     gop_frames: int = 1024
     frame_bytes: int = 1 << 28
-    metadata_bytes: int = 1 << 16
+    metadata_bytes: int = 1 << 23
     work: float = 5e13
     """Floating point operations of the dictionaries, by the estimate of the specification."""
     sequence_bytes: float = 1 << 31

@@ -358,6 +358,7 @@ class TexcoordRows:
         self.reader = reader
         self.forecasts = Forecasts([8192, 0, 0, 0, 0, 0, 0])
         self.turns = 0  # A 5.2: T
+        self.stride = 16 * reader.largest[0]  # A 5.2: W
 
     def spot(self, a: int, b: int, w: int) -> tuple[int, int, int] | None:
         """A 5.1: along, beside, weight."""
@@ -445,7 +446,8 @@ class TexcoordRows:
             terms = [like, across[j] - affine[j], mean[j] - affine[j], 0, 0, drift[j], one - affine[j]]  # A 5.7
             if j > 0:
                 terms[3:5] = [self.along(first, *rise), self.along(first, *run)]
-            hints = [reach if place.error is None else place.error, spread[j], abs(first), abs(like)]
+            usual = self.stride >> 4 if near else reach
+            hints = [place.error if claims else usual, spread[j], abs(first), abs(like)]
             f = self.forecasts.make(place, j, affine[j], terms, hints, reach, count > 0)
             guess = affine[j] + f.shift
             predictions = [  # A 5.9
@@ -473,8 +475,11 @@ class TexcoordRows:
             value = x[v][j] = reader.decode(decoder, j, e)
             hits = hits_of(predictions, value)
             gap = f.take(16 * value)
-            g[v][j] = gap if count > 0 else 0  # A 5.8
+            g[v][j] = gap if count > 0 else self.stride >> 7  # A 5.8
             first = gap
+        if near:
+            away = sum(abs(16 * x[v][j] - mean[j]) for j in range(2))
+            self.stride += (8 * away - self.stride) >> 4
         self.turns += sum(self.turn(base.a, base.b, v) for base in place.bases)
 
 

@@ -3,8 +3,8 @@
 
 enum { AXES = 3, PAIR = 2, CORNERS_SEEN = 64, FARTHEST = 1 << 24, RIGHT_ANGLE = 1 << 12 };
 
-/* Directions of a vertex: its own, and what the surface tells, faces weighed by area or by angle; the mean of the former
- * around. */
+/* Directions of a vertex: its own, and what the surface tells, faces weighed by area or by angle; the mean of those by
+ * area around. */
 enum { OWN, BY_AREA, BY_ANGLE, RING, ROLES };
 
 /* Numbers whose absolute values add up to 16 times the size of the octahedron, or nearly. */
@@ -107,7 +107,8 @@ static int32_t last_corner(const Corners *c, int64_t v) {
 static void expect_normal(const Corners *c, const Values *g, int32_t v) {
     int64_t by_area[AXES] = {0, 0, 0}, by_angle[AXES] = {0, 0, 0};
     int32_t size = FINE * middle(g);
-    for (int32_t i = c->starts.data[v]; i < last_corner(c, v); i++) add_face(c, g, c->corners.data[i], by_area, by_angle);
+    for (int32_t i = c->starts.data[v]; i < last_corner(c, v); i++)
+        add_face(c, g, c->corners.data[i], by_area, by_angle);
     if (nowhere(by_area)) return;
     directions_of(g, v)[BY_AREA] = scaled(by_area, size);
     directions_of(g, v)[BY_ANGLE] = scaled(by_angle, size);
@@ -234,7 +235,8 @@ static bool code_axis(Work *w, const Sight *s, int j, int32_t *pair, int32_t *ga
 
 static bool code_vertex(Work *w, int32_t v, int32_t last) {
     const Values *g = &w->values;
-    int32_t pair[PAIR] = {0, 0}, gaps[PAIR] = {0, 0}, hits = 0, k = middle(g), *own = g->values.data + PAIR * (int64_t)v;
+    int32_t pair[PAIR] = {0, 0}, gaps[PAIR] = {0, 0}, hits = 0, k = middle(g);
+    int32_t *own = g->values.data + PAIR * (int64_t)v;
     View front = {.first = 0, .second = 1, .pole = 2, .sign = 1, .size = FINE * k}; /* that of the levels */
     Sight s;
     look(w, v, last, &s);

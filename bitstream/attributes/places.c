@@ -1,4 +1,4 @@
-/* What is known around a vertex before its values (specification, A 3). */
+/* What is known around a vertex before its values (specification, A 2). */
 #include "bitstream/attributes/places.h"
 
 enum { MOST_ERROR = 1 << 28 };
@@ -48,7 +48,7 @@ void survey(const Work *w, int32_t v, Place *p) {
     p->error = near > 0 ? divided(errors, (int32_t)g->gaps.columns * near) : -1;
 }
 
-/* What v would be, less `otherwise`, if it balanced the others around the neighbours where it is all that is missing. */
+/* What v would be, less `otherwise`, if it balanced the others around neighbours where it is all that is missing. */
 int32_t balance(const Work *w, const Around *around, int j, int32_t otherwise) {
     const Values *g = &w->values;
     int64_t columns = g->values.columns, total = 0;
@@ -72,7 +72,8 @@ int32_t fold_at(const Work *w, int32_t v, const Base *base, int j) {
         int32_t k = side == 0 ? previous_corner(base->tip) : next_corner(base->tip), beyond = c->opposite.data[k];
         if (beyond < 0 || c->rank.data[c->faces.data[beyond]] >= c->rank.data[v]) continue;
         int32_t far = c->faces.data[k], near = far == base->a ? base->b : base->a;
-        sum += value_at(g, far, j) + value_at(g, c->faces.data[beyond], j) - value_at(g, base->c, j) - value_at(g, near, j);
+        sum += value_at(g, far, j) - value_at(g, near, j);
+        sum += value_at(g, c->faces.data[beyond], j) - value_at(g, base->c, j);
     }
     return FINE / 2 * sum;
 }

@@ -6,7 +6,7 @@ typedef struct { /* of the components of this vertex so far */
 } Before;
 
 typedef struct { /* of one component around the vertex, in 1/16 */
-    int32_t mean, spread, drift, error; /* of the neighbours: values, their distances from the mean, gaps, their sizes */
+    int32_t mean, spread, drift, error; /* of the neighbours: values, how far from the mean, gaps, their sizes */
     int32_t straight, best;             /* what continues the triangles as parallelograms, and the best one */
     int32_t beside;                     /* what lies between the ends of the edges */
     int32_t length, fold, closing;
@@ -78,13 +78,15 @@ static bool code_component(Work *w, const Place *p, int32_t v, int32_t last, int
     int32_t guess = mean + f.shift, bucket = size_class(f.typical >> 1), unit = f.typical / 2 + 4;
 
     int32_t first = near > 0 ? value_at(g, r->neighbour[0], j) * FINE : mean, like = find_like(g, p, v, j);
+    int32_t second = near > 1 ? value_at(g, r->neighbour[1], j) * FINE : mean;
     Expectation e;
     e.prediction[0] = mean;
     e.prediction[1] = t.best;
     e.prediction[2] = p->bases > 0 ? t.straight : first;
-    e.prediction[3] = twin >= 0 ? value_at(g, twin, j) * FINE : near > 1 ? value_at(g, r->neighbour[1], j) * FINE : mean;
+    e.prediction[3] = twin >= 0 ? value_at(g, twin, j) * FINE : second;
     e.prediction[4] = nearest_seen(g, j, within(whole(guess), 0, most)) * FINE;
-    e.prediction[5] = like < 0 ? first : (value_at(g, like, j) + value_at(g, v, j - 1) - value_at(g, like, j - 1)) * FINE;
+    e.prediction[5] = first;
+    if (like >= 0) e.prediction[5] = (value_at(g, like, j) + value_at(g, v, j - 1) - value_at(g, like, j - 1)) * FINE;
     e.prediction[6] = guess;
     int32_t off[PREDICTIONS];
     for (int i = 0; i < PREDICTIONS; i++) e.prediction[i] = within(e.prediction[i], 0, far);

@@ -3,6 +3,10 @@
 
 enum { AXES = 2, WHOLE = 1 << 16, NARROW = 1 << 14, MOST_RATIO = 8 * WHOLE };
 
+/* What is kept: triangles that are counter-clockwise less those that are clockwise; how far neighbours are apart, in
+ * 1/256. */
+enum { TURN, STRIDE };
+
 typedef struct { /* where a vertex is, seen from an edge, in 2^-16 of its length */
     int64_t along, beside, weight;
 } Spot;
@@ -57,7 +61,7 @@ static bool locate(const Values *g, int32_t a, int32_t b, int32_t x, Spot *spot)
 static Claim claim_of(const Values *g, int32_t v, const Base *base) {
     const int32_t *a = at(g, base->a), *b = at(g, base->b), *c = base->c >= 0 ? at(g, base->c) : b;
     int turn = base->c >= 0 ? turn_of(g, base->b, base->a, base->c) : 0;
-    if (turn == 0) turn = g->turn.data[0] >= 0 ? 1 : -1;
+    if (turn == 0) turn = g->chart.data[TURN] >= 0 ? 1 : -1;
     int64_t edge[AXES] = {b[0] - a[0], b[1] - a[1]}, beyond[AXES] = {-edge[1] * turn, edge[0] * turn};
     Spot spot, far;
     Claim claim;
@@ -129,9 +133,10 @@ static bool code_axis(Work *w, const Chart *p, int32_t v, int j, int32_t *hits, 
     int32_t most = g->largest.data[j], far = FINE * most, base = p->all.affine[j], number = p->place.number;
     int32_t twin = p->place.twin, like = p->all.similar[j] - base;
     const Claim *one = p->place.bases > 0 ? &p->claim[0] : &p->all, *two = p->place.bases > 1 ? &p->claim[1] : one;
-    Forecast f = {.term = {like, p->all.across[j] - base, p->mean[j] - base, j > 0 ? along(*first, p->rise[0], p->rise[1]) : 0,
-                      j > 0 ? along(*first, p->run[0], p->run[1]) : 0, p->drift[j], one->affine[j] - base},
-        .hint = {p->place.error >= 0 ? p->place.error : far, p->spread[j], j > 0 ? size_of(*first) : 0, size_of(like)}};
+    int32_t usual = r->neighbours > 0 ? (int32_t)(g->chart.data[STRIDE] >> 4) : far;
+    Forecast f = {.term = {like, p->all.across[j] - base, p->mean[j] - base, along(*first, p->rise[0], p->rise[1]),
+                      along(*first, p->run[0], p->run[1]), p->drift[j], one->affine[j] - base},
+        .hint = {number > 0 ? p->place.error : usual, p->spread[j], size_of(*first), size_of(like)}};
     choose_learners(&f, g, AXES, j, number, p->place.valence);
     foresee(&f, far, number > 0);
     int32_t guess = base + f.shift, bucket = size_class(f.typical >> 1), unit = f.typical / 2 + 4;
@@ -165,9 +170,17 @@ static bool code_axis(Work *w, const Chart *p, int32_t v, int j, int32_t *hits, 
     keep_value(g, v, j, value);
     *hits = hits_of(&e, value);
     int32_t gap = take(&f, value * FINE - base);
-    g->gaps.data[AXES * (int64_t)v + j] = number > 0 ? gap : 0; /* where nothing was known, errors tell nothing */
+    /* where nothing was known, errors tell nothing */
+    g->gaps.data[AXES * (int64_t)v + j] = number > 0 ? gap : (int32_t)(g->chart.data[STRIDE] >> 7);
     if (j == 0) *first = gap;
     return true;
+}
+
+static void pass_chart(const Values *g, const Chart *p, int32_t v) {
+    int64_t *kept = g->chart.data, away = 0;
+    for (int j = 0; j < AXES; j++) away += size_of(at(g, v)[j] * FINE - p->mean[j]);
+    if (p->place.around.neighbours > 0) kept[STRIDE] += (FINE / 2 * away - kept[STRIDE]) >> 4;
+    for (int i = 0; i < p->place.bases; i++) kept[TURN] += turn_of(g, p->place.base[i].a, p->place.base[i].b, v);
 }
 
 static bool code_vertex(Work *w, int32_t v, int32_t last) {
@@ -179,7 +192,7 @@ static bool code_vertex(Work *w, int32_t v, int32_t last) {
     int32_t hits = 0, first = 0;
     for (int j = 0; j < AXES; j++)
         if (!code_axis(w, &p, v, j, &hits, &first)) return false;
-    for (int i = 0; i < p.place.bases; i++) g->turn.data[0] += turn_of(g, p.place.base[i].a, p.place.base[i].b, v);
+    pass_chart(g, &p, v);
     return true;
 }
 

@@ -23,7 +23,7 @@ typedef struct {
     Longs2 seen;         /* c x words: bit v of a component tells that it has taken the value v */
     Longs2 learners;
     Ints2 directions;    /* normals: n x 12, their own, and what the surface tells */
-    Longs turn;          /* texture coordinates: 1, triangles that are counter-clockwise less those that are clockwise */
+    Longs chart;         /* texture coordinates: 2, see texcoords.c */
 } Values;
 
 typedef struct { /* what codes a vertex needs to know */

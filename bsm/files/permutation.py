@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import os
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -48,7 +49,10 @@ def read_permutation(path: str | os.PathLike[str]) -> Order:
 def reorder(mesh: TriangleMesh, order: Order) -> TriangleMesh:
     """Number the vertices as the input of the encoder did, without those that no face used."""
     places = _places(order, len(mesh.positions))
-    return TriangleMesh(mesh.positions[np.argsort(places)], places[mesh.faces].astype(np.int32))
+    before, every_face = np.argsort(places), np.arange(len(mesh.faces))
+    attributes = tuple(attribute.taken(before, every_face) for attribute in mesh.attributes)
+    faces = places[mesh.faces].astype(np.int32)
+    return replace(mesh, positions=mesh.positions[before], faces=faces, attributes=attributes)
 
 
 def in_order_of(original: TriangleMesh, other: TriangleMesh, order: Order | None = None) -> Positions:
@@ -100,6 +104,38 @@ def in_order_of(original: TriangleMesh, other: TriangleMesh, order: Order | None
     raise MeshError("the meshes have different faces, or number their vertices differently; use --permutation")
 
 
+def paired_corners(original: TriangleMesh, other: TriangleMesh, order: Order | None = None) -> tuple[Order, Order]:
+    """Corners of `original` and of `other` that are the same, as numbers 3 f + i of corner i of face f.
+
+    Arguments and errors as those of `in_order_of`.
+    """
+    numbers = np.zeros((len(other.positions), 3))
+    numbers[:, 0] = np.arange(len(numbers))
+    found = in_order_of(original, replace(other, positions=numbers, attributes=()), order)[:, 0].astype(np.int64)
+    pairs = []
+    for faces in (found[original.faces].astype(np.int32), other.faces):
+        rows, corners = _canonical_order(faces)
+        pairs.append((3 * rows[:, None] + corners[rows]).reshape(-1))
+    return pairs[0], pairs[1]
+
+
+def unsplit(original: TriangleMesh, other: TriangleMesh) -> TriangleMesh | None:
+    """The mesh that a decoder gave, of which `other` is what became after vertices were split; faces and corners stay.
+
+    None: `other` is no such thing. `original` has one vertex at each position, and none that no face uses.
+    """
+    faces = _encode(original).faces
+    if len(faces) != len(other.faces):
+        return None
+    some = np.zeros(len(original.positions), np.int64)
+    some[faces] = other.faces
+    whole = np.full(len(other.positions), -1, np.int64)
+    whole[other.faces] = faces
+    positions = other.positions[some]
+    fits = np.array_equal(whole[other.faces], faces) and np.array_equal(positions[faces], other.positions[other.faces])
+    return TriangleMesh(positions, faces) if fits else None
+
+
 def _places(order: Order, count: int) -> Order:
     """The rank of each entry: its place among the vertices that are used."""
     if len(order) != count:
@@ -111,9 +147,15 @@ def _places(order: Order, count: int) -> Order:
 
 def _canonical(faces: Faces) -> Faces:
     """The faces with their smallest corner first, in ascending order: equal for equal sets of oriented faces."""
-    first = np.argmin(faces, axis=1)[:, None]
-    turned = np.take_along_axis(faces, (first + np.arange(3)) % 3, axis=1)
-    return turned[np.lexsort(turned.T[::-1])]
+    rows, corners = _canonical_order(faces)
+    return np.take_along_axis(faces, corners, axis=1)[rows]
+
+
+def _canonical_order(faces: Faces) -> tuple[Order, Order]:
+    """The order of faces, and, face by face, that of the corners, shape (m, 3), which make them canonical."""
+    corners = (np.argmin(faces, axis=1)[:, None] + np.arange(3)) % 3
+    turned = np.take_along_axis(faces, corners, axis=1)
+    return np.lexsort(turned.T[::-1]), corners
 
 
 def _encode(mesh: TriangleMesh) -> EncodedConnectivity:

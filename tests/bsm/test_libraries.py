@@ -216,7 +216,7 @@ def test_open3d():
     theirs.compute_vertex_normals()
     theirs.vertex_colors = open3d.utility.Vector3dVector(np.full((len(theirs.vertices), 3), 51 / 255))
     theirs.triangle_uvs = open3d.utility.Vector2dVector(np.random.default_rng(0).random((3 * len(theirs.triangles), 2)))
-    theirs.triangle_material_ids = open3d.utility.IntVector(np.arange(len(theirs.triangles)) % 3)
+    theirs.triangle_material_ids = open3d.utility.IntVector([i % 3 for i in range(len(theirs.triangles))])
     ours = as_mesh(theirs)
     assert [(a.name, a.domain) for a in ours.attributes] == [
         ("normal", "vertex"),

@@ -7,7 +7,7 @@
     python -m tools.vectors --example                  print the worked example of spec/mathematics.md
 
 A command must write an npz with `positions`, `faces` and attributes, and end with code 0, or refuse and end with the
-code of its error: 3 format, 4 corrupt or truncated, 5 unsupported, 6 limit, 7 numeric.
+code of its error: 3 format, 4 corrupt, 12 truncated, 5 unsupported, 6 limit, 7 numeric.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ from codec.static.decoder import decode
 from tools.vectors.example import example
 from tools.vectors.store import Arrays, Vector, arrays_of, read_manifest, write_vectors
 
-EXIT_CODES = {"format": 3, "corrupt": 4, "truncated": 4, "unsupported": 5, "limit": 6, "numeric": 7}
+EXIT_CODES = {"format": 3, "corrupt": 4, "truncated": 12, "unsupported": 5, "limit": 6, "numeric": 7}
 SECONDS = 120
 
 

@@ -195,11 +195,6 @@ FRAMING: dict[str, Bad] = {
     "bad-metadata-array": Bad(
         "METADATA with an array", "corrupt", _framed(lambda f: f.insert(1, (METADATA, b"\x81\xa1a\x90")))
     ),
-    "bad-metadata-huge": Bad(
-        "METADATA of 70,000 bytes",
-        "limit",
-        _framed(lambda f: f.insert(1, (METADATA, write_map([("a", bytes(70_000))])))),
-    ),
     "bad-gop-static": Bad("a GOP in a static stream", "corrupt", _framed(lambda f: f.append((GOP, bytes(9))))),
     **{
         f"unsupported-type-{kind}": Bad(f"a frame of type {kind}", "unsupported", _framed(_inserting(kind)))

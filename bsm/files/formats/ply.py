@@ -13,6 +13,7 @@ import numpy.typing as npt
 
 from bitstream.errors import FormatError, MeshError, TruncatedError
 from bsm.files.formats.columns import Array, Column, color_column, unused_name
+from bsm.files.formats.materials import materials_in, refers_to_image
 from bsm.files.formats.polygons import Polygons
 from bsm.files.formats.remarks import parse_remarks, remarks
 from bsm.files.formats.written import Library, Written, left_out
@@ -84,9 +85,16 @@ class Header:
         """What the comments say; images are those of materials."""
         images = [line.removeprefix(_IMAGE).strip() for line in self.comments if line.startswith(f"{_IMAGE} ")]
         found = parse_remarks(line for line in self.comments if not line.startswith(f"{_IMAGE} "))
+        shown = {
+            value
+            for material in materials_in(found).values()
+            for name, value in material.items()
+            if refers_to_image(name)
+        }
         for number, name in enumerate(images):
-            found |= {f"image.{number}.name": name, f"material.{number}.map_Kd": number}
-            found.setdefault(f"material.{number}.name", name)
+            found[f"image.{number}.name"] = name
+            if number not in shown:
+                found |= {f"material.{number}.name": name, f"material.{number}.map_Kd": number}
         return found
 
 
@@ -434,8 +442,7 @@ def write_ply(mesh: TriangleMesh, stem: str) -> Written:
     library = Library(mesh, stem)
     mesh = split_by_attributes(mesh)
     images = [f"{_IMAGE} {name}" for name in library.images.values()]
-    shown = {f"material.{n}.{key}" for n in library.images for key in ("name", "map_Kd")} if images else set()
-    comments, unsaid = remarks(mesh.metadata, library.said | shown)
+    comments, unsaid = remarks(mesh.metadata, library.said)
     columns = {"vertex": _vertex_fields(mesh), "face": [("vertex_indices", mesh.faces)]}
     for attribute in mesh.attributes:
         fields = columns[attribute.domain]

@@ -30,7 +30,7 @@ export const DEFAULT_LIMITS: Readonly<Limits> = {
     frames: 2 ** 20,
     gopFrames: 1024,
     frameBytes: 2 ** 28,
-    metadataBytes: 2 ** 16,
+    metadataBytes: 2 ** 23,
     sequenceBytes: 2 ** 31,
     keptBytes: 2 ** 30,
     work: 5e13,

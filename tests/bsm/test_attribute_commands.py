@@ -1,0 +1,170 @@
+"""Whole assets through `bsm encode`, `decode`, `info` and `compare`: what they had comes back."""
+
+import base64
+import json
+
+import numpy as np
+import pytest
+
+import bsm
+from bsm.cli import main
+from bsm.files.mesh import read_mesh, write_mesh
+from codec.geometry.attributes import Attribute
+from codec.geometry.mesh import TriangleMesh
+from tests.bsm.files.test_file_attributes import attribute, dressed, png
+from tests.bsm.test_libraries import painted
+from tests.shapes import tetrahedron, torus
+
+
+def run_json(capsys, *words):
+    assert main([*map(str, words), "--json"]) == 0
+    return json.loads(capsys.readouterr().out)
+
+
+def notes(capsys, *words):
+    assert main([*map(str, words)]) == 0
+    return capsys.readouterr().err
+
+
+def test_everything_comes_back(tmp_path, capsys):
+    write_mesh(tmp_path / "a.obj", painted())
+    (tmp_path / "a.npz").write_bytes(b"")
+    bsm.save(painted(), tmp_path / "a.npz")
+    for source in ("a.obj", "a.npz"):
+        words = (
+            "encode",
+            tmp_path / source,
+            "-o",
+            tmp_path / "a.bsm",
+            "-f",
+            "--meta",
+            "author=me=you",
+            "--meta",
+            "name=",
+        )
+        assert main([*map(str, words), "-q"]) == 0
+        for target in ("b.obj", "b.ply", "b.npz"):
+            assert main(["decode", str(tmp_path / "a.bsm"), "-o", str(tmp_path / target), "-fq"]) == 0
+            errors = run_json(capsys, "compare", tmp_path / source, tmp_path / target)["attributes"]
+            assert errors["texcoord"]["max_error"] < 2e-4
+            if source == "a.npz":
+                assert (errors["label"] is None) == (target == "b.obj")
+                assert errors.get("label") is None or errors["label"]["max_error"] == 0
+            metadata = read_mesh(tmp_path / target).mesh.metadata
+            assert (metadata["author"], metadata["name"], metadata["unit"]) == ("me=you", "", "mm")
+            assert metadata["image.0.data"] == png()
+
+
+def test_info_shows_metadata(tmp_path, capsys):
+    bsm.save(painted(), tmp_path / "a.bsm", metadata={"year": 1994})
+    said = run_json(capsys, "info", tmp_path / "a.bsm")["metadata"]
+    assert (said["name"], said["year"], base64.b64decode(said["image.0.data"])) == ("ring", 1994, png())
+    assert main(["info", str(tmp_path / "a.bsm")]) == 0
+    text = capsys.readouterr().out
+    assert "  name: ring\n" in text and f"  image.0.data: {len(png())} bytes\n" in text
+
+
+@pytest.mark.parametrize("text", ["name", "=x", ""])
+def test_metadata_that_say_nothing(tmp_path, text, capsys):
+    write_mesh(tmp_path / "a.ply", tetrahedron())
+    assert main(["encode", str(tmp_path / "a.ply"), "--meta", text]) == 2
+    assert "--meta takes NAME=TEXT" in capsys.readouterr().err
+
+
+def test_metadata_of_a_sequence(tmp_path, capsys):
+    mesh = torus(12, 9)
+    np.savez(tmp_path / "s.npz", positions=np.array([mesh.positions] * 3), faces=mesh.faces)
+    assert main(["encode", str(tmp_path / "s.npz"), "-o", str(tmp_path / "s.bsm"), "-q", "--meta", "name=Ring"]) == 0
+    assert run_json(capsys, "info", tmp_path / "s.bsm")["metadata"] == {"name": "Ring"}
+    with bsm.SequenceDecoder() as decoder:
+        decoder.receive_data(bsm.encode_sequence([mesh.positions] * 2, mesh.faces, metadata={"a": 1}))
+        while not isinstance(decoder.next_event(), bsm.Signal):
+            pass
+        assert dict(decoder.metadata) == {"a": 1}
+
+
+def test_what_a_format_cannot_hold_is_said(tmp_path, capsys):
+    bsm.save(dressed(), tmp_path / "a.bsm")
+    told = notes(capsys, "decode", tmp_path / "a.bsm", "-o", tmp_path / "a.off")
+    assert "off cannot hold" in told and all(name in told for name in ("texcoord", "height", "label", "material"))
+    assert run_json(capsys, "decode", tmp_path / "a.bsm", "-o", tmp_path / "a.npz")["left_out"] == []
+
+
+def test_what_lies_beside_is_not_overwritten_unasked(tmp_path, capsys):
+    bsm.save(painted(), tmp_path / "a.bsm")
+    (tmp_path / "a.0.png").write_bytes(b"mine")
+    assert main(["decode", str(tmp_path / "a.bsm"), "-o", str(tmp_path / "a.obj")]) != 0
+    assert (tmp_path / "a.0.png").read_bytes() == b"mine" and not (tmp_path / "a.obj").exists()
+    assert main(["decode", str(tmp_path / "a.bsm"), "-o", str(tmp_path / "a.obj"), "-fq"]) == 0
+    assert (tmp_path / "a.0.png").read_bytes() == png()
+
+
+def test_beside_a_pipe_nothing_lies(tmp_path, capfdbinary):
+    bsm.save(painted(), tmp_path / "a.bsm")
+    assert main(["decode", str(tmp_path / "a.bsm"), "-o", "-", "--format", "obj"]) == 0
+    told = capfdbinary.readouterr()
+    assert told.out.count(b"\nf ") == len(painted().faces) and b"obj cannot hold" in told.err
+    assert [path.name for path in tmp_path.iterdir()] == ["a.bsm"]
+
+
+def test_a_permutation_takes_attributes_along(tmp_path):
+    mesh = torus(12, 9)
+    numbered = TriangleMesh(mesh.positions, mesh.faces, [Attribute("number", np.arange(len(mesh.positions)))])
+    bsm.save(numbered, tmp_path / "a.ply")
+    assert main(["encode", str(tmp_path / "a.ply"), "--permutation", str(tmp_path / "p.npy"), "-q"]) == 0
+    words = ["--permutation", str(tmp_path / "p.npy"), "-o", str(tmp_path / "b.ply"), "-q"]
+    assert main(["decode", str(tmp_path / "a.bsm"), *words]) == 0
+    again = read_mesh(tmp_path / "b.ply").mesh
+    assert attribute(again, "number").values[:, 0].tolist() == list(range(len(mesh.positions)))
+
+
+def test_denoising_keeps_all_but_normals(tmp_path, capsys):
+    pytest.importorskip("scipy")
+    mesh = dressed()
+    moved, stale = mesh.moved(mesh.positions + 1)
+    assert stale == ("normal",) and {a.name for a in moved.attributes} == {a.name for a in mesh.attributes} - {"normal"}
+    write_mesh(tmp_path / "a.ply", TriangleMesh(mesh.positions, mesh.faces, mesh.attributes))
+    assert "left out: normal" in notes(capsys, "noise", tmp_path / "a.ply", "-o", tmp_path / "b.ply", "--sigma", "0.2")
+    assert {a.name for a in read_mesh(tmp_path / "b.ply").mesh.attributes} == {a.name for a in moved.attributes}
+
+
+def test_compare_tells_what_is_not_there_any_more(tmp_path, capsys):
+    mesh = dressed()
+    write_mesh(tmp_path / "a.npz", mesh)
+    write_mesh(tmp_path / "b.off", mesh)
+    errors = run_json(capsys, "compare", tmp_path / "a.npz", tmp_path / "b.off")["attributes"]
+    assert errors["texcoord"] is None and errors["color"]["max_error"] == 0 and errors["normal"]["max_angle_deg"] == 0
+    assert main(["compare", str(tmp_path / "a.npz"), str(tmp_path / "b.off")]) == 0
+    assert "texcoord: not there any more\n" in capsys.readouterr().out
+
+
+@pytest.mark.real
+@pytest.mark.parametrize(
+    ("name", "bounds"),
+    [
+        ("spot_uv.obj", {"texcoord": 1.5e-4}),
+        ("duck_uv.obj", {"texcoord": 1.5e-4, "normal": 0.2}),
+        ("nicolo_uv.obj", {"texcoord": 1.5e-4}),
+        ("fuze_colours.ply", {"color": 0, "face_color": 0, "texcoord": 1.5e-4}),
+        ("cortex_sulc.ply", {"sulc": 5e-5}),
+        ("Duck.glb", {"normal": 0.2, "texcoord": 1.5e-4}),
+    ],
+)
+def test_real_assets(meshes, name, bounds, tmp_path, capsys):
+    """With the default preset: positions within 1 % of the diagonal, attributes within what the encoder says."""
+    if name.endswith(".glb"):
+        pytest.importorskip("trimesh")
+    source = meshes / "assets" / name
+    assert main(["encode", str(source), "-o", str(tmp_path / "a.bsm"), "-q"]) == 0
+    before = read_mesh(source).mesh
+    for target in ("a.bsm", "b.ply", "b.npz"):
+        if target != "a.bsm":
+            assert main(["decode", str(tmp_path / "a.bsm"), "-o", str(tmp_path / target), "-q"]) == 0
+        found = run_json(capsys, "compare", source, tmp_path / target)
+        assert found["max_error_relative"] <= 0.01
+        assert set(found["attributes"]) == set(bounds)
+        for attribute_name, bound in bounds.items():
+            errors = found["attributes"][attribute_name]
+            assert errors.get("max_angle_deg", errors["max_error"]) <= bound
+        again = bsm.load(tmp_path / target)
+        assert {k: v for k, v in again.metadata.items() if k in before.metadata} == before.metadata
