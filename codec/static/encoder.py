@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -41,19 +41,29 @@ class Attempt:
 
     Parameters
     ----------
-    frames : tuple of bytes
-        The stream, frame by frame.
-    header : Header
-    coefficients : tuple of int
-        c_i of each block.
+    draft : Draft
+        The stream.
     comparison : Comparison
         The decoded mesh against the original.
     """
 
-    frames: tuple[bytes, ...]
-    header: Header
-    coefficients: tuple[int, ...]
+    draft: Draft
     comparison: Comparison
+
+    @property
+    def frames(self) -> tuple[bytes, ...]:
+        """The stream, frame by frame."""
+        return self.draft.frames
+
+    @property
+    def header(self) -> Header:
+        """Its header."""
+        return self.draft.header
+
+    @property
+    def coefficients(self) -> tuple[int, ...]:
+        """c_i of each block."""
+        return self.draft.coefficients
 
     @property
     def size(self) -> int:
@@ -163,7 +173,7 @@ class Encoder:
 
     def result(self, progress: Progress | None = None) -> Attempt:
         """What `encode` gives, with a comparison of what it decodes to."""
-        return self.search(progress) if self.options.target is not None else self._judged(self._bare(progress))
+        return self.search(progress) if self.options.target is not None else self._judged(self.draft(progress))
 
     def search(self, progress: Progress | None = None) -> Attempt:
         """Look for the smallest stream that meets the options' target, or for the best one of a size.
@@ -180,7 +190,8 @@ class Encoder:
         refused: list[TargetError] = []
         for ladder in self._ladders(progress):
             try:
-                found.append(search_step(self._climb(ladder), target, self.options.first_step, ladder.finest))
+                climb = self._climb(ladder, dressed=target.shrinks_with_step)
+                found.append(search_step(climb, target, self.options.first_step, ladder.finest))
             except TargetError as error:
                 refused.append(error)
         if target.kind == "max_error_relative":
@@ -193,13 +204,17 @@ class Encoder:
             raise min(refused, key=lambda error: error.best)
         if target.shrinks_with_step:
             return min(found, key=lambda attempt: attempt.comparison.theta_deg)
-        return min(found, key=lambda attempt: attempt.size)
+        best = min(found, key=lambda attempt: attempt.size)
+        return replace(best, draft=self._dressed(best.draft))
 
     def attempt(self, step: float, progress: Progress | None = None) -> Attempt:
         """Encode blocks with a given quantization step, and see what the decoder will."""
-        return self._judged(self._spectral.base(step, progress).draft)
+        return self._judged(self._dressed(self._spectral.base(step, progress).draft))
 
-    def _climb(self, ladder: Ladder) -> Callable[[float], Attempt]:
+    def _climb(self, ladder: Ladder, *, dressed: bool) -> Callable[[float], Attempt]:
+        """What a step comes to; `dressed`: with all that the mesh carries, which counts where a size is asked for."""
+        if dressed:
+            return lambda step: self._judged(self._dressed(ladder.draft(step)))
         return lambda step: self._judged(ladder.draft(step))
 
     def _ladders(self, progress: Progress | None) -> Iterator[Ladder]:
@@ -219,9 +234,8 @@ class Encoder:
         yield Grids(prepared, shaper)
 
     def _judged(self, draft: Draft) -> Attempt:
-        draft = self._dressed(draft)
         decoded = self._prepared.units.into(draft.decoded)
-        return Attempt(draft.frames, draft.header, draft.coefficients, self._reference.compare(decoded))
+        return Attempt(draft, self._reference.compare(decoded))
 
     def _dressed(self, draft: Draft) -> Draft:
         """A draft with all that the mesh carries."""
