@@ -561,6 +561,7 @@ class Block:
 
 # ---------------------------------------------------------------- M 7, M 8: springs and dictionaries
 
+
 class Known:
     """M 7.2: weighted sums of all copies that a chain has decoded."""
 
