@@ -33,5 +33,5 @@ def gop_cost(setting: Setting, body: GopBody) -> float:
 
 def _part_cost(part: Part, columns: int) -> float:
     rows, width = len(part.basis), part.basis.shape[1]
-    loop = width * columns * (LEVEL + LOOP)
-    return loop + solve_cost(part.held.laplacian.fronts, columns) + columns * rows * (0.1 * width + 20.0)
+    loop = float(width * columns) * (LEVEL + LOOP)
+    return float(loop + solve_cost(part.held.laplacian.fronts, columns) + columns * rows * (0.1 * width + 20.0))

@@ -278,7 +278,7 @@ def _metadata(entries: int) -> bytes:
     return stream_of([*frames, *skippable, *_blocks(1, 1)])
 
 
-def _one_block(rows: int, columns: int, width: int, **fields: Any) -> bytes:
+def one_block(rows: int, columns: int, width: int, **fields: Any) -> bytes:
     return _blocky(("torus", rows, columns), columns=width, blocks=1, block_size=rows * columns, **fields)
 
 
@@ -291,21 +291,21 @@ BOMBS: dict[str, Bomb] = {
         "65,536 blocks of 4,096", lambda: _blocky(("torus", 256, 256), sent=0, blocks=65536, block_size=4096)
     ),
     "narrow": Bomb(
-        "one column, power 64, 1,024 iterations", lambda: _one_block(91, 90, 1, power=64, key_iterations=1024)
+        "one column, power 64, 1,024 iterations", lambda: one_block(91, 90, 1, power=64, key_iterations=1024)
     ),
     "narrow-small": Bomb(
         "the same in tiny blocks",
         lambda: _blocky(("torus", 36, 36), blocks=100, block_size=14, power=64, iterations=1024, key_iterations=1024),
     ),
-    "wide": Bomb("as many columns as rows", lambda: _one_block(64, 64, 4096, power=1)),
-    "wide-exact": Bomb("the same, exact", lambda: _one_block(64, 64, 4096, basis=1)),
-    "wide-1024": Bomb("1,024 columns, two iterations", lambda: _one_block(64, 64, 1024, power=1, key_iterations=2)),
+    "wide": Bomb("as many columns as rows", lambda: one_block(64, 64, 4096, power=1)),
+    "wide-exact": Bomb("the same, exact", lambda: one_block(64, 64, 4096, basis=1)),
+    "wide-1024": Bomb("1,024 columns, two iterations", lambda: one_block(64, 64, 1024, power=1, key_iterations=2)),
     "svd-keys": Bomb(
         "exact chains of one block each",
         lambda: _blocky(("torus", 100, 100), columns=100, blocks=50, block_size=250, key_seed=1, key_interval=1),
     ),
     "careful": Bomb(
-        "columns that one solution loses", lambda: _one_block(40, 40, 400, power=64, shift=2.0**-30, key_iterations=16)
+        "columns that one solution loses", lambda: one_block(40, 40, 400, power=64, shift=2.0**-30, key_iterations=16)
     ),
     "careful-pieces": Bomb(
         "the same in pieces",
