@@ -43,7 +43,7 @@ class Limits:
     """Memory for decoding a grid or a layer of refinement, or the values of an attribute."""
     attributes: int = 255
     attribute_values: int = 1 << 28
-    """Numbers of an attribute: its values times their components."""
+    """Numbers of all attributes of a mesh: values times their components."""
 
     @classmethod
     def service(cls) -> Limits:

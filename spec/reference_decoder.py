@@ -406,9 +406,11 @@ def parse_attribute(payload, packets, header):
     size, at = payload_varint(payload, at)
     require(size <= len(payload) - at, "a declaration ends too early")
     one = Declaration(parse_fields(payload[at : at + size], ATTRIBUTE_FIELDS), payload[at + size :])
-    require_limit(one.rows * max(1, one.words), MOST_VALUES, "values of an attribute")
+    every = [*packets[ATTRIBUTE], one]
+    numbers = sum((x.rows if x.coding != 3 else 3 * header["faces"]) * max(x.words, x.components) for x in every)
+    require_limit(numbers, MOST_VALUES, "values of attributes")
     require(index == len(packets[ATTRIBUTE]) and index < header["attributes"], "a wrong attribute")  # F 3.13
-    check_declarations([*packets[ATTRIBUTE], one], header)
+    check_declarations(every, header)
     return one
 
 

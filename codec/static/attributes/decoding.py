@@ -64,14 +64,18 @@ class Declarations:
     vertices: int
     known: tuple[Declared, ...] = ()
 
-    def add(self, packet: packets.Attribute) -> Declarations:
+    def add(self, packet: packets.Attribute, limits: Limits) -> Declarations:
         """With one more.
 
         Raises
         ------
+        LimitError
+            If all together have more numbers than are granted.
         CorruptError, TruncatedError
             If its seams are none of these faces, or those of an attribute that is missing.
         """
+        every = [*(one.declaration for one in self.known), packet.declaration]
+        limits.check("attribute_values", sum(numbers_of(one, len(self.faces)) for one in every))
         one = Declared(packet.index, packet.declaration, self._joins(packet))
         return replace(self, known=(*self.known, one))
 
@@ -97,6 +101,12 @@ class Declarations:
     def _corners(self) -> Corners:
         """Made once for all attributes."""
         return self._with_seams[0].joins.corners if self._with_seams else corners_of(self.faces, self.vertices)
+
+
+def numbers_of(declaration: Declaration, faces: int) -> int:
+    """Numbers that an attribute has at most, coded or not (F 5.8)."""
+    rows = 3 * faces if declaration.coding == RECOMPUTED else declaration.rows
+    return rows * max(declaration.words, declaration.components)
 
 
 class Whole(Protocol):
