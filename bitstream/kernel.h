@@ -54,6 +54,12 @@ BSM_ARRAY(Doubles, double)
 #define LEVEL(name) name
 #endif
 #define INLINE static inline __attribute__((always_inline))
+/* Copied to every call for speed, but to none in a decoder that is built alone: that is sent to where it is needed. */
+#ifdef BSM_DECODER
+#define SHARED static __attribute__((noinline, unused))
+#else
+#define SHARED INLINE
+#endif
 
 /* What a kernel returns that was given arrays which do not fit together: a mistake of its caller, never of a stream. */
 #define MISUSED INT64_MIN

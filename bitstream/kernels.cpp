@@ -86,10 +86,11 @@ NB_MODULE(_kernels, m) {
     m.def("code_levels", checked<code_levels>, "coder"_a, "model"_a, "corners"_a, "levels"_a, "first"_a, "count"_a,
         Unlocked());
 
+    m.def("expect_normals", checked<expect_normals>, "corners"_a, "values"_a, Unlocked());
     m.def("code_scalars", checked<code_scalars>, "coder"_a, "model"_a, "corners"_a, "values"_a, "first"_a, "count"_a,
         Unlocked());
-    m.def("code_texcoords", checked<code_texcoords>, "coder"_a, "model"_a, "corners"_a, "values"_a, "first"_a, "count"_a,
-        Unlocked());
+    m.def("code_texcoords", checked<code_texcoords>, "coder"_a, "model"_a, "corners"_a, "values"_a, "first"_a,
+        "count"_a, Unlocked());
     m.def("code_normals", checked<code_normals>, "coder"_a, "model"_a, "corners"_a, "values"_a, "first"_a, "count"_a,
         Unlocked());
     m.def("code_faces", checked<code_faces>, "coder"_a, "model"_a, "corners"_a, "values"_a, "first"_a, "count"_a,

@@ -50,6 +50,7 @@ if TYPE_CHECKING:
         encode_many as encode_many, encode_sequence as encode_sequence, load as load, save as save,
     )
     from bsm.files.mesh import read_mesh as read_mesh
+    from bsm.steadiness import check_steadiness as check_steadiness, unsteadiness as unsteadiness
     from bsm.viewer.notebook import show as show
     from bsm.files.formats.polygons import MeshFile as MeshFile
     from codec.denoise import DenoiseOptions as DenoiseOptions
@@ -84,6 +85,7 @@ _ROOMS = {
     "bitstream.limits": "Limits",
     "bsm.api": "compare decode decode_sequence denoise encode encode_many encode_sequence load save",
     "bsm.files.mesh": "read_mesh",
+    "bsm.steadiness": "check_steadiness unsteadiness",
     "bsm.viewer.notebook": "show",
     "bsm.files.formats.polygons": "MeshFile",
     "codec.denoise": "DenoiseOptions",

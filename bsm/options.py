@@ -58,33 +58,50 @@ def encode_options(*, preset: str = "balanced", **keywords: Any) -> EncodeOption
     from codec.static.quality.targets import Target
 
     base: EncodeOptions = _named("preset", PRESETS, preset)
-    given = _fields("a mesh", EncodeOptions, _with_length(keywords), TARGETS, Target)
-    if base.grid is not None and any(value is not None for name, value in given.items() if name in ("target", *CODING)):
+    given = _fields("a mesh", EncodeOptions, _with_lengths(keywords), TARGETS, Target)
+    others = ("target", "grid_cell", *CODING)
+    if base.grid is not None and any(given.get(name) is not None for name in others):
         base = EncodeOptions()  # a preset that is a grid has nothing that could be changed
     return replace(base, **given)
 
 
-def _with_length(keywords: Mapping[str, Any]) -> dict[str, Any]:
-    """Keywords, a `max_error` with a unit among them as the contract that it is."""
-    from codec.static.quality.contract import Contract
+def _with_lengths(keywords: Mapping[str, Any]) -> dict[str, Any]:
+    """Keywords, a `max_error` with a unit among them as the contract that it is, and `lock_borders` as what it asks."""
+    from codec.static.quality.contract import Contract, Fit
 
     given = dict(keywords)
-    text = given.get("max_error")
-    if not isinstance(text, str):
+    locked = given.get("lock_borders")
+    if locked is True:
+        given["lock_borders"] = Fit()
+    elif locked is False:
+        given["lock_borders"] = None
+    elif isinstance(locked, (str, Real)):
+        gap, absolute = _length("lock_borders", locked)
+        given["lock_borders"] = Fit(gap, absolute)
+    if given.get("max_error") is None:
         return given
-    found = LENGTH.fullmatch(text.strip())
-    if found is None:
-        raise ArgumentError(f"max_error must be a number, or one with a unit like 0.05mm or 0.1%, not {text!r}")
-    number, unit = float(found[1]), found[2]
-    if not unit:
-        given["max_error"] = number
+    farthest, absolute = _length("max_error", given["max_error"])
+    relative = not absolute and not str(given["max_error"]).strip().endswith("%")
+    if relative and given.get("lock_borders") is None:
+        given["max_error"] = farthest  # a target: every way to code is open to it
         return given
     del given["max_error"]
     taken = [name for name in (*TARGETS, "target", "contract") if given.get(name) is not None]
     if taken:
         raise OptionError(f"one target at a time, not max_error and {' and '.join(taken)}")
-    given["contract"] = Contract(number / 100.0) if unit == "%" else Contract(number, absolute=True)
+    given["contract"] = Contract(farthest, absolute=absolute)
     return given
+
+
+def _length(name: str, value: Any) -> tuple[float, bool]:
+    """A length, and whether it is in the mesh's unit and not in diagonals."""
+    if isinstance(value, Real) and not isinstance(value, bool):
+        return float(value), False
+    found = LENGTH.fullmatch(value.strip()) if isinstance(value, str) else None
+    if found is None:
+        raise ArgumentError(f"{name} must be a number, or one with a unit like 0.05mm or 0.1%, not {value!r}")
+    number, unit = float(found[1]), found[2]
+    return (number / 100.0, False) if unit == "%" else (number, bool(unit))
 
 
 def sequence_options(*, preset: str = "balanced", low_delay: bool = False, **keywords: Any) -> SequenceOptions:

@@ -19,8 +19,8 @@ from codec.sequence.decoder import FrameEvent, SequenceDecoder
 from codec.signal.chain import Rounding, unchanged
 from codec.static.decoder import Decoder
 
-NOISE = 2.0**-48
-"""Of the greatest number of each column: thirty-two times the rounding error of a double."""
+NOISE = 2.0**-50
+"""Of the greatest number of each column: eight times the rounding error of a double."""
 RMS, PEAK = 1e-9, 1e-8
 """How far two decoders may be apart, in extents (M 15.2)."""
 

@@ -62,7 +62,7 @@ class NumericError(Exception):
     """The mathematics broke down."""
 
 
-EXIT_CODES = {FormatError: 3, CorruptError: 4, TruncatedError: 4, UnsupportedError: 5, LimitError: 6, NumericError: 7}
+EXIT_CODES = {FormatError: 3, CorruptError: 4, TruncatedError: 12, UnsupportedError: 5, LimitError: 6, NumericError: 7}
 
 MOST_VERTICES, MOST_FACES = 1 << 24, 1 << 25  # M 14
 MOST_BLOCKS, MOST_ROWS, MOST_COLUMNS = 1 << 17, 8192, 4096
@@ -190,7 +190,7 @@ FIELDS = {
     "power": (9, int, 1, 64, 2),
     "iterations": (10, int, 1, 1024, 1),
     "key_iterations": (11, int, 1, 1024, 8),
-    "shift": (12, float, 2.0**-30, 2.0**30, 0.03125),
+    "shift": (12, float, 2.0**-30, 2.0**30, 0.0078125),
     "blend": (13, "method", 0, 2, 0),
     "coding": (14, "method", 0, 1, 1),
     "bits": (15, int, 1, 32, 12),
@@ -561,9 +561,6 @@ class Block:
 
 # ---------------------------------------------------------------- M 7, M 8: springs and dictionaries
 
-TETHER = 2.0**-16
-
-
 class Known:
     """M 7.2: weighted sums of all copies that a chain has decoded."""
 
@@ -587,12 +584,12 @@ def surroundings(graph, block, known, stiffness):
     return springs, pulls
 
 
-def extend(laplacian, springs, pulls):
+def extend(laplacian, springs, pulls, shift):
     """M 7.4."""
     if springs.sum() == 0.0:
         return np.zeros_like(pulls)
     mean = pulls.sum(axis=0) / springs.sum()
-    matrix = laplacian + np.diag(springs + TETHER)
+    matrix = laplacian + np.diag(springs + shift)
     return mean + np.linalg.solve(matrix, pulls - springs[:, None] * mean)
 
 
@@ -811,6 +808,7 @@ def unzipped(data, size):
     try:
         parameters = zstandard.get_frame_parameters(frame)
         require(parameters.content_size == size and parameters.window_size <= 1 << 23, "zstd frame of another size")
+        require(not parameters.has_checksum, "a zstd frame with a checksum")
         content = zstandard.ZstdDecompressor().decompress(frame, max_output_size=size, allow_extra_data=False)
     except zstandard.ZstdError as error:
         raise CorruptError(f"zstd frame is damaged: {error}") from None
@@ -1046,7 +1044,7 @@ class Chain:
         if header["prediction"]:
             springs, pulls = surroundings(self.mesh.graph, block, self.known, header["prediction"][0])
         subspace = self.subspace = self.dictionary(block, max(width, len(heights)), springs)  # M 11.2
-        positions = extend(block.laplacian, springs, pulls)  # M 10.2
+        positions = extend(block.laplacian, springs, pulls, header["shift"])  # M 10.2
         positions = positions + subspace[:, :width] @ (points * (header["step"] / 2))
         if header["details"]:
             height = subspace[:, : len(heights)] @ (heights * (header["detail_step"] / 2))
@@ -1285,7 +1283,7 @@ class Part:
         pulls = np.zeros((self.block.size, field.shape[1]))
         for r, w, stiffness in self.edges:
             pulls[r] += stiffness * field[w]
-        return extend(self.laplacian, self.springs, pulls)
+        return extend(self.laplacian, self.springs, pulls, 2.0**-16)
 
     def difference(self, field):
         """S 3.5."""

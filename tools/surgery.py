@@ -7,8 +7,10 @@ from typing import Any
 
 import msgpack
 
-from bitstream.container.maps import write_map
-from bitstream.container.wire import FrameType, parse_frame, write_frame, write_preamble, write_varint
+from bitstream.container.declaration import Declaration
+from bitstream.container.header import fields_of
+from bitstream.container.maps import parse_map, write_map
+from bitstream.container.wire import Cursor, FrameType, parse_frame, write_frame, write_preamble, write_varint
 from bitstream.errors import BsmError
 from bitstream.limits import DEFAULT_LIMITS
 
@@ -66,6 +68,20 @@ def with_header(stream: bytes, **changes: Any) -> bytes:
         entries[HEADER_FIELDS[name].key] = value
     kept = sorted((key, value) for key, value in entries.items() if value is not None)
     return stream_of([(FrameType.HEADER, write_map(kept)), *frames[1:]])
+
+
+def with_declaration(stream: bytes, index: int, **changes: Any) -> bytes:
+    """Change, add or (with None) remove fields of the declaration of an attribute; `key_40` is one without a name."""
+    payload = [payload for kind, payload in frames_of(stream) if kind == FrameType.ATTRIBUTE][index]
+    cursor = Cursor(payload)
+    number, length = cursor.varint(), cursor.varint()
+    entries = dict(parse_map(cursor.take(length)))
+    keys = {name: declared.key for name, declared in fields_of(Declaration).items()}
+    keys |= {name: int(name.removeprefix("key_")) for name in changes if name.startswith("key_")}
+    entries |= {keys[name]: value for name, value in changes.items()}
+    packed = write_map(sorted((key, value) for key, value in entries.items() if value is not None))
+    changed = write_varint(number) + write_varint(len(packed)) + packed + cursor.rest()
+    return with_payload(stream, FrameType.ATTRIBUTE, changed, index)
 
 
 def with_payload(stream: bytes, kind: FrameType, payload: bytes, which: int = 0) -> bytes:

@@ -21,10 +21,12 @@ static void find_beside(const Corners *c, const FaceValues *g, int32_t f, int j,
         }
 }
 
-static bool code_component(RangeCoder *coder, const ValueModel *model, const Corners *c, FaceValues *g, int32_t f, int j, int32_t *hits) {
+static bool code_component(RangeCoder *coder, const ValueModel *model, const Corners *c, const FaceValues *g, int32_t f,
+    int j, int32_t *hits) {
     Beside b;
     find_beside(c, g, f, j, &b);
-    int32_t most = g->largest.data[j], *memory = g->memory.data + (MEMORIES + 1) * j, *next = memory + MEMORIES, near[SIDES];
+    int32_t most = g->largest.data[j], near[SIDES];
+    int32_t *memory = g->memory.data + (MEMORIES + 1) * j, *next = memory + MEMORIES;
     int32_t last = f > 0 ? of_face(g, f - 1, j) : 0;
     int64_t sum = 0, errors = 0, spread = 0;
     for (int i = 0; i < b.number; i++) {

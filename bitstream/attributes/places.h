@@ -4,14 +4,12 @@
 
 #include "bitstream/attributes/forecast.h"
 
-enum { MOST_BASES = 8, MOST_TWINS = 8, WHOLE = 1 << 16 };
+enum { MOST_BASES = 8, MOST_TWINS = 8 };
 
 /* An edge of the vertex's triangles of which both ends are known. */
 typedef struct {
-    int32_t a, b, c, tip;  /* c: the known vertex behind it, or -1; tip: its corner */
-    int32_t along, beside; /* where the vertex is, seen from the edge, in 2^-16 of its length */
-    int32_t share[3];      /* of a, b, c in what continues their triangle to the vertex; 2^16 together */
-    int32_t error, weight;
+    int32_t a, b, c, tip; /* c: the known vertex behind it, or -1; tip: its corner */
+    int32_t error;
 } Base;
 
 typedef struct {

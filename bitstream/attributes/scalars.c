@@ -6,8 +6,8 @@ typedef struct { /* of the components of this vertex so far */
 } Before;
 
 typedef struct { /* of one component around the vertex, in 1/16 */
-    int32_t mean, spread, drift, error; /* of the neighbours: values, their distances from the mean, gaps, their sizes */
-    int32_t straight, bent, best;       /* what continues the triangles: as parallelograms, by shape; by the best one */
+    int32_t mean, spread, drift, error; /* of the neighbours: values, how far from the mean, gaps, their sizes */
+    int32_t straight, best;             /* what continues the triangles as parallelograms, and the best one */
     int32_t beside;                     /* what lies between the ends of the edges */
     int32_t length, fold, closing;
 } Trend;
@@ -27,25 +27,22 @@ static void find_trend(const Work *w, const Place *p, int32_t v, int32_t last, i
     t->spread = near > 0 ? divided(spread, near) : 0;
     t->error = near > 0 ? divided(errors, near) : most;
 
-    int64_t across = 0, affine = 0, level = 0, length = 0, fold = 0;
-    int32_t flaps = 0, weights = 0;
+    int64_t across = 0, level = 0, length = 0, fold = 0;
+    int32_t flaps = 0;
     t->best = t->mean;
     for (int i = 0; i < p->bases; i++) {
         const Base *base = &p->base[i];
         int64_t a = value_at(g, base->a, j), b = value_at(g, base->b, j);
-        level += ((WHOLE - base->along) * a + base->along * b) >> 12;
+        level += FINE / 2 * (a + b);
         if (base->c < 0) continue;
         int64_t c = value_at(g, base->c, j);
-        int32_t bent = limited((base->share[0] * a + base->share[1] * b + base->share[2] * c) >> 12);
-        if (flaps++ == 0) t->best = bent;
+        if (flaps++ == 0) t->best = FINE * (int32_t)(a + b - c);
         across += FINE * (a + b - c);
-        affine += (int64_t)bent * base->weight, weights += base->weight;
         length += FINE / 2 * (a + b - 2 * c);
         fold += fold_at(w, v, base, j);
     }
     t->beside = p->bases > 0 ? divided(level, p->bases) : t->mean;
     t->straight = flaps > 0 ? divided(across, flaps) : t->mean;
-    t->bent = flaps > 0 ? divided(affine, weights) : t->mean;
     t->length = flaps > 0 ? divided(length, flaps) : 0;
     t->fold = flaps > 0 ? divided(fold, flaps) : 0;
     t->closing = balance(w, r, j, t->straight);
@@ -72,22 +69,24 @@ static bool code_component(Work *w, const Place *p, int32_t v, int32_t last, int
     int32_t one = j > 0 ? own->gap[j - 1] : 0, two = j > 1 ? own->gap[j - 2] : 0;
     Trend t;
     find_trend(w, p, v, last, j, &t);
-    int32_t mean = t.mean, bend = t.bent - mean;
-    Forecast f = {.term = {t.straight - mean, bend, t.closing, t.length, t.fold, j > 0 ? own->off[j - 1] : t.drift,
+    int32_t mean = t.mean, best = t.best - mean;
+    Forecast f = {.term = {t.straight - mean, best, t.closing, t.length, t.fold, j > 0 ? own->off[j - 1] : t.drift,
                       j > 1 ? own->off[j - 2] : t.beside - mean},
-        .hint = {t.error, t.spread, size_of(one), size_of(bend)}};
+        .hint = {t.error, t.spread, size_of(one), size_of(best)}};
     choose_learners(&f, g, MOST_COMPONENTS, j, p->number, p->valence);
     foresee(&f, far, near > 0);
     int32_t guess = mean + f.shift, bucket = size_class(f.typical >> 1), unit = f.typical / 2 + 4;
 
     int32_t first = near > 0 ? value_at(g, r->neighbour[0], j) * FINE : mean, like = find_like(g, p, v, j);
+    int32_t second = near > 1 ? value_at(g, r->neighbour[1], j) * FINE : mean;
     Expectation e;
     e.prediction[0] = mean;
-    e.prediction[1] = t.bent;
+    e.prediction[1] = t.best;
     e.prediction[2] = p->bases > 0 ? t.straight : first;
-    e.prediction[3] = twin >= 0 ? value_at(g, twin, j) * FINE : near > 1 ? value_at(g, r->neighbour[1], j) * FINE : mean;
+    e.prediction[3] = twin >= 0 ? value_at(g, twin, j) * FINE : second;
     e.prediction[4] = nearest_seen(g, j, within(whole(guess), 0, most)) * FINE;
-    e.prediction[5] = like < 0 ? first : (value_at(g, like, j) + value_at(g, v, j - 1) - value_at(g, like, j - 1)) * FINE;
+    e.prediction[5] = first;
+    if (like >= 0) e.prediction[5] = (value_at(g, like, j) + value_at(g, v, j - 1) - value_at(g, like, j - 1)) * FINE;
     e.prediction[6] = guess;
     int32_t off[PREDICTIONS];
     for (int i = 0; i < PREDICTIONS; i++) e.prediction[i] = within(e.prediction[i], 0, far);

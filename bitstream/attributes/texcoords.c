@@ -1,10 +1,19 @@
 /* Texture coordinates, predicted from the shapes of the triangles (specification, A 5). */
 #include "bitstream/attributes/places.h"
 
-enum { AXES = 2 };
+enum { AXES = 2, WHOLE = 1 << 16, NARROW = 1 << 14, MOST_RATIO = 8 * WHOLE };
+
+/* What is kept: triangles that are counter-clockwise less those that are clockwise; how far neighbours are apart, in
+ * 1/256. */
+enum { TURN, STRIDE };
+
+typedef struct { /* where a vertex is, seen from an edge, in 2^-16 of its length */
+    int64_t along, beside, weight;
+} Spot;
 
 typedef struct { /* where a base says that the vertex is, 1/16 */
     int32_t similar[AXES], affine[AXES], across[AXES];
+    int32_t weight;
 } Claim;
 
 typedef struct {
@@ -14,6 +23,7 @@ typedef struct {
 } Chart;
 
 INLINE const int32_t *at(const Values *g, int32_t v) { return g->values.data + AXES * (int64_t)v; }
+INLINE int64_t dot(const int64_t *x, const int64_t *y) { return x[0] * y[0] + x[1] * y[1] + x[2] * y[2]; }
 
 /* Which way round a, b, c are. */
 static int turn_of(const Values *g, int32_t a, int32_t b, int32_t c) {
@@ -22,16 +32,58 @@ static int turn_of(const Values *g, int32_t a, int32_t b, int32_t c) {
     return cross > 0 ? 1 : cross < 0 ? -1 : 0;
 }
 
-static void claim(const Values *g, const Base *base, Claim *claim) {
+/* Where x is over the edge from a to b; false if that has no length (A 5.1). */
+static bool locate(const Values *g, int32_t a, int32_t b, int32_t x, Spot *spot) {
+    const int32_t *p = g->geometry.data;
+    int64_t edge[3], to[3], most = 0, normal[3];
+    for (int j = 0; j < 3; j++) {
+        edge[j] = (int64_t)p[3 * (int64_t)b + j] - p[3 * (int64_t)a + j];
+        to[j] = (int64_t)p[3 * (int64_t)x + j] - p[3 * (int64_t)a + j];
+        most = largest(most, largest(largest(edge[j], -edge[j]), largest(to[j], -to[j])));
+    }
+    int shift = 0;
+    while (most >> shift >= NARROW) shift++;
+    for (int j = 0; j < 3; j++) edge[j] >>= shift, to[j] >>= shift;
+    int64_t square = dot(edge, edge);
+    if (square == 0) return false;
+    for (int j = 0; j < 3; j++) {
+        int s = (j + 1) % 3, t = (j + 2) % 3;
+        normal[j] = edge[s] * to[t] - edge[t] * to[s];
+    }
+    int64_t area = square_root((uint64_t)dot(normal, normal));
+    spot->along = within(dot(edge, to) * WHOLE / square, -MOST_RATIO, MOST_RATIO);
+    spot->beside = within(area * WHOLE / square, 0, MOST_RATIO);
+    spot->weight = within(square * 256 / (area + 1), 1, WHOLE);
+    return true;
+}
+
+/* By the shape of the vertex's triangle, by that of the triangle behind the edge, and by its parallelogram (A 5.2). */
+static Claim claim_of(const Values *g, int32_t v, const Base *base) {
     const int32_t *a = at(g, base->a), *b = at(g, base->b), *c = base->c >= 0 ? at(g, base->c) : b;
     int turn = base->c >= 0 ? turn_of(g, base->b, base->a, base->c) : 0;
-    if (turn == 0) turn = g->turn.data[0] >= 0 ? 1 : -1;
+    if (turn == 0) turn = g->chart.data[TURN] >= 0 ? 1 : -1;
     int64_t edge[AXES] = {b[0] - a[0], b[1] - a[1]}, beyond[AXES] = {-edge[1] * turn, edge[0] * turn};
+    Spot spot, far;
+    Claim claim;
+    claim.weight = 1;
     for (int j = 0; j < AXES; j++) {
-        claim->across[j] = FINE * (a[j] + b[j] - c[j]);
-        claim->similar[j] = claim->affine[j] = FINE * a[j] + (int32_t)((base->along * edge[j] + base->beside * beyond[j]) >> 12);
-        if (base->c >= 0) claim->affine[j] = FINE * a[j] + limited((base->share[1] * edge[j] + (int64_t)base->share[2] * (c[j] - a[j])) >> 12);
+        claim.across[j] = claim.affine[j] = FINE * (a[j] + b[j] - c[j]);
+        claim.similar[j] = FINE / 2 * (a[j] + b[j]);
     }
+    if (g->geometry.rows == 0 || !locate(g, base->a, base->b, v, &spot)) return claim;
+    claim.weight = (int32_t)spot.weight;
+    for (int j = 0; j < AXES; j++)
+        claim.similar[j] = FINE * a[j] + (int32_t)((spot.along * edge[j] + spot.beside * beyond[j]) >> 12);
+    if (base->c < 0) {
+        for (int j = 0; j < AXES; j++) claim.affine[j] = claim.similar[j];
+        return claim;
+    }
+    if (!locate(g, base->a, base->b, base->c, &far) || far.beside < WHOLE / 64) return claim;
+    int64_t ratio = spot.beside * WHOLE / far.beside, rest = spot.along + (ratio * far.along >> 16);
+    if (ratio > MOST_RATIO) return claim;
+    for (int j = 0; j < AXES; j++)
+        claim.affine[j] = FINE * a[j] + limited((rest * edge[j] - ratio * (c[j] - a[j])) >> 12);
+    return claim;
 }
 
 static void average(const Values *g, int32_t last, Chart *p) {
@@ -51,7 +103,7 @@ static void average(const Values *g, int32_t last, Chart *p) {
         if (bases == 0) continue;
         for (int i = 0; i < bases; i++) {
             const Claim *c = &p->claim[i];
-            int64_t weight = p->place.base[i].weight;
+            int64_t weight = c->weight;
             similar += weight * c->similar[j], affine += weight * c->affine[j], across += weight * c->across[j];
             weights += (int32_t)weight;
         }
@@ -81,9 +133,10 @@ static bool code_axis(Work *w, const Chart *p, int32_t v, int j, int32_t *hits, 
     int32_t most = g->largest.data[j], far = FINE * most, base = p->all.affine[j], number = p->place.number;
     int32_t twin = p->place.twin, like = p->all.similar[j] - base;
     const Claim *one = p->place.bases > 0 ? &p->claim[0] : &p->all, *two = p->place.bases > 1 ? &p->claim[1] : one;
-    Forecast f = {.term = {like, p->all.across[j] - base, p->mean[j] - base, j > 0 ? along(*first, p->rise[0], p->rise[1]) : 0,
-                      j > 0 ? along(*first, p->run[0], p->run[1]) : 0, p->drift[j], one->affine[j] - base},
-        .hint = {p->place.error >= 0 ? p->place.error : far, p->spread[j], j > 0 ? size_of(*first) : 0, size_of(like)}};
+    int32_t usual = r->neighbours > 0 ? (int32_t)(g->chart.data[STRIDE] >> 4) : far;
+    Forecast f = {.term = {like, p->all.across[j] - base, p->mean[j] - base, along(*first, p->rise[0], p->rise[1]),
+                      along(*first, p->run[0], p->run[1]), p->drift[j], one->affine[j] - base},
+        .hint = {number > 0 ? p->place.error : usual, p->spread[j], size_of(*first), size_of(like)}};
     choose_learners(&f, g, AXES, j, number, p->place.valence);
     foresee(&f, far, number > 0);
     int32_t guess = base + f.shift, bucket = size_class(f.typical >> 1), unit = f.typical / 2 + 4;
@@ -117,21 +170,29 @@ static bool code_axis(Work *w, const Chart *p, int32_t v, int j, int32_t *hits, 
     keep_value(g, v, j, value);
     *hits = hits_of(&e, value);
     int32_t gap = take(&f, value * FINE - base);
-    g->gaps.data[AXES * (int64_t)v + j] = number > 0 ? gap : 0; /* where nothing was known, errors tell nothing */
+    /* where nothing was known, errors tell nothing */
+    g->gaps.data[AXES * (int64_t)v + j] = number > 0 ? gap : (int32_t)(g->chart.data[STRIDE] >> 7);
     if (j == 0) *first = gap;
     return true;
+}
+
+static void pass_chart(const Values *g, const Chart *p, int32_t v) {
+    int64_t *kept = g->chart.data, away = 0;
+    for (int j = 0; j < AXES; j++) away += size_of(at(g, v)[j] * FINE - p->mean[j]);
+    if (p->place.around.neighbours > 0) kept[STRIDE] += (FINE / 2 * away - kept[STRIDE]) >> 4;
+    for (int i = 0; i < p->place.bases; i++) kept[TURN] += turn_of(g, p->place.base[i].a, p->place.base[i].b, v);
 }
 
 static bool code_vertex(Work *w, int32_t v, int32_t last) {
     const Values *g = &w->values;
     Chart p;
     survey(w, v, &p.place);
-    for (int i = 0; i < p.place.bases; i++) claim(g, &p.place.base[i], &p.claim[i]);
+    for (int i = 0; i < p.place.bases; i++) p.claim[i] = claim_of(g, v, &p.place.base[i]);
     average(g, last, &p);
     int32_t hits = 0, first = 0;
     for (int j = 0; j < AXES; j++)
         if (!code_axis(w, &p, v, j, &hits, &first)) return false;
-    for (int i = 0; i < p.place.bases; i++) g->turn.data[0] += turn_of(g, p.place.base[i].a, p.place.base[i].b, v);
+    pass_chart(g, &p, v);
     return true;
 }
 

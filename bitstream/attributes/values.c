@@ -11,9 +11,10 @@ static bool fits(const Work *w, int64_t learners) {
         && (g->geometry.rows == n || g->geometry.rows == 0) && g->values.rows == n && g->values.columns == columns
         && g->gaps.rows == n && g->gaps.columns == columns && g->sums.rows == n && g->sums.columns == columns + 1
         && g->seen.rows == columns && g->learners.rows == learners && g->learners.columns == LEARNER_COLUMNS
-        && g->directions.columns == 6 && g->turn.size == 1;
+        && g->chart.size == 2;
     for (int j = 0; j < columns && fit; j++)
-        fit = g->largest.data[j] >= 0 && g->largest.data[j] <= MOST_LARGEST && g->largest.data[j] / 64 < g->seen.columns;
+        fit = g->largest.data[j] >= 0 && g->largest.data[j] <= MOST_LARGEST
+            && g->largest.data[j] / 64 < g->seen.columns;
     return fit;
 }
 

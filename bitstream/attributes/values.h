@@ -22,8 +22,8 @@ typedef struct {
     Longs2 sums;         /* n x (c + 1): values of the known neighbours, added, and how many they are */
     Longs2 seen;         /* c x words: bit v of a component tells that it has taken the value v */
     Longs2 learners;
-    Ints2 directions;    /* normals: n x 6, what is and what was expected of the surface */
-    Longs turn;          /* texture coordinates: 1, triangles that are counter-clockwise less those that are clockwise */
+    Ints2 directions;    /* normals: n x 12, their own, and what the surface tells */
+    Longs chart;         /* texture coordinates: 2, see texcoords.c */
 } Values;
 
 typedef struct { /* what codes a vertex needs to know */
@@ -40,6 +40,7 @@ int64_t code_vertices(Coder given, Work *work, int64_t learners, int64_t first, 
 void keep_value(const Values *values, int32_t v, int component, int32_t value);
 int32_t nearest_seen(const Values *values, int component, int32_t value);
 
+int64_t expect_normals(Corners corners, Values values);
 int64_t code_scalars(Coder coder, ValueModel model, Corners corners, Values values, int64_t first, int64_t count);
 int64_t code_texcoords(Coder coder, ValueModel model, Corners corners, Values values, int64_t first, int64_t count);
 int64_t code_normals(Coder coder, ValueModel model, Corners corners, Values values, int64_t first, int64_t count);

@@ -41,7 +41,7 @@ class _Values(NamedTuple):
     seen: Longs
     learners: Longs
     directions: Ints
-    turn: Longs
+    chart: Longs
 
 
 class _FaceValues(NamedTuple):
@@ -56,14 +56,15 @@ class _FaceValues(NamedTuple):
 _Kernel = Callable[[Coder, ValueModel, Corners, _Values, int, int], int]
 
 
-def values_charge(vertices: int, faces: int, components: int) -> int:
-    """Bytes of memory that coding values of vertices takes at most; work is linear in `vertices` + `faces`."""
-    return (BYTES_PER_VERTEX + 60 + 16 * components) * vertices + BYTES_PER_FACE * faces + MODEL_BYTES + (1 << 20)
+def values_charge(vertices: int, faces: int, components: int, kind: Kind) -> int:
+    """Bytes of memory that coding values of vertices takes at most; its work is linear in `vertices` + `faces`."""
+    per_vertex = BYTES_PER_VERTEX + 60 + 16 * components + (48 if kind == "normal" else 0)
+    return per_vertex * vertices + BYTES_PER_FACE * faces + MODEL_BYTES + (components << 17) + (1 << 17)
 
 
 def face_values_charge(faces: int, components: int) -> int:
     """The same for values of faces."""
-    return 3 * BYTES_PER_VERTEX * faces + (BYTES_PER_FACE + 8 * components) * faces + MODEL_BYTES + (1 << 17)
+    return (3 * BYTES_PER_VERTEX + BYTES_PER_FACE + 8 * components) * faces + MODEL_BYTES + (1 << 17)
 
 
 class _ValueCoder:
@@ -92,9 +93,11 @@ class _ValueCoder:
             np.zeros((vertices, components + 1), np.int64),
             np.zeros((components, int(top.max()) // 64 + 1), np.int64),
             make_learners(start),
-            np.zeros((vertices if kind == "normal" else 0, 6), np.int32),
-            np.zeros(1, np.int64),
+            np.zeros((vertices if kind == "normal" else 0, 12), np.int32),
+            np.array([0, 16 * int(top[0])], np.int64),
         )
+        if kind == "normal":
+            _kernels.expect_normals(corners, self._values)
         model = make_model()
 
         def code(coder: Coder, first: int, count: int) -> int:
@@ -191,7 +194,8 @@ class ValueDecoder(_ValueCoder):
         places: npt.ArrayLike | None = None,
         limits: Limits = DEFAULT_LIMITS,
     ) -> None:
-        limits.check("field_bytes", values_charge(vertices, len(np.asarray(faces)), MOST_COMPONENTS))
+        components = len(checked_largest(largest))
+        limits.check("field_bytes", values_charge(vertices, len(np.asarray(faces)), components, kind))
         super().__init__(faces, vertices, largest, kind, geometry, places)
 
     def chunk(self, payload: bytes, count: int) -> tuple[Ints, Ints]:
@@ -293,7 +297,7 @@ class FaceValueDecoder(_FaceValueCoder):
     """
 
     def __init__(self, faces: npt.ArrayLike, largest: npt.ArrayLike, limits: Limits = DEFAULT_LIMITS) -> None:
-        limits.check("field_bytes", face_values_charge(len(np.asarray(faces)), MOST_COMPONENTS))
+        limits.check("field_bytes", face_values_charge(len(np.asarray(faces)), len(checked_largest(largest))))
         super().__init__(faces, largest)
 
     def chunk(self, payload: bytes, count: int) -> Ints:
@@ -342,7 +346,7 @@ def octahedral_levels(normals: npt.ArrayLike, size: int) -> Ints:
     given = np.asarray(normals, np.float64)
     if given.ndim != 2 or given.shape[1] != 3:
         raise MeshError(f"normals must have shape (n, 3), not {given.shape}")
-    largest = np.abs(given).max(axis=1, keepdims=True, initial=0)
+    largest = np.abs(given).max(axis=1, keepdims=True)
     if not (np.isfinite(largest).all() and (largest > 0).all()):
         raise MeshError("a normal without a direction has no place on an octahedron")
     scaled = given / largest

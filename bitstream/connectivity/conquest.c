@@ -60,8 +60,8 @@ static bool open_walk(Walk *walk, Coder coder, Models models, const Guide *guide
     walk->face_room = conquest->faces.rows;
     walk->tallies = conquest->tallies.data;
     return open_coder(&walk->coder, coder) && open_models(&walk->model, models)
-        && (walk->coder.reading || guide->conquered.size > 0 || walk->face_room == 0)
-        && (!walk->coder.reading || guide->conquered.size == 0) && open_guide(&walk->map, guide, conquest)
+        && (is_reading(&walk->coder) || guide->conquered.size > 0 || walk->face_room == 0)
+        && (!is_reading(&walk->coder) || guide->conquered.size == 0) && open_guide(&walk->map, guide, conquest)
         && open_front(&walk->front, conquest->front) && conquest->vertices.columns == VERTEX_COLUMNS
         && walk->vertex_room <= INT32_MAX && walk->face_room <= INT32_MAX / 3 && conquest->faces.columns == 3 && conquest->tallies.size == TALLIES;
 }
@@ -70,7 +70,7 @@ static bool open_walk(Walk *walk, Coder coder, Models models, const Guide *guide
 INLINE int64_t add_vertex(Walk *walk, int32_t fan, bool dummy) {
     int64_t *tallies = walk->tallies, vertex = tallies[VERTICES], valence = 2;
     if (vertex == walk->vertex_room) return -1;
-    if (!walk->coder.reading) {
+    if (!is_reading(&walk->coder)) {
         valence = walk->map.valence[fan];
         walk->map.number[fan] = (int32_t)vertex;
     }
@@ -83,7 +83,7 @@ INLINE int64_t add_vertex(Walk *walk, int32_t fan, bool dummy) {
         valence = code_valence(&walk->coder, &walk->model, valence);
         int32_t label = (int32_t)least(valence, 15);
         walk->vertices[vertex] = (Vertex){.label = label, .sum = 0, .rank = (int32_t)tallies[REAL]};
-        if (!walk->coder.reading) {
+        if (!is_reading(&walk->coder)) {
             if (tallies[REAL] >= walk->map.real) return -1;
             walk->map.fans[tallies[REAL]] = fan;
         }
@@ -96,7 +96,7 @@ INLINE int64_t add_vertex(Walk *walk, int32_t fan, bool dummy) {
 
 /* Add triangle (a, b, c) to what is conquered, and to the faces unless it has a dummy (C 5.5). */
 INLINE bool emit(Walk *walk, int32_t a, int32_t b, int32_t c, int32_t face) {
-    if (!walk->coder.reading) walk->map.conquered[face] = 1;
+    if (!is_reading(&walk->coder)) walk->map.conquered[face] = 1;
     if (a == b || b == c || c == a) return false;
     int32_t rank_a = walk->vertices[a].rank, rank_b = walk->vertices[b].rank, rank_c = walk->vertices[c].rank;
     if (rank_a < 0 || rank_b < 0 || rank_c < 0) return true;
@@ -106,7 +106,7 @@ INLINE bool emit(Walk *walk, int32_t a, int32_t b, int32_t c, int32_t face) {
     row[0] = rank_a;
     row[1] = rank_b;
     row[2] = rank_c;
-    if (!walk->coder.reading) walk->map.faces[number] = face;
+    if (!is_reading(&walk->coder)) walk->map.faces[number] = face;
     walk->tallies[FACES]++;
     return true;
 }
@@ -121,7 +121,7 @@ INLINE void meet(Walk *walk, int32_t a, int32_t b) {
 /* The edge from `node` to its next one has become a gate, with `halfedge` on the conquered side. */
 INLINE void set_gate(Walk *walk, int32_t node, int32_t apex, int32_t halfedge) {
     walk->front.nodes[node].apex = apex;
-    if (!walk->coder.reading) {
+    if (!is_reading(&walk->coder)) {
         int32_t gate = walk->map.twin[halfedge];
         walk->front.nodes[node].gate = gate;
         walk->map.node[gate] = node;
@@ -132,14 +132,14 @@ INLINE void set_gate(Walk *walk, int32_t node, int32_t apex, int32_t halfedge) {
 static bool start_component(Walk *walk) {
     int32_t first = (int32_t)walk->tallies[VERTICES], node = walk->front.heads[MADE];
     int32_t start = (int32_t)walk->tallies[START];
-    if (!walk->coder.reading) {
+    if (!is_reading(&walk->coder)) {
         while (start < walk->face_room && walk->map.conquered[start]) start++;
         if (start == walk->face_room) return false;
         walk->tallies[START] = start;
     }
     look_nowhere(&walk->model);
     for (int k = 0; k < 3; k++) {
-        int32_t fan = walk->coder.reading ? 0 : walk->map.corner[3 * start + k];
+        int32_t fan = is_reading(&walk->coder) ? 0 : walk->map.corner[3 * start + k];
         int64_t valence = add_vertex(walk, fan, false);
         if (valence < 0) return false;
         add_node(&walk->front, first + k, (int32_t)valence - 2);
@@ -205,7 +205,7 @@ static int32_t code_node(Walk *walk, int32_t f, int32_t node) {
     const Node *nodes = walk->front.nodes;
     RangeCoder *coder = &walk->coder;
     int64_t reach = least(REACH, walk->tallies[STEPS]), count = 0;
-    int way = coder->reading ? 2 : search(nodes, f, node, reach, &count);
+    int way = is_reading(coder) ? 2 : search(nodes, f, node, reach, &count);
     if (code_rare_bit(coder, &walk->model, RARE_WAY, way >> 1)) {
         walk->tallies[STEPS] -= reach;
         return (int32_t)code_uniform(coder, node, walk->front.heads[MADE]);
@@ -249,7 +249,7 @@ INLINE bool pass_gate(Walk *walk, int32_t f) {
     /* The node to split at, its free edges on the side of f, or else the new vertex. */
     int32_t node = -1, free = 0, fan = 0;
     int usual = 1, loop = 0;
-    if (!coder->reading) {
+    if (!is_reading(coder)) {
         fan = walk->map.corner[previous_halfedge(gate)];
         if (walk->map.number[fan] >= 0) node = find_node(walk, gate, &free);
         usual = node < 0 && fan < walk->map.real;

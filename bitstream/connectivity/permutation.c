@@ -52,9 +52,9 @@ int64_t code_steps(Coder given, Bank bank, Ints values, Ints tree) {
     int64_t expected = 0, repeated = 0, last = 0, older = 0, oldest = 0;
     bool legal = true;
     for (int64_t i = 0; i < size && legal; i++) {
-        if (!coder.reading && (values.data[i] < 0 || values.data[i] >= size)) return MISUSED;
+        if (!is_reading(&coder) && (values.data[i] < 0 || values.data[i] >= size)) return MISUSED;
         int64_t rank = count_before(tree.data, expected);
-        int64_t step = coder.reading ? 0 : count_before(tree.data, values.data[i]) - rank;
+        int64_t step = is_reading(&coder) ? 0 : count_before(tree.data, values.data[i]) - rank;
         const int64_t contexts[INPUTS] = {
             0,
             SPAN * (1 + last),

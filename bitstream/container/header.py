@@ -153,7 +153,7 @@ class Header:
     """Orthogonal iterations per block, t."""
     key_iterations: int = integer(11, 1, 1024, default=8)
     """Orthogonal iterations of a key block."""
-    shift: float = real(12, 2.0**-30, 2.0**30, default=0.03125)
+    shift: float = real(12, 2.0**-30, 2.0**30, default=0.0078125)
     """What is added to the Laplacian's diagonal, delta."""
     blend: int = method(13, known=3)
     """Weights of a vertex's copies: 0: its degree in the block; 1: all equal; 2: only the copy in its own part."""

@@ -11,7 +11,7 @@ enum { SUFFIX_NODES = 24 };
 #define SIGNED_SPAN(unary) (UNSIGNED_SPAN(unary) + 2)
 
 /* Code an integer in 0 .. 2^24 - 2 + unary, from `node` on: a unary prefix, then an Exp-Golomb escape (C 3.1). */
-INLINE int64_t code_unsigned(RangeCoder *coder, const Mixer *mixer, int inputs, const int64_t *contexts,
+SHARED int64_t code_unsigned(RangeCoder *coder, const Mixer *mixer, int inputs, const int64_t *contexts,
     int64_t selector, int unary, int64_t value, int64_t node) {
     for (int k = 0; k < unary; k++)
         if (!code_mixed_bit(coder, mixer, inputs, contexts, node + k, selector, value > k)) return k;
@@ -33,7 +33,7 @@ INLINE int64_t code_unsigned(RangeCoder *coder, const Mixer *mixer, int inputs, 
 }
 
 /* Code an integer of magnitude below 2^24: zero, sign, then the rest (C 3.2). */
-INLINE int64_t code_signed(RangeCoder *coder, const Mixer *mixer, int inputs, const int64_t *contexts,
+SHARED int64_t code_signed(RangeCoder *coder, const Mixer *mixer, int inputs, const int64_t *contexts,
     int64_t selector, int unary, int64_t value) {
     if (!code_mixed_bit(coder, mixer, inputs, contexts, 0, selector, value != 0)) return 0;
     int negative = code_mixed_bit(coder, mixer, inputs, contexts, 1, selector, value < 0);

@@ -69,7 +69,7 @@ INLINE uint32_t mixed_probability(
 }
 
 /* Predict a decision from all contexts, code it, and learn from it (C 2.5, C 2.6). */
-INLINE int code_mixed_bit(RangeCoder *coder, const Mixer *mixer, int inputs, const int64_t *contexts, int64_t node,
+SHARED int code_mixed_bit(RangeCoder *coder, const Mixer *mixer, int inputs, const int64_t *contexts, int64_t node,
     int64_t selector, int bit) {
     int32_t stretched[MOST_INPUTS];
     uint32_t probability = mixed_probability(mixer, inputs, contexts, node, selector, stretched);

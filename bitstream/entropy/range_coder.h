@@ -28,6 +28,15 @@ typedef struct {
 
 #define CODER_TOP (UINT64_C(1) << 24)
 
+/* Whether symbols are read; known beforehand where a decoder is built alone, so that what writes can be left out. */
+INLINE bool is_reading(const RangeCoder *coder) {
+#ifdef BSM_DECODER
+    return true;
+#else
+    return coder->reading;
+#endif
+}
+
 /* False for a state that no coder of these functions has. */
 INLINE bool open_coder(RangeCoder *coder, Coder given) {
     if (given.state.size < CODER_STATES) return false;
@@ -35,7 +44,7 @@ INLINE bool open_coder(RangeCoder *coder, Coder given) {
     *coder = (RangeCoder){given.data.data, given.data.size, state[CODER_POSITION], (uint64_t)state[CODER_LOW],
         (uint64_t)state[CODER_RANGE], state[CODER_READING] != 0, state[CODER_FULL] != 0};
     return coder->range >= CODER_TOP && (coder->range | coder->low) >> 32 == 0 && coder->position >= 0
-        && (coder->reading || coder->position <= coder->size);
+        && (is_reading(coder) || coder->position <= coder->size);
 }
 
 INLINE void close_coder(const RangeCoder *coder, Coder given) {
@@ -48,17 +57,17 @@ INLINE void close_coder(const RangeCoder *coder, Coder given) {
 
 /* Whether the coder reads, or can write at least `capacity` bytes more. */
 INLINE bool has_room(const RangeCoder *coder, int64_t capacity) {
-    return coder->reading || coder->position + capacity < coder->size;
+    return is_reading(coder) || coder->position + capacity < coder->size;
 }
 
 /* Whether more was read than any complete payload of this length can hold (C 1.6). */
-INLINE bool overran(const RangeCoder *coder) { return coder->reading && coder->position > coder->size + 4; }
+INLINE bool overran(const RangeCoder *coder) { return is_reading(coder) && coder->position > coder->size + 4; }
 
 /* Shift bytes out of (or into) the range until it is large again: at most two of them after one decision (C 1.3). */
 INLINE void renormalise(RangeCoder *coder) {
     while (coder->range < CODER_TOP) {
         coder->range <<= 8;
-        if (coder->reading) {
+        if (is_reading(coder)) {
             coder->low <<= 8;
             if (coder->position < coder->size) coder->low |= coder->data[coder->position];
             coder->position++;
@@ -84,7 +93,7 @@ INLINE void raise_low(RangeCoder *coder, uint64_t amount) {
 /* Code a decision whose probability of a one is `probability` (C 1.2). */
 INLINE int code_bit(RangeCoder *coder, uint32_t probability, int bit) {
     uint64_t bound = (coder->range * probability) >> ONE_BITS;
-    if (coder->reading) {
+    if (is_reading(coder)) {
         bit = coder->low < bound;
         coder->low -= bit ? 0 : bound;
     } else if (!bit) {
@@ -98,10 +107,10 @@ INLINE int code_bit(RangeCoder *coder, uint32_t probability, int bit) {
 /* Code an integer in 0 .. count - 1; `count` at most ONE. */
 INLINE uint32_t code_small_uniform(RangeCoder *coder, uint32_t value, uint32_t count) {
     uint32_t unit = (uint32_t)coder->range / count;
-    if (coder->reading) value = (uint32_t)coder->low / unit;
+    if (is_reading(coder)) value = (uint32_t)coder->low / unit;
     if (value >= count) value = count - 1;
     uint64_t below = (uint64_t)value * unit;
-    if (coder->reading) coder->low -= below;
+    if (is_reading(coder)) coder->low -= below;
     else raise_low(coder, below);
     /* The last value takes what the division leaves over. */
     coder->range = value < count - 1 ? unit : coder->range - below;

@@ -42,6 +42,8 @@ def decompress(data: bytes, exact_size: int) -> bytes:
             raise CorruptError(f"zstd frame claims {parameters.content_size} bytes where {exact_size} belong")
         if parameters.window_size > MAX_WINDOW:
             raise CorruptError(f"zstd frame has a window of {parameters.window_size} bytes, legal are {MAX_WINDOW}")
+        if parameters.has_checksum:
+            raise CorruptError("zstd frame has a checksum of its content")
         decompressor = zstandard.ZstdDecompressor()
         content: bytes = decompressor.decompress(frame, max_output_size=exact_size, allow_extra_data=False)
     except zstandard.ZstdError as error:

@@ -259,7 +259,7 @@ static bool code_axis(RangeCoder *coder, const ValueModel *model, Grid *g, int32
     e.context[5] = step == 0 ? 0 : *hits + (step << PREDICTIONS);
     e.set = step;
 
-    int32_t value = code_value(coder, model, &e, coder->reading ? 0 : x[AXES * (int64_t)v + j]);
+    int32_t value = code_value(coder, model, &e, is_reading(coder) ? 0 : x[AXES * (int64_t)v + j]);
     if (value < 0 || value > most) return false;
     x[AXES * (int64_t)v + j] = value;
     g->seen.data[j * words + (value >> 6)] |= (int64_t)(UINT64_C(1) << (value & 63));

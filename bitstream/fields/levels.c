@@ -83,7 +83,7 @@ static bool code_axis(RangeCoder *coder, const ValueModel *model, Levels *l, int
     e.context[5] = ((int32_t)least(near, 5) * 6 + (int32_t)least(p->valence, 5)) * 3 + j + 108 * (int32_t)least(a, 3);
     e.set = j;
 
-    int32_t value = code_value(coder, model, &e, coder->reading ? 0 : x[axes * v]);
+    int32_t value = code_value(coder, model, &e, is_reading(coder) ? 0 : x[axes * v]);
     if (value < -MOST_LEVEL || value > MOST_LEVEL) return false;
     x[axes * v] = value;
     l->gaps.data[axes * v + j] = value * FINE - guess;

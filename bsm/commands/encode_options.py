@@ -45,8 +45,18 @@ class EncodeFlag:
             )
 
 
+def point(text: str) -> tuple[float, ...]:
+    """Three numbers with commas between them."""
+    numbers = tuple(map(float, text.split(",")))
+    if len(numbers) != 3:
+        raise ValueError(text)
+    return numbers
+
+
 ENCODE_FLAGS = (
     EncodeFlag("grid", int, "BITS", "exactly the positions that a grid of so many bits per axis has (1 to 20)"),
+    EncodeFlag("grid_cell", float, "H", "exactly the positions of a grid of such cells: parts on one fit exactly"),
+    EncodeFlag("grid_origin", point, "X,Y,Z", "a place of that grid (default 0,0,0); =X,Y,Z where X is negative"),
     EncodeFlag("keep", float, "FRACTION", "largest c_i, as a fraction of a block's vertices (default: as many as pay)"),
     EncodeFlag("coefficients", int, "C", "coefficients kept per block and coordinate, instead of --keep"),
     EncodeFlag("step", float, "S", "quantisation step, relative to the bounding box's diagonal; instead of a promise"),
@@ -63,7 +73,7 @@ ENCODE_FLAGS = (
     EncodeFlag("power", int, "Z", "exponent of the iterated matrix (default 3)"),
     EncodeFlag("iterations", int, "T", "orthogonal iterations per block (default 1)"),
     EncodeFlag("key_iterations", int, "T", "orthogonal iterations of a block that depends on none (default 4)"),
-    EncodeFlag("shift", float, "D", "what is added to the Laplacian's diagonal (default 0.03125)"),
+    EncodeFlag("shift", float, "D", "what is added to the Laplacian's diagonal (default 0.0078125)"),
     EncodeFlag("blend", str, "degree|uniform|own", "weights of a vertex's copies in several blocks (default degree)"),
     EncodeFlag("predict", bool, "", "predict coefficients from blocks already coded (default: yes)"),
     EncodeFlag("keep_order", bool, "", "store the order of vertices and faces (default: no)"),
@@ -113,6 +123,15 @@ def add_encode_flags(parser: argparse.ArgumentParser) -> None:
     for name, kind, metavar, text in TARGET_FLAGS:
         reads = number_or_length if name == "max-error" else float
         targets.add_argument(f"--{name}", dest=f"target_{kind}", type=reads, metavar=metavar, help=text)
+    wishes.add_argument(
+        "--lock-borders",
+        nargs="?",
+        const=True,
+        default=argparse.SUPPRESS,
+        metavar="GAP",
+        help="parts that are encoded apart gape by at most GAP where they were one: relative (default 0.0001), or "
+        "with a unit (0.05mm)",
+    )
     add_coding_flags(parser)
 
 
@@ -154,6 +173,8 @@ def given_options(args: argparse.Namespace) -> dict[str, Any]:
     given = {flag.field: getattr(args, flag.field) for flag in ENCODE_FLAGS if hasattr(args, flag.field)}
     if getattr(args, "attributes", None):
         given["attributes"] = dict(args.attributes)
+    if hasattr(args, "lock_borders"):
+        given["lock_borders"] = args.lock_borders
     if hasattr(args, "doi"):
         given["doi"] = tuple(args.doi)
     return given

@@ -85,7 +85,7 @@ def nmsve_db_of(mesh: TriangleMesh, options: EncodeOptions, keep: float, row_ord
     for index in range(blocks.count):
         laplacian = row_order(blocks, index)
         block = laplacian.block
-        subspace = chain.dictionary(unheld(laplacian), max(1, round(keep * block.size)))
+        subspace = chain.dictionary(unheld(laplacian, options.shift), max(1, round(keep * block.size)))
         positions = subspace @ (subspace.T @ mesh.positions[block.vertices])
         chain.commit(block, subspace, positions)
         blend.add(block.vertices, positions, degree_weights(block.degrees))

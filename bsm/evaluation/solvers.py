@@ -19,7 +19,7 @@ from scipy.sparse.linalg import LinearOperator, eigsh, lobpcg, splu
 from threadpoolctl import threadpool_limits
 
 from bitstream.errors import NumericError
-from codec.basis.laplacian import dense_laplacian, laplacian_of
+from codec.basis.laplacian import dense_laplacian, factorize, laplacian_of
 from codec.basis.orthogonal_iteration import cosine_columns, hash_columns, orthogonal_iteration
 from codec.blocks.blend import Blend, degree_weights
 from codec.blocks.overlap import Block, Blocks, block_size, grow_blocks
@@ -182,7 +182,8 @@ class _Setting:
 
         def dictionary(index: int) -> Matrix:
             block = self.blocks.block(index)
-            return orthogonal_iteration(laplacian_of(block), starts[block.size], shift=SHIFT, power=power, iterations=1)
+            factor = factorize(laplacian_of(block), SHIFT)
+            return orthogonal_iteration(factor, starts[block.size], power=power, iterations=1)
 
         def work() -> None:
             for index in range(self.blocks.count):
@@ -226,7 +227,7 @@ def check_iteration(block: Block, start: Matrix, power: int) -> None:
     NumericError
         If they differ.
     """
-    found = orthogonal_iteration(laplacian_of(block), start, shift=SHIFT, power=power, iterations=1)
+    found = orthogonal_iteration(factorize(laplacian_of(block), SHIFT), start, power=power, iterations=1)
     columns = start
     for _ in range(power):
         # Orthonormalised every time: the same subspaces in exact arithmetic, and no loss of precision.

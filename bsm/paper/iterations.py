@@ -73,7 +73,7 @@ def coarse_in_order(model: Model, blocks: Blocks, order: RowOrder) -> Positions:
     for index in range(blocks.count):
         laplacian = order(blocks, index)
         block = laplacian.block
-        subspace = chain.dictionary(unheld(laplacian), max(1, round(KEEP * block.size)))
+        subspace = chain.dictionary(unheld(laplacian, RULES.shift), max(1, round(KEEP * block.size)))
         positions = subspace @ (subspace.T @ model.noisy[block.vertices])
         chain.commit(block, subspace, positions)
         blend.add(block.vertices, positions, degree_weights(block.degrees))

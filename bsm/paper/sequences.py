@@ -32,7 +32,7 @@ def iterate(laplacians: Iterable[Laplacian], graph: Graph, width: int, rules: Ch
     chain = Chain(rules, graph)
     for laplacian in laplacians:
         positions = np.zeros((laplacian.block.size, 3))
-        chain.commit(laplacian.block, chain.dictionary(unheld(laplacian), width), positions)
+        chain.commit(laplacian.block, chain.dictionary(unheld(laplacian, rules.shift), width), positions)
 
 
 @dataclass(frozen=True)

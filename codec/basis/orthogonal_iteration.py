@@ -12,11 +12,11 @@ import numpy as np
 from bitstream.errors import NumericError
 from codec import _kernels
 from codec.arrays import Matrix
-from codec.basis.laplacian import Laplacian, check_rows, factorize, solve
+from codec.basis.laplacian import Factor, Laplacian, check_rows, factorize, solve
 
-ONCE, TWICE = 1e-5, 1e-11
+ONCE, TWICE = 1e-5, 1e-13
 """Independence (`factorize_gram` of solver/cholesky_qr.simd.c) of the columns of a panel from which Cholesky QR is
-orthogonal to 1e-11 after one pass; and of all columns, from which the whole is to 1e-10. Beyond that, Onorm after every
+orthogonal to 1e-11 after one pass; and of all columns, from which the whole is to 1e-9. Beyond that, Onorm after every
 solution."""
 
 EXACT_POWER, EXACT_ITERATIONS, EXACT_SHIFT = 2, 128, 2.0**-5
@@ -63,19 +63,15 @@ def householder_orthonormalize(columns: Matrix) -> Matrix:
     return q
 
 
-def orthogonal_iteration(
-    laplacian: Laplacian, start: Matrix, *, shift: float | Matrix, power: int, iterations: int
-) -> Matrix:
+def orthogonal_iteration(factor: Factor, start: Matrix, *, power: int, iterations: int) -> Matrix:
     """U(t) = Onorm(R^z U(t-1)), `iterations` times (Algorithm 1).
 
     Parameters
     ----------
-    laplacian : Laplacian
-        Of a block of n rows.
+    factor : Factor
+        Of R^-1, a matrix of n rows.
     start : float64 array, shape (n, c)
         U(0); need not be orthonormal.
-    shift : float, or float64 array, shape (n,)
-        delta, or the diagonal that takes the place of delta I.
     power, iterations : int
         z and t_max.
 
@@ -83,7 +79,6 @@ def orthogonal_iteration(
     -------
     float64 array, shape (n, c), C-contiguous
     """
-    factor = factorize(laplacian, shift)
     start = np.ascontiguousarray(start)
     check_rows(factor, len(start))
     subspace, scratch = np.empty(start.shape), np.empty(_kernels.iteration_space(*start.shape))
@@ -129,8 +124,8 @@ def exact_basis(laplacian: Laplacian, start: Matrix, springs: float | Matrix = 0
     No eigensolver: within a space of equal eigenvalues that may return any rotation. This is a smooth function of the
     matrix, the same for all who compute it. The noise in the start is for blocks as symmetric as cosines are.
     """
-    shift = springs + EXACT_SHIFT
-    return orthogonal_iteration(laplacian, start, shift=shift, power=EXACT_POWER, iterations=EXACT_ITERATIONS)
+    factor = factorize(laplacian, springs + EXACT_SHIFT)
+    return orthogonal_iteration(factor, start, power=EXACT_POWER, iterations=EXACT_ITERATIONS)
 
 
 def hash_columns(rows: int, columns: int) -> Matrix:

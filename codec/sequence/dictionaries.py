@@ -14,13 +14,17 @@ from dataclasses import dataclass
 import numpy as np
 
 from codec.arrays import Faces, Indices, Matrix, Positions
+from codec.basis.laplacian import Factor
 from codec.basis.weighted import Held, binary_weights, cotangent_weights, hold
 from codec.blocks.overlap import Blocks
 from codec.signal.chain import ChainRules, key_dictionary
-from codec.signal.predict import Extension
+from codec.signal.predict import Suspended, continued
 from codec.signal.transform import project, reconstruct
 from codec.static.work import Allowance, block_work
 from codec.threads import ordered_map
+
+TETHER = 2.0**-16
+"""Stiffness with which every row hangs on the mean of the pulls; it places what no spring reaches."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -31,14 +35,14 @@ class Part:
     ----------
     held : Held
         What it hangs on.
-    extension : Extension
-        Continues that.
+    factor : Factor
+        Of its Laplacian, its springs and `TETHER`.
     basis : float64 array, shape (n_i, c_i)
         U, orthonormal columns.
     """
 
     held: Held
-    extension: Extension
+    factor: Factor
     basis: Matrix
 
     @property
@@ -48,7 +52,7 @@ class Part:
 
     def extend(self, field: Matrix) -> Matrix:
         """Rows, shape (n_i, m), that continue what a field, shape (n, m), holds before this part."""
-        return self.extension.of(self.held.pulls(field))
+        return continued(self.factor, self.held.springs, self.held.pulls(field))
 
     def difference(self, wanted: Matrix, field: Matrix) -> Matrix:
         """Coefficients, shape (c_i, m), of what a field is wanted to be here less what the parts before let expect."""
@@ -104,7 +108,7 @@ def build_dictionaries(
         columns = min(width, held.laplacian.block.size)
         if allowance:
             allowance.spend(block_work(held.laplacian, columns, rules.solves_of(False)))
-        basis = key_dictionary(rules, held.laplacian, columns, held.springs)
-        return Part(held, Extension(held.laplacian, held.springs), basis)
+        basis = key_dictionary(rules, Suspended(held.laplacian, held.springs, rules.shift), columns)
+        return Part(held, Suspended(held.laplacian, held.springs, TETHER).factor, basis)
 
     return tuple(ordered_map(build, range(blocks.count), threads))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from codec.arrays import Matrix
-from codec.basis.laplacian import laplacian_of
+from codec.basis.laplacian import factorize, laplacian_of
 from codec.basis.orthogonal_iteration import cosine_columns, orthogonal_iteration
 from codec.blocks.overlap import Blocks
 from codec.signal.transform import project
@@ -51,7 +51,8 @@ class MeasuredSpectrum:
         energy, count = np.zeros(width), np.zeros(width)
         for block in self._samples:
             start = cosine_columns(block.size, 0, min(width, block.size))
-            subspace = orthogonal_iteration(laplacian_of(block), start, shift=self._shift, power=1, iterations=1)
+            factor = factorize(laplacian_of(block), self._shift)
+            subspace = orthogonal_iteration(factor, start, power=1, iterations=1)
             coefficients = project(subspace, self._positions[block.vertices], subspace.shape[1])
             energy[: block.size] += np.square(coefficients).mean(axis=1)
             count[: block.size] += 1

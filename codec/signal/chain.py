@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from typing import TypeAlias
 
 from codec.arrays import Matrix
-from codec.basis.laplacian import Laplacian, laplacian_of
+from codec.basis.laplacian import laplacian_of
 from codec.basis.orthogonal_iteration import (
     EXACT_SOLVES,
     exact_basis,
@@ -21,7 +21,7 @@ from codec.basis.orthogonal_iteration import (
 )
 from codec.blocks.overlap import Block
 from codec.geometry.graph import Graph, is_connected
-from codec.signal.predict import Known, Surroundings, unheld
+from codec.signal.predict import Known, Surroundings, Suspended, unheld
 
 Rounding: TypeAlias = Callable[[Matrix], Matrix]
 
@@ -100,15 +100,15 @@ def even_interval(interval: int, blocks: int) -> int:
     return -(-blocks // -(-blocks // interval)) if interval else 0
 
 
-def key_dictionary(rules: ChainRules, laplacian: Laplacian, width: int, springs: Matrix) -> Matrix:
-    """U of a block that follows no other, with `width` columns, on springs."""
-    block = laplacian.block
+def key_dictionary(rules: ChainRules, around: Suspended, width: int) -> Matrix:
+    """U of a block that follows no other, with `width` columns."""
+    block = around.laplacian.block
     exact = rules.exact or rules.exact_keys
     start = rules.rounding(first_columns(block.size, width, exact or in_pieces(block)))
     if exact:
-        return exact_basis(laplacian, start, springs)
+        return exact_basis(around.laplacian, start, around.springs)
     iterations = rules.iterations if rules.independent else rules.key_iterations
-    return orthogonal_iteration(laplacian, start, shift=springs + rules.shift, power=rules.power, iterations=iterations)
+    return orthogonal_iteration(around.factor, start, power=rules.power, iterations=iterations)
 
 
 def in_pieces(block: Block) -> bool:
@@ -127,7 +127,8 @@ class Chain:
     def around(self, block: Block) -> Surroundings:
         """What the chain knows around a block."""
         laplacian = laplacian_of(block)
-        return unheld(laplacian) if self._known is None else self._known.around(laplacian)
+        shift = self._rules.shift
+        return unheld(laplacian, shift) if self._known is None else self._known.around(laplacian, shift)
 
     def solves(self, block: Block) -> int:
         """Solutions for each column of the dictionary of the next block."""
@@ -141,11 +142,10 @@ class Chain:
         rules, laplacian = self._rules, around.laplacian
         width = min(width, laplacian.block.size)
         if rules.exact or not self._follows(laplacian.block):
-            return key_dictionary(rules, laplacian, width, around.springs)
+            return key_dictionary(rules, around, width)
         assert self._subspace is not None
         start = rules.rounding(follow_columns(self._subspace, width, in_pieces(laplacian.block)))
-        shift = around.springs + rules.shift
-        return orthogonal_iteration(laplacian, start, shift=shift, power=rules.power, iterations=rules.iterations)
+        return orthogonal_iteration(around.factor, start, power=rules.power, iterations=rules.iterations)
 
     def commit(self, block: Block, subspace: Matrix, positions: Matrix) -> None:
         """Make a block, its subspace and its decoded positions, shape (n_i, 3), the predecessor's."""

@@ -4,31 +4,31 @@ Not in the paper. Every edge that leaves the block to a known vertex is a spring
 is, as every edge is in the quadratic form of L; a known vertex inside the block hangs on a spring to its own place.
 With S the stiffnesses at each row and y their pulls, the surface that continues what is known is the equilibrium
 (L + S)^-1 y: the harmonic extension. Only the difference from it is coded. It is small beside known vertices and free
-elsewhere, and so are the lowest eigenvectors of L + S: they, not those of L, are the dictionary.
+elsewhere, and so are the lowest eigenvectors of L + S: they, not those of L, are the dictionary. The delta of
+Algorithm 1 serves for both, so that one factorisation does.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
 from codec import _kernels
 from codec.arrays import Matrix
-from codec.basis.laplacian import Laplacian, factorize, solve
+from codec.basis.laplacian import Factor, Laplacian, factorize, solve
 from codec.blocks.blend import Blend, degree_weights
 from codec.blocks.overlap import Block
 from codec.geometry.graph import Graph
 
 MAX_STIFFNESS = 2.0**16
 """Largest stiffness that a stream may ask for."""
-TETHER = 2.0**-16
-"""Stiffness with which every row hangs on the mean of the pulls; it places what no spring reaches."""
 
 
 @dataclass(frozen=True, eq=False)
-class Surroundings:
-    """What holds a block.
+class Suspended:
+    """A block on springs.
 
     Parameters
     ----------
@@ -36,12 +36,30 @@ class Surroundings:
         Of the block, which the springs are added to.
     springs : float64 array, shape (n,)
         Sum of the stiffnesses at each row.
-    pulls : float64 array, shape (n, 3)
-        Sum of stiffness times known position at each row.
+    shift : float
+        delta, the stiffness of one more spring at each row.
     """
 
     laplacian: Laplacian
     springs: Matrix
+    shift: float
+
+    @cached_property
+    def factor(self) -> Factor:
+        """Of L + S + delta I: for the block's dictionary, and for what continues its surroundings."""
+        return factorize(self.laplacian, self.springs + self.shift)
+
+
+@dataclass(frozen=True, eq=False)
+class Surroundings(Suspended):
+    """What holds a block.
+
+    Parameters
+    ----------
+    pulls : float64 array, shape (n, 3)
+        Sum of stiffness times known position at each row.
+    """
+
     pulls: Matrix
 
 
@@ -66,10 +84,10 @@ class Known:
         """Remember one copy of a block's vertices, shape (n_i, 3)."""
         self._blend.add(block.vertices, positions, degree_weights(block.degrees))
 
-    def around(self, laplacian: Laplacian) -> Surroundings:
+    def around(self, laplacian: Laplacian, shift: float) -> Surroundings:
         """What holds a block."""
         graph, blend, block = self._graph, self._blend, laplacian.block
-        found = Surroundings(laplacian, np.empty(block.size), np.empty((block.size, 3)))
+        found = Surroundings(laplacian, np.empty(block.size), shift, np.empty((block.size, 3)))
         _kernels.look_around(
             graph.offsets,
             graph.neighbours,
@@ -84,36 +102,36 @@ class Known:
         return found
 
 
-def unheld(laplacian: Laplacian) -> Surroundings:
+def unheld(laplacian: Laplacian, shift: float) -> Surroundings:
     """Surroundings of a block that knows of nothing."""
     size = laplacian.block.size
-    return Surroundings(laplacian, np.zeros(size), np.zeros((size, 3)))
+    return Surroundings(laplacian, np.zeros(size), shift, np.zeros((size, 3)))
 
 
-class Extension:
-    """Continues what is known into the rows of a block: mean + (L + S + tether)^-1 (y - S mean).
+def continued(factor: Factor, springs: Matrix, pulls: Matrix) -> Matrix:
+    """Values that continue what is known into the rows of a block: mean + (L + S + delta)^-1 (y - S mean).
 
     Parameters
     ----------
-    laplacian : Laplacian
-        Of n rows.
+    factor : Factor
+        Of L + S + delta I.
     springs : float64 array, shape (n,)
         Sum of the stiffnesses at each row.
+    pulls : float64 array, shape (n, m)
+        y, sums of stiffness times known value.
+
+    Returns
+    -------
+    float64 array, shape (n, m)
+        Zero without springs.
     """
-
-    def __init__(self, laplacian: Laplacian, springs: Matrix) -> None:
-        self._springs = springs
-        self._total = float(springs.sum())
-        self._factor = factorize(laplacian, springs + TETHER) if self._total > 0.0 else None
-
-    def of(self, pulls: Matrix) -> Matrix:
-        """Values at the rows for sums of stiffness times known value, both of shape (n, m); zero without springs."""
-        if self._factor is None:
-            return np.zeros_like(pulls)
-        mean = pulls.sum(axis=0) / self._total
-        return np.asarray(mean + solve(self._factor, pulls - self._springs[:, None] * mean, 1))
+    total = float(springs.sum())
+    if not total > 0.0:
+        return np.zeros_like(pulls)
+    mean = pulls.sum(axis=0) / total
+    return np.asarray(mean + solve(factor, pulls - springs[:, None] * mean, 1))
 
 
 def extend(around: Surroundings) -> Matrix:
     """Positions of a block of n rows that continue what is known, shape (n, 3); zero where nothing is known."""
-    return Extension(around.laplacian, around.springs).of(around.pulls)
+    return continued(around.factor, around.springs, around.pulls)

@@ -26,7 +26,7 @@ from codec.static.quality.contract import Contract
 from codec.static.quality.draft import Draft
 from codec.static.quality.fulfilment import Fulfilment
 from codec.static.quality.ladders import WIDEST, Blocks, Grids, Ladder, Refined
-from codec.static.quality.lattices import rounded
+from codec.static.quality.lattices import rounded, rounded_to_cells
 from codec.static.quality.shaping import Shaper
 from codec.static.quality.spectral import Spectral
 from codec.static.quality.targets import search_step
@@ -79,6 +79,11 @@ class Encoder:
 
     def __init__(self, mesh: TriangleMesh, options: EncodeOptions | None = None) -> None:
         self.options = options or EncodeOptions()
+        if self.options.lock_borders is not None and self.options.promise is None:
+            raise OptionError(
+                "borders are locked where there is a promise: a preset but lossless, or max_error; parts on one grid, "
+                "grid_cell, fit anyway"
+            )
         self._given = mesh
 
     @property
@@ -150,6 +155,8 @@ class Encoder:
         options = self.options
         if options.grid is not None:
             return rounded(self._prepared, options.grid)
+        if options.grid_cell is not None:
+            return rounded_to_cells(self._prepared, options.grid_cell, options.grid_origin or (0.0, 0.0, 0.0))
         if options.promise is not None:
             return Fulfilment(self._prepared, options, options.promise).draft(progress)
         return self._spectral.base(options.first_step, progress).draft

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
 from bitstream.errors import OptionError
 from codec.choices import check_options
 from codec.static.attributes.quality import Grade, checked_qualities
-from codec.static.quality.contract import ANY_ANGLE, Contract
+from codec.static.quality.contract import ANY_ANGLE, Contract, Fit
 from codec.static.quality.targets import Target
 from codec.static.rules import BASES, BLENDS, KEY_SEEDS, SEEDS
 
@@ -33,6 +34,7 @@ RANGES: dict[str, tuple[float, float]] = {
     "bits": (2, 16),
     "step": (1e-9, 1.0),
     "grid": (1, 20),
+    "grid_cell": (1e-300, 1e300),
     "detail": (0.0, 64.0),
     "smoothing": (0.0, 64.0),
     "threads": (1, 256),
@@ -94,8 +96,10 @@ class EncodeOptions:
     target : Target, optional
         Quality or size to reach, in place of the contract.
     contract : Contract, optional
-        What is promised; the encoder finds the cheapest way to keep it. It says nothing where `grid`, `target` or any
-        of `CODING` is given: who says how to code gets that.
+        What is promised; the encoder finds the cheapest way to keep it. It says nothing where `grid`, `grid_cell`,
+        `target` or any of `CODING` is given: who says how to code gets that.
+    lock_borders : Fit, optional
+        With a contract: how well parts fit that are encoded apart.
     grid : int, optional
         Keep every position exactly as a grid of so many bits along the longest side rounds it.
     attributes : mapping of str to str, or pairs
@@ -105,6 +109,11 @@ class EncodeOptions:
         suggest; the encoder's notes say so.
     normals : str
         "keep", or "recompute": normals that nothing is said of are not sent, but made from the decoded mesh.
+    grid_cell : float, optional
+        Keep every position exactly as a grid of cells of this length, in the mesh's unit, rounds it: parts that are
+        encoded apart on the same grid fit bit for bit.
+    grid_origin : (float, float, float), optional
+        Where that grid has a place; None: where the mesh's unit has its zero.
     threads : int, optional
         None: one per core.
 
@@ -126,7 +135,7 @@ class EncodeOptions:
     power: int = 3
     iterations: int = 1
     key_iterations: int = 4
-    shift: float = 2.0**-5
+    shift: float = 2.0**-7
     bits: int | None = None
     step: float | None = None
     detail: float | None = None
@@ -137,9 +146,12 @@ class EncodeOptions:
     doi: tuple[float, float] | None = None
     target: Target | None = None
     contract: Contract | None = BALANCED
+    lock_borders: Fit | None = None
     grid: int | None = None
     attributes: Mapping[str, str] | tuple[tuple[str, str], ...] = ()
     normals: str = "keep"
+    grid_cell: float | None = None
+    grid_origin: tuple[float, float, float] | None = None
     threads: int | None = None
 
     def __post_init__(self) -> None:
@@ -151,25 +163,36 @@ class EncodeOptions:
             raise OptionError(f"doi = {self.doi} must be two thresholds, 0 < eps_l < eps_h")
         if self.bits is not None and self.target is not None:
             raise OptionError("a target is reached by the step; it excludes a fixed number of bits")
-        if self.grid is not None and (self.target is not None or self.says_how):
+        if self.grid is not None and self.grid_cell is not None:
+            raise OptionError("a grid has a number of bits, or cells of a given length; not both")
+        if self.grid_origin is not None and self.grid_cell is None:
+            raise OptionError("a grid with a given origin needs the length of its cells, too: grid_cell")
+        if self.grid_origin is not None and not all(map(math.isfinite, self.grid_origin)):
+            raise OptionError(f"the origin of a grid must be finite, not {self.grid_origin}")
+        if self.is_grid and (self.target is not None or self.says_how):
             raise OptionError("a grid excludes a target, and options that say how blocks are coded")
 
     @property
     def promise(self) -> Contract | None:
         """The contract, where it counts."""
-        if self.grid is not None or self.target is not None or self.says_how:
+        if self.is_grid or self.target is not None or self.says_how:
             return None
         return self.contract
 
     @property
     def grade(self) -> Grade:
         """How well attributes are kept that nothing is said of."""
-        if self.grid is not None:
+        if self.is_grid:
             return "fine"
         farthest = (
             self.promise.farthest if self.promise is not None and not self.promise.absolute else BALANCED.farthest
         )
         return "fine" if farthest <= FINE else "small" if farthest >= SMALL else "balanced"
+
+    @property
+    def is_grid(self) -> bool:
+        """Whether positions are to be exactly those that some grid gives."""
+        return self.grid is not None or self.grid_cell is not None
 
     @property
     def first_step(self) -> float:

@@ -143,7 +143,7 @@ def _small_files():
     ("name", "code", "places"),
     [
         ("bad-checksum-block", 4, ["checksum", "byte", "frame"]),
-        ("bad-levels-short", 4, ["ends before", "block 0"]),
+        ("bad-levels-short", 12, ["ends before", "block 0"]),
         ("bad-block-missing", 4, ["missing", "block 0"]),
         ("bad-connectivity-long", 4, ["left over", "frame 1"]),
         ("unsupported-version", 5, ["version 1"]),

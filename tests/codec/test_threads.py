@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from codec.basis.laplacian import laplacian_of
+from codec.basis.laplacian import factorize, laplacian_of
 from codec.basis.orthogonal_iteration import cosine_columns, orthogonal_iteration
 from codec.blocks.overlap import grow_blocks
 from codec.blocks.partition import derive_partition
@@ -77,13 +77,13 @@ def test_dictionaries_are_computed_without_the_interpreter_lock():
     """While one thread is inside the kernel, another one gets on in Python."""
     mesh = patch(45, 45)
     graph = graph_of_faces(mesh.faces, 2025)
-    laplacian = laplacian_of(grow_blocks(graph, derive_partition(graph, 1), 2025).block(0))
+    factor = factorize(laplacian_of(grow_blocks(graph, derive_partition(graph, 1), 2025).block(0)), 0.1)
     start = cosine_columns(2025, 0, 200)
-    orthogonal_iteration(laplacian, start[:, :2].copy(), shift=0.1, power=1, iterations=1)
+    orthogonal_iteration(factor, start[:, :2].copy(), power=1, iterations=1)
     running = threading.Thread(
         target=orthogonal_iteration,
-        args=(laplacian, start),
-        kwargs={"shift": 0.1, "power": 9, "iterations": 4},
+        args=(factor, start),
+        kwargs={"power": 9, "iterations": 4},
     )
     running.start()
     steps = 0

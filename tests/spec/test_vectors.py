@@ -17,9 +17,11 @@ from codec.static.encoder import encode
 from codec.static.options import EncodeOptions
 from tools.vectors.__main__ import try_command, try_product
 from tools.vectors.bad import BAD
+from tools.vectors.bad_attributes import BAD_ATTRIBUTES
 from tools.vectors.bad_fields import BAD_FIELDS
 from tools.vectors.bad_sequences import BAD_SEQUENCES
 from tools.vectors.good import STATIC
+from tools.vectors.good_attributes import ATTRIBUTES
 from tools.vectors.good_fields import FIELDS
 from tools.vectors.good_sequences import SEQUENCES
 from tools.vectors.store import FOLDER, Vector, read_manifest
@@ -49,12 +51,12 @@ def test_product(vector):
 @pytest.mark.filterwarnings("ignore::RuntimeWarning")
 def test_reference_decoder(vector, reference):
     try:
-        positions, faces = reference.decode(vector.stream.read_bytes())
+        decoded = reference.decode_all(vector.stream.read_bytes())
     except tuple(reference.EXIT_CODES) as error:
         assert type(error).__name__.removesuffix("Error").lower() == vector.error, error
     else:
         assert vector.error is None
-        assert vector.complaint(positions, faces) is None
+        assert vector.complaint(*decoded) is None
 
 
 @pytest.mark.real
@@ -78,9 +80,11 @@ def test_every_vector_has_its_files_and_every_file_is_a_vector():
         == {
             *STATIC,
             *FIELDS,
+            *ATTRIBUTES,
             *SEQUENCES,
             *BAD,
             *BAD_FIELDS,
+            *BAD_ATTRIBUTES,
             *BAD_SEQUENCES,
         }
     )

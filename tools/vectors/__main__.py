@@ -6,8 +6,8 @@
     python -m tools.vectors --write                    make all anew, which only a change of the format justifies
     python -m tools.vectors --example                  print the worked example of spec/mathematics.md
 
-A command must write an npz with `positions` and `faces` and end with code 0, or refuse and end with the code of its
-error: 3 format, 4 corrupt or truncated, 5 unsupported, 6 limit, 7 numeric.
+A command must write an npz with `positions`, `faces` and attributes, and end with code 0, or refuse and end with the
+code of its error: 3 format, 4 corrupt, 12 truncated, 5 unsupported, 6 limit, 7 numeric.
 """
 
 from __future__ import annotations
@@ -21,13 +21,14 @@ from pathlib import Path
 
 import numpy as np
 
+from bitstream.container.reader import END_OF_STREAM
 from bitstream.errors import BsmError
-from codec.sequence.decoder import decode_sequence
+from codec.sequence.decoder import SequenceDecoder, decode_sequence
 from codec.static.decoder import decode
 from tools.vectors.example import example
-from tools.vectors.store import Vector, read_manifest, write_vectors
+from tools.vectors.store import Arrays, Vector, arrays_of, read_manifest, write_vectors
 
-EXIT_CODES = {"format": 3, "corrupt": 4, "truncated": 4, "unsupported": 5, "limit": 6, "numeric": 7}
+EXIT_CODES = {"format": 3, "corrupt": 4, "truncated": 12, "unsupported": 5, "limit": 6, "numeric": 7}
 SECONDS = 120
 
 
@@ -60,18 +61,28 @@ def main() -> int:
 
 def try_product(vector: Vector) -> str | None:
     """What this project's decoder does wrong with a vector, or None."""
-    decoder = decode_sequence if "-sequence" in vector.name else _decode_static
+    decoder = _decode_sequence if "-sequence" in vector.name else _decode_static
     try:
-        positions, faces = decoder(vector.stream.read_bytes())
+        decoded = decoder(vector.stream.read_bytes())
     except BsmError as error:
         found = type(error).__name__.removesuffix("Error").lower()
         return None if found == vector.error else f"refused as {found}, {error}"
-    return f"decoded, and not refused as {vector.error}" if vector.error else vector.complaint(positions, faces)
+    return f"decoded, and not refused as {vector.error}" if vector.error else vector.complaint(*decoded)
 
 
-def _decode_static(data: bytes) -> tuple[np.ndarray, np.ndarray]:
+def _decode_static(data: bytes) -> tuple[np.ndarray, np.ndarray, Arrays]:
     mesh = decode(data)
-    return mesh.positions, mesh.faces
+    return mesh.positions, mesh.faces, arrays_of(mesh.attributes)
+
+
+def _decode_sequence(data: bytes) -> tuple[np.ndarray, np.ndarray, Arrays]:
+    positions, faces = decode_sequence(data)
+    with SequenceDecoder() as decoder:
+        decoder.receive_data(data)
+        decoder.receive_eof()
+        while decoder.next_event() is not END_OF_STREAM:
+            pass
+        return positions, faces, arrays_of(decoder.attributes)
 
 
 def try_command(vector: Vector, command: str) -> str | None:
@@ -88,30 +99,33 @@ def try_command(vector: Vector, command: str) -> str | None:
         if vector.error:
             return "refused, and yet it wrote a file" if output.exists() else None
         with np.load(output) as file:
-            return vector.complaint(file["positions"], file["faces"])
+            attributes = {name: file[name] for name in file if name not in ("positions", "faces")}
+            return vector.complaint(file["positions"], file["faces"], attributes)
 
 
 def write(*, keep: bool) -> int:
     """Make all vectors, or those that are missing; write none if the decoder does not treat one as it should."""
     from tools.vectors.bad import BAD
+    from tools.vectors.bad_attributes import BAD_ATTRIBUTES
     from tools.vectors.bad_fields import BAD_FIELDS
     from tools.vectors.bad_sequences import BAD_SEQUENCES
     from tools.vectors.good import STATIC
+    from tools.vectors.good_attributes import ATTRIBUTES
     from tools.vectors.good_fields import FIELDS
     from tools.vectors.good_sequences import SEQUENCES
 
     streams: dict[Vector, bytes] = {}
     meshes = {}
-    for name, good in {**STATIC, **FIELDS, **SEQUENCES}.items():
+    for name, good in {**STATIC, **FIELDS, **SEQUENCES, **ATTRIBUTES}.items():
         vector = Vector(name, good.probes)
         streams[vector] = vector.stream.read_bytes() if keep and vector.stream.is_file() else good.make()
-        decoder = decode_sequence if name in SEQUENCES else _decode_static
+        decoder = _decode_sequence if "-sequence" in name else _decode_static
         meshes[vector] = decoder(streams[vector])
-    for name, bad in {**BAD, **BAD_FIELDS, **BAD_SEQUENCES}.items():
+    for name, bad in {**BAD, **BAD_FIELDS, **BAD_SEQUENCES, **BAD_ATTRIBUTES}.items():
         vector = Vector(name, bad.probes, bad.error)
         streams[vector] = vector.stream.read_bytes() if keep and vector.stream.is_file() else bad.make()
         try:
-            (decode_sequence if name in BAD_SEQUENCES else decode)(streams[vector])
+            (decode_sequence if "-sequence" in name else decode)(streams[vector])
         except BsmError as error:
             found = type(error).__name__.removesuffix("Error").lower()
             if found != bad.error:

@@ -142,7 +142,10 @@ STATIC: dict[str, Good] = {
     "good-stiff": Good(
         "the stiffest springs, between blocks that hold several components",
         lambda: with_header(
-            encode(together(torus(7, 6), patch(6, 5), tetrahedron()), BASE), prediction=[65535.0], key_interval=None
+            encode(together(torus(7, 6), patch(6, 5), tetrahedron()), BASE),
+            prediction=[65535.0],
+            shift=2.0**-5,
+            key_interval=None,
         ),
     ),
     "good-loose": Good(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import json
+from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -12,12 +13,16 @@ import numpy as np
 import numpy.typing as npt
 
 from bitstream.container.header import HEADER_FIELDS
+from codec.geometry.attributes import Attribute
 from tools.surgery import first_entries
 
 FOLDER = Path(__file__).parents[2] / "spec" / "vectors"
 MANIFEST = "manifest.json"
 RMS, PEAK = 1e-9, 1e-8
 """How far positions may be from the expected ones, in extents of the expected mesh."""
+ROUNDING = 1e-6
+"""How far floats of attributes may be, for ones above 1 relatively."""
+Arrays = dict[str, npt.NDArray[Any]]
 
 
 @dataclass(frozen=True)
@@ -49,21 +54,46 @@ class Vector:
 
     @property
     def expected(self) -> Path:
-        """File with `positions`, shape (n, 3) or for a sequence (T, n, 3), and `faces`, shape (m, 3)."""
+        """File with `positions`, shape (n, 3) or for a sequence (T, n, 3), `faces`, shape (m, 3), and attributes."""
         return FOLDER / f"{self.name}.npz"
 
-    def complaint(self, positions: npt.NDArray[Any], faces: npt.NDArray[Any]) -> str | None:
+    def complaint(self, positions: npt.NDArray[Any], faces: npt.NDArray[Any], attributes: Arrays) -> str | None:
         """What is wrong with a decoded mesh, or None."""
         with np.load(self.expected) as file:
             right, connected = file["positions"], file["faces"]
+            expected = {name: file[name] for name in file if name not in ("positions", "faces")}
         if faces.shape != connected.shape or not np.array_equal(faces, connected):
             return "the faces differ"
         if positions.shape != right.shape:
             return f"positions of shape {positions.shape} instead of {right.shape}"
         rms, peak = distance(positions, right, scale_of(self.stream.read_bytes()))
+        if set(attributes) != set(expected):
+            return f"attributes {sorted(attributes)} instead of {sorted(expected)}"
+        for name, values in expected.items():
+            if not alike(attributes[name], values):
+                return f"{name} differs"
         if not (rms <= self.rms and peak <= self.peak):
             return f"positions are off by {rms:.1e} (rms; {self.rms:g} is granted) and {peak:.1e} ({self.peak:g})"
         return None
+
+
+def arrays_of(attributes: Iterable[Attribute]) -> Arrays:
+    """Attributes as the arrays that spec/vectors/README.md tells of."""
+    arrays: Arrays = {}
+    for index, one in enumerate(attributes):
+        arrays[f"attribute {index} {one.semantic} {one.domain} {one.name}"] = one.values
+        if one.indices is not None:
+            arrays[f"indices {index}"] = one.indices
+    return arrays
+
+
+def alike(found: npt.NDArray[Any], expected: npt.NDArray[Any]) -> bool:
+    """Whether two arrays of an attribute are the same, floats but for what rounding may do."""
+    if found.dtype != expected.dtype or found.shape != expected.shape:
+        return False
+    return np.array_equal(found, expected) or (
+        found.dtype.kind == "f" and np.allclose(found, expected, rtol=ROUNDING, atol=ROUNDING)
+    )
 
 
 def scale_of(stream: bytes) -> float:
@@ -108,14 +138,14 @@ def read_manifest() -> list[Vector]:
     return vectors
 
 
-def write_vectors(streams: dict[Vector, bytes], meshes: dict[Vector, tuple[Any, Any]]) -> None:
+def write_vectors(streams: dict[Vector, bytes], meshes: dict[Vector, tuple[Any, Any, Arrays]]) -> None:
     """Replace what is in the folder, but an expected mesh only where it is not within its tolerance."""
     for vector, stream in streams.items():
         vector.stream.write_bytes(stream)
-    for vector, (positions, faces) in meshes.items():
-        if not vector.expected.is_file() or vector.complaint(positions, faces):
+    for vector, (positions, faces, attributes) in meshes.items():
+        if not vector.expected.is_file() or vector.complaint(positions, faces, attributes):
             buffer = io.BytesIO()
-            np.savez_compressed(buffer, positions=positions, faces=faces)
+            np.savez_compressed(buffer, positions=positions, faces=faces, **attributes)  # type: ignore[arg-type]
             vector.expected.write_bytes(buffer.getvalue())
     for path in FOLDER.iterdir():
         left = path.suffix == ".bsm" and path not in {vector.stream for vector in streams}

@@ -29,8 +29,8 @@ INLINE void gram_rows(const double *left, int64_t left_apart, Panel y, int64_t s
     result += skip;
 #if SIDE == 1
     for (int64_t v = 0; v < apart - skip; v += WIDTH) {
-        gram_tile(1, 4, left, left_apart, right + v, apart, size, result + v, apart);
-        gram_tile(1, 4, left + 4, left_apart, right + v, apart, size, result + 4 * apart + v, apart);
+        for (int64_t k = 0; k < WIDTH; k += ROWS)
+            gram_tile(1, ROWS, left + k, left_apart, right + v, apart, size, result + k * apart + v, apart);
     }
 #else
     switch ((apart - skip) / WIDTH) {
@@ -102,51 +102,51 @@ static void invert_triangle(const double *triangle, int64_t apart, int64_t c, do
     }
 }
 
-/* Add to four rows of a result, from vector `from` on, the terms of `size` columns of X. */
-INLINE void add_terms(const int vectors, const int from, Vector sums[4][VECTORS], const double *left, int64_t left_apart,
+/* Add to some rows of a result, from vector `from` on, the terms of `size` columns of X. */
+INLINE void add_terms(const int vectors, const int from, Vector sums[ROWS][VECTORS], const double *left, int64_t left_apart,
                       const double *t, int64_t t_apart, int64_t size) {
     for (int64_t k = 0; k < size; k++, t += t_apart)
-        EACH(i, 4) EACH(v, vectors - from)
+        EACH(i, ROWS) EACH(v, vectors - from)
             sums[i][from + v] = add_scaled(sums[i][from + v], left[i * left_apart + k], load(t + (from + v) * WIDTH));
 }
 
-/* Four rows of X T, for vectors of T from `column` on; below the diagonal T is not looked at. */
+/* Some rows of X T, for vectors of T from `column` on; below the diagonal T is not looked at. */
 INLINE void multiply_tile(const int vectors, int64_t column, const double *left, const double *t, int64_t apart,
                           double *result) {
-    Vector sums[4][VECTORS];
-    EACH(i, 4) EACH(v, vectors) sums[i][v] = zeros();
+    Vector sums[ROWS][VECTORS];
+    EACH(i, ROWS) EACH(v, vectors) sums[i][v] = zeros();
     add_terms(vectors, 0, sums, left, apart, t + column, apart, column);
     EACH(v, vectors) {
         int64_t k = column + v * WIDTH;
         add_terms(vectors, v, sums, left + k, apart, t + k * apart + column, apart, WIDTH);
     }
-    EACH(i, 4) EACH(v, vectors) store(result + i * apart + column + v * WIDTH, sums[i][v]);
+    EACH(i, ROWS) EACH(v, vectors) store(result + i * apart + column + v * WIDTH, sums[i][v]);
 }
 
 /* Overwrite X by X T, T upper triangular. */
 static void multiply(Panel x, int64_t rows, const double *t) {
-    double four[4 * LANES];
-    for (int64_t r = 0; r < rows; r += 4) {
+    double some[ROWS * LANES];
+    for (int64_t r = 0; r < rows; r += ROWS) {
         double *from = x.data + r * x.apart;
-        for (int64_t i = 0; i < 4 * x.apart; i += WIDTH) store(four + i, load(from + i));
-        WITH_VECTORS(x.apart / WIDTH, 0, multiply_tile, four, t, x.apart, from);
+        for (int64_t i = 0; i < ROWS * x.apart; i += WIDTH) store(some + i, load(from + i));
+        WITH_VECTORS(x.apart / WIDTH, 0, multiply_tile, some, t, x.apart, from);
     }
 }
 
-/* Four rows of Y less what X times `shares` says, for vectors of Y from `column` on; X is a whole panel. */
+/* Some rows of Y less what X times `shares` says, for vectors of Y from `column` on; X is a whole panel. */
 INLINE void take_tile(const int vectors, int64_t column, const double *left, const double *shares, int64_t apart,
                       double *rows) {
-    Vector sums[4][VECTORS];
-    EACH(i, 4) EACH(v, vectors) sums[i][v] = load(rows + i * apart + column + v * WIDTH);
+    Vector sums[ROWS][VECTORS];
+    EACH(i, ROWS) EACH(v, vectors) sums[i][v] = load(rows + i * apart + column + v * WIDTH);
     add_terms(vectors, 0, sums, left, LANES, shares + column, apart, LANES);
-    EACH(i, 4) EACH(v, vectors) store(rows + i * apart + column + v * WIDTH, sums[i][v]);
+    EACH(i, ROWS) EACH(v, vectors) store(rows + i * apart + column + v * WIDTH, sums[i][v]);
 }
 
 /* Take out of Y what X, orthonormal and a whole panel, spans: Y - X X^T Y. */
 static void take_out(Panel x, Panel y, int64_t rows, double *shares) {
     for (int64_t i = 0; i < LANES; i += WIDTH) gram_rows(x.data + i, LANES, y, 0, rows, shares + i * y.apart);
     for (int64_t i = 0; i < LANES * y.apart; i += WIDTH) store(shares + i, scaled(load(shares + i), -1.0));
-    for (int64_t r = 0; r < rows; r += 4)
+    for (int64_t r = 0; r < rows; r += ROWS)
         WITH_VECTORS(y.apart / WIDTH, 0, take_tile, x.data + r * LANES, shares, y.apart, y.data + r * y.apart);
 }
 

@@ -5,7 +5,7 @@
  * processor busy: an addition takes longer than it needs to begin the next. */
 INLINE void take_border(const int vectors, const int rows, int64_t lane, const Front *front, const uint32_t *border,
                         const double *column, double *x) {
-    Vector lanes[4][VECTORS];
+    Vector lanes[ROWS][VECTORS];
         EACH(i, rows)
         EACH(v, vectors) lanes[i][v] = load(x + border[i] * lane + v * WIDTH);
     for (int64_t k = 0; k < front->own; k++) {
@@ -33,7 +33,7 @@ INLINE void substitute_forward(const int vectors, int64_t lane, const Fronts *fr
         }
         const uint32_t *border = fronts->borders.data + front.edge;
         int64_t size = front.width - front.own, i = 0;
-        for (; i + 4 <= size; i += 4) take_border(vectors, 4, lane, &front, border + i, matrix + front.own + i, x);
+        for (; i + ROWS <= size; i += ROWS) take_border(vectors, ROWS, lane, &front, border + i, matrix + front.own + i, x);
         for (; i < size; i += 2) take_border(vectors, 2, lane, &front, border + i, matrix + front.own + i, x);
     }
 }
@@ -42,7 +42,7 @@ INLINE void substitute_forward(const int vectors, int64_t lane, const Fronts *fr
  * after it; first those of the border, the odd ones in a sum of their own, then those of its front. */
 INLINE void take_back(const int vectors, const int rows, int64_t lane, const Front *front, int64_t k,
                       const uint32_t *border, const double *matrix, const double *inverse, double *x) {
-    Vector lanes[4][VECTORS], others[4][VECTORS];
+    Vector lanes[ROWS / 2][VECTORS], others[ROWS / 2][VECTORS];
     const int64_t size = front->width - front->own;
     double *own = x + front->first * lane;
     const double *entries = matrix + k * front->apart;
@@ -79,7 +79,7 @@ INLINE void substitute_back(const int vectors, int64_t lane, const Fronts *front
         const uint32_t *border = fronts->borders.data + front.edge;
         const double *matrix = matrices + front.place;
         int64_t k = front.own;
-        for (; k >= 2; k -= 2) take_back(vectors, 2, lane, &front, k - 2, border, matrix, inverse, x);
+        for (; k >= ROWS / 2; k -= ROWS / 2) take_back(vectors, ROWS / 2, lane, &front, k - ROWS / 2, border, matrix, inverse, x);
         if (k > 0) take_back(vectors, 1, lane, &front, 0, border, matrix, inverse, x);
     }
 }

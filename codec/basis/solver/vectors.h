@@ -31,6 +31,8 @@
 #define SIDE 1
 #endif
 #define PARTS (WIDTH / REGISTER)
+/* Rows of one vector that are summed side by side: eight registers, so that as many are left for what is added. */
+#define ROWS (REGISTER == 2 ? 2 : 4)
 
 typedef double Part __attribute__((vector_size(8 * REGISTER)));
 typedef double UnalignedPart __attribute__((vector_size(8 * REGISTER), aligned(8), may_alias));

@@ -105,15 +105,15 @@ class Carried:
     @cached_property
     def plain(self) -> tuple[bytes, ...]:
         """The chunks of its values, predicted without positions."""
-        return self.chunks(None)
+        return self.chunks(None, CHUNK)
 
-    def chunks(self, relief: Levels | None) -> tuple[bytes, ...]:
-        """The chunks of its values."""
+    def chunks(self, relief: Levels | None, size: int) -> tuple[bytes, ...]:
+        """The chunks of its values, of so many each."""
         if self.declaration.coding == RECOMPUTED:
             return ()
         pieces = to_pieces(self.declaration, self.levels)
         encoder = PieceEncoder(self.declaration, self.surface, pieces, relief)
-        return tuple(encoder.chunk(count) for _, count in _chunks(self.declaration.rows))
+        return tuple(encoder.chunk(count) for _, count in ranges(self.declaration.rows, size))
 
 
 def carry(place: Place, wanted: Iterable[tuple[Attribute, Quality]]) -> tuple[Carried, ...]:
@@ -205,9 +205,9 @@ def with_attributes(
         leaning = _Leaning(draft, prepared) if still else None
         for index, one in enumerate(carried):
             declaration, relief = leaning.of(one.declaration) if leaning else (one.declaration, None)
-            chunks = one.plain if relief is None else one.chunks(relief)
+            chunks = one.plain if relief is None else one.chunks(relief, CHUNK)
             declared.append(packets.Attribute(index, declaration, one.seams))
-            for (first, count), data in zip(_chunks(declaration.rows), chunks, strict=True):
+            for (first, count), data in zip(ranges(declaration.rows, CHUNK), chunks, strict=True):
                 values.append(packets.Values(index, first, count, data))
         header = replace(header, attributes=len(carried))
     return replace(draft, header=header, body=(*told, *head, *declared, *body, *values))
@@ -236,5 +236,6 @@ class _Leaning:
         return replace(declaration, leans=1, relief=exponent, doubts=doubts), self._relief
 
 
-def _chunks(rows: int) -> list[tuple[int, int]]:
-    return [(first, min(CHUNK, rows - first)) for first in range(0, rows, CHUNK)]
+def ranges(rows: int, size: int) -> list[tuple[int, int]]:
+    """First and number of each of so many rows' chunks."""
+    return [(first, min(size, rows - first)) for first in range(0, rows, size)]

@@ -55,3 +55,36 @@ class Contract:
     def __str__(self) -> str:
         bound = f"no vertex farther than {self.farthest:.4g}" + ("" if self.absolute else " diagonals")
         return bound if self.angle >= ANY_ANGLE else f"{bound}, normals {self.angle:g} degrees wrong on average"
+
+
+@dataclass(frozen=True)
+class Fit:
+    """How well parts of a mesh fit that were encoded apart: where they were one, they gape by at most so much.
+
+    Every vertex of a border keeps within half of it of its place.
+
+    Parameters
+    ----------
+    gap : float
+    absolute : bool
+        `gap` is in the mesh's unit, and not relative to the diagonal of the bounding box (of the larger part).
+
+    Raises
+    ------
+    OptionError
+        If the gap is not positive.
+    """
+
+    gap: float = 1e-4
+    absolute: bool = False
+
+    def __post_init__(self) -> None:
+        if not 0.0 < self.gap < float("inf") or (self.gap > 1.0 and not self.absolute):
+            raise OptionError(f"borders must gape by more than 0 and at most 1 diagonals, not {self.gap:g}")
+
+    def reach(self, diagonal: float, unit: float) -> float:
+        """How far a vertex of a border may come to lie from its place, in multiples of `unit`."""
+        return 0.5 * (self.gap if self.absolute else self.gap * diagonal) / unit
+
+    def __str__(self) -> str:
+        return f"borders that gape by at most {self.gap:.4g}" + ("" if self.absolute else " diagonals")

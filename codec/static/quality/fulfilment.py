@@ -22,6 +22,7 @@ from codec.geometry.closeness import Closeness, Original
 from codec.static.layers.block_coder import Progress
 from codec.static.options import EncodeOptions
 from codec.static.preamble import FEW_VERTICES, Prepared
+from codec.static.quality.borders import ROUND, borders_of
 from codec.static.quality.contract import ANY_ANGLE, Contract
 from codec.static.quality.draft import Draft
 from codec.static.quality.lattices import Shaped, rounded
@@ -52,8 +53,8 @@ COARSE = 0.016
 """A step, in BSM units, at which blocks carry nothing but what they are for."""
 SLACK = 0.03
 """How far below a bound on angles the search for a step may stay."""
-COARSEST = 0.05
-"""Largest step, in BSM units."""
+FINEST, COARSEST = 2.0**-38, 0.05
+"""Smallest and largest step, in BSM units."""
 MARGIN = 1e-9
 """Of a bound on distances, for what rounding may add."""
 
@@ -135,6 +136,7 @@ class Fulfilment:
         self._original = Original(prepared.positions, prepared.mesh.faces)
         self._shaper = Shaper(self._original)
         self._reach = contract.reach(prepared.mesh.diagonal, prepared.units.scale) * (1.0 - MARGIN)
+        self._borders = borders_of(prepared, options.lock_borders, self._reach)
         self._edge = self._shaper.mean_edge or 1.0
         self._best_seen: Closeness | None = None
 
@@ -162,25 +164,28 @@ class Fulfilment:
 
     def _keeps(self, draft: Draft) -> bool:
         """Whether what its decoder makes of a draft keeps the contract."""
-        closeness = self._original.closeness(self._prepared.units.into(draft.decoded))
+        decoded = self._prepared.units.into(draft.decoded)
+        closeness = self._original.closeness(decoded)
         best = self._best_seen
         if best is None or closeness.farthest < best.farthest:
             self._best_seen = closeness
-        return self._within(closeness)
+        return self._within(closeness) and self._borders.kept(self._prepared.positions, decoded)
 
     def _within(self, closeness: Closeness) -> bool:
         return closeness.farthest <= self._reach and closeness.angle <= self._contract.angle
 
     def _refusal(self) -> str:
-        had = "nothing"
-        if self._best_seen is not None:
-            had = self._contract.worded(self._best_seen, self._reach)
+        if self._best_seen is not None and self._within(self._best_seen):
+            return f"{self._options.lock_borders} cannot be had on this mesh: they are too fine"
+        had = "nothing" if self._best_seen is None else self._contract.worded(self._best_seen, self._reach)
         return f"{self._contract} cannot be kept on this mesh; the best that can be had is {had}"
 
     # Blocks.
 
     def _has_low_frequencies(self) -> bool:
-        """Whether there are some, and most of what is worth coding is there."""
+        """Whether there are some, and most of what is worth coding is there; or only blocks can be fine at borders."""
+        if self._borders.vertices.any():
+            return self._prepared.graph.size >= FEW_VERTICES
         return self._prepared.has_low_frequencies and not self._blocks.is_flat(COARSE, FLAT)
 
     @cached_property
@@ -202,21 +207,33 @@ class Fulfilment:
         yield from self._refined(base)
 
     def _with_outliers(self, base: Base, layers: list[tuple[Layer, Levels]]) -> Draft:
-        """With one more layer, if vertices are out of reach: of levels for these alone."""
+        """With one more layer, if vertices are out of reach: of levels for these alone; and one for borders."""
         positions = base.positions
         for layer, levels in layers:
             positions = base.moved(layer, levels, positions)
         offsets = base.offsets_of(positions)
-        out = np.square(offsets).sum(axis=1) > self._reach**2
+        out = (np.square(offsets).sum(axis=1) > self._reach**2) & ~self._borders.vertices
         if out.any():
             layer = base.layer(self._reach, 1.0)
             wanted = np.where(out[:, None], np.rint(offsets / layer.step), 0.0).astype(np.int32)
             layers = [*layers, (layer, wanted)]
+        lock = self._lock(base)
+        if lock is not None:
+            return base.refined(*layers, lock, borders=True)
         return base.refined(*layers) if layers else base.draft
 
+    def _lock(self, base: Base) -> tuple[Layer, Levels] | None:
+        """The layer that brings borders back; no other layer moves them."""
+        if not self._borders.out(base.offsets).any():
+            return None
+        layer = base.layer(max(self._borders.cell, FINEST), 1.0)
+        levels = self._borders.levels(base.offsets, layer.step)
+        return None if levels is None else (layer, levels)
+
     def _outliers(self, positions: Matrix) -> int:
-        """How many vertices are out of reach."""
-        return int((np.square(positions - self._prepared.positions).sum(axis=1) > self._reach**2).sum())
+        """How many vertices are out of reach, borders aside."""
+        out = np.square(positions - self._prepared.positions).sum(axis=1) > self._reach**2
+        return int((out & ~self._borders.vertices).sum())
 
     def _refined(self, base: Base) -> Iterator[Draft]:
         """A base with heights along the normals, if these can bring normals right; with all axes if not."""
@@ -229,14 +246,18 @@ class Fulfilment:
             yield self._with_outliers(base, [best.found])
 
     def _refinement(self, base: Base, ratio: float) -> Trial[tuple[Layer, Levels]] | None:
-        """One layer whose normals are right."""
+        """One layer whose normals are right, where borders are back at their places."""
+        lock, still = self._lock(base), self._borders.vertices
+        start = base.positions if lock is None else base.moved(*lock)
 
         def measure(step: float) -> Trial[tuple[Layer, Levels]]:
             layer = base.layer(step, ratio)
             wanted, directions = base.wanted(layer)
+            wanted[still] = 0
             aim = Aim(layer.step / self._edge, self._reach, 6)
-            levels = self._shaper.levels(base.positions, wanted, directions, aim)
-            closeness = self._original.closeness(base.moved(layer, levels))
+            levels = self._shaper.levels(start, wanted, directions, aim)
+            levels[still] = 0
+            closeness = self._original.closeness(base.moved(layer, levels, start))
             return Trial(step, closeness, (layer, levels))
 
         first = 1.2 * math.radians(self._contract.angle) * self._edge
@@ -258,17 +279,18 @@ class Fulfilment:
     def _first_cell(self) -> float:
         """The step of a grid that should be about right."""
         angle = self._contract.angle
-        return float(min(4.9 * angle**-0.35 * math.radians(angle) * self._edge, 1.6 * self._reach, COARSEST))
+        first = 4.9 * angle**-0.35 * math.radians(angle) * self._edge
+        return float(min(first, 1.6 * self._reach, self._borders.cell, COARSEST))
 
     def _grids(self) -> Iterator[Draft]:
-        shaped = Shaped(self._prepared, self._shaper)
+        shaped = Shaped(self._prepared, self._shaper, still=self._borders.vertices)
         angle = self._contract.angle
         if angle >= ANY_ANGLE:
-            step = max(2.0 / math.sqrt(3.0) * self._reach * 0.999, shaped.finest)
+            step = max(min(ROUND * self._reach, self._borders.cell), shaped.finest)
             held, places, _ = shaped.places(step, Aim(0.8 * step / self._edge, self._reach, 6), axes=3)
             yield shaped.draft(held, places)
             return
-        most = min(1.6 * self._reach, COARSEST)
+        most = min(1.6 * self._reach, self._borders.cell, COARSEST)
         best = widest_step(
             lambda step: self._on_grid(shaped, step, 0.4), self._first_cell, angle, self._reach, tries=5, most=most
         )
@@ -296,11 +318,11 @@ class Fulfilment:
         extent = float(np.ptp(self._prepared.positions, axis=0).max())
         grids = [shaped]
         if (self._prepared.mesh.positions >= 0.0).all():
-            grids.append(Shaped(self._prepared, self._shaper, np.zeros(3)))
+            grids.append(Shaped(self._prepared, self._shaper, np.zeros(3), still=self._borders.vertices))
         for grid in grids:
             left = COARSEST_GRIDS
             for parts in range(1, MOST_PARTS):
-                if left and grid.fits(extent / parts, self._reach):
+                if left and grid.fits(extent / parts, min(self._reach, self._borders.cell / ROUND)):
                     trial = self._on_grid(grid, extent / parts, 0.8)
                     if self._within(trial.closeness):
                         left -= 1

@@ -8,7 +8,7 @@ from bitstream.container.header import Header
 from bitstream.errors import TargetError
 from bitstream.fields.grid import MOST_LARGEST
 from bitstream.fields.lattice import find_lattice
-from codec.arrays import Levels, Matrix, Positions
+from codec.arrays import Levels, Mask, Matrix, Positions
 from codec.static.layers.grid import Grid, encode_grid
 from codec.static.preamble import Prepared
 from codec.static.quality.draft import Draft
@@ -17,6 +17,8 @@ from codec.static.units import single
 
 MOST_SINGLE = 1e38
 PART_OF_CELL = 1.0 / 64.0
+MOST_WHOLE = 2.0**52
+"""Below it, floating point numbers know halves."""
 
 
 def grid_draft(prepared: Prepared, grid: Grid, places: Levels) -> Draft:
@@ -54,6 +56,37 @@ def rounded(prepared: Prepared, bits: int) -> Draft:
     return grid_draft(prepared, *latticed(tuple(map(float, low)), step, places, cells))
 
 
+def rounded_to_cells(prepared: Prepared, cell: float, origin: tuple[float, float, float]) -> Draft:
+    """Every position at the nearest place of a grid that is given: at ``origin + k * cell``, k whole numbers.
+
+    What the decoder makes of a place depends on nothing but that: parts of a mesh on one grid fit bit for bit.
+
+    Raises
+    ------
+    TargetError
+        If the mesh is too large for such cells, or too far from the origin to tell its places from there exactly.
+    """
+    corner = np.array(origin)
+    with np.errstate(over="ignore", invalid="ignore"):
+        places = np.floor((prepared.mesh.positions - corner) / cell + 0.5)
+    if not (np.abs(places) < MOST_WHOLE).all():
+        raise TargetError(f"cells of {cell:g} are too small to count from {origin} to this mesh")
+    everywhere = np.full(3, -float(MOST_LARGEST // 2 + 1))
+    wanted = (places - everywhere) * cell + (everywhere * cell + corner)
+    # Counted from the mesh on, or from the origin, if the same positions come of that: smaller numbers.
+    for least in (places.min(axis=0), np.zeros(3), everywhere):
+        coded, low = places - least, least * cell + corner
+        if coded.min() >= 0.0 and coded.max() <= MOST_LARGEST and (coded * cell + low == wanted).all():
+            grid = Grid(tuple(map(float, low)), cell, tuple(int(value) for value in coded.max(axis=0)))
+            return grid_draft(prepared, grid, coded.astype(np.int32))
+    if np.ptp(places, axis=0).max() > MOST_LARGEST:
+        raise TargetError(f"this mesh is larger than {MOST_LARGEST} cells of {cell:g}; choose larger ones")
+    raise TargetError(
+        f"this mesh is more than {MOST_LARGEST // 2} cells of {cell:g} from {origin}, too far to tell places exactly; "
+        "choose an origin that is nearer, or a power of two as cell and multiples of it as origin"
+    )
+
+
 def latticed(origin: tuple[float, ...], step: float, places: Matrix, cells: int) -> tuple[Grid, Levels]:
     """The grid of places, on a coarser lattice where they all are on one."""
     points, lattice = find_lattice(places, cells)
@@ -74,9 +107,14 @@ class Shaped:
         Of the same, in BSM units.
     low : float64 array, shape (3,), optional
         Where the grid begins, in the mesh's unit; None: at the corner of the bounding box.
+    still : bool array, shape (n,), optional
+        Vertices that take the nearest place, and not one that is better for normals.
     """
 
-    def __init__(self, prepared: Prepared, shaper: Shaper, low: Matrix | None = None) -> None:
+    def __init__(
+        self, prepared: Prepared, shaper: Shaper, low: Matrix | None = None, *, still: Mask | None = None
+    ) -> None:
+        self._still = np.zeros(len(prepared.positions), np.bool_) if still is None else still
         self._prepared = prepared
         self._shaper = shaper
         low = prepared.mesh.positions.min(axis=0) if low is None else low
@@ -98,6 +136,7 @@ class Shaped:
         held = single(step * unit)
         wanted = np.floor((self._prepared.positions - self._low) / (held / unit) + 0.5).astype(np.int32)
         places = self._shaper.places(wanted, self._low, held / unit, aim, axes)
+        places[self._still] = wanted[self._still]
         return held, places, self._grid(held, places).positions(places - places.min(axis=0))
 
     def draft(self, step: float, places: Levels) -> Draft:

@@ -159,7 +159,7 @@ def test_a_changed_byte_is_a_typed_error_or_another_header(data):
         {17: [0.5, 0.5]},  # too short
         {19: [0.5] * 17},  # too long
         {6: 256},  # not even a reserved method
-        {12: 0.03125},  # the default, stored
+        {12: 0.0078125},  # the default, stored
         {13: 0},
         {-1: 0},
         {2: 33},  # more vertices than corners

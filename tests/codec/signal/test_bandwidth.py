@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from codec.basis.laplacian import laplacian_of
+from codec.basis.laplacian import factorize, laplacian_of
 from codec.basis.orthogonal_iteration import cosine_columns, orthogonal_iteration
 from codec.blocks.overlap import Blocks, grow_blocks
 from codec.blocks.partition import derive_partition
@@ -26,7 +26,7 @@ def waves(blocks: Blocks, count: int, amplitude: float) -> np.ndarray:
     """Positions of a single block whose first `count` coefficients in x, y and z are all `amplitude`, and no others."""
     block = blocks.block(0)
     start = cosine_columns(block.size, 0, count)
-    subspace = orthogonal_iteration(laplacian_of(block), start, shift=SHIFT, power=1, iterations=1)
+    subspace = orthogonal_iteration(factorize(laplacian_of(block), SHIFT), start, power=1, iterations=1)
     positions = np.zeros((block.size, 3))
     positions[block.vertices] = amplitude * subspace.sum(axis=1)[:, None]
     return positions

@@ -2,7 +2,7 @@
 import { execFileSync, spawnSync } from "node:child_process";
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
-import { dirname, join } from "node:path";
+import { delimiter, dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
 
 export const WEB = dirname(dirname(fileURLToPath(import.meta.url)));
@@ -22,9 +22,7 @@ const SOURCES = [
     "bitstream/fields/corners.c",
     "bitstream/fields/grid.c",
     "bitstream/fields/levels.c",
-    "bitstream/fields/tables.c",
     "bitstream/fields/value.c",
-    "bitstream/entropy/tables.c",
     "codec/basis/cosines.simd.c",
     "codec/basis/orthogonal_iteration.simd.c",
     "codec/basis/solver/cholesky.simd.c",
@@ -49,7 +47,11 @@ const SOURCES = [
     "tools/web/src/memory.c",
 ];
 
+/** Tables alone, which are sent as differences. */
+const TABLES = ["bitstream/entropy/tables.c", "bitstream/fields/tables.c"];
+
 const KERNELS = [
+    "make_tables",
     "code_one_unsigned", "match_halfedges", "conquer", "code_fans", "code_degenerate", "code_steps", "code_turns",
     "code_labels", "points_of_levels", "code_rows", "code_block", "vertex_faces", "bisect", "refine_partition",
     "group_by_label", "chain_parts", "grow_blocks", "order_scratch", "order_block", "add_copies", "collect_edges",
@@ -60,7 +62,7 @@ const KERNELS = [
 ];
 
 const FLAGS = [
-    "--target=wasm32", "-std=gnu11", "-ffreestanding", "-fno-builtin", "-ffp-contract=off", "-ffunction-sections",
+    "--target=wasm32", "-DBSM_DECODER", "-std=gnu11", "-ffreestanding", "-fno-builtin", "-ffp-contract=off", "-ffunction-sections",
     "-fdata-sections", "-fvisibility=hidden", "-Wno-unknown-pragmas", "-nostdlib",
 ];
 
@@ -76,16 +78,54 @@ export function compiler() {
     return stdout?.split("\n")[0];
 }
 
+/** Where programs are, but for those of packages: clang would call a wasm-opt of its own accord, with other options. */
+function withoutPackages() {
+    return process.env.PATH.split(delimiter).filter((folder) => !folder.includes("node_modules")).join(delimiter);
+}
+
+const BYTES = { uint16_t: 2, int16_t: 2, int32_t: 4 };
+
+/**
+ * The tables of a C file as differences, which are easier to compress; their bytes plane by plane, the least first.
+ * `unpack_NAME` makes a table of them.
+ */
+function packedTables(text) {
+    return [...text.matchAll(/const (\w+) (\w+)\[(\d+)\] = \{([^}]*)\}/g)].map(([, type, name, length, body]) => {
+        const values = body.split(",").map(Number).slice(0, Number(length));
+        const differences = values.map((value, i) => value - (i ? values[i - 1] : 0));
+        const planes = Array.from({ length: BYTES[type] }, (_, k) => differences.map((step) => (step >> (8 * k)) & 255)).flat();
+        return `static const uint8_t PACKED_${name}[] = {${planes}};
+${type} ${name}[${length}];
+void unpack_${name}(void) { unpack_table(PACKED_${name}, ${name}, ${length}, ${BYTES[type]}); }
+`;
+    });
+}
+
+const UNPACK = `#include <stdint.h>
+#define unpack_table(packed, table, length, bytes) \\
+    for (int32_t i = 0, value = 0; i < (length); i++) { \\
+        uint32_t step = 0; \\
+        for (int k = 0; k < (bytes); k++) step |= (uint32_t)(packed)[k * (length) + i] << (8 * k); \\
+        value = (int32_t)((uint32_t)value + step); \\
+        (table)[i] = value; \\
+    }
+`;
+
 /** One build: `vectors` says whether with vector instructions. */
 export function compileKernels(vectors) {
     const folder = mkdtempSync(join(tmpdir(), "bsm-kernels-"));
     try {
-        const priors = join(folder, "priors.c");
-        const numbers = readFileSync(join(ROOT, "spec/priors.bin"));
-        writeFileSync(priors, `const unsigned char PRIORS[${numbers.length}] = {${[...numbers].join(",")}};\n`);
+        const data = join(folder, "data.c");
+        const priors = readFileSync(join(ROOT, "spec/priors.bin"));
+        const tables = TABLES.flatMap((path) => packedTables(readFileSync(join(ROOT, path), "utf8")));
+        const unpackers = tables.map((table) => /unpack_[A-Z]+/.exec(table)[0]);
+        writeFileSync(data, [UNPACK, ...tables, `void make_tables(void) { ${unpackers.map((name) => `${name}();`).join(" ")} }`,
+            `const unsigned char PRIORS[${priors.length}] = {${[...priors]}};`].join("\n"));
         const target = join(folder, "kernels.wasm");
         const options = [...FLAGS, "-Oz", ...(vectors ? ["-msimd128"] : [])];
-        execFileSync("clang", [...options, "-I", ".", ...SOURCES, priors, ...LINK, "-o", target], { cwd: ROOT });
+        execFileSync("clang", [...options, "-I", ".", ...SOURCES, data, ...LINK, "-o", target], { cwd: ROOT, env: { ...process.env, PATH: withoutPackages() } });
+        const features = ["--enable-bulk-memory", "--enable-sign-ext", "--enable-nontrapping-float-to-int", ...(vectors ? ["--enable-simd"] : [])];
+        execFileSync(join(WEB, "node_modules/.bin/wasm-opt"), [target, "-Oz", ...features, "-o", target]);
         return readFileSync(target);
     } finally {
         rmSync(folder, { recursive: true });

@@ -5,7 +5,7 @@ import type { Doubles, Memory } from "./kernels";
 
 /** Independence of the columns from which one pass of Cholesky QR is enough, and from which two are. */
 const ONCE = 1e-5;
-const TWICE = 1e-11;
+const TWICE = 1e-13;
 /** What makes a basis exact (M 8.5). */
 const EXACT_POWER = 2;
 const EXACT_ITERATIONS = 128;

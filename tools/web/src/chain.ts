@@ -133,7 +133,7 @@ export class ChainDecoder {
             const subspace = this.dictionary(block, springs, columns);
             const coefficients = points.map((point) => (point * header.step) / 2);
             const positions = reconstruct(memory, subspace, coefficients, 3);
-            extend(memory, block, springs, pulls).forEach((value, i) => (positions[i] += value));
+            extend(memory, block, springs, pulls, this.header.shift).forEach((value, i) => (positions[i] += value));
             if (details.length > 0) this.displace(block, positions, subspace, details);
             if (!positions.every(Number.isFinite)) throw new NumericError("the coefficients reconstruct to positions that are not finite");
             const vertices = block.vertices.view.slice();
@@ -213,12 +213,12 @@ export class ChainDecoder {
 }
 
 /** Positions that continue what is known (M 7.4). */
-function extend(memory: Memory, block: Block, springs: Float64Array, pulls: Float64Array): Float64Array {
+function extend(memory: Memory, block: Block, springs: Float64Array, pulls: Float64Array, delta: number): Float64Array {
     const total = springs.reduce((sum, spring) => sum + spring, 0);
     if (total === 0) return new Float64Array(pulls.length);
     const mean = [0, 0, 0];
     pulls.forEach((pull, i) => (mean[i % 3] += pull / total));
     const loads = pulls.map((pull, i) => pull - springs[Math.floor(i / 3)] * mean[i % 3]);
-    const shift = springs.map((spring) => spring + TETHER);
+    const shift = springs.map((spring) => spring + delta);
     return solveColumns(memory, block, shift, loads, 3).map((value, i) => value + mean[i % 3]);
 }

@@ -433,6 +433,7 @@ export class Decoder {
             return { missing: none, degraded: none };
         }
         this.skipTo(header!.blocks);
+        if (!this.wishes.tolerant) return { missing: none, degraded: none };
         const { missing, degraded } = this.assembly!.losses();
         const unrefined = this.refinement?.unrefined() ?? none;
         const gone = new Set(missing);

@@ -65,7 +65,7 @@ const FIELDS: Record<keyof Header, Field> = {
     power: { key: 9, type: "int", low: 1, high: 64, default: 2 },
     iterations: { key: 10, type: "int", low: 1, high: 1024, default: 1 },
     keyIterations: { key: 11, type: "int", low: 1, high: 1024, default: 8 },
-    shift: { key: 12, type: "float", low: 2 ** -30, high: 2 ** 30, default: 0.03125 },
+    shift: { key: 12, type: "float", low: 2 ** -30, high: 2 ** 30, default: 0.0078125 },
     blend: { key: 13, type: "method", low: 0, high: 2, default: 0 },
     coding: { key: 14, type: "method", low: 0, high: 1, default: 1 },
     bits: { key: 15, type: "int", low: 1, high: 32, default: 12 },

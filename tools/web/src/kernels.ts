@@ -87,6 +87,7 @@ export class Memory {
         this.frame = align((exports.__heap_base as WebAssembly.Global).value as number);
         this.top = this.frame + ARGUMENT_BYTES;
         this.reserve(this.top);
+        this.run("make_tables");
     }
 
     get buffer(): ArrayBuffer {

@@ -36,6 +36,7 @@ function checkFrame(data: Uint8Array, size: number): void {
     const single = (descriptor & 32) !== 0;
     const flag = descriptor >> 6;
     if (descriptor & 8) throw new CorruptError("a zstd frame has a reserved bit");
+    if (descriptor & 4) throw new CorruptError("a zstd frame has a checksum of its content");
     if (descriptor & 3) throw new CorruptError("a zstd frame uses a dictionary");
     if (!single && flag === 0) throw new CorruptError("a zstd frame does not state its content size");
     let at = 1;
@@ -55,6 +56,5 @@ function checkFrame(data: Uint8Array, size: number): void {
         at += BLOCK_HEADER + (((header >> 1) & 3) === RLE ? 1 : header >> 3);
         need(at);
     }
-    at += descriptor & 4 ? 4 : 0;
     if (at !== data.length) throw new CorruptError("a zstd frame does not end where its bytes end");
 }

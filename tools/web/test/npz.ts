@@ -3,8 +3,23 @@ import { inflateRawSync } from "node:zlib";
 
 export interface NumpyArray {
     shape: number[];
-    values: Float64Array | Int32Array;
+    values: InstanceType<(typeof ARRAYS)[string]>;
 }
+
+type Make<Values> = new (body: ArrayBuffer) => Values;
+const ARRAYS: Record<
+    string,
+    Make<Float64Array> | Make<Float32Array> | Make<Int32Array> | Make<Uint32Array> | Make<Int16Array> | Make<Uint16Array> | Make<Int8Array> | Make<Uint8Array>
+> = {
+    "<f8": Float64Array,
+    "<f4": Float32Array,
+    "<i4": Int32Array,
+    "<u4": Uint32Array,
+    "<i2": Int16Array,
+    "<u2": Uint16Array,
+    "|i1": Int8Array,
+    "|u1": Uint8Array,
+};
 
 export function readNpz(data: Buffer): Record<string, NumpyArray> {
     const arrays: Record<string, NumpyArray> = {};
@@ -27,7 +42,7 @@ function readNpy(data: Buffer): NumpyArray {
     const kind = /'descr': '([^']+)'/.exec(header)?.[1];
     const shape = /'shape': \(([^)]*)\)/.exec(header)![1].split(",").filter((part) => part.trim()).map(Number);
     const body = new Uint8Array(data.subarray(start + size)).buffer;
-    if (kind === "<f8") return { shape, values: new Float64Array(body) };
-    if (kind === "<i4") return { shape, values: new Int32Array(body) };
-    throw new Error(`an npy file of type ${kind}`);
+    const array = ARRAYS[kind ?? ""];
+    if (!array) throw new Error(`an npy file of type ${kind}`);
+    return { shape, values: new array(body) };
 }

@@ -1,0 +1,267 @@
+"""Streams with attributes: of vertices, corners and faces, with and without seams, of every kind and coding."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+
+from bitstream.container.packets import Attribute as Declared
+from bitstream.container.packets import Packet, Values
+from bitstream.container.writer import write_stream
+from codec.geometry.attributes import Attribute, Domain
+from codec.geometry.mesh import TriangleMesh
+from codec.geometry.splitting import split_by_attributes
+from codec.sequence.encoder import encode_sequence
+from codec.static.attributes.encoding import ranges
+from codec.static.attributes.relief import Solid
+from codec.static.encoder import Encoder, encode
+from codec.static.options import EncodeOptions
+from tools.vectors.good import BASE, Good
+from tools.vectors.good_fields import soup
+from tools.vectors.good_sequences import BASE as MOVING
+from tools.vectors.meshes import hub, patch, shuffled, tangled, tetrahedron, torus
+
+GRID = EncodeOptions(grid=9)
+ORDERED = replace(GRID, keep_order=True)
+
+
+def charts(mesh: TriangleMesh, kind: str = "float32") -> Attribute:
+    """Texture coordinates in two charts, and one corner for itself."""
+    at = mesh.positions[mesh.faces]
+    right = at.mean(axis=1)[:, 0] > mesh.positions[:, 0].mean()
+    corners = np.where(right[:, None, None], at[:, :, :2], 2.0 - at[:, :, 1:])
+    corners[0, 0] += 0.5
+    return Attribute("uv", corners.reshape(-1, 2).astype(kind), "corner", "texcoord")
+
+
+def creases(mesh: TriangleMesh) -> Attribute:
+    """Normals: of faces on one side, of vertices on the other."""
+    a, b, c = (mesh.positions[mesh.faces[:, k]] for k in range(3))
+    flat = np.cross(b - a, c - a) + np.array([0.0, 0.0, 1e-9])
+    smooth = np.zeros_like(mesh.positions)
+    for k in range(3):
+        np.add.at(smooth, mesh.faces[:, k], flat)
+    sharp = (mesh.positions[mesh.faces].mean(axis=1)[:, 1] > mesh.positions[:, 1].mean())[:, None, None]
+    corners = np.where(sharp, flat[:, None], smooth[mesh.faces])
+    return Attribute("normal", corners.reshape(-1, 3).astype(np.float32), "corner", "normal")
+
+
+def colors(mesh: TriangleMesh, kind: str = "uint8") -> Attribute:
+    """Smooth ones of vertices."""
+    shades = 0.5 + 0.45 * np.sin(3 * mesh.positions @ np.array([[1, 2, 0, 1], [0, 1, 3, 1], [2, 0, 1, 1.0]]))
+    shades *= {"uint8": 255, "uint16": 65535}.get(kind, 1)
+    return Attribute("color", shades.astype(kind), "vertex", "color")
+
+
+def groups(mesh: TriangleMesh) -> Attribute:
+    """Numbers of faces."""
+    return Attribute("group", (np.arange(len(mesh.faces)) // 9 * 7 % 5).astype(np.int32), "face")
+
+
+def wild(mesh: TriangleMesh, kind: str, domain: Domain = "vertex", components: int = 1) -> Attribute:
+    """Any numbers of a kind, its ends among them."""
+    count = {"vertex": len(mesh.positions), "corner": mesh.faces.size, "face": len(mesh.faces)}[domain]
+    bits = np.arange(count * components, dtype=np.uint64) * np.uint64(0x9E3779B97F4A7C15)
+    size = np.dtype(kind).itemsize
+    values = (bits >> np.uint64(64 - 8 * size)).astype(f"u{size}").view(kind).copy()
+    if values.dtype.kind == "f":
+        values = np.where(np.isfinite(values), values, 0).astype(kind)
+        values[:2] = 0.0, -0.0
+    else:
+        values[:2] = np.iinfo(kind).min, np.iinfo(kind).max
+    return Attribute(kind, values.reshape(count, components), domain)
+
+
+def worn(mesh: TriangleMesh, *make: Callable[[TriangleMesh], Attribute]) -> TriangleMesh:
+    """A mesh with attributes."""
+    return replace(mesh, attributes=tuple(one(mesh) for one in make))
+
+
+def in_chunks(mesh: TriangleMesh, options: EncodeOptions, size: int, relief: int | None = None) -> bytes:
+    """Values in chunks of so many, with positions rounded to 2^-relief."""
+    encoder = Encoder(mesh, options)
+    prepared, carried = encoder._prepared, encoder._carried
+    draft = encoder._bare(None)
+    solid = Solid(prepared.units.into(draft.decoded), draft.places)
+    exponent = relief or 0
+    doubts = solid.doubts(exponent) if relief else b""
+    known = solid.relief(exponent, doubts) if relief or draft.places is not None else None
+    first, declared, values = True, [], []
+    for index, one in enumerate(carried):
+        leans = known is not None and one.declaration.semantic in (2, 3)
+        declaration = one.declaration
+        if leans:
+            declaration = replace(declaration, leans=1)
+            if first:
+                declaration, first = replace(declaration, relief=exponent, doubts=doubts), False
+        declared.append(Declared(index, declaration, one.seams))
+        chunks = one.chunks(known if leans else None, size)
+        parts = zip(ranges(declaration.rows, size), chunks, strict=True)
+        values += [Values(index, start, count, data) for (start, count), data in parts]
+    before = len(prepared.before_blocks if draft.places is None else prepared.before_grid)
+    header = replace(draft.header, attributes=len(carried))
+    body: list[Packet] = [*draft.body[:before], *declared, *draft.body[before:], *values]
+    return write_stream([header, *body])
+
+
+def asked(mesh: TriangleMesh, options: EncodeOptions, **qualities: str) -> bytes:
+    """Encode with qualities of attributes."""
+    return encode(mesh, replace(options, attributes=qualities))
+
+
+def _split() -> TriangleMesh:
+    """Vertices split where corners differ, and two in no face."""
+    mesh = split_by_attributes(worn(torus(8, 7), charts, creases, colors, groups))
+    loose = np.array([[9.0, 9.0, 9.0], [8.0, 8.0, 8.0]])
+    values = [np.concatenate([one.values, one.values[3:5]]) for one in mesh.attributes]
+    attributes = [
+        replace(one, values=more) if one.domain == "vertex" else one
+        for one, more in zip(mesh.attributes, values, strict=True)
+    ]
+    return TriangleMesh(np.concatenate([mesh.positions, loose]), mesh.faces, tuple(attributes))
+
+
+def _sequence() -> bytes:
+    meshes = [torus(10, 8, phase=0.2 * t) for t in range(4)]
+    attributes = worn(meshes[0], charts, colors, groups).attributes
+    positions = np.array([mesh.positions for mesh in meshes])
+    return encode_sequence(positions, meshes[0].faces, MOVING, {"name": "torus"}, attributes)
+
+
+def _second(mesh: TriangleMesh) -> Attribute:
+    return replace(charts(mesh), name="uv 2", values=charts(mesh).values[:, ::-1] ** 2)
+
+
+def _few_seams(mesh: TriangleMesh) -> Attribute:
+    return replace(charts(mesh), name="few", values=np.round(charts(mesh).values, 1), semantic="generic")
+
+
+ATTRIBUTES: dict[str, Good] = {
+    "good-attribute-uv-grid": Good(
+        "texture coordinates with seams that lean on a grid", lambda: encode(worn(torus(12, 10), charts), GRID)
+    ),
+    "good-attribute-uv-blocks": Good(
+        "texture coordinates that lean on blocks, with coordinates in doubt",
+        lambda: in_chunks(worn(torus(12, 10), charts), BASE, 50, relief=20),
+    ),
+    "good-attribute-uv-plain": Good(
+        "texture coordinates that lean on nothing", lambda: in_chunks(worn(patch(9, 8), charts), BASE, 1000)
+    ),
+    "good-attribute-normals": Good(
+        "normals with creases, on a grid", lambda: encode(worn(torus(12, 10), creases), GRID)
+    ),
+    "good-attribute-normals-blocks": Good(
+        "normals and texture coordinates in chunks, the second leans by what the first declares",
+        lambda: in_chunks(worn(torus(10, 8), creases, charts), BASE, 33, relief=12),
+    ),
+    "good-attribute-normals-coarse": Good(
+        "normals of two bits that lean on nothing",
+        lambda: in_chunks(worn(patch(8, 7), creases), replace(BASE, attributes={"normal": "2bits"}), 1000),
+    ),
+    "good-attribute-recomputed": Good(
+        "normals that are recomputed, of vertices and with creases",
+        lambda: encode(worn(torus(9, 8), creases), replace(BASE, normals="recompute")),
+    ),
+    "good-attribute-recomputed-tangled": Good(
+        "normals that are recomputed where faces have no area, and of loose vertices",
+        lambda: encode(
+            worn(soup(torus(6, 5)), lambda mesh: Attribute("n", 0 * mesh.positions + 1, semantic="normal")),
+            replace(ORDERED, normals="recompute"),
+        ),
+    ),
+    "good-attribute-colors": Good(
+        "colours of vertices, four bytes each, in chunks", lambda: in_chunks(worn(torus(9, 8), colors), BASE, 40)
+    ),
+    "good-attribute-colors-float": Good(
+        "colours as floats, and of 16 bits",
+        lambda: encode(
+            worn(torus(9, 8), lambda m: colors(m, "float32"), lambda m: replace(colors(m, "uint16"), name="c16")), GRID
+        ),
+    ),
+    "good-attribute-groups": Good(
+        "numbers of faces, in chunks", lambda: in_chunks(worn(torus(9, 8), groups), GRID, 60)
+    ),
+    "good-attribute-exact": Good(
+        "every type of whole numbers, exact",
+        lambda: encode(
+            worn(
+                patch(6, 5),
+                *(
+                    lambda m, k=kind, d=domain: wild(m, k, d, 2)
+                    for kind, domain in (
+                        ("uint8", "vertex"),
+                        ("int8", "corner"),
+                        ("uint16", "face"),
+                        ("int16", "vertex"),
+                        ("uint32", "corner"),
+                        ("int32", "face"),
+                    )
+                ),
+            ),
+            ORDERED,
+        ),
+    ),
+    "good-attribute-bits": Good(
+        "floats to the bit, more words than one group of pieces holds",
+        lambda: asked(
+            worn(patch(6, 5), lambda m: wild(m, "float32", "corner"), lambda m: wild(m, "float64", "vertex", 4)),
+            ORDERED,
+            **{"*": "exact"},
+        ),
+    ),
+    "good-attribute-steps": Good(
+        "bounds: steps of each kind, and of whole numbers",
+        lambda: asked(
+            worn(
+                torus(9, 8),
+                lambda m: Attribute("heat", np.sin(3 * m.positions[:, :1])),
+                lambda m: Attribute("height", (1000 * m.positions[:, 2]).astype(np.int16)),
+            ),
+            GRID,
+            heat="1%",
+            height="7",
+        ),
+    ),
+    "good-attribute-shared": Good(
+        "seams of another attribute, and seams beside two others",
+        lambda: encode(worn(torus(10, 8), charts, creases, _second, _few_seams), GRID),
+    ),
+    "good-attribute-tangled": Good(
+        "non-manifold, repeated, turned and degenerate faces, each corner for itself",
+        lambda: encode(worn(tangled(), charts, creases, lambda m: wild(m, "uint8", "corner")), ORDERED),
+    ),
+    "good-attribute-hub": Good(
+        "a vertex of very many corners", lambda: encode(worn(hub(), charts, creases, colors), GRID)
+    ),
+    "good-attribute-small": Good(
+        "four faces with values of their own", lambda: encode(worn(tetrahedron(), charts, creases, groups), GRID)
+    ),
+    "good-attribute-constant": Good(
+        "one value everywhere",
+        lambda: encode(worn(torus(6, 5), lambda m: Attribute("one", np.full(len(m.positions), 3.5))), GRID),
+    ),
+    "good-attribute-no-seams": Good(
+        "corners that are coded by vertices",
+        lambda: encode(
+            worn(torus(9, 8), lambda m: Attribute("uv", m.positions[:, :2], "corner", "texcoord", m.faces)), BASE
+        ),
+    ),
+    "good-attribute-shuffled": Good(
+        "corners and faces in the order of ORDER",
+        lambda: encode(worn(shuffled(torus(9, 8)), charts, creases, colors, groups), ORDERED),
+    ),
+    "good-attribute-split": Good(
+        "vertices that were split, given by corners", lambda: encode(_split(), replace(GRID, keep_order=False))
+    ),
+    "good-attribute-split-ordered": Good(
+        "vertices that were split, and two in no face, as they were", lambda: encode(_split(), ORDERED)
+    ),
+    "good-attribute-split-blocks": Good("the same in blocks", lambda: encode(_split(), replace(BASE, keep_order=True))),
+    "good-attribute-metadata": Good(
+        "METADATA, ORDER and attributes",
+        lambda: encode(replace(worn(torus(8, 7), colors), metadata={"name": "torus", "unit": "mm"}), ORDERED),
+    ),
+    "good-sequence-attributes": Good("a sequence with attributes that are the same in all frames", _sequence),
+}
