@@ -21,6 +21,7 @@ from tools.vectors.bad import BAD
 from tools.vectors.bad_attributes import BAD_ATTRIBUTES
 from tools.vectors.bad_fields import BAD_FIELDS
 from tools.vectors.bad_sequences import BAD_SEQUENCES
+from tools.vectors.edges import EDGES, EDGES_BAD
 from tools.vectors.good import STATIC
 from tools.vectors.good_attributes import ATTRIBUTES
 from tools.vectors.good_fields import FIELDS
@@ -87,6 +88,8 @@ def test_every_vector_has_its_files_and_every_file_is_a_vector():
             *BAD_FIELDS,
             *BAD_ATTRIBUTES,
             *BAD_SEQUENCES,
+            *EDGES,
+            *EDGES_BAD,
         }
     )
     assert {vector.name for vector in GOOD} == {path.stem for path in FOLDER.glob("*.npz")}

@@ -354,9 +354,18 @@ def _field_seeds(name: str) -> list[bytes]:
 
 def _mesh_seeds() -> list[bytes]:
     from bsm.files.mesh import format_mesh
+    from codec.geometry.attributes import Attribute
+    from codec.geometry.mesh import TriangleMesh
     from tools.vectors.meshes import patch
 
-    mesh = patch(4, 3)
+    bare = patch(4, 3)
+    vertices, faces = len(bare.positions), len(bare.faces)
+    attributes = (
+        Attribute("color", np.arange(3 * vertices, dtype=np.uint8).reshape(-1, 3), semantic="color"),
+        Attribute("texcoord", np.arange(6 * faces, dtype=np.float32).reshape(-1, 2), "corner", "texcoord"),
+        Attribute("material", np.arange(faces) % 2, "face"),
+    )
+    mesh = TriangleMesh(bare.positions, bare.faces, attributes, {"name": "patch", "material.1.Kd": "1 0 0"})
     return [bytes([k]) + format_mesh(mesh, kind) for k, kind in enumerate(MESH_FORMATS)]
 
 

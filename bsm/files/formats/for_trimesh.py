@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import io
-import re
+import math
 from typing import Any
 
 import numpy as np
@@ -96,15 +96,25 @@ def _material(trimesh: Any, words: Material, metadata: Metadata) -> Any:
             image = _opened(images.get(value, ("", b""))[1]) if isinstance(value, int) else None
             known |= {name: image} if image is not None else {}
         elif name in FACTORS:
-            numbers = re.findall(r"[-+.\de]+", str(value))
-            known |= {name: list(map(float, numbers))} if len(numbers) == FACTORS[name] else {}
+            numbers = _numbers(value)
+            known |= {name: numbers} if len(numbers) == FACTORS[name] else {}
         elif name in ("metallicFactor", "roughnessFactor", "alphaCutoff"):
-            known[name] = float(value)
+            numbers = _numbers(value)
+            known |= {name: numbers[0]} if len(numbers) == 1 else {}
         elif name == "doubleSided":
             known[name] = bool(value)
         elif name in ("name", "alphaMode"):
             known[name] = str(value)
     return trimesh.visual.material.PBRMaterial(**known)
+
+
+def _numbers(value: object) -> list[float]:
+    """The numbers of a text, or none if it is made of something else."""
+    try:
+        found = [float(word) for word in str(value).split()]
+    except ValueError:
+        return []
+    return found if all(map(math.isfinite, found)) else []
 
 
 def _opened(data: bytes) -> Any:

@@ -114,7 +114,7 @@ def as_mtl(material: Material) -> Material:
     color = str(renamed.pop("baseColorFactor", "")).split()
     if len(color) in (3, 4):
         renamed.setdefault("Kd", " ".join(color[:3]))
-        if len(color) == 4 and float(color[3]) != 1:
+        if len(color) == 4 and color[3] not in ("1", "1.0"):
             renamed.setdefault("d", color[3])
     return {name: value for name, value in renamed.items() if _is_mtl(name) or name == "name"}
 

@@ -206,7 +206,8 @@ def write_obj(mesh: TriangleMesh, stem: str) -> Written:
 def _names(mesh: TriangleMesh, what: str, attribute: Attribute | None) -> dict[int, str]:
     """What the materials (groups, ...) of the faces are called, by their numbers; nothing where none are known."""
     known = {number: mesh.metadata.get(f"{what}.{number}.name") for number in _numbers(mesh, what, attribute)}
-    if attribute is None and not any(known.values()):
+    spoken_of = attribute is not None or any(known.values()) or (what == "material" and materials_in(mesh.metadata))
+    if not spoken_of:
         return {}
     return {number: one_line(str(f"{what}_{number}" if name is None else name)) for number, name in known.items()}
 

@@ -109,7 +109,9 @@ def read_ply(data: bytes) -> Polygons:
     body = data[header.size :]
     tables = _binary_tables(header, body) if header.order else _text_tables(header, body)
     vertex, face = tables["vertex"], tables["face"]
-    positions = np.column_stack([vertex.numbers(place).astype(np.float64) for place in _coordinates(vertex.element)])
+    with np.errstate(invalid="ignore"):  # what is not a number is refused later
+        places = _coordinates(vertex.element)
+        positions = np.column_stack([vertex.numbers(place).astype(np.float64) for place in places])
     sizes, items = face.lists(corners := _corner_list(face.element))
     wedges, dropped = _wedges(face, corners, sizes)
     columns = (*_columns(vertex, "vertex", "xyz"), *_columns(face, "face", ()), *wedges)

@@ -54,7 +54,8 @@ def _soup_binary(data: bytes) -> Doubles:
         raise TruncatedError(
             f"the STL file is cut short (or is none): {claimed} triangles need {84 + 50 * claimed} bytes"
         )
-    return np.frombuffer(data, _RECORD, claimed, 84)["corners"].reshape(-1, 3).astype(np.float64)
+    with np.errstate(invalid="ignore"):  # what is not a number is refused later
+        return np.frombuffer(data, _RECORD, claimed, 84)["corners"].reshape(-1, 3).astype(np.float64)
 
 
 def _soup_text(data: bytes) -> Doubles:

@@ -16,7 +16,6 @@ from bitstream.container.declaration import CORNER, RECOMPUTED, Declaration
 from bitstream.container.reader import Signal
 from bitstream.errors import CorruptError
 from bitstream.fields.corners import Corners, corners_of
-from bitstream.limits import Limits
 from codec.arrays import Faces, Levels
 from codec.geometry.attributes import Attribute, Semantic
 from codec.geometry.mesh import TriangleMesh
@@ -35,6 +34,7 @@ from codec.static.events import AttributeEvent, Losses, LossEvent, unreadable
 from codec.static.numbering import Numbering
 from codec.static.quality.whole import Complete
 from codec.static.stages import Arrival, Stage, misplaced
+from codec.static.work import CHUNK_COST, Allowance, field_cost, values_memory
 
 SEMANTICS: tuple[Semantic, ...] = ("generic", "color", "normal", "texcoord")
 
@@ -126,7 +126,7 @@ class Shaped(Protocol):
     @property
     def numbering(self) -> Numbering: ...
     @property
-    def limits(self) -> Limits: ...
+    def allowance(self) -> Allowance: ...
 
 
 class Valued:
@@ -150,8 +150,14 @@ class Valued:
 
     def decode(self, packet: packets.Values, relief: Levels | None) -> AttributeEvent:
         """Decode a chunk of its values."""
+        allowance = self._structure.allowance
         if self._coder is None:
-            self._coder = PieceDecoder(self.declaration, self._surface, relief, self._structure.limits)
+            faces, components = len(self._surface.faces), self.declaration.components
+            allowance.grant(self._rows)
+            allowance.keep(values_memory(self._rows, faces, components))
+            allowance.spend(field_cost(self._rows, faces, components))
+            self._coder = PieceDecoder(self.declaration, self._surface, relief, allowance.limits)
+        allowance.spend(CHUNK_COST, len(packet.data))
         coder = self._coder
         if packet.first != coder.coded:
             raise CorruptError(f"attribute {self.declaration.name!r} lacks the values before {packet.first}")

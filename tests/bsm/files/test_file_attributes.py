@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from bitstream.errors import BsmError
 from bitstream.limits import Limits
 from bsm.files.formats.glb import write_glb
-from bsm.files.mesh import MESH_FORMATS, format_mesh, read_mesh, write_mesh, written_mesh
+from bsm.files.mesh import MESH_FORMATS, WRITTEN_FORMATS, format_mesh, read_mesh, write_mesh, written_mesh
 from codec.geometry.attributes import Attribute
 from codec.geometry.mesh import TriangleMesh
 from tests.shapes import patch, tetrahedron, torus
@@ -421,6 +421,41 @@ def test_whatever_is_written_is_read(mesh, kind):
     if kind == "ply":
         values = [at_corners(mesh, a).astype(float).sum() for a in mesh.attributes]
         assert sum(at_corners(again, a).astype(float).sum() for a in again.attributes) == pytest.approx(sum(values))
+
+
+words = st.sampled_from(
+    [
+        "name",
+        "Kd",
+        "d",
+        "map_Kd",
+        "map_Kd.options",
+        "baseColorFactor",
+        "baseColorTexture",
+        "metallicFactor",
+        "doubleSided",
+    ]
+)
+things = st.sampled_from(["", "1 0 0", "1 1 1 x", "nan", "-s 1", "\n", "\ud800"]) | st.integers(-1, 3) | st.floats()
+
+
+@settings(max_examples=60, deadline=None)
+@given(
+    said=st.dictionaries(st.tuples(st.integers(0, 2), words), things, max_size=5),
+    images=st.dictionaries(st.integers(0, 2), st.sampled_from([b"", b"x", png(), png()[:20]]), max_size=2),
+    kind=st.sampled_from(WRITTEN_FORMATS),
+)
+def test_materials_of_any_kind_are_written_or_left_out(said, images, kind):
+    if kind == "glb":
+        pytest.importorskip("trimesh")
+        pytest.importorskip("PIL")
+    metadata = {f"material.{number}.{word}": value for (number, word), value in said.items()}
+    metadata |= {f"image.{number}.data": data for number, data in images.items()}
+    mesh = tetrahedron()
+    uv = Attribute("texcoord", np.zeros((4, 2), np.float32), semantic="texcoord")
+    faces = Attribute("material", np.arange(4) % 3, "face")
+    written = written_mesh(TriangleMesh(mesh.positions, mesh.faces, [uv, faces], metadata), kind, "a")
+    assert len(read_mesh(written.data, kind).mesh.faces) == 4
 
 
 # -------------------------------------------------------------------------------------------------------- real meshes
