@@ -63,9 +63,7 @@ def householder_orthonormalize(columns: Matrix) -> Matrix:
     return q
 
 
-def orthogonal_iteration(
-    factor: Factor, start: Matrix, *, power: int, iterations: int, spend: Spend = free
-) -> Matrix:
+def orthogonal_iteration(factor: Factor, start: Matrix, *, power: int, iterations: int, spend: Spend = free) -> Matrix:
     """U(t) = Onorm(R^z U(t-1)), `iterations` times (Algorithm 1).
 
     Parameters

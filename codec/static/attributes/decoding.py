@@ -16,6 +16,7 @@ from bitstream.container.declaration import CORNER, RECOMPUTED, Declaration
 from bitstream.container.reader import Signal
 from bitstream.errors import CorruptError
 from bitstream.fields.corners import Corners, corners_of
+from bitstream.limits import Limits
 from codec.arrays import Faces, Levels
 from codec.geometry.attributes import Attribute, Semantic
 from codec.geometry.mesh import TriangleMesh
