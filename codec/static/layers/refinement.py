@@ -14,6 +14,7 @@ import numpy as np
 
 from bitstream.container import packets
 from bitstream.container.reader import Signal
+from bitstream.container.wire import FrameType
 from bitstream.errors import CorruptError
 from bitstream.fields.levels import LevelsDecoder, LevelsEncoder
 from codec.arrays import Indices, Levels, Mask, Matrix
@@ -79,7 +80,8 @@ class RefinementStage:
                     return self._complete(queue)
                 self._decode(arrival, queue)
             case packets.Damaged():
-                self._refined.lose()
+                if arrival.type is not FrameType.VALUES:
+                    self._refined.lose()
                 queue.append(LossEvent(None, unreadable(arrival)))
             case packets.Values():
                 return ValuesStage(self._refined, self._structure, self._tolerant).accept(arrival, queue)
