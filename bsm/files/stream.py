@@ -20,7 +20,9 @@ from bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.files.pipes import Source, as_input, is_pipe
 
 if TYPE_CHECKING:
+    from codec.geometry.attributes import Attribute
     from codec.geometry.mesh import TriangleMesh
+    from codec.static.events import AttributeEvent
 
 Progress = Callable[[int, int], None]
 
@@ -285,10 +287,11 @@ class _Part:
     def __init__(self) -> None:
         self._faces: npt.NDArray[np.int32] = np.empty((0, 3), np.int32)
         self._positions, self._known = np.empty((0, 3)), np.empty(0, np.bool_)
+        self._values: dict[str, list[AttributeEvent]] = {}
 
     def take(self, event: Any) -> None:
         """Add what an event tells."""
-        from codec.static.events import BlockEvent, ConnectivityEvent, RefinementEvent
+        from codec.static.events import AttributeEvent, BlockEvent, ConnectivityEvent, RefinementEvent
 
         match event:
             case ConnectivityEvent(faces, vertices):
@@ -297,12 +300,32 @@ class _Part:
             case BlockEvent() | RefinementEvent():
                 self._positions[event.vertices] = event.positions
                 self._known[event.vertices] = True
+            case AttributeEvent(name):
+                self._values.setdefault(name, []).append(event)
 
     def mesh(self) -> TriangleMesh:
-        """The faces whose vertices are known."""
+        """The faces whose vertices are known, with the attributes that have come as a whole."""
         from codec.geometry.mesh import TriangleMesh
 
-        complete = self._faces[self._known[self._faces].all(axis=1)]
+        complete = np.flatnonzero(self._known[self._faces].all(axis=1))
         if len(complete) == 0:
             raise MeshError("no face is complete in the blocks that are there")
-        return TriangleMesh(self._positions, complete).without_isolated_vertices()[0]
+        every_vertex = np.arange(len(self._positions))
+        attributes = [
+            found.taken(every_vertex, complete) for found in map(self._attribute, self._values.values()) if found
+        ]
+        return TriangleMesh(self._positions, self._faces[complete], tuple(attributes)).without_isolated_vertices()[0]
+
+    def _attribute(self, events: list[AttributeEvent]) -> Attribute | None:
+        """The attribute that events tell of, None if values of it are missing."""
+        from codec.geometry.attributes import Attribute
+
+        first = events[0]
+        rows = np.concatenate([event.rows for event in events])
+        sizes = {"vertex": len(self._positions), "face": len(self._faces)}
+        size = sizes[first.domain] if first.indices is None else int(first.indices.max()) + 1
+        if len(np.unique(rows)) < size:
+            return None
+        values = np.zeros((size, first.values.shape[1]), first.values.dtype)
+        values[rows] = np.concatenate([event.values for event in events])
+        return Attribute(first.name, values, first.domain, first.semantic, first.indices)

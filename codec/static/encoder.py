@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -42,19 +42,29 @@ class Attempt:
 
     Parameters
     ----------
-    frames : tuple of bytes
-        The stream, frame by frame.
-    header : Header
-    coefficients : tuple of int
-        c_i of each block.
+    draft : Draft
+        The stream.
     comparison : Comparison
         The decoded mesh against the original.
     """
 
-    frames: tuple[bytes, ...]
-    header: Header
-    coefficients: tuple[int, ...]
+    draft: Draft
     comparison: Comparison
+
+    @property
+    def frames(self) -> tuple[bytes, ...]:
+        """The stream, frame by frame."""
+        return self.draft.frames
+
+    @property
+    def header(self) -> Header:
+        """Its header."""
+        return self.draft.header
+
+    @property
+    def coefficients(self) -> tuple[int, ...]:
+        """c_i of each block."""
+        return self.draft.coefficients
 
     @property
     def size(self) -> int:
@@ -165,7 +175,7 @@ class Encoder:
 
     def result(self, progress: Progress | None = None) -> Attempt:
         """What `encode` gives, with a comparison of what it decodes to."""
-        return self.search(progress) if self.options.target is not None else self._judged(self._bare(progress))
+        return self.search(progress) if self.options.target is not None else self._judged(self.draft(progress))
 
     def search(self, progress: Progress | None = None) -> Attempt:
         """Look for the smallest stream that meets the options' target, or for the best one of a size.
@@ -182,8 +192,9 @@ class Encoder:
         refused: list[TargetError] = []
         for ladder in self._ladders(progress):
             try:
+                climb = self._climb(ladder, dressed=target.shrinks_with_step)
                 with as_of_decoders(self.options.limits):
-                    found.append(search_step(self._climb(ladder), target, self.options.first_step, ladder.finest))
+                    found.append(search_step(climb, target, self.options.first_step, ladder.finest))
             except TargetError as error:
                 refused.append(error)
         if target.kind == "max_error_relative":
@@ -196,14 +207,18 @@ class Encoder:
             raise min(refused, key=lambda error: error.best)
         if target.shrinks_with_step:
             return min(found, key=lambda attempt: attempt.comparison.theta_deg)
-        return min(found, key=lambda attempt: attempt.size)
+        best = min(found, key=lambda attempt: attempt.size)
+        return replace(best, draft=self._dressed(best.draft))
 
     def attempt(self, step: float, progress: Progress | None = None) -> Attempt:
         """Encode blocks with a given quantization step, and see what the decoder will."""
         with as_of_decoders(self.options.limits):
-            return self._judged(self._spectral.base(step, progress).draft)
+            return self._judged(self._dressed(self._spectral.base(step, progress).draft))
 
-    def _climb(self, ladder: Ladder) -> Callable[[float], Attempt]:
+    def _climb(self, ladder: Ladder, *, dressed: bool) -> Callable[[float], Attempt]:
+        """What a step comes to; `dressed`: with all that the mesh carries, which counts where a size is asked for."""
+        if dressed:
+            return lambda step: self._judged(self._dressed(ladder.draft(step)))
         return lambda step: self._judged(ladder.draft(step))
 
     def _ladders(self, progress: Progress | None) -> Iterator[Ladder]:
@@ -223,9 +238,8 @@ class Encoder:
         yield Grids(prepared, shaper)
 
     def _judged(self, draft: Draft) -> Attempt:
-        draft = self._dressed(draft)
         decoded = self._prepared.units.into(draft.decoded)
-        return Attempt(draft.frames, draft.header, draft.coefficients, self._reference.compare(decoded))
+        return Attempt(draft, self._reference.compare(decoded))
 
     def _dressed(self, draft: Draft) -> Draft:
         """A draft with all that the mesh carries."""

@@ -12,6 +12,7 @@ from bitstream.container.header import Header
 from bitstream.container.packets import Damaged
 from bitstream.errors import BsmError, CorruptError
 from codec.arrays import Faces, Indices, Mask, Positions
+from codec.geometry.attributes import Domain, Semantic
 
 
 @dataclass(frozen=True)
@@ -120,8 +121,8 @@ class AttributeEvent:
     """
 
     name: str
-    domain: str
-    semantic: str
+    domain: Domain
+    semantic: Semantic
     indices: Indices | None
     rows: Indices
     values: npt.NDArray[Any]

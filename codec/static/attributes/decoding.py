@@ -18,7 +18,7 @@ from bitstream.errors import CorruptError
 from bitstream.fields.corners import Corners, corners_of
 from bitstream.limits import Limits
 from codec.arrays import Faces, Levels
-from codec.geometry.attributes import Attribute
+from codec.geometry.attributes import Attribute, Semantic
 from codec.geometry.mesh import TriangleMesh
 from codec.static.attributes.levels import KINDS, restored
 from codec.static.attributes.pieces import PieceDecoder, from_pieces
@@ -37,7 +37,7 @@ from codec.static.quality.whole import Complete
 from codec.static.stages import Arrival, Stage, misplaced
 from codec.static.work import CHUNK_COST, Allowance, field_cost, values_memory
 
-SEMANTICS = ("generic", "color", "normal", "texcoord")
+SEMANTICS: tuple[Semantic, ...] = ("generic", "color", "normal", "texcoord")
 
 
 @dataclass(frozen=True, eq=False)
@@ -191,8 +191,8 @@ class Valued:
         return Attribute(
             declaration.name,
             values[arrangement.rows],
-            arrangement.domain,  # type: ignore[arg-type]
-            SEMANTICS[declaration.semantic],  # type: ignore[arg-type]
+            arrangement.domain,
+            SEMANTICS[declaration.semantic],
             arrangement.indices,
         )
 

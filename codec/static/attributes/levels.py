@@ -19,6 +19,8 @@ Reals = npt.NDArray[np.float64]
 
 KINDS = ("uint8", "int8", "uint16", "int16", "uint32", "int32", "float32", "float64")
 MOST_LEVEL = 2**32 - 1
+_NEAR_ZERO = 1 << 20
+"""What is below costs less than an offset."""
 _SLACK = 1.0 - 2.0**-20
 _USUAL_STEPS = (1.0, 1.0 / 255.0, 1.0 / 65535.0)
 
@@ -91,6 +93,8 @@ def _whole(values: Values, quality: Quality) -> Quantized:
         bound = quality.amount if quality.way == "bound" else quality.amount / 100.0 * extent
         step = 2 * int(bound) + 1
     most = wide.max(axis=0)
+    if step == 1 and low.min() >= 0 and most.max() < _NEAR_ZERO:
+        low = np.zeros_like(low)
     # The last level may not lie beyond the range of the kind: where it would, begin so much lower.
     levels = (wide - low + step // 2) // step
     beyond = low + levels.max(axis=0) * step - most
@@ -109,6 +113,8 @@ def _exact(values: Values) -> Quantized:
         low = np.floor(values.astype(np.float64).min(axis=0) / step)
         if not (np.abs(low).max() < 2.0**40):
             continue
+        if low.min() >= 0.0 and values.max() / step < _NEAR_ZERO:
+            low = np.zeros_like(low)
         levels = np.rint(values / step - low).astype(np.int64)
         if levels.max() <= MOST_LEVEL:
             offset = low * step

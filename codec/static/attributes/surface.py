@@ -9,6 +9,7 @@ import numpy as np
 from bitstream.attributes.seams import Joins
 from bitstream.container.declaration import FACE, VERTEX, Declaration
 from codec.arrays import Faces, Indices, Levels, Matrix, Order
+from codec.geometry.attributes import Domain
 from codec.static.numbering import Numbering
 
 
@@ -72,7 +73,7 @@ class Arrangement:
         For corners: which of the user's values each has.
     """
 
-    domain: str
+    domain: Domain
     rows: Order
     indices: Indices | None = None
 

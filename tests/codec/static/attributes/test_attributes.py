@@ -15,6 +15,7 @@ from codec.static.decoder import Decoder, decode
 from codec.static.encoder import Encoder, encode
 from codec.static.events import AttributeEvent, EndEvent, LossEvent
 from codec.static.options import PRESETS, EncodeOptions
+from codec.static.quality.targets import Target
 from tests.shapes import patch, tetrahedron, torus
 
 KINDS = ("uint8", "int8", "uint16", "int16", "uint32", "int32")
@@ -335,3 +336,12 @@ def test_seams_that_two_share_are_sent_once():
 
 def test_meshes_without_attributes_are_as_they_were():
     assert encode(torus()) == encode(replace(dressed(torus()), metadata={}), EncodeOptions(attributes={"*": "none"}))
+
+
+@pytest.mark.parametrize(("kind", "value"), [("theta_deg", 3.0), ("size", 20000.0)])
+def test_targets_count_attributes(kind, value):
+    mesh = dressed(torus())
+    attempt = Encoder(mesh, EncodeOptions(target=Target(kind, value))).result()
+    assert [one.name for one in decode(b"".join(attempt.frames)).attributes] == [one.name for one in mesh.attributes]
+    assert attempt.size == len(b"".join(attempt.frames))
+    assert attempt.size <= value if kind == "size" else attempt.comparison.theta_deg <= value

@@ -1,0 +1,224 @@
+"""Compare what attributes take in our files with what they take in Draco's, at the same quantization.
+
+    python -m tools.attributes MESH [MESH ...] [--grid 14] [--normals DEGREES]
+
+Positions are exact on a grid of so many bits in both. What an attribute takes is the file with it less the file
+without; in Draco's (level 10), vertices are split where the attribute needs it. Texture coordinates have 12 bits,
+normals 8 on an octahedron, colours and whole numbers are exact, and other numbers are kept to 1 % of their range (for
+Draco: rounded so first). Every attribute of ours is decoded and compared before it counts. `--normals` computes normals
+for meshes that have none: of the faces around each corner, by their angles, up to edges that are sharper than that.
+Draco has no values of faces. Needs DracoPy and scipy.
+"""
+
+from __future__ import annotations
+
+import argparse
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from bsm.files.mesh import read_mesh
+from codec.geometry.attribute_errors import at_corners, compare_values
+from codec.geometry.attributes import Attribute
+from codec.geometry.mesh import TriangleMesh
+from codec.static.decoder import decode
+from codec.static.encoder import encode
+from codec.static.options import EncodeOptions
+
+TEXCOORD_BITS, NORMAL_BITS = 12, 8
+SHARE = 1.0
+"""Percent of the range that other numbers may be off."""
+
+Array = npt.NDArray[Any]
+
+
+@dataclass(frozen=True)
+class Row:
+    """What an attribute takes.
+
+    Parameters
+    ----------
+    what : str
+        Its name and quantization.
+    ours, theirs : int
+        Bytes; -1: they cannot.
+    """
+
+    what: str
+    ours: int
+    theirs: int
+
+    @property
+    def ratio(self) -> float:
+        """Ours to theirs."""
+        return self.ours / self.theirs
+
+    def __str__(self) -> str:
+        if self.theirs < 0:
+            return f"{self.what} | {self.ours} | - | -"
+        return f"{self.what} | {self.ours} | {self.theirs} | {self.ratio:.3f}"
+
+
+def quality_of(attribute: Attribute) -> str:
+    """At what an attribute is compared, as our encoder is told."""
+    if attribute.values.dtype.kind != "f":
+        return "exact"
+    if attribute.semantic == "texcoord":
+        return f"{TEXCOORD_BITS}bits"
+    if attribute.semantic == "normal":
+        return f"{NORMAL_BITS}bits"
+    return f"{SHARE:g}%"
+
+
+def check(mesh: TriangleMesh, attribute: Attribute, options: EncodeOptions) -> None:
+    """Raise AssertionError unless a decoded attribute is within what its quantization allows."""
+    stream = encode(replace(mesh, attributes=(attribute,)), replace(options, keep_order=True))
+    decoded = decode(stream)
+    found = next(other for other in decoded.attributes if other.name == attribute.name)
+    normals = attribute.semantic == "normal"
+    original, values = at_corners(attribute, mesh.faces), at_corners(found, decoded.faces)
+    error = compare_values(original, values, normals=normals)
+    quality = quality_of(attribute)
+    extent = float(np.ptp(attribute.values.astype(np.float64), axis=0).max())
+    if normals:
+        assert error.max_angle_deg is not None and error.max_angle_deg <= 1.3 * 90 / 2**NORMAL_BITS * 2, error
+    elif quality == "exact":
+        assert error.max_error == 0, error
+    else:
+        share = SHARE / 100 if quality.endswith("%") else 0.5 / (2**TEXCOORD_BITS - 1)
+        assert error.max_error <= share * extent * (1 + 1e-5) + 1e-6 * extent, error
+
+
+def ours(mesh: TriangleMesh, attributes: tuple[Attribute, ...], grid: int) -> int:
+    """Bytes of our file with these attributes, each checked."""
+    qualities = {attribute.name: quality_of(attribute) for attribute in attributes}
+    options = EncodeOptions(grid=grid, attributes=qualities)
+    for attribute in attributes:
+        check(mesh, attribute, replace(options, attributes={attribute.name: qualities[attribute.name]}))
+    return len(encode(replace(mesh, attributes=attributes), options))
+
+
+def theirs(mesh: TriangleMesh, attributes: tuple[Attribute, ...], grid: int) -> int:
+    """Bytes of Draco's file with these attributes of vertices and corners."""
+    import DracoPy
+
+    welded, place = np.unique(mesh.positions, axis=0, return_inverse=True)
+    places = place.reshape(-1)[mesh.faces]
+    proper = (places != np.roll(places, 1, axis=1)).all(axis=1)
+    columns, values = [places[proper].reshape(-1)], []
+    for attribute in attributes:
+        own = _levels(attribute)
+        unique, number = np.unique(own, axis=0, return_inverse=True)
+        numbers = replace(attribute, values=number.reshape(-1, 1), semantic="generic")
+        columns.append(at_corners(numbers, mesh.faces)[proper].reshape(-1))
+        values.append(unique)
+    rows, corners = np.unique(np.stack(columns, axis=1), axis=0, return_inverse=True)
+    said: dict[str, Any] = {}
+    for attribute, column, unique in zip(attributes, rows.T[1:], values, strict=True):
+        offered = unique[column]
+        if attribute.semantic == "texcoord" and offered.dtype.kind == "f":
+            said |= {"tex_coord": offered, "tex_coord_quantization_bits": TEXCOORD_BITS}
+        elif attribute.semantic == "normal" and offered.dtype.kind == "f":
+            said |= {"normals": offered, "normal_quantization_bits": NORMAL_BITS}
+        elif attribute.semantic == "color" and offered.dtype == np.uint8 and "colors" not in said:
+            said["colors"] = offered
+        else:
+            said.setdefault("generic_attributes", {})[attribute.name] = offered
+    data: bytes = DracoPy.encode(
+        welded[rows[:, 0]].astype(np.float32),
+        corners.reshape(-1, 3).astype(np.uint32),
+        quantization_bits=grid,
+        compression_level=10,
+        **said,
+    )
+    return len(data)
+
+
+def _levels(attribute: Attribute) -> Array:
+    """What Draco is given: floats that it quantizes, or whole numbers."""
+    values = attribute.values
+    if values.dtype.kind == "f" and attribute.semantic not in ("texcoord", "normal"):
+        low, extent = values.min(axis=0), float(np.ptp(values, axis=0).max())
+        levels = np.rint((values - low) / (2 * SHARE / 100 * extent))
+        return np.asarray(levels, np.uint8 if levels.max() < 256 else np.uint32)
+    if values.dtype.kind == "f":
+        return np.asarray(values, np.float64)
+    if values.min() < 0:
+        values = values.astype(np.int64) - values.min()
+    return np.asarray(values, np.uint8 if values.max() < 256 else np.uint32)
+
+
+def with_normals(mesh: TriangleMesh, sharp: float) -> TriangleMesh:
+    """The mesh with normals at corners: of the faces around, by angle, up to edges sharper than so many degrees."""
+    from scipy.sparse import coo_array
+    from scipy.sparse.csgraph import connected_components
+
+    places = mesh.positions[mesh.faces]
+    across = np.cross(places[:, 1] - places[:, 0], places[:, 2] - places[:, 0])
+    area = np.linalg.norm(across, axis=1, keepdims=True)
+    unit = across / np.where(area > 0, area, 1)
+    corner = np.arange(mesh.faces.size)
+    ends = np.stack([mesh.faces, np.roll(mesh.faces, -1, axis=1)], axis=2).reshape(-1, 2)
+    after = corner // 3 * 3 + (corner + 1) % 3
+    flipped = ends[:, 0] > ends[:, 1]
+    low, high = np.where(flipped, after, corner), np.where(flipped, corner, after)
+    order = np.lexsort(np.sort(ends, axis=1).T)
+    same = (np.sort(ends, axis=1)[order][1:] == np.sort(ends, axis=1)[order][:-1]).all(axis=1)
+    one, two = order[:-1][same], order[1:][same]
+    smooth = (unit[one // 3] * unit[two // 3]).sum(axis=1) > np.cos(np.radians(sharp))
+    one, two = one[smooth], two[smooth]
+    pairs = np.concatenate([low[one], high[one]]), np.concatenate([low[two], high[two]])
+    count, group = connected_components(coo_array((np.ones(len(pairs[0])), pairs), (len(corner), len(corner))), False)
+    sides = np.roll(places, -1, axis=1) - places, np.roll(places, 1, axis=1) - places
+    lengths = [np.linalg.norm(side, axis=2) for side in sides]
+    cosine = (sides[0] * sides[1]).sum(axis=2) / np.maximum(lengths[0] * lengths[1], 1e-300)
+    weighed = (unit[:, None] * np.arccos(np.clip(cosine, -1, 1))[:, :, None]).reshape(-1, 3)
+    sums = np.stack([np.bincount(group, weighed[:, axis], count) for axis in range(3)], axis=1)
+    length = np.linalg.norm(sums, axis=1, keepdims=True)
+    normals = np.where(length > 0, sums / np.where(length > 0, length, 1), [0.0, 0.0, 1.0])
+    attribute = Attribute("normal", normals.astype(np.float32), "corner", "normal", group.reshape(-1, 3))
+    return replace(mesh, attributes=(*mesh.attributes, attribute))
+
+
+def rows_of(mesh: TriangleMesh, grid: int) -> tuple[list[Row], Row]:
+    """Each attribute, and the whole files."""
+    bare = replace(mesh, attributes=(), metadata={})
+    rows = []
+    alone = len(encode(bare, EncodeOptions(grid=grid)))
+    for attribute in mesh.attributes:
+        size = ours(bare, (attribute,), grid) - alone
+        other = -1 if attribute.domain == "face" else theirs(bare, (attribute,), grid) - theirs(bare, (), grid)
+        rows.append(Row(f"{attribute.name}, {quality_of(attribute)}", size, other))
+    shared = tuple(attribute for attribute in mesh.attributes if attribute.domain != "face")
+    return rows, Row("whole file", ours(bare, shared, grid), theirs(bare, shared, grid))
+
+
+def main() -> None:
+    """Run the command."""
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("meshes", nargs="+", metavar="MESH")
+    parser.add_argument("--grid", type=int, default=14, metavar="BITS")
+    parser.add_argument("--normals", type=float, metavar="DEGREES")
+    options = parser.parse_args()
+    ratios: dict[str, list[float]] = {}
+    print("| mesh | attribute | ours | Draco | ratio |\n|---|---|---|---|---|")
+    for path in options.meshes:
+        mesh = read_mesh(path).mesh
+        if options.normals is not None and not any(own.semantic == "normal" for own in mesh.attributes):
+            mesh = with_normals(mesh, options.normals)
+        if not mesh.attributes:
+            continue
+        rows, whole = rows_of(mesh, options.grid)
+        for row in (*rows, whole):
+            print(f"| {Path(path).name} | {row} |", flush=True)
+            if row.theirs > 0:
+                ratios.setdefault(row.what.split(",")[0], []).append(row.ratio)
+    for what, several in ratios.items():
+        print(f"| mean | {what} | | | {np.mean(several):.3f} |")
+
+
+if __name__ == "__main__":
+    main()
