@@ -19,9 +19,9 @@ from codec.denoise.noise.gaussian import gaussian_along_normals
 from codec.geometry.mesh import TriangleMesh
 
 ROOT = Path(__file__).parents[1]
-DOCUMENTS = ("README.md", "CONTRIBUTING.md", "spec/README.md")
+DOCUMENTS = ("README.md", "CONTRIBUTING.md", "spec/README.md", "bsm/SERVICE.md")
 PROGRAMS = r"(?:bsm|python3?|pytest|ruff|\.ci/run|\.venv|eval|cat)"
-BY_CI = r"\.ci/run|\.venv/bin/|^pytest|^ruff|^bsm --help$|tools\.fuzz"
+BY_CI = r"\.ci/run|\.venv/bin/|^pytest|^ruff|^bsm --help$|tools\.fuzz|tools\.proof|tools\.bombs"
 """What .ci/run itself does, or is."""
 NEEDS_FOLDER = r"MESHES|SEQUENCES|FOLDER|MESH\.\.\.|bsm bench"
 HELP_ONLY = r"s3://|bsm view|tools\.vectors|tools\.train_coefficients"
