@@ -214,16 +214,21 @@ class Fulfilment:
         positions = base.positions
         for layer, levels in layers:
             positions = base.moved(layer, levels, positions)
-        offsets = base.offsets_of(positions)
-        out = (np.square(offsets).sum(axis=1) > self._reach**2) & ~self._borders.vertices
-        if out.any():
-            layer = base.layer(self._reach, 1.0)
-            wanted = np.where(out[:, None], np.rint(offsets / layer.step), 0.0).astype(np.int32)
-            layers = [*layers, (layer, wanted)]
+        back = self._back(base, positions)
+        layers = layers if back is None else [*layers, back]
         lock = self._lock(base)
         if lock is not None:
             return base.refined(*layers, lock, borders=True)
         return base.refined(*layers) if layers else base.draft
+
+    def _back(self, base: Base, positions: Matrix) -> tuple[Layer, Levels] | None:
+        """The layer that brings vertices back that are out of reach, borders aside."""
+        offsets = base.offsets_of(positions)
+        out = (np.square(offsets).sum(axis=1) > self._reach**2) & ~self._borders.vertices
+        if not out.any():
+            return None
+        layer = base.layer(self._reach, 1.0)
+        return layer, np.where(out[:, None], np.rint(offsets / layer.step), 0.0).astype(np.int32)
 
     def _lock(self, base: Base) -> tuple[Layer, Levels] | None:
         """The layer that brings borders back; no other layer moves them."""
@@ -249,7 +254,7 @@ class Fulfilment:
             yield self._with_outliers(base, [best.found])
 
     def _refinement(self, base: Base, ratio: float) -> Trial[tuple[Layer, Levels]] | None:
-        """One layer whose normals are right, where borders are back at their places."""
+        """One layer whose normals are right, where borders are back at their places, and what is out of reach too."""
         lock, still = self._lock(base), self._borders.vertices
         start = base.positions if lock is None else base.moved(*lock)
 
@@ -260,7 +265,9 @@ class Fulfilment:
             aim = Aim(layer.step / self._edge, self._reach, 6)
             levels = self._shaper.levels(start, wanted, directions, aim)
             levels[still] = 0
-            closeness = self._original.closeness(base.moved(layer, levels, start))
+            moved = base.moved(layer, levels, start)
+            back = self._back(base, moved)
+            closeness = self._original.closeness(moved if back is None else base.moved(*back, moved))
             return Trial(step, closeness, (layer, levels))
 
         first = 1.2 * math.radians(self._contract.angle) * self._edge
