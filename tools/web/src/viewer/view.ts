@@ -288,7 +288,8 @@ export class View {
         const most = header.refinements.length / 2;
         const quality = most > 0 ? `, ${layers} of ${most} quality layers` : "";
         const frames = header.gopFrames > 0 ? `, ${header.frames || "any number of"} frames` : "";
-        return `${parts}${quality}, ${counted(header.vertices)} vertices${frames}`;
+        const attributes = header.attributes > 0 ? `, ${header.attributes} attributes, which are not shown` : "";
+        return `${parts}${quality}, ${counted(header.vertices)} vertices${frames}${attributes}`;
     }
 
     private rivalText(): string {
