@@ -157,7 +157,10 @@ export class View {
                 if (event.type === "end") this.end();
             },
             onError: (error) => this.fail(`This stream cannot be decoded further. ${error.name}: ${error.message}`),
-            onTaken: (bytes) => bytes === this.fed && this.show(),
+            onTaken: (bytes) => {
+                this.root.dataset.taken = String(bytes);
+                if (bytes === this.fed) this.show();
+            },
         }, {}, { tolerant: true });
     }
 
