@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 from bitstream.errors import LimitError
@@ -11,8 +12,8 @@ from bitstream.errors import LimitError
 class Limits:
     """Upper bounds that a decoder checks before it allocates or works; raise them with `dataclasses.replace`.
 
-    The defaults admit a mesh of sixteen million vertices and refuse a stream that only claims to hold one
-    (counts are also checked against the bytes that are present).
+    The defaults admit a mesh of sixteen million vertices and refuse a stream that only claims to hold one: memory and
+    work follow the vertices that its faces really have, and the bytes received.
     """
 
     vertices: int = 1 << 24
@@ -24,15 +25,46 @@ class Limits:
     gop_frames: int = 1024
     frame_bytes: int = 1 << 28
     metadata_bytes: int = 1 << 23
-    work: float = 5e13
-    """Floating point operations of the dictionaries, by the estimate of the specification."""
+    work: float = 8e8
+    """Nanoseconds of a processor core, by the estimates of the specification, besides what vertices and bytes grant."""
+    work_per_vertex: float = 3.2e4
+    work_per_byte: float = 1.6e4
+    most_work: float = math.inf
+    """Of a whole stream, whatever it holds."""
+    memory: float = 1 << 26
+    """Bytes besides what vertices and bytes grant."""
+    memory_per_vertex: float = 1 << 10
+    memory_per_byte: float = 64
+    most_memory: float = math.inf
+    """Of a whole stream, whatever it holds."""
     sequence_bytes: float = 1 << 31
     """Memory for the dictionaries of a sequence, and for the coefficients of a GOP."""
     field_bytes: float = 1 << 32
     """Memory for decoding a grid or a layer of refinement, or the values of an attribute."""
     attributes: int = 255
     attribute_values: int = 1 << 28
-    """Numbers of an attribute: its values times their components."""
+    """Numbers of all attributes of a mesh: values times their components."""
+
+    @classmethod
+    def service(cls) -> Limits:
+        """For whoever decodes what strangers send: 1 GiB and 10 s of a core for a stream, whatever it holds.
+
+        Meshes of up to a million vertices that were encoded with any preset are within them.
+        """
+        return cls(
+            vertices=1 << 20,
+            faces=1 << 22,
+            frame_bytes=1 << 26,
+            work_per_vertex=1e4,
+            most_work=8e9,
+            most_memory=800 << 20,
+            sequence_bytes=400 << 20,
+        )
+
+    @classmethod
+    def wide(cls) -> Limits:
+        """For streams that one has made oneself: dictionaries as wide and as exact as options allow."""
+        return cls(work=1e12, work_per_vertex=1e8, memory=1 << 34, memory_per_vertex=1 << 16, sequence_bytes=1 << 36)
 
     def check(self, name: str, value: float) -> None:
         """Raise `LimitError` if `value` exceeds the limit called `name`."""
@@ -42,5 +74,27 @@ class Limits:
                 f"{name} = {value:g} is over the limit of {bound:g}; if you trust the source, raise Limits.{name}"
             )
 
+    def check_work(self, value: float, vertices: int) -> None:
+        """Raise `LimitError` if a stream of so many vertices takes more work, besides what its bytes grant."""
+        self._check_sum("work", value, self.work + self.work_per_vertex * vertices)
+
+    def check_memory(self, value: float, vertices: int, received: int = 0) -> None:
+        """Raise `LimitError` if a stream of so many vertices, and bytes received, needs more memory."""
+        self._check_sum("memory", value, self.memory_for(vertices, received))
+
+    def memory_for(self, vertices: int, received: int) -> float:
+        """Bytes that a stream of so many vertices, and bytes received, may take."""
+        granted = self.memory + self.memory_per_vertex * vertices + self.memory_per_byte * received
+        return min(granted, self.most_memory)
+
+    def _check_sum(self, name: str, value: float, bound: float) -> None:
+        if value > bound:
+            raise LimitError(
+                f"{name} = {value:g} is over the limit of {bound:g} for what the stream holds; "
+                f"if you trust the source, raise Limits.{name}, or take Limits.wide()"
+            )
+
 
 DEFAULT_LIMITS = Limits()
+NAMED_LIMITS = {"default": Limits, "service": Limits.service, "wide": Limits.wide}
+"""Sets of limits that a command line can name."""

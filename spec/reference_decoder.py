@@ -68,7 +68,7 @@ MOST_VERTICES, MOST_FACES = 1 << 24, 1 << 25  # M 14
 MOST_BLOCKS, MOST_ROWS, MOST_COLUMNS = 1 << 17, 8192, 4096
 MOST_FRAMES, MOST_GOP_FRAMES = 1 << 20, 1024
 MOST_FRAME_BYTES, MOST_METADATA_BYTES = 1 << 28, 1 << 23
-MOST_WORK, MOST_ATTRIBUTES = 5e13, 255
+MOST_WORK, MOST_MEMORY, MOST_ATTRIBUTES = 8e8, 2**26, 255
 
 
 def require(condition, problem):
@@ -406,9 +406,11 @@ def parse_attribute(payload, packets, header):
     size, at = payload_varint(payload, at)
     require(size <= len(payload) - at, "a declaration ends too early")
     one = Declaration(parse_fields(payload[at : at + size], ATTRIBUTE_FIELDS), payload[at + size :])
-    require_limit(one.rows * max(1, one.words), MOST_VALUES, "values of an attribute")
+    every = [*packets[ATTRIBUTE], one]
+    numbers = sum((x.rows if x.coding != 3 else 3 * header["faces"]) * max(x.words, x.components) for x in every)
+    require_limit(numbers, MOST_VALUES, "values of attributes")
     require(index == len(packets[ATTRIBUTE]) and index < header["attributes"], "a wrong attribute")  # F 3.13
-    check_declarations([*packets[ATTRIBUTE], one], header)
+    check_declarations(every, header)
     return one
 
 
@@ -560,6 +562,7 @@ class Block:
 
 
 # ---------------------------------------------------------------- M 7, M 8: springs and dictionaries
+
 
 class Known:
     """M 7.2: weighted sums of all copies that a chain has decoded."""
@@ -874,18 +877,26 @@ def smooth(graph, positions, amount):
     return result
 
 
-def check_work(header):
-    """M 14.3."""
-    rows, blocks, columns = header["block_size"], header["blocks"], max(header["coefficients"], header["details"])
-    following = header["power"] * header["iterations"]
-    key = following if header["seeding"] == 1 else header["power"] * header["key_iterations"]
-    if header["basis"] == 1 or header["key_seed"] == 1:
-        key = 256
-    if header["basis"] == 1:
-        following = 256
-    solves = max(following, key) + (key if header["gop_frames"] else 0)
-    work = blocks * (200.0 * rows + solves * (40.0 * rows * columns + 8.0 * rows * columns**2))
-    require_limit(work, MOST_WORK, "work")
+class Allowance:
+    """M 14.2, M 14.3: what dictionaries may take."""
+
+    def __init__(self, header):
+        self.vertices = header["vertices"] * (8 if header["gop_frames"] else 1)
+        self.work = 0.0
+
+    def spend(self, header, rows, columns, follows):
+        """Take note of a dictionary to come, on a surface."""
+        power, iterations = header["power"], header["key_iterations"]
+        if follows or header["seeding"] == 1:
+            iterations = header["iterations"]
+        if header["basis"] == 1 or (header["key_seed"] == 1 and not follows):
+            power, iterations = 2, 128
+        whole = -(-columns // 8) * 8
+        require_limit(8 * (6 * rows * whole + 2 * whole**2), MOST_MEMORY + 1024 * self.vertices, "memory")
+        solution = 40 * rows * (0.6 * -(-columns // 32) + 0.035 * whole)
+        rounding = rows * (4 + whole**2 / 27) + whole**3 / 40
+        self.work += iterations * (power * solution + rounding)
+        require_limit(self.work, MOST_WORK + 3.2e4 * self.vertices, "work")
 
 
 def data_of(packets, kind, known):
@@ -901,6 +912,7 @@ class Mesh:
 
     def __init__(self, header, packets):
         self.header = header
+        self.allowance = Allowance(header)
         orders = (1,) if header["gop_frames"] else (1, 2)
         vertices, parts = header["vertices"], header["blocks"]
         packets.require(packets[CONNECTIVITY], "there is no CONNECTIVITY")
@@ -1074,6 +1086,7 @@ class Chain:
     def dictionary(self, block, columns, springs):
         header = self.mesh.header
         follows = self.subspace is not None and len(self.subspace) == block.size and header["seeding"] == 0  # M 8.3
+        self.mesh.allowance.spend(header, block.size, columns, follows)
         if header["basis"] == 1 or not follows:
             return key_dictionary(header, block.laplacian, columns, springs)
         had = self.subspace.shape[1]
@@ -1276,6 +1289,7 @@ class Part:
                     self.edges.append((r, w, weight[v, w]))
                     self.springs[r] += weight[v, w]
         columns = min(mesh.header["coefficients"], self.block.size)
+        mesh.allowance.spend(mesh.header, self.block.size, columns, False)
         self.basis = key_dictionary(mesh.header, self.laplacian, columns, self.springs)  # S 3.3
 
     def extension(self, field):
@@ -1424,7 +1438,7 @@ def decode_all(stream):
         raise UnsupportedError("smoothing or details in a sequence")  # S 1.1
     prediction = header["prediction"]
     require(len(prediction) <= 1 and all(0 < k < 2.0**16 for k in prediction), "illegal prediction")  # M 7.5
-    check_work(header)
+    require_limit(header["details"], MOST_COLUMNS, "details")  # M 14.1
     mesh = Mesh(header, packets)
     attributes = declared_attributes(mesh, packets)
     faces = np.array(mesh.arranged, np.int32).reshape(-1, 3)

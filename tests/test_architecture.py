@@ -22,6 +22,7 @@ FLOORS = {
         ("_kernels", "errors", "limits"),
         ("entropy",),
         ("connectivity", "coefficients", "fields"),
+        ("attributes",),
         ("container",),
     ),
 }

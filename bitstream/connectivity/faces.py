@@ -44,6 +44,8 @@ from bitstream.limits import DEFAULT_LIMITS, Limits
 Ints = npt.NDArray[np.int32]
 
 _FIRST_CAPACITY = 1 << 16
+_FACE_MEMORY, _VERTEX_MEMORY, _FAN_MEMORY = 100, 400, 240
+"""Bytes that decoding, and the graph that follows, take at most for each; only fans count that are sewn together."""
 _BYTES_PER_FAN = 32  # more than the vertex of a fan, or a corner of a degenerate face, can take
 
 
@@ -144,6 +146,8 @@ def decode_connectivity(payload: bytes, vertex_count: int, face_count: int, limi
     if proper < 0 or regular < 0 or lonely > 3 * degenerate or fans > 3 * proper or loops > 3 * proper:
         raise _nonsense(coder, "the counts at its start contradict each other")
     limits.check("vertices", fans + loops)
+    memory = _FACE_MEMORY * face_count + _VERTEX_MEMORY * vertex_count + _FAN_MEMORY * (surplus + loops)
+    limits.check_memory(memory, vertex_count, len(payload))
     coder, conquest = _conquer(coder, models, no_guide(), proper, fans, loops)
     faces = conquest.faces
     count = regular

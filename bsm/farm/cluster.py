@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import errno
+import logging
 import uuid
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import Any
 
 from bitstream.errors import DependencyError
@@ -21,12 +24,13 @@ def on_cluster(work: Work, tasks: Tasks, address: str) -> Outcomes:
     Parameters
     ----------
     address : str
-        Of the scheduler, ``tcp://host:8786``. Workers need this package, and the files under the same names.
+        Of the scheduler, ``tcp://host:8786``. It and its workers need this package, and workers the files under the
+        same names.
 
     Raises
     ------
     DependencyError
-        If distributed is missing here, or this package on a worker.
+        If distributed is missing here, or this package there.
     OSError
         If there is no scheduler, or it goes away.
     """
@@ -41,7 +45,7 @@ def on_cluster(work: Work, tasks: Tasks, address: str) -> Outcomes:
     waiting, run = iter(tasks), uuid.uuid4().hex
     handed: dict[str, Task] = {}
     suspects: list[Task] = []
-    with client:
+    with _silence("distributed.client"), client:
         running: Any = distributed.as_completed(loop=client.loop)  # type: ignore[no-untyped-call]
         try:
             while True:
@@ -68,6 +72,18 @@ def on_cluster(work: Work, tasks: Tasks, address: str) -> Outcomes:
             client.cancel(list(running.futures))
 
 
+@contextmanager
+def _silence(name: str) -> Iterator[None]:
+    """Let a library not log what is told here."""
+    logger = logging.getLogger(name)
+    before = logger.level
+    logger.setLevel(logging.CRITICAL + 1)
+    try:
+        yield
+    finally:
+        logger.setLevel(before)
+
+
 def _outcome(future: Any) -> Outcome | None:
     """What came of a job; None: several workers died that had it, or another one."""
     from distributed import KilledWorker
@@ -76,6 +92,10 @@ def _outcome(future: Any) -> Outcome | None:
         outcome: Outcome = future.result()
     except KilledWorker:
         return None
-    except ImportError as error:
-        raise DependencyError(f"the workers of the cluster need this: pip install bsm-codec ({error})") from error
+    except Exception as error:
+        # From a worker, or as the cause of what the scheduler says.
+        missing = next((it for it in (error, error.__cause__) if isinstance(it, ImportError)), None)
+        if missing is None:
+            raise
+        raise DependencyError(f"scheduler and workers need this package: pip install bsm-codec ({missing})") from error
     return outcome

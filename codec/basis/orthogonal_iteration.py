@@ -12,6 +12,7 @@ import numpy as np
 from bitstream.errors import NumericError
 from codec import _kernels
 from codec.arrays import Matrix
+from codec.basis.cost import Spend, careful_dictionary_cost, dictionary_cost, factor_cost, free
 from codec.basis.laplacian import Factor, Laplacian, check_rows, factorize, solve
 
 ONCE, TWICE = 1e-5, 1e-13
@@ -22,7 +23,6 @@ solution."""
 EXACT_POWER, EXACT_ITERATIONS, EXACT_SHIFT = 2, 128, 2.0**-5
 """What makes a basis exact: the sum of the Rayleigh quotients of any first columns is then within a thousandth of that
 of the lowest eigenvalues, on blocks of surfaces. Eigenvectors of closer eigenvalues nobody needs to tell apart."""
-EXACT_SOLVES = EXACT_POWER * EXACT_ITERATIONS
 START_NOISE = 0.25
 FOLLOWING_NOISE = 2.0**-8
 """How much of the hash columns is added to cosines, and to a predecessor's orthonormal columns."""
@@ -63,7 +63,9 @@ def householder_orthonormalize(columns: Matrix) -> Matrix:
     return q
 
 
-def orthogonal_iteration(factor: Factor, start: Matrix, *, power: int, iterations: int) -> Matrix:
+def orthogonal_iteration(
+    factor: Factor, start: Matrix, *, power: int, iterations: int, spend: Spend = free
+) -> Matrix:
     """U(t) = Onorm(R^z U(t-1)), `iterations` times (Algorithm 1).
 
     Parameters
@@ -74,11 +76,14 @@ def orthogonal_iteration(factor: Factor, start: Matrix, *, power: int, iteration
         U(0); need not be orthonormal.
     power, iterations : int
         z and t_max.
+    spend : callable, optional
+        Is told of the work before it is done.
 
     Returns
     -------
     float64 array, shape (n, c), C-contiguous
     """
+    spend(dictionary_cost(factor.fronts, start.shape[1], power, iterations))
     start = np.ascontiguousarray(start)
     check_rows(factor, len(start))
     subspace, scratch = np.empty(start.shape), np.empty(_kernels.iteration_space(*start.shape))
@@ -88,6 +93,7 @@ def orthogonal_iteration(factor: Factor, start: Matrix, *, power: int, iteration
     if independence < TWICE:
         # R^z has all but lost the higher columns. Orthonormalised after every R they stay, and the subspaces of the
         # first columns, which is all that Q depends on, are the same.
+        spend(careful_dictionary_cost(factor.fronts, start.shape[1], power, iterations))
         subspace = start
         for _ in range(iterations * power):
             subspace = onorm(solve(factor, subspace, 1))
@@ -118,14 +124,15 @@ def resized(previous: Matrix, width: int) -> Matrix:
     return np.concatenate([previous, cosine_columns(rows, known, width)], axis=1)
 
 
-def exact_basis(laplacian: Laplacian, start: Matrix, springs: float | Matrix = 0.0) -> Matrix:
+def exact_basis(laplacian: Laplacian, start: Matrix, springs: float | Matrix = 0.0, spend: Spend = free) -> Matrix:
     """The lowest eigenvectors of L + diag(springs): many orthogonal iterations from `start`, see `first_columns`.
 
     No eigensolver: within a space of equal eigenvalues that may return any rotation. This is a smooth function of the
     matrix, the same for all who compute it. The noise in the start is for blocks as symmetric as cosines are.
     """
+    spend(factor_cost(laplacian.fronts))
     factor = factorize(laplacian, springs + EXACT_SHIFT)
-    return orthogonal_iteration(factor, start, power=EXACT_POWER, iterations=EXACT_ITERATIONS)
+    return orthogonal_iteration(factor, start, power=EXACT_POWER, iterations=EXACT_ITERATIONS, spend=spend)
 
 
 def hash_columns(rows: int, columns: int) -> Matrix:

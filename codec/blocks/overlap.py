@@ -77,6 +77,15 @@ class Blocks:
         """Vertices of one block in the order in which they were found."""
         return self.members[self.starts[index] : self.starts[index + 1]]
 
+    def size_of(self, index: int) -> int:
+        """Number of rows of one block."""
+        return int(self.starts[index + 1] - self.starts[index])
+
+    def edges_of(self, index: int) -> int:
+        """Edges that the vertices of one block have in the mesh, which its making looks at."""
+        members, offsets = self.members_of(index), self.graph.offsets
+        return int((offsets[members + 1] - offsets[members]).sum())
+
     def block(self, index: int) -> Block:
         """Order the rows of one block."""
         return _ordered(self.graph, self.members_of(index))

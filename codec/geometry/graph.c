@@ -1,38 +1,6 @@
 /* The graph of a mesh, compressed rows in ascending order (specification, M 2). */
 #include "codec/geometry/graph.h"
-
-/* Sort a row: neighbours of a vertex are few and nearly always come nearly sorted. */
-static void sort_row(int32_t *row, int64_t size) {
-    /* Heap sort, so that no row, however large and in whatever order, takes more than n log n steps. */
-    if (size <= 32) {
-        for (int64_t i = 1; i < size; i++) {
-            int32_t value = row[i];
-            int64_t j = i;
-            for (; j > 0 && row[j - 1] > value; j--) row[j] = row[j - 1];
-            row[j] = value;
-        }
-        return;
-    }
-    for (int64_t start = size / 2, end = size; end > 1;) {
-        if (start > 0) {
-            start--;
-        } else {
-            end--;
-            int32_t value = row[end];
-            row[end] = row[0];
-            row[0] = value;
-        }
-        int64_t root = start;
-        int32_t value = row[root];
-        for (int64_t child = 2 * root + 1; child < end; child = 2 * root + 1) {
-            if (child + 1 < end && row[child + 1] > row[child]) child++;
-            if (row[child] <= value) break;
-            row[root] = row[child];
-            root = child;
-        }
-        row[root] = value;
-    }
-}
+#include "codec/geometry/sort.h"
 
 /* Edges of `faces`, whose entries are below `offsets.size - 1`. Returns the number of neighbours kept in `ends`,
  * which has room for six a face; `filled` is scratch, one entry a vertex. */
@@ -67,7 +35,7 @@ int64_t collect_edges(ConstInts2 faces, Ints offsets, Ints filled, Ints ends) {
     int64_t kept = 0;
     for (int64_t v = 0; v < size; v++) {
         int64_t first = offsets.data[v], last = offsets.data[v + 1];
-        sort_row(ends.data + first, last - first);
+        sort_ascending(ends.data + first, last - first);
         offsets.data[v] = (int32_t)kept;
         int32_t previous = -1;
         for (int64_t i = first; i < last; i++) {

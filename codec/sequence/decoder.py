@@ -19,6 +19,7 @@ from bitstream.limits import DEFAULT_LIMITS, Limits
 from codec.arrays import Faces, Matrix, Positions
 from codec.blocks.blend import Blend
 from codec.geometry.attributes import Attribute
+from codec.sequence.cost import gop_cost, gop_memory
 from codec.sequence.gop import GopDecoder, make_setting
 from codec.signal.chain import Rounding, unchanged
 from codec.static.attributes.decoding import Carried, without_positions
@@ -27,7 +28,7 @@ from codec.static.layers.block_coder import ChainDecoder
 from codec.static.preamble import Beginning, Body, Structure
 from codec.static.rules import chain_rules
 from codec.static.stages import Arrival, Ended, Stage, StreamDecoder, misplaced
-from codec.static.work import Allowance, check_work
+from codec.static.work import SEQUENCE_WEIGHT, Allowance
 
 
 @dataclass(frozen=True, eq=False)
@@ -46,7 +47,6 @@ Item: TypeAlias = Event | Iterator[FrameEvent]
 class Wishes:
     """What the user of a `SequenceDecoder` has asked for; see there."""
 
-    limits: Limits
     threads: int | None
     tolerant: bool
     start: int
@@ -61,8 +61,7 @@ class FirstFrame:
         self._structure = structure
         self._wishes = wishes
         self._blend = Blend(structure.header.vertices)
-        self._allowance = Allowance(wishes.limits)
-        self._chain = ChainDecoder(structure.scheme, 0, self._allowance)
+        self._chain = ChainDecoder(structure.scheme, 0, structure.allowance)
         self._next = 0
         self._carried = Carried(structure)
 
@@ -83,9 +82,7 @@ class FirstFrame:
         if self._next < count:
             raise CorruptError(f"the first frame ends after {self._next} of {count} blocks")
         everything = np.arange(self._structure.header.vertices, dtype=np.int32)
-        return Gops(self._structure, self._blend.positions(everything), self._wishes, self._allowance).accept(
-            arrival, queue
-        )
+        return Gops(self._structure, self._blend.positions(everything), self._wishes).accept(arrival, queue)
 
     def _values(self, packet: packets.Values) -> AttributeEvent | LossEvent:
         try:
@@ -103,7 +100,7 @@ class FirstFrame:
             raise CorruptError(f"block {packet.index} of the first frame where block {self._next} belongs")
         scheme = self._structure.scheme
         if scheme.chain_of(packet.index) != self._chain.number:
-            self._chain = ChainDecoder(scheme, scheme.chain_of(packet.index), self._allowance)
+            self._chain = ChainDecoder(scheme, scheme.chain_of(packet.index), self._structure.allowance)
         decoded = self._chain.decode(packet)
         self._blend.add(decoded.vertices, decoded.positions, decoded.weights)
         self._next += 1
@@ -112,7 +109,7 @@ class FirstFrame:
 class Gops:
     """The first frame is known, shape (n, 3), in BSM units; GOPs come."""
 
-    def __init__(self, structure: Structure, first_frame: Matrix, wishes: Wishes, allowance: Allowance) -> None:
+    def __init__(self, structure: Structure, first_frame: Matrix, wishes: Wishes) -> None:
         header = structure.header
         self._structure = structure
         self._wishes = wishes
@@ -123,7 +120,7 @@ class Gops:
             width=header.coefficients,
             cotangent=header.weights == 1,
             threads=wishes.threads,
-            allowance=allowance,
+            allowance=structure.allowance,
         )
         self._decoder = GopDecoder(setting)
         self._next = 0  # the frame that comes next in the stream
@@ -163,12 +160,15 @@ class Gops:
         self._next += body.frames
 
     def _parsed(self, packet: packets.Gop) -> GopBody:
-        header, limits = self._structure.header, self._wishes.limits
+        header, allowance = self._structure.header, self._structure.allowance
         if packet.index < self._next:
             raise CorruptError(f"frame {packet.index} comes again behind frame {self._next - 1}")
         body = parse_gop_body(packet.data, header.gop_frames)
-        columns = 3 * body.frames if body.method is GopMethod.COSINES else body.components
-        limits.check("sequence_bytes", 16.0 * columns * (header.vertices + 3 * body.frames))
+        memory = gop_memory(header.vertices, body)
+        allowance.limits.check("sequence_bytes", memory)
+        allowance.afford(memory)
+        shown = header.vertices * body.frames
+        allowance.spend(gop_cost(self._decoder.setting, body), len(packet.data), shown)
         last = packet.index + body.frames - 1
         if 0 < header.frames <= last:
             raise CorruptError(f"frames {packet.index} to {last} of {header.frames}")
@@ -248,9 +248,9 @@ class SequenceDecoder(StreamDecoder[Item]):
         rounding: Rounding = unchanged,
     ) -> None:
         self._attributes: list[Attribute] = []
-        wishes = Wishes(limits, threads, tolerant, start, self._attributes)
+        wishes = Wishes(threads, tolerant, start, self._attributes)
         body = Body(
-            limits,
+            Allowance(limits, SEQUENCE_WEIGHT),
             check=lambda header: check_header(header, limits),
             begin=lambda structure: FirstFrame(structure, wishes),
             rounding=rounding,
@@ -298,11 +298,8 @@ def check_header(header: Header, limits: Limits) -> None:
         raise FormatError("this is a static mesh and no sequence; decode it with codec.Decoder")
     if header.smoothing or header.details:
         raise UnsupportedError("smoothing and details of sequences are unknown to this decoder")
-    rules = chain_rules(header)
-    # Blocks of the first frame, and parts, whose dictionaries are those of key blocks.
-    solves = rules.solves + rules.solves_of(False)
-    check_work(limits, header.blocks, header.block_size, header.coefficients, solves)
-    limits.check("sequence_bytes", 8.0 * header.blocks * header.block_size * header.coefficients)
+    chain_rules(header)
+    limits.check("sequence_bytes", 8.0 * header.vertices * header.coefficients)
 
 
 def decode_sequence(

@@ -14,13 +14,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from codec.arrays import Faces, Indices, Matrix, Positions
+from codec.basis.cost import factor_cost
 from codec.basis.laplacian import Factor
 from codec.basis.weighted import Held, binary_weights, cotangent_weights, hold
 from codec.blocks.overlap import Blocks
 from codec.signal.chain import ChainRules, key_dictionary
 from codec.signal.predict import Suspended, continued
 from codec.signal.transform import project, reconstruct
-from codec.static.work import Allowance, block_work
+from codec.static.work import Allowance, block_cost, block_memory, part_memory
 from codec.threads import ordered_map
 
 TETHER = 2.0**-16
@@ -77,7 +78,7 @@ def build_dictionaries(
     width: int,
     cotangent: bool,
     threads: int | None,
-    allowance: Allowance | None = None,
+    allowance: Allowance,
 ) -> tuple[Part, ...]:
     """The dictionary of every part, in the order of the chain, with weights from the decoded first frame.
 
@@ -94,8 +95,13 @@ def build_dictionaries(
     cotangent : bool
         Cotangent weights; otherwise all weights are one and `first_frame` is not looked at.
     threads : int, optional
-    allowance : Allowance, optional
+    allowance : Allowance
         What a decoder may still do.
+
+    Raises
+    ------
+    LimitError
+        If this is more than that.
     """
     graph = blocks.graph
     weights = cotangent_weights(graph, faces, first_frame) if cotangent else binary_weights(graph)
@@ -104,11 +110,15 @@ def build_dictionaries(
         rank[blocks.core(index)] = index
 
     def build(index: int) -> Part:
+        size = len(blocks.core(index))
+        columns = min(width, size)
+        allowance.spend(block_cost(size, blocks.edges_of(index), 0))
         held = hold(graph, weights, rank, blocks.part(index))
-        columns = min(width, held.laplacian.block.size)
-        if allowance:
-            allowance.spend(block_work(held.laplacian, columns, rules.solves_of(False)))
-        basis = key_dictionary(rules, Suspended(held.laplacian, held.springs, rules.shift), columns)
+        allowance.keep(part_memory(held.laplacian.fronts, columns))
+        allowance.spend(2.0 * factor_cost(held.laplacian.fronts))
+        with allowance.hold(block_memory(held.laplacian, columns)):
+            suspended = Suspended(held.laplacian, held.springs, rules.shift)
+            basis = key_dictionary(rules, suspended, columns, allowance.spend)
         return Part(held, Suspended(held.laplacian, held.springs, TETHER).factor, basis)
 
     return tuple(ordered_map(build, range(blocks.count), threads))

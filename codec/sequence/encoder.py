@@ -11,13 +11,15 @@ import numpy as np
 import numpy.typing as npt
 
 from bitstream.container import packets
-from bitstream.container.gop import write_gop_body
+from bitstream.container.gop import GopBody, write_gop_body
 from bitstream.container.header import Header
 from bitstream.container.writer import Writer
 from bitstream.errors import MeshError, OptionError
+from bitstream.limits import NAMED_LIMITS
 from codec.arrays import Matrix, Order
 from codec.geometry.attributes import Attribute
 from codec.geometry.mesh import Metadata, TriangleMesh
+from codec.sequence.cost import gop_memory
 from codec.sequence.decoder import decode_sequence
 from codec.sequence.gop import GopEncoder, Setting, make_setting
 from codec.sequence.options import SequenceOptions
@@ -25,6 +27,7 @@ from codec.sequence.row_prediction import LARGEST_LEVEL
 from codec.sequence.targets import SequenceComparison, compare_sequences
 from codec.signal.chain import ChainRules
 from codec.signal.quantize import smallest_step
+from codec.static.admission import admit, as_of_decoders
 from codec.static.assembly import blended
 from codec.static.attributes.encoding import carry, place_of_first_frame, with_attributes
 from codec.static.attributes.quality import qualities
@@ -35,6 +38,7 @@ from codec.static.quality.draft import Draft
 from codec.static.quality.targets import search_step
 from codec.static.rules import STIFFNESS, Scheme
 from codec.static.units import single
+from codec.static.work import SEQUENCE_WEIGHT, Allowance
 
 FINEST_STEP = 2e-5
 """Below, a search for a target does not look."""
@@ -156,7 +160,7 @@ class SequenceEncoder:
     def attempt(self, frames: Sequence[Matrix], step: float, progress: Progress | None = None) -> SequenceAttempt:
         """Encode with a given step, and see what the decoder will."""
         chunks = tuple(self._chunks(frames, replace(self.options, step=step), progress))
-        decoded, faces = decode_sequence(b"".join(chunks), threads=self.options.threads)
+        decoded, faces = decode_sequence(b"".join(chunks), NAMED_LIMITS[self.options.limits](), self.options.threads)
         original = np.array([frame[self.vertex_order] for frame in frames])
         return SequenceAttempt(chunks, decoded.size // 3, compare_sequences(original, decoded, faces))
 
@@ -190,6 +194,7 @@ class SequenceEncoder:
         checked = _checked(chain([first], source), np.shape(first), prepared)
         while group := list(islice(checked, opening.header.gop_frames)):
             body = encoder.encode(np.array(group), number, tell)
+            opening.admit(body)
             yield writer.write(packets.Gop(number, write_gop_body(body)))
             number += len(group)
         if self._count and number != self._count:
@@ -207,11 +212,22 @@ class Opening:
     blocks : list of CodedBlock
     setting : Setting
         What the decoder will have when the first frame is complete.
+    allowance : Allowance
+        What it may still do then.
+    limits : str
+        Whose allowance that is.
     """
 
     header: Header
     blocks: list[CodedBlock]
     setting: Setting
+    allowance: Allowance
+    limits: str
+
+    def admit(self, body: GopBody) -> None:
+        """Raise `OptionError` if decoders would refuse a GOP."""
+        with as_of_decoders(self.limits):
+            self.allowance.afford(gop_memory(self.header.vertices, body))
 
 
 def open_sequence(prepared: Prepared, options: SequenceOptions, frames: int, progress: Progress) -> Opening:
@@ -243,10 +259,20 @@ def open_sequence(prepared: Prepared, options: SequenceOptions, frames: int, pro
         **scheme.fields(),
     )
     positions = blended(prepared.graph.size, (block.decoded for block in blocks))
-    setting = make_setting(
-        scheme, prepared.mesh.faces, positions, width=width, cotangent=cotangent, threads=options.threads
-    )
-    return Opening(header, blocks, setting)
+    allowance = Allowance(NAMED_LIMITS[options.limits](), SEQUENCE_WEIGHT)
+    with as_of_decoders(options.limits):
+        admit(allowance, prepared, blocks)
+        allowance.limits.check("sequence_bytes", 8.0 * header.vertices * header.coefficients)
+        setting = make_setting(
+            scheme,
+            prepared.mesh.faces,
+            positions,
+            width=width,
+            cotangent=cotangent,
+            threads=options.threads,
+            allowance=allowance,
+        )
+    return Opening(header, blocks, setting, allowance, options.limits)
 
 
 def _checked(frames: Iterable[npt.ArrayLike], shape: tuple[int, ...], prepared: Prepared) -> Iterator[Matrix]:

@@ -63,7 +63,7 @@ def make_setting(
     width: int,
     cotangent: bool,
     threads: int | None,
-    allowance: Allowance | None = None,
+    allowance: Allowance,
 ) -> Setting:
     """Build the dictionaries from the decoded first frame, shape (n, 3); see `build_dictionaries`."""
     parts = build_dictionaries(
@@ -207,7 +207,7 @@ class GopDecoder:
     """Decodes one GOP after the other."""
 
     def __init__(self, setting: Setting) -> None:
-        self._setting = setting
+        self.setting = setting
         self._history: FrameHistory | None = None
 
     def forget(self) -> None:
@@ -223,15 +223,15 @@ class GopDecoder:
 
     def _single(self, body: GopBody) -> Matrix:
         if body.method is GopMethod.KEY_FRAME:
-            self._history = FrameHistory(self._setting.first)
+            self._history = FrameHistory(self.setting.first)
         history, self._history = self._history, None  # until all has gone well
         if history is None:
             raise CorruptError("a frame refers to one that is not there")
-        levels = self._setting.empty_levels(3)
+        levels = self.setting.empty_levels(3)
         decode_levels(history.bank, body.levels, levels, history.levels)
-        frame = np.zeros((self._setting.vertices, 3))
+        frame = np.zeros((self.setting.vertices, 3))
         coefficients = []
-        for k, part in enumerate(self._setting.parts):
+        for k, part in enumerate(self.setting.parts):
             change = history.loops[k].decode(history.known(k), levels[k], body.step)
             coefficients.append(history.base(k) + change)
             part.place(frame, coefficients[k])
@@ -240,7 +240,7 @@ class GopDecoder:
         return frame
 
     def _transformed(self, body: GopBody) -> Iterator[Matrix]:
-        setting, columns = self._setting, body.components
+        setting, columns = self.setting, body.components
         basis = decode_basis(body)
         levels = setting.empty_levels(columns)
         decode_levels(make_level_bank(), body.levels, levels, level_references(levels, columns))

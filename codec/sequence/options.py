@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+from bitstream.limits import NAMED_LIMITS
 from codec.choices import check_options
 from codec.sequence.targets import SequenceTarget
 from codec.static.attributes.quality import checked_qualities
@@ -13,6 +14,7 @@ CHOICES = {
     "mode": ("gop", "low-delay"),
     "transform": ("auto", "learnt", "cosine"),
     "weights": ("cotangent", "binary"),
+    "limits": tuple(NAMED_LIMITS),
 }
 RANGES: dict[str, tuple[float, float]] = {
     "step": (1e-7, 1.0),
@@ -57,6 +59,8 @@ class SequenceOptions:
         Store the order of vertices and faces, and the first corner of each face.
     attributes : mapping of str to str, or pairs
         How well attributes that are the same in all frames are kept, as of a mesh.
+    limits : str
+        Name of the limits of those who will decode: "default", "service" or "wide"; what they would refuse is an error.
     threads : int, optional
         None: one per core.
     target : SequenceTarget, optional
@@ -81,6 +85,7 @@ class SequenceOptions:
     rounding: float = 0.4
     keep_order: bool = False
     attributes: Mapping[str, str] | tuple[tuple[str, str], ...] = ()
+    limits: str = "default"
     threads: int | None = None
     target: SequenceTarget | None = None
 

@@ -11,9 +11,11 @@ from dataclasses import dataclass
 from typing import TypeAlias
 
 from codec.arrays import Matrix
+from codec.basis.cost import Spend, careful_dictionary_cost, dictionary_cost, free
 from codec.basis.laplacian import laplacian_of
 from codec.basis.orthogonal_iteration import (
-    EXACT_SOLVES,
+    EXACT_ITERATIONS,
+    EXACT_POWER,
     exact_basis,
     first_columns,
     follow_columns,
@@ -65,16 +67,11 @@ class ChainRules:
     stiffness: float | None
     rounding: Rounding = unchanged
 
-    @property
-    def solves(self) -> int:
-        """Solutions for each column of a block, at most."""
-        return max(self.solves_of(True), self.solves_of(False))
-
-    def solves_of(self, follows: bool) -> int:
-        """Solutions for each column of a block that follows another, or of one that does not."""
+    def schedule(self, follows: bool) -> tuple[int, int]:
+        """Power and iterations of a block that follows another, or of one that does not."""
         if self.exact or (self.exact_keys and not follows):
-            return EXACT_SOLVES
-        return self.power * (self.iterations if follows or self.independent else self.key_iterations)
+            return EXACT_POWER, EXACT_ITERATIONS
+        return self.power, self.iterations if follows or self.independent else self.key_iterations
 
     @property
     def alone(self) -> bool:
@@ -100,15 +97,15 @@ def even_interval(interval: int, blocks: int) -> int:
     return -(-blocks // -(-blocks // interval)) if interval else 0
 
 
-def key_dictionary(rules: ChainRules, around: Suspended, width: int) -> Matrix:
-    """U of a block that follows no other, with `width` columns."""
+def key_dictionary(rules: ChainRules, around: Suspended, width: int, spend: Spend = free) -> Matrix:
+    """U of a block that follows no other, with `width` columns; `spend` is told of the work."""
     block = around.laplacian.block
     exact = rules.exact or rules.exact_keys
     start = rules.rounding(first_columns(block.size, width, exact or in_pieces(block)))
     if exact:
-        return exact_basis(around.laplacian, start, around.springs)
+        return exact_basis(around.laplacian, start, around.springs, spend)
     iterations = rules.iterations if rules.independent else rules.key_iterations
-    return orthogonal_iteration(around.factor, start, power=rules.power, iterations=iterations)
+    return orthogonal_iteration(around.factor, start, power=rules.power, iterations=iterations, spend=spend)
 
 
 def in_pieces(block: Block) -> bool:
@@ -117,10 +114,20 @@ def in_pieces(block: Block) -> bool:
 
 
 class Chain:
-    """State of one chain: the latest subspace, and the positions known so far."""
+    """State of one chain: the latest subspace, and the positions known so far.
 
-    def __init__(self, rules: ChainRules, graph: Graph) -> None:
+    Parameters
+    ----------
+    rules : ChainRules
+    graph : Graph
+        Of the whole mesh.
+    spend : callable, optional
+        Is told of the work of each dictionary before it is done.
+    """
+
+    def __init__(self, rules: ChainRules, graph: Graph, spend: Spend = free) -> None:
         self._rules = rules
+        self._spend = spend
         self._known = None if rules.stiffness is None or rules.alone else Known(graph, rules.stiffness)
         self._subspace: Matrix | None = None
 
@@ -130,9 +137,11 @@ class Chain:
         shift = self._rules.shift
         return unheld(laplacian, shift) if self._known is None else self._known.around(laplacian, shift)
 
-    def solves(self, block: Block) -> int:
-        """Solutions for each column of the dictionary of the next block."""
-        return self._rules.solves_of(self._follows(block))
+    def costs(self, around: Surroundings, width: int) -> tuple[float, float]:
+        """What `dictionary` of some width costs, and what it costs besides where it would lose columns."""
+        fronts, block = around.laplacian.fronts, around.laplacian.block
+        schedule = self._rules.schedule(self._follows(block))
+        return dictionary_cost(fronts, width, *schedule), careful_dictionary_cost(fronts, width, *schedule)
 
     def _follows(self, block: Block) -> bool:
         return self._subspace is not None and len(self._subspace) == block.size and not self._rules.independent
@@ -142,10 +151,12 @@ class Chain:
         rules, laplacian = self._rules, around.laplacian
         width = min(width, laplacian.block.size)
         if rules.exact or not self._follows(laplacian.block):
-            return key_dictionary(rules, around, width)
+            return key_dictionary(rules, around, width, self._spend)
         assert self._subspace is not None
         start = rules.rounding(follow_columns(self._subspace, width, in_pieces(laplacian.block)))
-        return orthogonal_iteration(around.factor, start, power=rules.power, iterations=rules.iterations)
+        return orthogonal_iteration(
+            around.factor, start, power=rules.power, iterations=rules.iterations, spend=self._spend
+        )
 
     def commit(self, block: Block, subspace: Matrix, positions: Matrix) -> None:
         """Make a block, its subspace and its decoded positions, shape (n_i, 3), the predecessor's."""

@@ -14,6 +14,7 @@ import numpy.typing as npt
 
 from codec import _kernels
 from codec.arrays import Indices, Matrix, Order
+from codec.basis.cost import Spend, free
 from codec.geometry.graph import Graph
 
 DEGREE = 5
@@ -82,6 +83,10 @@ def smoothing_spectrum(graph: Graph, positions: Matrix) -> Spectrum:
     return Spectrum(np.ascontiguousarray(positions), powers[2 * positions.size : -1].reshape(DEGREE - 1, -1, 3))
 
 
+LOOK = 25.0
+"""Nanoseconds for an edge within rings around vertices."""
+
+
 class LocalFilter:
     """`smooth` for some vertices at a time, from positions that need to be known only `DEGREE` rings around them.
 
@@ -89,10 +94,13 @@ class LocalFilter:
     ----------
     graph : Graph
     amount : float
+    spend : callable, optional
+        Is told of the work for each call.
     """
 
-    def __init__(self, graph: Graph, amount: float) -> None:
+    def __init__(self, graph: Graph, amount: float, spend: Spend = free) -> None:
         self._graph = graph
+        self._spend = spend
         self._amount = amount
         # Number of each vertex among those at hand; -1 between calls.
         self._number = np.full(graph.size, -1, np.int32)
@@ -134,4 +142,6 @@ class LocalFilter:
         count = _kernels.find_rings(
             self._graph.offsets, self._graph.neighbours, self._number, vertices, self._rows, starts
         )
-        return self._rows[:count].copy(), starts
+        rows = self._rows[:count].copy()
+        self._spend(LOOK * int((self._graph.offsets[rows + 1] - self._graph.offsets[rows]).sum()))
+        return rows, starts

@@ -32,7 +32,7 @@ from codec.static.preamble import Beginning, Body, Structure
 from codec.static.quality.whole import Complete
 from codec.static.rules import chain_rules
 from codec.static.stages import Arrival, Stage, StreamDecoder, misplaced
-from codec.static.work import Allowance, check_work
+from codec.static.work import Allowance
 from codec.threads import Lanes, Pending
 
 Result = TypeVar("Result")
@@ -68,16 +68,19 @@ class Wishes:
 class BlockStage:
     """The faces are known; blocks come."""
 
-    def __init__(self, structure: Structure, wishes: Wishes, lanes: Lanes, allowance: Allowance) -> None:
+    def __init__(self, structure: Structure, wishes: Wishes, lanes: Lanes) -> None:
         self._structure = structure
         self._wishes = wishes
         self._scheme = structure.scheme
         self._lanes = lanes
-        self._allowance = allowance
         self._assembly = Assembly(
-            structure.scheme.blocks, structure.header.smoothing, structure.units, structure.numbering
+            structure.scheme.blocks,
+            structure.header.smoothing,
+            structure.units,
+            structure.numbering,
+            structure.allowance.spend,
         )
-        self._chain = ChainDecoder(self._scheme, 0, allowance)
+        self._chain = ChainDecoder(self._scheme, 0, structure.allowance)
         self._next = 0
         self._ended = False
 
@@ -120,7 +123,7 @@ class BlockStage:
     def _decode(self, packet: packets.Block, queue: deque[Item]) -> None:
         number = self._scheme.chain_of(packet.index)
         if number != self._chain.number:
-            self._chain = ChainDecoder(self._scheme, number, self._allowance)
+            self._chain = ChainDecoder(self._scheme, number, self._structure.allowance)
         chain = self._chain
         queue.append(PendingBlock(self._lanes.submit(number, lambda: chain.decode(packet)), self._assembly))
         self._next = packet.index + 1
@@ -174,7 +177,7 @@ class Decoder(StreamDecoder[Item]):
     ) -> None:
         if layers is not None and layers < 1:
             raise OptionError("at least one layer must be decoded")
-        lanes, allowance = Lanes(threads), Allowance(limits)
+        lanes = Lanes(threads)
         self._most_ahead = 1
         wishes = Wishes(tolerant, MOST_LAYERS if layers is None else layers - 1)
 
@@ -182,10 +185,10 @@ class Decoder(StreamDecoder[Item]):
             if structure.header.grid:
                 return GridStage(structure, tolerant)
             self._most_ahead = most_ahead(structure.header)
-            return BlockStage(structure, wishes, lanes, allowance)
+            return BlockStage(structure, wishes, lanes)
 
         body = Body(
-            limits,
+            Allowance(limits),
             check=lambda header: check_header(header, limits),
             begin=begin,
             tolerant=tolerant,
@@ -298,10 +301,9 @@ def check_header(header: Header, limits: Limits) -> None:
     """Raise what is wrong with the header of a static mesh, or beyond `limits`, before anything is done for it."""
     if header.gop_frames:
         raise UnsupportedError("this is a sequence; decode it with codec.SequenceDecoder")
-    if header.grid:
-        return
-    rules, width = chain_rules(header), max(header.coefficients, header.details)
-    check_work(limits, header.blocks, header.block_size, width, rules.solves)
+    if not header.grid:
+        chain_rules(header)
+        limits.check("coefficients", header.details)
 
 
 def decode(data: bytes, limits: Limits = DEFAULT_LIMITS, threads: int | None = None) -> TriangleMesh:

@@ -16,6 +16,7 @@ from codec.geometry.closeness import Original
 from codec.geometry.mesh import TriangleMesh
 from codec.geometry.metrics import Comparison, Reference
 from codec.signal.quantize import smallest_step
+from codec.static.admission import as_of_decoders
 from codec.static.attributes.encoding import Carried, carry, place_of, with_attributes
 from codec.static.attributes.quality import Quality, qualities
 from codec.static.joining import Joined, join
@@ -159,7 +160,8 @@ class Encoder:
             return rounded_to_cells(self._prepared, options.grid_cell, options.grid_origin or (0.0, 0.0, 0.0))
         if options.promise is not None:
             return Fulfilment(self._prepared, options, options.promise).draft(progress)
-        return self._spectral.base(options.first_step, progress).draft
+        with as_of_decoders(options.limits):
+            return self._spectral.base(options.first_step, progress).draft
 
     def result(self, progress: Progress | None = None) -> Attempt:
         """What `encode` gives, with a comparison of what it decodes to."""
@@ -180,7 +182,8 @@ class Encoder:
         refused: list[TargetError] = []
         for ladder in self._ladders(progress):
             try:
-                found.append(search_step(self._climb(ladder), target, self.options.first_step, ladder.finest))
+                with as_of_decoders(self.options.limits):
+                    found.append(search_step(self._climb(ladder), target, self.options.first_step, ladder.finest))
             except TargetError as error:
                 refused.append(error)
         if target.kind == "max_error_relative":
@@ -197,7 +200,8 @@ class Encoder:
 
     def attempt(self, step: float, progress: Progress | None = None) -> Attempt:
         """Encode blocks with a given quantization step, and see what the decoder will."""
-        return self._judged(self._spectral.base(step, progress).draft)
+        with as_of_decoders(self.options.limits):
+            return self._judged(self._spectral.base(step, progress).draft)
 
     def _climb(self, ladder: Ladder) -> Callable[[float], Attempt]:
         return lambda step: self._judged(ladder.draft(step))

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from bitstream.errors import OptionError
+from bitstream.limits import NAMED_LIMITS
 from codec.choices import check_options
 from codec.static.attributes.quality import Grade, checked_qualities
 from codec.static.quality.contract import ANY_ANGLE, Contract, Fit
@@ -20,6 +21,7 @@ CHOICES = {
     "blend": BLENDS,
     "partition": ("derived", "metis"),
     "normals": ("keep", "recompute"),
+    "limits": tuple(NAMED_LIMITS),
 }
 RANGES: dict[str, tuple[float, float]] = {
     "keep": (1e-6, 1.0),
@@ -114,6 +116,8 @@ class EncodeOptions:
         encoded apart on the same grid fit bit for bit.
     grid_origin : (float, float, float), optional
         Where that grid has a place; None: where the mesh's unit has its zero.
+    limits : str
+        Name of the limits of those who will decode: "default", "service" or "wide"; what they would refuse is an error.
     threads : int, optional
         None: one per core.
 
@@ -152,6 +156,7 @@ class EncodeOptions:
     normals: str = "keep"
     grid_cell: float | None = None
     grid_origin: tuple[float, float, float] | None = None
+    limits: str = "default"
     threads: int | None = None
 
     def __post_init__(self) -> None:

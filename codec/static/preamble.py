@@ -22,7 +22,6 @@ from bitstream.container.header import FREE_COPIES, MOST_COPIES, Header
 from bitstream.container.splits import Splits, decode_splits, encode_splits
 from bitstream.container.wire import Cursor, FrameType, write_varint
 from bitstream.errors import BsmError, CorruptError, OptionError, UnsupportedError
-from bitstream.limits import Limits
 from codec.arrays import Faces, Indices, Matrix, Order
 from codec.blocks.overlap import Blocks, block_size, grow_blocks
 from codec.blocks.partition import Partition, derive_partition, metis_partition, partition_of_labels
@@ -36,6 +35,16 @@ from codec.static.numbering import Numbering
 from codec.static.rules import Scheme, scheme_of
 from codec.static.stages import Arrival, Stage, misplaced
 from codec.static.units import Units, units_of
+from codec.static.work import (
+    COPY_MEMORY,
+    Allowance,
+    labels_cost,
+    mesh_cost,
+    mesh_memory,
+    order_cost,
+    order_memory,
+    partition_cost,
+)
 
 CONNECTIVITY_METHOD = 1
 """The valence-driven coder of `bitstream.connectivity.faces`."""
@@ -226,7 +235,8 @@ class Structure:
         That was sent; None: it is derived.
     declarations : Declarations
         Attributes.
-    limits : Limits
+    allowance : Allowance
+        What may still be done.
     rounding : callable
         See `ChainRules`.
     """
@@ -237,7 +247,7 @@ class Structure:
     numbering: Numbering
     partition: Partition | None
     declarations: Declarations
-    limits: Limits
+    allowance: Allowance
     rounding: Rounding = unchanged
 
     @property
@@ -255,6 +265,9 @@ class Structure:
             If a part is larger than the header allows for a block.
         """
         header = self.header
+        copies = min(header.blocks * header.block_size, MOST_COPIES * header.vertices + FREE_COPIES)
+        self.allowance.keep(COPY_MEMORY * copies)
+        self.allowance.spend(partition_cost(self.graph, header.blocks, copies))
         partition = self.partition or derive_partition(self.graph, header.blocks)
         largest = int(np.diff(partition.bounds).max())
         if largest > header.block_size:
@@ -265,9 +278,11 @@ class Structure:
 
 @dataclass(frozen=True)
 class Body:
-    """What a decoder is for: which headers it takes, what comes behind the preamble, and how numbers are rounded."""
+    """What a decoder is for: which headers it takes, what it may do, what comes behind the preamble, and how numbers
+    are rounded.
+    """
 
-    limits: Limits
+    allowance: Allowance
     check: Callable[[Header], None]
     begin: Callable[[Structure], Stage[Any]]
     tolerant: bool = False
@@ -299,8 +314,11 @@ class Opened:
         if not isinstance(arrival, packets.Connectivity):
             raise unreadable(arrival) if isinstance(arrival, packets.Damaged) else misplaced(arrival)
         _check_method("connectivity", arrival.method, CONNECTIVITY_METHOD)
-        header = self.header
-        faces = decode_connectivity(arrival.data, header.vertices, header.faces, self.body.limits)
+        header, allowance, received = self.header, self.body.allowance, len(arrival.data)
+        faces = decode_connectivity(arrival.data, header.vertices, header.faces, allowance.limits)
+        allowance.grant(header.vertices)
+        allowance.keep(mesh_memory(header.vertices, header.faces), received)
+        allowance.spend(mesh_cost(header.vertices, header.faces, received), received)
         graph, declarations = graph_of_faces(faces, header.vertices), Declarations(faces, header.vertices)
         return Connected(self.body, header, faces, graph, Numbering(faces), declarations)
 
@@ -321,6 +339,7 @@ class Connected:
         match arrival:
             case packets.Partition(method, data):
                 _check_method("partition", method, PARTITION_METHOD)
+                self.body.allowance.spend(labels_cost(self.graph, len(data)), len(data))
                 labels = decode_labels(data, self.graph.offsets, self.graph.neighbours, self.header.blocks)
                 return replace(self, partition=partition_of_labels(labels))
             case packets.Order(method, data):
@@ -333,24 +352,23 @@ class Connected:
             case packets.Damaged():
                 raise unreadable(arrival)
             case _:
-                following = self.body.begin(
-                    Structure(
-                        self.header,
-                        self.faces,
-                        self.graph,
-                        self.numbering,
-                        self.partition,
-                        self.declarations,
-                        self.body.limits,
-                        self.body.rounding,
-                    )
+                structure = Structure(
+                    self.header,
+                    self.faces,
+                    self.graph,
+                    self.numbering,
+                    self.partition,
+                    self.declarations,
+                    self.body.allowance,
+                    self.body.rounding,
                 )
+                following = self.body.begin(structure)
                 queue.append(self.numbering.event(self.header.vertices))
                 return following.accept(arrival, queue)
 
     def _declared(self, packet: packets.Attribute, queue: deque[Any]) -> Stage[Any]:
         try:
-            return replace(self, declarations=self.declarations.add(packet))
+            return replace(self, declarations=self.declarations.add(packet, self.body.limits))
         except BsmError as error:
             if not self.body.tolerant:
                 raise
@@ -361,14 +379,17 @@ class Connected:
         split = method == SPLITS_METHOD and not self.header.gop_frames
         if not split:
             _check_method("order", method, ORDER_METHOD)
+        header, allowance = self.header, self.body.allowance
+        allowance.keep(order_memory(header.vertices, header.faces), len(data))
+        allowance.spend(order_cost(header.vertices, header.faces, len(data)), len(data))
         cursor = Cursor(data)
         arrangement = cursor.take(cursor.varint()) if split else data
-        order = decode_arrangement(arrangement, self.faces, self.header.vertices)
-        source = np.empty(self.header.vertices, np.int32)
+        order = decode_arrangement(arrangement, self.faces, header.vertices)
+        source = np.empty(header.vertices, np.int32)
         source[order.vertex_order] = np.arange(len(source), dtype=np.int32)
         if not split:
             return Numbering(order.faces, source, arrangement=order)
-        splits = decode_splits(cursor.rest(), order.faces, len(source), self.body.limits)
+        splits = decode_splits(cursor.rest(), order.faces, len(source), allowance.limits)
         given = np.where(splits.source < 0, -1, source[splits.source])
         return Numbering(splits.faces, given, splits.loose, order, splits=True)
 

@@ -1,60 +1,198 @@
-"""How much work a stream asks for, and how much it may."""
+"""How much work and memory a stream asks for, and how much it may.
+
+Work is in nanoseconds of a processor core, memory in bytes, both estimated before they are spent; `codec.basis.cost`
+says what of.
+"""
 
 from __future__ import annotations
 
-from threading import Lock
+from collections.abc import Iterator
+from contextlib import contextmanager
+from threading import Condition
 
-import numpy as np
-
+from bitstream.attributes.values import values_charge
+from bitstream.fields.grid import grid_charge
+from bitstream.fields.levels import levels_charge
 from bitstream.limits import Limits
+from codec.basis.cost import factor_cost, iteration_memory, solve_cost
 from codec.basis.laplacian import Laplacian
+from codec.basis.solver.fronts import Fronts
+from codec.geometry.graph import Graph
+
+BLOCK = 2.5e5
+"""Of a block, whatever its size."""
+ROW, LOOK, LEVEL = 1200.0, 30.0, 90.0
+"""Of a row of a block, of an edge that one has in the mesh, and of a coded level."""
+SEQUENCE_WEIGHT = 8
+"""Vertices that one of a sequence counts for, since its dictionaries are kept."""
+COPY_MEMORY = 4
+"""Bytes for each row of all blocks."""
+CHUNK_COST = 6e4
+"""Of a frame of a grid or of a layer, whatever it holds."""
+FRESH, MOST_FRESH = 3.0, 4e6
+"""Of a vertex of the mesh for each chain, in memory that is fresh; beyond some size that costs nothing."""
 
 
-def dictionary_work(blocks: int, block_size: int, coefficients: int, solves: int) -> float:
-    """Floating point operations for all dictionaries, about: what `Limits.work` bounds.
-
-    Parameters
-    ----------
-    blocks, block_size, coefficients
-        k, n_d and c.
-    solves : int
-        Orthogonal iterations times power, of a block at most.
-    """
-    per_iteration = 8.0 * block_size * coefficients**2
-    return blocks * (block_size * 200.0 + solves * (40.0 * block_size * coefficients + per_iteration))
+def mesh_cost(vertices: int, faces: int, received: int) -> float:
+    """Of faces and graph; what meets at more vertices than a closed surface has was cut and is sewn together again."""
+    sewn = max(0.0, faces / 2.0 - vertices)
+    return 100.0 * vertices + 60.0 * faces + 700.0 * sewn + 400.0 * received
 
 
-def check_work(limits: Limits, blocks: int, block_size: int, coefficients: int, solves: int) -> None:
-    """Raise `LimitError` if a header asks for more blocks, larger ones or more work than `limits` grant."""
-    limits.check("blocks", blocks)
-    limits.check("block_size", block_size)
-    limits.check("coefficients", coefficients)
-    limits.check("work", dictionary_work(blocks, block_size, coefficients, solves))
+def order_cost(vertices: int, faces: int, received: int) -> float:
+    """Of the order that a mesh had."""
+    return 600.0 * vertices + 900.0 * faces + 100.0 * received
 
 
-def block_work(laplacian: Laplacian, columns: int, solves: int) -> float:
-    """Floating point operations that one block takes, about: two factorisations, solutions, orthonormalisation.
+def partition_cost(graph: Graph, blocks: int, copies: int) -> float:
+    """Of cutting a mesh into so many parts, and of growing these to so many copies of its vertices together."""
+    ends = len(graph.neighbours)
+    return (graph.size + ends) * (4.0 * blocks.bit_length() + 20.0) + 100.0 * blocks + 30.0 * copies
 
-    `dictionary_work` supposes surfaces; in the graph of a hostile list of faces everything may be beside everything,
-    and the factors are as dense.
-    """
-    fronts, size = laplacian.fronts, laplacian.block.size
-    own = np.diff(fronts.firsts.astype(np.float64))
-    width = own + np.diff(fronts.starts.astype(np.float64))
-    factorisation, entries = float((own * width**2).sum()), float((own * width).sum())
-    return 2.0 * factorisation + solves * columns * (4.0 * entries + 8.0 * size * columns)
+
+def labels_cost(graph: Graph, received: int) -> float:
+    """Of labels of parts."""
+    return 300.0 * graph.size + 30.0 * len(graph.neighbours) + 100.0 * received
+
+
+def block_cost(rows: int, edges: int, levels: int) -> float:
+    """Of all of a block but its dictionary."""
+    return BLOCK + ROW * rows + LOOK * edges + LEVEL * levels
+
+
+def ground_cost(laplacian: Laplacian, columns: int) -> float:
+    """Of extending what is known around a block, and of putting its coefficients on that."""
+    return factor_cost(laplacian.fronts) + solve_cost(laplacian.fronts, 3) + 1.5 * len(laplacian.diagonal) * columns
+
+
+def chain_cost(vertices: int) -> float:
+    """Of beginning a chain that knows where vertices are."""
+    return min(FRESH * vertices, MOST_FRESH)
+
+
+def mesh_memory(vertices: int, faces: int) -> float:
+    """Bytes of faces, graph, partition and blended positions."""
+    return 200.0 * vertices + 60.0 * faces
+
+
+def order_memory(vertices: int, faces: int) -> float:
+    """Bytes for restoring the order that a mesh had, with copies of its vertices at up to every corner."""
+    return 32.0 * vertices + 60.0 * faces
+
+
+def block_memory(laplacian: Laplacian, columns: int) -> int:
+    """Bytes that a block takes while it is decoded."""
+    return iteration_memory(laplacian.fronts, columns)
+
+
+def field_cost(vertices: int, faces: int, axes: int) -> float:
+    """Of a grid or a layer of refinement, with so many values for each vertex."""
+    return vertices * (600.0 + 350.0 * axes) + 150.0 * faces
+
+
+def grid_memory(vertices: int, faces: int) -> float:
+    """Bytes for decoding a grid, and its positions."""
+    return 80.0 * vertices + grid_charge(vertices, faces)
+
+
+def layer_memory(vertices: int, faces: int, axes: int) -> float:
+    """Bytes for decoding a layer of refinement, and its levels that wait."""
+    return 16.0 * vertices + levels_charge(vertices, faces, axes)
+
+
+def values_memory(values: int, faces: int, components: int) -> float:
+    """Bytes for decoding an attribute, and its values twice."""
+    pieces = 2 * components  # of large numbers
+    return 16.0 * components * values + values_charge(values, faces, pieces)
+
+
+def part_memory(fronts: Fronts, columns: int) -> float:
+    """Bytes that a part of a sequence is kept in: its dictionary, its factor, and what it hangs on."""
+    return 8.0 * len(fronts.rows) * columns + 8.0 * int(fronts.places[-1]) + 200.0 * len(fronts.rows)
 
 
 class Allowance:
-    """How much work a decoder may still do; blocks of several chains draw on it at the same time."""
+    """How much a decoder may still do; blocks of several chains draw on it at the same time.
 
-    def __init__(self, limits: Limits) -> None:
+    Parameters
+    ----------
+    limits : Limits
+    weight : int
+        Vertices that one of the mesh counts for.
+    """
+
+    def __init__(self, limits: Limits, weight: int = 1) -> None:
         self._limits = limits
-        self._spent = 0.0
-        self._lock = Lock()
+        self._weight = weight
+        self._vertices = 0
+        self._spent = self._owed = 0.0
+        self._held = self._kept = 0.0
+        self._received = 0
+        self._change = Condition()
 
-    def spend(self, work: float) -> None:
-        """Take note of work to come; `LimitError` if all of it together is over the limit."""
-        with self._lock:
+    @property
+    def limits(self) -> Limits:
+        """What the caller grants."""
+        return self._limits
+
+    def grant(self, vertices: int) -> None:
+        """Take note of vertices that the stream really has, which count for work and memory."""
+        with self._change:
+            self._vertices += self._weight * vertices
+
+    def spend(self, work: float, received: int = 0, shown: int = 0) -> None:
+        """Take note of work to come, and of the bytes that ask for it and vertices of frames that it shows.
+
+        Raises
+        ------
+        LimitError
+            If all of it together is over the limit.
+        """
+        limits = self._limits
+        with self._change:
             self._spent += work
-            self._limits.check("work", self._spent)
+            self._owed += max(0.0, work - limits.work_per_byte * received - limits.work_per_vertex * shown)
+            limits.check("most_work", self._spent)
+            limits.check_work(self._owed, self._vertices)
+
+    def keep(self, memory: float, received: int = 0) -> None:
+        """Take note of memory that is kept to the end, and of bytes that stand for it.
+
+        Raises
+        ------
+        LimitError
+            If all of it together is over the limit.
+        """
+        with self._change:
+            self._kept += memory
+            self._received += received
+            self._limits.check_memory(self._kept, self._vertices, self._received)
+
+    @contextmanager
+    def hold(self, memory: float) -> Iterator[None]:
+        """Wait until others have given back what leaves room for some memory, and have it meanwhile.
+
+        Raises
+        ------
+        LimitError
+            If there will never be room.
+        """
+        with self._change:
+            self._limits.check_memory(self._kept + memory, self._vertices, self._received)
+            self._change.wait_for(lambda: self._held == 0.0 or self._has_room(memory))
+            self._held += memory
+        try:
+            yield
+        finally:
+            with self._change:
+                self._held -= memory
+                self._change.notify_all()
+
+    def afford(self, memory: float) -> None:
+        """Raise `LimitError` if there is no room for some memory besides what is kept."""
+        with self._change:
+            self._limits.check_memory(self._kept + memory, self._vertices, self._received)
+
+    def _has_room(self, memory: float) -> bool:
+        most = self._limits.memory_for(self._vertices, self._received)
+        return self._kept + self._held + memory <= most

@@ -14,17 +14,19 @@ from bsm.files.mesh import read_mesh
 from codec.sequence.decoder import decode_sequence
 from codec.static.decoder import Decoder, decode
 from codec.static.encoder import encode
+from codec.static.events import AttributeEvent
 from codec.static.options import EncodeOptions
 from tools.vectors.__main__ import try_command, try_product
 from tools.vectors.bad import BAD
 from tools.vectors.bad_attributes import BAD_ATTRIBUTES
 from tools.vectors.bad_fields import BAD_FIELDS
 from tools.vectors.bad_sequences import BAD_SEQUENCES
+from tools.vectors.edges import EDGES, EDGES_BAD
 from tools.vectors.good import STATIC
 from tools.vectors.good_attributes import ATTRIBUTES
 from tools.vectors.good_fields import FIELDS
 from tools.vectors.good_sequences import SEQUENCES
-from tools.vectors.store import FOLDER, Vector, read_manifest
+from tools.vectors.store import FOLDER, Vector, arrays_of, read_manifest
 
 VECTORS = read_manifest()
 GOOD = [vector for vector in VECTORS if vector.error is None]
@@ -86,6 +88,8 @@ def test_every_vector_has_its_files_and_every_file_is_a_vector():
             *BAD_FIELDS,
             *BAD_ATTRIBUTES,
             *BAD_SEQUENCES,
+            *EDGES,
+            *EDGES_BAD,
         }
     )
     assert {vector.name for vector in GOOD} == {path.stem for path in FOLDER.glob("*.npz")}
@@ -119,15 +123,19 @@ def test_threads_and_events_change_nothing(vector):
     whole = decode(data, threads=1)
     assert np.array_equal(decode(data, threads=2).positions, whole.positions)
     positions = np.full_like(whole.positions, np.nan)
+    arrays, places = arrays_of(whole.attributes), {one.name: i for i, one in enumerate(whole.attributes)}
     with Decoder(threads=2) as decoder:
         decoder.receive_data(data)
         decoder.receive_eof()
         while (event := decoder.next_event()) is not END_OF_STREAM:
-            if hasattr(event, "loose"):
+            if isinstance(event, AttributeEvent):
+                name = f"attribute {places[event.name]} {event.semantic} {event.domain} {event.name}"
+                assert (arrays[name][event.rows] == event.values).all()
+            elif hasattr(event, "loose"):
                 positions[event.loose.vertices] = event.loose.positions
             elif hasattr(event, "positions"):
                 positions[event.vertices] = event.positions
-    assert vector.complaint(positions, whole.faces) is None
+    assert vector.complaint(positions, whole.faces, arrays) is None
 
 
 @named(GOOD)

@@ -5,13 +5,15 @@ from __future__ import annotations
 from collections.abc import Callable
 from random import Random
 
-from bitstream.container.header import HEADER_FIELDS, Field
-from bitstream.container.maps import write_map
-from bitstream.container.wire import FrameType, write_varint
+from bitstream.container.declaration import Declaration
+from bitstream.container.header import HEADER_FIELDS, Field, fields_of
+from bitstream.container.maps import parse_map, write_map
+from bitstream.container.wire import Cursor, FrameType, write_varint
 from bitstream.errors import BsmError
 from tools.surgery import Frames, frames_of, header_entries, stream_of
 
 Mutate = Callable[[bytes, int], bytes]
+_KINDS = frozenset(map(int, FrameType))
 
 _NUMBERS = (
     0,
@@ -70,7 +72,7 @@ def _change_coded(frames: Frames, random: Random, mutate: Mutate) -> None:
     if coded:
         place = random.choice(coded)
         kind, payload = frames[place]
-        kept = 2 if kind == FrameType.BLOCK else 1
+        kept = {FrameType.BLOCK: 2, FrameType.VALUES: 3}.get(FrameType(kind), 1) if kind in _KINDS else 1
         frames[place] = (kind, payload[:kept] + mutate(payload[kept:], len(payload) + 64))
 
 
@@ -90,6 +92,38 @@ def _change_header(frames: Frames, random: Random, mutate: Mutate) -> None:
         frames[0] = (FrameType.HEADER, write_map(sorted(entries.items())))
     except (TypeError, ValueError, OverflowError):  # keys of several types, or a number too large
         return
+
+
+def _change_declaration(frames: Frames, random: Random, mutate: Mutate) -> None:
+    """Another value, or none, in a field of the declaration of an attribute."""
+    declared = [i for i, (kind, _) in enumerate(frames) if kind == FrameType.ATTRIBUTE]
+    if not declared:
+        return
+    place = random.choice(declared)
+    try:
+        cursor = Cursor(frames[place][1])
+        index, size = cursor.varint(), cursor.varint()
+        entries, seams = dict(parse_map(cursor.take(size))), cursor.rest()
+    except BsmError:
+        return
+    item = random.choice(list(fields_of(Declaration).values()))
+    if item.key in entries and random.random() < 0.2:
+        del entries[item.key]
+    elif item.type in (str, bytes):
+        entries[item.key] = mutate(b"", 8) if item.type is bytes else random.choice(("", "x", "color", "y" * 256))
+    elif item.type is tuple:
+        had = entries.get(item.key)
+        numbers = list(had) if isinstance(had, list) and had else [random.choice(_REALS)]
+        part = Field(item.key, item.item, item.low, item.high)
+        numbers[random.randrange(len(numbers))] = _value(part, numbers[0], random)
+        entries[item.key] = numbers * random.choice((1, 1, 1, 2))
+    else:
+        entries[item.key] = _value(item, entries.get(item.key), random)
+    try:
+        packed = write_map(sorted(entries.items()))
+    except (TypeError, ValueError, OverflowError):
+        return
+    frames[place] = (FrameType.ATTRIBUTE, write_varint(index) + write_varint(len(packed)) + packed + seams)
 
 
 def _value(declared: Field, old: object, random: Random) -> object:
@@ -130,4 +164,7 @@ def _move(frames: Frames, random: Random, mutate: Mutate) -> None:
         frames[place] = (random.randrange(16), frames[place][1])
 
 
-_STEPS = (_change_payload, _change_coded, _change_coded, _change_header, _change_header, _change_block, _move)
+_STEPS = (
+    *(_change_payload, _change_coded, _change_coded, _change_header, _change_header, _change_block, _move),
+    _change_declaration,
+)

@@ -8,6 +8,8 @@ from pathlib import Path
 
 import numpy as np
 
+from bitstream.attributes.seams import Joins, decode_seams
+from bitstream.attributes.values import FaceValueDecoder, Kind, ValueDecoder
 from bitstream.coefficients.adaptive import CoefficientModel, decode_blocks, decode_coefficients, decode_layers
 from bitstream.coefficients.matrices import decode_levels, make_level_bank
 from bitstream.coefficients.packed import unpack_coefficients
@@ -21,6 +23,7 @@ from bitstream.container.reader import END_OF_STREAM, NEED_DATA, Reader
 from bitstream.container.tolerant import TolerantReader
 from bitstream.container.wire import FrameType
 from bitstream.errors import BsmError
+from bitstream.fields.corners import corners_of
 from bitstream.fields.grid import GridDecoder, GridEncoder
 from bitstream.fields.levels import LevelsDecoder, LevelsEncoder
 from bitstream.limits import Limits
@@ -46,6 +49,7 @@ LIMITS = Limits(
     work=1e9,
     sequence_bytes=1 << 26,
     field_bytes=1 << 26,
+    attribute_values=1 << 16,
 )
 """What a caller would grant who wants an answer within a second."""
 
@@ -152,6 +156,7 @@ def labels(data: bytes) -> None:
 _SOUP = np.concatenate([_FAN, [[0, 0, 7], [3, 3, 3], [1, 2, 0], [2, 1, 5], [44, 41, 43], [41, 43, 42]]]).astype(
     np.int32
 )
+_KINDS: tuple[Kind, ...] = ("plain", "color", "texcoord", "normal")
 _LARGEST = (1000, 3, (1 << 20) - 1)
 
 
@@ -173,6 +178,32 @@ def levels(data: bytes) -> None:
             _expect(bool((abs(found) <= 1 << 20).all()), "levels out of range")
 
 
+def seams(data: bytes) -> None:
+    """Seams of an attribute, and the corners that they part."""
+    corners = corners_of(_SOUP, 46)
+    joins = Joins(corners, decode_seams(data, corners))
+    _expect(bool((joins.vertices[joins.faces] == corners.faces).all()), "corners of two vertices share a value")
+
+
+def attribute_values(data: bytes) -> None:
+    """Values of vertices or faces, in chunks; the first two bytes tell their kind and length."""
+    size, half = 1 + data[1] % 45, 2 + (len(data) - 2) // 2
+    chunks = data[2:half], data[half:]
+    if data[0] % 5 == 4:
+        of_faces = FaceValueDecoder(_SOUP, (1000, 3), LIMITS)
+        for chunk, count in zip(chunks, (size // 2 + 1, len(_SOUP) - size // 2 - 1), strict=True):
+            _expect(bool((of_faces.chunk(chunk, count) <= (1000, 3)).all()), "values above their largest")
+        return
+    kind = _KINDS[data[0] % 5]
+    largest = (126, 126) if kind in ("texcoord", "normal") else (1000, 3)
+    geometry = None if data[1] > 127 else np.arange(138, dtype=np.int32).reshape(46, 3) ** 2 % 977
+    places = np.arange(46) // 2
+    decoder = ValueDecoder(_SOUP, 46, largest, kind, geometry, places, LIMITS)
+    for chunk, count in zip(chunks, (size, 46 - size), strict=True):
+        _, values = decoder.chunk(chunk, count)
+        _expect(bool(((values >= 0) & (values <= largest)).all()), "values above their largest")
+
+
 def gops(data: bytes) -> None:
     """The data of a GOP, and the levels in it."""
     body = parse_gop_body(data, 64)
@@ -185,7 +216,11 @@ def gops(data: bytes) -> None:
 
 def stream(data: bytes) -> None:
     """A whole static stream."""
-    _expect(bool(np.isfinite(decode(data, LIMITS, threads=1).positions).all()), "positions that are not finite")
+    mesh = decode(data, LIMITS, threads=1)
+    _expect(bool(np.isfinite(mesh.positions).all()), "positions that are not finite")
+    for attribute in mesh.attributes:
+        floats = attribute.values.dtype.kind == "f"
+        _expect(not floats or bool(np.isfinite(attribute.values).all()), "an attribute that is not finite")
 
 
 def stream_threads(data: bytes) -> None:
@@ -245,6 +280,8 @@ TARGETS: dict[str, Target] = {
         labels,
         grid,
         levels,
+        seams,
+        attribute_values,
         gops,
         stream,
         stream_threads,
@@ -292,6 +329,10 @@ def _seed(name: str, kind: int, payload: bytes, header: object) -> bytes:
     if name in ("arrangement", "permutation") and kind == FrameType.ORDER:
         return payload
     if name == "labels" and kind == FrameType.PARTITION:
+        return payload
+    if name == "seams" and kind == FrameType.ATTRIBUTE:
+        return PARSERS[FrameType.ATTRIBUTE](payload, Limits()).seams  # type: ignore[union-attr]
+    if name == "attribute_values" and kind == FrameType.VALUES:
         return payload
     if name == "gops" and kind == FrameType.GOP:
         return payload[1:]

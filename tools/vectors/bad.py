@@ -19,6 +19,7 @@ from bitstream.container.wire import FrameType, write_frame, write_preamble, wri
 from codec.geometry.graph import graph_of_faces
 from codec.static.encoder import encode
 from codec.static.options import EncodeOptions
+from tools.bombs.streams import one_block
 from tools.surgery import Frames, frames_of, header_entries, stream_of, with_header, with_payload
 from tools.vectors.good import BASE
 from tools.vectors.meshes import patch, shuffled, together, torus
@@ -259,12 +260,9 @@ HEADERS: dict[str, Bad] = {
         _entries(vertices=10_000, faces=20_000, block_size=8000, coefficients=5000),
     ),
     "bad-limit-work": Bad(
-        "more work than a decoder should grant",
-        "limit",
-        _entries(
-            vertices=2**24, faces=2**25, blocks=2**15, block_size=8192, coefficients=4096, power=64, key_iterations=1000
-        ),
+        "one column, but 65,536 solutions", "limit", lambda: one_block(36, 36, 1, power=64, key_iterations=1024)
     ),
+    "bad-limit-memory": Bad("a dictionary of 108 MB", "limit", lambda: one_block(36, 36, 1296, power=1)),
     "bad-key-order": Bad("keys that descend", "corrupt", _map(_reversed)),
     "bad-key-repeated": Bad(
         "a key twice",

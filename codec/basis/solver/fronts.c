@@ -3,6 +3,7 @@
  * A. George, "Nested dissection of a regular finite element mesh", 1973; fronts.py says what a front is.
  */
 #include "codec/basis/solver/front.h"
+#include "codec/geometry/sort.h"
 
 #define NONE UINT32_MAX
 
@@ -49,12 +50,6 @@ int64_t dissect(ConstInts offsets, ConstInts neighbours, int64_t leaf, Ints cuts
     return n - count;
 }
 
-/* Insert into the ascending values that begin at `begin` and end before `end`. */
-static void insert(uint32_t *values, int64_t begin, int64_t end, uint32_t value) {
-    for (; end > begin && values[end - 1] > value; end--) values[end] = values[end - 1];
-    values[end] = value;
-}
-
 /* The borders of the fronts that `dissect` found, and all else that `Fronts` holds.
  *
  * Returns the size of `borders`; -1 if there is no room for them; -2 if a factorisation takes more operations than
@@ -83,7 +78,7 @@ int64_t find_borders(ConstInts offsets, ConstInts neighbours, ConstWords rows, C
                 uint32_t step = steps.data[neighbours.data[i]];
                 if (step >= end && mark[step] != t) {
                     mark[step] = (uint32_t)t;
-                    insert(borders.data, begin, size++, step);
+                    borders.data[size++] = step;
                 }
             }
         }
@@ -92,10 +87,11 @@ int64_t find_borders(ConstInts offsets, ConstInts neighbours, ConstWords rows, C
                 uint32_t step = borders.data[i];
                 if (step >= end && step < n && mark[step] != t) {
                     mark[step] = (uint32_t)t;
-                    insert(borders.data, begin, size++, step);
+                    borders.data[size++] = step;
                 }
             }
         }
+        sort_ascending((int32_t *)borders.data + begin, size - begin);
         if (size > begin) {
             uint32_t owner = owners.data[borders.data[begin]];
             sibling[t] = child[owner];

@@ -16,7 +16,6 @@ from bitstream.container.declaration import CORNER, RECOMPUTED, Declaration
 from bitstream.container.reader import Signal
 from bitstream.errors import CorruptError
 from bitstream.fields.corners import Corners, corners_of
-from bitstream.limits import Limits
 from codec.arrays import Faces, Levels
 from codec.geometry.attributes import Attribute
 from codec.geometry.mesh import TriangleMesh
@@ -35,6 +34,7 @@ from codec.static.events import AttributeEvent, Losses, LossEvent, unreadable
 from codec.static.numbering import Numbering
 from codec.static.quality.whole import Complete
 from codec.static.stages import Arrival, Stage, misplaced
+from codec.static.work import CHUNK_COST, Allowance, field_cost, values_memory
 
 SEMANTICS = ("generic", "color", "normal", "texcoord")
 
@@ -64,14 +64,18 @@ class Declarations:
     vertices: int
     known: tuple[Declared, ...] = ()
 
-    def add(self, packet: packets.Attribute) -> Declarations:
+    def add(self, packet: packets.Attribute, limits: Limits) -> Declarations:
         """With one more.
 
         Raises
         ------
+        LimitError
+            If all together have more numbers than are granted.
         CorruptError, TruncatedError
             If its seams are none of these faces, or those of an attribute that is missing.
         """
+        every = [*(one.declaration for one in self.known), packet.declaration]
+        limits.check("attribute_values", sum(numbers_of(one, len(self.faces)) for one in every))
         one = Declared(packet.index, packet.declaration, self._joins(packet))
         return replace(self, known=(*self.known, one))
 
@@ -99,6 +103,12 @@ class Declarations:
         return self._with_seams[0].joins.corners if self._with_seams else corners_of(self.faces, self.vertices)
 
 
+def numbers_of(declaration: Declaration, faces: int) -> int:
+    """Numbers that an attribute has at most, coded or not (F 5.8)."""
+    rows = 3 * faces if declaration.coding == RECOMPUTED else declaration.rows
+    return rows * max(declaration.words, declaration.components)
+
+
 class Whole(Protocol):
     """What a decoder has put together, before attributes."""
 
@@ -116,7 +126,7 @@ class Shaped(Protocol):
     @property
     def numbering(self) -> Numbering: ...
     @property
-    def limits(self) -> Limits: ...
+    def allowance(self) -> Allowance: ...
 
 
 class Valued:
@@ -140,8 +150,14 @@ class Valued:
 
     def decode(self, packet: packets.Values, relief: Levels | None) -> AttributeEvent:
         """Decode a chunk of its values."""
+        allowance = self._structure.allowance
         if self._coder is None:
-            self._coder = PieceDecoder(self.declaration, self._surface, relief, self._structure.limits)
+            faces, components = len(self._surface.faces), self.declaration.components
+            allowance.grant(self._rows)
+            allowance.keep(values_memory(self._rows, faces, components))
+            allowance.spend(field_cost(self._rows, faces, components))
+            self._coder = PieceDecoder(self.declaration, self._surface, relief, allowance.limits)
+        allowance.spend(CHUNK_COST, len(packet.data))
         coder = self._coder
         if packet.first != coder.coded:
             raise CorruptError(f"attribute {self.declaration.name!r} lacks the values before {packet.first}")

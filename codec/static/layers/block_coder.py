@@ -11,24 +11,37 @@ import numpy as np
 from bitstream.container import packets
 from bitstream.errors import BsmError, CorruptError, NumericError
 from codec.arrays import Matrix
+from codec.basis.cost import Spend, free
 from codec.basis.dynamic_size import DynamicSize
 from codec.signal.chain import Chain
-from codec.signal.predict import extend
+from codec.signal.predict import Surroundings, extend
 from codec.static.assembly import DecodedBlock
-from codec.static.layers.coding import Coding, Ground
+from codec.static.layers.coding import BlockLevels, Coding, Ground
 from codec.static.rules import Scheme
-from codec.static.work import Allowance, block_work
+from codec.static.work import Allowance, block_cost, block_memory, chain_cost, ground_cost
 from codec.threads import ordered_map
 
+FRAME = 5
+"""Bytes of a block's frame besides its levels, at least."""
 Progress = Callable[[int, int], None]
 
 
 @dataclass(frozen=True, eq=False)
 class CodedBlock:
-    """A block as the stream will hold it, and as the decoder will see it."""
+    """A block as the stream will hold it, and as the decoder will see it.
+
+    Parameters
+    ----------
+    packet : packets.Block
+    decoded : DecodedBlock
+    work, memory : float
+        What it will cost the decoder.
+    """
 
     packet: packets.Block
     decoded: DecodedBlock
+    work: float
+    memory: float
 
 
 class ChainEncoder:
@@ -39,26 +52,46 @@ class ChainEncoder:
     scheme : Scheme
     doi : (float, float), optional
         eps_l and eps_h of dynamic orthogonal iterations; None: a block gets as many coefficients as pay.
+    spend : callable, optional
+        Is told of the work of each dictionary before it is done.
     """
 
-    def __init__(self, scheme: Scheme, doi: tuple[float, float] | None = None) -> None:
+    def __init__(self, scheme: Scheme, doi: tuple[float, float] | None = None, spend: Spend = free) -> None:
         self._scheme = scheme
+        self._spend = spend
+        self._told: list[float] = []
         self._sizes = None if doi is None else DynamicSize(*doi, scheme.coding.width)
-        self._chain = Chain(scheme.rules, scheme.blocks.graph)
+        self._chain = Chain(scheme.rules, scheme.blocks.graph, self._tell)
         self._coding = scheme.coding.begin()
+
+    def _tell(self, work: float) -> None:
+        self._told.append(work)
+        self._spend(work)
 
     def encode(self, index: int, positions: Matrix) -> CodedBlock:
         """Encode the chain's next block; `positions`, shape (n, 3), are the whole mesh's, in BSM units."""
         scheme, chain, coding = self._scheme, self._chain, self._coding
         block = scheme.blocks.block(index)
         around = chain.around(block)
+        self._told.clear()
         dictionary = chain.dictionary(around, coding.width)
         ground = Ground(block, extend(around), dictionary)
         levels = coding.choose(ground, positions[block.vertices], self._sizes)
         decoded = coding.positions(ground, levels)
+        work = sum(chain.costs(around, levels.width)[: len(self._told)]) + self._work_of(index, around, levels)
         chain.commit(block, np.ascontiguousarray(dictionary[:, : levels.width]), decoded)
         packet = packets.Block(index, len(levels.coordinates), coding.write(levels))
-        return CodedBlock(packet, DecodedBlock(index, block.vertices, decoded, scheme.weights(index, block)))
+        result = DecodedBlock(index, block.vertices, decoded, scheme.weights(index, block))
+        return CodedBlock(packet, result, work, block_memory(around.laplacian, levels.width))
+
+    def _work_of(self, index: int, around: Surroundings, levels: BlockLevels) -> float:
+        """What all of a block costs a decoder but its dictionary."""
+        blocks, rules = self._scheme.blocks, self._scheme.rules
+        coded = 3 * (len(levels.coordinates) + self._scheme.coding.detail_rows)
+        work = block_cost(around.laplacian.block.size, blocks.edges_of(index), coded)
+        if index % rules.chain_length(blocks.count) == 0:
+            work += chain_cost(blocks.graph.size)
+        return work + ground_cost(around.laplacian, levels.width)
 
 
 class ChainDecoder:
@@ -74,7 +107,10 @@ class ChainDecoder:
 
     @cached_property
     def _chain(self) -> Chain:
-        return Chain(self._scheme.rules, self._scheme.blocks.graph)
+        rules, graph = self._scheme.rules, self._scheme.blocks.graph
+        if (rules.stiffness is not None and not rules.alone) or self._scheme.coding.detail_rows:
+            self._allowance.spend(chain_cost(graph.size))
+        return Chain(rules, graph, self._allowance.spend)
 
     @cached_property
     def _coding(self) -> Coding:
@@ -92,17 +128,21 @@ class ChainDecoder:
         return decoded
 
     def _decode(self, packet: packets.Block) -> DecodedBlock:
-        scheme, chain, coding = self._scheme, self._chain, self._coding
+        scheme, allowance, received = self._scheme, self._allowance, len(packet.data) + FRAME
+        rows, edges = scheme.blocks.size_of(packet.index), scheme.blocks.edges_of(packet.index)
+        allowance.spend(block_cost(rows, edges, 3 * (packet.coefficients + scheme.coding.detail_rows)), received)
+        chain, coding = self._chain, self._coding
         block = scheme.blocks.block(packet.index)
         if not 1 <= packet.coefficients <= block.size:
             raise CorruptError(f"{packet.coefficients} coefficients for a block of {block.size} vertices")
         levels = coding.read(packet.data, packet.coefficients, block.size)
         around = chain.around(block)
-        self._allowance.spend(block_work(around.laplacian, levels.width, chain.solves(block)))
-        dictionary = chain.dictionary(around, levels.width)
-        ground = Ground(block, extend(around), dictionary)
-        decoded = coding.positions(ground, levels)
-        chain.commit(block, dictionary, decoded)
+        with allowance.hold(block_memory(around.laplacian, levels.width)):
+            dictionary = chain.dictionary(around, levels.width)
+            allowance.spend(ground_cost(around.laplacian, levels.width))
+            ground = Ground(block, extend(around), dictionary)
+            decoded = coding.positions(ground, levels)
+            chain.commit(block, dictionary, decoded)
         if not np.isfinite(decoded).all():
             raise NumericError("the coefficients reconstruct to positions that are not finite")
         return DecodedBlock(packet.index, block.vertices, decoded, scheme.weights(packet.index, block))
@@ -115,12 +155,13 @@ def encode_blocks(
     threads: int | None,
     doi: tuple[float, float] | None = None,
     progress: Progress | None = None,
+    spend: Spend = free,
 ) -> list[CodedBlock]:
     """All blocks of a mesh at `positions`, shape (n, 3), in BSM units; chains are encoded side by side.
 
     Parameters
     ----------
-    scheme, doi
+    scheme, doi, spend
         See `ChainEncoder`.
     positions : float64 array, shape (n, 3)
     threads : int, optional
@@ -130,7 +171,7 @@ def encode_blocks(
     """
 
     def encode_chain(indices: range) -> list[CodedBlock]:
-        chain = ChainEncoder(scheme, doi)
+        chain = ChainEncoder(scheme, doi, spend)
         return [chain.encode(index, positions) for index in indices]
 
     coded: list[CodedBlock] = []

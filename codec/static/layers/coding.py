@@ -87,6 +87,10 @@ class Coding(Protocol):
         """Columns of the largest dictionary."""
 
     @property
+    def detail_rows(self) -> int:
+        """Rows of levels of the largest detail layer."""
+
+    @property
     def fields(self) -> dict[str, Any]:
         """What the header has to say of it; the number of coefficients is said when all blocks are coded."""
 
@@ -127,6 +131,10 @@ class Packed:
     bits: int
     step: float
     coarser: int
+
+    @property
+    def detail_rows(self) -> int:
+        return 0
 
     @property
     def fields(self) -> dict[str, Any]:
@@ -170,6 +178,10 @@ class Adaptive:
 
     def __post_init__(self) -> None:
         self.model = CoefficientModel(self.width)
+
+    @property
+    def detail_rows(self) -> int:
+        return 0
 
     @property
     def fields(self) -> dict[str, Any]:
@@ -221,12 +233,16 @@ class Layered:
     normals: Normals = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
-        self.model = CoefficientModel(detail_rows(self.details), detail_experience())
+        self.model = CoefficientModel(self.detail_rows, detail_experience())
         self.normals = Normals(self.surface)
 
     @property
     def width(self) -> int:
         return max(self.base.width, self.details)
+
+    @property
+    def detail_rows(self) -> int:
+        return detail_rows(self.details)
 
     @property
     def fields(self) -> dict[str, Any]:

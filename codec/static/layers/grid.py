@@ -12,7 +12,7 @@ from bitstream.container import packets
 from bitstream.container.header import Header
 from bitstream.container.reader import Signal
 from bitstream.errors import BsmError, CorruptError
-from bitstream.fields.grid import GridDecoder, GridEncoder
+from bitstream.fields.grid import AXES, GridDecoder, GridEncoder
 from bitstream.fields.lattice import spread
 from codec.arrays import Indices, Levels, Positions
 from codec.geometry.mesh import TriangleMesh
@@ -21,6 +21,7 @@ from codec.static.attributes.relief import Solid
 from codec.static.events import BlockEvent, Changes, Losses, LossEvent, unreadable
 from codec.static.preamble import Structure
 from codec.static.stages import Arrival, Stage, misplaced
+from codec.static.work import CHUNK_COST, field_cost, grid_memory
 
 CHUNK = 1 << 15
 """Vertices of a frame: large meshes are seen while they arrive."""
@@ -71,11 +72,13 @@ class GridStage:
     """The faces are known; chunks of positions come."""
 
     def __init__(self, structure: Structure, tolerant: bool) -> None:
-        size = structure.header.vertices
+        size, faces, allowance = structure.header.vertices, len(structure.faces), structure.allowance
+        allowance.keep(grid_memory(size, faces))
+        allowance.spend(field_cost(size, faces, AXES))
         self._structure = structure
         self._tolerant = tolerant
         self._grid = grid_of(structure.header)
-        self._decoder = GridDecoder(structure.faces, size, self._grid.largest)
+        self._decoder = GridDecoder(structure.faces, size, self._grid.largest, structure.allowance.limits)
         self._chunks = 0
         self._broken = False
         self._ended = False
@@ -102,6 +105,7 @@ class GridStage:
     def _decode(self, packet: packets.Grid, queue: deque[Any]) -> None:
         if self._broken:
             return
+        self._structure.allowance.spend(CHUNK_COST, len(packet.data))
         try:
             if packet.first != self._decoder.coded:
                 raise CorruptError(f"positions from number {self._decoder.coded} on are missing; others depend on them")

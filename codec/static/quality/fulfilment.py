@@ -15,7 +15,7 @@ from typing import Generic, TypeVar
 import numpy as np
 
 from bitstream.container.header import Layer
-from bitstream.errors import TargetError
+from bitstream.errors import LimitError, TargetError
 from bitstream.fields.grid import MOST_LARGEST
 from codec.arrays import Levels, Matrix
 from codec.geometry.closeness import Closeness, Original
@@ -151,8 +151,11 @@ class Fulfilment:
         if not self._prepared.mesh.diagonal > 0.0:
             return rounded(self._prepared, 1)  # a point
         found: list[Draft] = []
-        if self._has_low_frequencies():
-            found.extend(draft for draft in self._spectral(progress) if self._keeps(draft))
+        try:
+            if self._has_low_frequencies():
+                found.extend(draft for draft in self._spectral(progress) if self._keeps(draft))
+        except LimitError:
+            pass  # blocks that decoders would refuse: a grid asks for little
         smallest = min((draft.size for draft in found), default=None)
         if smallest is None or self._grid_may_win(smallest):
             found.extend(draft for draft in self._grids() if self._keeps(draft))

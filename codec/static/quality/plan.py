@@ -15,6 +15,7 @@ from codec.signal.detail import Surface, make_surface
 from codec.signal.quantize import packed_range, smallest_step
 from codec.signal.smooth import smoothing_spectrum
 from codec.signal.transform import project
+from codec.static.admission import patience
 from codec.static.layers.coding import Adaptive, Coding, Layered, Packed
 from codec.static.options import EncodeOptions
 from codec.static.preamble import Prepared
@@ -115,11 +116,12 @@ class Planner:
     def _packed(self, bits: int, rules: ChainRules) -> Packed:
         """With the step that makes the most of a fixed number of bits: it takes a pass over all blocks."""
         blocks, positions, size = self._prepared.blocks, self._prepared.positions, self._prepared.size
+        spend = patience(self._options.limits, len(positions))
         width = min(self._options.coefficients or max(1, round((self._options.keep or PAPER_FRACTION) * size)), size)
 
         def largest(indices: range) -> Matrix:
             """Largest coefficient in the first row of any block, and in all others."""
-            chain, found = Chain(rules, blocks.graph), np.zeros(2)
+            chain, found = Chain(rules, blocks.graph, spend), np.zeros(2)
             for index in indices:
                 block = blocks.block(index)
                 dictionary = chain.dictionary(chain.around(block), width)

@@ -8,10 +8,12 @@ from functools import cached_property
 import numpy as np
 
 from bitstream.container.header import Header, Layer
+from bitstream.limits import NAMED_LIMITS
 from codec.arrays import Levels, Matrix
 from codec.geometry.closeness import Original
 from codec.signal.frames import displaced, in_frames, local_frames
 from codec.signal.smooth import smooth
+from codec.static.admission import admit, patience
 from codec.static.assembly import blended
 from codec.static.layers.block_coder import ChainEncoder, Progress, encode_blocks
 from codec.static.layers.refinement import encode_layer
@@ -20,6 +22,7 @@ from codec.static.preamble import Prepared
 from codec.static.quality.draft import Draft
 from codec.static.quality.plan import Planner
 from codec.static.units import single
+from codec.static.work import Allowance
 
 
 @dataclass(frozen=True, eq=False)
@@ -144,10 +147,23 @@ class Spectral:
         step : float
         progress : callable, optional
             Called with the number of blocks done and of all blocks.
+
+        Raises
+        ------
+        LimitError
+            If decoders with the options' limits would refuse these blocks.
         """
         prepared, options = self._prepared, self._options
         scheme = self._planner.scheme(step)
-        blocks = encode_blocks(scheme, prepared.positions, threads=options.threads, doi=options.doi, progress=progress)
+        blocks = encode_blocks(
+            scheme,
+            prepared.positions,
+            threads=options.threads,
+            doi=options.doi,
+            progress=progress,
+            spend=patience(options.limits, prepared.graph.size),
+        )
+        admit(Allowance(NAMED_LIMITS[options.limits]()), prepared, blocks)
         positions = blended(prepared.graph.size, (block.decoded for block in blocks))
         smoothing = options.fixed_smoothing
         header = Header(

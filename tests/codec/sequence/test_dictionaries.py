@@ -5,12 +5,14 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from bitstream.limits import Limits
 from codec.blocks.overlap import Blocks, grow_blocks
 from codec.blocks.partition import derive_partition
 from codec.geometry.graph import graph_of_faces
 from codec.geometry.mesh import TriangleMesh
 from codec.sequence.dictionaries import Part, build_dictionaries, differences
 from codec.sequence.encoder import FIRST_FRAME
+from codec.static.work import Allowance
 from tests.shapes import patch, torus
 
 
@@ -23,7 +25,14 @@ def blocks_of(mesh: TriangleMesh, parts: int) -> Blocks:
 def dictionaries(mesh: TriangleMesh, parts: int, width: int, cotangent: bool = True) -> tuple[Part, ...]:
     blocks = blocks_of(mesh, parts)
     return build_dictionaries(
-        blocks, mesh.faces, mesh.positions, FIRST_FRAME, width=width, cotangent=cotangent, threads=1
+        blocks,
+        mesh.faces,
+        mesh.positions,
+        FIRST_FRAME,
+        width=width,
+        cotangent=cotangent,
+        threads=1,
+        allowance=Allowance(Limits()),
     )
 
 

@@ -205,7 +205,13 @@ def test_bytes_behind_the_end_are_refused():
 
 def test_a_stream_over_the_limits_is_refused():
     data = encode(torus(), EncodeOptions(**SMALL))
-    for limits in (Limits(vertices=959), Limits(faces=1000), Limits(block_size=99), Limits(work=1e3), Limits(blocks=2)):
+    for limits in (
+        Limits(vertices=959),
+        Limits(faces=1000),
+        Limits(block_size=99),
+        Limits(most_work=1e3),
+        Limits(blocks=2),
+    ):
         with pytest.raises(LimitError):
             decode(data, limits)
 

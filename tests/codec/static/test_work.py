@@ -1,15 +1,26 @@
-"""What a decoder spends is bounded, whatever the faces are."""
+"""What a decoder spends is bounded, whatever the faces are, and counted before it is spent."""
+
+from threading import Event, Thread
 
 import numpy as np
 import pytest
 
-from bitstream.errors import LimitError
+from bitstream.errors import LimitError, OptionError
 from bitstream.limits import DEFAULT_LIMITS, Limits
+from codec.basis.cost import careful_dictionary_cost, dictionary_cost, solve_cost
+from codec.basis.laplacian import laplacian_of
+from codec.basis.orthogonal_iteration import cosine_columns, orthogonal_iteration
+from codec.blocks.overlap import grow_blocks
+from codec.blocks.partition import derive_partition
+from codec.geometry.graph import graph_of_faces
 from codec.geometry.mesh import TriangleMesh
-from codec.static.decoder import decode
-from codec.static.encoder import encode
-from codec.static.options import EncodeOptions
-from codec.static.work import Allowance, dictionary_work
+from codec.static.decoder import Decoder, decode
+from codec.static.encoder import Encoder, encode
+from codec.static.options import PRESETS, EncodeOptions
+from codec.static.work import Allowance
+from tools.vectors.meshes import torus
+
+NOTHING_ELSE = {"work_per_vertex": 0.0, "work_per_byte": 0.0}
 
 
 def soup(vertices, faces):
@@ -20,16 +31,60 @@ def soup(vertices, faces):
     return TriangleMesh(random.normal(size=(vertices, 3)), corners).without_isolated_vertices()[0]
 
 
-def test_a_soup_costs_more_than_its_header_says_and_is_refused():
+def block_of(mesh):
+    """The whole of a mesh as one block."""
+    graph = graph_of_faces(mesh.faces, len(mesh.positions))
+    return grow_blocks(graph, derive_partition(graph, 1), graph.size).block(0)
+
+
+@pytest.fixture
+def spent(monkeypatch):
+    """What is spent of the allowance that was begun last."""
+    amounts, latest = [], []
+    real = Allowance.spend
+
+    def spy(self, work, received=0, shown=0):
+        if latest != [self]:
+            latest[:] = [self]
+            amounts.clear()
+        amounts.append(work)
+        real(self, work, received, shown)
+
+    monkeypatch.setattr(Allowance, "spend", spy)
+    return amounts
+
+
+def test_where_everything_is_beside_everything_a_block_costs_more(spent):
     mesh = soup(250, 500)
     size = len(mesh.positions)
     stream = encode(mesh, EncodeOptions(block_size=size, overlap=1.0, coefficients=4, detail=0.0, smoothing=0.0))
+    spent.clear()
     assert len(decode(stream).positions) == size
-    claimed = dictionary_work(1, size, 4, 12)
+    tangled = sum(spent)
     with pytest.raises(LimitError, match="work"):
-        decode(stream, Limits(work=1.01 * claimed))
-    with pytest.raises(LimitError, match="work"):
-        decode(stream, Limits(work=0.99 * claimed))
+        decode(stream, Limits(work=0.99 * tangled, **NOTHING_ELSE))
+    assert len(decode(stream, Limits(work=1.01 * tangled, **NOTHING_ELSE)).positions) == size
+    fronts, plain = (laplacian_of(block_of(each)).fronts for each in (mesh, torus(10, 25)))
+    assert dictionary_cost(fronts, 4, 3, 4) > 2 * dictionary_cost(plain, 4, 3, 4)
+
+
+def test_one_column_costs_as_much_as_the_panel_that_it_is_solved_in():
+    fronts = laplacian_of(block_of(torus(20, 20))).fronts
+    assert solve_cost(fronts, 1) == solve_cost(fronts, 8) < solve_cost(fronts, 9) < solve_cost(fronts, 33)
+
+
+def test_every_solution_counts():
+    fronts = laplacian_of(block_of(torus(20, 20))).fronts
+    once, often = dictionary_cost(fronts, 1, 1, 1), dictionary_cost(fronts, 1, 64, 1024)
+    assert often > 60_000 * solve_cost(fronts, 1) > 5_000 * once
+
+
+def test_columns_that_are_lost_are_paid_for_before_they_are_saved():
+    laplacian, told = laplacian_of(block_of(torus(20, 20))), []
+    start = cosine_columns(400, 0, 200)
+    orthogonal_iteration(laplacian, start, shift=2.0**-30, power=16, iterations=1, spend=told.append)
+    schedule = laplacian.fronts, 200, 16, 1
+    assert told == [dictionary_cost(*schedule), careful_dictionary_cost(*schedule)]
 
 
 def test_an_allowance_is_spent_by_and_by():
@@ -40,5 +95,109 @@ def test_an_allowance_is_spent_by_and_by():
         allowance.spend(1.0)
 
 
-def test_the_default_allows_large_meshes():
-    DEFAULT_LIMITS.check("work", dictionary_work(10_000, 1000, 100, 12))
+def test_vertices_bytes_and_frames_grant_work():
+    allowance = Allowance(Limits(work=10.0, work_per_vertex=3.0, work_per_byte=2.0))
+    allowance.grant(4)
+    allowance.spend(22.0)
+    allowance.spend(20.0, received=7, shown=2)
+    with pytest.raises(LimitError, match="23"):
+        allowance.spend(1.0)
+
+
+def test_whatever_grants_work_there_is_an_end():
+    allowance = Allowance(Limits(work_per_byte=1e9, most_work=10.0))
+    allowance.spend(10.0, received=100)
+    with pytest.raises(LimitError, match="most_work"):
+        allowance.spend(1.0, received=100)
+
+
+def test_memory_is_kept_or_given_back():
+    allowance = Allowance(Limits(memory=100.0, memory_per_vertex=10.0, memory_per_byte=1.0))
+    allowance.grant(5)
+    allowance.keep(60.0, received=10)
+    allowance.afford(100.0)
+    for _ in range(3):
+        with allowance.hold(100.0):
+            pass
+    with pytest.raises(LimitError, match="memory = 161"), allowance.hold(101.0):
+        pass
+    with pytest.raises(LimitError, match="memory = 161"):
+        allowance.afford(101.0)
+    with pytest.raises(LimitError, match="memory = 161"):
+        allowance.keep(101.0)
+
+
+def test_who_finds_no_room_waits_for_it():
+    allowance, inside, order = Allowance(Limits(memory=100.0)), Event(), []
+
+    def other():
+        inside.set()
+        with allowance.hold(60.0):
+            order.append("second")
+
+    with allowance.hold(60.0):
+        thread = Thread(target=other)
+        thread.start()
+        assert inside.wait(10)
+        order.append("first")
+    thread.join(10)
+    assert order == ["first", "second"]
+
+
+@pytest.mark.parametrize("preset", PRESETS)
+def test_every_preset_is_within_the_limits_of_a_service(preset, spent):
+    mesh = torus(60, 50)
+    stream = encode(mesh, PRESETS[preset])
+    spent.clear()
+    assert len(decode(stream, Limits.service()).positions) == 3000
+    assert sum(spent) < 1e4 * 3000
+
+
+@pytest.mark.parametrize(
+    "options", [{"bits": 12}, {"bits": 12, "seed": "independent"}, {"step": 0.002}, {"doi": (1e-4, 1e-2)}]
+)
+def test_an_encoder_does_the_sums_of_the_decoder(options, spent):
+    encoder = Encoder(torus(60, 50), EncodeOptions(block_size=300, key_interval=3, **options))
+    stream = encoder.encode()
+    before = sum(spent)
+    spent.clear()
+    decode(stream)
+    assert sum(spent) <= before * (1 + 1e-9)
+    assert sum(spent) > 0.5 * before
+
+
+def test_an_encoder_makes_nothing_that_decoders_refuse():
+    wide = {"coefficients": 900, "block_size": 4000, "bits": 12, "power": 1, "key_iterations": 1}
+    with pytest.raises(OptionError, match="memory"):
+        encode(torus(64, 64), EncodeOptions(**wide, key_seed="cosines"))
+    exact = {"coefficients": 200, "block_size": 800, "bits": 12, "basis": "svd"}
+    with pytest.raises(OptionError, match="work"):
+        encode(torus(64, 64), EncodeOptions(**exact, limits="service"))
+    with pytest.raises(OptionError, match="refuse"):
+        encode(soup(1500, 6000), EncodeOptions(block_size=1500, coefficients=4))
+
+
+def test_a_promise_is_kept_by_a_grid_where_blocks_would_be_refused():
+    stream = encode(soup(1500, 6000))
+    assert len(decode(stream).faces) > 5000
+
+
+def test_the_default_allows_wide_dictionaries():
+    stream = encode(torus(60, 50), EncodeOptions(bits=12, keep=0.4, block_size=500, key_interval=0))
+    assert len(decode(stream, DEFAULT_LIMITS).positions) == 3000
+
+
+@pytest.mark.parametrize("threads", [1, 3])
+def test_what_is_decoded_waits_in_no_great_number(threads):
+    stream = encode(
+        torus(100, 60), EncodeOptions(bits=12, block_size=60, overlap=8.0, key_interval=1, key_seed="cosines", keep=0.1)
+    )
+    with Decoder(threads=threads) as decoder:
+        decoder.receive_data(stream)
+        decoder.next_event()
+        decoder.next_event()
+        waiting = 0
+        while decoder._queue:
+            waiting = max(waiting, len(decoder._queue))
+            decoder.next_event()
+    assert 1 < waiting <= 1 + (6000 + 65536) // 480

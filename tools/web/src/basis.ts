@@ -1,5 +1,6 @@
 /** Dictionaries of blocks: orthogonal iterations, and solutions (specification, M 7.4, M 8). */
 import type { Block } from "./blocks";
+import type { Allowance } from "./chain";
 import { NumericError } from "./errors";
 import type { Doubles, Memory } from "./kernels";
 
@@ -7,13 +8,12 @@ import type { Doubles, Memory } from "./kernels";
 const ONCE = 1e-5;
 const TWICE = 1e-13;
 /** What makes a basis exact (M 8.5). */
-const EXACT_POWER = 2;
-const EXACT_ITERATIONS = 128;
+export const EXACT_POWER = 2;
+export const EXACT_ITERATIONS = 128;
 const EXACT_SHIFT = 2 ** -5;
 /** The share of hash columns in a start that might lack something, of cosines and of a predecessor's columns (M 8.3). */
 const START_NOISE = 0.25;
 const FOLLOWING_NOISE = 2 ** -8;
-export const EXACT_SOLVES = EXACT_POWER * EXACT_ITERATIONS;
 /** Doubles more than a kernel uses of an array that it begins where a cache line does. */
 const PADDING = 7;
 
@@ -142,6 +142,7 @@ export function orthogonalIteration(
     shift: Float64Array,
     power: number,
     iterations: number,
+    allowance: Allowance,
 ): Matrix {
     const { rows, columns } = start;
     return memory.scratch(() => {
@@ -156,6 +157,7 @@ export function orthogonalIteration(
         );
         if (independence >= TWICE) return { rows, columns, values: subspace.view.slice() };
         // R^power has all but lost the higher columns: orthonormalised after every R they stay (M 8.4).
+        allowance.spendCarefully(block.fronts.entries, rows, columns, iterations * power);
         let current = start;
         for (let k = 0; k < iterations * power; k++) current = solvedOnorm(memory, block, factor, current);
         return current;
@@ -184,10 +186,10 @@ function householder(memory: Memory, columns: Doubles, q: Doubles): void {
 }
 
 /** The exact basis of L + springs (M 8.5). */
-export function exactBasis(memory: Memory, block: Block, springs: Float64Array, width: number): Matrix {
+export function exactBasis(memory: Memory, block: Block, springs: Float64Array, width: number, allowance: Allowance): Matrix {
     const start = firstColumns(memory, block, width, true);
     const shift = springs.map((spring) => spring + EXACT_SHIFT);
-    return orthogonalIteration(memory, block, start, shift, EXACT_POWER, EXACT_ITERATIONS);
+    return orthogonalIteration(memory, block, start, shift, EXACT_POWER, EXACT_ITERATIONS, allowance);
 }
 
 /** Fixed pseudo-random numbers in [-1, 1) (M 8.6). */

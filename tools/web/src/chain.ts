@@ -1,5 +1,5 @@
 /** One chain of blocks: what its blocks know of those before them (specification, M 7 to M 11). */
-import { degreesOf, EXACT_SOLVES, exactBasis, firstColumns, followColumns, orthogonalIteration, reconstruct, solveColumns, type Matrix } from "./basis";
+import { degreesOf, EXACT_ITERATIONS, EXACT_POWER, exactBasis, firstColumns, followColumns, orthogonalIteration, reconstruct, solveColumns, type Matrix } from "./basis";
 import { makeBlock, membersOf, type Block, type Blocks } from "./blocks";
 import { CoefficientModel, unpackLevels } from "./coefficients";
 import { Coder } from "./entropy";
@@ -29,23 +29,29 @@ export interface DecodedBlock {
     weights: Float64Array;
 }
 
-/** Solutions for each column of a block that follows another, or of one that does not. */
-export function solvesOf(header: Header, follows: boolean): number {
-    return isExact(header, follows) ? EXACT_SOLVES : header.power * iterationsOf(header, follows);
+/** Power and iterations of a block that follows another, or of one that does not. */
+function scheduleOf(header: Header, follows: boolean): [number, number] {
+    return isExact(header, follows) ? [EXACT_POWER, EXACT_ITERATIONS] : [header.power, iterationsOf(header, follows)];
 }
 
-/** Take the work of a block with a dictionary of so many columns from what is allowed (M 14.4). */
+/** Take the work and the memory of a dictionary of so many columns from what is allowed (M 14.2 to M 14.4). */
 export function spendOn(allowance: Allowance, header: Header, block: Block, columns: number, follows: boolean): void {
     const { work, entries } = block.fronts;
-    allowance.spend(2 * work + solvesOf(header, follows) * columns * (4 * entries + 8 * block.size * columns));
+    const [power, iterations] = scheduleOf(header, follows);
+    const rows = block.size;
+    const whole = 8 * Math.ceil(columns / 8);
+    allowance.hold(8 * (6 * rows * whole + 2 * whole ** 2));
+    const solution = entries * (0.6 * Math.ceil(columns / 32) + 0.035 * whole);
+    const rounding = rows * (4 + whole ** 2 / 27) + whole ** 3 / 40;
+    allowance.spend(work / 7 + iterations * (power * solution + rounding));
 }
 
 /** U of a block that follows none (M 8.3 to M 8.5). */
-export function keyDictionary(memory: Memory, header: Header, block: Block, springs: Float64Array, width: number): Matrix {
-    if (isExact(header, false)) return exactBasis(memory, block, springs, width);
+export function keyDictionary(memory: Memory, header: Header, block: Block, springs: Float64Array, width: number, allowance: Allowance): Matrix {
+    if (isExact(header, false)) return exactBasis(memory, block, springs, width, allowance);
     const start = firstColumns(memory, block, width, false);
     const shift = springs.map((spring) => spring + header.shift);
-    return orthogonalIteration(memory, block, start, shift, header.power, iterationsOf(header, false));
+    return orthogonalIteration(memory, block, start, shift, header.power, iterationsOf(header, false), allowance);
 }
 
 function isExact(header: Header, follows: boolean): boolean {
@@ -60,15 +66,35 @@ export function chainLength(header: Header): number {
     return header.seeding === 1 ? 1 : header.keyInterval || header.blocks;
 }
 
-/** How much work a decoder may still do. */
+/** How much work a decoder may still do, and how much memory it may take. */
 export class Allowance {
     private spent = 0;
+    private vertices = 0;
 
     constructor(private readonly limits: Limits) {}
 
+    /** Take note of vertices that the stream really has. */
+    grant(vertices: number): void {
+        this.vertices += vertices;
+    }
+
     spend(work: number): void {
         this.spent += work;
-        checkLimit(this.limits, "work", this.spent);
+        this.check("work", this.spent, this.limits.workPerVertex);
+    }
+
+    /** Of the careful way, where columns would be lost to rounding, which is taken when that is seen. */
+    spendCarefully(entries: number, rows: number, columns: number, solutions: number): void {
+        this.spend(solutions * (entries * (0.6 * Math.ceil(columns / 32) + 0.035 * columns) + 0.6 * rows * columns ** 2));
+    }
+
+    /** Take note of memory for a while. */
+    hold(memory: number): void {
+        this.check("blockMemory", memory, this.limits.blockMemoryPerVertex);
+    }
+
+    private check(name: "work" | "blockMemory", value: number, perVertex: number): void {
+        checkLimit({ ...this.limits, [name]: this.limits[name] + perVertex * this.vertices }, name, value);
     }
 }
 
@@ -184,9 +210,9 @@ export class ChainDecoder {
     private dictionary(block: Block, springs: Float64Array, width: number): Matrix {
         const { header, memory } = this;
         const previous = this.predecessor(block);
-        if (header.basis === 1 || !previous) return keyDictionary(memory, header, block, springs, width);
+        if (header.basis === 1 || !previous) return keyDictionary(memory, header, block, springs, width, this.allowance);
         const shift = springs.map((spring) => spring + header.shift);
-        return orthogonalIteration(memory, block, followColumns(memory, block, previous, width), shift, header.power, header.iterations);
+        return orthogonalIteration(memory, block, followColumns(memory, block, previous, width), shift, header.power, header.iterations, this.allowance);
     }
 
     /** Move rows along their normals (M 11.3, M 11.4). */

@@ -1,7 +1,7 @@
 /** A stream to a mesh, block by block, while it arrives. */
 import { Assembly, inMeshUnits, type Changes } from "./assembly";
 import { derivePartition, groupLabels, growBlocks, largestPart, makeGraph, type Blocks, type Graph, type Partition } from "./blocks";
-import { Allowance, chainLength, ChainDecoder, solvesOf, type DecodedBlock, type Surface } from "./chain";
+import { Allowance, chainLength, ChainDecoder, type DecodedBlock, type Surface } from "./chain";
 import { decodeArrangement, decodeConnectivity, decodeLabels } from "./connectivity";
 import { BsmError, CorruptError, UnsupportedError, type Described } from "./errors";
 import { Grid, Refinement } from "./fields";
@@ -18,6 +18,8 @@ const PARTITION_METHOD = 0;
 const ORDER_METHOD = 1;
 const SPLITS_METHOD = 2;
 const MAX_STIFFNESS = 65536;
+/** Vertices that one of a sequence counts for (M 14.3). */
+const SEQUENCE_WEIGHT = 8;
 
 /** The header has arrived. */
 export interface HeaderEvent {
@@ -286,29 +288,20 @@ export class Decoder {
         if (header.gopFrames > 0 && (header.smoothing > 0 || header.details > 0)) {
             throw new UnsupportedError("smoothing and details of sequences are unknown to this decoder");
         }
-        if (header.grid.length === 0) this.checkWork(header);
         if (header.prediction.length > 1 || !header.prediction.every((value) => value > 0 && value < MAX_STIFFNESS)) {
             throw new CorruptError(`the prediction has the parameters ${header.prediction}, one stiffness is legal`);
         }
+        checkLimit(this.limits, "coefficients", header.details);
+        if (header.gopFrames > 0) checkLimit(this.limits, "sequenceBytes", 8 * header.vertices * header.coefficients);
         this.header = header;
         this.queue.push({ type: "header", header });
-    }
-
-    /** M 14.3. */
-    private checkWork(header: Header): void {
-        const { blocks, blockSize } = header;
-        const width = Math.max(header.coefficients, header.details);
-        checkLimit(this.limits, "coefficients", width);
-        const ownParts = header.gopFrames > 0 ? solvesOf(header, false) : 0;
-        const solves = Math.max(solvesOf(header, true), solvesOf(header, false)) + ownParts;
-        if (ownParts > 0) checkLimit(this.limits, "sequenceBytes", 8 * blocks * blockSize * header.coefficients);
-        checkLimit(this.limits, "work", blocks * blockSize * (200 + solves * (40 * width + 8 * width ** 2)));
     }
 
     private acceptConnectivity(method: number, data: Uint8Array): void {
         const { memory, header } = this;
         if (method !== CONNECTIVITY_METHOD) throw new UnsupportedError(`connectivity method ${method} is unknown to this decoder`);
         this.faces = decodeConnectivity(memory, data, header!.vertices, header!.faces, this.limits);
+        this.allowance.grant(header!.vertices * (header!.gopFrames > 0 ? SEQUENCE_WEIGHT : 1));
         if (header!.grid.length > 0) return;
         this.graph = makeGraph(memory, this.faces, header!.vertices);
         if (header!.details > 0) this.surface = makeSurface(memory, this.faces, header!.vertices);

@@ -15,8 +15,12 @@ export interface Limits {
     sequenceBytes: number;
     /** Bytes of the frames that a geometry keeps to show them again. */
     keptBytes: number;
-    /** Floating point operations of the dictionaries, by the estimate of the specification. */
+    /** Nanoseconds of a processor core for dictionaries, by the estimates of the specification (M 14.3), and how many more for each vertex. */
     work: number;
+    workPerVertex: number;
+    /** Bytes for the dictionary of a block while it is made (M 14.2), and how many more for each vertex. */
+    blockMemory: number;
+    blockMemoryPerVertex: number;
     /** Bytes that the decoder's own memory may grow to. */
     memory: number;
 }
@@ -33,7 +37,10 @@ export const DEFAULT_LIMITS: Readonly<Limits> = {
     metadataBytes: 2 ** 23,
     sequenceBytes: 2 ** 31,
     keptBytes: 2 ** 30,
-    work: 5e13,
+    work: 8e8,
+    workPerVertex: 3.2e4,
+    blockMemory: 2 ** 26,
+    blockMemoryPerVertex: 2 ** 10,
     memory: 2 ** 31,
 };
 

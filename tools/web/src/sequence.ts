@@ -166,7 +166,7 @@ export class Sequence {
         spendOn(allowance, header, block, columns, false);
         const factor = factorize(memory, block, springs.map((spring) => spring + TETHER));
         const total = springs.reduce((sum, spring) => sum + spring, 0);
-        const basis = keyDictionary(memory, header, block, springs, columns);
+        const basis = keyDictionary(memory, header, block, springs, columns, allowance);
         return { block, springs, total, starts, outer, stiffness, factor, basis };
     }
 

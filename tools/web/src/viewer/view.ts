@@ -157,7 +157,10 @@ export class View {
                 if (event.type === "end") this.end();
             },
             onError: (error) => this.fail(`This stream cannot be decoded further. ${error.name}: ${error.message}`),
-            onTaken: (bytes) => bytes === this.fed && this.show(),
+            onTaken: (bytes) => {
+                this.root.dataset.taken = String(bytes);
+                if (bytes === this.fed) this.show();
+            },
         }, {}, { tolerant: true });
     }
 
@@ -288,7 +291,8 @@ export class View {
         const most = header.refinements.length / 2;
         const quality = most > 0 ? `, ${layers} of ${most} quality layers` : "";
         const frames = header.gopFrames > 0 ? `, ${header.frames || "any number of"} frames` : "";
-        return `${parts}${quality}, ${counted(header.vertices)} vertices${frames}`;
+        const attributes = header.attributes > 0 ? `, ${header.attributes} attributes, which are not shown` : "";
+        return `${parts}${quality}, ${counted(header.vertices)} vertices${frames}${attributes}`;
     }
 
     private rivalText(): string {

@@ -1,0 +1,74 @@
+"""What dictionaries cost, in nanoseconds of a processor core and in bytes, before anything is done for them.
+
+The numbers are those of one machine, an x86-64 server with AVX-512; `python -m tools.charges` says how true they are of
+another. What they are for is to refuse what would take much longer than it is worth, so that a factor of two is close
+enough; what counts is that nothing is left out.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TypeAlias
+
+import numpy as np
+
+from codec.basis.solver.fronts import Fronts
+
+Spend: TypeAlias = Callable[[float], None]
+"""Is told of work before it is done, and may refuse it by raising `LimitError`."""
+
+
+def free(work: float) -> None:
+    """Who makes a stream need not ask."""
+
+
+def factor_cost(fronts: Fronts) -> float:
+    """Of one factorisation."""
+    own, width = _sizes(fronts)
+    return float((own * width * width).sum()) / 14.0 + 40.0 * len(fronts.rows) + 4000.0
+
+
+def solve_cost(fronts: Fronts, columns: int) -> float:
+    """Of one solution for so many columns, which are solved in panels of 32, a panel in vectors of eight."""
+    own, width = _sizes(fronts)
+    return 50.0 + float((own * width).sum()) * (0.6 * -(-columns // 32) + 0.035 * _whole(columns))
+
+
+def onorm_cost(rows: int, columns: int) -> float:
+    """Of one orthonormalisation."""
+    whole = _whole(columns)
+    return rows * (4.0 + whole * whole / 27.0) + whole**3 / 40.0 + 1500.0
+
+
+def careful_cost(rows: int, columns: int) -> float:
+    """Of one by reflections."""
+    return 0.6 * rows * columns * columns + 4000.0
+
+
+def dictionary_cost(fronts: Fronts, columns: int, power: int, iterations: int) -> float:
+    """Of a dictionary whose columns power and iterations do not lose."""
+    rounding = onorm_cost(len(fronts.rows), columns)
+    return iterations * (power * solve_cost(fronts, columns) + rounding)
+
+
+def careful_dictionary_cost(fronts: Fronts, columns: int, power: int, iterations: int) -> float:
+    """Of one that would lose them, so that they are made orthonormal after every solution."""
+    rows = len(fronts.rows)
+    rounding = onorm_cost(rows, columns) + careful_cost(rows, columns)
+    return iterations * power * (solve_cost(fronts, columns) + rounding)
+
+
+def iteration_memory(fronts: Fronts, columns: int) -> int:
+    """Bytes for finding a dictionary, at most, that itself included."""
+    rows, whole = len(fronts.rows), _whole(columns)
+    return 8 * (6 * rows * whole + 2 * whole * whole + int(fronts.places[-1])) + 500 * rows
+
+
+def _sizes(fronts: Fronts) -> tuple[np.ndarray[tuple[int], np.dtype[np.float64]], ...]:
+    """Steps of each front, and the width of its matrix."""
+    own = np.diff(fronts.firsts.astype(np.float64))
+    return own, own + np.diff(fronts.starts.astype(np.float64))
+
+
+def _whole(columns: int) -> int:
+    return -(-columns // 8) * 8

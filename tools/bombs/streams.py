@@ -1,0 +1,409 @@
+"""The bombs: sound in every checksum, and as expensive as the format lets a few bytes be."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from functools import cache
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from bitstream.coefficients.matrices import encode_levels, make_level_bank
+from bitstream.coefficients.packed import pack_coefficients
+from bitstream.connectivity.conquest import NO_ROOM, TURN_BYTES, conquer, enlarge_conquest, make_conquest, make_guide
+from bitstream.connectivity.faces import EncodedConnectivity, _number_by_appearance, encode_connectivity
+from bitstream.connectivity.halfedges import close_surface
+from bitstream.connectivity.order import encode_arrangement
+from bitstream.connectivity.partition import encode_labels
+from bitstream.connectivity.seams import code_seams
+from bitstream.connectivity.valence_model import RARE_HEADER, code_rare, make_models
+from bitstream.container.gop import GopBody, GopMethod, write_gop_body
+from bitstream.container.header import HEADER_DEFAULTS, HEADER_FIELDS
+from bitstream.container.maps import write_map
+from bitstream.container.splits import Splits, encode_splits
+from bitstream.container.wire import FrameType, write_varint
+from bitstream.entropy.range_coder import finish_writing, make_room, start_writing
+from bitstream.fields.grid import GridEncoder
+from bitstream.fields.levels import LevelsEncoder
+from codec.blocks.overlap import grow_blocks
+from codec.blocks.partition import derive_partition, partition_of_labels
+from codec.geometry.graph import graph_of_faces
+from codec.sequence.gop import level_references
+from tools.surgery import Frames, stream_of
+from tools.vectors.meshes import torus
+
+Faces = npt.NDArray[np.int32]
+
+
+@dataclass(frozen=True)
+class Bomb:
+    """A stream, and what it is that costs.
+
+    Parameters
+    ----------
+    costs : str
+    make : callable
+        Gives the stream.
+    """
+
+    costs: str
+    make: Callable[[], bytes]
+
+
+# What streams are made of.
+
+
+@cache
+def _coded(name: str, *arguments: int) -> EncodedConnectivity:
+    """The connectivity of one of `SHAPES`."""
+    if name == "glued":
+        return _glued(*arguments)
+    faces = SHAPES[name](*arguments)
+    return encode_connectivity(faces, int(faces.max()) + 1)
+
+
+def _glued(rows: int, columns: int) -> EncodedConnectivity:
+    """A torus whose vertices are three, again and again: coded by hand, as no encoder would."""
+    surface = close_surface(_torus(rows, columns), rows * columns)
+    size, faces = rows * columns, 2 * rows * columns
+    coder, models = start_writing(1 << 20), make_models(3)
+    for count in (0, 0, size - 3, 0):
+        code_rare(coder, models, RARE_HEADER, count)
+    guide, conquest = make_guide(surface, faces), make_conquest(faces, size, 0)
+    while conquer(coder, models, guide, conquest) == NO_ROOM:
+        coder, conquest = make_room(coder, TURN_BYTES + len(coder.data)), enlarge_conquest(conquest)
+    coder = make_room(coder, 32 * size)
+    place = surface.vertex[guide.fans]
+    colours = ((place // columns + place % columns) % 3).astype(np.int32)
+    _, number = _number_by_appearance(colours, 3)
+    vertices = number[colours]
+    code_seams(coder, conquest.faces, vertices)
+    return EncodedConnectivity(
+        finish_writing(coder), np.arange(3, dtype=np.int32), np.arange(faces), vertices[conquest.faces]
+    )
+
+
+def _torus(rows: int, columns: int) -> Faces:
+    return torus(rows, columns).faces
+
+
+def _wheels(hubs: int, rim: int) -> Faces:
+    """As many hubs as come in pairs, each beside all vertices of one rim."""
+    around = np.arange(rim, dtype=np.int32)
+    after = (around + 1) % rim
+    fans = [
+        np.stack([np.full(rim, rim + hub), *((around, after) if hub % 2 else (after, around))], 1)
+        for hub in range(hubs)
+    ]
+    return np.concatenate(fans).astype(np.int32)
+
+
+def _soup(vertices: int, faces: int) -> Faces:
+    """Triangles between any vertices: nothing separates a part of them from the rest."""
+    random = np.random.default_rng(5)
+    found = random.integers(0, vertices, (faces, 3))
+    found[: vertices // 3, :] = np.arange(vertices // 3 * 3).reshape(-1, 3)
+    proper = (found[:, 0] != found[:, 1]) & (found[:, 1] != found[:, 2]) & (found[:, 2] != found[:, 0])
+    return found[proper].astype(np.int32)
+
+
+def _repeated(times: int) -> Faces:
+    """One tetrahedron, many times over."""
+    return np.tile(np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]], np.int32), (times, 1))
+
+
+def _pieces(count: int) -> Faces:
+    """Triangles that have nothing to do with each other."""
+    return np.arange(3 * count, dtype=np.int32).reshape(-1, 3)
+
+
+SHAPES: dict[str, Callable[..., Faces]] = {
+    "torus": _torus,
+    "wheels": _wheels,
+    "soup": _soup,
+    "repeated": _repeated,
+    "pieces": _pieces,
+}
+
+
+def _header(coded: EncodedConnectivity, **fields: Any) -> tuple[int, bytes]:
+    """A header frame of any fields, checked by nobody."""
+    values = {"vertices": len(coded.vertex_order), "faces": len(coded.faces)} | fields
+    entries = [
+        (HEADER_FIELDS[name].key, HEADER_FIELDS[name].normalise(value))
+        for name, value in values.items()
+        if name not in HEADER_DEFAULTS or HEADER_DEFAULTS[name] != value
+    ]
+    return FrameType.HEADER, write_map(sorted(entries))
+
+
+def _faces(coded: EncodedConnectivity) -> tuple[int, bytes]:
+    return FrameType.CONNECTIVITY, b"\x01" + coded.payload
+
+
+def _blocks(count: int, columns: int) -> Iterator[tuple[int, bytes]]:
+    """Packed blocks of one bit a coefficient, all zero."""
+    zeros = pack_coefficients(np.ones(3 * columns, np.int64), 1)
+    for index in range(count):
+        yield FrameType.BLOCK, write_varint(index) + write_varint(columns) + zeros
+
+
+PACKED = {"coding": 0, "bits": 1}
+
+
+def _blocky(
+    shape: tuple[Any, ...], *before: tuple[int, bytes], sent: int | None = None, columns: int = 1, **fields: Any
+) -> bytes:
+    """Blocks, the first of them at least, all alike."""
+    coded, count = _coded(*shape), fields["blocks"]
+    fields = PACKED | {"coefficients": columns} | fields
+    count = count if sent is None else sent
+    return stream_of([_header(coded, **fields), _faces(coded), *before, *_blocks(count, columns)])
+
+
+def _scattered(shape: tuple[Any, ...], parts: int) -> tuple[int, bytes]:
+    """Labels by which every part is all over the mesh."""
+    coded = _coded(*shape)
+    graph = graph_of_faces(coded.faces, len(coded.vertex_order))
+    labels = partition_of_labels(np.arange(graph.size, dtype=np.int32) % parts).labels
+    return FrameType.PARTITION, b"\0" + encode_labels(graph.offsets, graph.neighbours, labels, parts)
+
+
+def _tiny_blocks(shape: tuple[Any, ...], size: int, **fields: Any) -> bytes:
+    """As many blocks as there may be."""
+    vertices = len(_coded(*shape).vertex_order)
+    blocks = min(vertices, (16 * vertices + 65536) // size, 1 << 17)
+    return _blocky(shape, blocks=blocks, block_size=size, **fields)
+
+
+def _grid(rows: int, columns: int, chunk: int) -> bytes:
+    coded = _coded("torus", rows, columns)
+    size = len(coded.vertex_order)
+    encoder = GridEncoder(coded.faces, np.zeros((size, 3), np.int32), (1, 1, 1))
+    frames: Frames = [_header(coded, grid=(1, 1, 1)), _faces(coded)]
+    for first in range(0, size, chunk):
+        count = min(chunk, size - first)
+        frames.append((FrameType.GRID, write_varint(first) + write_varint(count) + encoder.chunk(count)))
+    return stream_of(frames)
+
+
+def _layers(rows: int, columns: int, chunk: int) -> bytes:
+    coded = _coded("torus", rows, columns)
+    size = len(coded.vertex_order)
+    blocks = -(-size // 4000)
+    frames: Frames = [
+        _header(
+            coded,
+            **PACKED,
+            blocks=blocks,
+            block_size=min(size, 8000),
+            coefficients=1,
+            power=1,
+            refinements=(1.0, 1.0) * 4,
+        ),
+        _faces(coded),
+        *_blocks(blocks, 1),
+    ]
+    for layer in range(4):
+        encoder = LevelsEncoder(coded.faces, np.zeros((size, 3), np.int32))
+        for first in range(0, size, chunk):
+            count = min(chunk, size - first)
+            place = write_varint(layer) + write_varint(first) + write_varint(count)
+            frames.append((FrameType.REFINEMENT, place + encoder.chunk(count)))
+    return stream_of(frames)
+
+
+def _copies(rows: int, columns: int) -> bytes:
+    """As many copies of one vertex as there may be, in as many blocks."""
+    coded = _coded("torus", rows, columns)
+    size, faces = len(coded.vertex_order), coded.faces
+    arrangement = encode_arrangement(
+        faces, EncodedConnectivity(coded.payload, np.arange(size, dtype=np.int32), np.arange(len(faces)), faces)
+    )
+    copies = 3 * len(faces) - size
+    source = np.concatenate([np.arange(size), np.zeros(copies, np.int64)]).astype(np.int32)
+    splits = encode_splits(Splits(source, faces, np.zeros((0, 3))))
+    order = (FrameType.ORDER, b"\x02" + write_varint(len(arrangement)) + arrangement + splits)
+    blocks = size // 4
+    return _blocky(("torus", rows, columns), order, blocks=blocks, block_size=min(size, 64), power=1)
+
+
+def _sequence(rows: int, columns: int, gops: list[GopBody], *, width: int, **fields: Any) -> bytes:
+    coded = _coded("torus", rows, columns)
+    size = len(coded.vertex_order)
+    blocks = max(1, size // 400)
+    parts = min(size, 440)
+    values = {
+        **PACKED,
+        "blocks": blocks,
+        "block_size": parts,
+        "coefficients": min(width, parts),
+        "gop_frames": 1024,
+        **fields,
+    }
+    frames: Frames = [_header(coded, **values), _faces(coded), *_blocks(blocks, 1)]
+    first = 0
+    for gop in gops:
+        frames.append((FrameType.GOP, write_varint(first) + write_gop_body(gop)))
+        first += gop.frames
+    return stream_of(frames)
+
+
+def _still(rows: int, columns: int, width: int, components: int) -> bytes:
+    """Levels of a GOP in which nothing happens."""
+    coded = _coded("torus", rows, columns)
+    graph = graph_of_faces(coded.faces, len(coded.vertex_order))
+    partition = derive_partition(graph, max(1, graph.size // 400))
+    cores = grow_blocks(graph, partition, 1).cores
+    levels = [np.zeros((min(width, int(core)), components), np.int32) for core in cores]
+    return encode_levels(make_level_bank(), levels, level_references(levels, components))
+
+
+def _cosine_gop(frames: int, components: int, levels: bytes = b"") -> GopBody:
+    return GopBody(GopMethod.COSINES, frames, 1.0, components, np.empty(0, np.int32), b"", levels)
+
+
+def _key_gops(count: int, levels: bytes) -> list[GopBody]:
+    return [GopBody(GopMethod.KEY_FRAME, 1, 1.0, 3, np.empty(0, np.int32), b"", levels)] * count
+
+
+def _metadata(entries: int) -> bytes:
+    coded = _coded("torus", 12, 12)
+    payload = write_map([(f"{number:04}", number) for number in range(entries)])
+    blocks = {**PACKED, "blocks": 1, "block_size": 144, "coefficients": 1}
+    frames: Frames = [_header(coded, **blocks), (FrameType.METADATA, payload), _faces(coded)]
+    skippable: Frames = [(8, b"")] * 100_000
+    return stream_of([*frames, *skippable, *_blocks(1, 1)])
+
+
+def one_block(rows: int, columns: int, width: int, **fields: Any) -> bytes:
+    return _blocky(("torus", rows, columns), columns=width, blocks=1, block_size=rows * columns, **fields)
+
+
+BOMBS: dict[str, Bomb] = {
+    "members": Bomb("blocks that overlap as much as they may", lambda: _tiny_blocks(("torus", 256, 256), 4096, sent=0)),
+    "members-all": Bomb(
+        "the same, and all of them sent", lambda: _tiny_blocks(("torus", 128, 128), 4096, power=1, key_iterations=1)
+    ),
+    "members-illegal": Bomb(
+        "65,536 blocks of 4,096", lambda: _blocky(("torus", 256, 256), sent=0, blocks=65536, block_size=4096)
+    ),
+    "narrow": Bomb(
+        "one column, power 64, 1,024 iterations", lambda: one_block(91, 90, 1, power=64, key_iterations=1024)
+    ),
+    "narrow-small": Bomb(
+        "the same in tiny blocks",
+        lambda: _blocky(("torus", 36, 36), blocks=100, block_size=14, power=64, iterations=1024, key_iterations=1024),
+    ),
+    "wide": Bomb("as many columns as rows", lambda: one_block(64, 64, 4096, power=1)),
+    "wide-exact": Bomb("the same, exact", lambda: one_block(64, 64, 4096, basis=1)),
+    "wide-1024": Bomb("1,024 columns, two iterations", lambda: one_block(64, 64, 1024, power=1, key_iterations=2)),
+    "svd-keys": Bomb(
+        "exact chains of one block each",
+        lambda: _blocky(("torus", 100, 100), columns=100, blocks=50, block_size=250, key_seed=1, key_interval=1),
+    ),
+    "careful": Bomb(
+        "columns that one solution loses", lambda: one_block(40, 40, 400, power=64, shift=2.0**-30, key_iterations=16)
+    ),
+    "careful-pieces": Bomb(
+        "the same in pieces",
+        lambda: _blocky(
+            ("pieces", 500), columns=700, blocks=1, block_size=1500, power=64, shift=2.0**-30, key_iterations=16
+        ),
+    ),
+    "chains": Bomb(
+        "chains of two blocks",
+        lambda: _tiny_blocks(("torus", 256, 256), 8, key_interval=2, prediction=(1.0,), power=1, key_iterations=1),
+    ),
+    "chains-large": Bomb(
+        "the same of a large mesh, each on its own",
+        lambda: _blocky(
+            ("torus", 1024, 1024),
+            sent=4000,
+            blocks=131072,
+            block_size=64,
+            key_interval=2,
+            prediction=(1.0,),
+            power=1,
+            key_iterations=1,
+        ),
+    ),
+    "tiny": Bomb("blocks of one vertex", lambda: _tiny_blocks(("torus", 64, 64), 4, power=1, key_iterations=1)),
+    "scattered": Bomb(
+        "parts that are all over the mesh",
+        lambda: _blocky(
+            ("torus", 256, 256),
+            _scattered(("torus", 256, 256), 4096),
+            blocks=4096,
+            block_size=256,
+            key_interval=2,
+            prediction=(1.0,),
+            power=1,
+        ),
+    ),
+    "expander": Bomb(
+        "one block without separators", lambda: _blocky(("soup", 3000, 9000), blocks=1, block_size=3000, columns=100)
+    ),
+    "expander-blocks": Bomb(
+        "many blocks without separators", lambda: _blocky(("soup", 6000, 18000), blocks=60, block_size=1600, columns=8)
+    ),
+    "hubs": Bomb(
+        "hubs that every block grows over",
+        lambda: _blocky(("wheels", 200, 8000), blocks=32, block_size=4096, power=1, key_iterations=1),
+    ),
+    "hubs-small": Bomb(
+        "the same with small blocks",
+        lambda: _blocky(("wheels", 60, 2000), blocks=16, block_size=2060, power=1, key_iterations=1),
+    ),
+    "rings": Bomb(
+        "smoothing where everything is near everything",
+        lambda: _blocky(("wheels", 2, 20000), blocks=1600, block_size=200, smoothing=1.0, power=1, key_iterations=1),
+    ),
+    "rings-torus": Bomb(
+        "smoothing of small blocks",
+        lambda: _tiny_blocks(("torus", 100, 100), 16, smoothing=1.0, power=1, key_iterations=1),
+    ),
+    "faces": Bomb("a million faces of four vertices", lambda: _blocky(("repeated", 250_000), blocks=1, block_size=4)),
+    "glued": Bomb("two million faces of three vertices", lambda: _blocky(("glued", 999, 999), blocks=1, block_size=3)),
+    "pieces": Bomb("triangles apart", lambda: _blocky(("pieces", 100_000), blocks=2000, block_size=160, smoothing=1.0)),
+    "mesh": Bomb(
+        "a million vertices and no block", lambda: _blocky(("torus", 1024, 1024), sent=0, blocks=160, block_size=8192)
+    ),
+    "mesh-blocks": Bomb(
+        "a million vertices in large blocks",
+        lambda: _blocky(("torus", 1024, 1024), blocks=160, block_size=8192, power=2, columns=8),
+    ),
+    "copies": Bomb("copies of one vertex in every block", lambda: _copies(64, 64)),
+    "grid": Bomb("a grid of a million vertices", lambda: _grid(1024, 1024, 1 << 15)),
+    "grid-chunks": Bomb("a grid, vertex by vertex", lambda: _grid(100, 100, 1)),
+    "layers": Bomb("four layers of three axes", lambda: _layers(512, 512, 1 << 15)),
+    "layers-chunks": Bomb("the same, vertex by vertex", lambda: _layers(50, 50, 1)),
+    "metadata": Bomb("256 names and 100,000 frames to skip", lambda: _metadata(256)),
+    "sequence": Bomb("dictionaries of all columns", lambda: _sequence(200, 200, [_cosine_gop(1, 0)], width=440)),
+    "sequence-large": Bomb(
+        "the same of many vertices",
+        lambda: _sequence(600, 600, [_cosine_gop(1, 0)], width=440, power=1, key_iterations=1),
+    ),
+    "sequence-power": Bomb(
+        "the same by iterations without end",
+        lambda: _sequence(40, 40, [_cosine_gop(1, 0)], width=8, power=64, key_iterations=1024),
+    ),
+    "gop-wide": Bomb(
+        "a GOP of 1,024 frames and 3,072 components",
+        lambda: _sequence(20, 20, [_cosine_gop(1024, 3072, _still(20, 20, 50, 3072))], width=50),
+    ),
+    "gop-still": Bomb(
+        "1,024 frames of nothing, again and again",
+        lambda: _sequence(100, 100, [_cosine_gop(1024, 0, _still(100, 100, 10, 0))] * 20, width=10),
+    ),
+    "gop-300": Bomb(
+        "1,024 frames of 300 components",
+        lambda: _sequence(50, 50, [_cosine_gop(1024, 300, _still(50, 50, 400, 300))] * 2, width=400),
+    ),
+    "gop-keys": Bomb(
+        "frames of nothing, one by one", lambda: _sequence(100, 100, _key_gops(1000, _still(100, 100, 10, 3)), width=10)
+    ),
+}
+"""What each is called."""
