@@ -368,7 +368,7 @@ class Connected:
 
     def _declared(self, packet: packets.Attribute, queue: deque[Any]) -> Stage[Any]:
         try:
-            return replace(self, declarations=self.declarations.add(packet, self.body.limits))
+            return replace(self, declarations=self.declarations.add(packet, self.body.allowance.limits))
         except BsmError as error:
             if not self.body.tolerant:
                 raise

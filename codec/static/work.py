@@ -103,7 +103,7 @@ def layer_memory(vertices: int, faces: int, axes: int) -> float:
 def values_memory(values: int, faces: int, components: int) -> float:
     """Bytes for decoding an attribute, and its values twice."""
     pieces = 2 * components  # of large numbers
-    return 16.0 * components * values + values_charge(values, faces, pieces)
+    return 16.0 * components * values + values_charge(values, faces, pieces, "normal")
 
 
 def part_memory(fronts: Fronts, columns: int) -> float:
