@@ -17,11 +17,13 @@ from bsm.evaluation.sample import knot
 from bsm.files.mesh import write_mesh
 from codec.denoise.noise.gaussian import gaussian_along_normals
 from codec.geometry.mesh import TriangleMesh
+from tests.bsm.test_libraries import painted
+from tests.plugins import declare_entry_points
 
 ROOT = Path(__file__).parents[1]
-DOCUMENTS = ("README.md", "CONTRIBUTING.md", "spec/README.md")
+DOCUMENTS = ("README.md", "CONTRIBUTING.md", "spec/README.md", "bsm/SERVICE.md")
 PROGRAMS = r"(?:bsm|python3?|pytest|ruff|\.ci/run|\.venv|eval|cat)"
-BY_CI = r"\.ci/run|\.venv/bin/|^pytest|^ruff|^bsm --help$|tools\.fuzz"
+BY_CI = r"\.ci/run|\.venv/bin/|^pytest|^ruff|^bsm --help$|tools\.fuzz|tools\.proof|tools\.bombs"
 """What .ci/run itself does, or is."""
 NEEDS_FOLDER = r"MESHES|SEQUENCES|FOLDER|MESH\.\.\.|bsm bench"
 HELP_ONLY = r"s3://|bsm view|tools\.vectors|tools\.train_coefficients"
@@ -68,6 +70,8 @@ def folder(request, tmp_path_factory):
     else:
         mesh = knot(1200)
     folder = tmp_path_factory.mktemp(request.param)
+    declare_entry_points(folder / "site")
+    write_mesh(folder / "spot.obj", painted(mesh))
     for name in ("bunny.ply", "a.ply", "b.obj", "c.stl"):
         write_mesh(folder / name, mesh)
     noisy = gaussian_along_normals(mesh.positions, mesh.faces, 0.2, 0)
@@ -83,7 +87,7 @@ def folder(request, tmp_path_factory):
     for name, line in programs.items():
         (folder / "bin" / name).write_text(f"#!/bin/sh\n{line}\n")
         (folder / "bin" / name).chmod(0o755)
-    assert run(folder, "bsm encode -q bunny.ply").returncode == 0
+    assert run(folder, "bsm encode -q bunny.ply spot.obj").returncode == 0
     return folder
 
 
@@ -96,7 +100,7 @@ def _small_real_mesh(meshes):
 
 def run(folder, script, timeout=300):
     """Run a script in the folder, as somebody would who works there with this checkout."""
-    environment = {**os.environ, "PATH": f"{folder}/bin:{os.environ['PATH']}", "PYTHONPATH": str(ROOT)}
+    environment = {**os.environ, "PATH": f"{folder}/bin:{os.environ['PATH']}", "PYTHONPATH": f"{folder}/site:{ROOT}"}
     return subprocess.run(
         ["bash", "-c", f"set -eo pipefail\n{script}"],
         cwd=folder,
@@ -125,6 +129,8 @@ def test_blocks(name, block, folder):
     if re.search(BY_CI, block):
         assert block.strip() in _run_by_ci()
     elif is_python(block):
+        for library in re.findall(r"import (trimesh|pyvista)\b", block):
+            pytest.importorskip(library)
         (folder / "snippet.py").write_text(SETTING + block)
         passed(run(folder, "python snippet.py"))
     elif not re.match(PROGRAMS, block):

@@ -25,13 +25,13 @@ def free(work: float) -> None:
 def factor_cost(fronts: Fronts) -> float:
     """Of one factorisation."""
     own, width = _sizes(fronts)
-    return float((own * width * width).sum()) / 14.0 + 40.0 * len(fronts.rows) + 4000.0
+    return float((own * width) @ width) / 14.0 + 40.0 * len(fronts.rows) + 4000.0
 
 
 def solve_cost(fronts: Fronts, columns: int) -> float:
     """Of one solution for so many columns, which are solved in panels of 32, a panel in vectors of eight."""
     own, width = _sizes(fronts)
-    return 50.0 + float((own * width).sum()) * (0.6 * -(-columns // 32) + 0.035 * _whole(columns))
+    return 50.0 + float(own @ width) * (0.6 * -(-columns // 32) + 0.035 * _whole(columns))
 
 
 def onorm_cost(rows: int, columns: int) -> float:
@@ -66,8 +66,8 @@ def iteration_memory(fronts: Fronts, columns: int) -> int:
 
 def _sizes(fronts: Fronts) -> tuple[np.ndarray[tuple[int], np.dtype[np.float64]], ...]:
     """Steps of each front, and the width of its matrix."""
-    own = np.diff(fronts.firsts.astype(np.float64))
-    return own, own + np.diff(fronts.starts.astype(np.float64))
+    own = np.subtract(fronts.firsts[1:], fronts.firsts[:-1], dtype=np.float64)
+    return own, own + np.subtract(fronts.starts[1:], fronts.starts[:-1], dtype=np.float64)
 
 
 def _whole(columns: int) -> int:

@@ -83,8 +83,13 @@ class Blocks:
 
     def edges_of(self, index: int) -> int:
         """Edges that the vertices of one block have in the mesh, which its making looks at."""
-        members, offsets = self.members_of(index), self.graph.offsets
-        return int((offsets[members + 1] - offsets[members]).sum())
+        return int(self._edges[index + 1] - self._edges[index])
+
+    @cached_property
+    def _edges(self) -> Order:
+        """Edges of all blocks before each, and of all of them, as `edges_of` counts them."""
+        edges = np.diff(self.graph.offsets)[self.members]
+        return np.concatenate([[0], np.cumsum(edges, dtype=np.int64)])[self.starts]
 
     def block(self, index: int) -> Block:
         """Order the rows of one block."""

@@ -169,7 +169,7 @@ class Encoder:
         if options.grid_cell is not None:
             return rounded_to_cells(self._prepared, options.grid_cell, options.grid_origin or (0.0, 0.0, 0.0))
         if options.promise is not None:
-            return Fulfilment(self._prepared, options, options.promise).draft(progress)
+            return Fulfilment(self._prepared, options, options.promise, progress).draft()
         with as_of_decoders(options.limits):
             return self._spectral.base(options.first_step, progress).draft
 
@@ -199,8 +199,8 @@ class Encoder:
                 refused.append(error)
         if target.kind == "max_error_relative":
             try:
-                ways = Fulfilment(self._prepared, self.options, Contract(min(target.value, 1.0)))
-                found.append(self._judged(ways.draft(progress)))
+                ways = Fulfilment(self._prepared, self.options, Contract(min(target.value, 1.0)), progress)
+                found.append(self._judged(ways.draft()))
             except TargetError as error:
                 refused.append(error)
         if not found:

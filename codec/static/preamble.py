@@ -176,9 +176,13 @@ class Parts:
     overlap: float
     metis: bool = False
 
+    def count(self, vertices: int) -> int:
+        """How many parts a mesh of so many vertices has."""
+        return max(1, round(vertices / self.size))
+
     def cut(self, graph: Graph) -> Partition:
         """The partition of a graph."""
-        parts = max(1, round(graph.size / self.size))
+        parts = self.count(graph.size)
         return metis_partition(graph, parts) if self.metis else derive_partition(graph, parts)
 
     def labels(self, graph: Graph, partition: Partition) -> tuple[packets.Partition, ...]:

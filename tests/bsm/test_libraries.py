@@ -5,8 +5,6 @@ import os
 import re
 import subprocess
 import sys
-import tomllib
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -16,16 +14,16 @@ from bsm.meshes import as_mesh
 from codec.geometry.attributes import Attribute
 from codec.geometry.mesh import TriangleMesh
 from tests.bsm.files.test_file_attributes import at_corners, attribute, dressed, png
+from tests.plugins import ROOT, declare_entry_points
 from tests.shapes import torus
 
-ROOT = Path(__file__).parents[2]
 EXACT = {"preset": "lossless", "keep_order": True, "attributes": {"*": "exact"}}
 SQUARE = np.array([[0.0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]])
 
 
-def painted(**more):
+def painted(mesh=None, **more):
     """A mesh with texture coordinates that have a seam, normals, a number for each vertex and face, and an image."""
-    mesh = torus(12, 9)
+    mesh = mesh or torus(12, 9)
     m, n = len(mesh.faces), len(mesh.positions)
     uv = mesh.positions[:, :2].astype(np.float32) / 3
     indices = mesh.faces.copy()
@@ -186,17 +184,12 @@ except Exception as error:
 
 def test_pyvista_by_its_entry_points(pyvista, tmp_path):
     """As it is when the package is installed: by the entry points of pyproject.toml, and nothing else is imported."""
-    declared = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]["entry-points"]
-    folder = tmp_path / "site" / "bsm_codec_here-0.1.dist-info"
-    folder.mkdir(parents=True)
-    (folder / "METADATA").write_text("Metadata-Version: 2.1\nName: bsm-codec-here\nVersion: 0.1\n")
-    lines = [f"[{group}]\n" + "".join(f"{k} = {v}\n" for k, v in points.items()) for group, points in declared.items()]
-    (folder / "entry_points.txt").write_text("\n".join(lines))
+    site = declare_entry_points(tmp_path / "site")
     bsm.save(painted(), tmp_path / "a.bsm", **EXACT)
     (tmp_path / "c.bsm").write_bytes(b"nothing")
     done = subprocess.run(
         [sys.executable, "-c", SCRIPT, *(str(tmp_path / f"{name}.bsm") for name in "abc")],
-        env={**os.environ, "PYTHONPATH": f"{folder.parent}:{ROOT}"},
+        env={**os.environ, "PYTHONPATH": f"{site}:{ROOT}"},
         capture_output=True,
         text=True,
         timeout=120,

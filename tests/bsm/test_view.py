@@ -135,7 +135,8 @@ def told_by_python(data: bytes, kind: type[bsm.Decoder | bsm.SequenceDecoder]) -
         decoder.receive_eof()
         try:
             while (event := decoder.next_event()) is not bsm.END_OF_STREAM:
-                events.append(essence(event))
+                if not isinstance(event, bsm.AttributeEvent):
+                    events.append(essence(event))
         except bsm.BsmError as error:
             return {"events": events, "error": type(error).__name__}
     return {"events": events, "error": None}
@@ -167,6 +168,9 @@ DAMAGED = {
         "grid-chunks",
         "smoothing",
         "splits-seams",
+        "attribute-colors",
+        "attribute-uv-blocks",
+        "attribute-split",
         "skippable",
     ],
     bsm.SequenceDecoder: ["sequence-cosines", "sequence-learnt", "sequence-low-delay"],

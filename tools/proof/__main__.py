@@ -59,7 +59,7 @@ def main() -> int:
     parser = argparse.ArgumentParser(
         prog="python -m tools.proof", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
-    parser.add_argument("--short", action="store_true", help="a minute of everything; one environment in eight")
+    parser.add_argument("--short", action="store_true", help="a minute of everything, on two processors")
     parser.add_argument("--mutants", type=int, default=1_000_000, metavar="N")
     parser.add_argument("--differential", type=int, default=20_000, metavar="N")
     parser.add_argument("--encodes", type=int, default=3_000, metavar="N")
@@ -72,13 +72,13 @@ def main() -> int:
     if args.short:
         args.mutants, args.differential, args.encodes = min(args.mutants, 20_000), min(args.differential, 2_000), 100
     parts = [part for part in plan(args) if not args.only or part.suite in args.only]
-    folder = args.folder.resolve() / f"{args.seed}-{digest()}"
+    folder = args.folder.resolve() / f"{args.seed}-{digest()}{'-short' if args.short else ''}"
     print(f"seed {args.seed}, {len(parts)} shards, kept in {folder}", flush=True)
     if any(part.suite == "encodes" for part in parts):
-        build_processors()
+        build_processors(args.short)
     tallies: dict[str, Tally] = {part.suite: Tally() for part in parts}
     with ThreadPoolExecutor(args.jobs) as pool:
-        waiting = {pool.submit(outcome, part, args.seed, folder): part for part in parts}
+        waiting = {pool.submit(outcome, part, args, folder): part for part in parts}
         for done in as_completed(waiting):
             tally = done.result()
             tallies[waiting[done].suite].add(tally)
@@ -109,22 +109,23 @@ def cuts(count: int, size: int) -> Iterator[tuple[int, int]]:
         yield number, min(size, count - first)
 
 
-def outcome(part: Part, seed: str, folder: Path) -> Tally:
+def outcome(part: Part, args: argparse.Namespace, folder: Path) -> Tally:
     """What a shard saw, now or before."""
     kept = folder / f"{part.name}.json"
     if kept.is_file():
         return Tally(**json.loads(kept.read_text()))
-    tally = run(part, seed, folder / "findings")
+    tally = run(part, args, folder / "findings")
     folder.mkdir(parents=True, exist_ok=True)
     kept.write_text(json.dumps(asdict(tally)))
     return tally
 
 
-def run(part: Part, seed: str, findings: Path) -> Tally:
+def run(part: Part, args: argparse.Namespace, findings: Path) -> Tally:
     """Run a shard; one that dies is run again, with every input written down before it is tried."""
     command = [
         *(sys.executable, "-X", "faulthandler", "-m", "tools.proof.shard", part.suite),
-        *(str(part.number), str(part.size), "--seed", seed, "--findings", str(findings)),
+        *(str(part.number), str(part.size), "--seed", args.seed, *(["--short"] if args.short else [])),
+        *("--findings", str(findings)),
     ]
     try:
         done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False, timeout=SHARD_SECONDS)

@@ -54,11 +54,15 @@ class Place:
         )
 
 
-def processors() -> tuple[Place, ...]:
-    """Those that the processor at hand can stand in for: a level of x86-64, and what OpenBLAS calls one of it."""
+def processors(short: bool = False) -> tuple[Place, ...]:
+    """Those that the processor at hand can stand in for: a level of x86-64, and what OpenBLAS calls one of it.
+
+    `short` leaves the least and the greatest alone.
+    """
     needs = {1: set(), 2: {"sse4_2", "ssse3"}, 3: {"avx2", "fma", "bmi2"}, 4: {"avx512f", "avx512vl", "avx512dq"}}
     names = {1: "Prescott", 2: "Nehalem", 3: "Haswell", 4: "SkylakeX"}
-    return tuple(_processor(level, names[level]) for level, needed in needs.items() if needed <= _flags())
+    found = [_processor(level, names[level]) for level, needed in needs.items() if needed <= _flags()]
+    return tuple(found[:: max(1, len(found) - 1)] if short else found)
 
 
 def _processor(level: int, blas: str) -> Place:
@@ -90,9 +94,9 @@ def _level_of(feature: str) -> int:
     return 2 if feature.startswith(("SSE", "POPCNT")) else 3
 
 
-def build_processors() -> None:
+def build_processors(short: bool) -> None:
     """Make their copies of the sources; what has not changed is not compiled again."""
-    for place in processors():
+    for place in processors(short):
         name, python = place.sources.name, shlex.quote(sys.executable)
         script = f"set -e; python={python}; . tools/checking_copy.sh; checking_copy {name} -DBSM_LEVEL={name[-1]}"
         subprocess.run(["bash", "-c", script], cwd=ROOT, check=True)

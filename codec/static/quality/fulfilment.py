@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Generic, TypeVar
@@ -127,12 +128,17 @@ class Fulfilment:
     prepared : Prepared
     options : EncodeOptions
     contract : Contract
+    progress : callable, optional
+        Called with the number of blocks done and of all blocks, and with none and all of them around every other trial.
     """
 
-    def __init__(self, prepared: Prepared, options: EncodeOptions, contract: Contract) -> None:
+    def __init__(
+        self, prepared: Prepared, options: EncodeOptions, contract: Contract, progress: Progress | None = None
+    ) -> None:
         self._prepared = prepared
         self._options = options
         self._contract = contract
+        self._progress = progress
         self._original = Original(prepared.positions, prepared.mesh.faces)
         self._shaper = Shaper(self._original)
         self._reach = contract.reach(prepared.mesh.diagonal, prepared.units.scale) * (1.0 - MARGIN)
@@ -140,7 +146,7 @@ class Fulfilment:
         self._edge = self._shaper.mean_edge or 1.0
         self._best_seen: Closeness | None = None
 
-    def draft(self, progress: Progress | None = None) -> Draft:
+    def draft(self) -> Draft:
         """The smallest draft that was found.
 
         Raises
@@ -153,7 +159,7 @@ class Fulfilment:
         found: list[Draft] = []
         try:
             if self._has_low_frequencies():
-                found.extend(draft for draft in self._spectral(progress) if self._keeps(draft))
+                found.extend(draft for draft in self._spectral() if self._keeps(draft))
         except LimitError:
             pass  # blocks that decoders would refuse: a grid asks for little
         smallest = min((draft.size for draft in found), default=None)
@@ -183,6 +189,16 @@ class Fulfilment:
         had = "nothing" if self._best_seen is None else self._contract.worded(self._best_seen, self._reach)
         return f"{self._contract} cannot be kept on this mesh; the best that can be had is {had}"
 
+    @contextmanager
+    def _told(self) -> Iterator[None]:
+        """Tell of a trial as of all blocks once more."""
+        blocks = self._prepared.parts.count(self._prepared.graph.size)
+        if self._progress:
+            self._progress(0, blocks)
+        yield
+        if self._progress:
+            self._progress(blocks, blocks)
+
     # Blocks.
 
     def _has_low_frequencies(self) -> bool:
@@ -195,18 +211,18 @@ class Fulfilment:
     def _blocks(self) -> Spectral:
         return Spectral(self._prepared, self._options, WIDEST)
 
-    def _spectral(self, progress: Progress | None) -> Iterator[Draft]:
+    def _spectral(self) -> Iterator[Draft]:
         angle = self._contract.angle
         if self._contract.angle >= ANY_ANGLE and self._reach < 0.001:
             return  # a grid is smaller
         if angle >= PLAIN_ANGLE and self._blocks.sample(self._options.first_step, self._original) < DOUBT * angle:
-            base = self._blocks.base(self._options.first_step, progress)
+            base = self._blocks.base(self._options.first_step, self._progress)
             draft = self._with_outliers(base, [])
             if self._original.angle(self._prepared.units.into(draft.decoded)) <= angle:
                 yield draft
                 return
         plain = replace(self._options, detail=0.0)
-        base = Spectral(self._prepared, plain, WIDEST).base(base_step(angle), progress)
+        base = Spectral(self._prepared, plain, WIDEST).base(base_step(angle), self._progress)
         yield from self._refined(base)
 
     def _with_outliers(self, base: Base, layers: list[tuple[Layer, Levels]]) -> Draft:
@@ -214,16 +230,21 @@ class Fulfilment:
         positions = base.positions
         for layer, levels in layers:
             positions = base.moved(layer, levels, positions)
-        offsets = base.offsets_of(positions)
-        out = (np.square(offsets).sum(axis=1) > self._reach**2) & ~self._borders.vertices
-        if out.any():
-            layer = base.layer(self._reach, 1.0)
-            wanted = np.where(out[:, None], np.rint(offsets / layer.step), 0.0).astype(np.int32)
-            layers = [*layers, (layer, wanted)]
+        back = self._back(base, positions)
+        layers = layers if back is None else [*layers, back]
         lock = self._lock(base)
         if lock is not None:
             return base.refined(*layers, lock, borders=True)
         return base.refined(*layers) if layers else base.draft
+
+    def _back(self, base: Base, positions: Matrix) -> tuple[Layer, Levels] | None:
+        """The layer that brings vertices back that are out of reach, borders aside."""
+        offsets = base.offsets_of(positions)
+        out = (np.square(offsets).sum(axis=1) > self._reach**2) & ~self._borders.vertices
+        if not out.any():
+            return None
+        layer = base.layer(self._reach, 1.0)
+        return layer, np.where(out[:, None], np.rint(offsets / layer.step), 0.0).astype(np.int32)
 
     def _lock(self, base: Base) -> tuple[Layer, Levels] | None:
         """The layer that brings borders back; no other layer moves them."""
@@ -249,7 +270,7 @@ class Fulfilment:
             yield self._with_outliers(base, [best.found])
 
     def _refinement(self, base: Base, ratio: float) -> Trial[tuple[Layer, Levels]] | None:
-        """One layer whose normals are right, where borders are back at their places."""
+        """One layer whose normals are right, where borders are back at their places, and what is out of reach too."""
         lock, still = self._lock(base), self._borders.vertices
         start = base.positions if lock is None else base.moved(*lock)
 
@@ -258,9 +279,12 @@ class Fulfilment:
             wanted, directions = base.wanted(layer)
             wanted[still] = 0
             aim = Aim(layer.step / self._edge, self._reach, 6)
-            levels = self._shaper.levels(start, wanted, directions, aim)
-            levels[still] = 0
-            closeness = self._original.closeness(base.moved(layer, levels, start))
+            with self._told():
+                levels = self._shaper.levels(start, wanted, directions, aim)
+                levels[still] = 0
+                moved = base.moved(layer, levels, start)
+                back = self._back(base, moved)
+                closeness = self._original.closeness(moved if back is None else base.moved(*back, moved))
             return Trial(step, closeness, (layer, levels))
 
         first = 1.2 * math.radians(self._contract.angle) * self._edge
@@ -342,6 +366,7 @@ class Fulfilment:
 
     def _on_grid(self, shaped: Shaped, step: float, worth: float) -> Trial[tuple[float, Levels]]:
         step = max(step, shaped.finest)
-        held, places, decoded = shaped.places(step, Aim(worth * step / self._edge, self._reach, 3))
-        closeness = self._original.closeness(self._prepared.units.into(decoded))
+        with self._told():
+            held, places, decoded = shaped.places(step, Aim(worth * step / self._edge, self._reach, 3))
+            closeness = self._original.closeness(self._prepared.units.into(decoded))
         return Trial(step, closeness, (held, places))

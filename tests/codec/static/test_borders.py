@@ -178,3 +178,12 @@ def test_on_the_command_line(tmp_path, capsys):
 def test_halves_of_real_meshes(meshes, name):
     mesh = read_mesh(str(meshes / name)).mesh.without_isolated_vertices()[0]
     assert gaps(mesh, lock_borders=True).max() <= 1e-4 * mesh.diagonal < 0.02 * gaps(mesh).mean()
+
+
+@pytest.mark.real
+def test_vertices_that_are_brought_back_count_for_normals(meshes):
+    """A search that left them out would stop just where they bend normals too much, and only a grid would be left."""
+    mesh = read_mesh(str(meshes / "static" / "armadillo_20002_derived.ply")).mesh
+    for part in halves(mesh):
+        header = header_of(encode(part, encode_options(lock_borders=True)))
+        assert len(header.layers) == 3 and header.borders == 1

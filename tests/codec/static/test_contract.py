@@ -107,11 +107,22 @@ def test_a_rough_mesh_is_refined_and_every_way_decodes_to_what_was_checked() -> 
     mesh = noisy(torus(80, 40), 0.003)
     encoder = Encoder(mesh, EncodeOptions(block_size=300, contract=Contract(0.004, 4.0)))
     ways = Fulfilment(encoder._prepared, encoder.options, Contract(0.004, 4.0))
-    drafts = [*ways._spectral(None), *ways._grids()]
+    drafts = [*ways._spectral(), *ways._grids()]
     assert any(draft.header.refinements for draft in drafts)
     assert any(draft.header.grid for draft in drafts)
     for draft in drafts:
         assert np.abs(decode(b"".join(draft.frames)).positions - draft.decoded).max() < 1e-9
+
+
+def test_a_search_tells_of_every_trial() -> None:
+    told: list[tuple[int, int]] = []
+    encoder = Encoder(
+        noisy(torus(80, 40), 0.003), EncodeOptions(block_size=300, contract=Contract(0.004, 4.0), threads=1)
+    )
+    encoder.draft(lambda done, total: told.append((done, total)))
+    assert {total for _, total in told} == {11}
+    rounds = sum(done < before for (done, _), (before, _) in zip(told[1:], told, strict=False))
+    assert rounds >= 1 and told[-1] == (11, 11)
 
 
 @pytest.mark.parametrize("bits", [1, 4, 11, 16, 20])

@@ -9,6 +9,13 @@ export const WEB = dirname(dirname(fileURLToPath(import.meta.url)));
 const ROOT = join(WEB, "../..");
 
 const SOURCES = [
+    "bitstream/attributes/faces.c",
+    "bitstream/attributes/normals.c",
+    "bitstream/attributes/places.c",
+    "bitstream/attributes/scalars.c",
+    "bitstream/attributes/seams.c",
+    "bitstream/attributes/texcoords.c",
+    "bitstream/attributes/values.c",
     "bitstream/coefficients/adaptive.c",
     "bitstream/coefficients/contexts.c",
     "bitstream/coefficients/matrices.c",
@@ -58,7 +65,8 @@ const KERNELS = [
     "dissect", "find_borders", "factorize_fronts", "solve_columns", "cosines", "iteration_space", "iterate",
     "cholesky_onorm", "householder", "reconstruct", "look_around", "block_normals", "apply_powers",
     "combine_powers", "find_rings", "filter_rows", "link_corners", "order_vertices", "keep_borders", "code_grid", "code_levels",
-    "local_frames", "add_levels", "code_matrix", "project", "cotangents", "hold", "pull", "follow_rows",
+    "local_frames", "add_levels", "code_matrix", "project", "code_edges", "join_corners",
+    "expect_normals", "code_scalars", "code_texcoords", "code_normals", "code_faces", "cotangents", "hold", "pull", "follow_rows",
 ];
 
 const FLAGS = [

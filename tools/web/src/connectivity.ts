@@ -158,13 +158,20 @@ export function decodeLabels(memory: Memory, payload: Uint8Array, offsets: Ints,
     return labels;
 }
 
+/** What the mesh was: the number that each vertex had, its faces, and the coded corner that each corner of these is. */
+export interface Arrangement {
+    numbers: Int32Array;
+    faces: Int32Array;
+    corners: Int32Array;
+}
+
 /** The order that a mesh had: the original number of each vertex, and the original faces (C 9). */
 export function decodeArrangement(
     memory: Memory,
     payload: Uint8Array,
     faces: Ints,
     vertexCount: number,
-): { numbers: Int32Array; faces: Int32Array } {
+): Arrangement {
     return memory.scratch(() => {
         const count = faces.length / 3;
         const coder = new Coder(memory, payload);
@@ -177,6 +184,7 @@ export function decodeArrangement(
         coder.finish();
         const renumbered = faces.view.map((corner) => numbers[corner]);
         const original = new Int32Array(renumbered.length);
+        const coded = new Int32Array(renumbered.length);
         const rotations = turns.view;
         suggestedOrder(renumbered).forEach((face, rank) => {
             const place = places[rank];
@@ -184,9 +192,12 @@ export function decodeArrangement(
             let first = 0;
             for (let k = 1; k < 3; k++) if (corners[k] < corners[first]) first = k;
             first += rotations[place];
-            for (let k = 0; k < 3; k++) original[3 * place + k] = corners[(first + k) % 3];
+            for (let k = 0; k < 3; k++) {
+                coded[3 * place + k] = 3 * face + ((first + k) % 3);
+                original[3 * place + k] = corners[(first + k) % 3];
+            }
         });
-        return { numbers, faces: original };
+        return { numbers, faces: original, corners: coded };
     });
 }
 

@@ -1,8 +1,10 @@
 /** A stream to a mesh, block by block, while it arrives. */
+import { Attributes, type Attribute, type Solid } from "./attributes";
 import { Assembly, inMeshUnits, type Changes } from "./assembly";
 import { derivePartition, groupLabels, growBlocks, largestPart, makeGraph, type Blocks, type Graph, type Partition } from "./blocks";
 import { Allowance, chainLength, ChainDecoder, type DecodedBlock, type Surface } from "./chain";
 import { decodeArrangement, decodeConnectivity, decodeLabels } from "./connectivity";
+import type { Declaration } from "./declaration";
 import { BsmError, CorruptError, UnsupportedError, type Described } from "./errors";
 import { Grid, Refinement } from "./fields";
 import type { Header } from "./header";
@@ -67,7 +69,7 @@ export interface EndEvent {
     degraded: Int32Array;
 }
 
-export type Event = HeaderEvent | ConnectivityEvent | BlockEvent | RefinementEvent | FrameEvent | LossEvent | EndEvent;
+export type Event = HeaderEvent | ConnectivityEvent | BlockEvent | RefinementEvent | AttributeEvent | FrameEvent | LossEvent | EndEvent;
 
 /** What a decoder is asked for beside the mesh. */
 export interface Wishes {
@@ -75,10 +77,16 @@ export interface Wishes {
     tolerant?: boolean;
 }
 
-/** A whole mesh, or the first frame of a sequence: positions, shape (n, 3), and faces, shape (m, 3). */
+/** An attribute is there, whole. */
+export interface AttributeEvent extends Attribute {
+    type: "attribute";
+}
+
+/** A whole mesh, or the first frame of a sequence: positions, shape (n, 3), faces, shape (m, 3), and attributes. */
 export interface Mesh {
     positions: Float64Array;
     faces: Int32Array;
+    attributes: Attribute[];
 }
 
 /** A frame of a sequence: its number from 0, and its positions, shape (n, 3). */
@@ -122,6 +130,8 @@ export class Decoder {
     private nextIndex = 0;
     private grid?: Grid;
     private chunks = 0;
+    private attributes?: Attributes;
+    private attributesBegun = false;
     private gridBroken = false;
     private over = false;
     private refinement?: Refinement;
@@ -164,14 +174,17 @@ export class Decoder {
     /** Decode the rest of a complete stream; faster than asking for events. */
     finish(): Mesh {
         this.receiveEof();
+        const attributes: Attribute[] = [];
         let first: Float64Array | undefined;
         for (let item; (item = this.nextItem()) !== END_OF_STREAM; ) {
-            if (typeof item === "string" || "type" in item) continue;
-            if ("make" in item) first ??= this.made(item);
+            if (typeof item === "string") continue;
+            if ("type" in item) {
+                if (item.type === "attribute") attributes.push(item);
+            } else if ("make" in item) first ??= this.made(item);
             else this.assembly!.add(item);
         }
         const { numbering } = this;
-        return { positions: first ?? this.guarded(() => numbering!.arranged(this.wholePositions())), faces: numbering!.faces };
+        return { positions: first ?? this.guarded(() => numbering!.arranged(this.wholePositions())), faces: numbering!.faces, attributes };
     }
 
     /** A frame's positions in the unit of the mesh. */
@@ -243,8 +256,9 @@ export class Decoder {
             case "refinement":
                 return this.acceptRefinement(packet.layer, packet.first, packet.count, packet.data);
             case "attribute":
+                return this.acceptAttribute(packet.index, packet.declaration, packet.seams);
             case "values":
-                return; // whole, but not decoded yet
+                return this.acceptValues(packet.attribute, packet.first, packet.count, packet.data);
             case "end":
                 return this.acceptEnd();
             case "damaged":
@@ -321,7 +335,44 @@ export class Decoder {
         const cursor = new Cursor(data);
         const order = splits ? cursor.take(cursor.varint()) : data;
         const arrangement = decodeArrangement(memory, order, faces!, header!.vertices);
-        this.numbering = splits ? split(cursor.rest(), arrangement.faces, arrangement.numbers, limits) : permuted(arrangement.faces, arrangement.numbers);
+        this.numbering = splits ? split(cursor.rest(), arrangement, limits) : permuted(arrangement);
+    }
+
+    private acceptAttribute(index: number, declaration: Declaration, seams: Uint8Array): void {
+        this.attributes ??= new Attributes(this.memory, this.header!, this.faces!, this.limits);
+        this.attributes.declare(index, declaration, seams);
+    }
+
+    private acceptValues(index: number, first: number, count: number, data: Uint8Array): void {
+        const attributes = this.begunAttributes();
+        this.tolerating(() => {
+            const attribute = attributes.decode(index, first, count, data, this.numbering!, () => this.solid());
+            if (attribute) this.queue.push({ type: "attribute", ...attribute });
+        });
+    }
+
+    /** The attributes, once all positions are there. */
+    private begunAttributes(): Attributes {
+        const attributes = this.attributes!;
+        if (this.attributesBegun) return attributes;
+        this.attributesBegun = true;
+        if (this.header!.grid.length > 0) this.begunGrid();
+        else {
+            this.built();
+            this.skipTo(this.header!.blocks);
+            if (!this.refinement) this.memory.release(this.behindMesh);
+        }
+        attributes.check(this.numbering!);
+        return attributes;
+    }
+
+    /** All positions, if they are as the encoder had them. */
+    private solid(): Solid | undefined {
+        const { header, grid, refinement, assembly } = this;
+        if (header!.grid.length > 0) return grid && grid.missing.length === 0 ? { positions: grid.positions, places: grid.places } : undefined;
+        if (this.nextIndex < header!.blocks || assembly!.losses().degraded.length > 0 || assembly!.losses().missing.length > 0) return undefined;
+        if (refinement && refinement.unrefined().length > 0) return undefined;
+        return { positions: refinement?.current ?? assembly!.base() };
     }
 
     private acceptBlock(index: number, coefficients: number, data: Uint8Array): void {
@@ -409,6 +460,10 @@ export class Decoder {
     private acceptEnd(): void {
         if (!this.faces) throw new CorruptError("the stream ends before its first block");
         this.over = true;
+        if (this.attributes) {
+            const recomputed = this.begunAttributes().recomputed(this.numbering!, () => this.solid());
+            recomputed.forEach((attribute) => this.queue.push({ type: "attribute", ...attribute }));
+        }
         this.queue.push({ type: "end", ...this.losses() });
     }
 

@@ -18,7 +18,7 @@ const LEARNER = TERMS * (TERMS + 1) + 2 * TERMS;
 const SUM_LEARNERS = 48;
 
 /** What has been learnt about integers; the structure ValueModel of the kernels (V 3). */
-function makeModel(memory: Memory): Argument {
+export function makeModel(memory: Memory): Argument {
     const [slots, hits] = [memory.words(SLOTS), memory.words(HITS)];
     const weights = memory.ints(WEIGHT_ROWS * INPUTS, INPUTS);
     const scales = memory.ints(2 * SCALES, 2);
@@ -34,7 +34,7 @@ function makeModel(memory: Memory): Argument {
 }
 
 /** Learners that start from, and are drawn to, the weights that `start` tells of each (V 2). */
-function makeLearners(memory: Memory, count: number, start: (learner: number) => number[]): Argument {
+export function makeLearners(memory: Memory, count: number, start: (learner: number) => number[]): Argument {
     const learners = memory.longs(count * LEARNER, LEARNER);
     const numbers = learners.view.fill(0n);
     for (let k = 0; k < count; k++) {
@@ -47,7 +47,7 @@ function makeLearners(memory: Memory, count: number, start: (learner: number) =>
 }
 
 /** The structure Corners of the kernels: corners at each vertex, and those beyond edges. */
-function linkCorners(memory: Memory, faces: Ints, size: number): Argument {
+export function linkCorners(memory: Memory, faces: Ints, size: number): Argument {
     const starts = memory.ints(size + 1);
     const corners = memory.ints(faces.length);
     const opposite = memory.ints(faces.length);
@@ -65,13 +65,13 @@ function linkCorners(memory: Memory, faces: Ints, size: number): Argument {
     return linked;
 }
 
-function zeros(place: Ints): Ints {
+export function zeros(place: Ints): Ints {
     place.view.fill(0);
     return place;
 }
 
 /** Decode the next vertices of a field by its kernel. */
-function decodeChunk(memory: Memory, kernel: string, state: Argument[], payload: Uint8Array, first: number, count: number): void {
+export function decodeChunk(memory: Memory, kernel: string, state: Argument[], payload: Uint8Array, first: number, count: number): void {
     memory.scratch(() => {
         const coder = new Coder(memory, payload);
         const done = memory.call(kernel, coder.parts, ...state, BigInt(first), BigInt(count));
@@ -130,6 +130,11 @@ export class Grid {
         inMeshUnits(positions, header);
         vertices.forEach((vertex, i) => this.positions.set(positions.subarray(3 * i, 3 * i + 3), 3 * vertex));
         return { vertices, positions, final: new Uint8Array(count).fill(1) };
+    }
+
+    /** Coded values, as vertices are numbered in the decoded faces. */
+    get places(): Int32Array {
+        return this.values.view.slice();
     }
 
     /** Vertices without a position. */
@@ -200,6 +205,11 @@ export class Refinement {
         const vertices = Int32Array.from({ length: this.header.vertices }, (_, vertex) => vertex);
         const begun = this.reached.filter((layer) => layer.includes(1));
         return vertices.filter((vertex) => begun.some((layer) => !layer[vertex]));
+    }
+
+    /** All positions in BSM units. */
+    get current(): Float64Array {
+        return this.positions.view.slice();
     }
 
     /** All positions in the unit of the mesh. */

@@ -1,7 +1,7 @@
 /** The header: fields, legal values, contradictions (specification, F 4). */
-import { CorruptError, UnsupportedError } from "./errors";
+import { CorruptError } from "./errors";
 import { checkLimit, type Limits } from "./limits";
-import { parseMap, type Value } from "./maps";
+import { parseFields, same, type Fields } from "./record";
 
 /** What a decoder must know before anything else; the names are those of the specification. */
 export interface Header {
@@ -40,20 +40,9 @@ export interface Header {
     attributes: number;
 }
 
-interface Field {
-    key: number;
-    type: "int" | "method" | "float" | "ints" | "floats";
-    low: number;
-    high: number;
-    default?: number | number[];
-    lengths?: [number, number];
-}
-
 const COUNT = 2 ** 31 - 1;
-const METHODS = 255;
-const FIRST_IGNORABLE_KEY = 64;
 
-const FIELDS: Record<keyof Header, Field> = {
+const FIELDS: Fields<keyof Header> = {
     vertices: { key: 1, type: "int", low: 1, high: COUNT },
     faces: { key: 2, type: "int", low: 1, high: COUNT },
     blocks: { key: 3, type: "int", low: 0, high: COUNT, default: 0 },
@@ -93,71 +82,14 @@ const FIELDS: Record<keyof Header, Field> = {
 const MOST_COPIES = 16;
 const FREE_COPIES = 65536;
 
-const LIMITED = ["vertices", "faces", "blocks", "blockSize", "coefficients", "frames", "gopFrames"] as const;
+const LIMITED = ["vertices", "faces", "blocks", "blockSize", "coefficients", "frames", "gopFrames", "attributes"] as const;
 
 /** The header in a payload; its counts are checked against `limits`. */
 export function parseHeader(payload: Uint8Array, limits: Limits): Header {
-    const names = new Map(Object.entries(FIELDS).map(([name, field]) => [field.key, name as keyof Header]));
-    const header: Partial<Record<keyof Header, number | number[]>> = {};
-    const entries = parseMap(payload);
-    for (const [key, value] of entries) refuseUnknown(key, value, names);
-    for (const [key, value] of entries) {
-        const name = names.get(Number(key.value));
-        if (name === undefined) continue;
-        const found = fieldValue(name, value);
-        if (same(found, FIELDS[name].default)) throw new CorruptError(`header field ${name} is stored with its default value`);
-        header[name] = found;
-    }
-    for (const [name, field] of Object.entries(FIELDS) as [keyof Header, Field][]) {
-        header[name] ??= field.default;
-        const given = header[name];
-        if (given === undefined) throw new CorruptError(`the header lacks ${name}`);
-        checkRange(name, field, given);
-    }
-    const complete = header as Header;
+    const complete = parseFields(payload, FIELDS, "header") as unknown as Header;
     checkContradictions(complete);
     for (const name of LIMITED) checkLimit(limits, name, complete[name]);
     return complete;
-}
-
-/** What is of a later version is told as that, whatever else may seem to be wrong with it (F 4.8). */
-function refuseUnknown(key: Value, value: Value, names: Map<number, keyof Header>): void {
-    if (key.type !== "int") throw new CorruptError("a header key is not an integer");
-    if (key.value >= FIRST_IGNORABLE_KEY) return;
-    const name = names.get(Number(key.value));
-    if (name === undefined) throw new UnsupportedError(`header key ${key.value} is unknown to this decoder`);
-    const { type, high } = FIELDS[name];
-    if (type === "method" && value.type === "int" && value.value > high && value.value <= METHODS) {
-        throw new UnsupportedError(`header field ${name} names method ${value.value}, unknown to this decoder`);
-    }
-}
-
-function fieldValue(name: keyof Header, value: Value): number | number[] {
-    const field = FIELDS[name];
-    if (field.type === "floats" || field.type === "ints") {
-        if (value.type === "array") {
-            return value.value.map((item) => {
-                if (`${item.type}s` === field.type) return Number(item.value);
-                throw new CorruptError(`an entry of the header field ${name} is of type ${item.type}`);
-            });
-        }
-    } else if (value.type === (field.type === "float" ? "float" : "int")) {
-        return Number(value.value);
-    }
-    throw new CorruptError(`header field ${name} is of type ${value.type}`);
-}
-
-function same(a: number | number[], b: number | number[] | undefined): boolean {
-    if (Array.isArray(a) && Array.isArray(b)) return a.length === b.length && a.every((item, i) => item === b[i]);
-    return a === b;
-}
-
-function checkRange(name: string, field: Field, value: number | number[]): void {
-    const items = Array.isArray(value) ? value : [value];
-    const [least, most] = field.lengths ?? [1, 1];
-    if (items.length < least || items.length > most || !items.every((item) => item >= field.low && item <= field.high)) {
-        throw new CorruptError(`header field ${name} = ${value} is outside its legal range`);
-    }
 }
 
 /** F 4.6: the rules of a grid, or those of blocks. */

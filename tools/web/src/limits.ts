@@ -11,6 +11,9 @@ export interface Limits {
     gopFrames: number;
     frameBytes: number;
     metadataBytes: number;
+    attributes: number;
+    /** Numbers of all attributes: values times their components. */
+    attributeValues: number;
     /** Bytes of the dictionaries of a sequence, and of one of its GOPs. */
     sequenceBytes: number;
     /** Bytes of the frames that a geometry keeps to show them again. */
@@ -35,6 +38,8 @@ export const DEFAULT_LIMITS: Readonly<Limits> = {
     gopFrames: 1024,
     frameBytes: 2 ** 28,
     metadataBytes: 2 ** 23,
+    attributes: 255,
+    attributeValues: 2 ** 28,
     sequenceBytes: 2 ** 31,
     keptBytes: 2 ** 30,
     work: 8e8,

@@ -1,5 +1,6 @@
 /** How the user of a mesh numbers what was coded (specification, C 9, F 9). */
 import type { Changes } from "./assembly";
+import type { Arrangement } from "./connectivity";
 import { CorruptError } from "./errors";
 import { inflate } from "./inflate";
 import { checkLimit, type Limits } from "./limits";
@@ -22,7 +23,11 @@ export class Numbering {
     constructor(
         readonly faces: Int32Array,
         private readonly coded: number,
-        private readonly source?: Int32Array,
+        readonly source?: Int32Array,
+        /** The coded corner that each of the user's is; without it the same. */
+        readonly corners?: Int32Array,
+        /** Whether vertices that were coded as one are several of the user's. */
+        readonly isSplit = false,
         readonly loose: Loose = { vertices: new Int32Array(0), positions: new Float64Array(0) },
     ) {
         if (source) this.copies = inverse(source, coded);
@@ -69,13 +74,13 @@ function inverse(values: Int32Array, count: number): { starts: Int32Array; membe
     return { starts, members };
 }
 
-/** The numbering that `numbers` tells: the user's number of each coded vertex. */
-export function permuted(faces: Int32Array, numbers: Int32Array): Numbering {
-    return new Numbering(faces, numbers.length, inverse(numbers, numbers.length).members);
+/** The numbering of an arrangement. */
+export function permuted({ faces, numbers, corners }: Arrangement): Numbering {
+    return new Numbering(faces, numbers.length, inverse(numbers, numbers.length).members, corners);
 }
 
 /** The given vertices (F 9.1 to F 9.6), of vertices and faces that have the numbers and corners of method 1. */
-export function split(payload: Uint8Array, faces: Int32Array, numbers: Int32Array, limits: Limits): Numbering {
+export function split(payload: Uint8Array, { faces, numbers, corners }: Arrangement, limits: Limits): Numbering {
     const vertices = numbers.length;
     const cursor = new Cursor(payload);
     const [size, copies, loose] = [cursor.varint(), cursor.varint(), cursor.varint()];
@@ -108,7 +113,7 @@ export function split(payload: Uint8Array, faces: Int32Array, numbers: Int32Arra
     if (!positions.every(Number.isFinite)) throw new CorruptError("a vertex that no face uses has a coordinate that is not finite");
     const coded = inverse(numbers, vertices).members;
     const free = Int32Array.from(kinds.keys()).filter((vertex) => kinds[vertex] === LOOSE);
-    return new Numbering(given, vertices, met.map((vertex) => (vertex < 0 ? -1 : coded[vertex])), { vertices: free, positions });
+    return new Numbering(given, vertices, met.map((vertex) => (vertex < 0 ? -1 : coded[vertex])), corners, true, { vertices: free, positions });
 }
 
 /** The given vertex of each corner (F 9.5). */

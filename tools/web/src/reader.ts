@@ -1,6 +1,7 @@
 /** Bytes to packets, without input or output of its own (specification, F 2, F 3, F 5). */
 import { crc16, crc32 } from "./checksums";
 import { BsmError, CorruptError, FormatError, TruncatedError, UnsupportedError } from "./errors";
+import { CORNER, parseDeclaration, RECOMPUTED, wordsOf, type Declaration } from "./declaration";
 import { parseHeader, type Header } from "./header";
 import { checkLimit, type Limits } from "./limits";
 import { parseMap } from "./maps";
@@ -17,7 +18,7 @@ export type Packet =
     | { type: "gop"; index: number; data: Uint8Array }
     | { type: "grid"; first: number; count: number; data: Uint8Array }
     | { type: "refinement"; layer: number; first: number; count: number; data: Uint8Array }
-    | { type: "attribute"; index: number; data: Uint8Array }
+    | { type: "attribute"; index: number; declaration: Declaration; seams: Uint8Array }
     | { type: "values"; attribute: number; first: number; count: number; data: Uint8Array }
     | { type: "end"; frames: number; crc: number };
 
@@ -91,6 +92,10 @@ export class Cursor {
         return this.take(this.payload.length - this.at);
     }
 
+    get ended(): boolean {
+        return this.at === this.payload.length;
+    }
+
     finish(): void {
         if (this.at !== this.payload.length) throw new CorruptError("a payload has bytes too many");
     }
@@ -131,7 +136,12 @@ const PARSERS: Record<Kind, (payload: Cursor, limits: Limits) => Packet> = {
         const [layer, first, count] = [payload.varint(), payload.varint(), payload.varint()];
         return { type: "refinement", layer, first, count, data: payload.rest() };
     },
-    attribute: (payload) => ({ type: "attribute", index: payload.varint(), data: payload.rest() }),
+    attribute: (payload, limits) => {
+        const index = payload.varint();
+        const declaration = parseDeclaration(payload.take(payload.varint()));
+        checkLimit(limits, "attributeValues", declaration.rows * Math.max(1, wordsOf(declaration)));
+        return { type: "attribute", index, declaration, seams: payload.rest() };
+    },
     values: (payload) => {
         const [attribute, first, count] = [payload.varint(), payload.varint(), payload.varint()];
         return { type: "values", attribute, first, count, data: payload.rest() };
@@ -180,6 +190,9 @@ class Grammar {
     private nextFrame = 0;
     private nextVertex = 0;
     private layer = 0;
+    private readonly declared = new Map<number, Declaration>();
+    private valued = 0;
+    private nextValue = 0;
 
     /** Whether the header announces frames of a kind that it must announce (F 3.6). */
     announces(kind: Kind): boolean {
@@ -209,6 +222,12 @@ class Grammar {
         if (!this.expected.includes(packet.type)) throw new CorruptError(`${packet.type} may not come here`);
         const { header } = this;
         if (!header) return;
+        if (["block", "gop", "grid", "values", "end"].includes(packet.type) && this.declared.size < header.attributes && !this.lossy) {
+            throw new CorruptError(`${this.declared.size} of ${header.attributes} attributes are declared`);
+        }
+        if (packet.type === "attribute") this.checkAttribute(packet, header);
+        if (packet.type === "values") this.checkValues(packet);
+        if (packet.type === "end" && !this.lossy) this.checkComplete();
         if (packet.type === "block") this.checkBlock(packet.index, packet.coefficients, header);
         if (packet.type === "gop") this.checkGop(packet.index, header);
         if (packet.type === "grid") this.checkChunk(packet.first, packet.count, this.nextVertex, header);
@@ -229,9 +248,52 @@ class Grammar {
         if (packet.type === "block") this.nextBlock = packet.index + 1;
         if (packet.type === "gop") this.nextFrame = packet.index + 1;
         if (packet.type === "refinement") this.layer = packet.layer;
+        if (packet.type === "attribute") this.declared.set(packet.index, packet.declaration);
+        if (packet.type === "values") [this.valued, this.nextValue] = [packet.attribute, packet.first + packet.count];
         if (packet.type === "grid" || packet.type === "refinement") this.nextVertex = packet.first + packet.count;
         this.last = packet.type;
         this.allowed = FOLLOWERS[packet.type];
+    }
+
+    private checkAttribute({ index, declaration, seams }: Extract<Packet, { type: "attribute" }>, header: Header): void {
+        const others = [...this.declared.values()];
+        const following = Math.max(-1, ...this.declared.keys()) + 1;
+        if (index < following || (index > following && !this.lossy) || index >= header.attributes) {
+            throw new CorruptError(`attribute ${index} of ${header.attributes}, where attribute ${following} must follow`);
+        }
+        const { name, domain, seamsOf, leans, relief, coding } = declaration;
+        if (others.some((other) => other.name === name)) throw new CorruptError(`a second attribute is called "${name}"`);
+        if (seams.length > 0 && (domain !== CORNER || seamsOf)) throw new CorruptError("seams of an attribute that has none of its own");
+        if (seamsOf) {
+            const shared = this.declared.get(seamsOf - 1);
+            if (!shared && !(this.lossy && seamsOf <= index)) throw new CorruptError(`the seams of attribute ${seamsOf - 1}, which does not come before`);
+            if (shared && (shared.domain !== CORNER || shared.seamsOf)) throw new CorruptError(`the seams of attribute ${seamsOf - 1}, which has none of its own`);
+        }
+        const first = leans > 0 && !others.some((other) => other.leans);
+        if (relief > 0 !== (first && header.grid.length === 0) && !this.lossy) {
+            throw new CorruptError("relief belongs to the first attribute that leans on the positions of blocks, and to no other");
+        }
+        if (header.gopFrames > 0 && (leans || coding === RECOMPUTED)) {
+            throw new CorruptError("an attribute of a sequence that leans on positions, or is recomputed from them");
+        }
+    }
+
+    private checkValues({ attribute, first, count }: Extract<Packet, { type: "values" }>): void {
+        const declared = this.declared.get(attribute);
+        if (!declared) throw new CorruptError(`values of attribute ${attribute}, which is not declared`);
+        if (attribute < this.valued) throw new CorruptError(`values of attribute ${attribute} come behind those of ${this.valued}; they must ascend`);
+        const following = attribute === this.valued ? this.nextValue : 0;
+        if (first < following || (first > following && !this.lossy)) throw new CorruptError(`values from ${first} on where those from ${following} on must follow`);
+        if (count === 0 || count > declared.rows - first) throw new CorruptError(`${count} values from ${first} on, of ${declared.rows}`);
+        if (attribute > this.valued && !this.lossy) this.checkComplete(attribute);
+    }
+
+    /** Check that the values of all attributes are there, or of those before one. */
+    private checkComplete(before = Infinity): void {
+        for (const [index, { rows }] of this.declared) {
+            const done = index < this.valued ? rows : index === this.valued ? this.nextValue : 0;
+            if (index < before && done < rows) throw new CorruptError(`the values of attribute ${index} end at ${done} of ${rows}`);
+        }
     }
 
     private checkRefinement(packet: Extract<Packet, { type: "refinement" }>, header: Header): void {

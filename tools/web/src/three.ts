@@ -1,5 +1,6 @@
 /** BSM streams in three.js: a geometry that fills while the bytes arrive, and a loader. */
 import { BufferAttribute, BufferGeometry, Loader, type LoadingManager } from "three";
+import type { Attribute } from "./attributes";
 import type { BlockEvent, ConnectivityEvent, Event, LossEvent, RefinementEvent } from "./decoder";
 import type { Header } from "./header";
 import type { Kernels } from "./kernels";
@@ -19,7 +20,8 @@ export interface Progress {
 /**
  * A geometry made of the events of a stream.
  *
- * The index holds all faces from the beginning, sorted so that those whose corners are known come first, and the
+ * Attributes are drawn once the mesh is whole: texture coordinates are `uv`, colours `color`, normals `normal`, others have
+ * their names, and second ones of a kind a number behind it. The index holds all faces from the beginning, sorted so that those whose corners are known come first, and the
  * draw range ends behind them: a block makes its faces visible, and nothing is copied twice.
  */
 export class BSMGeometry extends BufferGeometry {
@@ -33,6 +35,12 @@ export class BSMGeometry extends BufferGeometry {
     layers = 0;
     /** Blocks, or chunks of a grid, that are there. */
     blocks = 0;
+    /** Attributes that are there, as the stream has them; the geometry has those that it can draw once it is whole. */
+    readonly carried: Attribute[] = [];
+    /** Positions of the vertices, shape (n, 3). */
+    points = new Float32Array(0);
+    /** The vertex that each drawn one is, where attributes of corners or faces have parted them. */
+    parted?: Int32Array;
     /** Positions of the frames of a sequence that are there, for `showFrame`. */
     readonly frames: Float32Array[] = [];
     private readonly limits: Limits;
@@ -40,6 +48,7 @@ export class BSMGeometry extends BufferGeometry {
     private waiting = new Uint8Array(0);
     private facesAround: { starts: Int32Array; members: Int32Array } = { starts: new Int32Array(1), members: new Int32Array(0) };
     private touched = new Uint8Array(0);
+    private normals = new Float32Array(0);
     private drawn = 0;
 
     constructor(
@@ -62,16 +71,25 @@ export class BSMGeometry extends BufferGeometry {
         if (event.type === "block" || event.type === "refinement") this.acceptBlock(event);
         if (event.type === "frame") this.acceptFrame(event.index, event.positions);
         if (event.type === "loss") this.acceptLoss(event);
-        if (event.type === "end") this.computeBoundingSphere();
+        if (event.type === "attribute") this.carried.push(event);
+        if (event.type === "end") this.finish();
     }
 
     /** Take the positions of a frame that is there. */
     showFrame(index: number): void {
-        const positions = this.getAttribute("position") as BufferAttribute;
-        (positions.array as Float32Array).set(this.frames[index]);
-        positions.needsUpdate = true;
+        this.points.set(this.frames[index]);
         this.touched.fill(1);
         this.updateNormals();
+        this.redraw();
+    }
+
+    /** Numbers of vertices, `width` for each, as those of the drawn ones. */
+    spread(numbers: Float32Array, width: number): Float32Array {
+        const { parted } = this;
+        if (!parted) return numbers;
+        const spread = new Float32Array(width * parted.length);
+        parted.forEach((vertex, i) => spread.set(numbers.subarray(width * vertex, width * vertex + width), width * i));
+        return spread;
     }
 
     private acceptFaces({ faces, vertices: size, loose }: ConnectivityEvent): void {
@@ -81,10 +99,11 @@ export class BSMGeometry extends BufferGeometry {
         this.touched = new Uint8Array(size);
         this.waiting = new Uint8Array(faces.length / 3).fill(3);
         this.facesAround = aroundVertices(faces, size);
-        const positions = new Float32Array(3 * size);
-        loose.vertices.forEach((vertex, i) => positions.set(loose.positions.subarray(3 * i, 3 * i + 3), 3 * vertex));
-        this.setAttribute("position", new BufferAttribute(positions, 3));
-        this.setAttribute("normal", new BufferAttribute(new Float32Array(3 * size), 3));
+        this.points = new Float32Array(3 * size);
+        this.normals = new Float32Array(3 * size);
+        loose.vertices.forEach((vertex, i) => this.points.set(loose.positions.subarray(3 * i, 3 * i + 3), 3 * vertex));
+        this.setAttribute("position", new BufferAttribute(this.points, 3));
+        this.setAttribute("normal", new BufferAttribute(this.normals, 3));
         this.setIndex(new BufferAttribute(new Uint32Array(faces.length), 1));
         this.setDrawRange(0, 0);
         this.progress.onConnectivity?.(this);
@@ -92,17 +111,17 @@ export class BSMGeometry extends BufferGeometry {
 
     private acceptBlock(block: BlockEvent | RefinementEvent): void {
         const { starts, members } = this.facesAround;
-        const positions = this.getAttribute("position") as BufferAttribute;
+        const { points } = this;
         const index = this.getIndex()!;
         block.vertices.forEach((vertex, i) => {
-            positions.setXYZ(vertex, block.positions[3 * i], block.positions[3 * i + 1], block.positions[3 * i + 2]);
+            for (let d = 0; d < 3; d++) points[3 * vertex + d] = block.positions[3 * i + d];
             for (let k = starts[vertex]; k < starts[vertex + 1]; k++) for (let c = 0; c < 3; c++) this.touched[this.faces[3 * members[k] + c]] = 1;
             if (this.origin[vertex] >= 0) return;
             this.origin[vertex] = this.blocks;
             for (let k = starts[vertex]; k < starts[vertex + 1]; k++) if (--this.waiting[members[k]] === 0) this.draw(members[k], index);
         });
         this.updateNormals();
-        positions.needsUpdate = true;
+        this.redraw();
         index.needsUpdate = true;
         this.setDrawRange(0, this.drawn);
         if (block.type === "block") this.blocks++;
@@ -123,8 +142,8 @@ export class BSMGeometry extends BufferGeometry {
 
     /** Where frames are lost, the one before them stays. */
     private acceptLoss({ frames }: LossEvent): void {
-        const before = this.frames.at(-1) ?? (this.getAttribute("position")?.array as Float32Array | undefined)?.slice();
-        for (let k = 0; before && k < (frames?.count ?? 0); k++) this.frames.push(before);
+        const before = this.frames.at(-1) ?? this.points.slice();
+        for (let k = 0; k < (frames?.count ?? 0); k++) this.frames.push(before);
     }
 
     private draw(face: number, index: BufferAttribute): void {
@@ -134,10 +153,8 @@ export class BSMGeometry extends BufferGeometry {
 
     /** Normals of the vertices that were touched, from the faces that are there. */
     private updateNormals(): void {
-        const { faces, touched, waiting } = this;
+        const { faces, touched, waiting, normals, points: p } = this;
         const { starts, members } = this.facesAround;
-        const p = (this.getAttribute("position") as BufferAttribute).array;
-        const normals = this.getAttribute("normal") as BufferAttribute;
         for (let vertex = 0; vertex < touched.length; vertex++) {
             if (!touched[vertex]) continue;
             touched[vertex] = 0;
@@ -159,9 +176,58 @@ export class BSMGeometry extends BufferGeometry {
                 z += ux * vy - uy * vx;
             }
             const length = Math.hypot(x, y, z) || 1;
-            normals.setXYZ(vertex, x / length, y / length, z / length);
+            normals[3 * vertex] = x / length;
+            normals[3 * vertex + 1] = y / length;
+            normals[3 * vertex + 2] = z / length;
         }
-        normals.needsUpdate = true;
+    }
+
+    /** Bring what is drawn up to points and normals. */
+    private redraw(): void {
+        const own = this.carried.some(({ semantic, domain }) => semantic === "normal" && domain !== "face");
+        for (const [name, numbers] of [["position", this.points], ["normal", this.normals]] as const) {
+            if (name === "normal" && own && this.parted) continue;
+            const attribute = this.getAttribute(name) as BufferAttribute;
+            if (this.parted) (attribute.array as Float32Array).set(this.spread(numbers, 3));
+            attribute.needsUpdate = true;
+        }
+    }
+
+    /** The mesh is whole: draw the attributes that came with it. */
+    private finish(): void {
+        if (this.carried.some(({ domain }) => domain !== "vertex")) this.part();
+        const used = new Map<string, number>();
+        for (const attribute of this.carried) {
+            const base = { texcoord: "uv", color: "color", normal: "normal", generic: attribute.name }[attribute.semantic];
+            const count = used.get(base) ?? 0;
+            used.set(base, count + 1);
+            this.setAttribute(count ? `${base}${count}` : base, new BufferAttribute(this.numbersOf(attribute), attribute.components));
+        }
+        this.computeBoundingSphere();
+    }
+
+    /** Give each corner of the drawn faces a vertex of its own. */
+    private part(): void {
+        this.parted = Int32Array.from(this.wholeFaces().flatMap((face) => [...this.faces.subarray(3 * face, 3 * face + 3)]));
+        this.setAttribute("position", new BufferAttribute(this.spread(this.points, 3), 3));
+        this.setAttribute("normal", new BufferAttribute(this.spread(this.normals, 3), 3));
+        this.setIndex(null);
+        this.setDrawRange(0, this.parted.length);
+    }
+
+    private wholeFaces(): number[] {
+        return [...this.waiting.keys()].filter((face) => this.waiting[face] === 0);
+    }
+
+    /** Numbers of the drawn vertices; integers of colours are shares of their range. */
+    private numbersOf({ domain, semantic, kind, components, values, indices }: Attribute): Float32Array {
+        const most = semantic === "color" ? { uint8: 255, uint16: 65535 }[kind as string] ?? 1 : 1;
+        const numbers = Float32Array.from(values, (value) => value / most);
+        if (domain === "vertex") return this.spread(numbers, components);
+        const drawn = this.wholeFaces().flatMap((face) => [0, 1, 2].map((k) => (domain === "face" ? face : indices![3 * face + k])));
+        const spread = new Float32Array(components * drawn.length);
+        drawn.forEach((row, i) => spread.set(numbers.subarray(components * row, components * row + components), components * i));
+        return spread;
     }
 }
 

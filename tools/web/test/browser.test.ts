@@ -193,8 +193,12 @@ describe("the page in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromium a
             }));
             const whole = await take("/stream/${STREAM}.bsm");
             const sequence = await take("/stream/good-sequence-learnt.bsm");
+            const textured = await take("/stream/good-attribute-uv-blocks.bsm");
+            const coloured = await take("/stream/good-attribute-colors.bsm");
+            const colours = coloured.getAttribute("color");
+            const parts = { uv: textured.getAttribute("uv").count, corners: textured.getAttribute("position").count, colours: colours.count / coloured.getAttribute("position").count, brightest: Math.max(...colours.array) };
             const problem = await take("/stream/bad-sequence-long.bsm").catch((error) => error.name);
-            window.found = { ...seen, drawn: whole.drawRange.count, faces: whole.index.count, kept: sequence.frames.length, problem };`;
+            window.found = { ...seen, drawn: whole.drawRange.count, faces: whole.index.count, kept: sequence.frames.length, problem, ...parts };`;
         const html = `<script type="importmap">{"imports": {"three": "/three/three.module.js"}}</script><script type="module">${script}</script>`;
         await page.route("https://bsm.test/**", (route) => {
             const [, place, name] = /test\/(\w*)\/?(.*)$/.exec(route.request().url())!;
@@ -209,6 +213,8 @@ describe("the page in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromium a
         assert.equal(found.frames, found.kept);
         assert.ok(Number(found.kept) > 1);
         assert.equal(found.problem, "CorruptError");
+        assert.ok(found.uv === found.corners && Number(found.corners) % 3 === 0 && Number(found.corners) > 0);
+        assert.ok(found.colours === 1 && Number(found.brightest) > 0.1 && Number(found.brightest) <= 1);
         assert.deepEqual(complaints, []);
     });
 

@@ -1,7 +1,7 @@
 /** What tests share: kernels, vectors, and how a stream is decoded in pieces. */
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
-import { Decoder, END_OF_STREAM, Kernels, NEED_DATA, type Event, type Limits, type Mesh } from "../src/index";
+import { Decoder, END_OF_STREAM, Kernels, NEED_DATA, type Attribute, type Event, type Limits, type Mesh } from "../src/index";
 
 export const WEB = process.cwd();
 export const VECTORS = join(WEB, "../../spec/vectors");
@@ -27,14 +27,16 @@ export function meshOfEvents(events: Iterable<Event>): Mesh {
     let positions = new Float64Array(0);
     let faces = new Int32Array(0);
     const frames: Float64Array[] = [];
+    const attributes: Attribute[] = [];
     for (const event of events) {
         if (event.type === "connectivity") {
             faces = Int32Array.from(event.faces);
             positions = new Float64Array(3 * event.vertices).fill(NaN);
             event.loose.vertices.forEach((v, i) => positions.set(event.loose.positions.subarray(3 * i, 3 * i + 3), 3 * v));
         }
+        if (event.type === "attribute") attributes.push(event);
         if (event.type === "frame") frames.push(event.positions);
         if (event.type === "block" || event.type === "refinement") event.vertices.forEach((v, i) => positions.set(event.positions.subarray(3 * i, 3 * i + 3), 3 * v));
     }
-    return { positions: frames.length ? Float64Array.from(frames.flatMap((frame) => [...frame])) : positions, faces };
+    return { positions: frames.length ? Float64Array.from(frames.flatMap((frame) => [...frame])) : positions, faces, attributes };
 }

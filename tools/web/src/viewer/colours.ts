@@ -2,13 +2,14 @@
 import { Color } from "three";
 import type { BSMGeometry } from "../three";
 
-export type Scheme = "plain" | "blocks" | "layers" | "error";
+export type Scheme = "plain" | "own" | "blocks" | "layers" | "error";
 
 /** Share of the diagonal from which on a distance has the last colour. */
 const FAR = 0.01;
 
 export const LEGENDS: Record<Scheme, string> = {
     plain: "",
+    own: "As the stream has them.",
     blocks: "Blue: the first block of the chain; red: the last.",
     layers: "Blue: the base alone; red: all layers are there.",
     error: "Blue: where the original is; red: 1 % of the diagonal away, or more. The colours follow the root of the distance.",
@@ -22,10 +23,10 @@ function ramp(share: number): Color {
 /** Colours of all vertices, shape (n, 3); undefined for the plain scheme. */
 export function coloursOf(geometry: BSMGeometry, scheme: Scheme, distances?: Float64Array): Float32Array | undefined {
     const { header, origin, depth } = geometry;
-    if (scheme === "plain" || !header || (scheme === "error" && !distances)) return undefined;
+    if (scheme === "plain" || scheme === "own" || !header || (scheme === "error" && !distances)) return undefined;
     const last = Math.max((header.blocks || geometry.blocks) - 1, 1);
     const layers = Math.max(header.refinements.length / 2, 1);
-    const shares: Record<Exclude<Scheme, "plain">, (vertex: number) => number> = {
+    const shares: Record<Exclude<Scheme, "plain" | "own">, (vertex: number) => number> = {
         blocks: (vertex) => origin[vertex] / last,
         layers: (vertex) => depth[vertex] / layers,
         error: (vertex) => Math.sqrt(distances![vertex] / FAR),
@@ -36,7 +37,7 @@ export function coloursOf(geometry: BSMGeometry, scheme: Scheme, distances?: Flo
         const share = shares[scheme](vertex);
         if (origin[vertex] >= 0) colours.set(steps[Math.round(255 * Math.min(Math.max(share, 0), 1))], 3 * vertex);
     }
-    return colours;
+    return geometry.spread(colours, 3);
 }
 
 /** How far a mesh is from its original: distances and angles of what is there. */
@@ -52,7 +53,7 @@ export interface Errors {
 /** Compare what is there with the original's positions, numbered as the stream numbers them. */
 export function errorsOf(geometry: BSMGeometry, original: Float32Array): Errors {
     const { origin } = geometry;
-    const positions = geometry.getAttribute("position").array;
+    const positions = geometry.points;
     const [low, high] = [[Infinity, Infinity, Infinity], [-Infinity, -Infinity, -Infinity]];
     original.forEach((value, i) => {
         low[i % 3] = Math.min(low[i % 3], value);
@@ -68,7 +69,7 @@ export function errorsOf(geometry: BSMGeometry, original: Float32Array): Errors 
         farthest = Math.max(farthest, distances[v]);
         there++;
     }
-    const drawn = geometry.getIndex()!.array.subarray(0, geometry.drawRange.count);
+    const drawn = geometry.parted ?? geometry.getIndex()!.array.subarray(0, geometry.drawRange.count);
     return { distances, rms: Math.sqrt(squares / Math.max(there, 1)), farthest, angle: meanAngle(drawn, positions, original) };
 }
 

@@ -1,5 +1,5 @@
 /** Camera, light and the mesh on a canvas. */
-import { AmbientLight, BufferAttribute, BufferGeometry, DirectionalLight, DoubleSide, Mesh, MeshStandardMaterial, PerspectiveCamera, Scene, Spherical, WebGLRenderer } from "three";
+import { AmbientLight, type BufferAttribute, BufferGeometry, DirectionalLight, DoubleSide, Mesh, MeshStandardMaterial, PerspectiveCamera, Scene, Spherical, WebGLRenderer } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 
 const TURN = Math.PI / 24;
@@ -48,10 +48,10 @@ export class Stage {
         this.draw();
     }
 
-    /** Colour the vertices, three numbers from 0 to 1 each; or none of them. */
-    colour(colours?: Float32Array): void {
+    /** Colour the drawn vertices; or none of them. */
+    colour(colours?: BufferAttribute): void {
         const on = colours !== undefined;
-        if (colours) this.mesh.geometry.setAttribute("color", new BufferAttribute(colours, 3));
+        if (colours) this.mesh.geometry.setAttribute("color", colours);
         if (this.material.vertexColors !== on) {
             this.material.vertexColors = on;
             this.material.color.set(on ? WHITE : PLAIN);

@@ -1,4 +1,5 @@
 /** A stream as it arrives, cut at any byte, over a link of any speed; sequences play. */
+import { BufferAttribute } from "three";
 import type { LossEvent } from "../decoder";
 import { errorLike } from "../errors";
 import type { Header } from "../header";
@@ -56,6 +57,7 @@ export class View {
     private thread?: DecoderThread;
     private playback?: Playback;
     private errors?: Errors;
+    private ownColours?: BufferAttribute;
     private fed = 0;
     private started = 0;
     private firstDrawn?: number;
@@ -107,10 +109,15 @@ export class View {
         this.content = content;
         this.cut.max = String(content.stream.length);
         this.cut.value = this.cut.max;
-        const error = this.colour.querySelector<HTMLOptionElement>("[value=error]")!;
-        error.hidden = error.disabled = !content.original;
-        if (error.selected && error.disabled) this.colour.value = "plain";
+        this.allow("error", content.original !== undefined);
         this.restart();
+    }
+
+    /** Offer a way to colour, or not. */
+    private allow(scheme: Scheme, allowed: boolean): void {
+        const option = this.colour.querySelector<HTMLOptionElement>(`[value=${scheme}]`)!;
+        option.hidden = option.disabled = !allowed;
+        if (option.selected && !allowed) this.colour.value = "plain";
     }
 
     /** Say that there is nothing to show. */
@@ -145,6 +152,8 @@ export class View {
         this.frameShown = -1;
         this.firstDrawn = this.completed = undefined;
         this.errors = undefined;
+        this.ownColours = undefined;
+        this.allow("own", false);
         this.losses = [];
         this.shown = this.over = false;
         this.started = performance.now();
@@ -212,6 +221,10 @@ export class View {
 
     private end(): void {
         this.over = true;
+        this.stale = true;
+        this.ownColours = this.geometry.getAttribute("color") as BufferAttribute | undefined;
+        this.allow("own", this.ownColours !== undefined);
+        if (this.ownColours && this.colour.value === "plain") this.colour.value = "own";
         this.completed = performance.now() - this.started;
         this.root.dataset.state = this.losses.length > 0 ? "damaged" : "complete";
     }
@@ -267,7 +280,8 @@ export class View {
         this.stale = false;
         this.errors = original && this.geometry.origin.length > 0 ? errorsOf(this.geometry, original) : undefined;
         this.part("legend").textContent = LEGENDS[scheme];
-        this.stage.colour(coloursOf(this.geometry, scheme, this.errors?.distances));
+        const colours = coloursOf(this.geometry, scheme, this.errors?.distances);
+        this.stage.colour(scheme === "own" ? this.ownColours : colours && new BufferAttribute(colours, 3));
     }
 
     private report(): void {
@@ -291,7 +305,7 @@ export class View {
         const most = header.refinements.length / 2;
         const quality = most > 0 ? `, ${layers} of ${most} quality layers` : "";
         const frames = header.gopFrames > 0 ? `, ${header.frames || "any number of"} frames` : "";
-        const attributes = header.attributes > 0 ? `, ${header.attributes} attributes, which are not shown` : "";
+        const attributes = header.attributes > 0 ? `, ${this.geometry.carried.length} of ${header.attributes} attributes` : "";
         return `${parts}${quality}, ${counted(header.vertices)} vertices${frames}${attributes}`;
     }
 

@@ -1,0 +1,127 @@
+"""The proof's own parts: it finds what is wrong, keeps what led there, and does the same again from the same seed."""
+
+import json
+import subprocess
+import sys
+from dataclasses import asdict
+
+import numpy as np
+import pytest
+
+from bitstream.errors import BsmError, CorruptError, TruncatedError
+from tools.proof import shard as proof
+from tools.proof.__main__ import Part, cuts, plan, run, table
+from tools.proof.decoding import is_sequence, piecewise, whole
+from tools.proof.inputs import mutant, random_stream, vector_seeds
+from tools.proof.places import ROOT, environments, processors
+from tools.proof.shard import SUITES, Shard
+from tools.proof.tally import Tally
+from tools.vectors.store import FOLDER, distance, scale_of
+
+CHAIN = (FOLDER / "good-chain.bsm").read_bytes()
+SEQUENCE = (FOLDER / "good-sequence-learnt.bsm").read_bytes()
+
+
+@pytest.fixture
+def shard(tmp_path):
+    return Shard("test", tmp_path / "findings", careful=False, short=True)
+
+
+def test_tallies_are_added():
+    total, other = Tally(inputs=2, worst=0.5, findings=["a"]), Tally(inputs=3, escapes=1, worst=0.25, findings=["b"])
+    total.add(other)
+    assert total == Tally(inputs=5, escapes=1, worst=0.5, findings=["a", "b"])
+
+
+def test_outcomes_are_held_against_each_other():
+    tally, decoded = Tally(), whole(CHAIN)
+    positions, faces = decoded
+    assert tally.hold(CHAIN, decoded, decoded) is None and tally.inexact == 0
+    nearly = (positions + 1e-13, faces)
+    assert tally.hold(CHAIN, nearly, decoded) is None and tally.inexact == 1 and 0 < tally.worst < 1e-12
+    assert "last bit" in tally.hold(CHAIN, nearly, decoded, exact=True)
+    assert "off by" in tally.hold(CHAIN, (positions + 1e-6, faces), decoded)
+    assert "faces" in tally.hold(CHAIN, (positions, faces[::-1]), decoded)
+    assert "shape" in tally.hold(CHAIN, (positions[:-1], faces), decoded)
+    assert "corrupt instead of decoded" in tally.hold(CHAIN, CorruptError("no"), decoded)
+    assert "corrupt instead of truncated" in tally.hold(CHAIN, CorruptError("no"), TruncatedError("yes"))
+    assert tally.hold(CHAIN, CorruptError("this"), CorruptError("that")) is None
+    assert tally.differing == 6
+
+
+def test_distances_are_in_extents():
+    flat = np.zeros((4, 3))
+    assert scale_of(CHAIN) > 1.0 and scale_of(b"no stream") == 0.0
+    assert distance(flat + np.array([1.0, 0.0, 0.0]), flat, 2.0) == (0.5, 0.5)
+    assert distance(np.zeros((0, 3)), np.zeros((0, 3)), 1.0) == (0.0, 0.0)
+    far = np.array([[1e9, 0.0, 0.0], [1e9 + 1.0, 0.0, 0.0]])
+    assert distance(far + 1e-6, far, 1.0)[1] < 1e-8, "rounding at that distance is no difference"
+
+
+@pytest.mark.parametrize("stream", [CHAIN, SEQUENCE])
+def test_pieces_and_tolerance_change_nothing(shard, stream):
+    outcome = whole(stream)
+    proof.agree(shard, stream, outcome)
+    assert shard.tally.findings == [] and is_sequence(stream) == (stream is SEQUENCE)
+    damaged = stream[:-30] + bytes(30)
+    assert isinstance(piecewise(damaged, shard.random)[0], BsmError)
+
+
+def test_findings_and_escapes_are_noted_and_kept(shard, tmp_path):
+    with shard.watching(b"stream"):
+        raise ZeroDivisionError
+    shard.found(b"other", "wrong")
+    shard.found(b"right", None)
+    assert shard.tally.escapes == 1 and len(shard.tally.findings) == 2
+    assert sorted(path.read_bytes() for path in (tmp_path / "findings").iterdir()) == [b"other", b"stream"]
+
+
+def test_a_wrong_decoder_is_found(shard, monkeypatch):
+    def wrong(stream, *rest, **more):
+        outcome = whole(stream, *rest, **more)
+        return outcome if isinstance(outcome, BsmError) else (outcome[0] * 1.001, outcome[1])
+
+    monkeypatch.setattr(proof, "whole", wrong)
+    monkeypatch.setattr(proof, "steady", lambda stream: True)
+    SUITES["differential"](shard, 0, 40)
+    assert shard.tally.differing == shard.tally.decoded > 0 and "off by" in shard.tally.findings[0]
+
+
+@pytest.mark.parametrize(("suite", "size"), [("vectors", 40), ("mutants", 60), ("differential", 20)])
+def test_shards_find_nothing_and_are_the_same_again(suite, size, tmp_path):
+    command = [sys.executable, "-m", "tools.proof.shard", suite, "0", str(size), "--seed", "s"]
+    seen = []
+    for _ in range(2):
+        done = subprocess.run(
+            [*command, "--findings", str(tmp_path)], cwd=ROOT, capture_output=True, text=True, check=True
+        )
+        seen.append(Tally(**json.loads(done.stdout)))
+    assert seen[0] == seen[1] and seen[0].inputs > 0
+    assert seen[0].findings == [] and seen[0].escapes == seen[0].differing == 0
+
+
+def test_streams_follow_from_their_seed():
+    from random import Random
+
+    assert mutant(Random(1), vector_seeds()) == mutant(Random(1), vector_seeds())
+    assert random_stream(Random(3)) == random_stream(Random(3))
+
+
+def test_places_are_there():
+    assert len({place.name for place in environments()}) == len(environments()) > 25
+    assert len(processors(short=True)) <= min(2, len(processors()))
+    done = environments()[0].run("tools.proof.encodes", "1", "1", "/nonexistent/folder", "--streams", "/nonexistent")
+    assert done.returncode != 0
+
+
+def test_the_plan_has_everything(tmp_path):
+    import argparse
+
+    args = argparse.Namespace(short=False, mutants=10_000, differential=2500, encodes=120, seed="0")
+    parts = plan(args)
+    assert {part.suite for part in parts} == set(SUITES)
+    assert sum(part.size for part in parts if part.suite == "mutants") == 10_000
+    assert list(cuts(9, 4)) == [(0, 4), (1, 4), (2, 1)]
+    tally = run(Part("mutants", 0, 20), args, tmp_path)
+    lines = list(table({"mutants": tally}))
+    assert len(lines) == 3 and "20" in lines[1] and asdict(tally)["inputs"] == 20

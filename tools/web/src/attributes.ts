@@ -1,0 +1,385 @@
+/** Attributes: seams, values, and how the user is given them (specification, D, A). */
+import { Cursor } from "./reader";
+import { BITS, CORNER, FACE, isByVertex, LEVELS, OCTAHEDRAL, RECOMPUTED, scaleOf, TEXCOORD, VERTEX, wordsOf, type Declaration } from "./declaration";
+import { Coder, makeBank } from "./entropy";
+import { CorruptError } from "./errors";
+import { decodeChunk, linkCorners, makeLearners, makeModel, zeros } from "./fields";
+import type { Header } from "./header";
+import type { Argument, Ints, Memory } from "./kernels";
+import { checkLimit, type Limits } from "./limits";
+import type { Numbering } from "./numbering";
+
+const SEAM = 1;
+const SEAMS = { inputs: 4, others: 9, slots: 32 * 32 + 9 * 16 + 256 + 9 };
+const MOST_WHOLE = 2 ** 20 - 1;
+const PIECE = 65536;
+const MOST_COMPONENTS = 4;
+const [BASES, VALENCES] = [4, 6];
+const FACE_CONTEXTS = 257;
+const MOST_COORDINATE = 2 ** 20;
+const FLOAT32 = 6;
+const FLOAT64 = 7;
+const SEMANTICS = ["generic", "color", "normal", "texcoord"] as const;
+const KINDS = ["uint8", "int8", "uint16", "int16", "uint32", "int32", "float32", "float64"] as const;
+
+/** An attribute of a mesh, whole. */
+export interface Attribute {
+    name: string;
+    semantic: (typeof SEMANTICS)[number];
+    /** What has a value: each vertex, each corner by way of `indices`, or each face. */
+    domain: "vertex" | "corner" | "face";
+    kind: (typeof KINDS)[number];
+    components: number;
+    /** `components` numbers for each value. */
+    values: Float64Array;
+    /** The value of each corner. */
+    indices?: Int32Array;
+}
+
+/** Decoded positions, as vertices are coded; on a grid also the coded values. */
+export interface Solid {
+    positions: Float64Array;
+    places?: Int32Array;
+}
+
+/** Which corners share a value: the seams, and the value of each corner and the first corner of each value. */
+interface Joins {
+    seams: Uint8Array;
+    faces: Int32Array;
+    first: Int32Array;
+}
+
+/** The values of an attribute as vertices of a mesh of their own; -1 for the vertex of what no face uses. */
+interface Surface {
+    faces: Int32Array;
+    vertices: Int32Array;
+}
+
+/** An attribute while its values come. */
+interface Valued {
+    declaration: Declaration;
+    joins?: Joins;
+    surface?: Surface;
+    /** One for each group of pieces. */
+    coders?: { kernel: string; state: Argument[]; values: Ints; order?: Ints; columns: number }[];
+    values: Float64Array;
+    coded: number;
+}
+
+/** The attributes of one mesh. */
+export class Attributes {
+    private readonly valued = new Map<number, Valued>();
+    private relief?: Int32Array;
+    private current = -1;
+    private mark?: number;
+
+    constructor(
+        private readonly memory: Memory,
+        private readonly header: Header,
+        private readonly faces: Ints,
+        private readonly limits: Limits,
+    ) {}
+
+    /** Take a declaration, and its seams. */
+    declare(index: number, declaration: Declaration, seams: Uint8Array): void {
+        const all = [...this.valued.values()].map((one) => one.declaration);
+        checkLimit(this.limits, "attributeValues", [...all, declaration].reduce((sum, one) => sum + this.numbersOf(one), 0));
+        this.valued.set(index, { declaration, joins: this.joinsOf(index, declaration, seams), values: new Float64Array(0), coded: 0 });
+    }
+
+    /** Decode a chunk of values; the attribute, if it is whole now. */
+    decode(index: number, first: number, count: number, data: Uint8Array, numbering: Numbering, solid: () => Solid | undefined): Attribute | undefined {
+        const one = this.valued.get(index);
+        if (!one) throw new CorruptError(`attribute ${index} is not declared`);
+        const { declaration } = one;
+        if (index !== this.current) this.begin(index, one, numbering, solid);
+        if (first !== one.coded || !one.coders) throw new CorruptError(`attribute "${declaration.name}" lacks the values before ${first}`);
+        const cursor = new Cursor(data);
+        const several = one.coders.length > 1;
+        let rows = Int32Array.from({ length: count }, (_, i) => first + i);
+        const pieces: { values: Int32Array; columns: number }[] = one.coders.map(({ kernel, state, values, order, columns }) => {
+            const part = several ? cursor.take(cursor.varint()) : cursor.rest();
+            decodeChunk(this.memory, kernel, state, part, first, count);
+            if (order) rows = order.view.slice(first, first + count);
+            return { values: values.view.slice(), columns };
+        });
+        cursor.finish();
+        restore(declaration, rows, pieces, one.values);
+        one.coded += count;
+        return one.coded === declaration.rows ? this.given(one, numbering) : undefined;
+    }
+
+    /** Attributes that follow from positions. */
+    recomputed(numbering: Numbering, solid: () => Solid | undefined): Attribute[] {
+        const recomputed = [...this.valued.values()].filter(({ declaration }) => declaration.coding === RECOMPUTED);
+        return recomputed.flatMap((one) => {
+            const found = solid();
+            if (!found) return [];
+            one.surface = this.surfaceOf(one, numbering);
+            one.values = normalsOf(one.surface, found.positions);
+            if (one.declaration.kind === FLOAT32) one.values.forEach((value, i, all) => (all[i] = Math.fround(value)));
+            return [this.given(one, numbering)];
+        });
+    }
+
+    /** Check the number of rows of all attributes (D 1.2). */
+    check(numbering: Numbering): void {
+        for (const one of this.valued.values()) {
+            const { declaration } = one;
+            const surface = (one.surface = this.surfaceOf(one, numbering));
+            const expected = declaration.domain === FACE ? surface.faces.length / 3 : surface.vertices.length;
+            if (declaration.coding !== RECOMPUTED && declaration.rows !== expected) {
+                throw new CorruptError(`attribute "${declaration.name}" has ${declaration.rows} values where ${expected} belong`);
+            }
+        }
+    }
+
+    private numbersOf(declaration: Declaration): number {
+        const rows = declaration.coding === RECOMPUTED ? this.faces.length : declaration.rows;
+        return rows * Math.max(wordsOf(declaration), declaration.components);
+    }
+
+    private joinsOf(index: number, declaration: Declaration, seams: Uint8Array): Joins | undefined {
+        const { memory, faces, header, valued } = this;
+        if (declaration.domain !== CORNER) return undefined;
+        if (declaration.seamsOf) {
+            const shared = valued.get(declaration.seamsOf - 1)?.joins;
+            if (!shared) throw new CorruptError(`the seams of "${declaration.name}" are those of an attribute that is missing`);
+            return shared;
+        }
+        if (valued.size < index) throw new CorruptError(`the seams of "${declaration.name}" depend on an attribute that is missing`);
+        const earlier = [...valued.values()].filter((one) => one.joins && !one.declaration.seamsOf).map((one) => one.joins!.seams);
+        return memory.scratch(() => {
+            const corners = linkCorners(memory, faces, header.vertices);
+            const coder = new Coder(memory, seams);
+            const bank = makeBank(memory, { slots: SEAMS.slots, selectors: SEAMS.others, inputs: SEAMS.inputs });
+            const [edges, others] = [memory.bytes(faces.length), memory.bytes(faces.length)];
+            edges.view.fill(0);
+            const known = others.view.fill(0);
+            earlier.slice(-2).reverse().forEach((one, k) => one.forEach((seam, edge) => (known[edge] += (k ? 1 : 3) * (1 + Number(seam === SEAM)))));
+            memory.call("code_edges", coder.parts, bank, corners, edges, others, memory.ints(3 * header.vertices, 3));
+            coder.finish();
+            const [joined, first] = [memory.ints(faces.length), memory.ints(faces.length)];
+            const count = memory.call("join_corners", corners, edges, joined, first);
+            return { seams: edges.view.slice(), faces: joined.view.slice(), first: first.view.slice(0, count) };
+        });
+    }
+
+    private surfaceOf({ declaration, joins }: Valued, numbering: Numbering): Surface {
+        const faces = this.faces.view.slice();
+        if (declaration.domain === FACE) return { faces, vertices: new Int32Array(0) };
+        const loose = isByVertex(declaration) ? numbering.loose.vertices.length : 0;
+        const size = joins ? joins.first.length : this.header.vertices;
+        const vertices = new Int32Array(size + loose).fill(-1);
+        for (let row = 0; row < size; row++) vertices[row] = joins ? faces[joins.first[row]] : row;
+        return { faces: joins ? joins.faces : faces, vertices };
+    }
+
+    /** The state of an attribute takes the place of that of the one before. */
+    private begin(index: number, one: Valued, numbering: Numbering, solid: () => Solid | undefined): void {
+        const { memory } = this;
+        const { declaration } = one;
+        one.surface ??= this.surfaceOf(one, numbering);
+        one.values = new Float64Array(declaration.rows * declaration.components);
+        const geometry = declaration.leans ? this.reliefOf(one.surface, solid) : new Int32Array(0);
+        this.mark ??= memory.mark();
+        memory.release(this.mark);
+        this.current = index;
+        const largest = piecesOf(declaration);
+        one.coders = [];
+        for (let start = 0; start < largest.length; start += MOST_COMPONENTS) {
+            one.coders.push(this.makeCoder(declaration, one.surface, largest.slice(start, start + MOST_COMPONENTS), geometry));
+        }
+    }
+
+    private makeCoder(declaration: Declaration, surface: Surface, largest: number[], geometry: Int32Array): NonNullable<Valued["coders"]>[number] {
+        const { memory, header } = this;
+        const columns = largest.length;
+        const top = memory.ints(columns);
+        top.view.set(largest);
+        const faces = memory.ints(surface.faces.length, 3);
+        faces.view.set(surface.faces);
+        const field = (rows: number, width: number): Ints => zeros(memory.ints(rows * width, width));
+        const model = makeModel(memory);
+        if (declaration.domain === FACE) {
+            const values = field(declaration.rows, columns);
+            const corners = linkCorners(memory, faces, header.vertices);
+            const state = [top, values, field(declaration.rows, columns), field(columns, FACE_CONTEXTS)];
+            return { kernel: "code_faces", state: [model, corners, state], values, columns };
+        }
+        const size = surface.vertices.length;
+        const kind = kindOf(declaration);
+        const corners = linkCorners(memory, faces, size);
+        const order = memory.ints(size);
+        memory.scratch(() => {
+            const scratch = memory.ints(3 * size, size);
+            scratch.view.fill(-1);
+            memory.call("order_vertices", corners, order, scratch);
+        });
+        const twin = memory.ints(size);
+        twin.view.set(ringOfTwins(surface.vertices));
+        const known = memory.ints(geometry.length, 3);
+        known.view.set(geometry);
+        const values = field(size, columns);
+        const words = Math.floor(Math.max(...largest) / 64) + 1;
+        const [sums, seen] = [memory.longs((columns + 1) * size, columns + 1), memory.longs(columns * words, words)];
+        sums.view.fill(0n);
+        seen.view.fill(0n);
+        const guesses = (kind === "plain" ? MOST_COMPONENTS : 2) * BASES * VALENCES;
+        const starts = { plain: [16384, 16384], texcoord: [8192], normal: [] }[kind];
+        const learners = makeLearners(memory, guesses + guesses / VALENCES, (k) => (k < guesses ? starts : [40000, 8192]));
+        const directions = field(kind === "normal" ? size : 0, 12);
+        const chart = memory.longs(2);
+        chart.view.set([0n, BigInt(16 * largest[0])]);
+        const state: Argument = [top, order, twin, known, values, field(size, columns), sums, seen, learners, directions, chart];
+        if (kind === "normal") memory.call("expect_normals", corners, state);
+        const kernel = { plain: "code_scalars", texcoord: "code_texcoords", normal: "code_normals" }[kind];
+        return { kernel, state: [model, corners, state], values, order, columns };
+    }
+
+    /** Where rows are, in whole numbers (D 5). */
+    private reliefOf(surface: Surface, solid: () => Solid | undefined): Int32Array {
+        this.relief ??= this.makeRelief(solid());
+        const places = new Int32Array(3 * surface.vertices.length);
+        surface.vertices.forEach((vertex, row) => vertex >= 0 && places.set(this.relief!.subarray(3 * vertex, 3 * vertex + 3), 3 * row));
+        return places;
+    }
+
+    private makeRelief(solid?: Solid): Int32Array {
+        const leaning = [...this.valued.values()].find(({ declaration }) => declaration.leans)?.declaration;
+        if (!solid || !leaning) throw new CorruptError("positions are missing that attributes are predicted from");
+        if (solid.places) return solid.places;
+        if (leaning.relief === 0) throw new CorruptError("the attribute is missing that says how positions are rounded");
+        const scaled = solid.positions.map((x) => x * 2 ** leaning.relief + 0.5);
+        const low = scaled.map(Math.floor);
+        const cursor = new Cursor(leaning.doubts);
+        for (let [i, begun] = [0, false]; !cursor.ended; begun = true) {
+            const entry = cursor.varint();
+            i += Math.floor(entry / 2);
+            if (i >= low.length || (begun && entry < 2)) throw new CorruptError(`coordinate ${i} of ${low.length} is in doubt`);
+            low[i] = nearestEven(scaled[i]) - 1 + (entry % 2);
+        }
+        return Int32Array.from(low, (x) => Math.min(Math.max(x, -MOST_COORDINATE), MOST_COORDINATE));
+    }
+
+    /** As the user knows it (D 4.5). */
+    private given({ declaration, surface, values }: Valued, numbering: Numbering): Attribute {
+        const { components } = declaration;
+        const { corners, source, faces, isSplit } = numbering;
+        const rows = values.length / components;
+        const shape = { name: declaration.name, semantic: SEMANTICS[declaration.semantic], kind: KINDS[declaration.kind], components };
+        const chosen = (from: Int32Array): Float64Array => {
+            const taken = new Float64Array(components * from.length);
+            from.forEach((row, i) => taken.set(values.subarray(components * row, components * row + components), components * i));
+            return taken;
+        };
+        if (declaration.domain === FACE) {
+            const from = Int32Array.from({ length: rows }, (_, face) => (corners ? Math.floor(corners[3 * face] / 3) : face));
+            return { ...shape, domain: "face", values: chosen(from) };
+        }
+        const indices = corners ? corners.map((corner) => surface!.faces[corner]) : surface!.faces;
+        if (!isByVertex(declaration) || (declaration.domain !== VERTEX && !isSplit)) return { ...shape, domain: "corner", values, indices };
+        if (!source) return { ...shape, domain: "vertex", values };
+        let loose = rows - numbering.loose.vertices.length;
+        let found = source;
+        if (declaration.domain === CORNER) {
+            found = new Int32Array(source.length);
+            for (let i = faces.length - 1; i >= 0; i--) found[faces[i]] = indices[i];
+        }
+        return { ...shape, domain: "vertex", values: chosen(source.map((vertex, i) => (vertex < 0 ? loose++ : found[i]))) };
+    }
+}
+
+/** The whole number that is nearest, of two the even one. */
+function nearestEven(x: number): number {
+    const low = Math.floor(x);
+    const above = x - low;
+    return above > 0.5 || (above === 0.5 && low % 2 !== 0) ? low + 1 : low;
+}
+
+/** How numbers are predicted (D 3.4). */
+function kindOf({ coding, semantic, largest }: Declaration): "plain" | "texcoord" | "normal" {
+    if (coding === OCTAHEDRAL) return "normal";
+    const small = coding === LEVELS && Math.max(...largest) <= MOST_WHOLE;
+    return small && semantic === TEXCOORD && largest.length === 2 ? "texcoord" : "plain";
+}
+
+/** Largest value of each number that is coded (D 3.2). */
+function piecesOf({ largest }: Declaration): number[] {
+    return largest.flatMap((most) => (most <= MOST_WHOLE ? [most] : [Math.floor(most / PIECE), PIECE - 1]));
+}
+
+/** For each row the next one at the same vertex, in a ring. */
+function ringOfTwins(vertices: Int32Array): Int32Array {
+    const last = new Map<number, number>();
+    const first = new Map<number, number>();
+    const twin = Int32Array.from(vertices.keys());
+    vertices.forEach((vertex, row) => {
+        if (vertex < 0) return;
+        const before = last.get(vertex);
+        if (before === undefined) first.set(vertex, row);
+        else twin[before] = row;
+        last.set(vertex, row);
+    });
+    for (const [vertex, row] of last) twin[row] = first.get(vertex)!;
+    return twin;
+}
+
+/** Values of rows from their pieces (D 3.2, D 4). */
+function restore(declaration: Declaration, rows: Int32Array, groups: { values: Int32Array; columns: number }[], into: Float64Array): void {
+    const { coding, kind, components, largest } = declaration;
+    const { offsets, steps } = scaleOf(declaration);
+    const bits = new DataView(new ArrayBuffer(8));
+    const words = new Float64Array(largest.length);
+    for (const row of rows) {
+        const pieces = groups.flatMap(({ values, columns }) => [...values.subarray(row * columns, row * columns + columns)]);
+        let at = 0;
+        largest.forEach((most, w) => {
+            words[w] = pieces[at++];
+            if (most > MOST_WHOLE) words[w] = PIECE * words[w] + pieces[at++];
+            if (words[w] > most) throw new CorruptError(`a level of attribute "${declaration.name}" is above ${most}`);
+        });
+        const value = into.subarray(row * components, row * components + components);
+        if (coding === OCTAHEDRAL) value.set(unfolded(words[0], words[1], largest[0] / 2));
+        else if (coding === BITS) value.forEach((_, i) => (value[i] = kind === FLOAT64 ? ofBits(bits, words[2 * i] + offsets[2 * i], words[2 * i + 1] + offsets[2 * i + 1]) : ofBits(bits, words[i] + offsets[i])));
+        else value.forEach((_, i) => (value[i] = offsets[i] + steps[i] * words[i]));
+        if (kind === FLOAT32) value.forEach((number, i) => (value[i] = Math.fround(number)));
+    }
+}
+
+/** The direction of a place on the unfolded octahedron (D 4.2). */
+function unfolded(first: number, second: number, size: number): number[] {
+    let [u, v] = [first - size, second - size];
+    const w = size - Math.abs(u) - Math.abs(v);
+    if (w < 0) [u, v] = [(u < 0 ? -1 : 1) * (size - Math.abs(v)), (v < 0 ? -1 : 1) * (size - Math.abs(u))];
+    const length = Math.sqrt(u * u + v * v + w * w);
+    return [u / length, v / length, w / length];
+}
+
+/** The number of bits that ascend with it, in one word or two (D 4.3). */
+function ofBits(view: DataView, high: number, low?: number): number {
+    const flip = high >= 2 ** 31 ? 2 ** 31 : 2 ** 32 - 1;
+    view.setUint32(0, (high ^ flip) >>> 0);
+    if (low !== undefined) view.setUint32(4, (high >= 2 ** 31 ? low : ~low) >>> 0);
+    const value = low === undefined ? view.getFloat32(0) : view.getFloat64(0);
+    return Number.isFinite(value) ? value : 0;
+}
+
+/** Normals of rows: those of the faces around, by area (D 4.4). */
+function normalsOf({ faces, vertices }: Surface, positions: Float64Array): Float64Array {
+    const normals = new Float64Array(3 * vertices.length);
+    for (let f = 0; f < faces.length; f += 3) {
+        const [a, b, c] = [0, 1, 2].map((k) => 3 * vertices[faces[f + k]]);
+        const [ux, uy, uz] = [0, 1, 2].map((d) => positions[b + d] - positions[a + d]);
+        const [vx, vy, vz] = [0, 1, 2].map((d) => positions[c + d] - positions[a + d]);
+        const across = [uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx];
+        for (let k = 0; k < 3; k++) for (let d = 0; d < 3; d++) normals[3 * faces[f + k] + d] += across[d];
+    }
+    for (let row = 0; row < normals.length; row += 3) {
+        const length = Math.sqrt(normals[row] ** 2 + normals[row + 1] ** 2 + normals[row + 2] ** 2);
+        if (length > 0) for (let d = 0; d < 3; d++) normals[row + d] /= length;
+        else normals.set([0, 0, 1], row);
+    }
+    return normals;
+}
+
