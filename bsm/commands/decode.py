@@ -91,6 +91,11 @@ def decode_one(args: argparse.Namespace, console: Console) -> Facts:
     seconds = time.perf_counter() - begin
     if args.permutation:
         mesh = reorder(mesh, read_permutation(args.permutation))
+    if header is not None and header.attributes > len(mesh.attributes):
+        missing = header.attributes - len(mesh.attributes)
+        console.note(
+            f"{args.input}: left out: {missing} of {header.attributes} attributes, of which values have not come"
+        )
     file = written_mesh(mesh, kind, "mesh" if output == "-" else output)
     left_out = save_written(output, file, overwrite=may_replace(args, output), overwrite_beside=args.force)
     if left_out:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
@@ -229,7 +229,7 @@ def decode_blocks(
                 progress(done, wanted)
             if done == wanted or isinstance(event, EndEvent):
                 break
-    return part.mesh()
+    return replace(part.mesh(), metadata=decoder.metadata)
 
 
 def decode_what_is_left(
@@ -263,7 +263,7 @@ def decode_what_is_left(
                     report(
                         f"{len(losses.missing)} vertices are missing, {len(losses.degraded)} less good than they were"
                     )
-    return part.mesh()
+    return replace(part.mesh(), metadata=decoder.metadata)
 
 
 class _Receiver(Protocol):
