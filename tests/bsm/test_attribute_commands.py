@@ -90,6 +90,15 @@ def test_what_a_format_cannot_hold_is_said(tmp_path, capsys):
     assert run_json(capsys, "decode", tmp_path / "a.bsm", "-o", tmp_path / "a.npz")["left_out"] == []
 
 
+def test_a_part_of_a_stream_has_metadata_and_says_which_values_it_has_not(tmp_path, capsys):
+    bsm.save(painted(torus(40, 24)), tmp_path / "a.bsm", preset="small")
+    told = notes(capsys, "decode", tmp_path / "a.bsm", "-o", tmp_path / "a.npz", "--blocks", "1")
+    assert "left out: 3 of 3 attributes" in told
+    assert read_mesh(tmp_path / "a.npz").mesh.metadata["name"] == "ring"
+    assert main(["decode", str(tmp_path / "a.bsm"), "-o", str(tmp_path / "b.npz"), "--tolerant", "-q"]) == 0
+    assert {a.name for a in read_mesh(tmp_path / "b.npz").mesh.attributes} == {"texcoord", "height", "label"}
+
+
 def test_what_lies_beside_is_not_overwritten_unasked(tmp_path, capsys):
     bsm.save(painted(), tmp_path / "a.bsm")
     (tmp_path / "a.0.png").write_bytes(b"mine")
