@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
@@ -18,6 +18,7 @@ from bsm.files.pipes import Input, Source, read_bytes, read_chunks
 from bsm.files.stream import decode_whole
 from bsm.meshes import as_mesh, read_any
 from codec.arrays import Faces, Positions
+from codec.geometry.attributes import Attribute
 from codec.geometry.mesh import Metadata, TriangleMesh
 
 if TYPE_CHECKING:
@@ -164,6 +165,7 @@ def encode_sequence(
     /,
     *,
     metadata: Metadata | None = None,
+    mesh_attributes: Sequence[Attribute] = (),
     **keywords: Any,
 ) -> bytes:
     """Compress an animated mesh.
@@ -176,6 +178,9 @@ def encode_sequence(
         Instead of keywords.
     metadata : mapping from str to str, int, float or bytes, optional
         What belongs to the whole sequence.
+    mesh_attributes : sequence of Attribute
+        What is the same in all frames; `SequenceDecoder.attributes` gives it back. How well each is kept, the option
+        `attributes` says, as of a mesh.
     **keywords
         As on the command line: `preset`, `low_delay`, one target (`kg`, `bpvf`, `theta`, `nmsve_db`), and fields of
         `SequenceOptions` (`step`, `gop`, `frame_rate`, ...).
@@ -184,7 +189,7 @@ def encode_sequence(
     from codec.sequence.options import SequenceOptions
 
     chosen = _chosen(options, SequenceOptions, keywords, keywords_to.sequence_options)
-    return encode_frames(positions, faces, chosen, metadata or {})
+    return encode_frames(positions, faces, chosen, metadata or {}, mesh_attributes)
 
 
 def decode_sequence(

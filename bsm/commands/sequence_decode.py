@@ -48,9 +48,17 @@ def decode_sequence(args: argparse.Namespace, console: Console, chunks: Iterator
     if args.permutation:
         mesh = reorder(mesh, read_permutation(args.permutation))
     order, faces = numbers_of(mesh.positions), mesh.faces
+    holds = kind not in ("npz", "npy") and not args.permutation
     count = 0
     with (
-        sequence_writer(output, kind, faces, expected, overwrite=may_replace(args, output)) as write,
+        sequence_writer(
+            output,
+            kind,
+            faces,
+            expected,
+            overwrite=may_replace(args, output),
+            attributes=lambda: stream.attributes if holds else (),
+        ) as write,
         console.progress("decoding", "frames") as progress,
     ):
         for number, frame in stream.frames():
@@ -62,6 +70,9 @@ def decode_sequence(args: argparse.Namespace, console: Console, chunks: Iterator
                 progress(count, expected)
         if count == 0:
             raise OptionError("the stream has none of these frames")
+    if stream.attributes and not holds:
+        names = ", ".join(one.name for one in stream.attributes)
+        console.note(f"{args.input}: left out: {names}; frames in files of their own, in the stream's order, hold them")
     seconds = time.perf_counter() - begin
     facts = {"frames": count, "vertices": header.vertices, "faces": header.faces, "frame_rate": header.frame_rate}
     console.note(

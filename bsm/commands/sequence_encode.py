@@ -27,7 +27,7 @@ def encode_sequence(args: argparse.Namespace, console: Console, source: Frames, 
     from codec.sequence.encoder import SequenceEncoder
 
     begin = time.perf_counter()
-    encoder = SequenceEncoder(source.faces, sequence_options(args), source.count, metadata)
+    encoder = SequenceEncoder(source.faces, sequence_options(args), source.count, metadata, source.attributes)
     heard = Echo()
     size = 0
     replace = may_replace(args, args.output)
@@ -38,7 +38,8 @@ def encode_sequence(args: argparse.Namespace, console: Console, source: Frames, 
             if not args.quiet or args.json:
                 heard.compare(chunk, encoder.vertex_order)
     seconds = time.perf_counter() - begin
-    for note in encoder.notes:
+    notes = (*source.notes, *encoder.notes)
+    for note in notes:
         console.note(f"{args.input}: {note}")
     if args.permutation:
         write_permutation(args.permutation, encoder.vertex_order, overwrite=args.force)
@@ -61,7 +62,7 @@ def encode_sequence(args: argparse.Namespace, console: Console, source: Frames, 
         "bpvf_total": bpvf,
         "kg": finite(heard.kg),
         "seconds": seconds,
-        "notes": list(encoder.notes),
+        "notes": list(notes),
     }
 
 

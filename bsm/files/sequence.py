@@ -27,6 +27,7 @@ from bsm.files.output import open_output
 from bsm.files.pipes import Input, Source, as_input, is_pipe
 from bsm.files.remote import is_url
 from codec.arrays import Faces, Positions
+from codec.geometry.attributes import Attribute
 from codec.geometry.mesh import TriangleMesh
 
 ZIP = b"PK\x03\x04"
@@ -45,11 +46,17 @@ class Frames:
         Number of frames; 0 if that is not known beforehand.
     frames : iterator of float64 arrays, shape (n, 3)
         Can be used once.
+    attributes : tuple of Attribute
+        Those of the first frame that the last has, too; no normals, which move.
+    notes : tuple of str
+        What was left out.
     """
 
     faces: Faces
     count: int
     frames: Iterator[Positions]
+    attributes: tuple[Attribute, ...] = ()
+    notes: tuple[str, ...] = ()
 
 
 def open_sequence(source: Source, file_format: str | None = None, reader: str | None = None) -> Frames | None:
@@ -96,7 +103,13 @@ def open_sequence(source: Source, file_format: str | None = None, reader: str | 
 
 @contextmanager
 def sequence_writer(
-    path: str, kind: str, faces: Faces, count: int, *, overwrite: bool
+    path: str,
+    kind: str,
+    faces: Faces,
+    count: int,
+    *,
+    overwrite: bool,
+    attributes: Callable[[], tuple[Attribute, ...]] = tuple,
 ) -> Iterator[Callable[[Positions], None]]:
     """Open a sequence for writing; yields what takes frame after frame.
 
@@ -108,6 +121,8 @@ def sequence_writer(
         One of `SEQUENCE_FORMATS`.
     count : int
         Number of frames, if known; an npz whose length is not known is put together in memory.
+    attributes : callable
+        Those of all frames, asked for with each; npz and npy hold none.
     """
     if kind == "npz":
         with open_output(path, overwrite=overwrite) as file, open_npz_sequence(file, faces, count) as write:
@@ -124,7 +139,9 @@ def sequence_writer(
         if any(folder.iterdir()) and not overwrite:
             raise FileExistsError(17, "the folder is not empty; -f writes into it", path)
         numbers = iter(range(sys.maxsize))
-        yield lambda frame: _write_frame(folder / f"{next(numbers):05d}.{kind}", TriangleMesh(frame, faces), kind)
+        yield lambda frame: _write_frame(
+            folder / f"{next(numbers):05d}.{kind}", TriangleMesh(frame, faces, attributes()), kind
+        )
 
 
 def _names_many(path: str) -> bool:
@@ -160,7 +177,24 @@ def _files(names: list[str], file_format: str | None, reader: str | None) -> Fra
                 )
             yield mesh.positions
 
-    return Frames(first.faces, len(names), frames())
+    last = read_mesh(names[-1], file_format, reader=reader).mesh if first.attributes and len(names) > 1 else first
+    kept = tuple(one for one in first.attributes if one.semantic != "normal" and _has(last, one))
+    moving = [one.name for one in first.attributes if one not in kept]
+    notes = [f"left out, for they move or change: {', '.join(moving)}"] if moving else []
+    if kept and len(names) > 1:
+        notes.append(f"{', '.join(one.name for one in kept)}: as the first frame has them")
+    return Frames(first.faces, len(names), frames(), kept, tuple(notes))
+
+
+def _has(mesh: TriangleMesh, attribute: Attribute) -> bool:
+    """Whether a mesh has the same attribute with the same values."""
+    for one in mesh.attributes:
+        if (one.name, one.domain, one.semantic) == (attribute.name, attribute.domain, attribute.semantic):
+            alike = np.array_equal(one.values, attribute.values) and one.values.dtype == attribute.values.dtype
+            if one.indices is None or attribute.indices is None:
+                return alike
+            return alike and np.array_equal(one.indices, attribute.indices)
+    return False
 
 
 def _arrays(given: Input) -> Frames:

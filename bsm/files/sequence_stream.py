@@ -14,6 +14,7 @@ from bitstream.errors import BsmError, TruncatedError
 from bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.files.stream import events
 from codec.arrays import Faces, Positions
+from codec.geometry.attributes import Attribute
 from codec.geometry.mesh import TriangleMesh
 
 Note = Callable[[str], None]
@@ -64,6 +65,7 @@ class SequenceStream:
         self.faces: Faces
         self._note = note
         decoder = SequenceDecoder(limits, tolerant=note is not None, start=start)
+        self._decoder = decoder
         self._events = events(decoder, chunks)
         for event in self._events:
             if isinstance(event, HeaderEvent):
@@ -72,6 +74,11 @@ class SequenceStream:
                 self.faces = event.faces
                 return
         raise TruncatedError("the stream ends before its faces")
+
+    @property
+    def attributes(self) -> tuple[Attribute, ...]:
+        """Those that are the same in all frames, once the first frame is known."""
+        return self._decoder.attributes
 
     def frames(self) -> Iterator[tuple[int, Positions]]:
         """Number and positions, shape (n, 3), of one frame after the other."""

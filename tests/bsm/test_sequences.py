@@ -9,8 +9,12 @@ import pytest
 from bitstream.errors import CorruptError, FormatError, MeshError, OptionError, TruncatedError
 from bsm.cli import main
 from bsm.files.formats.npy import read_npy
+from bsm.files.mesh import read_mesh, write_mesh
 from bsm.files.sequence import open_sequence, sequence_kind, sequence_writer
+from codec.geometry.attributes import Attribute
+from codec.geometry.mesh import TriangleMesh
 from tests.motion import bending
+from tests.shapes import torus
 
 FRAMES = 6
 
@@ -255,3 +259,35 @@ def test_curves(npz, tmp_path, capsys, monkeypatch):
         assert coarse["kg"] > fine["kg"] and coarse["bpvf"] < fine["bpvf"]
     assert lines["ours"][0]["bpvf"] < lines["draco"][0]["bpvf"]
     assert "Draco qp 11" in capsys.readouterr().out
+
+
+def test_attributes_that_stay_go_along(tmp_path, capsys):
+    mesh = torus(14, 10)
+    at = mesh.positions[mesh.faces]
+    corners = (at[:, :, :2] * 0.2 + 0.5).reshape(-1, 2).astype(np.float32)
+    blink = np.zeros((len(mesh.positions), 1), np.float32)
+    (tmp_path / "run").mkdir()
+    for number in range(4):
+        attributes = (
+            Attribute("texcoord", corners, "corner", "texcoord"),
+            Attribute("normal", mesh.positions, "vertex", "normal"),
+        )
+        frame = TriangleMesh(mesh.positions * (1 + 0.05 * number), mesh.faces, attributes)
+        write_mesh(tmp_path / "run" / f"{number}.obj", frame)
+        heat = Attribute("heat", blink + number)
+        color = Attribute("color", np.full((len(mesh.positions), 3), 7, np.uint8), "vertex", "color")
+        (tmp_path / "ply").mkdir(exist_ok=True)
+        write_mesh(tmp_path / "ply" / f"{number}.ply", TriangleMesh(frame.positions, mesh.faces, (heat, color)))
+    assert main(["encode", str(tmp_path / "run"), "-o", str(tmp_path / "run.bsm"), "--keep-order"]) == 0
+    assert "normal" in capsys.readouterr().err
+    assert main(["decode", str(tmp_path / "run.bsm"), "-o", str(tmp_path / "out"), "--format", "obj", "-q"]) == 0
+    for number in range(4):
+        found = read_mesh(tmp_path / "out" / f"{number:05}.obj").mesh
+        assert [one.name for one in found.attributes] == ["texcoord"]
+        again = found.attributes[0]
+        assert np.abs(again.values[again.indices].reshape(-1, 2) - corners).max() < 2e-4
+    assert main(["decode", str(tmp_path / "run.bsm"), "-o", str(tmp_path / "out.npz")]) == 0
+    assert "left out: texcoord" in capsys.readouterr().err
+    assert main(["encode", str(tmp_path / "ply"), "-o", str(tmp_path / "ply.bsm"), "--attribute", "color=5bits"]) == 0
+    assert "heat" in capsys.readouterr().err
+    assert result(capsys, "info", tmp_path / "ply.bsm")["attributes"][0]["name"] == "color"

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+import bsm
 from bitstream.container import packets
 from bitstream.container.reader import END_OF_STREAM, Reader, read_packets
 from bitstream.errors import BsmError, OptionError
@@ -77,3 +78,9 @@ def test_normals_cannot_be_recomputed():
     normals = Attribute("normal", np.ones((len(MESH.positions), 3)), "vertex", "normal")
     with pytest.raises(OptionError):
         encode_sequence(FRAMES, MESH.faces, SequenceOptions(attributes={"normal": "recompute"}), attributes=(normals,))
+
+
+def test_by_one_call():
+    stream = bsm.encode_sequence(FRAMES, MESH.faces, mesh_attributes=worn(), attributes={"uv": "none"}, gop=3)
+    found, frames, _, _ = decoded(stream)
+    assert frames == 6 and set(found) == {"color", "part"}

@@ -4,6 +4,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from bitstream.container import packets
 from bitstream.container.reader import Reader, read_packets
@@ -137,8 +139,8 @@ def test_split_files_come_back_with_their_indices():
     options = replace(PRESETS["lossless"], keep_order=True, attributes={"*": "exact"})
     decoded = decode(encode(loose, options))
     assert (decoded.faces == loose.faces).all() and len(decoded.positions) == len(loose.positions)
-    for given, found in zip(loose.attributes, decoded.attributes, strict=True):
-        assert given.domain == found.domain and (given.values == found.values).all()
+    for one, found in zip(loose.attributes, decoded.attributes, strict=True):
+        assert one.domain == found.domain and (one.values == found.values).all()
 
 
 @pytest.mark.parametrize("kind", KINDS)
@@ -150,11 +152,11 @@ def test_whole_numbers_are_exact(kind, domain):
     random = np.random.default_rng(1)
     values = random.integers(bounds.min, bounds.max, (count, 4), dtype=np.int64, endpoint=True).astype(kind)
     values[:2] = [[bounds.min] * 4, [bounds.max] * 4]
-    given = replace(mesh, attributes=(Attribute("x", values, domain),))
-    decoded = decode(encode(given, EncodeOptions(keep_order=True)))
+    whole = replace(mesh, attributes=(Attribute("x", values, domain),))
+    decoded = decode(encode(whole, EncodeOptions(keep_order=True)))
     found = decoded.attributes[0]
     assert found.values.dtype == kind and found.domain == domain
-    assert (at_corners(decoded, found) == at_corners(given, given.attributes[0])).all()
+    assert (at_corners(decoded, found) == at_corners(whole, whole.attributes[0])).all()
 
 
 @pytest.mark.parametrize("kind", [np.float32, np.float64])
@@ -348,3 +350,34 @@ def test_targets_count_attributes(kind, value):
     assert [one.name for one in decode(b"".join(attempt.frames)).attributes] == [one.name for one in mesh.attributes]
     assert attempt.size == len(b"".join(attempt.frames))
     assert attempt.size <= value if kind == "size" else attempt.comparison.theta_deg <= value
+
+
+@settings(deadline=None, max_examples=60)
+@given(st.integers(0, 2**32 - 1), st.integers(1, 14), st.integers(1, 12), st.booleans())
+def test_any_triangles_keep_what_they_carry(seed, vertices, faces, ordered):
+    random = np.random.default_rng(seed)
+    positions = random.integers(0, 3, (vertices, 3)).astype(float)
+    triangles = random.integers(0, vertices, (faces, 3))
+    rows = random.integers(0, 4, (int(random.integers(1, 9)), 2)).astype(np.int16)
+    shared = random.integers(0, len(rows), (faces, 3))
+    attributes = (
+        Attribute("vertex", random.integers(0, 3, (vertices, 1)).astype(np.uint8)),
+        Attribute("float", random.integers(0, 2, (vertices, 2)) * 0.3),
+        Attribute("corner", rows, "corner", "generic", shared),
+        Attribute("again", rows[:, ::-1], "corner", "texcoord", shared),
+        Attribute("face", random.integers(-5, 5, (faces, 1)).astype(np.int8), "face"),
+    )
+    mesh = TriangleMesh(positions, triangles, attributes)
+    encoder = Encoder(mesh, EncodeOptions(grid=3, keep_order=ordered, attributes={"*": "exact"}))
+    decoded = decode(encoder.encode())
+    if ordered:
+        assert (decoded.faces == mesh.faces).all()
+        for one, found in zip(mesh.attributes, decoded.attributes, strict=True):
+            assert found.domain == one.domain
+            assert (at_corners(decoded, found) == at_corners(mesh, one)).all()
+            assert one.domain != "vertex" or (found.values == one.values).all()
+    assert max(compared(mesh, decoded, encoder).values()) == 0.0
+    split = split_by_attributes(decoded)
+    for attribute in split.attributes:
+        before = next(one for one in decoded.attributes if one.name == attribute.name)
+        assert (at_corners(split, attribute) == at_corners(decoded, before)).all()
