@@ -55,13 +55,18 @@ class Column:
         return Attribute(name, self.values, "corner", self.semantic, used.astype(np.int32))
 
 
-def attributes_of(columns: Iterable[Column], places: Ints, owner: Ints) -> tuple[tuple[Attribute, ...], dict[str, str]]:
+def attributes_of(
+    columns: Iterable[Column], vertices: int, polygons: int, places: Ints, owner: Ints
+) -> tuple[tuple[Attribute, ...], dict[str, str]]:
     """The attributes that columns are, and why the others are none, by name."""
+    rows = {"vertex": vertices, "face": polygons}
     found: dict[str, Attribute] = {}
     refused: dict[str, str] = {}
     for column in columns:
         name = unused_name(column.name, column.domain, found)
         try:
+            if rows.get(column.domain, len(column.values)) != len(column.values):
+                raise MeshError(f"there are {len(column.values)} of them for {rows[column.domain]}")
             found[name] = column.of_triangles(name, places, owner)
         except MeshError as error:
             refused[PLURALS.get(column.name, column.name)] = str(error)

@@ -300,6 +300,39 @@ def test_numbers_of_an_stl():
     assert read_mesh(format_mesh(mesh, "stl")).mesh.attributes == ()
 
 
+@pytest.mark.parametrize("kind", ["dae", "3mf", "glb", "ply", "obj", "stl", "off"])
+def test_what_trimesh_tells(kind):
+    trimesh = pytest.importorskip("trimesh")
+    for needed in {"3mf": ("networkx", "lxml"), "dae": ("collada",)}.get(kind, ()):
+        pytest.importorskip(needed)
+    box = trimesh.creation.box()
+    box.visual = trimesh.visual.ColorVisuals(box, vertex_colors=np.arange(32, dtype=np.uint8).reshape(8, 4))
+    data = box.export(file_type=kind)
+    source = read_mesh(data if isinstance(data, bytes) else data.encode(), kind, reader="trimesh")
+    held = {attribute.name for attribute in source.mesh.attributes}
+    assert ("color" in held) == (kind in ("dae", "glb", "ply", "obj"))
+    assert source.mesh.metadata.get("unit") == {"dae": "meters", "glb": "meters", "3mf": "millimeter"}.get(kind)
+    assert source.mesh.metadata.get("up") == {"dae": "y", "glb": "y"}.get(kind)
+
+
+@pytest.mark.real
+@pytest.mark.parametrize(
+    ("reader", "name"),
+    [
+        *((reader, name) for reader in ("trimesh", "openmesh") for name in ("spot_uv.obj", "cortex_sulc.ply")),
+        ("trimesh", "fuze_colours.ply"),
+        ("openmesh", "robot_hand.obj"),
+    ],
+)
+def test_other_readers_go_as_far_as_they_can(meshes, reader, name):
+    pytest.importorskip(reader)
+    ours, theirs = (read_mesh(meshes / "assets" / name, reader=who) for who in (None, reader))
+    held = {attribute.name for attribute in ours.mesh.attributes}
+    assert {attribute.name for attribute in theirs.mesh.attributes} <= held
+    if reader == "openmesh":
+        assert held == {attribute.name for attribute in theirs.mesh.attributes} | set(theirs.dropped)
+
+
 # ---------------------------------------------------------------------------------------------------- there and back
 
 
