@@ -8,6 +8,7 @@ from dataclasses import asdict
 import numpy as np
 
 from bitstream.errors import MeshError
+from bsm.commands.limits import add_limits_flag, limits_of
 from bsm.commands.reader import add_reader_flag
 from bsm.console import Console, finite, print_json
 from bsm.exits import about
@@ -30,6 +31,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="of meshes also the mean normal difference, the rms error over the mean edge, and the Hausdorff distance",
     )
     add_reader_flag(parser)
+    add_limits_flag(parser)
     parser.add_argument("--json", action="store_true", help="print it as JSON")
 
 
@@ -41,7 +43,7 @@ def run(args: argparse.Namespace, console: Console) -> None:
 
     if compare_if_sequences(args):
         return
-    original, decoded = (_load(path, args.reader, console) for path in (args.original, args.decoded))
+    original, decoded = (_load(path, args, console) for path in (args.original, args.decoded))
     order = read_permutation(args.permutation) if args.permutation else None
     given = original, decoded
     kept = [np.arange(len(mesh.faces)) for mesh in given]
@@ -128,12 +130,12 @@ def _surface(original: TriangleMesh, positions: Positions) -> dict[str, float]:
     }
 
 
-def _load(path: str, reader: str | None, console: Console) -> TriangleMesh:
+def _load(path: str, args: argparse.Namespace, console: Console) -> TriangleMesh:
     """A mesh file or a stream, without the vertices that no face uses."""
     with about(path):
         if is_stream(path):
-            return decode_whole(read_chunks(path))
-        source = read_mesh(path, reader=reader)
+            return decode_whole(read_chunks(path), limits_of(args))
+        source = read_mesh(path, reader=args.reader)
     for note in source.notes:
         console.note(f"{path}: {note}")
     return source.mesh.without_isolated_vertices()[0]

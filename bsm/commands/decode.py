@@ -9,6 +9,7 @@ from pathlib import Path
 from bitstream.errors import OptionError
 from bsm.batch import Facts, add_inputs, came_to, plan, run_jobs, size_of
 from bsm.commands import sequence_decode
+from bsm.commands.limits import add_limits_flag, limits_of
 from bsm.console import Console
 from bsm.farm.run import anywhere, may_replace
 from bsm.files.mesh import WRITTEN_FORMATS, format_of_name, save_written, written_mesh
@@ -44,6 +45,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         action="store_true",
         help="go on behind damage; what is lost, blocks or frames, is named and left out",
     )
+    add_limits_flag(parser)
     sequence_decode.add_flags(parser)
 
 
@@ -80,12 +82,12 @@ def decode_one(args: argparse.Namespace, console: Console) -> Facts:
     refuse_to_overwrite(output, may_replace(args, output))
     begin = time.perf_counter()
     if args.tolerant:
-        mesh = decode_what_is_left(chunks, lambda text: console.note(f"{args.input}: {text}"))
+        mesh = decode_what_is_left(chunks, lambda text: console.note(f"{args.input}: {text}"), limits_of(args))
     elif args.blocks is None:
-        mesh = decode_whole(chunks, layers=args.layers)
+        mesh = decode_whole(chunks, limits_of(args), layers=args.layers)
     else:
         with console.progress("decoding") as progress:
-            mesh = decode_blocks(chunks, args.blocks, progress)
+            mesh = decode_blocks(chunks, args.blocks, progress, limits_of(args))
     seconds = time.perf_counter() - begin
     if args.permutation:
         mesh = reorder(mesh, read_permutation(args.permutation))

@@ -9,6 +9,7 @@ from typing import Any
 
 from bitstream.container.wire import VERSION
 from bsm.batch import Facts, Job, add_inputs, input_names, run_jobs
+from bsm.commands.limits import add_limits_flag, limits_of
 from bsm.console import Console
 from bsm.files.pipes import read_chunks
 from bsm.files.stream import StreamInfo, inspect_stream
@@ -17,6 +18,7 @@ from bsm.files.stream import StreamInfo, inspect_stream
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare what the command takes."""
     add_inputs(parser, "stream, or - for standard input")
+    add_limits_flag(parser)
 
 
 def run(args: argparse.Namespace, console: Console) -> int:
@@ -26,7 +28,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
 
 def info_of_one(args: argparse.Namespace, console: Console) -> Facts:
     """Describe one stream."""
-    return {"input": args.input, **summarise(inspect_stream(read_chunks(args.input)))}
+    return {"input": args.input, **summarise(inspect_stream(read_chunks(args.input), limits_of(args)))}
 
 
 def summarise(info: StreamInfo) -> dict[str, Any]:

@@ -9,6 +9,8 @@ from pathlib import Path
 import numpy as np
 
 from bitstream.errors import MeshError
+from bitstream.limits import DEFAULT_LIMITS, Limits
+from bsm.commands.limits import limits_of
 from bsm.console import finite, print_json
 from bsm.exits import about
 from bsm.files.permutation import in_order_of, read_permutation
@@ -23,13 +25,13 @@ from codec.sequence.targets import compare_sequences
 Sequence = tuple[Positions, Faces]
 
 
-def load_sequence(path: str, reader: str | None = None) -> Sequence | None:
+def load_sequence(path: str, reader: str | None = None, limits: Limits = DEFAULT_LIMITS) -> Sequence | None:
     """The frames, shape (T, n, 3), and faces of a file, folder or stream; None if it is a mesh."""
     if _is_stream(path):
         header, chunks = peek_header(read_chunks(path))
         if header is None or not header.gop_frames:
             return None
-        stream = SequenceStream(chunks)
+        stream = SequenceStream(chunks, limits=limits)
         return all_frames(stream), stream.faces
     source = open_sequence(path, reader=reader)
     return None if source is None else (np.array(list(source.frames)), source.faces)
@@ -57,9 +59,9 @@ def compare_loaded(args: argparse.Namespace, original: Sequence, decoded: Sequen
         print("\n".join(f"{name:<19}{value:.6g}" for name, value in result.items()))
 
 
-def _loaded(path: str, reader: str | None) -> Sequence | None:
+def _loaded(path: str, args: argparse.Namespace) -> Sequence | None:
     with about(path):
-        return load_sequence(path, reader)
+        return load_sequence(path, args.reader, limits_of(args))
 
 
 def compare_if_sequences(args: argparse.Namespace) -> bool:
@@ -70,7 +72,7 @@ def compare_if_sequences(args: argparse.Namespace) -> bool:
     MeshError
         If one is a sequence and the other a mesh.
     """
-    original, decoded = _loaded(args.original, args.reader), _loaded(args.decoded, args.reader)
+    original, decoded = _loaded(args.original, args), _loaded(args.decoded, args)
     if original is None and decoded is None:
         return False
     if original is None or decoded is None:

@@ -9,6 +9,7 @@ from collections.abc import Iterator
 
 from bitstream.errors import OptionError
 from bsm.batch import Facts, size_of
+from bsm.commands.limits import limits_of
 from bsm.console import Console
 from bsm.farm.run import may_replace
 from bsm.files.naming import default_output, output_inside
@@ -39,7 +40,7 @@ def decode_sequence(args: argparse.Namespace, console: Console, chunks: Iterator
     refuse_to_overwrite(output, may_replace(args, output))
     begin = time.perf_counter()
     first, last = _range(args.frames)
-    stream = SequenceStream(chunks, console.note if args.tolerant else None, first)
+    stream = SequenceStream(chunks, console.note if args.tolerant else None, first, limits_of(args))
     header, faces = stream.header, stream.faces
     last = min(last, header.frames or last)
     expected = max(last - first, 0) if header.frames and not args.tolerant else 0

@@ -6,6 +6,7 @@ import argparse
 
 from bitstream.errors import OptionError
 from bsm.batch import Facts, Job, add_inputs, input_names, run_jobs
+from bsm.commands.limits import add_limits_flag, limits_of
 from bsm.console import Console
 from bsm.files.pipes import read_chunks
 from bsm.files.sequence_stream import decode_through
@@ -16,6 +17,7 @@ from bsm.steadiness import check_steadiness
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare what the command takes."""
     add_inputs(parser, "stream, or - for standard input")
+    add_limits_flag(parser)
     parser.add_argument("--quick", action="store_true", help="check structure and checksums only, do not decode")
     parser.add_argument(
         "--steady",
@@ -35,9 +37,10 @@ def run(args: argparse.Namespace, console: Console) -> int:
 def verify_one(args: argparse.Namespace, console: Console) -> Facts:
     """Check one stream."""
     chunks = list(read_chunks(args.input))
-    info = inspect_stream(iter(chunks))
+    limits = limits_of(args)
+    info = inspect_stream(iter(chunks), limits)
     if not args.quick:
-        decode_through(iter(chunks)) if info.header.gop_frames else decode_whole(iter(chunks))
+        decode_through(iter(chunks), limits) if info.header.gop_frames else decode_whole(iter(chunks), limits)
     if args.steady:
         check_steadiness(b"".join(chunks))
     console.note(f"{args.input}: whole, {info.header.blocks} blocks, {info.total} bytes")

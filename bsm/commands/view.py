@@ -8,6 +8,7 @@ import webbrowser
 from pathlib import Path
 
 from bitstream.errors import OptionError
+from bsm.commands.limits import add_limits_flag, limits_of
 from bsm.commands.reader import add_reader_flag
 from bsm.console import Console
 from bsm.exits import about
@@ -23,6 +24,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("inputs", metavar="IN", nargs="+", help="stream, of a mesh or a sequence, or - for a pipe")
     parser.add_argument("--original", metavar="MESH", help="mesh file that the stream was made of, to compare it with")
     add_reader_flag(parser)
+    add_limits_flag(parser)
     parser.add_argument(
         "--save",
         metavar="PAGE.html",
@@ -65,7 +67,7 @@ def _contents(args: argparse.Namespace) -> list[Content]:
     with about(args.original):
         mesh = read_mesh(args.original, reader=args.reader).mesh
     with about(args.inputs[0]):
-        return [compared(name, data, mesh) for name, data in streams.items()]
+        return [compared(name, data, mesh, limits_of(args)) for name, data in streams.items()]
 
 
 def _free_name(name: str, taken: dict[str, bytes]) -> str:

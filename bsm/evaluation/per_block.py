@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from bitstream.limits import NAMED_LIMITS
 from bsm.evaluation.codecs import paper_options
 from bsm.evaluation.tables import number, table
 from bsm.files.stream import StreamInfo, inspect_stream
@@ -58,7 +59,7 @@ def view_blocks(mesh: TriangleMesh, options: EncodeOptions) -> BlockView:
     step = options.step if options.says_how else options.first_step
     encoder = Encoder(mesh, replace(options, step=step, partition="derived", keep_order=False))
     data = encoder.encode()
-    decoded = decode(data)
+    decoded = decode(data, NAMED_LIMITS[options.limits]())
     info = inspect_stream(iter([data]))
     graph = graph_of_faces(decoded.faces, len(decoded.positions))
     error = (decoded.positions - encoder.mesh.positions) / (encoder.mesh.diagonal or 1.0)

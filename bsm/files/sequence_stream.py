@@ -11,6 +11,7 @@ import numpy.typing as npt
 from bitstream.container.packets import Header
 from bitstream.container.reader import NEED_DATA, Reader
 from bitstream.errors import BsmError, TruncatedError
+from bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.files.stream import events
 from codec.arrays import Faces, Positions
 from codec.geometry.mesh import TriangleMesh
@@ -45,6 +46,7 @@ class SequenceStream:
         Is told of frames that are lost; None: a loss is an error.
     start : int
         First frame to give.
+    limits : Limits
 
     Attributes
     ----------
@@ -52,14 +54,16 @@ class SequenceStream:
     faces : int32 array, shape (m, 3)
     """
 
-    def __init__(self, chunks: Iterator[bytes], note: Note | None = None, start: int = 0) -> None:
+    def __init__(
+        self, chunks: Iterator[bytes], note: Note | None = None, start: int = 0, limits: Limits = DEFAULT_LIMITS
+    ) -> None:
         from codec.sequence.decoder import SequenceDecoder
         from codec.static.events import ConnectivityEvent, HeaderEvent
 
         self.header: Header
         self.faces: Faces
         self._note = note
-        decoder = SequenceDecoder(tolerant=note is not None, start=start)
+        decoder = SequenceDecoder(limits, tolerant=note is not None, start=start)
         self._events = events(decoder, chunks)
         for event in self._events:
             if isinstance(event, HeaderEvent):
@@ -95,9 +99,9 @@ def numbers_of(positions: Positions) -> npt.NDArray[np.int64]:
     return positions[:, 0].astype(np.int64)
 
 
-def decode_through(chunks: Iterator[bytes]) -> int:
+def decode_through(chunks: Iterator[bytes], limits: Limits = DEFAULT_LIMITS) -> int:
     """Decode a sequence to its end and keep nothing; the number of frames."""
-    return sum(1 for _ in SequenceStream(chunks).frames())
+    return sum(1 for _ in SequenceStream(chunks, limits=limits).frames())
 
 
 def all_frames(stream: SequenceStream) -> Positions:

@@ -200,7 +200,9 @@ def decode_whole(
         return decoder.finish()
 
 
-def decode_blocks(chunks: Iterator[bytes], count: int, progress: Progress) -> TriangleMesh:
+def decode_blocks(
+    chunks: Iterator[bytes], count: int, progress: Progress, limits: Limits = DEFAULT_LIMITS
+) -> TriangleMesh:
     """Decode the first `count` blocks, read no further, and return the faces whose vertices have all arrived.
 
     Raises
@@ -217,7 +219,7 @@ def decode_blocks(chunks: Iterator[bytes], count: int, progress: Progress) -> Tr
         raise OptionError("at least one block must be decoded")
     part = _Part()
     wanted, done = count, 0
-    with Decoder() as decoder:
+    with Decoder(limits) as decoder:
         for event in events(decoder, chunks):
             part.take(event)
             if isinstance(event, HeaderEvent):
@@ -230,7 +232,9 @@ def decode_blocks(chunks: Iterator[bytes], count: int, progress: Progress) -> Tr
     return replace(part.mesh(), metadata=decoder.metadata)
 
 
-def decode_what_is_left(chunks: Iterator[bytes], report: Callable[[str], None]) -> TriangleMesh:
+def decode_what_is_left(
+    chunks: Iterator[bytes], report: Callable[[str], None], limits: Limits = DEFAULT_LIMITS
+) -> TriangleMesh:
     """Decode every block of a damaged stream that does not depend on what is lost; `report` is told what is.
 
     Returns
@@ -249,7 +253,7 @@ def decode_what_is_left(chunks: Iterator[bytes], report: Callable[[str], None]) 
     from codec.static.events import EndEvent, LossEvent
 
     part = _Part()
-    with Decoder(tolerant=True) as decoder:
+    with Decoder(limits, tolerant=True) as decoder:
         for event in events(decoder, chunks):
             part.take(event)
             match event:

@@ -9,6 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from bitstream.errors import DependencyError, UnsupportedError
+from bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.files.permutation import in_order_of
 from bsm.files.pipes import Input
 from bsm.files.sequence_stream import peek_header
@@ -47,7 +48,7 @@ class Content:
     draco: Rival | None = None
 
 
-def compared(name: str, stream: bytes, original: TriangleMesh) -> Content:
+def compared(name: str, stream: bytes, original: TriangleMesh, limits: Limits = DEFAULT_LIMITS) -> Content:
     """A stream of a mesh beside its original, and beside Draco's file of that if DracoPy is installed.
 
     Raises
@@ -60,7 +61,7 @@ def compared(name: str, stream: bytes, original: TriangleMesh) -> Content:
     header, _ = peek_header(Input(stream).chunks())
     if header is not None and header.gop_frames:
         raise UnsupportedError(f"{name} is a sequence; only single meshes are compared with an original")
-    decoded = decode_whole(Input(stream).chunks())
+    decoded = decode_whole(Input(stream).chunks(), limits)
     used, kept = decoded.without_isolated_vertices()
     source = original.without_isolated_vertices()[0]
     if len(source.positions) != len(used.positions):

@@ -40,7 +40,7 @@ def onorm_cost(rows: int, columns: int) -> float:
     return rows * (4.0 + whole * whole / 27.0) + whole**3 / 40.0 + 1500.0
 
 
-def careful_cost(rows: int, columns: int) -> float:
+def reflection_cost(rows: int, columns: int) -> float:
     """Of one by reflections."""
     return 0.6 * rows * columns * columns + 4000.0
 
@@ -52,9 +52,8 @@ def dictionary_cost(fronts: Fronts, columns: int, power: int, iterations: int) -
 
 
 def careful_dictionary_cost(fronts: Fronts, columns: int, power: int, iterations: int) -> float:
-    """Of one that would lose them, so that they are made orthonormal after every solution."""
-    rows = len(fronts.rows)
-    rounding = onorm_cost(rows, columns) + careful_cost(rows, columns)
+    """Of one that would lose them, so that they are made orthonormal after every solution; without reflections."""
+    rounding = 2.0 * onorm_cost(len(fronts.rows), columns)
     return iterations * power * (solve_cost(fronts, columns) + rounding)
 
 

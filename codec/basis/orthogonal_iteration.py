@@ -12,7 +12,7 @@ import numpy as np
 from bitstream.errors import NumericError
 from codec import _kernels
 from codec.arrays import Matrix
-from codec.basis.cost import Spend, careful_dictionary_cost, dictionary_cost, factor_cost, free
+from codec.basis.cost import Spend, careful_dictionary_cost, dictionary_cost, free, reflection_cost
 from codec.basis.laplacian import Factor, Laplacian, check_rows, factorize, solve
 
 ONCE, TWICE = 1e-5, 1e-13
@@ -38,11 +38,11 @@ def cosine_columns(rows: int, first: int, last: int) -> Matrix:
     return columns
 
 
-def onorm(columns: Matrix) -> Matrix:
+def onorm(columns: Matrix, spend: Spend = free) -> Matrix:
     """Q of the QR factorisation with positive diagonal of `columns`, shape (n, c), n >= c.
 
     Cholesky QR panel by panel, and Householder reflections where the columns are too close to dependent for that. Both
-    compute the same Q.
+    compute the same Q. `spend` is told of reflections.
 
     Raises
     ------
@@ -51,7 +51,10 @@ def onorm(columns: Matrix) -> Matrix:
     """
     q, scratch = np.empty(columns.shape), np.empty(_kernels.iteration_space(*columns.shape))
     independence = _kernels.cholesky_onorm(np.ascontiguousarray(columns), ONCE, scratch, q)
-    return q if independence >= TWICE else householder_orthonormalize(columns)
+    if independence >= TWICE:
+        return q
+    spend(reflection_cost(*columns.shape))
+    return householder_orthonormalize(columns)
 
 
 def householder_orthonormalize(columns: Matrix) -> Matrix:
@@ -94,7 +97,7 @@ def orthogonal_iteration(factor: Factor, start: Matrix, *, power: int, iteration
         spend(careful_dictionary_cost(factor.fronts, start.shape[1], power, iterations))
         subspace = start
         for _ in range(iterations * power):
-            subspace = onorm(solve(factor, subspace, 1))
+            subspace = onorm(solve(factor, subspace, 1), spend)
     return subspace
 
 
@@ -128,7 +131,6 @@ def exact_basis(laplacian: Laplacian, start: Matrix, springs: float | Matrix = 0
     No eigensolver: within a space of equal eigenvalues that may return any rotation. This is a smooth function of the
     matrix, the same for all who compute it. The noise in the start is for blocks as symmetric as cosines are.
     """
-    spend(factor_cost(laplacian.fronts))
     factor = factorize(laplacian, springs + EXACT_SHIFT)
     return orthogonal_iteration(factor, start, power=EXACT_POWER, iterations=EXACT_ITERATIONS, spend=spend)
 

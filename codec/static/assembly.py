@@ -85,9 +85,14 @@ class Assembly:
         decoded = self._units.back(smooth(self._graph, self._blend.positions(everything), self._smoothing))
         return TriangleMesh(self._numbering.arranged(decoded), self._numbering.faces)
 
+    @property
+    def whole(self) -> bool:
+        """Whether no block was lost."""
+        return not self._lost
+
     def solid(self) -> Solid | None:
         """Decoded positions, once every block is in; None if one was lost."""
-        if self._lost:
+        if not self.whole:
             return None
         everything = np.arange(self._graph.size, dtype=np.int32)
         return Solid(smooth(self._graph, self._blend.positions(everything), self._smoothing))

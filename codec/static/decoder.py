@@ -263,6 +263,7 @@ class Decoder(StreamDecoder[Item]):
         except BsmError as error:
             if not self._tolerant:
                 raise
+            levels.refined.lose()
             return LossEvent(None, error)
         try:
             return levels.refined.event(levels.layer, levels.refined.add(levels.layer, vertices, values))

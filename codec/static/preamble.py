@@ -111,8 +111,8 @@ class Prepared:
     @cached_property
     def turns(self) -> Order:
         """The corner of its joined face that is the first of each coded one, shape (m,)."""
-        numbers = np.empty(len(self.coding_order), np.int64)
-        numbers[self.coding_order] = np.arange(len(numbers))
+        numbers = np.empty(int(self.joined_faces.max(initial=-1)) + 1, np.int64)
+        numbers[self.coding_order] = np.arange(len(self.coding_order))
         given = numbers[self.joined_faces[self.coding_faces]]
         turned = [(np.roll(given, -k, axis=1) == self.mesh.faces).all(axis=1) for k in range(3)]
         return np.asarray(np.argmax(turned, axis=0))

@@ -89,9 +89,14 @@ class Shard:
 
     def fresh(self) -> bytes | None:
         """A random stream, or None if the encoder refused."""
+        seed = self.random.random()
         try:
-            return random_stream(self.random)
+            return random_stream(Random(seed))
         except BsmError:
+            return None
+        except Exception:
+            self.tally.escapes += 1
+            self.tally.findings.append(f"encoding, seed {seed}: {traceback.format_exc(limit=-4)}")
             return None
 
 

@@ -8,8 +8,9 @@ from dataclasses import replace
 import numpy as np
 
 from bitstream.container.packets import Attribute as Declared
-from bitstream.container.packets import Packet, Values
+from bitstream.container.packets import Packet, Refinement, Values
 from bitstream.container.writer import write_stream
+from bitstream.fields.levels import LevelsEncoder
 from codec.geometry.attributes import Attribute, Domain
 from codec.geometry.mesh import TriangleMesh
 from codec.geometry.splitting import split_by_attributes
@@ -18,8 +19,10 @@ from codec.static.attributes.encoding import ranges
 from codec.static.attributes.relief import Solid
 from codec.static.encoder import Encoder, encode
 from codec.static.options import EncodeOptions
+from codec.static.quality.draft import Draft
+from codec.static.quality.spectral import Spectral
 from tools.vectors.good import BASE, Good
-from tools.vectors.good_fields import soup
+from tools.vectors.good_fields import ALL_AXES, soup
 from tools.vectors.good_sequences import BASE as MOVING
 from tools.vectors.meshes import hub, patch, shuffled, tangled, tetrahedron, torus
 
@@ -82,8 +85,24 @@ def worn(mesh: TriangleMesh, *make: Callable[[TriangleMesh], Attribute]) -> Tria
 def in_chunks(mesh: TriangleMesh, options: EncodeOptions, size: int, relief: int | None = None) -> bytes:
     """Values in chunks of so many, with positions rounded to 2^-relief."""
     encoder = Encoder(mesh, options)
+    return with_values(encoder, encoder._bare(None), size, relief)
+
+
+def on_layers(mesh: TriangleMesh, count: int) -> bytes:
+    """Behind a layer of refinement that ends after so many vertices."""
+    encoder = Encoder(mesh, BASE)
+    made = Spectral(encoder._prepared, BASE).base(BASE.first_step)
+    levels = made.wanted(ALL_AXES)[0]
+    levels[count:] = 0
+    draft = made.refined((ALL_AXES, levels))
+    layer = Refinement(0, 0, count, LevelsEncoder(made.prepared.mesh.faces, levels).chunk(count))
+    body = (*(packet for packet in draft.body if not isinstance(packet, Refinement)), layer)
+    return with_values(encoder, replace(draft, body=body), 1000, 14)
+
+
+def with_values(encoder: Encoder, draft: Draft, size: int, relief: int | None) -> bytes:
+    """A draft with the attributes of its mesh, in chunks of so many values."""
     prepared, carried = encoder._prepared, encoder._carried
-    draft = encoder._bare(None)
     solid = Solid(prepared.units.into(draft.decoded), draft.places)
     exponent = relief or 0
     doubts = solid.doubts(exponent) if relief else b""
@@ -148,6 +167,10 @@ ATTRIBUTES: dict[str, Good] = {
     ),
     "good-attribute-uv-plain": Good(
         "texture coordinates that lean on nothing", lambda: in_chunks(worn(patch(9, 8), charts), BASE, 1000)
+    ),
+    "good-attribute-layers": Good(
+        "attributes that lean on a layer of refinement, which ends early",
+        lambda: on_layers(worn(torus(10, 8), charts, creases), 50),
     ),
     "good-attribute-normals": Good(
         "normals with creases, on a grid", lambda: encode(worn(torus(12, 10), creases), GRID)

@@ -150,7 +150,9 @@ class Valued:
         self._coder: PieceDecoder | None = None
 
     def decode(self, packet: packets.Values, relief: Levels | None) -> AttributeEvent:
-        """Decode a chunk of its values."""
+        """Decode a chunk of its values; what decodes them is given up behind the last."""
+        if self.complete:
+            raise CorruptError(f"attribute {self.declaration.name!r} has all its values already")
         allowance = self._structure.allowance
         if self._coder is None:
             faces, components = len(self._surface.faces), self.declaration.components
@@ -165,6 +167,8 @@ class Valued:
         rows, pieces = coder.chunk(packet.data, packet.count)
         self._values[rows] = restored(self.declaration, from_pieces(self.declaration, pieces))
         self.complete = coder.coded == self._rows
+        if self.complete:
+            self._coder = None
         fresh = np.zeros(self._rows, np.bool_)
         fresh[rows] = True
         shown = np.flatnonzero(fresh[self.arrangement.rows]).astype(np.int32)

@@ -78,7 +78,11 @@ class ChainEncoder:
         ground = Ground(block, extend(around), dictionary)
         levels = coding.choose(ground, positions[block.vertices], self._sizes)
         decoded = coding.positions(ground, levels)
-        work = sum(chain.costs(around, levels.width)[: len(self._told)]) + self._work_of(index, around, levels)
+        work = (
+            sum(chain.costs(around, levels.width)[: len(self._told)])
+            + sum(self._told[2:])
+            + self._work_of(index, around, levels)
+        )
         chain.commit(block, np.ascontiguousarray(dictionary[:, : levels.width]), decoded)
         packet = packets.Block(index, len(levels.coordinates), coding.write(levels))
         result = DecodedBlock(index, block.vertices, decoded, scheme.weights(index, block))

@@ -14,6 +14,7 @@ import numpy as np
 
 from bitstream.container import packets
 from bitstream.container.reader import Signal
+from bitstream.container.wire import FrameType
 from bitstream.errors import CorruptError
 from bitstream.fields.levels import LevelsDecoder, LevelsEncoder
 from codec.arrays import Indices, Levels, Mask, Matrix
@@ -79,6 +80,8 @@ class RefinementStage:
                     return self._complete(queue)
                 self._decode(arrival, queue)
             case packets.Damaged():
+                if arrival.type is not FrameType.VALUES:
+                    self._refined.lose()
                 queue.append(LossEvent(None, unreadable(arrival)))
             case packets.Values():
                 return ValuesStage(self._refined, self._structure, self._tolerant).accept(arrival, queue)
@@ -134,6 +137,7 @@ class Refined:
     def __init__(self, assembly: Assembly, structure: Structure) -> None:
         self._assembly = assembly
         self._structure = structure
+        self._lossy = False
         self._reached = np.zeros((len(structure.header.layers), structure.header.vertices), np.bool_)
 
     def add(self, layer: int, vertices: Indices, levels: Levels) -> Indices:
@@ -157,10 +161,13 @@ class Refined:
         numbering = self._structure.numbering
         return TriangleMesh(numbering.arranged(self._structure.units.back(self._base[0])), numbering.faces)
 
+    def lose(self) -> None:
+        """Take note that levels are lost, and not just none were sent."""
+        self._lossy = True
+
     def solid(self) -> Solid | None:
         """Decoded positions; None if any of it is missing."""
-        lost = self.losses()
-        return None if len(lost.missing) or len(lost.degraded) else Solid(self._base[0])
+        return Solid(self._base[0]) if self._assembly.whole and not self._lossy else None
 
     def losses(self) -> Losses:
         """What is missing or less good: also what a layer has begun to refine and not reached."""

@@ -440,3 +440,11 @@ def assert_same(found, decoded, indices):
     assert set(found) == indices
     for index in indices:
         assert np.array_equal(found[index], decoded[index])
+
+
+def test_vertices_that_no_face_uses_do_not_disturb_a_sequence():
+    mesh = torus(8, 6)
+    alone = np.insert(mesh.positions, 5, 9.0, axis=0)
+    faces = mesh.faces + (mesh.faces >= 5)
+    positions, decoded = decode_sequence(encode_sequence([alone, alone + 0.01], faces, SequenceOptions(threads=1)))
+    assert positions.shape == (2, len(mesh.positions), 3) and len(decoded) == len(faces)

@@ -134,6 +134,20 @@ function resized(memory: Memory, previous: Matrix, width: number): Matrix {
     return { rows, columns: width, values };
 }
 
+/** Nanoseconds that a solution takes, and an orthonormalisation (M 14.3). */
+export function solutionCost(block: Block, columns: number): number {
+    return block.fronts.entries * (0.6 * Math.ceil(columns / 32) + 0.035 * whole(columns));
+}
+
+export function roundingCost(rows: number, columns: number): number {
+    return rows * (4 + whole(columns) ** 2 / 27) + whole(columns) ** 3 / 40;
+}
+
+/** Columns as they are computed: in vectors of eight. */
+export function whole(columns: number): number {
+    return 8 * Math.ceil(columns / 8);
+}
+
 /** U(t) = Onorm(R^power U(t - 1)), `iterations` times (M 8.4). */
 export function orthogonalIteration(
     memory: Memory,
@@ -157,9 +171,9 @@ export function orthogonalIteration(
         );
         if (independence >= TWICE) return { rows, columns, values: subspace.view.slice() };
         // R^power has all but lost the higher columns: orthonormalised after every R they stay (M 8.4).
-        allowance.spendCarefully(block.fronts.entries, rows, columns, iterations * power);
+        allowance.spend(iterations * power * (solutionCost(block, columns) + 2 * roundingCost(rows, columns)));
         let current = start;
-        for (let k = 0; k < iterations * power; k++) current = solvedOnorm(memory, block, factor, current);
+        for (let k = 0; k < iterations * power; k++) current = solvedOnorm(memory, block, factor, current, allowance);
         return current;
     });
 }
@@ -168,13 +182,16 @@ function iterationScratch(memory: Memory, rows: number, columns: number): Double
     return memory.doubles(memory.call("iteration_space", BigInt(rows), BigInt(columns)));
 }
 
-function solvedOnorm(memory: Memory, block: Block, factor: Factor, start: Matrix): Matrix {
+function solvedOnorm(memory: Memory, block: Block, factor: Factor, start: Matrix, allowance: Allowance): Matrix {
     const { rows, columns } = start;
     return memory.scratch(() => {
         const solved = solve(memory, block, factor, memory.copy(start.values, columns));
         const subspace = memory.doubles(rows * columns, columns);
         const independence = memory.run("cholesky_onorm", solved, ONCE, iterationScratch(memory, rows, columns), subspace);
-        if (independence < TWICE) householder(memory, solved, subspace);
+        if (independence < TWICE) {
+            allowance.spend(0.6 * rows * columns ** 2);
+            householder(memory, solved, subspace);
+        }
         return { rows, columns, values: subspace.view.slice() };
     });
 }

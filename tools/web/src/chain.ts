@@ -1,5 +1,5 @@
 /** One chain of blocks: what its blocks know of those before them (specification, M 7 to M 11). */
-import { degreesOf, EXACT_ITERATIONS, EXACT_POWER, exactBasis, firstColumns, followColumns, orthogonalIteration, reconstruct, solveColumns, type Matrix } from "./basis";
+import { degreesOf, EXACT_ITERATIONS, EXACT_POWER, exactBasis, firstColumns, followColumns, orthogonalIteration, reconstruct, roundingCost, solutionCost, solveColumns, whole, type Matrix } from "./basis";
 import { makeBlock, membersOf, type Block, type Blocks } from "./blocks";
 import { CoefficientModel, unpackLevels } from "./coefficients";
 import { Coder } from "./entropy";
@@ -36,14 +36,10 @@ function scheduleOf(header: Header, follows: boolean): [number, number] {
 
 /** Take the work and the memory of a dictionary of so many columns from what is allowed (M 14.2 to M 14.4). */
 export function spendOn(allowance: Allowance, header: Header, block: Block, columns: number, follows: boolean): void {
-    const { work, entries } = block.fronts;
     const [power, iterations] = scheduleOf(header, follows);
     const rows = block.size;
-    const whole = 8 * Math.ceil(columns / 8);
-    allowance.hold(8 * (6 * rows * whole + 2 * whole ** 2));
-    const solution = entries * (0.6 * Math.ceil(columns / 32) + 0.035 * whole);
-    const rounding = rows * (4 + whole ** 2 / 27) + whole ** 3 / 40;
-    allowance.spend(work / 7 + iterations * (power * solution + rounding));
+    allowance.hold(8 * (6 * rows * whole(columns) + 2 * whole(columns) ** 2));
+    allowance.spend(block.fronts.work / 7 + iterations * (power * solutionCost(block, columns) + roundingCost(rows, columns)));
 }
 
 /** U of a block that follows none (M 8.3 to M 8.5). */
@@ -81,11 +77,6 @@ export class Allowance {
     spend(work: number): void {
         this.spent += work;
         this.check("work", this.spent, this.limits.workPerVertex);
-    }
-
-    /** Of the careful way, where columns would be lost to rounding, which is taken when that is seen. */
-    spendCarefully(entries: number, rows: number, columns: number, solutions: number): void {
-        this.spend(solutions * (entries * (0.6 * Math.ceil(columns / 32) + 0.035 * columns) + 0.6 * rows * columns ** 2));
     }
 
     /** Take note of memory for a while. */

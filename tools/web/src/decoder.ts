@@ -267,13 +267,13 @@ export class Decoder {
     }
 
     /** What `work` does; its error, where that is allowed, is a loss of `block` or of what follows it. */
-    private tolerating(work: () => void, block?: number): boolean {
+    private tolerating(work: () => void, block?: number, anywhere = this.header!.gopFrames === 0): boolean {
         try {
             work();
             return true;
         } catch (error) {
             // The first frame of a sequence must be whole.
-            if (!this.wishes.tolerant || this.header!.gopFrames > 0 || !(error instanceof BsmError)) throw error;
+            if (!this.wishes.tolerant || !anywhere || !(error instanceof BsmError)) throw error;
             this.lose(error.located({ offset: this.reader.position, block }), block);
             return false;
         }
@@ -293,7 +293,7 @@ export class Decoder {
             if (kind !== "end" || !sequence.lossy) sequence.lose(error);
             return;
         }
-        if (!begun && kind !== "block") throw error;
+        if (!begun && kind !== "block" && kind !== "attribute") throw error;
         if (this.grid) this.gridBroken = true;
         this.lose(error);
     }
@@ -340,7 +340,8 @@ export class Decoder {
 
     private acceptAttribute(index: number, declaration: Declaration, seams: Uint8Array): void {
         this.attributes ??= new Attributes(this.memory, this.header!, this.faces!, this.limits);
-        this.attributes.declare(index, declaration, seams);
+        const { attributes } = this;
+        this.tolerating(() => attributes.declare(index, declaration, seams), undefined, true);
     }
 
     private acceptValues(index: number, first: number, count: number, data: Uint8Array): void {
