@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
@@ -80,6 +80,7 @@ def encode_many(
     report: str | os.PathLike[str] | None = None,
     resume: bool = False,
     overwrite: bool = False,
+    metadata: Mapping[str, str] | None = None,
     **keywords: Any,
 ) -> list[dict[str, Any]]:
     """Compress mesh files, as ``bsm encode`` does; one that fails stops no other.
@@ -101,6 +102,8 @@ def encode_many(
         Go on from the report: leave what is whole and as it would be made.
     overwrite : bool
         Whether files that are there already are replaced.
+    metadata : mapping from str to str, optional
+        Added to what each mesh says of itself.
     **keywords
         As `encode` takes them.
 
@@ -126,7 +129,8 @@ def encode_many(
     wishes = {"jobs": jobs, "dask": dask, "report": report and os.fspath(report), "resume": resume, "force": overwrite}
     kinds = {name: f"target_{kind}" for name, kind in keywords_to.TARGETS.items()}
     given = {kinds.get(name, name): value for name, value in keywords.items()}
-    for name, value in {**wishes, **given, "quiet": True}.items():
+    meta = [f"{name}={value}" for name, value in (metadata or {}).items()]
+    for name, value in {**wishes, **given, "meta": meta, "quiet": True}.items():
         setattr(args, name, value)
     folder = None if target is None else os.fspath(target).rstrip("/") + "/"
     planned = plan([os.fspath(source) for source in sources], folder, lambda _: ".bsm")
