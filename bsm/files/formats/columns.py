@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Collection, Iterable, Sequence
+from collections.abc import Callable, Collection, Iterable
 from dataclasses import dataclass
 from itertools import chain, count
 from typing import Any
@@ -104,12 +104,6 @@ def color_column(values: Array, domain: Domain, *, written_whole: bool = False) 
         in_range = values.min() >= 0 and values.max() <= 1
         return Column("color", compact(values), domain, "color" if in_range else "generic")
     return Column("color", values, domain, "color" if values.dtype in (np.uint8, np.uint16) else "generic")
-
-
-def numbered(names: Sequence[str], what: str) -> tuple[list[int], dict[str, str]]:
-    """Numbers for names in the order of their first appearance, and "<what>.<number>.name" for each."""
-    numbers = {name: number for number, name in enumerate(dict.fromkeys(names))}
-    return [numbers[name] for name in names], {f"{what}.{i}.name": name for name, i in numbers.items()}
 
 
 def held_by(attributes: Iterable[Attribute], test: Callable[[Attribute], bool]) -> Attribute | None:

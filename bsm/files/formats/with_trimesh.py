@@ -14,7 +14,7 @@ import numpy as np
 from bitstream.errors import BsmError, DependencyError, FormatError
 from bitstream.limits import Limits
 from bsm.files.formats.columns import PLURALS, Array, Column, color_column, compact, meaning_of
-from bsm.files.formats.materials import Material, Value, described, kind_of_image
+from bsm.files.formats.materials import Material, Value, described, kind_of_image, named
 from bsm.files.formats.polygons import Polygons
 from bsm.files.rows import Doubles
 
@@ -194,15 +194,15 @@ def _polygons(parts: list[_Part], of_scene: dict[str, Any]) -> Polygons:
     triangles = np.concatenate(faces)
     columns, notes = _columns(parts)
     metadata = _metadata(parts, of_scene)
-    named, numbers = _materials(parts)
-    metadata |= named
+    of_materials, numbers = _materials(parts)
+    metadata |= of_materials
     if len(np.unique(numbers)) > 1:
         columns.append(Column("material", numbers[:, None], "face"))
     if len(parts) > 1:
         notes.insert(0, f"{len(parts)} parts were joined to one mesh")
         owner = np.repeat(np.arange(len(parts), dtype=np.int32), [len(part.mesh.faces) for part in parts])
         columns.append(Column("part", owner[:, None], "face"))
-        metadata |= {f"part.{number}.name": part.name for number, part in enumerate(parts)}
+        metadata |= named([part.name for part in parts], "part")
     sizes = np.full(len(triangles), 3)
     return Polygons(positions, sizes, triangles.reshape(-1), tuple(notes), (), tuple(columns), metadata)
 

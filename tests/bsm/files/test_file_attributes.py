@@ -9,6 +9,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
+import bsm
 from bitstream.errors import BsmError
 from bitstream.limits import Limits
 from bsm.files.formats.glb import write_glb
@@ -182,6 +183,26 @@ def test_metadata_that_are_too_large_are_left_out_and_said(tmp_path):
     assert {"image.0.data", "image.1.data"}.isdisjoint(source.mesh.metadata)
     assert "image.0.data" in source.dropped and "more than 1000" in source.notes[-1]
     assert any("b.png" in note and "are more than the 1000" in note for note in source.notes)
+
+
+def test_many_names_are_one_entry(tmp_path):
+    names = [f"part {number}" for number in range(900)]
+    lines = "".join(f"g {name}\nusemtl m{number}\nf 1 2 3\n" for number, name in enumerate(names))
+    source = read_mesh((TRIANGLE + lines).encode())
+    assert source.mesh.metadata["group.names"].split("\n") == names and source.dropped == ()
+    assert bsm.decode(bsm.encode(source.mesh, keep_order=True)).metadata == source.mesh.metadata
+    write_mesh(tmp_path / "a.obj", source.mesh)
+    again = read_mesh(tmp_path / "a.obj").mesh
+    assert again.metadata == source.mesh.metadata
+    assert_same(source.mesh, again, ["group", "material"])
+
+
+def test_more_entries_than_there_can_be_are_left_out_and_said(tmp_path):
+    (tmp_path / "a.mtl").write_text("".join(f"newmtl m{n}\nKd 1 0 0\nKa 0 0 0\nNs 1\n" for n in range(90)))
+    (tmp_path / "a.obj").write_text(f"mtllib a.mtl\n{TRIANGLE}f 1 2 3\n")
+    source = read_mesh(tmp_path / "a.obj")
+    assert len(source.mesh.metadata) == 240 and "121 entries of metadata, because there can be 256" in source.notes[-1]
+    assert bsm.decode(bsm.encode(source.mesh)).metadata == source.mesh.metadata
 
 
 def test_a_ply_as_text_with_everything():
