@@ -204,8 +204,7 @@ def with_attributes(
     if carried:
         leaning = _Leaning(draft, prepared) if still else None
         for index, one in enumerate(carried):
-            declaration, relief = leaning.of(one.declaration) if leaning else (one.declaration, None)
-            chunks = one.plain if relief is None else one.chunks(relief, CHUNK)
+            declaration, chunks = leaning.cheaper(one) if leaning else (one.declaration, one.plain)
             declared.append(packets.Attribute(index, declaration, one.seams))
             for (first, count), data in zip(ranges(declaration.rows, CHUNK), chunks, strict=True):
                 values.append(packets.Values(index, first, count, data))
@@ -221,19 +220,29 @@ class _Leaning:
         units = prepared.units
         self._usable = max(map(abs, units.center)) <= FARTHEST * units.scale or draft.places is not None
         self._faces = prepared.mesh.faces
-        self._relief: Levels | None = None
+        self._declared = False
 
-    def of(self, declaration: Declaration) -> tuple[Declaration, Levels | None]:
-        """What an attribute declares, and the positions that it leans on, shape (n, 3), or None."""
-        if not leans(declaration) or not self._usable:
-            return declaration, None
+    def cheaper(self, one: Carried) -> tuple[Declaration, tuple[bytes, ...]]:
+        """What an attribute declares, and its chunks: leaning on positions, or not where that takes fewer bytes."""
+        if not leans(one.declaration) or not self._usable:
+            return one.declaration, one.plain
+        exponent, doubts, relief = self._relief
+        chunks = one.chunks(relief, CHUNK)
+        if sum(map(len, chunks)) + (0 if self._declared else len(doubts)) >= sum(map(len, one.plain)):
+            return one.declaration, one.plain
+        declaration = replace(one.declaration, leans=1)
+        if not self._declared:
+            declaration, self._declared = replace(declaration, relief=exponent, doubts=doubts), True
+        return declaration, chunks
+
+    @cached_property
+    def _relief(self) -> tuple[int, bytes, Levels]:
+        """How positions are rounded, where that is in doubt, and what comes of it, shape (n, 3)."""
         exponent, doubts = 0, b""
-        if self._relief is None:
-            if self._solid.places is None:
-                exponent = relief_exponent(self._solid.positions, self._faces)
-                doubts = self._solid.doubts(exponent)
-            self._relief = self._solid.relief(exponent, doubts)
-        return replace(declaration, leans=1, relief=exponent, doubts=doubts), self._relief
+        if self._solid.places is None:
+            exponent = relief_exponent(self._solid.positions, self._faces)
+            doubts = self._solid.doubts(exponent)
+        return exponent, doubts, self._solid.relief(exponent, doubts)
 
 
 def ranges(rows: int, size: int) -> list[tuple[int, int]]:
