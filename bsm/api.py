@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
@@ -81,6 +81,7 @@ def encode_many(
     report: str | os.PathLike[str] | None = None,
     resume: bool = False,
     overwrite: bool = False,
+    metadata: Mapping[str, str] | None = None,
     **keywords: Any,
 ) -> list[dict[str, Any]]:
     """Compress mesh files, as ``bsm encode`` does; one that fails stops no other.
@@ -102,6 +103,8 @@ def encode_many(
         Go on from the report: leave what is whole and as it would be made.
     overwrite : bool
         Whether files that are there already are replaced.
+    metadata : mapping from str to str, optional
+        Added to what each mesh says of itself.
     **keywords
         As `encode` takes them.
 
@@ -127,7 +130,8 @@ def encode_many(
     wishes = {"jobs": jobs, "dask": dask, "report": report and os.fspath(report), "resume": resume, "force": overwrite}
     kinds = {name: f"target_{kind}" for name, kind in keywords_to.TARGETS.items()}
     given = {kinds.get(name, name): value for name, value in keywords.items()}
-    for name, value in {**wishes, **given, "quiet": True}.items():
+    meta = [f"{name}={value}" for name, value in (metadata or {}).items()]
+    for name, value in {**wishes, **given, "meta": meta, "quiet": True}.items():
         setattr(args, name, value)
     folder = None if target is None else os.fspath(target).rstrip("/") + "/"
     planned = plan([os.fspath(source) for source in sources], folder, lambda _: ".bsm")

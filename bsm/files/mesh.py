@@ -66,7 +66,8 @@ def read_mesh(
     Parameters
     ----------
     source : path, buffer or binary file
-        "-" reads standard input. Pipes will do, and a file may be compressed by gzip.
+        "-" reads standard input. Pipes will do, and a file may be compressed by gzip. Materials and images that a file
+        names are read as well where they lie in its folder or below; a buffer has nothing beside it.
     file_format : str, optional
         One of `MESH_FORMATS`, or a suffix that trimesh knows; guessed from the name, or else from the first bytes.
     limits : Limits

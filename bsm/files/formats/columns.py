@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Collection, Iterable, Sequence
+from collections.abc import Callable, Collection, Iterable
 from dataclasses import dataclass
 from itertools import chain, count
 from typing import Any
@@ -55,13 +55,18 @@ class Column:
         return Attribute(name, self.values, "corner", self.semantic, used.astype(np.int32))
 
 
-def attributes_of(columns: Iterable[Column], places: Ints, owner: Ints) -> tuple[tuple[Attribute, ...], dict[str, str]]:
+def attributes_of(
+    columns: Iterable[Column], vertices: int, polygons: int, places: Ints, owner: Ints
+) -> tuple[tuple[Attribute, ...], dict[str, str]]:
     """The attributes that columns are, and why the others are none, by name."""
+    rows = {"vertex": vertices, "face": polygons}
     found: dict[str, Attribute] = {}
     refused: dict[str, str] = {}
     for column in columns:
         name = unused_name(column.name, column.domain, found)
         try:
+            if rows.get(column.domain, len(column.values)) != len(column.values):
+                raise MeshError(f"there are {len(column.values)} of them for {rows[column.domain]}")
             found[name] = column.of_triangles(name, places, owner)
         except MeshError as error:
             refused[PLURALS.get(column.name, column.name)] = str(error)
@@ -99,12 +104,6 @@ def color_column(values: Array, domain: Domain, *, written_whole: bool = False) 
         in_range = values.min() >= 0 and values.max() <= 1
         return Column("color", compact(values), domain, "color" if in_range else "generic")
     return Column("color", values, domain, "color" if values.dtype in (np.uint8, np.uint16) else "generic")
-
-
-def numbered(names: Sequence[str], what: str) -> tuple[list[int], dict[str, str]]:
-    """Numbers for names in the order of their first appearance, and "<what>.<number>.name" for each."""
-    numbers = {name: number for number, name in enumerate(dict.fromkeys(names))}
-    return [numbers[name] for name in names], {f"{what}.{i}.name": name for name, i in numbers.items()}
 
 
 def held_by(attributes: Iterable[Attribute], test: Callable[[Attribute], bool]) -> Attribute | None:

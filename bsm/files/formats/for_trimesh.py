@@ -27,14 +27,18 @@ def arguments_of(mesh: TriangleMesh) -> dict[str, Any]:
     mesh = split_by_attributes(mesh)
     normal, color, texcoord = shown_by_trimesh(mesh)
     of_faces = first(mesh, "color", (3, 4), "face")
-    materials = [_material(trimesh, words, mesh.metadata) for words in materials_in(mesh.metadata).values()]
+    known = materials_in(mesh.metadata)
+    materials = [_material(trimesh, words, mesh.metadata) for words in known.values()]
     visual = None
     if texcoord is not None or materials:
         uv = None if texcoord is None else texcoord.values[:, :2]
         numbers = face_numbers(mesh, "material")
         several = numbers is not None and len(materials) > 1
         material = trimesh.visual.material.MultiMaterial(materials) if several else next(iter(materials), None)
-        of_each = numbers.values[:, 0] if several and numbers is not None else None
+        place = {number: place for place, number in enumerate(known)}
+        of_each = None
+        if several and numbers is not None:
+            of_each = np.array([place.get(number, 0) for number in numbers.values[:, 0].tolist()])
         visual = trimesh.visual.TextureVisuals(uv=uv, material=material, face_materials=of_each)
         if color is not None:
             visual.vertex_attributes["color"] = _rgba(color)

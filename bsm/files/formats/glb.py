@@ -10,7 +10,7 @@ import numpy as np
 from bitstream.errors import MeshError
 from bsm.files.formats.columns import Array
 from bsm.files.formats.for_trimesh import FACTORS, SCALARS, TEXTURES, arguments_of, shown_by_trimesh
-from bsm.files.formats.materials import Material, as_gltf, images_in, kind_of_image, materials_in
+from bsm.files.formats.materials import Material, as_gltf, images_in, kind_of_image, materials_in, names_in
 from bsm.files.formats.with_trimesh import import_trimesh
 from bsm.files.formats.written import Written, face_numbers, left_out
 from bsm.files.rows import single_suffices
@@ -54,18 +54,18 @@ def write_glb(mesh: TriangleMesh, stem: str) -> Written:
             numbers[:, column] = attribute.values[:, 0]
     kinds, of_face = np.unique(numbers, axis=0, return_inverse=True)
     words = materials_in(mesh.metadata)
-    scene = trimesh.Scene()
+    scene, names = trimesh.Scene(), names_in(mesh.metadata, "part")
     for place, (number, its_material) in enumerate(kinds.tolist()):
         faces = np.flatnonzero(of_face.reshape(-1) == place)
         piece = _piece(mesh, faces, its_material, [a for a in (*shown, *others) if a is not None])
-        called = mesh.metadata.get(f"part.{number}.name") or (mesh.metadata.get("name") if len(kinds) == 1 else None)
+        called = names.get(number) or (mesh.metadata.get("name") if len(kinds) == 1 else None)
         geometry = trimesh.Trimesh(**arguments_of(piece))
         geometry.metadata.clear()
         if geometry.visual.kind == "texture":
             _keep_images(geometry.visual.material, words.get(its_material, {}), mesh.metadata)
         scene.add_geometry(geometry, geom_name=str(called or stem))
     said = {f"material.{n}.{name}" for n, known in words.items() for name in known if _is_said({name: known[name]})}
-    said |= {f"image.{n}.data" for n in images_in(mesh.metadata)} | {f"part.{n}.name" for n in kinds[:, 0].tolist()}
+    said |= {f"image.{n}.data" for n in images_in(mesh.metadata)} | {f"part.{n}.name" for n in names} | {"part.names"}
     scene.metadata.update({n: v for n, v in mesh.metadata.items() if n not in said and not isinstance(v, bytes)})
     data = scene.export(file_type="glb")
     binary = [name for name, value in mesh.metadata.items() if name not in said and isinstance(value, bytes)]

@@ -9,7 +9,7 @@ the file's name is "image.0.name", its bytes are "image.0.data". Which face has 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import TypeAlias
 
@@ -23,6 +23,8 @@ _MTL_IMAGES = re.compile(r"map_\w+|bump|disp|decal|norm|refl", re.IGNORECASE)
 _MTL_OPTIONS = re.compile(
     r"((?:-[a-z]+(?:\s+(?:on|off|[lrgbmz]|[-+]?[\d.]+(?:e[-+]?\d+)?))+\s+)*)(\S.*)", re.IGNORECASE
 )
+MOST_ENTRIES = 16
+"""Names that have an entry each; there can be 256 in all."""
 _TO_GLTF = {
     "map_Kd": "baseColorTexture",
     "map_Ke": "emissiveTexture",
@@ -58,9 +60,26 @@ def refers_to_image(parameter: str) -> bool:
     return parameter.endswith("Texture") or _MTL_IMAGES.fullmatch(parameter) is not None
 
 
+def named(names: Sequence[str], what: str) -> dict[str, str]:
+    """The metadata that call the things 0, 1, ... so: "<what>.<number>.name", or, of many, one text "<what>.names"."""
+    if len(names) <= MOST_ENTRIES:
+        return {f"{what}.{number}.name": name for number, name in enumerate(names)}
+    return {f"{what}.names": "\n".join(map(one_line, names))}
+
+
+def names_in(metadata: Metadata, what: str) -> dict[int, str]:
+    """What things are called, by their numbers."""
+    together = metadata.get(f"{what}.names")
+    found = dict(enumerate(together.split("\n"))) if isinstance(together, str) else {}
+    for key, name in metadata.items():
+        if match := re.fullmatch(rf"{what}\.(\d{{1,9}})\.name", key):
+            found[int(match[1])] = str(name)
+    return found
+
+
 def materials_in(metadata: Metadata) -> dict[int, Material]:
     """The materials that metadata speak of, by their numbers."""
-    found: dict[int, Material] = {}
+    found: dict[int, Material] = {number: {"name": name} for number, name in names_in(metadata, "material").items()}
     for kind, number, name, value in _entries(metadata):
         if kind == "material" and not isinstance(value, bytes):
             found.setdefault(number, {})[name] = value

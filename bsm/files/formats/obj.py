@@ -10,8 +10,8 @@ from typing import Literal
 import numpy as np
 
 from bitstream.errors import FormatError, MeshError
-from bsm.files.formats.columns import PLURALS, Column, color_column, compact, numbered
-from bsm.files.formats.materials import Value, materials_in, one_line, said_in_mtl, write_mtl
+from bsm.files.formats.columns import PLURALS, Column, color_column, compact
+from bsm.files.formats.materials import Value, materials_in, named, names_in, one_line, said_in_mtl, write_mtl
 from bsm.files.formats.polygons import Polygons
 from bsm.files.formats.remarks import parse_remarks, remarks
 from bsm.files.formats.written import Library, Written, face_numbers, first, left_out
@@ -57,8 +57,8 @@ def read_obj(data: bytes) -> Polygons:
             column, note = _corner_column(rows, name, references.of(which), placed(which, keyword))
             columns += column
             notes += note
-    states, named = _states(lines, is_face)
-    metadata: dict[str, Value] = {**named}
+    states, names = _states(lines, is_face)
+    metadata: dict[str, Value] = {**names}
     metadata |= {"mtllib": library[0].strip().decode(errors="replace")} if (library := lines.of(b"mtllib")) else {}
     metadata |= parse_remarks(comment.decode(errors="replace") for comment in re.findall(rb"^#([^\r\n]*)", data, re.M))
     return Polygons(
@@ -155,11 +155,13 @@ def _states(lines: _Lines, is_face: Mask) -> tuple[list[Column], dict[str, str]]
     for what, keyword in STATES.items():
         names = ["", *(name.strip().decode(errors="replace") for name in lines.of(keyword.encode()))]
         changes, of_face = np.unique(np.cumsum(lines.are(keyword.encode()))[is_face], return_inverse=True)
-        numbers, named = numbered([names[i] for i in changes.tolist()], what)
-        if len(named) > 1:
-            columns.append(Column(what, np.array(numbers, np.int32)[of_face], "face"))
-        if any(named.values()):
-            metadata |= named
+        used = [names[i] for i in changes.tolist()]
+        numbers = {name: number for number, name in enumerate(dict.fromkeys(used))}
+        if len(numbers) > 1:
+            of_change = np.array([numbers[name] for name in used], np.int32)
+            columns.append(Column(what, of_change[of_face], "face"))
+        if any(numbers):
+            metadata |= named(list(numbers), what)
     return columns, metadata
 
 
@@ -175,14 +177,18 @@ def write_obj(mesh: TriangleMesh, stem: str) -> Written:
     names = {what: _names(mesh, what, attribute) for what, attribute in numbers.items()}
     library = Library(mesh, stem)
     mtl = write_mtl({n: m for n, m in library.materials.items() if len(m) > 1}, names["material"], library.images)
-    named = mesh.metadata.get("mtllib")
+    library_name = mesh.metadata.get("mtllib")
     if mtl:
         library.beside[f"{stem}.mtl"] = mtl
-        named = f"{stem}.mtl"
+        library_name = f"{stem}.mtl"
         library.said |= {f"material.{n}.{key}" for n, m in library.materials.items() for key in said_in_mtl(m)}
     library.said |= {f"{what}.{number}.name" for what in STATES for number in names[what]}
+    library.said |= {f"{what}.names" for what in STATES if names[what]}
     lines, unsaid = remarks(mesh.metadata, library.said | {"mtllib"})
-    parts = ["".join(f"# {line}\n" for line in lines), f"mtllib {one_line(str(named))}\n" if named else ""]
+    parts = [
+        "".join(f"# {line}\n" for line in lines),
+        f"mtllib {one_line(str(library_name))}\n" if library_name else "",
+    ]
     parts.append(_points(mesh, color))
     indices = [mesh.faces]
     for keyword, attribute in (("vt", texcoord), ("vn", normal)):
@@ -205,7 +211,8 @@ def write_obj(mesh: TriangleMesh, stem: str) -> Written:
 
 def _names(mesh: TriangleMesh, what: str, attribute: Attribute | None) -> dict[int, str]:
     """What the materials (groups, ...) of the faces are called, by their numbers; nothing where none are known."""
-    known = {number: mesh.metadata.get(f"{what}.{number}.name") for number in _numbers(mesh, what, attribute)}
+    names = names_in(mesh.metadata, what)
+    known = {number: names.get(number) for number in _numbers(mesh, what, attribute)}
     spoken_of = attribute is not None or any(known.values()) or (what == "material" and materials_in(mesh.metadata))
     if not spoken_of:
         return {}

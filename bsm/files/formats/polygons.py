@@ -89,7 +89,7 @@ class Polygons:
         places, owner, folded = triangulate(positions, sizes, corners)
         if folded:
             notes.append(f"polygons so far from convex that their triangles overlap: {folded}")
-        attributes, refused = attributes_of(self.columns, places, owner)
+        attributes, refused = attributes_of(self.columns, len(positions), len(sizes), places, owner)
         metadata, too_large = fitting(self.metadata, limits.metadata_bytes)
         dropped = (*self.dropped, *refused, *too_large)
         if self.dropped:

@@ -6,10 +6,13 @@ import json
 import re
 from collections.abc import Iterable
 
+from bitstream.container.maps import MAX_ENTRIES
 from codec.geometry.mesh import Metadata
 
 MOST_BYTES = 1 << 15
 """Of the remarks of one file."""
+MOST_ENTRIES = MAX_ENTRIES - 16
+"""That are taken from a file: some may be added."""
 _ENTRY_BYTES = 16
 _REMARK = re.compile(r"meta ([\w.-]{1,255}): (.+)")
 
@@ -65,12 +68,16 @@ def fitting(metadata: Metadata, limit: int) -> tuple[dict[str, str | int | float
     sizes = {name: _size(name, value) for name, value in metadata.items()}
     total = sum(sizes.values())
     refused: dict[str, str] = {}
+    for name in list(sizes)[MOST_ENTRIES:]:
+        total -= sizes.pop(name)
+    if len(sizes) < len(metadata):
+        refused[f"{len(metadata) - len(sizes)} entries of metadata"] = f"there can be {MAX_ENTRIES}"
     for name in sorted(sizes, key=lambda name: -sizes[name]):
         if total <= limit:
             break
         total -= sizes[name]
         refused[name] = f"with its {sizes[name]} bytes the metadata would take more than {limit}"
-    return {name: value for name, value in metadata.items() if name not in refused}, refused
+    return {name: metadata[name] for name in sizes if name not in refused}, refused
 
 
 def _size(name: str, value: str | int | float | bytes) -> int:

@@ -6,6 +6,7 @@ import io
 import json
 import re
 from dataclasses import dataclass, replace
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -13,7 +14,7 @@ import numpy as np
 from bitstream.errors import BsmError, DependencyError, FormatError
 from bitstream.limits import Limits
 from bsm.files.formats.columns import PLURALS, Array, Column, color_column, compact, meaning_of
-from bsm.files.formats.materials import Material, Value, described, kind_of_image
+from bsm.files.formats.materials import Material, Value, described, kind_of_image, named
 from bsm.files.formats.polygons import Polygons
 from bsm.files.rows import Doubles
 
@@ -21,7 +22,7 @@ _NO_NAMES = re.compile(r"geometry_\d+|GLTF(_\d+)?")
 _KNOWN_TO_TRIMESH = re.compile(r"POSITION|NORMAL|TEXCOORD_0|COLOR_0|_.*")
 _PADDING = re.compile(rb"(?<=IEND\xaeB`\x82)\0{1,3}\Z|(?<=\xff\xd9)\0{1,3}\Z")
 """What GLB files have behind a PNG or JPEG."""
-_OF_TRIMESH = ("units", "from_gltf_primitive", "gltf_extensions", "file_path", "file_name", "node")
+_OF_TRIMESH = ("units", "from_gltf_primitive", "gltf_extensions", "file_path", "file_name", "node", "processed")
 """Metadata that trimesh has added."""
 
 
@@ -68,7 +69,10 @@ def read_with_trimesh(data: bytes, path: str | None, kind: str, limits: Limits) 
         raise
     except Exception as error:  # it promises nothing about what damaged files raise
         raise FormatError(f"trimesh cannot read this file: {type(error).__name__}: {error}") from error
-    return replace(found, metadata={**up, **found.metadata}, dropped=(*found.dropped, *unread))
+    metadata = {**up, **found.metadata}
+    if metadata.get("name") == Path(path or "").name:
+        del metadata["name"]  # trimesh calls it like the file
+    return replace(found, metadata=metadata, dropped=(*found.dropped, *unread))
 
 
 def _up_axis(data: bytes, kind: str) -> dict[str, str]:
@@ -190,15 +194,15 @@ def _polygons(parts: list[_Part], of_scene: dict[str, Any]) -> Polygons:
     triangles = np.concatenate(faces)
     columns, notes = _columns(parts)
     metadata = _metadata(parts, of_scene)
-    named, numbers = _materials(parts)
-    metadata |= named
+    of_materials, numbers = _materials(parts)
+    metadata |= of_materials
     if len(np.unique(numbers)) > 1:
         columns.append(Column("material", numbers[:, None], "face"))
     if len(parts) > 1:
         notes.insert(0, f"{len(parts)} parts were joined to one mesh")
         owner = np.repeat(np.arange(len(parts), dtype=np.int32), [len(part.mesh.faces) for part in parts])
         columns.append(Column("part", owner[:, None], "face"))
-        metadata |= {f"part.{number}.name": part.name for number, part in enumerate(parts)}
+        metadata |= named([part.name for part in parts], "part")
     sizes = np.full(len(triangles), 3)
     return Polygons(positions, sizes, triangles.reshape(-1), tuple(notes), (), tuple(columns), metadata)
 
@@ -229,7 +233,8 @@ def _metadata(parts: list[_Part], of_scene: dict[str, Any]) -> dict[str, Value]:
     found: dict[str, Value] = {}
     for source in (of_scene, *(part.mesh.metadata for part in parts)):
         for name, value in source.items():
-            if name not in _OF_TRIMESH and isinstance(value, str | int | float | bytes) and name:
+            plain = isinstance(value, str | int | float | bytes)
+            if name and name not in _OF_TRIMESH and plain and not (isinstance(value, str) and not value.strip("\0 ")):
                 found.setdefault(str(name), int(value) if isinstance(value, bool) else value)
     units = dict.fromkeys(part.mesh.units for part in parts)
     if len(units) == 1 and isinstance(unit := next(iter(units)), str):
@@ -267,6 +272,8 @@ def _words_of(material: Any, images: list[bytes]) -> Material:
     found: Material = {}
     for name, value in given.items():
         if hasattr(value, "save"):
+            if value.format is None and value.size == (1, 1):
+                continue  # that of the material that trimesh gives to what has none
             data = _bytes_of_image(value)
             if data not in images:
                 images.append(data)

@@ -246,6 +246,11 @@ class Fulfilment:
         layer = base.layer(self._reach, 1.0)
         return layer, np.where(out[:, None], np.rint(offsets / layer.step), 0.0).astype(np.int32)
 
+    def _brought_back(self, base: Base, positions: Matrix) -> Matrix:
+        """Positions after that layer."""
+        back = self._back(base, positions)
+        return positions if back is None else base.moved(*back, positions)
+
     def _lock(self, base: Base) -> tuple[Layer, Levels] | None:
         """The layer that brings borders back; no other layer moves them."""
         if not self._borders.out(base.offsets).any():
@@ -263,14 +268,22 @@ class Fulfilment:
         """A base with heights along the normals, if these can bring normals right; with all axes if not."""
         many = MANY_OUTLIERS * len(base.positions)
         heights = self._original.angle(base.upright) <= self._contract.angle and self._outliers(base.upright) <= many
-        best = self._refinement(base, 0.0 if heights else 6.0)
+        best = self._refinement(base, 0.0 if heights else 6.0, lambda moved: moved)
         if heights and (best is None or self._outliers(base.moved(*best.found)) > many):
-            best = self._refinement(base, 6.0)
-        if best is not None:
-            yield self._with_outliers(base, [best.found])
+            heights = False
+            best = self._refinement(base, 6.0, lambda moved: moved)
+        draft = None if best is None else self._with_outliers(base, [best.found])
+        if draft is not None and not self._keeps(draft):
+            # What is brought back bends normals a little; nearly always, there is room for that.
+            best = self._refinement(base, 0.0 if heights else 6.0, lambda moved: self._brought_back(base, moved))
+            draft = None if best is None else self._with_outliers(base, [best.found])
+        if draft is not None:
+            yield draft
 
-    def _refinement(self, base: Base, ratio: float) -> Trial[tuple[Layer, Levels]] | None:
-        """One layer whose normals are right, where borders are back at their places, and what is out of reach too."""
+    def _refinement(
+        self, base: Base, ratio: float, then: Callable[[Matrix], Matrix]
+    ) -> Trial[tuple[Layer, Levels]] | None:
+        """One layer whose normals are right, where borders are back at their places, and after what comes then."""
         lock, still = self._lock(base), self._borders.vertices
         start = base.positions if lock is None else base.moved(*lock)
 
@@ -282,9 +295,7 @@ class Fulfilment:
             with self._told():
                 levels = self._shaper.levels(start, wanted, directions, aim)
                 levels[still] = 0
-                moved = base.moved(layer, levels, start)
-                back = self._back(base, moved)
-                closeness = self._original.closeness(moved if back is None else base.moved(*back, moved))
+                closeness = self._original.closeness(then(base.moved(layer, levels, start)))
             return Trial(step, closeness, (layer, levels))
 
         first = 1.2 * math.radians(self._contract.angle) * self._edge

@@ -9,6 +9,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
+import bsm
 from bitstream.errors import BsmError
 from bitstream.limits import Limits
 from bsm.files.formats.glb import write_glb
@@ -184,6 +185,26 @@ def test_metadata_that_are_too_large_are_left_out_and_said(tmp_path):
     assert any("b.png" in note and "are more than the 1000" in note for note in source.notes)
 
 
+def test_many_names_are_one_entry(tmp_path):
+    names = [f"part {number}" for number in range(900)]
+    lines = "".join(f"g {name}\nusemtl m{number}\nf 1 2 3\n" for number, name in enumerate(names))
+    source = read_mesh((TRIANGLE + lines).encode())
+    assert source.mesh.metadata["group.names"].split("\n") == names and source.dropped == ()
+    assert bsm.decode(bsm.encode(source.mesh, keep_order=True)).metadata == source.mesh.metadata
+    write_mesh(tmp_path / "a.obj", source.mesh)
+    again = read_mesh(tmp_path / "a.obj").mesh
+    assert again.metadata == source.mesh.metadata
+    assert_same(source.mesh, again, ["group", "material"])
+
+
+def test_more_entries_than_there_can_be_are_left_out_and_said(tmp_path):
+    (tmp_path / "a.mtl").write_text("".join(f"newmtl m{n}\nKd 1 0 0\nKa 0 0 0\nNs 1\n" for n in range(90)))
+    (tmp_path / "a.obj").write_text(f"mtllib a.mtl\n{TRIANGLE}f 1 2 3\n")
+    source = read_mesh(tmp_path / "a.obj")
+    assert len(source.mesh.metadata) == 240 and "121 entries of metadata, because there can be 256" in source.notes[-1]
+    assert bsm.decode(bsm.encode(source.mesh)).metadata == source.mesh.metadata
+
+
 def test_a_ply_as_text_with_everything():
     lines = [
         "ply", "format ascii 1.0", "comment TextureFile skin.png", 'obj_info meta unit: "cm"', "element vertex 4",
@@ -298,6 +319,39 @@ def test_numbers_of_an_stl():
     again = read_mesh(format_mesh(marked, "stl")).mesh
     assert attribute(again, "attribute").values[:, 0].tolist() == [0, 1, 2, 3]
     assert read_mesh(format_mesh(mesh, "stl")).mesh.attributes == ()
+
+
+@pytest.mark.parametrize("kind", ["dae", "3mf", "glb", "ply", "obj", "stl", "off"])
+def test_what_trimesh_tells(kind):
+    trimesh = pytest.importorskip("trimesh")
+    for needed in {"3mf": ("networkx", "lxml"), "dae": ("collada",)}.get(kind, ()):
+        pytest.importorskip(needed)
+    box = trimesh.creation.box()
+    box.visual = trimesh.visual.ColorVisuals(box, vertex_colors=np.arange(32, dtype=np.uint8).reshape(8, 4))
+    data = box.export(file_type=kind)
+    source = read_mesh(data if isinstance(data, bytes) else data.encode(), kind, reader="trimesh")
+    held = {attribute.name for attribute in source.mesh.attributes}
+    assert ("color" in held) == (kind in ("dae", "glb", "ply", "obj"))
+    assert source.mesh.metadata.get("unit") == {"dae": "meters", "glb": "meters", "3mf": "millimeter"}.get(kind)
+    assert source.mesh.metadata.get("up") == {"dae": "y", "glb": "y"}.get(kind)
+
+
+@pytest.mark.real
+@pytest.mark.parametrize(
+    ("reader", "name"),
+    [
+        *((reader, name) for reader in ("trimesh", "openmesh") for name in ("spot_uv.obj", "cortex_sulc.ply")),
+        ("trimesh", "fuze_colours.ply"),
+        ("openmesh", "robot_hand.obj"),
+    ],
+)
+def test_other_readers_go_as_far_as_they_can(meshes, reader, name):
+    pytest.importorskip(reader)
+    ours, theirs = (read_mesh(meshes / "assets" / name, reader=who) for who in (None, reader))
+    held = {attribute.name for attribute in ours.mesh.attributes}
+    assert {attribute.name for attribute in theirs.mesh.attributes} <= held
+    if reader == "openmesh":
+        assert held == {attribute.name for attribute in theirs.mesh.attributes} | set(theirs.dropped)
 
 
 # ---------------------------------------------------------------------------------------------------- there and back
