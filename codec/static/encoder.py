@@ -160,6 +160,7 @@ class Encoder:
 
     def draft(self, progress: Progress | None = None) -> Draft:
         """What the options ask for, without a target."""
+        self._take_attributes()
         return self._dressed(self._bare(progress))
 
     def _bare(self, progress: Progress | None) -> Draft:
@@ -188,6 +189,7 @@ class Encoder:
         target = self.options.target
         if target is None:
             raise OptionError("there is no target to search for")
+        self._take_attributes()
         found: list[Attempt] = []
         refused: list[TargetError] = []
         for ladder in self._ladders(progress):
@@ -240,6 +242,10 @@ class Encoder:
     def _judged(self, draft: Draft) -> Attempt:
         decoded = self._prepared.units.into(draft.decoded)
         return Attempt(draft, self._reference.compare(decoded))
+
+    def _take_attributes(self) -> None:
+        """Say what cannot be kept of attributes before any work is put into positions."""
+        _ = self._carried
 
     def _dressed(self, draft: Draft) -> Draft:
         """A draft with all that the mesh carries."""

@@ -14,7 +14,7 @@ from bitstream.attributes.seams import Joins, decode_seams
 from bitstream.container import packets
 from bitstream.container.declaration import CORNER, RECOMPUTED, Declaration
 from bitstream.container.reader import Signal
-from bitstream.errors import CorruptError
+from bitstream.errors import BsmError, CorruptError
 from bitstream.fields.corners import Corners, corners_of
 from bitstream.limits import Limits
 from codec.arrays import Faces, Levels
@@ -152,7 +152,7 @@ class Valued:
     def decode(self, packet: packets.Values, relief: Levels | None) -> AttributeEvent:
         """Decode a chunk of its values; what decodes them is given up behind the last."""
         if self.complete:
-            raise CorruptError(f"attribute {self.declaration.name!r} has all its values already")
+            raise CorruptError("it has all its values already")
         allowance = self._structure.allowance
         if self._coder is None:
             faces, components = len(self._surface.faces), self.declaration.components
@@ -163,7 +163,7 @@ class Valued:
         allowance.spend(CHUNK_COST, len(packet.data))
         coder = self._coder
         if packet.first != coder.coded:
-            raise CorruptError(f"attribute {self.declaration.name!r} lacks the values before {packet.first}")
+            raise CorruptError(f"the values before number {packet.first} are missing; others depend on them")
         rows, pieces = coder.chunk(packet.data, packet.count)
         self._values[rows] = restored(self.declaration, from_pieces(self.declaration, pieces))
         self.complete = coder.coded == self._rows
@@ -237,7 +237,10 @@ class Carried:
         valued = self._valued.get(packet.attribute)
         if valued is None:
             raise CorruptError(f"attribute {packet.attribute} is not declared")
-        return valued.decode(packet, relief() if valued.declaration.leans else None)
+        try:
+            return valued.decode(packet, relief() if valued.declaration.leans else None)
+        except BsmError as error:
+            raise type(error)(f"attribute {valued.declaration.name!r}: {error.message}") from error
 
     def attributes(self, solid: Solid | None) -> tuple[Attribute, ...]:
         """Those that are whole; `solid` for those that are recomputed."""

@@ -50,7 +50,7 @@ def from_pieces(declaration: Declaration, pieces: Levels) -> Words:
             at += 1
             level = level << PIECE_BITS | pieces[:, at]
         if level.max(initial=0) > largest:
-            raise CorruptError(f"a level of attribute {declaration.name!r} is above {largest}")
+            raise CorruptError(f"a level is above {largest}")
         columns.append(level)
         at += 1
     return np.stack(columns, axis=1)

@@ -19,6 +19,7 @@ from codec.static.events import AttributeEvent, EndEvent, LossEvent
 from codec.static.options import PRESETS, EncodeOptions
 from codec.static.quality.targets import Target
 from tests.shapes import patch, tetrahedron, torus
+from tools.surgery import frames_of, stream_of
 
 KINDS = ("uint8", "int8", "uint16", "int16", "uint32", "int32")
 
@@ -305,6 +306,14 @@ def test_what_is_lost_of_one_attribute_spoils_no_other():
         if isinstance(packet, packets.Values):
             name = mesh.attributes[packet.attribute].name
             assert tolerated(broken(stream, begin, end)) == (everything - {name}, 1, 0)
+            hostile = stream_of(
+                [
+                    (kind, data[:-2] if data[0] == packet.attribute and kind == 0 else data)
+                    for kind, data in frames_of(stream)
+                ]
+            )
+            with pytest.raises(BsmError, match=f"attribute '{name}'"):
+                decode(hostile)
     first = next(begin_end for packet, *begin_end in frames(stream) if isinstance(packet, packets.Block))
     names, losses, _ = tolerated(broken(stream, *first))
     declared = [packet.declaration for packet, _, _ in frames(stream) if isinstance(packet, packets.Attribute)]
