@@ -42,7 +42,7 @@ def onorm_cost(rows: int, columns: int) -> float:
 
 def reflection_cost(rows: int, columns: int) -> float:
     """Of one by reflections."""
-    return 0.6 * rows * columns * columns + 4000.0
+    return 0.35 * rows * columns * columns + 4000.0
 
 
 def dictionary_cost(fronts: Fronts, columns: int, power: int, iterations: int) -> float:

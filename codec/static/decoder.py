@@ -187,8 +187,9 @@ class Decoder(StreamDecoder[Item]):
             self._most_ahead = most_ahead(structure.header)
             return BlockStage(structure, wishes, lanes)
 
+        self._allowance = Allowance(limits)
         body = Body(
-            Allowance(limits),
+            self._allowance,
             check=lambda header: check_header(header, limits),
             begin=begin,
             tolerant=tolerant,
@@ -196,6 +197,11 @@ class Decoder(StreamDecoder[Item]):
         )
         super().__init__(Beginning(body), limits, tolerant=tolerant)
         self._lanes = lanes
+
+    @property
+    def work(self) -> float:
+        """Nanoseconds of a processor core that the stream has cost so far, by the estimates that limits bound."""
+        return self._allowance.spent
 
     def close(self) -> None:
         """Stop the threads; blocks that were not asked for are given up."""

@@ -101,9 +101,18 @@ def layer_memory(vertices: int, faces: int, axes: int) -> float:
 
 
 def values_memory(values: int, faces: int, components: int) -> float:
-    """Bytes for decoding an attribute, and its values twice."""
-    pieces = 2 * components  # of large numbers; normals take most
-    return 16.0 * components * values + values_charge(values, faces, pieces, "normal")
+    """Bytes that an attribute is kept in: its values, and where they belong."""
+    return 8.0 * components * values + 8.0 * values + 12.0 * faces
+
+
+def values_cost(values: int, faces: int) -> float:
+    """Of arranging the values of an attribute, or of making normals again."""
+    return 150.0 * values + 60.0 * faces
+
+
+def coding_memory(values: int, faces: int, components: int) -> float:
+    """Bytes for decoding an attribute, while its values come; large numbers are coded in two pieces."""
+    return values_charge(values, faces, 2 * components, "normal")
 
 
 def part_memory(fronts: Fronts, columns: int) -> float:
@@ -134,6 +143,11 @@ class Allowance:
     def limits(self) -> Limits:
         """What the caller grants."""
         return self._limits
+
+    @property
+    def spent(self) -> float:
+        """All work so far, in nanoseconds."""
+        return self._spent
 
     def grant(self, vertices: int) -> None:
         """Take note of vertices that the stream really has, which count for work and memory."""

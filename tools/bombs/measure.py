@@ -1,24 +1,70 @@
-"""Decode one stream in a process of its own: what it took, as a line of JSON.
+"""Decode one stream in a process of its own, and print what that took as JSON: `measure NAME.bsm HOW LIMITS`.
 
-python -m tools.bombs.measure NAME.bsm [events | whole] [default | service]
+HOW is "events", "whole" or "tolerant"; LIMITS one of `bitstream.limits.NAMED_LIMITS`.
 """
 
 from __future__ import annotations
 
 import json
 import resource
+import subprocess
 import sys
+from dataclasses import asdict, dataclass
 from pathlib import Path
 
 from bitstream.container.reader import END_OF_STREAM, NEED_DATA
 from bitstream.errors import BsmError
-from bitstream.limits import Limits
+from bitstream.limits import NAMED_LIMITS, Limits
 from bsm.files.sequence_stream import peek_header
 from codec.sequence.decoder import FrameEvent, SequenceDecoder
 from codec.static.decoder import Decoder
 from codec.static.encoder import encode
 from codec.static.events import ConnectivityEvent, HeaderEvent
+from codec.static.work import SEQUENCE_WEIGHT
 from tools.vectors.meshes import torus
+
+HOWS = ("events", "whole", "tolerant")
+MOST_SECONDS = 120
+
+
+@dataclass
+class Taken:
+    """What decoding a stream took.
+
+    Attributes
+    ----------
+    outcome : str
+        "decoded", or the error.
+    vertices : int
+        That count for memory and work: those of the faces, of a sequence `SEQUENCE_WEIGHT` times.
+    shown : int
+        Vertices of all frames of a sequence.
+    work : float
+        Nanoseconds that the decoder counted.
+    seconds : float
+        Of CPU.
+    memory : int
+        Greatest number of bytes, beyond what there was before.
+    """
+
+    outcome: str = "killed"
+    vertices: int = 0
+    shown: int = 0
+    work: float = 0.0
+    seconds: float = MOST_SECONDS
+    memory: int = 0
+
+
+def taken_by(path: Path, how: str, limits: str) -> Taken:
+    """What a stream takes, in a process of its own."""
+    command = [sys.executable, "-m", "tools.bombs.measure", str(path), how, limits]
+    try:
+        done = subprocess.run(command, capture_output=True, text=True, timeout=MOST_SECONDS)
+    except subprocess.TimeoutExpired:
+        return Taken()
+    if done.returncode:
+        return Taken(f"died with code {done.returncode}: {done.stderr[-200:]}")
+    return Taken(**json.loads(done.stdout))
 
 
 def seconds_of_cpu() -> float:
@@ -41,39 +87,42 @@ def forget_peak() -> None:
     Path("/proc/self/clear_refs").write_text("5")
 
 
-def decode_all(data: bytes, limits: Limits, whole: bool) -> tuple[str, int]:
-    """What becomes of a stream, and how many vertices it gave, those of every frame."""
+def decode_all(data: bytes, how: str, limits: Limits) -> Taken:
+    """Decode, and say what came of it."""
     header, _ = peek_header(iter([data]))
     sequence = header is not None and header.gop_frames > 0
-    vertices = size = 0
-    try:
-        with SequenceDecoder(limits) if sequence else Decoder(limits) as decoder:
+    taken, tolerant, size = Taken(), how == "tolerant", 0
+    with SequenceDecoder(limits, tolerant=tolerant) if sequence else Decoder(limits, tolerant=tolerant) as decoder:
+        try:
             decoder.receive_data(data)
-            if whole and isinstance(decoder, Decoder):
-                return "decoded", len(decoder.finish().positions)
+            if how == "whole" and isinstance(decoder, Decoder):
+                decoder.finish()
             decoder.receive_eof()
             while (event := decoder.next_event()) is not END_OF_STREAM and event is not NEED_DATA:
-                if isinstance(event, HeaderEvent):
-                    size = event.header.vertices
-                elif isinstance(event, ConnectivityEvent):
-                    vertices = size
-                elif isinstance(event, FrameEvent):
-                    vertices += size
-    except BsmError as error:
-        return type(error).__name__ + ": " + str(error), vertices
-    return "decoded", vertices
+                match event:
+                    case HeaderEvent(found):
+                        size = found.vertices
+                    case ConnectivityEvent():
+                        taken.vertices = size * (SEQUENCE_WEIGHT if sequence else 1)
+                    case FrameEvent():
+                        taken.shown += size
+            taken.outcome = "decoded"
+        except BsmError as error:
+            taken.outcome = f"{type(error).__name__}: {error}"
+        taken.work = decoder.work
+    return taken
 
 
 def main() -> None:
     """Run the command."""
     path, how, limits = sys.argv[1:]
     data = Path(path).read_bytes()
-    decode_all(encode(torus(20, 20)), Limits(), how == "whole")  # what is loaded and allocated once is nobody's fault
+    decode_all(encode(torus(20, 20)), how, Limits())  # what is loaded and allocated once is nobody's fault
     forget_peak()
     seconds, memory = seconds_of_cpu(), resident("VmRSS")
-    outcome, vertices = decode_all(data, Limits.service() if limits == "service" else Limits(), how == "whole")
-    taken = {"seconds": seconds_of_cpu() - seconds, "memory": resident("VmHWM") - memory}
-    print(json.dumps({"outcome": outcome, "vertices": vertices} | taken))
+    taken = decode_all(data, how, NAMED_LIMITS[limits]())
+    taken.seconds, taken.memory = seconds_of_cpu() - seconds, resident("VmHWM") - memory
+    print(json.dumps(asdict(taken)))
 
 
 if __name__ == "__main__":

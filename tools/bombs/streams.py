@@ -81,7 +81,7 @@ def _glued(rows: int, columns: int) -> EncodedConnectivity:
     vertices = number[colours]
     code_seams(coder, conquest.faces, vertices)
     return EncodedConnectivity(
-        finish_writing(coder), np.arange(3, dtype=np.int32), np.arange(faces), vertices[conquest.faces]
+        finish_writing(coder), np.arange(3, dtype=np.int32), np.arange(faces, dtype=np.int32), vertices[conquest.faces]
     )
 
 
@@ -106,7 +106,7 @@ def _soup(vertices: int, faces: int) -> Faces:
     found = random.integers(0, vertices, (faces, 3))
     found[: vertices // 3, :] = np.arange(vertices // 3 * 3).reshape(-1, 3)
     proper = (found[:, 0] != found[:, 1]) & (found[:, 1] != found[:, 2]) & (found[:, 2] != found[:, 0])
-    return found[proper].astype(np.int32)
+    return np.asarray(found[proper], np.int32)
 
 
 def _repeated(times: int) -> Faces:
@@ -220,7 +220,10 @@ def _copies(rows: int, columns: int) -> bytes:
     coded = _coded("torus", rows, columns)
     size, faces = len(coded.vertex_order), coded.faces
     arrangement = encode_arrangement(
-        faces, EncodedConnectivity(coded.payload, np.arange(size, dtype=np.int32), np.arange(len(faces)), faces)
+        faces,
+        EncodedConnectivity(
+            coded.payload, np.arange(size, dtype=np.int32), np.arange(len(faces), dtype=np.int32), faces
+        ),
     )
     copies = 3 * len(faces) - size
     source = np.concatenate([np.arange(size), np.zeros(copies, np.int64)]).astype(np.int32)

@@ -35,7 +35,14 @@ from codec.static.events import AttributeEvent, Losses, LossEvent, unreadable
 from codec.static.numbering import Numbering
 from codec.static.quality.whole import Complete
 from codec.static.stages import Arrival, Stage, misplaced
-from codec.static.work import CHUNK_COST, Allowance, field_cost, values_memory
+from codec.static.work import (
+    CHUNK_COST,
+    Allowance,
+    coding_memory,
+    field_cost,
+    values_cost,
+    values_memory,
+)
 
 SEMANTICS: tuple[Semantic, ...] = ("generic", "color", "normal", "texcoord")
 
@@ -147,19 +154,21 @@ class Valued:
         if declaration.coding != RECOMPUTED and declaration.rows != expected:
             raise CorruptError(f"attribute {declaration.name!r} has {declaration.rows} values where {expected} belong")
         self._rows = expected
+        structure.allowance.keep(values_memory(expected, len(declarations.faces), declaration.components))
+        structure.allowance.spend(values_cost(expected, len(declarations.faces)))
         self._coder: PieceDecoder | None = None
 
     def decode(self, packet: packets.Values, relief: Levels | None) -> AttributeEvent:
         """Decode a chunk of its values; what decodes them is given up behind the last."""
         if self.complete:
             raise CorruptError("it has all its values already")
-        allowance = self._structure.allowance
+        allowance, faces = self._structure.allowance, len(self._surface.faces)
+        coding = coding_memory(self._rows, faces, self.declaration.components)
         if self._coder is None:
-            faces, components = len(self._surface.faces), self.declaration.components
-            allowance.grant(self._rows)
-            allowance.keep(values_memory(self._rows, faces, components))
-            allowance.spend(field_cost(self._rows, faces, components))
+            allowance.keep(coding)
+            allowance.spend(field_cost(self._rows, faces, self.declaration.components))
             self._coder = PieceDecoder(self.declaration, self._surface, relief, allowance.limits)
+        allowance.keep(0.0, len(packet.data))
         allowance.spend(CHUNK_COST, len(packet.data))
         coder = self._coder
         if packet.first != coder.coded:
@@ -169,6 +178,7 @@ class Valued:
         self.complete = coder.coded == self._rows
         if self.complete:
             self._coder = None
+            allowance.keep(-coding)
         fresh = np.zeros(self._rows, np.bool_)
         fresh[rows] = True
         shown = np.flatnonzero(fresh[self.arrangement.rows]).astype(np.int32)

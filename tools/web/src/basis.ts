@@ -189,7 +189,7 @@ function solvedOnorm(memory: Memory, block: Block, factor: Factor, start: Matrix
         const subspace = memory.doubles(rows * columns, columns);
         const independence = memory.run("cholesky_onorm", solved, ONCE, iterationScratch(memory, rows, columns), subspace);
         if (independence < TWICE) {
-            allowance.spend(0.6 * rows * columns ** 2);
+            allowance.spend(0.35 * rows * columns ** 2);
             householder(memory, solved, subspace);
         }
         return { rows, columns, values: subspace.view.slice() };

@@ -1,0 +1,70 @@
+"""A few bombs that are quickly made; `python -m tools.bombs` measures all of them."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from bitstream.errors import CorruptError, LimitError
+from bitstream.limits import Limits
+from codec.static.decoder import Decoder
+from tools.bombs.measure import decode_all, taken_by
+from tools.bombs.streams import BOMBS
+
+REFUSED = {
+    "members-illegal": (CorruptError, "overlap too much"),
+    "narrow": (LimitError, "work"),
+    "narrow-small": (LimitError, "work"),
+    "wide": (LimitError, "memory"),
+    "wide-exact": (LimitError, "memory"),
+    "careful": (LimitError, "work"),
+    "expander": (LimitError, "entangled"),
+    "gop-wide": (LimitError, "memory"),
+    "sequence-power": (LimitError, "work"),
+}
+"""How, and what the message is about."""
+
+
+@pytest.mark.parametrize("name", REFUSED)
+def test_what_asks_for_too_much_is_refused(name):
+    error, about = REFUSED[name]
+    taken = decode_all(BOMBS[name].make(), "events", Limits())
+    assert taken.outcome.startswith(error.__name__)
+    assert about in taken.outcome
+
+
+@pytest.mark.parametrize("name", ["members", "tiny", "copies", "grid-chunks", "layers-chunks", "gop-still"])
+def test_what_is_allowed_is_paid_for(name):
+    stream = BOMBS[name].make()
+    taken, limits = decode_all(stream, "events", Limits()), Limits()
+    granted = limits.work + limits.work_per_vertex * (taken.vertices + taken.shown)
+    assert 0.0 < taken.work <= granted + limits.work_per_byte * len(stream)
+
+
+def test_a_service_has_an_absolute_bound():
+    limits = Limits.service()
+    with Decoder(limits) as decoder, pytest.raises(LimitError, match="most_work"):
+        decoder.receive_data(BOMBS["narrow"].make())
+        decoder.finish()
+    for bound in ("most_work", "most_memory"):
+        assert getattr(Limits(), bound) > getattr(limits, bound)
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="memory is measured as Linux tells it")
+def test_the_measure_sees_what_a_stream_takes(tmp_path):
+    (tmp_path / "members.bsm").write_bytes(BOMBS["members"].make())
+    taken = taken_by(tmp_path / "members.bsm", "events", "default")
+    assert "missing" in taken.outcome
+    assert taken.vertices == 65536
+    assert 4 << 20 < taken.memory < (1 << 26) + 1024 * taken.vertices
+    assert 0.0 < taken.seconds < 3.6
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="memory is measured as Linux tells it")
+def test_the_command_ends_with_a_verdict():
+    command = [sys.executable, "-m", "tools.bombs", "members-illegal", "--how", "whole"]
+    done = subprocess.run(command, capture_output=True, text=True, cwd=Path(__file__).parents[2], timeout=120)
+    assert done.returncode == 0, done.stderr
+    assert "holds" in done.stdout
+    assert "1 bombs, 0 take more" in done.stdout

@@ -1,0 +1,91 @@
+"""`python -m tools.charges`: how true the decoder's estimates of work are here, in seconds counted for a second of CPU.
+
+Every kind of stream is decoded in a process of its own, with limits that let it through: those that users make, and
+bombs. Exit code 1 if the estimates of two kinds differ by more than a factor of four: then one of them is off by more
+than two.
+"""
+
+from __future__ import annotations
+
+import sys
+import tempfile
+from collections.abc import Callable
+from pathlib import Path
+
+from codec.sequence.encoder import encode_sequence
+from codec.sequence.options import SequenceOptions
+from codec.static.encoder import encode
+from codec.static.options import PRESETS, EncodeOptions
+from tools.bombs.measure import taken_by
+from tools.bombs.streams import BOMBS
+from tools.vectors.meshes import torus
+
+SPREAD = 4.0
+LEAST_SECONDS = 0.02
+"""Of less CPU than that, nothing can be said."""
+
+
+def _preset(name: str) -> bytes:
+    return encode(torus(200, 150), PRESETS[name])
+
+
+def _options(**options: object) -> bytes:
+    return encode(torus(150, 100), EncodeOptions(limits="wide", **options))  # type: ignore[arg-type]
+
+
+def _sequence() -> bytes:
+    frames = [torus(60, 50, 0.1 * k) for k in range(24)]
+    return encode_sequence([frame.positions for frame in frames], frames[0].faces, SequenceOptions(gop=12))
+
+
+KINDS: dict[str, Callable[[], bytes]] = {
+    **{name: lambda name=name: _preset(name) for name in PRESETS},  # type: ignore[misc]
+    "paper": lambda: _options(bits=12, key_interval=0),
+    "paper-wide": lambda: _options(bits=12, keep=0.4, block_size=500, key_interval=0),
+    "paper-exact": lambda: _options(bits=12, keep=0.2, block_size=500, basis="svd"),
+    "large-blocks": lambda: _options(step=0.002, block_size=5000),
+    "small-blocks": lambda: _options(step=0.002, block_size=30),
+    "sequence": _sequence,
+    **{
+        name: bomb.make
+        for name, bomb in BOMBS.items()
+        if name
+        in (
+            "narrow-small",
+            "svd-keys",
+            "rings",
+            "rings-torus",
+            "pieces",
+            "grid",
+            "layers",
+            "scattered",
+            "copies",
+            "sequence",
+            "gop-300",
+            "mesh-blocks",
+            "tiny",
+        )
+    },
+}
+
+
+def main() -> int:
+    """Run the command."""
+    names = sys.argv[1:] or list(KINDS)
+    found = {}
+    with tempfile.TemporaryDirectory() as folder:
+        for name in names:
+            path = Path(folder) / f"{name}.bsm"
+            path.write_bytes(KINDS[name]())
+            taken = taken_by(path, "events", "wide")
+            rate = taken.work / (1e9 * taken.seconds)
+            if taken.seconds > LEAST_SECONDS:
+                found[name] = rate
+            print(f"{name:16} {taken.work / 1e9:8.3f} s counted {taken.seconds:8.3f} s of CPU {rate:6.2f}", flush=True)
+    spread = max(found.values()) / min(found.values())
+    print(f"from {min(found.values()):.2f} to {max(found.values()):.2f}: a factor of {spread:.1f}")
+    return 0 if spread <= SPREAD else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
