@@ -2,7 +2,7 @@
 
 Decoders agree on every integer; their positions are real numbers, and differ by rounding. Extreme options (a high
 power, many iterations, a tiny shift) can make dictionaries that magnify rounding errors without bound. So a stream is
-decoded twice, the second time with noise of a few units in the last place on all that dictionaries and predictions
+decoded twice, the second time with noise in the last seven bits on all that dictionaries and predictions
 start from: if that moves it, another processor may, too (specification, M 15.4).
 """
 
@@ -19,8 +19,8 @@ from codec.sequence.decoder import FrameEvent, SequenceDecoder
 from codec.signal.chain import Rounding, unchanged
 from codec.static.decoder import Decoder
 
-NOISE = 2.0**-50
-"""Of the greatest number of each column: eight times the rounding error of a double."""
+NOISE = 2.0**-46
+"""Of the greatest number of each column: what rounding does to a dictionary on its way, and room to spare."""
 RMS, PEAK = 1e-9, 1e-8
 """How far two decoders may be apart, in extents (M 15.2)."""
 

@@ -244,7 +244,10 @@ class Attribute:
         self.places = [*places, *(vertices + i for i in range(loose))] if declared.domain != 2 else []
         self.of_vertex = len(places)
         self.rows = len(faces) if declared.domain == 2 else len(self.places)
-        require(declared.coding == 3 or declared.rows == self.rows, "a wrong number of rows")  # D 1.2
+
+    def check_rows(self) -> None:
+        """D 1.2, known when all declarations are (F 3.13)."""
+        require(self.declared.coding == 3 or self.declared.rows == self.rows, "a wrong number of rows")
 
     def read(self, chunks: Iterable[tuple[int, bytes]], positions: Sequence[Sequence[int]]) -> list[list[float]]:
         """D 3: the values of all rows; `positions` are those of D 5."""

@@ -1388,6 +1388,8 @@ def declared_attributes(mesh, packets):
 
 def decode_attributes(mesh, packets, attributes, positions, places):
     """D 3 to D 5: for each attribute its arrays, as spec/vectors/README.md tells; positions are in BSM units."""
+    if packets.fault and not packets[VALUES]:
+        return {}  # the stream ends before them
     leaning = [one.declared for one in attributes if one.declared.leans]
     if leaning and places is None:
         places = relief_of(positions, leaning[0].relief, leaning[0].doubts)
@@ -1441,27 +1443,32 @@ def decode_all(stream):
     require_limit(header["details"], MOST_COLUMNS, "details")  # M 14.1
     mesh = Mesh(header, packets)
     attributes = declared_attributes(mesh, packets)
+    if not any(packets[kind] for kind in (BLOCK, GOP, GRID, REFINEMENT)):
+        packets.require(not packets.fault, "")
+    for attribute in attributes:
+        attribute.check_rows()
     faces = np.array(mesh.arranged, np.int32).reshape(-1, 3)
     if header["grid"]:
         positions, places = decode_grid(mesh, packets[GRID])
+        arrays = decode_attributes(mesh, packets, attributes, positions, places)
         packets.require(not packets.fault, "")
-        decoded = mesh.numbered(positions)
-        return decoded, faces, decode_attributes(mesh, packets, attributes, positions, places)
+        return mesh.numbered(positions), faces, arrays
     blended = decode_blocks(mesh, packets[BLOCK])
     packets.require(len(packets[BLOCK]) == header["blocks"], "a block is missing")  # M 10.3
     positions = blended.sums / blended.weights[:, None]
     if header["gop_frames"]:
+        arrays = decode_attributes(mesh, packets, attributes, None, None)
         frames = decode_frames(mesh, packets[GOP], positions)
         packets.require(not packets.fault and header["frames"] in (0, len(frames)), "frames are missing")  # S 1.2
         decoded = np.array(frames).reshape(len(frames), header["vertices"], 3)
-        positions = None
     else:
         positions = smooth(mesh.graph, positions, header["smoothing"])
         if header["refinements"]:
             positions = refine(mesh, positions, packets[REFINEMENT])
+        arrays = decode_attributes(mesh, packets, attributes, positions, None)
         packets.require(not packets.fault, "")
         decoded = mesh.result(positions)
-    return decoded, faces, decode_attributes(mesh, packets, attributes, positions, None)
+    return decoded, faces, arrays
 
 
 def main():

@@ -22,7 +22,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--steady",
         action="store_true",
-        help="decode twice, once with noise of a few units in the last place, and fail (code 7) where that moves "
+        help="decode twice, once with noise in the last bits, and fail (code 7) where that moves "
         "positions so far that processors could differ; extreme options of encoding can do that",
     )
 
