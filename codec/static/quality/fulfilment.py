@@ -52,6 +52,8 @@ DOUBT = 1.4
 """Blocks alone are not tried where a sample of them has normals so many times too wrong."""
 COARSE = 0.016
 """A step, in BSM units, at which blocks carry nothing but what they are for."""
+STEEP, FLATTEST = 0.8, 0.1
+"""How an angle grows with the step in their logarithms, as long as nobody knows, and at least."""
 SLACK = 0.03
 """How far below a bound on angles the search for a step may stay."""
 FINEST, COARSEST = 2.0**-38, 0.05
@@ -94,12 +96,16 @@ def widest_step(
     best: Trial[Found] | None = None
     good: tuple[float, float] | None = None
     bad: tuple[float, float] | None = None
-    step = min(first, most)
+    step, slope = min(first, most), STEEP
+    before: tuple[float, float] | None = None
     for _ in range(tries):
         trial = measure(step)
         kept = trial.closeness.angle <= angle
         near = trial.closeness.farthest <= reach
         at = math.log(step), math.log(max(trial.closeness.angle, 1e-6))
+        if before is not None and at[0] != before[0]:
+            slope = min(max((at[1] - before[1]) / (at[0] - before[0]), FLATTEST), STEEP)
+        before = at
         if kept and near:
             if best is None or step > best.step:
                 best, good = trial, at
@@ -115,7 +121,7 @@ def widest_step(
         elif kept and not near:
             step *= 0.8
         else:
-            step *= math.exp(min(max((aim - at[1]) / 0.8, -1.2), 1.2))
+            step *= math.exp(min(max((aim - at[1]) / slope, -1.2), 1.2))
         step = min(step, most)
     return best
 
