@@ -10,9 +10,10 @@ import { Grid, Refinement } from "./fields";
 import type { Header } from "./header";
 import type { Ints, Kernels, Memory } from "./kernels";
 import { checkLimit, DEFAULT_LIMITS, type Limits } from "./limits";
-import { Numbering, permuted, split, type Loose } from "./numbering";
+import { Numbering, permuted, type Loose } from "./numbering";
 import { Cursor, END_OF_STREAM, NEED_DATA, Reader, type Damaged, type Packet, type Signal } from "./reader";
 import { Sequence } from "./sequence";
+import { split } from "./splits";
 import { TolerantReader } from "./tolerant";
 
 const CONNECTIVITY_METHOD = 1;

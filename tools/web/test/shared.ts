@@ -1,11 +1,19 @@
 /** What tests share: kernels, vectors, and how a stream is decoded in pieces. */
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
-import { Decoder, END_OF_STREAM, Kernels, NEED_DATA, type Attribute, type Event, type Limits, type Mesh } from "../src/index";
+import { pathToFileURL } from "node:url";
+import { decode, Decoder, END_OF_STREAM, Kernels, NEED_DATA, type Attribute, type Event, type Limits, type Mesh } from "../src/index";
 
 export const WEB = process.cwd();
 export const VECTORS = join(WEB, "../../spec/vectors");
 export const BUILDS = ["kernels.wasm", "kernels-scalar.wasm"];
+
+/** The small build, as the decoder that tests of the sources take. */
+export async function smallDecode(): Promise<(data: Uint8Array) => Mesh> {
+    const small = (await import(pathToFileURL(join(WEB, "built/small.js")).href)) as { decode: typeof decode; Kernels: typeof Kernels };
+    const kernels = await small.Kernels.compile(readFileSync(join(WEB, "built/small.wasm")));
+    return (data) => small.decode(kernels, data);
+}
 
 export function compile(build: string): Promise<Kernels> {
     return Kernels.compile(readFileSync(join(WEB, "built", build)));
