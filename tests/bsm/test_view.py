@@ -121,7 +121,7 @@ def test_original_of_a_sequence_is_refused(tmp_path, capsys):
 
 
 @needs_packages
-@pytest.mark.parametrize("tests", ["vectors", "hostile", "browser"])
+@pytest.mark.parametrize("tests", ["vectors", "hostile", "browser", "firefox"])
 def test_javascript(tests):
     """The decoder in node, and the page in Chromium where there is one."""
     javascript(tests)

@@ -3,7 +3,7 @@
 import { existsSync, mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { dirname, join, relative } from "node:path";
 import { build } from "esbuild";
-import { compileKernels, compiler, WEB } from "./kernels.mjs";
+import { compileKernels, compiler, KERNEL_BUILDS, WEB } from "./kernels.mjs";
 
 const VIEWER = join(WEB, "../../bsm/viewer");
 const SOURCES = join(WEB, "src");
@@ -16,6 +16,14 @@ const THREADS = {
     setup({ onResolve, onLoad }) {
         onResolve({ filter: /^worker:/ }, ({ path, resolveDir }) => ({ path: join(resolveDir, path.slice("worker:".length)), namespace: "thread" }));
         onLoad({ filter: /./, namespace: "thread" }, async ({ path }) => ({ contents: await bundle(path, { format: "iife" }), loader: "text" }));
+    },
+};
+
+/** Leaves out what most meshes can do without: sequences, attributes, split vertices, damage, packed coefficients. */
+const SMALL = {
+    name: "small",
+    setup({ onResolve }) {
+        onResolve({ filter: /^\.\/(sequence|attributes|declaration|splits|tolerant|zstd)$/ }, () => ({ path: join(SOURCES, "absent.ts") }));
     },
 };
 
@@ -34,6 +42,7 @@ async function products() {
     const script = (await bundle(join(SOURCES, "viewer/viewer.ts"), { define })).replaceAll("</script", "<\\/script");
     return [
         [join(WEB, "built/bsm.js"), await bundle(join(SOURCES, "index.ts"))],
+        [join(WEB, "built/small.js"), await bundle(join(SOURCES, "index.ts"), { plugins: [SMALL] })],
         [join(WEB, "built/three.js"), await bundle(join(SOURCES, "three.ts"), { external: ["three"] })],
         [join(WEB, "built/LICENSES.txt"), `${licences(BUNDLED)}\n`],
         [join(VIEWER, "page.html"), readFileSync(join(SOURCES, "viewer/page.html"), "utf8")],
@@ -48,8 +57,7 @@ function staleKernels() {
         console.log(`kernels are not compared: they were built by ${theirs}; here is ${ours ?? "no clang"}`);
         return [];
     }
-    const builds = [["built/kernels.wasm", true], ["built/kernels-scalar.wasm", false]];
-    return builds.filter(([path, vectors]) => !readFileSync(join(WEB, path)).equals(compileKernels(vectors))).map(([path]) => path);
+    return Object.entries(KERNEL_BUILDS).filter(([path, options]) => !readFileSync(join(WEB, path)).equals(compileKernels(options))).map(([path]) => path);
 }
 
 const check = process.argv.includes("--check");

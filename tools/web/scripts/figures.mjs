@@ -218,8 +218,10 @@ function playInPage(folder, stream, slow) {
 }
 
 const [meshes] = process.argv.slice(2);
-const sizes = ["bsm.js", "kernels.wasm"].map((name) => [name, brotliCompressSync(built(name)).length]);
-console.log(`to decode: ${sizes.map(([name, size]) => `${name} ${size}`).join(" + ")} = ${sizes.reduce((sum, [, size]) => sum + size, 0)} bytes in brotli`);
+for (const names of [["small.js", "small.wasm"], ["bsm.js", "kernels.wasm"]]) {
+    const sizes = names.map((name) => brotliCompressSync(built(name)).length);
+    console.log(`to decode: ${names.map((name, i) => `${name} ${sizes[i]}`).join(" + ")} = ${sizes[0] + sizes[1]} bytes in brotli`);
+}
 if (meshes) {
     const folder = mkdtempSync(join(tmpdir(), "bsm-figures-"));
     const found = python(PREPARE, meshes, folder);

@@ -77,7 +77,12 @@ const FLAGS = [
 const LINK = [
     "-Wl,--no-entry", "-Wl,--gc-sections", "-Wl,--strip-all", "-Wl,--export=__heap_base", "-Wl,--export=PRIORS",
     "-Wl,-z,stack-size=262144", "-Wl,--stack-first", "-Wl,--max-memory=4294967296",
-    ...KERNELS.map((name) => `-Wl,--export=${name}`),
+];
+
+/** Kernels of sequences and attributes. */
+const LEFT_OUT = [
+    "code_matrix", "project", "cotangents", "hold", "pull", "follow_rows", "code_edges", "join_corners", "expect_normals",
+    "code_scalars", "code_texcoords", "code_normals", "code_faces",
 ];
 
 /** Name and version of the compiler, of which the bytes are a function; undefined where there is none. */
@@ -119,8 +124,15 @@ const UNPACK = `#include <stdint.h>
     }
 `;
 
-/** One build: `vectors` says whether with vector instructions. */
-export function compileKernels(vectors) {
+/** Every build: whether with vector instructions, and whether without what only sequences and attributes need. */
+export const KERNEL_BUILDS = {
+    "built/kernels.wasm": { vectors: true, small: false },
+    "built/kernels-scalar.wasm": { vectors: false, small: false },
+    "built/small.wasm": { vectors: true, small: true },
+};
+
+/** One of them. */
+export function compileKernels({ vectors, small }) {
     const folder = mkdtempSync(join(tmpdir(), "bsm-kernels-"));
     try {
         const data = join(folder, "data.c");
@@ -131,7 +143,9 @@ export function compileKernels(vectors) {
             `const unsigned char PRIORS[${priors.length}] = {${[...priors]}};`].join("\n"));
         const target = join(folder, "kernels.wasm");
         const options = [...FLAGS, "-Oz", ...(vectors ? ["-msimd128"] : [])];
-        execFileSync("clang", [...options, "-I", ".", ...SOURCES, data, ...LINK, "-o", target], { cwd: ROOT, env: { ...process.env, PATH: withoutPackages() } });
+        const kernels = KERNELS.filter((name) => !small || !LEFT_OUT.includes(name));
+        const link = [...LINK, ...kernels.map((name) => `-Wl,--export=${name}`)];
+        execFileSync("clang", [...options, "-I", ".", ...SOURCES, data, ...link, "-o", target], { cwd: ROOT, env: { ...process.env, PATH: withoutPackages() } });
         const features = ["--enable-bulk-memory", "--enable-sign-ext", "--enable-nontrapping-float-to-int", ...(vectors ? ["--enable-simd"] : [])];
         execFileSync(join(WEB, "node_modules/.bin/wasm-opt"), [target, "-Oz", ...features, "-o", target]);
         return readFileSync(target);
@@ -141,7 +155,6 @@ export function compileKernels(vectors) {
 }
 
 if (process.argv[1] === fileURLToPath(import.meta.url)) {
-    writeFileSync(join(WEB, "built/kernels.wasm"), compileKernels(true));
-    writeFileSync(join(WEB, "built/kernels-scalar.wasm"), compileKernels(false));
+    for (const [path, options] of Object.entries(KERNEL_BUILDS)) writeFileSync(join(WEB, path), compileKernels(options));
     writeFileSync(join(WEB, "built/compiler.txt"), `${compiler()}\n`);
 }

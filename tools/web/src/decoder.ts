@@ -10,9 +10,10 @@ import { Grid, Refinement } from "./fields";
 import type { Header } from "./header";
 import type { Ints, Kernels, Memory } from "./kernels";
 import { checkLimit, DEFAULT_LIMITS, type Limits } from "./limits";
-import { Numbering, permuted, split, type Loose } from "./numbering";
+import { Numbering, permuted, type Loose } from "./numbering";
 import { Cursor, END_OF_STREAM, NEED_DATA, Reader, type Damaged, type Packet, type Signal } from "./reader";
 import { Sequence } from "./sequence";
+import { split } from "./splits";
 import { TolerantReader } from "./tolerant";
 
 const CONNECTIVITY_METHOD = 1;
@@ -132,6 +133,7 @@ export class Decoder {
     private chunks = 0;
     private attributes?: Attributes;
     private attributesBegun = false;
+    private refinementLossy = false;
     private gridBroken = false;
     private over = false;
     private refinement?: Refinement;
@@ -280,6 +282,7 @@ export class Decoder {
     }
 
     private lose(error: BsmError, block?: number): void {
+        this.refinementLossy ||= this.refinement !== undefined && !this.attributesBegun;
         if (block !== undefined) this.assembly!.lose(block);
         this.queue.push({ type: "loss", block, error: error.described });
     }
@@ -372,7 +375,7 @@ export class Decoder {
         const { header, grid, refinement, assembly } = this;
         if (header!.grid.length > 0) return grid && grid.missing.length === 0 ? { positions: grid.positions, places: grid.places } : undefined;
         if (this.nextIndex < header!.blocks || assembly!.losses().degraded.length > 0 || assembly!.losses().missing.length > 0) return undefined;
-        if (refinement && refinement.unrefined().length > 0) return undefined;
+        if (this.refinementLossy) return undefined;
         return { positions: refinement?.current ?? assembly!.base() };
     }
 

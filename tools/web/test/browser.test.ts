@@ -1,38 +1,22 @@
 /** The page in headless Chromium: streams in pieces, draws what it should, says what is wrong with a damaged stream. */
 import assert from "node:assert/strict";
-import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { existsSync, mkdtempSync, readFileSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { basename, join } from "node:path";
 import test, { after, before, describe } from "node:test";
-import { pathToFileURL } from "node:url";
 import { inflateSync } from "node:zlib";
 import { chromium, type BrowserContext, type Page } from "playwright-core";
 import { readNpz } from "./npz";
-import { VECTORS, WEB } from "./shared";
+import { base64, savedPage, VECTORS, VIEWER, WEB } from "./shared";
 
 const CHROMIUM = process.env.CHROMIUM ?? "/usr/bin/chromium";
 const FLAGS = [
     "--no-sandbox", "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update",
     "--disable-sync", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
 ];
-const VIEWER = join(WEB, "../../bsm/viewer");
 const STREAM = "good-labels";
 /** One of the specification, and a real one if it is named. */
 const SEQUENCES = [join(VECTORS, "good-sequence-learnt.bsm"), ...(process.env.BSM_SEQUENCE ? [process.env.BSM_SEQUENCE] : [])];
-
-/** The page with streams in it, as `bsm view --save` writes it. */
-function savedPage(folder: string, streams: Record<string, Uint8Array>, more: object = {}): string {
-    const list = Object.entries(streams).map(([name, bytes]) => ({ name, data: base64(bytes), ...more }));
-    const slot = '<script type="application/json" id="bsm-streams">';
-    const path = join(folder, "page.html");
-    const [page, script] = ["page.html", "viewer.js"].map((name) => readFileSync(join(VIEWER, name), "utf8"));
-    writeFileSync(path, page.replace(`${slot}[]`, () => slot + JSON.stringify(list)).replace("<!-- script -->", () => script));
-    return pathToFileURL(path).href;
-}
-
-function base64(bytes: Uint8Array): string {
-    return Buffer.from(bytes).toString("base64");
-}
 
 /** Share of the pixels that differ from the corner, and where their middle is; of an 8-bit PNG. */
 function silhouette(png: Buffer): { share: number; x: number; y: number } {

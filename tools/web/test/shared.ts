@@ -1,11 +1,20 @@
 /** What tests share: kernels, vectors, and how a stream is decoded in pieces. */
-import { readFileSync } from "node:fs";
+import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
-import { Decoder, END_OF_STREAM, Kernels, NEED_DATA, type Attribute, type Event, type Limits, type Mesh } from "../src/index";
+import { pathToFileURL } from "node:url";
+import { decode, Decoder, END_OF_STREAM, Kernels, NEED_DATA, type Attribute, type Event, type Limits, type Mesh } from "../src/index";
 
 export const WEB = process.cwd();
 export const VECTORS = join(WEB, "../../spec/vectors");
+export const VIEWER = join(WEB, "../../bsm/viewer");
 export const BUILDS = ["kernels.wasm", "kernels-scalar.wasm"];
+
+/** The small build, as the decoder that tests of the sources take. */
+export async function smallDecode(): Promise<(data: Uint8Array) => Mesh> {
+    const small = (await import(pathToFileURL(join(WEB, "built/small.js")).href)) as { decode: typeof decode; Kernels: typeof Kernels };
+    const kernels = await small.Kernels.compile(readFileSync(join(WEB, "built/small.wasm")));
+    return (data) => small.decode(kernels, data);
+}
 
 export function compile(build: string): Promise<Kernels> {
     return Kernels.compile(readFileSync(join(WEB, "built", build)));
@@ -39,4 +48,18 @@ export function meshOfEvents(events: Iterable<Event>): Mesh {
         if (event.type === "block" || event.type === "refinement") event.vertices.forEach((v, i) => positions.set(event.positions.subarray(3 * i, 3 * i + 3), 3 * v));
     }
     return { positions: frames.length ? Float64Array.from(frames.flatMap((frame) => [...frame])) : positions, faces, attributes };
+}
+
+/** The page with streams in it, as `bsm view --save` writes it. */
+export function savedPage(folder: string, streams: Record<string, Uint8Array>, more: object = {}): string {
+    const list = Object.entries(streams).map(([name, bytes]) => ({ name, data: base64(bytes), ...more }));
+    const slot = '<script type="application/json" id="bsm-streams">';
+    const path = join(folder, "page.html");
+    const [page, script] = ["page.html", "viewer.js"].map((name) => readFileSync(join(VIEWER, name), "utf8"));
+    writeFileSync(path, page.replace(`${slot}[]`, () => slot + JSON.stringify(list)).replace("<!-- script -->", () => script));
+    return pathToFileURL(path).href;
+}
+
+export function base64(bytes: Uint8Array): string {
+    return Buffer.from(bytes).toString("base64");
 }

@@ -81,7 +81,12 @@ export class View {
         [this.colour, this.play] = [this.control("colour"), this.control("play")];
         const [wireframe, loop] = [this.control<HTMLInputElement>("wireframe"), this.control<HTMLInputElement>("loop")];
         this.part("licences").textContent = licences;
-        this.stage = new Stage(root.querySelector("canvas")!);
+        try {
+            this.stage = new Stage(root.querySelector("canvas")!);
+        } catch (error) {
+            this.fail(`This browser does not draw in three dimensions. ${error instanceof Error ? error.message : error}`);
+            throw error;
+        }
         wireframe.addEventListener("change", () => (this.stage.wireframe = wireframe.checked));
         this.colour.addEventListener("change", () => (this.stale = true));
         this.control("again").addEventListener("click", () => this.restart());

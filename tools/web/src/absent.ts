@@ -1,0 +1,42 @@
+/** What the small build leaves out: it takes the place of the modules that are named in `scripts/build.mjs`. */
+import { UnsupportedError } from "./errors";
+
+function absent(what: string): never {
+    throw new UnsupportedError(`this build decodes no ${what}; bsm.js does`);
+}
+
+export class Sequence {
+    constructor() {
+        absent("sequences");
+    }
+}
+
+export const [CORNER, RECOMPUTED] = [1, 3];
+
+export function parseDeclaration(): never {
+    return absent("attributes");
+}
+
+export function wordsOf(): never {
+    return absent("attributes");
+}
+
+export class Attributes {
+    constructor() {
+        absent("attributes");
+    }
+}
+
+export class TolerantReader {
+    constructor() {
+        absent("damaged streams");
+    }
+}
+
+export function unpackZstd(): never {
+    return absent("packed coefficients");
+}
+
+export function split(): never {
+    return absent("split vertices");
+}
