@@ -3,7 +3,8 @@
 
 #include "bitstream/kernel.h"
 
-double weighted_angle(ConstDoubles2 normals, ConstDoubles weights, ConstDoubles2 decoded, ConstInts2 faces);
+double weighted_angle(ConstDoubles2 normals, ConstDoubles weights, ConstDoubles2 decoded, ConstInts2 faces,
+                      double lost);
 double farthest_apart(ConstDoubles2 original, ConstDoubles2 decoded);
 
 #endif

@@ -49,6 +49,10 @@ class Comparison:
     max_error_relative: float
 
 
+_LOST = math.pi / 2
+"""Angle of a face that lost its area: half of the most."""
+
+
 class Reference:
     """An original mesh, prepared so that comparing one decoded version after another is cheap.
 
@@ -79,11 +83,15 @@ class Reference:
 
     def theta(self, decoded: Positions) -> float:
         """The function `theta` against this original."""
-        return math.degrees(_kernels.weighted_angle(self._normals, self._shares, self._checked(decoded), self.faces))
+        return self._mean_angle(self._shares, decoded)
 
     def angle(self, decoded: Positions) -> float:
         """Mean angle between corresponding normals, degrees, faces counted by their area."""
-        return math.degrees(_kernels.weighted_angle(self._normals, self._areas, self._checked(decoded), self.faces))
+        return self._mean_angle(self._areas, decoded)
+
+    def _mean_angle(self, weights: Floats, decoded: Positions) -> float:
+        decoded = self._checked(decoded)
+        return math.degrees(_kernels.weighted_angle(self._normals, weights, decoded, self.faces, _LOST))
 
     def mnd(self, decoded: Positions) -> float:
         """The function `mnd` against this original."""
