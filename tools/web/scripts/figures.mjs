@@ -123,7 +123,7 @@ function fetchInPage(address, script) {
 const OURS = `(async () => {
     const begin = performance.now();
     const bytes = async (name) => (await fetch(name)).arrayBuffer();
-    const [{ decode, Kernels }, wasm, stream] = await Promise.all([import("/bsm.js"), bytes("/kernels.wasm"), bytes("/bunny.bsm")]);
+    const [{ decode, Kernels }, wasm, stream] = await Promise.all([import("/small.js"), bytes("/small.wasm"), bytes("/bunny.bsm")]);
     const { faces } = decode(await Kernels.compile(wasm), new Uint8Array(stream));
     return { time: performance.now() - begin, faces: faces.length / 3 };
 })()`;
@@ -227,7 +227,7 @@ if (meshes) {
     const found = python(PREPARE, meshes, folder);
     const read = (name) => readFileSync(join(folder, name));
     const contents = {
-        empty: Buffer.from("<!doctype html><title>empty</title>"), "bsm.js": built("bsm.js"), "kernels.wasm": built("kernels.wasm"), "bunny.bsm": read("bunny.bsm"),
+        empty: Buffer.from("<!doctype html><title>empty</title>"), "bsm.js": built("bsm.js"), "kernels.wasm": built("kernels.wasm"), "bunny.bsm": read("bunny.bsm"), "small.js": built("small.js"), "small.wasm": built("small.wasm"),
         "bunny.drc": read("bunny.drc"), "draco_wasm_wrapper.js": draco("draco_wasm_wrapper.js"), "draco_decoder.wasm": draco("draco_decoder.wasm"),
     };
     const files = Object.fromEntries(Object.entries(contents).map(([name, content]) => [name, brotliCompressSync(content)]));
@@ -243,7 +243,7 @@ if (meshes) {
             rival.push((await fetchInPage(address, DRACO)).time);
         }
         const fetched = (...names) => names.reduce((sum, name) => sum + files[name].length, 0);
-        console.log(`bunny over 10 Mbit/s, cold: ${milliseconds(smallest(bsm))} for ${fetched("bsm.js", "kernels.wasm", "bunny.bsm")} bytes at ${found.theta.toFixed(2)} degrees;`);
+        console.log(`bunny over 10 Mbit/s, cold: ${milliseconds(smallest(bsm))} for ${fetched("small.js", "small.wasm", "bunny.bsm")} bytes at ${found.theta.toFixed(2)} degrees;`);
         console.log(`    Draco ${milliseconds(smallest(rival))} for ${fetched("draco_wasm_wrapper.js", "draco_decoder.wasm", "bunny.drc")} bytes at ${found.draco.toFixed(2)} degrees (${found.bits} bits)`);
         for (const stream of ["samba.bsm", "samba-groups.bsm"]) {
             for (const slow of [undefined, "main thread", "everything"]) {
