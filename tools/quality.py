@@ -57,8 +57,8 @@ class Row:
 
 
 def joined(path: Path) -> TriangleMesh:
-    """The mesh of a file, vertices at one position made one."""
-    return join(read_mesh(str(path)).mesh, keep=False).mesh
+    """The shape in a file, vertices at one position made one."""
+    return join(read_mesh(str(path)).mesh.bare, keep=False).mesh
 
 
 def draco_bytes(mesh: TriangleMesh, bits: int) -> bytes:
@@ -127,7 +127,7 @@ def grids(path: Path, args: argparse.Namespace) -> Iterator[Row]:
 def contracts(path: Path, args: argparse.Namespace) -> Iterator[Row]:
     """Rows of `contract`."""
     for preset in args.preset:
-        encoder = Encoder(read_mesh(str(path)).mesh, replace(PRESETS[preset], threads=1))
+        encoder = Encoder(read_mesh(str(path)).mesh.bare, replace(PRESETS[preset], threads=1))
         data = encoder.encode()
         mesh, decoded = encoder.mesh, decode(data, threads=1).positions
         kept = Original(mesh.positions, mesh.faces).closeness(decoded)

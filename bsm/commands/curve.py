@@ -48,7 +48,7 @@ def run(args: argparse.Namespace, console: Console) -> None:
     if sequences and not meshes:
         return
     for path in meshes:
-        mesh = read_mesh(path).mesh
+        mesh = read_mesh(path).mesh.bare  # rates are those of the shape
         for curve in _chosen(args.codecs, len(mesh.positions), args.blocks):
             with console.progress(f"{Path(path).stem}, {curve.label}") as progress:
                 result = run_curve(curve, mesh, Path(path).stem, args.repeat, progress)

@@ -63,7 +63,7 @@ def run_bench(
     """
     rows = []
     for path in meshes:
-        mesh = read_mesh(path).mesh.without_isolated_vertices()[0]
+        mesh = read_mesh(path).mesh.bare.without_isolated_vertices()[0]
         note(f"{path}: whole files")
         files = compare_with_draco(mesh, repeats)
         row = {"mesh": Path(path).stem, "vertices": len(mesh.positions), "files": files}
@@ -146,7 +146,7 @@ def measure_growth(path: str, largest: int, repeats: int, note: Note) -> list[di
 
     Each size is encoded and decoded in a process of its own (`bsm.evaluation.resources`).
     """
-    mesh = read_mesh(path).mesh.without_isolated_vertices()[0]
+    mesh = read_mesh(path).mesh.bare.without_isolated_vertices()[0]
     rows = []
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder, "mesh.ply")

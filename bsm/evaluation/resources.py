@@ -53,7 +53,7 @@ def _in_subprocess(*words: str) -> dict[str, float]:
 
 
 def _encode(mesh_path: str, stream_path: str, repeats: int) -> dict[str, float]:
-    mesh = read_mesh(mesh_path).mesh
+    mesh = read_mesh(mesh_path).mesh.bare
     data, summary = _repeated(lambda: encode(mesh), repeats, len(mesh.positions))
     Path(stream_path).write_bytes(data)
     return summary

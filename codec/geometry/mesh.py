@@ -89,6 +89,11 @@ class TriangleMesh:
         kept = tuple(one for one in self.attributes if one.semantic != "normal")
         return replace(self, positions=positions, attributes=kept), normals
 
+    @property
+    def bare(self) -> TriangleMesh:
+        """The shape alone, without attributes and metadata."""
+        return replace(self, attributes=(), metadata={})
+
     def without_isolated_vertices(self) -> tuple[TriangleMesh, Order]:
         """The mesh of the vertices that some face uses, and their indices here, ascending."""
         used = np.zeros(len(self.positions), dtype=bool)
