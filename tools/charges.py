@@ -7,6 +7,7 @@ than two.
 
 from __future__ import annotations
 
+import argparse
 import sys
 import tempfile
 from collections.abc import Callable
@@ -71,7 +72,11 @@ KINDS: dict[str, Callable[[], bytes]] = {
 
 def main() -> int:
     """Run the command."""
-    names = sys.argv[1:] or list(KINDS)
+    parser = argparse.ArgumentParser(prog="python -m tools.charges", description=__doc__)
+    parser.add_argument("kinds", metavar="KIND", nargs="*", help=f"{', '.join(KINDS)}; all, if none is named")
+    names = parser.parse_args().kinds or list(KINDS)
+    if unknown := set(names) - set(KINDS):
+        parser.error(f"no such kind: {', '.join(sorted(unknown))}")
     found = {}
     with tempfile.TemporaryDirectory() as folder:
         for name in names:

@@ -282,7 +282,7 @@ def on_a_terminal(*arguments):
 
 
 def test_one_bar_for_a_search_with_the_time_left(tmp_path):
-    write_mesh(tmp_path / "a.npz", knot(50_000))
+    write_mesh(tmp_path / "a.npz", knot(200_000))
     words = ["encode", tmp_path / "a.npz", "-o", tmp_path / "a.bsm", "--keep", "0.3", "--threads", "1"]
     shown = on_a_terminal(*words, "--theta", "4")
     assert re.search(r"encoding, attempt [2-9]", shown) and "<00:" in shown and "blocks/s" in shown

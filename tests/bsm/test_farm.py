@@ -73,7 +73,7 @@ def larger(tmp_path_factory):
     """Ten meshes that take a while."""
     folder = tmp_path_factory.mktemp("larger")
     for number in range(10):
-        write_mesh(folder / f"{number:02}.npz", knot(6000, seed=number))
+        write_mesh(folder / f"{number:02}.npz", knot(20_000, seed=number))
     return sorted(map(str, folder.iterdir()))
 
 
