@@ -27,7 +27,7 @@ BY_CI = r"\.ci/run|\.venv/bin/|^pytest|^ruff|^bsm --help$|tools\.fuzz|tools\.pro
 """What .ci/run itself does, or is."""
 NEEDS_FOLDER = r"MESHES|SEQUENCES|FOLDER|MESH\.\.\.|bsm bench"
 HELP_ONLY = r"s3://|bsm view|tools\.charges|tools\.vectors|tools\.train_coefficients"
-"""What would change the repository, and does so in tests of its own, needs machines of others, or is a matter of time."""
+"""What would change the repository, and does so in tests of its own, needs machines of others, or takes time."""
 PLACES = {"MESH": "bunny.ply", "spec/": f"{ROOT}/spec/", "IN.bsm": "bunny.bsm", "OUT.npz": "reference.npz", " N": " 1"}
 
 
