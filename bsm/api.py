@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -16,7 +15,7 @@ from bsm.files.mesh import WRITTEN_FORMATS, format_of_name, save_written, writte
 from bsm.files.permutation import in_order_of
 from bsm.files.pipes import Input, Source, read_bytes, read_chunks
 from bsm.files.stream import decode_whole
-from bsm.meshes import as_mesh, read_any
+from bsm.meshes import as_mesh, read_any, told_of
 from codec.arrays import Faces, Positions
 from codec.geometry.attributes import Attribute
 from codec.geometry.mesh import Metadata, TriangleMesh
@@ -66,9 +65,8 @@ def encode(
     from codec.static.encoder import encode as encode_mesh
     from codec.static.options import EncodeOptions
 
-    given = as_mesh(mesh)
-    given = replace(given, metadata={**given.metadata, **metadata}) if metadata else given
-    return encode_mesh(given, _chosen(options, EncodeOptions, keywords, keywords_to.encode_options))
+    chosen = _chosen(options, EncodeOptions, keywords, keywords_to.encode_options)
+    return encode_mesh(told_of(as_mesh(mesh), chosen, metadata or {}), chosen)
 
 
 def encode_many(

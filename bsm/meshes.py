@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import os
 from collections.abc import Sequence
+from dataclasses import replace
 from types import MappingProxyType
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import numpy.typing as npt
@@ -13,6 +14,7 @@ import numpy.typing as npt
 from bitstream.errors import ArgumentError, MeshError
 from bitstream.limits import DEFAULT_LIMITS
 from bsm.files.formats.columns import Column
+from bsm.files.formats.materials import without_materials
 from bsm.files.formats.polygons import MeshFile, Polygons
 from bsm.files.formats.with_trimesh import joined, polygons_of
 from bsm.files.mesh import read_mesh
@@ -21,6 +23,9 @@ from bsm.files.rows import Ints, ranges
 from bsm.files.stream import decode_whole, is_stream
 from bsm.foreign import columns_of, metadata_of
 from codec.geometry.mesh import Metadata, TriangleMesh
+
+if TYPE_CHECKING:
+    from codec.static.options import EncodeOptions
 
 _POINTS = ("vertices", "points", "positions")
 _FACES = ("faces", "triangles")
@@ -68,6 +73,14 @@ def as_mesh(mesh: Any) -> TriangleMesh:
         "a mesh is expected: an object with vertices (or points) and faces, a pair of arrays (positions, faces), or a "
         f"path; not {type(mesh).__name__}"
     )
+
+
+def told_of(mesh: TriangleMesh, options: EncodeOptions | None, metadata: Metadata) -> TriangleMesh:
+    """The mesh with more metadata; without materials and images where all of its attributes are left out."""
+    qualities = dict(options.attributes) if options else {}
+    bare = qualities.get("*") == "none" and set(qualities.values()) == {"none"}
+    known = without_materials(mesh.metadata) if bare else mesh.metadata
+    return replace(mesh, metadata={**known, **metadata})
 
 
 def read_any(source: Input, **reading: Any) -> TriangleMesh:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import argparse
 import time
 from collections.abc import Sequence
-from dataclasses import replace
 
 from bitstream.errors import OptionError
 from bsm.batch import Facts, Job, add_inputs, came_to, plan, refuse_collisions, run_jobs, size_of
@@ -19,6 +18,7 @@ from bsm.files.naming import refuse_terminal
 from bsm.files.output import open_output, refuse_to_overwrite
 from bsm.files.permutation import write_permutation
 from bsm.files.sequence import open_sequence
+from bsm.meshes import told_of
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -89,7 +89,7 @@ def encode_one(args: argparse.Namespace, console: Console) -> Facts:
     refuse_sequence_flags(args)
     options = encode_options(args)
     source = read_mesh(args.input, args.format, reader=args.reader)
-    mesh = replace(source.mesh, metadata={**source.mesh.metadata, **metadata_of(args)})
+    mesh = told_of(source.mesh, options, metadata_of(args))
     begin = time.perf_counter()
     encoder = Encoder(mesh, options)
     overwrite = may_replace(args, args.output)

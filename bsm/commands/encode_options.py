@@ -157,7 +157,7 @@ def add_coding_flags(parser: argparse.ArgumentParser) -> None:
         action="append_const",
         const=("*", "none"),
         default=argparse.SUPPRESS,
-        help="leave out all attributes that --attribute does not name",
+        help="leave out all attributes that --attribute does not name; where none is left, materials and images, too",
     )
     group.add_argument(
         "--doi",

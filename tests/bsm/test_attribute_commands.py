@@ -64,6 +64,15 @@ def test_info_shows_metadata(tmp_path, capsys):
     assert "  name: ring\n" in text and f"  image.0.data: {len(png())} bytes\n" in text
 
 
+def test_the_shape_alone_brings_no_images():
+    kept = bsm.decode(bsm.encode(painted(), attributes={"*": "none"}, metadata={"author": "me"}))
+    assert not kept.attributes
+    assert set(kept.metadata) == {"author", "name", "unit"}
+    some = bsm.decode(bsm.encode(painted(), attributes={"*": "none", "texcoord": "12bits"}))
+    assert [one.name for one in some.attributes] == ["texcoord"]
+    assert some.metadata["image.0.data"] == png()
+
+
 @pytest.mark.parametrize("text", ["name", "=x", ""])
 def test_metadata_that_say_nothing(tmp_path, text, capsys):
     write_mesh(tmp_path / "a.ply", tetrahedron())

@@ -50,6 +50,11 @@ _SIGNATURES = {
 }
 
 
+def without_materials(metadata: Metadata) -> Metadata:
+    """What does not say how the mesh looks."""
+    return {name: value for name, value in metadata.items() if not _ENTRY.fullmatch(name)}
+
+
 def kind_of_image(data: bytes) -> str | None:
     """The suffix that an image's first bytes tell; None: it is no image that is known."""
     return next((kind for signature, kind in _SIGNATURES.items() if data.startswith(signature)), None)
