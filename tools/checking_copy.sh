@@ -1,5 +1,6 @@
 # checking_copy NAME CMAKE_OPTIONS...: build the kernels with these options, for the Python in $python, into a copy of the
-# sources under build/, and go there. The kernels of the checkout stay as they are.
+# sources under build/, and go there. The kernels of the checkout stay as they are. Python finds the copy from then on,
+# also where the checkout is installed to be edited.
 checking_copy() {
     local name=$1 copy="build/$1"
     shift
@@ -8,7 +9,13 @@ checking_copy() {
     mkdir -p "$copy"
     rm -rf "$copy"/{bitstream,codec,bsm,tools,spec}
     cp -r bitstream codec bsm tools spec "$copy"
+    cat > "$copy/sitecustomize.py" << 'END'
+import sys
+
+sys.meta_path[:] = [finder for finder in sys.meta_path if not type(finder).__module__.startswith("_editable_")]
+END
     find "$copy" -name '_kernels.*.so' -delete
     cmake --install "build/$name-kernels" --prefix "$copy" > /dev/null
     cd "$copy"
+    export PYTHONPATH="$PWD"
 }

@@ -18,6 +18,7 @@ import atheris
 from tools.fuzz.targets import SLOW, TARGETS, VECTORS, seeds
 
 ROOT = Path(__file__).parents[2]
+FUZZED = ROOT / "build" / "fuzzed"
 MEMORY_MIB = 2048
 """Of a whole process, the interpreter, the sanitizer and the corpus included."""
 _OPTIONS = "-DBSM_FUZZ=ON -DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++"
@@ -106,7 +107,7 @@ def instrumented() -> Path:
         raise SystemExit("fuzzing compiles the kernels with clang, which is not here: install it (apt install clang)")
     script = f"set -e; python={shlex.quote(sys.executable)}; . tools/checking_copy.sh; checking_copy fuzzed {_OPTIONS}"
     subprocess.run(["bash", "-c", script], cwd=ROOT, check=True)
-    return ROOT / "build" / "fuzzed"
+    return FUZZED
 
 
 def environment() -> dict[str, str]:
@@ -118,6 +119,7 @@ def environment() -> dict[str, str]:
         **os.environ,
         "LD_PRELOAD": f"{Path(atheris.path()) / 'asan_with_fuzzer.so'} {standard}",
         "ASAN_OPTIONS": "detect_leaks=0",
+        "PYTHONPATH": str(FUZZED),
         "OMP_NUM_THREADS": "1",
         "OPENBLAS_NUM_THREADS": "1",
     }

@@ -25,6 +25,7 @@ from bitstream.connectivity.partition import decode_labels, encode_labels
 from bitstream.errors import BsmError
 from bsm.files.mesh import read_mesh
 from codec.geometry.graph import graph_of_faces
+from tools.copies import refuse_other_kernels
 from tools.fuzz.mutate import mutate_stream
 from tools.fuzz.targets import TARGETS, VECTORS, WHOLE_STREAMS, Finding, run, seeds
 
@@ -38,6 +39,7 @@ def main() -> int:
     parser.add_argument("--targets", nargs="+", choices=TARGETS, default=list(TARGETS), metavar="NAME")
     parser.add_argument("--meshes", type=Path, help="a folder of bad meshes, to be encoded and decoded again")
     args = parser.parse_args()
+    refuse_other_kernels()
     for name in args.targets:
         print(f"{name:20} {attack(name, args.seconds / len(args.targets)):8} inputs", flush=True)
     print(f"{'encoders':20} {sum(1 for faces in _bad_faces(args.meshes) if round_trip(faces)):8} meshes")

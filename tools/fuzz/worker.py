@@ -10,6 +10,7 @@ from types import FunctionType, ModuleType
 
 import atheris
 
+from tools.copies import refuse_other_kernels
 from tools.fuzz.mutate import mutate_stream
 from tools.fuzz.targets import TARGETS, VECTORS, WHOLE_STREAMS, Finding, Target, run, seeds
 
@@ -22,6 +23,7 @@ MEMORY = 256 << 20
 
 def main() -> None:
     """Fuzz until libFuzzer's options say stop; the process ends inside."""
+    refuse_other_kernels()
     name = sys.argv[1]
     target = TARGETS[name]
     for data in seeds(name, VECTORS):  # loads what is imported late

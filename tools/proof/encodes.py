@@ -14,8 +14,8 @@ from random import Random
 
 import numpy as np
 
-import bitstream._kernels
 from bitstream.errors import BsmError
+from tools.copies import refuse_other_kernels
 from tools.proof.decoding import whole
 from tools.proof.inputs import random_stream
 
@@ -41,9 +41,7 @@ def main() -> None:
     parser.add_argument("folder", type=Path)
     parser.add_argument("--streams", type=Path, required=True)
     args = parser.parse_args()
-    here = Path(__file__).parents[2]
-    if here not in Path(bitstream._kernels.__file__).parents:
-        raise SystemExit(f"the kernels are those of {bitstream._kernels.__file__}, not those of {here}")
+    refuse_other_kernels()
     warnings.simplefilter("ignore")
     args.folder.mkdir(parents=True, exist_ok=True)
     for k, stream in enumerate(random_streams(args.seed, args.count)):
