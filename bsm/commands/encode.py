@@ -98,7 +98,8 @@ def encode_one(args: argparse.Namespace, console: Console) -> Facts:
         for chunk in attempt.frames:
             file.write(chunk)
     seconds = time.perf_counter() - begin
-    notes = (*source.notes, *encoder.notes)
+    unsent = source.mesh.metadata.keys() - mesh.metadata.keys()
+    notes = (*source.notes, *encoder.notes, *(["left out: materials, images"] if unsent else []))
     for note in notes:
         console.note(f"{args.input}: {note}")
     if args.permutation:
