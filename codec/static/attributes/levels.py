@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from bitstream.attributes.values import canonical_levels, octahedral_normals
+from bitstream.attributes.octahedron import canonical_levels, octahedral_normals
 from bitstream.container.declaration import BITS, LEVELS, OCTAHEDRAL, RECOMPUTED, Declaration
 from bitstream.errors import OptionError, TargetError
 from codec.static.attributes.quality import LEAST_NORMAL_BITS, MOST_BITS, MOST_NORMAL_BITS, Quality
