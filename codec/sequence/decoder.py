@@ -25,9 +25,9 @@ from codec.signal.chain import Rounding, unchanged
 from codec.static.attributes.decoding import Carried, without_positions
 from codec.static.events import AttributeEvent, ConnectivityEvent, EndEvent, HeaderEvent, LossEvent, unreadable
 from codec.static.layers.block_coder import ChainDecoder
-from codec.static.preamble import Beginning, Body, Structure
 from codec.static.rules import chain_rules
 from codec.static.stages import Arrival, Ended, Stage, StreamDecoder, misplaced
+from codec.static.structure import Beginning, Body, Structure
 from codec.static.work import SEQUENCE_WEIGHT, Allowance
 
 

@@ -28,10 +28,10 @@ from codec.static.events import (
 from codec.static.layers.block_coder import ChainDecoder
 from codec.static.layers.grid import GridStage
 from codec.static.layers.refinement import PendingLevels, RefinementStage
-from codec.static.preamble import Beginning, Body, Structure
 from codec.static.quality.whole import Complete
 from codec.static.rules import chain_rules
 from codec.static.stages import Arrival, Stage, StreamDecoder, misplaced
+from codec.static.structure import Beginning, Body, Structure
 from codec.static.work import Allowance
 from codec.threads import Lanes, Pending
 
