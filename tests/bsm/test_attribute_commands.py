@@ -55,6 +55,19 @@ def test_everything_comes_back(tmp_path, capsys):
             assert metadata["image.0.data"] == png()
 
 
+def test_python_compares_as_the_command_does(tmp_path, capsys):
+    bsm.save(painted(), tmp_path / "a.npz")
+    bsm.save(painted(), tmp_path / "a.bsm", attributes={"label": "none"})
+    bsm.save(bsm.decode(tmp_path / "a.bsm"), tmp_path / "b.ply")
+    for other in ("a.bsm", "b.ply"):
+        found = bsm.compare(tmp_path / "a.npz", tmp_path / other)
+        said = run_json(capsys, "compare", tmp_path / "a.npz", tmp_path / other)
+        assert found.max_error_relative == said["max_error_relative"] > 0
+        assert found.attributes["label"] is said["attributes"]["label"] is None
+        assert 0 < found.attributes["texcoord"].max_error == said["attributes"]["texcoord"]["max_error"] < 2e-4
+    assert bsm.compare(tmp_path / "a.npz", painted()).attributes["label"].max_error == 0
+
+
 def test_info_shows_metadata(tmp_path, capsys):
     bsm.save(painted(), tmp_path / "a.bsm", metadata={"year": 1994})
     said = run_json(capsys, "info", tmp_path / "a.bsm")["metadata"]
