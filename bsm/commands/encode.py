@@ -99,7 +99,13 @@ def encode_one(args: argparse.Namespace, console: Console) -> Facts:
             file.write(chunk)
     seconds = time.perf_counter() - begin
     unsent = source.mesh.metadata.keys() - mesh.metadata.keys()
-    notes = (*source.notes, *encoder.notes, *(["left out: materials, images"] if unsent else []))
+    images = sum(len(value) for value in mesh.metadata.values() if isinstance(value, bytes))
+    notes = (
+        *source.notes,
+        *encoder.notes,
+        *(["left out: materials, images"] if unsent else []),
+        *([f"{images} of the bytes are images, as they are"] if images else []),
+    )
     for note in notes:
         console.note(f"{args.input}: {note}")
     if args.permutation:

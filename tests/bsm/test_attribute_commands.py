@@ -70,7 +70,9 @@ def test_python_compares_as_the_command_does(tmp_path, capsys):
 
 def test_info_shows_metadata(tmp_path, capsys):
     bsm.save(painted(), tmp_path / "a.bsm", metadata={"year": 1994})
-    said = run_json(capsys, "info", tmp_path / "a.bsm")["metadata"]
+    info = run_json(capsys, "info", tmp_path / "a.bsm")
+    said = info["metadata"]
+    assert info["bytes"]["metadata"] > len(png()) and info["bytes"]["framing"] < 250
     assert (said["name"], said["year"], base64.b64decode(said["image.0.data"])) == ("ring", 1994, png())
     assert main(["info", str(tmp_path / "a.bsm")]) == 0
     text = capsys.readouterr().out

@@ -84,6 +84,21 @@ def test_info_adds_up(folder, capsys, mesh):
     assert f"{info['vertices']} vertices" in capsys.readouterr().out
 
 
+@pytest.mark.parametrize(
+    ("options", "expected", "absent"),
+    [
+        (["--grid", "8"], "positions on a grid of ", "blocks"),
+        (["--step", "0.004"], " blocks of ", "paper"),
+        (["--bits", "12"], " by the paper's formula\n", "refinement"),
+    ],
+)
+def test_info_tells_how_positions_are_coded(folder, tmp_path, capsys, options, expected, absent):
+    assert main(["encode", str(folder / "sample.ply"), "-q", "-o", str(tmp_path / "a.bsm"), *options]) == 0
+    assert main(["info", str(tmp_path / "a.bsm")]) == 0
+    text = capsys.readouterr().out
+    assert expected in text and absent not in text
+
+
 def test_the_papers_rate_counts_every_coefficient(folder, tmp_path, capsys):
     options = ["--bits", "12", "--coefficients", "15", *SMALL]
     main(["encode", str(folder / "sample.ply"), "-q", "-o", str(tmp_path / "a.bsm"), *options])

@@ -67,7 +67,7 @@ def test_metadata_that_cannot_be_stored(entries):
 
 def test_metadata_of_too_many_entries():
     many = {f"{i:03}": i for i in range(257)}
-    with pytest.raises(OptionError, match="257 entries .* 256 .* put several into one"):
+    with pytest.raises(OptionError, match=r"257 entries .* 256 .* put several into one"):
         write(Metadata(many))
     many.popitem()
     assert parse(Metadata(), write(Metadata(many))) == Metadata(many)
