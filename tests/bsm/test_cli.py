@@ -283,7 +283,26 @@ def test_a_full_disk(folder):
         pytest.skip("no /dev/full on this system")
     done = bsm("decode", folder / "sample.bsm", "-q", "-f", "-o", "/dev/full", "--format", "ply")
     assert done.returncode == 9
-    assert done.stderr.count(b"\n") == 1 and b"No space left" in done.stderr
+    assert done.stderr.count(b"\n") == 1 and b"bsm: /dev/full: No space left" in done.stderr
+
+
+def test_a_file_that_may_not_grow_is_named_and_removed(folder, tmp_path):
+    resource = pytest.importorskip("resource")
+    done = bsm(
+        *("decode", folder / "sample.bsm", "-q", "-o", tmp_path / "a.ply"),
+        preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (1000, 1000)),
+    )
+    assert done.returncode == 9
+    assert done.stderr == f"bsm: {tmp_path / 'a.ply'}: File too large\n".encode()
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize(("command", "shown"), [("encode", True), ("info", False), ("compare", False)])
+def test_force_is_shown_where_files_are_written(capsys, command, shown):
+    with pytest.raises(SystemExit):
+        main([command, "--help"])
+    text = capsys.readouterr().out
+    assert ("--force" in text) is shown and "do harm" not in text
 
 
 def test_the_reader_of_a_pipe_goes_away(folder):
