@@ -178,7 +178,7 @@ def _octahedral(values: Values, quality: Quality, name: str) -> Quantized:
     if not (lengths > 0.0).all():
         said.append(f"{int((lengths == 0.0).sum())} of no length")
     if np.abs(lengths - 1.0)[lengths > 0.0].max(initial=0.0) > 1e-3:
-        said.append("made one long")
+        said.append("all of length one now")
     fields = {"coding": OCTAHEDRAL, "largest": (largest, largest)}
     return Quantized(fields, levels, ", ".join(said))
 
