@@ -14,6 +14,7 @@ from bsm.files.formats.written import Written
 from bsm.files.mesh import WRITTEN_FORMATS, format_of_name, save_written, written_mesh
 from bsm.files.pipes import Input, Source, read_bytes, read_chunks
 from bsm.files.stream import decode_whole
+from bsm.lengths import LENGTHS, refuse_other_units
 from bsm.meshes import as_mesh, read_any, told_of
 from codec.arrays import Faces, Positions
 from codec.geometry.attributes import Attribute
@@ -65,7 +66,9 @@ def encode(
     from codec.static.options import EncodeOptions
 
     chosen = _chosen(options, EncodeOptions, keywords, keywords_to.encode_options)
-    return encode_mesh(told_of(as_mesh(mesh), chosen, metadata or {}), chosen)
+    told = told_of(as_mesh(mesh), chosen, metadata or {})
+    refuse_other_units({name: keywords.get(name) for name in LENGTHS}, told.metadata)
+    return encode_mesh(told, chosen)
 
 
 def encode_many(

@@ -307,7 +307,7 @@ def most_ahead(header: Header) -> int:
 def check_header(header: Header, limits: Limits) -> None:
     """Raise what is wrong with the header of a static mesh, or beyond `limits`, before anything is done for it."""
     if header.gop_frames:
-        raise UnsupportedError("this is a sequence; decode it with codec.SequenceDecoder")
+        raise UnsupportedError("this is a sequence; decode it with bsm.decode_sequence or bsm.SequenceDecoder")
     if not header.grid:
         chain_rules(header)
         limits.check("coefficients", header.details)
