@@ -4,7 +4,9 @@
 
 Figures: bytes of blocks at the same mean angle between normals (interpolated), bytes of the preset `fine`, bytes of a
 sequence (npz) at the same KG error, and the angle that automatic denoising leaves of noise that is added here. Less is
-better everywhere. Meshes on which nothing was chosen tell most.
+better everywhere. Meshes on which nothing was chosen tell most: the figures beside the constants are means over an
+elephant with holes, a sphere with creases, a casting, a cortex and a duck (of bytes), two sequences (samba, a horse),
+and a scanned angel, the elephant, the duck and a cow (of denoising).
 """
 
 from __future__ import annotations

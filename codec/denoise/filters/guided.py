@@ -22,6 +22,8 @@ from codec.denoise.filters.vertex_update import (
 SIGMA_R = 0.35
 RADIUS = 2.0
 VERTEX_ITERATIONS = 10
+"""The authors' defaults; with half or twice as many vertex iterations, 1.4 and 0.9 % more of the angle is left
+(tools.constants)."""
 
 Guide = Callable[[FaceGeometry, Topology], Floats]
 """From the mesh as it is to the unit normals, shape (m, 3), that the range kernel compares."""
