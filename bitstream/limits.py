@@ -71,7 +71,8 @@ class Limits:
         bound = getattr(self, name)
         if value > bound:
             raise LimitError(
-                f"{name} = {value:g} is over the limit of {bound:g}; if you trust the source, raise Limits.{name}"
+                f"{name} = {_worded(value)} is over the limit of {_worded(bound)}; "
+                f"if you trust the source, raise Limits.{name}"
             )
 
     def check_work(self, value: float, vertices: int) -> None:
@@ -93,6 +94,10 @@ class Limits:
                 f"{name} = {value:g} is over the limit of {bound:g} for what the stream holds; "
                 f"if you trust the source, raise Limits.{name}, or take Limits.wide()"
             )
+
+
+def _worded(value: float) -> str:
+    return f"{value:,}" if isinstance(value, int) else f"{value:g}"
 
 
 DEFAULT_LIMITS = Limits()

@@ -49,6 +49,7 @@ if TYPE_CHECKING:
         compare as compare, decode as decode, decode_sequence as decode_sequence, denoise as denoise, encode as encode,
         encode_many as encode_many, encode_sequence as encode_sequence, load as load, save as save,
     )
+    from bsm.comparison import MeshComparison as MeshComparison
     from bsm.files.mesh import read_mesh as read_mesh
     from bsm.steadiness import check_steadiness as check_steadiness, unsteadiness as unsteadiness
     from bsm.viewer.notebook import show as show
@@ -84,6 +85,7 @@ _ROOMS = {
     ),
     "bitstream.limits": "Limits",
     "bsm.api": "compare decode decode_sequence denoise encode encode_many encode_sequence load save",
+    "bsm.comparison": "MeshComparison",
     "bsm.files.mesh": "read_mesh",
     "bsm.steadiness": "check_steadiness unsteadiness",
     "bsm.viewer.notebook": "show",

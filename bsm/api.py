@@ -12,9 +12,9 @@ from bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm import options as keywords_to
 from bsm.files.formats.written import Written
 from bsm.files.mesh import WRITTEN_FORMATS, format_of_name, save_written, written_mesh
-from bsm.files.permutation import in_order_of
 from bsm.files.pipes import Input, Source, read_bytes, read_chunks
 from bsm.files.stream import decode_whole
+from bsm.lengths import LENGTHS, refuse_other_units
 from bsm.meshes import as_mesh, read_any, told_of
 from codec.arrays import Faces, Positions
 from codec.geometry.attributes import Attribute
@@ -23,8 +23,8 @@ from codec.geometry.mesh import Metadata, TriangleMesh
 if TYPE_CHECKING:
     import numpy.typing as npt
 
+    from bsm.comparison import MeshComparison
     from codec.denoise import DenoiseOptions
-    from codec.geometry.metrics import Comparison
     from codec.sequence.options import SequenceOptions
     from codec.static.options import EncodeOptions
 
@@ -66,7 +66,9 @@ def encode(
     from codec.static.options import EncodeOptions
 
     chosen = _chosen(options, EncodeOptions, keywords, keywords_to.encode_options)
-    return encode_mesh(told_of(as_mesh(mesh), chosen, metadata or {}), chosen)
+    told = told_of(as_mesh(mesh), chosen, metadata or {})
+    refuse_other_units({name: keywords.get(name) for name in LENGTHS}, told.metadata)
+    return encode_mesh(told, chosen)
 
 
 def encode_many(
@@ -299,16 +301,22 @@ def denoise(
     return denoise_mesh(as_mesh(mesh), chosen, goal=goal, force=force)
 
 
-def compare(original: Any, decoded: Any, *, order: npt.ArrayLike | None = None) -> Comparison:
+def compare(original: Any, decoded: Any, *, order: npt.ArrayLike | None = None) -> MeshComparison:
     """How far a mesh is from another of the same faces.
 
     Parameters
     ----------
     original, decoded : mesh, pair of arrays, path, or stream
-        As `encode` takes a mesh, or `decode` a stream. Vertices that no face uses are left out.
+        As `encode` takes a mesh, or `decode` a stream. Vertices that no face uses are left out; where only that makes
+        the meshes comparable, vertices at one position are one.
     order : int array, optional
         Vertex j of `decoded` is vertex order[j] of `original`: `Encoder.vertex_order`. Without it the order may be the
         same, or the decoder's.
+
+    Returns
+    -------
+    MeshComparison
+        Errors of positions, and in `attributes` those of each attribute of `original` by its name.
 
     Raises
     ------
@@ -317,11 +325,10 @@ def compare(original: Any, decoded: Any, *, order: npt.ArrayLike | None = None) 
     """
     import numpy as np
 
-    from codec.geometry.metrics import compare as compare_positions
+    from bsm.comparison import compare_meshes, pair
 
     first, second = (as_mesh(_opened(mesh)).without_isolated_vertices()[0] for mesh in (original, decoded))
-    positions = in_order_of(first, second, None if order is None else np.asarray(order, np.int64))
-    return compare_positions(first.positions, positions, first.faces)
+    return compare_meshes(first, second, pair(first, second, None if order is None else np.asarray(order, np.int64)))
 
 
 def _opened(mesh: Any) -> Any:

@@ -27,7 +27,7 @@ _STANDARD = {"/dev/stdin": "-", "/dev/fd/0": "-", "/dev/stdout": "-", "/dev/fd/1
 
 def add_inputs(parser: argparse.ArgumentParser, about_them: str, output: str | None = None) -> None:
     """Declare inputs, how many are worked on at a time, and, where the command writes, its output."""
-    parser.add_argument("inputs", metavar="IN", nargs="+", help=f"{about_them}; URLs as well (s3://bucket/*.ply)")
+    parser.add_argument("inputs", metavar="IN", nargs="+", help=f"{about_them}; URLs as well (s3://bucket/name)")
     if output:
         parser.add_argument("-o", "--output", metavar="OUT", help=output)
     parser.add_argument(

@@ -28,6 +28,8 @@ COMMANDS = {
     "paper": "measure the tables and figures of the paper again",
     "completion": "print what makes a shell complete commands and options",
 }
+_WITHOUT_FILES = ("info", "compare", "verify", "bench", "completion", "curve")
+"""Commands that replace no file; they take -f as all do, so that scripts may always give it."""
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -51,7 +53,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 def command_parser(name: str) -> Parser:
     """The parser of one command."""
-    return _complete(Parser(prog=f"bsm {name}", parents=[_common()], description=_sentence(name)), name)
+    return _complete(Parser(prog=f"bsm {name}", parents=[_common(name)], description=_sentence(name)), name)
 
 
 def program_parser(*, complete: bool = False) -> Parser:
@@ -65,7 +67,7 @@ def program_parser(*, complete: bool = False) -> Parser:
     parser.add_argument("--version", action="store_true", help="show the version and exit")
     commands = parser.add_subparsers(metavar="COMMAND")
     for name, summary in COMMANDS.items():
-        command = commands.add_parser(name, parents=[_common()], help=summary, description=_sentence(name))
+        command = commands.add_parser(name, parents=[_common(name)], help=summary, description=_sentence(name))
         if complete:
             _complete(command, name)
     return parser
@@ -83,9 +85,11 @@ def _no_command(words: list[str]) -> int:
     return USAGE.code
 
 
-def _common() -> Parser:
+def _common(name: str) -> Parser:
     common = Parser(add_help=False)
-    common.add_argument("-f", "--force", action="store_true", help="overwrite files; write results that do harm")
+    harm = "; write results that do harm" if name == "denoise" else ""
+    does = argparse.SUPPRESS if name in _WITHOUT_FILES else f"overwrite files{harm}"
+    common.add_argument("-f", "--force", action="store_true", help=does)
     common.add_argument("-q", "--quiet", action="store_true", help="say nothing but results and errors")
     return common
 

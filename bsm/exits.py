@@ -103,10 +103,13 @@ def tell(error: BaseException) -> None:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
     elif isinstance(error, _SIGNALS):
         say(f"bsm: {exit_of(error).meaning}")
-    elif isinstance(error, OSError):
-        reason = error.strerror or str(error)
-        say(f"bsm: {error.filename}: {reason}" if error.filename else f"bsm: {reason}")
-    elif isinstance(error, MemoryError):
-        say(f"bsm: not enough memory: {error}")
     else:
-        say(f"bsm: {error}")
+        say(f"bsm: {worded(error)}")
+
+
+def worded(error: BaseException) -> str:
+    """What went wrong, for people."""
+    if isinstance(error, OSError):
+        reason = error.strerror or str(error)
+        return f"{error.filename}: {reason}" if error.filename else reason
+    return f"not enough memory: {error}" if isinstance(error, MemoryError) else str(error)

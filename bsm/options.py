@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import difflib
-import re
 import types
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
@@ -11,6 +10,7 @@ from numbers import Integral, Real
 from typing import TYPE_CHECKING, Any, NoReturn, Union, get_args, get_origin, get_type_hints
 
 from bitstream.errors import ArgumentError, OptionError
+from bsm.lengths import parse_length
 
 if TYPE_CHECKING:
     from codec.denoise import DenoiseOptions
@@ -26,9 +26,6 @@ TARGETS = {
     "size": "size",
 }
 """Keyword of each target of a mesh, and its kind, see `codec.Target`."""
-
-LENGTH = re.compile(r"([0-9.]+(?:[eE][-+]?[0-9]+)?) *(%|[a-zA-Zµ]*)")
-"""A number, and what it is in: % of the diagonal, or whatever the mesh's unit is called; neither: diagonals."""
 
 SEQUENCE_TARGETS = {"kg": "kg", "bpvf": "bpvf", "theta": "theta_deg", "nmsve_db": "nmsve_db"}
 """The same for sequences."""
@@ -76,11 +73,11 @@ def _with_lengths(keywords: Mapping[str, Any]) -> dict[str, Any]:
     elif locked is False:
         given["lock_borders"] = None
     elif isinstance(locked, (str, Real)):
-        gap, absolute = _length("lock_borders", locked)
+        gap, absolute = parse_length("lock_borders", locked)
         given["lock_borders"] = Fit(gap, absolute)
     if given.get("max_error") is None:
         return given
-    farthest, absolute = _length("max_error", given["max_error"])
+    farthest, absolute = parse_length("max_error", given["max_error"])
     relative = not absolute and not str(given["max_error"]).strip().endswith("%")
     if relative and given.get("lock_borders") is None:
         given["max_error"] = farthest  # a target: every way to code is open to it
@@ -91,17 +88,6 @@ def _with_lengths(keywords: Mapping[str, Any]) -> dict[str, Any]:
         raise OptionError(f"one target at a time, not max_error and {' and '.join(taken)}")
     given["contract"] = Contract(farthest, absolute=absolute)
     return given
-
-
-def _length(name: str, value: Any) -> tuple[float, bool]:
-    """A length, and whether it is in the mesh's unit and not in diagonals."""
-    if isinstance(value, Real) and not isinstance(value, bool):
-        return float(value), False
-    found = LENGTH.fullmatch(value.strip()) if isinstance(value, str) else None
-    if found is None:
-        raise ArgumentError(f"{name} must be a number, or one with a unit like 0.05mm or 0.1%, not {value!r}")
-    number, unit = float(found[1]), found[2]
-    return (number / 100.0, False) if unit == "%" else (number, bool(unit))
 
 
 def sequence_options(*, preset: str = "balanced", low_delay: bool = False, **keywords: Any) -> SequenceOptions:

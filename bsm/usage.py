@@ -13,7 +13,9 @@ FILES = ("IN", "OUT", "FILE", "FILE.npy", "FILE.json", "REPORT.html", "MESH", "F
 
 def suggestion(word: str, known: Iterable[str]) -> str:
     """A question whether something similar was meant; "" if there is nothing."""
-    found = difflib.get_close_matches(word, list(known), n=1, cutoff=0.6)
+    names = list(known)
+    begun = [name for name in names if name.startswith(word)]
+    found = begun if len(begun) == 1 else difflib.get_close_matches(word, names, n=1, cutoff=0.6)
     return f"; did you mean {found[0]}?" if found else ""
 
 

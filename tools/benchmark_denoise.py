@@ -14,9 +14,8 @@ import argparse
 import json
 import sys
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from functools import partial
-from itertools import islice
 from pathlib import Path
 
 import numpy as np
@@ -28,7 +27,7 @@ from codec.arrays import Faces, Positions
 from codec.denoise.automatic import denoise_automatically
 from codec.denoise.coarse import CoarseFilter
 from codec.denoise.filters.fine import FINE_STEPS
-from codec.denoise.filters.guided import GuidedFilter, guided_normal_filtering
+from codec.denoise.filters.guided import GuidedFilter, guided_normal_filtering, guided_results
 from codec.denoise.filters.topology import Topology
 from codec.denoise.handover import HAND_OVERS
 from codec.geometry.metrics import Reference, compare, theta
@@ -129,7 +128,9 @@ def handover_table(folder: Path) -> None:
         reference = Reference(clean, faces)
         coarse = CoarseFilter(faces, len(noisy))(noisy)
         for hand_over, start in HAND_OVERS.items():
-            angles = [reference.theta(positions) for positions in _guided(start(noisy, coarse, topology), topology, 20)]
+            angles = [
+                reference.theta(positions) for positions in guided_results(start(noisy, coarse, topology), topology, 20)
+            ]
             print(f"{name:16s} {hand_over:16s} " + "".join(f"{angles[count]:8.2f}" for count in counts))
 
 
@@ -142,8 +143,8 @@ def automatic_table(folder: Path) -> dict[str, list[float]]:
         topology = Topology(faces, len(noisy))
         reference = Reference(clean, faces)
         coarse = CoarseFilter(faces, len(noisy))(noisy)
-        alone = [reference.theta(positions) for positions in _guided(noisy, topology, 40)]
-        after = [reference.theta(positions) for positions in _guided(coarse, topology, 40)]
+        alone = [reference.theta(positions) for positions in guided_results(noisy, topology, 40)]
+        after = [reference.theta(positions) for positions in guided_results(coarse, topology, 40)]
         start = time.perf_counter()
         denoised, choice = denoise_automatically(noisy, faces)
         seconds = time.perf_counter() - start
@@ -183,17 +184,6 @@ def sequences_table(folder: Path) -> None:
         seconds = (times.shared, times.single, times.iterations, times.remade, times.whole)
         cells = "".join(f"{1e3 * value:{width}.2f}" for value, width in zip(seconds, (10, 13, 18, 20, 11)))
         print(f"{name:23s} {cells} {times.remade / times.shared:12.0f}")
-
-
-def _guided(positions: Positions, topology: Topology, iterations: int) -> Iterator[Positions]:
-    def endless() -> Iterator[Positions]:
-        current = positions
-        filter_ = GuidedFilter(current, topology)
-        while True:
-            yield current
-            current = filter_.step(current)
-
-    return islice(endless(), iterations + 1)
 
 
 TABLES: dict[str, Callable[[Path], object]] = {

@@ -1,4 +1,4 @@
-/* Values of attributes on faces. See values.py and faces.c. */
+/* Values of attributes on faces. See faces.py and faces.c. */
 #ifndef BSM_FACE_VALUES_H
 #define BSM_FACE_VALUES_H
 

@@ -84,7 +84,7 @@ static bool code_component(Work *w, const Place *p, int32_t v, int32_t last, int
     e.prediction[1] = t.best;
     e.prediction[2] = p->bases > 0 ? t.straight : first;
     e.prediction[3] = twin >= 0 ? value_at(g, twin, j) * FINE : second;
-    e.prediction[4] = nearest_seen(g, j, within(whole(guess), 0, most)) * FINE;
+    e.prediction[4] = near_seen(g, j, within(whole(guess), 0, most)) * FINE;
     e.prediction[5] = first;
     if (like >= 0) e.prediction[5] = (value_at(g, like, j) + value_at(g, v, j - 1) - value_at(g, like, j - 1)) * FINE;
     e.prediction[6] = guess;

@@ -146,7 +146,7 @@ static bool code_axis(Work *w, const Chart *p, int32_t v, int j, int32_t *hits, 
     e.prediction[1] = p->all.similar[j];
     e.prediction[2] = one->affine[j];
     e.prediction[3] = twin >= 0 ? at(g, twin)[j] * FINE : two->affine[j];
-    e.prediction[4] = nearest_seen(g, j, within(whole(guess), 0, most)) * FINE;
+    e.prediction[4] = near_seen(g, j, within(whole(guess), 0, most)) * FINE;
     e.prediction[5] = r->neighbours > 0 ? at(g, r->neighbour[0])[j] * FINE : p->mean[j];
     e.prediction[6] = guess;
     int32_t off[PREDICTIONS];

@@ -1,7 +1,7 @@
 /* What all kinds of values share (specification, A 1, A 2). */
 #include "bitstream/attributes/forecast.h"
 
-enum { MOST_LARGEST = (1 << 20) - 1, WORDS_SEARCHED = 4 };
+enum { MOST_LARGEST = (1 << 20) - 1 };
 
 static bool fits(const Work *w, int64_t learners) {
     const Values *g = &w->values;
@@ -47,27 +47,5 @@ int64_t code_vertices(Coder given, Work *w, int64_t learners, int64_t first, int
 
 void keep_value(const Values *g, int32_t v, int j, int32_t value) {
     g->values.data[g->values.columns * v + j] = value;
-    g->seen.data[j * g->seen.columns + (value >> 6)] |= (int64_t)(UINT64_C(1) << (value & 63));
-}
-
-/* The value that a component has taken already and that is nearest to v, downwards if two are; v if none is near. */
-int32_t nearest_seen(const Values *g, int j, int32_t v) {
-    int64_t words = g->seen.columns;
-    const uint64_t *seen = (const uint64_t *)g->seen.data + j * words;
-    int32_t word = v >> 6, bit = v & 63, below = -1;
-    uint64_t low = seen[word] & ((UINT64_C(2) << bit) - 1), high = seen[word] & ~((UINT64_C(1) << bit) - 1);
-    for (int i = 0; i < WORDS_SEARCHED && below < 0; i++) {
-        if (low != 0) below = ((word - i) << 6) + 63 - __builtin_clzll(low);
-        if (word - i == 0) break;
-        low = seen[word - i - 1];
-    }
-    for (int i = 0; i < WORDS_SEARCHED; i++) {
-        if (high != 0) {
-            int32_t above = ((word + i) << 6) + __builtin_ctzll(high);
-            return below < 0 || above - v < v - below ? above : below;
-        }
-        if (word + i + 1 == words) break;
-        high = seen[word + i + 1];
-    }
-    return below < 0 ? v : below;
+    mark_seen(g->seen.data + j * g->seen.columns, value);
 }

@@ -3,6 +3,7 @@
 #define BSM_ATTRIBUTE_VALUES_H
 
 #include "bitstream/fields/corners.h"
+#include "bitstream/fields/seen.h"
 #include "bitstream/fields/value.h"
 
 enum {
@@ -38,7 +39,6 @@ typedef bool CodeVertex(Work *work, int32_t v, int32_t last);
 
 int64_t code_vertices(Coder given, Work *work, int64_t learners, int64_t first, int64_t count, CodeVertex *code_vertex);
 void keep_value(const Values *values, int32_t v, int component, int32_t value);
-int32_t nearest_seen(const Values *values, int component, int32_t value);
 
 int64_t expect_normals(Corners corners, Values values);
 int64_t code_scalars(Coder coder, ValueModel model, Corners corners, Values values, int64_t first, int64_t count);
@@ -46,6 +46,9 @@ int64_t code_texcoords(Coder coder, ValueModel model, Corners corners, Values va
 int64_t code_normals(Coder coder, ValueModel model, Corners corners, Values values, int64_t first, int64_t count);
 
 INLINE int32_t value_at(const Values *g, int32_t v, int j) { return g->values.data[g->values.columns * v + j]; }
+INLINE int32_t near_seen(const Values *g, int j, int32_t v) {
+    return nearest_seen(g->seen.data + j * g->seen.columns, g->seen.columns, v);
+}
 INLINE int32_t gap_at(const Values *g, int32_t v, int j) { return g->gaps.data[g->gaps.columns * v + j]; }
 
 #endif

@@ -11,7 +11,7 @@ from typing import Any, TypeVar
 
 from bitstream.container.declaration import Declaration
 from bitstream.container.header import entries_of, header_from_entries, header_to_entries, record_of
-from bitstream.container.maps import parse_map, write_map
+from bitstream.container.maps import MAX_ENTRIES, parse_map, write_map
 from bitstream.container.packets import (
     Attribute,
     Block,
@@ -50,7 +50,12 @@ def parse_header(payload: bytes, limits: Limits) -> Header:
 
 
 def write_metadata(metadata: Metadata) -> bytes:
-    """A map from names to values."""
+    """A map from names to values; raises `OptionError` for what a stream cannot hold."""
+    if len(metadata.entries) > MAX_ENTRIES:
+        raise OptionError(
+            f"{len(metadata.entries)} entries of metadata are more than the {MAX_ENTRIES} that a stream holds; "
+            "leave some out, or put several into one text"
+        )
     for name, value in metadata.entries.items():
         if isinstance(value, float) and not math.isfinite(value):
             raise OptionError(f"metadata {name!r} is {value}; only finite numbers can be stored")

@@ -1,8 +1,12 @@
-"""Payloads of fields: so many vertices of one, in its order; what was learnt goes on from chunk to chunk."""
+"""Payloads of fields: so many rows of one, in its order; what was learnt goes on from chunk to chunk."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
 
 from bitstream.entropy.range_coder import (
     Coder,
@@ -15,55 +19,98 @@ from bitstream.entropy.range_coder import (
 )
 from bitstream.errors import CorruptError, OptionError, TruncatedError
 
+Ints = npt.NDArray[np.int32]
 Kernel = Callable[[Coder, int, int], int]
-"""Codes vertices from a number on, so many, as far as it can; returns how many."""
+"""Codes rows of a field from a number in its order on, so many, as far as it can; returns how many."""
 
 _ROOM = 1024
-_BYTES_PER_VERTEX = 4
+_BYTES_PER_ROW = 4
 
 
-class Progress:
-    """How far a field is coded."""
+@dataclass(frozen=True, eq=False)
+class Field:
+    """Integers of vertices or faces, with what codes them.
 
-    def __init__(self, code: Kernel, vertices: int) -> None:
-        self._code = code
-        self._vertices = vertices
-        self.next = 0
-        """Number, in the order of coding, of the first vertex that is not coded."""
+    Parameters
+    ----------
+    code : callable
+        Codes rows of `values`, or fills them.
+    order : int32 array, shape (n,)
+        The rows as they are coded.
+    values : int32 array, shape (n, c)
+    """
 
-    def take(self, count: int) -> range:
-        """Numbers of the next `count` vertices."""
-        if not 0 < count <= self._vertices - self.next:
-            raise OptionError(f"a chunk of {count} vertices where {self._vertices - self.next} are left")
-        return range(self.next, self.next + count)
+    code: Kernel
+    order: Ints
+    values: Ints
 
-    def write(self, count: int) -> bytes:
-        """Code the next `count` vertices; raises `OptionError` if fewer are left."""
-        numbers = self.take(count)
-        coder = start_writing(_ROOM + _BYTES_PER_VERTEX * count)
-        while self.next < numbers.stop:
-            coder = make_room(coder, _ROOM + _BYTES_PER_VERTEX * (numbers.stop - self.next))
-            self.next += self._code(coder, self.next, numbers.stop - self.next)
+
+class _FieldCoder:
+    """What encoder and decoder share: how far they are."""
+
+    def __init__(self, field: Field) -> None:
+        self._field = field
+        self._next = 0
+
+    @property
+    def order(self) -> Ints:
+        """Vertices or faces in the order in which they are coded; it follows from the faces of the mesh."""
+        return self._field.order
+
+    @property
+    def coded(self) -> int:
+        """How many of them are coded."""
+        return self._next
+
+    def _take(self, count: int) -> range:
+        """Places in the order of the next `count`."""
+        if not 0 < count <= len(self.order) - self._next:
+            raise OptionError(f"a chunk of {count} where {len(self.order) - self._next} are left")
+        return range(self._next, self._next + count)
+
+
+class FieldEncoder(_FieldCoder):
+    """Codes the values of a field."""
+
+    def chunk(self, count: int) -> bytes:
+        """Code the next `count` of `order`; raises `OptionError` if there are fewer."""
+        end = self._take(count).stop
+        coder = start_writing(_ROOM + _BYTES_PER_ROW * count)
+        while self._next < end:
+            coder = make_room(coder, _ROOM + _BYTES_PER_ROW * (end - self._next))
+            self._next += self._field.code(coder, self._next, end - self._next)
         return finish_writing(coder)
 
-    def read(self, payload: bytes, count: int) -> range:
-        """Twin of `write`; the numbers of what was read. After an error, nothing more can be read.
+
+class FieldDecoder(_FieldCoder):
+    """Twin of `FieldEncoder`."""
+
+    def chunk(self, payload: bytes, count: int) -> tuple[Ints, Ints]:
+        """Decode the next `count` of `order`.
+
+        Returns
+        -------
+        rows : int32 array, shape (count,)
+            Numbers of the vertices or faces.
+        values : int32 array, shape (count, c)
+            Of these.
 
         Raises
         ------
         OptionError
-            If fewer vertices are left.
+            If there are fewer; after an error below there is none.
         CorruptError, TruncatedError
-            If `payload` is not of so many vertices.
+            If `payload` is not of so many.
         """
-        numbers = self.take(count)
-        self.next = self._vertices
+        places = self._take(count)
+        self._next = len(self.order)
         coder = start_reading(payload)
-        done = self._code(coder, numbers.start, count)
+        done = self._field.code(coder, places.start, count)
         if overran(coder):
-            raise TruncatedError(f"a payload of {len(payload)} bytes ends before the last of {count} vertices")
+            raise TruncatedError(f"a payload of {len(payload)} bytes ends before the last of its {count} values")
         if done < count:
-            raise CorruptError(f"vertex {done} of a payload of {count} has a value out of range")
+            raise CorruptError(f"number {done} of a payload of {count} has a value out of range")
         finish_reading(coder)
-        self.next = numbers.stop
-        return numbers
+        self._next = places.stop
+        rows = self.order[places.start : places.stop].copy()
+        return rows, self._field.values[rows]

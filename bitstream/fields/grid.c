@@ -2,6 +2,7 @@
 #include "bitstream/fields/grid.h"
 
 #include "bitstream/fields/learner.h"
+#include "bitstream/fields/seen.h"
 
 enum {
     AXES = 3,
@@ -10,15 +11,14 @@ enum {
     STEPS = 3, /* axes of a vertex in the order in which they are coded */
     GUESSES = 4 * 2 * VALENCES,
     LEARNERS = GUESSES + 4 * STEPS,
-    WORDS_SEARCHED = 4,
     TERMS = 7,
     HINTS = 4,
 };
 
-/* How meshes deviate from parallelograms, as vectors in 1/16 (V 8.4). */
+/* How meshes deviate from parallelograms, as vectors in 1/16 (V 8.3). */
 enum { LENGTH, SKEW, TURN, FOLD, SHAPES };
 
-/* If a vertex lies in a plane, its coded axes tell the others (V 8.3). */
+/* If a vertex lies in a plane, its coded axes tell the others (V 8.5, V 8.6). */
 typedef struct {
     int32_t normal[AXES];
     int64_t square, used, dot; /* of the normal; of its coded axes; errors of these times the normal */
@@ -76,7 +76,7 @@ INLINE void pass_axis(Plane *p, int j, int32_t error) {
     p->used += (int64_t)p->normal[j] * p->normal[j];
 }
 
-/* Add what flap i says of the shape (V 8.4). */
+/* Add what flap i says of the shape (V 8.3). */
 static void add_shape(const Corners *corners, const int32_t *x, int32_t v, Flap flap, int32_t shape[SHAPES][AXES]) {
     const int32_t *a = x + AXES * (int64_t)flap.a, *b = x + AXES * (int64_t)flap.b, *c = x + AXES * (int64_t)flap.c;
     int32_t along[AXES], out[AXES];
@@ -104,7 +104,7 @@ static void add_shape(const Corners *corners, const int32_t *x, int32_t v, Flap 
     }
 }
 
-/* Where v is all that is missing around a neighbour, it balances the others (V 8.5). */
+/* Where v is all that is missing around a neighbour, it balances the others (V 8.4). */
 static void balance(const Corners *corners, const Grid *g, Place *p) {
     int32_t found = 0;
     for (int i = 0; i < p->around.neighbours; i++) {
@@ -183,27 +183,6 @@ static void survey(const Corners *corners, const Grid *g, int32_t v, int32_t las
     span_planes(g, p);
 }
 
-/* The value that an axis has taken already and that is nearest to v, downwards if two are; v if none is near (V 8.6). */
-static int32_t nearest_seen(const int64_t *axis, int64_t words, int32_t v) {
-    const uint64_t *seen = (const uint64_t *)axis;
-    int32_t word = v >> 6, bit = v & 63, below = -1;
-    uint64_t low = seen[word] & ((UINT64_C(2) << bit) - 1), high = seen[word] & ~((UINT64_C(1) << bit) - 1);
-    for (int i = 0; i < WORDS_SEARCHED && below < 0; i++) {
-        if (low != 0) below = ((word - i) << 6) + 63 - __builtin_clzll(low);
-        if (word - i == 0) break;
-        low = seen[word - i - 1];
-    }
-    for (int i = 0; i < WORDS_SEARCHED; i++) {
-        if (high != 0) {
-            int32_t above = ((word + i) << 6) + __builtin_ctzll(high);
-            return below < 0 || above - v < v - below ? above : below;
-        }
-        if (word + i + 1 == words) break;
-        high = seen[word + i + 1];
-    }
-    return below < 0 ? v : below;
-}
-
 /* Code a value; false if it is none (V 9, V 10). */
 static bool code_axis(RangeCoder *coder, const ValueModel *model, Grid *g, int32_t v, int step, Place *p, int32_t *hits,
     int32_t *first_gap) {
@@ -262,7 +241,7 @@ static bool code_axis(RangeCoder *coder, const ValueModel *model, Grid *g, int32
     int32_t value = code_value(coder, model, &e, is_reading(coder) ? 0 : x[AXES * (int64_t)v + j]);
     if (value < 0 || value > most) return false;
     x[AXES * (int64_t)v + j] = value;
-    g->seen.data[j * words + (value >> 6)] |= (int64_t)(UINT64_C(1) << (value & 63));
+    mark_seen(g->seen.data + j * words, value);
     int32_t error = value * FINE - base, gap = error - shift;
     g->gaps.data[AXES * (int64_t)v + j] = gap;
     *hits = hits_of(&e, value);

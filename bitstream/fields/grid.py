@@ -10,7 +10,7 @@ import numpy.typing as npt
 from bitstream import _kernels
 from bitstream.entropy.range_coder import Coder
 from bitstream.errors import MeshError, OptionError
-from bitstream.fields.chunks import Progress
+from bitstream.fields.chunks import Field, FieldDecoder, FieldEncoder
 from bitstream.fields.corners import BYTES_PER_FACE, BYTES_PER_VERTEX, corners_of, traverse
 from bitstream.fields.model import MODEL_BYTES, TERMS, make_learners, make_model
 from bitstream.limits import DEFAULT_LIMITS, Limits
@@ -39,45 +39,30 @@ def grid_charge(vertices: int, faces: int) -> int:
     return (BYTES_PER_VERTEX + 60) * vertices + BYTES_PER_FACE * faces + MODEL_BYTES + (1 << 20)
 
 
-class _GridCoder:
+def _grid_of(faces: npt.ArrayLike, vertices: int, largest: npt.ArrayLike) -> Field:
     """What encoder and decoder share."""
+    top = np.array(largest, np.int64)
+    if top.shape != (AXES,) or top.min() < 0 or top.max() > MOST_LARGEST:
+        raise OptionError(f"the largest values of a grid must be {AXES} from 0 to {MOST_LARGEST}, not {top.tolist()}")
+    corners = corners_of(faces, vertices)
+    model = make_model()
+    grid = _Grid(
+        top.astype(np.int32),
+        traverse(corners),
+        np.zeros((vertices, AXES), np.int32),
+        np.zeros((vertices, AXES), np.int32),
+        np.zeros((vertices, 4), np.int64),
+        np.zeros((AXES, int(top.max()) // 64 + 1), np.int64),
+        make_learners(_start_of_learners()),
+    )
 
-    def __init__(self, faces: npt.ArrayLike, vertices: int, largest: npt.ArrayLike) -> None:
-        top = np.array(largest, np.int64)
-        if top.shape != (AXES,) or top.min() < 0 or top.max() > MOST_LARGEST:
-            raise OptionError(
-                f"the largest values of a grid must be {AXES} from 0 to {MOST_LARGEST}, not {top.tolist()}"
-            )
-        corners = corners_of(faces, vertices)
-        order = traverse(corners)
-        model = make_model()
-        self._grid = _Grid(
-            top.astype(np.int32),
-            order,
-            np.zeros((vertices, AXES), np.int32),
-            np.zeros((vertices, AXES), np.int32),
-            np.zeros((vertices, 4), np.int64),
-            np.zeros((AXES, int(top.max()) // 64 + 1), np.int64),
-            make_learners(_start_of_learners()),
-        )
+    def code(coder: Coder, first: int, count: int) -> int:
+        return _kernels.code_grid(coder, model, corners, grid, first, count)
 
-        def code(coder: Coder, first: int, count: int) -> int:
-            return _kernels.code_grid(coder, model, corners, self._grid, first, count)
-
-        self._progress = Progress(code, vertices)
-
-    @property
-    def order(self) -> Ints:
-        """Vertices in the order in which they are coded; it follows from the faces."""
-        return self._grid.order
-
-    @property
-    def coded(self) -> int:
-        """How many of them are coded."""
-        return self._progress.next
+    return Field(code, grid.order, grid.values)
 
 
-class GridEncoder(_GridCoder):
+class GridEncoder(FieldEncoder):
     """Codes positions on a grid.
 
     Parameters
@@ -101,17 +86,14 @@ class GridEncoder(_GridCoder):
         given = np.asarray(positions)
         if given.ndim != 2 or given.shape[1] != AXES or given.dtype.kind not in "iu":
             raise MeshError(f"positions on a grid must be integers of shape (n, {AXES})")
-        super().__init__(faces, len(given), largest)
-        if ((given < 0) | (given > self._grid.largest)).any():
-            raise MeshError(f"positions are outside their grid, 0 to {self._grid.largest}")
-        self._grid.values[:] = given
-
-    def chunk(self, count: int) -> bytes:
-        """Code the next `count` vertices of `order`; raises `OptionError` if there are fewer."""
-        return self._progress.write(count)
+        field = _grid_of(faces, len(given), largest)
+        if ((given < 0) | (given > np.asarray(largest))).any():
+            raise MeshError(f"positions are outside their grid, 0 to {np.asarray(largest)}")
+        field.values[:] = given
+        super().__init__(field)
 
 
-class GridDecoder(_GridCoder):
+class GridDecoder(FieldDecoder):
     """Twin of `GridEncoder`.
 
     Parameters
@@ -135,27 +117,7 @@ class GridDecoder(_GridCoder):
         self, faces: npt.ArrayLike, vertices: int, largest: npt.ArrayLike, limits: Limits = DEFAULT_LIMITS
     ) -> None:
         limits.check("field_bytes", grid_charge(vertices, len(np.asarray(faces))))
-        super().__init__(faces, vertices, largest)
-
-    def chunk(self, payload: bytes, count: int) -> tuple[Ints, Ints]:
-        """Decode the next `count` vertices of `order`.
-
-        Returns
-        -------
-        vertices : int32 array, shape (count,)
-        positions : int32 array, shape (count, 3)
-            Of these.
-
-        Raises
-        ------
-        OptionError
-            If there are fewer; after an error below there is none.
-        CorruptError, TruncatedError
-            If `payload` is not of so many vertices.
-        """
-        numbers = self._progress.read(payload, count)
-        vertices = self._grid.order[numbers.start : numbers.stop].copy()
-        return vertices, self._grid.values[vertices]
+        super().__init__(_grid_of(faces, vertices, largest))
 
 
 def _start_of_learners() -> npt.NDArray[np.int64]:

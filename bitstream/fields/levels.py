@@ -10,7 +10,7 @@ import numpy.typing as npt
 from bitstream import _kernels
 from bitstream.entropy.range_coder import Coder
 from bitstream.errors import MeshError, OptionError
-from bitstream.fields.chunks import Progress
+from bitstream.fields.chunks import Field, FieldDecoder, FieldEncoder
 from bitstream.fields.corners import BYTES_PER_FACE, BYTES_PER_VERTEX, corners_of, keep_borders
 from bitstream.fields.model import MODEL_BYTES, TERMS, make_learners, make_model
 from bitstream.limits import DEFAULT_LIMITS, Limits
@@ -35,34 +35,27 @@ def levels_charge(vertices: int, faces: int, axes: int) -> int:
     return (BYTES_PER_VERTEX + 12 * axes) * vertices + BYTES_PER_FACE * faces + MODEL_BYTES + (1 << 17)
 
 
-class _LevelsCoder:
-    """What encoder and decoder share."""
+def _levels_of(faces: npt.ArrayLike, vertices: int, axes: int, borders: bool) -> tuple[Field, npt.NDArray[np.bool_]]:
+    """What encoder and decoder share; and which vertices have levels."""
+    if axes not in LEGAL_AXES:
+        raise OptionError(f"a vertex has one level or three, not {axes}")
+    corners = corners_of(faces, vertices)
+    coded = keep_borders(corners) if borders else np.ones(vertices, np.bool_)
+    model = make_model()
+    levels = _Levels(
+        np.zeros((vertices, axes), np.int32),
+        np.zeros((vertices, axes), np.int32),
+        np.zeros((vertices, axes), np.int32),
+        make_learners(_start_of_learners()),
+    )
 
-    def __init__(self, faces: npt.ArrayLike, vertices: int, axes: int, borders: bool) -> None:
-        if axes not in LEGAL_AXES:
-            raise OptionError(f"a vertex has one level or three, not {axes}")
-        corners = corners_of(faces, vertices)
-        self._coded = keep_borders(corners) if borders else np.ones(vertices, np.bool_)
-        model = make_model()
-        self._levels = _Levels(
-            np.zeros((vertices, axes), np.int32),
-            np.zeros((vertices, axes), np.int32),
-            np.zeros((vertices, axes), np.int32),
-            make_learners(_start_of_learners()),
-        )
+    def code(coder: Coder, first: int, count: int) -> int:
+        return _kernels.code_levels(coder, model, corners, levels, first, count)
 
-        def code(coder: Coder, first: int, count: int) -> int:
-            return _kernels.code_levels(coder, model, corners, self._levels, first, count)
-
-        self._progress = Progress(code, vertices)
-
-    @property
-    def coded(self) -> int:
-        """How many vertices are coded."""
-        return self._progress.next
+    return Field(code, np.arange(vertices, dtype=np.int32), levels.levels), coded
 
 
-class LevelsEncoder(_LevelsCoder):
+class LevelsEncoder(FieldEncoder):
     """Codes levels, vertices in the order of their numbers.
 
     Parameters
@@ -86,19 +79,16 @@ class LevelsEncoder(_LevelsCoder):
         given = np.asarray(levels)
         if given.ndim != 2 or given.dtype.kind not in "iu":
             raise MeshError("levels must be integers of shape (n, 1) or (n, 3)")
-        super().__init__(faces, given.shape[0], given.shape[1], borders)
+        field, coded = _levels_of(faces, given.shape[0], given.shape[1], borders)
         if ((given < -MOST_LEVEL) | (given > MOST_LEVEL)).any():
             raise MeshError(f"levels must be at most {MOST_LEVEL} in magnitude; choose a larger step")
-        if given[~self._coded].any():
+        if given[~coded].any():
             raise MeshError("a vertex that is on no border has levels")
-        self._levels.levels[:] = given
-
-    def chunk(self, count: int) -> bytes:
-        """Code the next `count` vertices; raises `OptionError` if there are fewer."""
-        return self._progress.write(count)
+        field.values[:] = given
+        super().__init__(field)
 
 
-class LevelsDecoder(_LevelsCoder):
+class LevelsDecoder(FieldDecoder):
     """Twin of `LevelsEncoder`.
 
     Parameters
@@ -131,27 +121,7 @@ class LevelsDecoder(_LevelsCoder):
         borders: bool = False,
     ) -> None:
         limits.check("field_bytes", levels_charge(vertices, len(np.asarray(faces)), axes))
-        super().__init__(faces, vertices, axes, borders)
-
-    def chunk(self, payload: bytes, count: int) -> tuple[Ints, Ints]:
-        """Decode the next `count` vertices.
-
-        Returns
-        -------
-        vertices : int32 array, shape (count,)
-            Their numbers.
-        levels : int32 array, shape (count, axes)
-
-        Raises
-        ------
-        OptionError
-            If there are fewer; after an error below there is none.
-        CorruptError, TruncatedError
-            If `payload` is not of so many vertices.
-        """
-        numbers = self._progress.read(payload, count)
-        vertices = np.arange(numbers.start, numbers.stop, dtype=np.int32)
-        return vertices, self._levels.levels[numbers.start : numbers.stop].copy()
+        super().__init__(_levels_of(faces, vertices, axes, borders)[0])
 
 
 def _start_of_learners() -> npt.NDArray[np.int64]:

@@ -5,15 +5,12 @@ from __future__ import annotations
 import argparse
 from dataclasses import asdict
 
-import numpy as np
-
-from bitstream.errors import MeshError
 from bsm.commands.limits import add_limits_flag, limits_of
 from bsm.commands.reader import add_reader_flag
 from bsm.console import Console, finite, print_json
 from bsm.exits import about
 from bsm.files.mesh import read_mesh
-from bsm.files.permutation import Order, in_order_of, paired_corners, read_permutation, unsplit
+from bsm.files.permutation import read_permutation
 from bsm.files.pipes import read_chunks
 from bsm.files.stream import decode_whole, is_stream
 from codec.arrays import Positions
@@ -38,37 +35,19 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(args: argparse.Namespace, console: Console) -> None:
     """Compare two meshes."""
     from bsm.commands.sequence_compare import compare_if_sequences
-    from codec.geometry.metrics import compare
-    from codec.static.joining import join
+    from bsm.comparison import compare_meshes, pair
 
     if compare_if_sequences(args):
         return
     original, decoded = (_load(path, args, console) for path in (args.original, args.decoded))
-    order = read_permutation(args.permutation) if args.permutation else None
-    given = original, decoded
-    kept = [np.arange(len(mesh.faces)) for mesh in given]
-    if order is None and not _comparable(original, decoded):
-        # An encoder makes vertices at one position one, and a file may need them split.
-        joined = join(original, keep=False)
-        original, kept[0] = joined.mesh, joined.kept
-        if len(original.positions) != len(decoded.positions):
-            if whole := unsplit(original, decoded):
-                decoded = whole
-            else:
-                joined = join(decoded, keep=False)
-                decoded, kept[1] = joined.mesh, joined.kept
+    paired = pair(original, decoded, read_permutation(args.permutation) if args.permutation else None)
+    if paired.joined:
         console.note("vertices at one position are compared as one")
-    positions = in_order_of(original, decoded, order)
-    result = asdict(compare(original.positions, positions, original.faces))
+    result = asdict(compare_meshes(original, decoded, paired))
+    attributes = {name: errors and _known(errors) for name, errors in result.pop("attributes").items()}
     if args.surface:
-        result |= _surface(original, positions)
+        result |= _surface(paired.original, paired.positions)
     numbers = {name: finite(value) for name, value in result.items()}
-    attributes = {}
-    if given[0].attributes:
-        pairs = paired_corners(original, decoded, order)
-        # Corners of the meshes that were given, which have the attributes.
-        corners = [3 * of_given[pair // 3] + pair % 3 for of_given, pair in zip(kept, pairs)]
-        attributes = compare_attributes(*given, *corners)
     if args.json:
         print_json({**numbers, "attributes": attributes} if attributes else numbers)
     else:
@@ -76,35 +55,8 @@ def run(args: argparse.Namespace, console: Console) -> None:
         print("".join(map(_worded, attributes.items())), end="")
 
 
-def _comparable(original: TriangleMesh, decoded: TriangleMesh) -> bool:
-    """Whether they have the same vertices, in an order that is known."""
-    if len(original.positions) != len(decoded.positions):
-        return False
-    try:
-        in_order_of(original, decoded)
-    except MeshError:
-        return False
-    return True
-
-
-def compare_attributes(
-    original: TriangleMesh, decoded: TriangleMesh, corners: Order, others: Order
-) -> dict[str, dict[str, float] | None]:
-    """The errors of attributes of `original` by name, at corresponding corners; None: `decoded` has none like it."""
-    from codec.geometry.attribute_errors import at_corners, compare_values
-
-    found: dict[str, dict[str, float] | None] = {}
-    after = {attribute.name: attribute for attribute in decoded.attributes}
-    for attribute in original.attributes:
-        other = after.get(attribute.name)
-        if other is None or other.components != attribute.components:
-            found[attribute.name] = None
-            continue
-        values = at_corners(attribute, original.faces).reshape(-1, attribute.components)[corners]
-        others_values = at_corners(other, decoded.faces).reshape(-1, attribute.components)[others]
-        compared = compare_values(values, others_values, normals=attribute.semantic == "normal")
-        found[attribute.name] = {name: value for name, value in asdict(compared).items() if value is not None}
-    return found
+def _known(errors: dict[str, float | None]) -> dict[str, float]:
+    return {name: value for name, value in errors.items() if value is not None}
 
 
 def _worded(attribute: tuple[str, dict[str, float] | None]) -> str:

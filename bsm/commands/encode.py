@@ -8,7 +8,7 @@ from collections.abc import Sequence
 
 from bitstream.errors import OptionError
 from bsm.batch import Facts, Job, add_inputs, came_to, plan, refuse_collisions, run_jobs, size_of
-from bsm.commands.encode_options import add_encode_flags, encode_options
+from bsm.commands.encode_options import add_encode_flags, encode_options, given_options, given_targets
 from bsm.commands.reader import add_reader_flag
 from bsm.commands.sequence_options import add_sequence_flags, refuse_sequence_flags
 from bsm.console import Console, finite
@@ -18,6 +18,7 @@ from bsm.files.naming import refuse_terminal
 from bsm.files.output import open_output, refuse_to_overwrite
 from bsm.files.permutation import write_permutation
 from bsm.files.sequence import open_sequence
+from bsm.lengths import LENGTHS, refuse_other_units
 from bsm.meshes import told_of
 
 
@@ -90,6 +91,8 @@ def encode_one(args: argparse.Namespace, console: Console) -> Facts:
     options = encode_options(args)
     source = read_mesh(args.input, args.format, reader=args.reader)
     mesh = told_of(source.mesh, options, metadata_of(args))
+    given = {**given_options(args), **given_targets(args)}
+    refuse_other_units({name: given.get(name) for name in LENGTHS}, mesh.metadata)
     begin = time.perf_counter()
     encoder = Encoder(mesh, options)
     overwrite = may_replace(args, args.output)
@@ -99,7 +102,13 @@ def encode_one(args: argparse.Namespace, console: Console) -> Facts:
             file.write(chunk)
     seconds = time.perf_counter() - begin
     unsent = source.mesh.metadata.keys() - mesh.metadata.keys()
-    notes = (*source.notes, *encoder.notes, *(["left out: materials, images"] if unsent else []))
+    images = sum(len(value) for value in mesh.metadata.values() if isinstance(value, bytes))
+    notes = (
+        *source.notes,
+        *encoder.notes,
+        *(["left out: materials, images"] if unsent else []),
+        *([f"{images} of the bytes are images, as they are"] if images else []),
+    )
     for note in notes:
         console.note(f"{args.input}: {note}")
     if args.permutation:

@@ -47,6 +47,7 @@ def summarise(info: StreamInfo) -> dict[str, Any]:
             "order": info.order,
             "coefficients": info.coefficient_bytes,
             "attributes": info.attribute_bytes,
+            "metadata": info.metadata_bytes,
             "framing": info.framing,
             "total": info.total,
         },
@@ -67,22 +68,42 @@ def summarise(info: StreamInfo) -> dict[str, Any]:
 
 
 def _worded(summary: Facts) -> str:
-    coefficients = summary["coefficients"] or [0]
     total = summary["bytes"]["total"]
-    shares = [f"  {name:<13}{size:>12}  {100 * size / total:5.1f} %" for name, size in summary["bytes"].items()]
+    sizes = {("positions" if name == "coefficients" else name): size for name, size in summary["bytes"].items()}
+    shares = [f"  {name:<13}{size:>12}  {100 * size / total:5.1f} %" for name, size in sizes.items()]
     lines = [
         f"version {summary['version']}: {summary['vertices']} vertices, {summary['faces']} faces",
-        f"{summary['blocks']} blocks of {summary['block_size']} vertices, "
-        f"{min(coefficients)} to {max(coefficients)} coefficients",
+        *_position_lines(summary),
         *_sequence_lines(summary),
         "bytes:",
         *shares,
-        f"bits per vertex: {summary['bpv_total']:.3f} in all, {summary['bpv_geometry']:.3f} for the coefficients, "
-        f"{summary['bpv_paper']:.3f} by the paper's formula",
+        *_rate_lines(summary),
         *map(_attribute_line, summary["attributes"]),
         *_metadata_lines(summary),
     ]
     return "\n".join(lines)
+
+
+def _position_lines(summary: dict[str, Any]) -> list[str]:
+    """Of what kind the positions are."""
+    header, coefficients = summary["header"], summary["coefficients"] or [0]
+    if header["grid"]:
+        return [f"positions on a grid of {' x '.join(str(largest + 1) for largest in header['grid'])}"]
+    layers = len(header["refinements"]) // 2
+    refined = f", and {layers} {'layer' if layers == 1 else 'layers'} of refinement" if layers else ""
+    return [
+        f"{summary['blocks']} blocks of {summary['block_size']} vertices, "
+        f"{min(coefficients)} to {max(coefficients)} coefficients{refined}"
+    ]
+
+
+def _rate_lines(summary: dict[str, Any]) -> list[str]:
+    """Bits per vertex of a mesh; with a fixed number of bits, as the paper counts them, too."""
+    if summary["frames"]:
+        return []
+    rates = f"bits per vertex: {summary['bpv_total']:.3f} in all, {summary['bpv_geometry']:.3f} for positions"
+    packed = summary["blocks"] and summary["header"]["coding"] == 0
+    return [f"{rates}, {summary['bpv_paper']:.3f} by the paper's formula" if packed else rates]
 
 
 def _metadata_lines(summary: dict[str, Any]) -> list[str]:
@@ -108,6 +129,7 @@ def _sequence_lines(summary: dict[str, Any]) -> list[str]:
     rate = f", {header['frame_rate']:g} per second" if header["frame_rate"] else ""
     sizes = [gop["bytes"] for gop in gops] or [0]
     return [
-        f"{summary['frames']} frames{rate}, in {len(gops)} GOPs of {min(sizes)} to {max(sizes)} bytes, "
+        f"{summary['frames']} frames{rate}, in {len(gops)} {'GOP' if len(gops) == 1 else 'GOPs'} "
+        f"of {' to '.join(str(size) for size in sorted({min(sizes), max(sizes)}))} bytes, "
         f"{summary['bpvf_total'] or 0.0:.3f} bits per vertex and frame"
     ]

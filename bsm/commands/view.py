@@ -7,7 +7,8 @@ import itertools
 import webbrowser
 from pathlib import Path
 
-from bitstream.errors import OptionError
+from bitstream.container.wire import MAGIC
+from bitstream.errors import FormatError, OptionError
 from bsm.commands.limits import add_limits_flag, limits_of
 from bsm.commands.reader import add_reader_flag
 from bsm.console import Console
@@ -59,7 +60,10 @@ def _contents(args: argparse.Namespace) -> list[Content]:
     """All inputs under names of their own; a damaged stream is for the page to tell, unless it is to be compared."""
     streams: dict[str, bytes] = {}
     for path in args.inputs:
-        streams[_free_name(Path(path).name, streams)] = b"".join(read_chunks(path))
+        data = b"".join(read_chunks(path))
+        if not data.startswith(MAGIC[: len(data)]):
+            raise FormatError(f"{path} is no BSM stream; make one of it with bsm encode")
+        streams[_free_name(Path(path).name, streams)] = data
     if args.original is None:
         return [Content(name, data) for name, data in streams.items()]
     if len(streams) > 1:

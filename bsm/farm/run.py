@@ -10,7 +10,7 @@ from functools import partial
 
 from bitstream.errors import OptionError
 from bsm.console import Console
-from bsm.exits import exit_of
+from bsm.exits import exit_of, worded
 from bsm.farm.jobs import Facts, Job, Outcome, Outcomes, Task, Tasks, Work, one_by_one
 from bsm.farm.report import NOTHING, Earlier, Report, options_of, read_report, recorded
 from bsm.files.output import refuse_to_overwrite
@@ -112,7 +112,7 @@ def _facts(job: Job, outcome: Outcome) -> Facts:
     if outcome.error is None:
         return outcome.facts
     code = exit_of(outcome.error).code
-    return {"input": job.input, "output": job.output, "error": str(outcome.error), "exit": code}
+    return {"input": job.input, "output": job.output, "error": worded(outcome.error), "exit": code}
 
 
 def _anywhere(job: Job) -> Job:

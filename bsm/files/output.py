@@ -19,6 +19,7 @@ from typing import BinaryIO
 from bsm.files.remote import is_url, open_remote_output, refuse_to_replace
 
 _TEMPORARY = ".part"
+_FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
 # What the shell has opened: `>(...)`, or `> file`.
 _DESCRIPTOR = re.compile(r"/dev/fd/(\d+)|/proc/(?:self|thread-self)/fd/(\d+)")
 _STANDARD = {"/dev/stdout": "/dev/fd/1", "/dev/stderr": "/dev/fd/2"}
@@ -56,7 +57,7 @@ def open_output(path: str | os.PathLike[str], *, overwrite: bool = False) -> Ite
         raise IsADirectoryError(errno.EISDIR, "the output is a folder", os.fspath(path))
     if not can_be_replaced(path):
         descriptor = _descriptor(path)
-        with open(path if descriptor is None else os.dup(descriptor), "wb") as device:
+        with _by_its_own_name(path), open(path if descriptor is None else os.dup(descriptor), "wb") as device:
             yield device
         return
     # Through a symbolic link the file behind it is replaced, not the link.
@@ -112,11 +113,11 @@ def can_be_replaced(path: str | os.PathLike[str]) -> bool:
 
 @contextmanager
 def _by_its_own_name(path: str | os.PathLike[str]) -> Iterator[None]:
-    """Let errors about the temporary file name the one that is wanted."""
+    """Let errors about the temporary file name the one that is wanted; those of a full disk name none by themselves."""
     try:
         yield
     except OSError as error:
-        if str(error.filename).endswith(_TEMPORARY):
+        if str(error.filename).endswith(_TEMPORARY) or (error.filename is None and error.errno in _FULL):
             error.filename, error.filename2 = os.fspath(path), None
         raise
 

@@ -12,7 +12,7 @@ import numpy.typing as npt
 
 from bitstream.container import packets
 from bitstream.container.gop import parse_gop_body
-from bitstream.container.layout import write_attribute
+from bitstream.container.layout import write_attribute, write_metadata
 from bitstream.container.reader import END_OF_STREAM, NEED_DATA, Reader, read_packets
 from bitstream.container.wire import MAGIC
 from bitstream.errors import MeshError, OptionError
@@ -61,9 +61,9 @@ class AttributeInfo:
 class StreamInfo:
     """What a stream consists of, known without decoding it; sizes in bytes.
 
-    `connectivity`, `partition`, `order`, `coefficient_bytes` and `attribute_bytes` count what the packets carry;
-    `framing` is all the rest: preamble, header, metadata, tags, checksums and the end. The `coefficients` of a sequence
-    are those of its first frame.
+    `connectivity`, `partition`, `order`, `coefficient_bytes` (of positions on a grid and of refinement, too),
+    `attribute_bytes` and `metadata_bytes` (images, too) count what the packets carry; `framing` is all the rest:
+    preamble, header, tags, checksums and the end. The `coefficients` of a sequence are those of its first frame.
     """
 
     header: packets.Header
@@ -75,13 +75,14 @@ class StreamInfo:
     partition: int
     order: int
     coefficient_bytes: int
+    metadata_bytes: int
     total: int
 
     @property
     def framing(self) -> int:
-        """Bytes that carry neither connectivity nor partition, order, coefficients or attributes."""
-        coded = self.connectivity + self.partition + self.order + self.coefficient_bytes + self.attribute_bytes
-        return self.total - coded
+        """Bytes that carry nothing of all that."""
+        coded = self.connectivity + self.partition + self.order + self.coefficient_bytes
+        return self.total - coded - self.attribute_bytes - self.metadata_bytes
 
     @property
     def attribute_bytes(self) -> int:
@@ -145,6 +146,7 @@ def inspect_stream(chunks: Iterator[bytes], limits: Limits = DEFAULT_LIMITS) -> 
             header = packet
         elif isinstance(packet, packets.Metadata):
             metadata = packet
+            sizes[type(packet)] += len(write_metadata(packet))
         elif isinstance(packet, packets.Attribute):
             declared.append(packet)
             lengths[packet.index] += len(write_attribute(packet))
@@ -169,6 +171,7 @@ def inspect_stream(chunks: Iterator[bytes], limits: Limits = DEFAULT_LIMITS) -> 
         partition=sizes[packets.Partition],
         order=sizes[packets.Order],
         coefficient_bytes=sum(sizes[kind] for kind in (packets.Block, packets.Gop, packets.Grid, packets.Refinement)),
+        metadata_bytes=sizes[packets.Metadata],
         total=reader.last_frame.offset + reader.last_frame.length,
     )
 

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import replace
 from functools import partial
-from itertools import islice
 from typing import Any
 
 import numpy as np
@@ -19,7 +17,7 @@ from bsm.paper.study import Model, Study
 from codec.arrays import Positions
 from codec.denoise import FINE_STEPS, denoise_automatically
 from codec.denoise.coarse import RULES, CoarseFilter
-from codec.denoise.filters.guided import GuidedFilter, guided_normal_filtering
+from codec.denoise.filters.guided import guided_normal_filtering, guided_results
 from codec.denoise.filters.topology import Topology
 from codec.geometry.mesh import TriangleMesh
 from codec.geometry.metrics import face_normals
@@ -79,7 +77,7 @@ def coarse_to_fine(study: Study) -> Exhibit:
         denoised, _ = denoise_automatically(model.noisy, model.faces)
         automatic = reference.theta(denoised)
         for way, start in (("alone", model.noisy), ("coarse first", coarse)):
-            angles = [reference.theta(positions) for positions in _guided(start, topology, COUNTS[-1])]
+            angles = [reference.theta(positions) for positions in guided_results(start, topology, COUNTS[-1])]
             curves[f"{name}, {way}"] = angles
             cells = [Cell(angles[count]) for count in COUNTS]
             rows.append((f"{name}, {way}", (*cells, Cell(min(angles)), Cell(automatic))))
@@ -156,19 +154,6 @@ def hand(study: Study) -> Exhibit:
             "Dynamic OI keeps as many coefficients as hold every segment's residual near the median of OI's.",
         ),
     )
-
-
-def _guided(positions: Positions, topology: Topology, iterations: int) -> Iterator[Positions]:
-    """The start and the results of guided normal filtering after 1, 2, ... iterations."""
-
-    def endless() -> Iterator[Positions]:
-        current = positions
-        filter_ = GuidedFilter(current, topology)
-        while True:
-            yield current
-            current = filter_.step(current)
-
-    return islice(endless(), iterations + 1)
 
 
 def _stages(model: Model, coarse: Positions, fine: Positions, automatic: Positions, pixels: int) -> list[Picture]:

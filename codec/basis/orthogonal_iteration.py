@@ -25,7 +25,8 @@ EXACT_POWER, EXACT_ITERATIONS, EXACT_SHIFT = 2, 128, 2.0**-5
 of the lowest eigenvalues, on blocks of surfaces. Eigenvectors of closer eigenvalues nobody needs to tell apart."""
 START_NOISE = 0.25
 FOLLOWING_NOISE = 2.0**-8
-"""How much of the hash columns is added to cosines, and to a predecessor's orthonormal columns."""
+"""How much of the hash columns is added to cosines, and to a predecessor's orthonormal columns, for blocks of several
+components (M 8.3); half or twice of it changes bytes by nothing, and by 0.3 % at most on the mean (tools.constants)."""
 
 
 def cosine_columns(rows: int, first: int, last: int) -> Matrix:

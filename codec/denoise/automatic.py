@@ -38,6 +38,7 @@ CANDIDATES = (
 )
 LARGEST_KEEP = max(recipe.keep for recipe in CANDIDATES)
 BLOCK_SIZE = 500
+"""About the paper's; half or twice of it leaves 2.4 and 0.6 % more of the angle (tools.constants)."""
 LARGE, MOST_LARGE_MEMBERS = 100_000, 2
 """From so many vertices on a blend has fewer members, for the sake of time."""
 WORTH = 0.9

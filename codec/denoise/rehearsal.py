@@ -29,7 +29,9 @@ from codec.threads import ordered_map
 MOST_ITERATIONS = 100
 """No recipe has wanted as many; it keeps the work bounded."""
 PATIENCE = 3
+"""Iterations behind the best one that are looked at."""
 MOST_MEMBERS = 4
+"""Of a blend; two leave 2.2 % more of the angle, eight 0.7 % less and take longer (tools.constants)."""
 GAIN = 1.01
 """Members join while the error stays below this multiple: what the guess lacks, several recipes miss less often."""
 SEED = 1

@@ -25,9 +25,9 @@ from codec.signal.chain import Rounding, unchanged
 from codec.static.attributes.decoding import Carried, without_positions
 from codec.static.events import AttributeEvent, ConnectivityEvent, EndEvent, HeaderEvent, LossEvent, unreadable
 from codec.static.layers.block_coder import ChainDecoder
-from codec.static.preamble import Beginning, Body, Structure
 from codec.static.rules import chain_rules
 from codec.static.stages import Arrival, Ended, Stage, StreamDecoder, misplaced
+from codec.static.structure import Beginning, Body, Structure
 from codec.static.work import SEQUENCE_WEIGHT, Allowance
 
 
@@ -301,7 +301,7 @@ class SequenceDecoder(StreamDecoder[Item]):
 def check_header(header: Header, limits: Limits) -> None:
     """Raise what is wrong with the header of a sequence, or beyond `limits`, before anything is done for it."""
     if not header.gop_frames:
-        raise FormatError("this is a static mesh and no sequence; decode it with codec.Decoder")
+        raise FormatError("this is a static mesh and no sequence; decode it with bsm.decode or bsm.Decoder")
     if header.smoothing or header.details:
         raise UnsupportedError("smoothing and details of sequences are unknown to this decoder")
     chain_rules(header)

@@ -11,8 +11,11 @@ from codec.blocks.overlap import Blocks
 from codec.signal.transform import project
 
 SAMPLES = 2
+"""Blocks that are measured; one, or four, come to 1 % more bytes, which is chance (tools.constants)."""
 WORTHWHILE = 0.75
+"""Root mean square in steps from which on a coefficient pays; half of it costs 3 %, twice 8 % (tools.constants)."""
 FIRST_LOOK = 160
+"""Frequencies that are measured before anybody asks for more: this is about time alone."""
 
 
 class MeasuredSpectrum:

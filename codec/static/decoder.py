@@ -28,10 +28,10 @@ from codec.static.events import (
 from codec.static.layers.block_coder import ChainDecoder
 from codec.static.layers.grid import GridStage
 from codec.static.layers.refinement import PendingLevels, RefinementStage
-from codec.static.preamble import Beginning, Body, Structure
 from codec.static.quality.whole import Complete
 from codec.static.rules import chain_rules
 from codec.static.stages import Arrival, Stage, StreamDecoder, misplaced
+from codec.static.structure import Beginning, Body, Structure
 from codec.static.work import Allowance
 from codec.threads import Lanes, Pending
 
@@ -307,7 +307,7 @@ def most_ahead(header: Header) -> int:
 def check_header(header: Header, limits: Limits) -> None:
     """Raise what is wrong with the header of a static mesh, or beyond `limits`, before anything is done for it."""
     if header.gop_frames:
-        raise UnsupportedError("this is a sequence; decode it with codec.SequenceDecoder")
+        raise UnsupportedError("this is a sequence; decode it with bsm.decode_sequence or bsm.SequenceDecoder")
     if not header.grid:
         chain_rules(header)
         limits.check("coefficients", header.details)

@@ -21,7 +21,8 @@ BLENDS = ("degree", "uniform", "own")
 """Names of the methods that a header numbers."""
 
 STIFFNESS = 8.0
-"""Of the springs on which a block hangs, in streams of this encoder."""
+"""Of the springs on which a block hangs, in streams of this encoder; half of it costs 1.0 %, twice 1.6 %
+(tools.constants)."""
 
 
 @dataclass(frozen=True, eq=False)

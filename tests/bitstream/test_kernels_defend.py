@@ -10,8 +10,10 @@ import numpy as np
 import pytest
 
 from bitstream import _kernels
+from bitstream.attributes import faces as face_values
 from bitstream.attributes import seams as attribute_seams
 from bitstream.attributes import values
+from bitstream.attributes.octahedron import octahedral_levels
 from bitstream.coefficients import adaptive, contexts, matrices, rate_distortion, trellis
 from bitstream.coefficients.adaptive import CoefficientModel
 from bitstream.connectivity import conquest, faces, halfedges, partition, permutation, seams
@@ -26,7 +28,7 @@ MODULES = (
     *(adaptive, contexts, matrices, rate_distortion, trellis),
     *(conquest, faces, halfedges, partition, permutation, seams, range_coder),
     *(corners, grid, levels),
-    *(attribute_seams, values),
+    *(attribute_seams, face_values, values),
 )
 
 
@@ -107,13 +109,13 @@ def test_every_kernel_defends_itself(refusals: dict[str, int]) -> None:
         decoder = values.ValueDecoder(decoded, vertices, offered.max(axis=0), kind, positions)
         places, found = decoder.chunk(payload, vertices)
         np.testing.assert_array_equal(found, offered[places])
-    normals = values.octahedral_levels(positions - 3.5, 63)
+    normals = octahedral_levels(positions - 3.5, 63)
     payload = values.ValueEncoder(decoded, normals, (126, 126), "normal", positions).chunk(vertices)
     places, found = values.ValueDecoder(decoded, vertices, (126, 126), "normal", positions).chunk(payload, vertices)
     np.testing.assert_array_equal(found, normals[places])
     groups = (np.arange(len(decoded)) // 9)[:, None]
-    payload = values.FaceValueEncoder(decoded, groups, groups.max(axis=0)).chunk(len(groups))
-    found = values.FaceValueDecoder(decoded, groups.max(axis=0)).chunk(payload, len(groups))
+    payload = face_values.FaceValueEncoder(decoded, groups, groups.max(axis=0)).chunk(len(groups))
+    found = face_values.FaceValueDecoder(decoded, groups.max(axis=0)).chunk(payload, len(groups))[1]
     np.testing.assert_array_equal(found, groups)
 
     chosen = rate_distortion.choose_levels(CoefficientModel(60), 300 * given.astype(np.int64), 0.1).levels

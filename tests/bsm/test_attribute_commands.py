@@ -55,9 +55,24 @@ def test_everything_comes_back(tmp_path, capsys):
             assert metadata["image.0.data"] == png()
 
 
+def test_python_compares_as_the_command_does(tmp_path, capsys):
+    bsm.save(painted(), tmp_path / "a.npz")
+    bsm.save(painted(), tmp_path / "a.bsm", attributes={"label": "none"})
+    bsm.save(bsm.decode(tmp_path / "a.bsm"), tmp_path / "b.ply")
+    for other in ("a.bsm", "b.ply"):
+        found = bsm.compare(tmp_path / "a.npz", tmp_path / other)
+        said = run_json(capsys, "compare", tmp_path / "a.npz", tmp_path / other)
+        assert found.max_error_relative == said["max_error_relative"] > 0
+        assert found.attributes["label"] is said["attributes"]["label"] is None
+        assert 0 < found.attributes["texcoord"].max_error == said["attributes"]["texcoord"]["max_error"] < 2e-4
+    assert bsm.compare(tmp_path / "a.npz", painted()).attributes["label"].max_error == 0
+
+
 def test_info_shows_metadata(tmp_path, capsys):
     bsm.save(painted(), tmp_path / "a.bsm", metadata={"year": 1994})
-    said = run_json(capsys, "info", tmp_path / "a.bsm")["metadata"]
+    info = run_json(capsys, "info", tmp_path / "a.bsm")
+    said = info["metadata"]
+    assert info["bytes"]["metadata"] > len(png()) and info["bytes"]["framing"] < 250
     assert (said["name"], said["year"], base64.b64decode(said["image.0.data"])) == ("ring", 1994, png())
     assert main(["info", str(tmp_path / "a.bsm")]) == 0
     text = capsys.readouterr().out

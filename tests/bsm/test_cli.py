@@ -84,6 +84,21 @@ def test_info_adds_up(folder, capsys, mesh):
     assert f"{info['vertices']} vertices" in capsys.readouterr().out
 
 
+@pytest.mark.parametrize(
+    ("options", "expected", "absent"),
+    [
+        (["--grid", "8"], "positions on a grid of ", "blocks"),
+        (["--step", "0.004"], " blocks of ", "paper"),
+        (["--bits", "12"], " by the paper's formula\n", "refinement"),
+    ],
+)
+def test_info_tells_how_positions_are_coded(folder, tmp_path, capsys, options, expected, absent):
+    assert main(["encode", str(folder / "sample.ply"), "-q", "-o", str(tmp_path / "a.bsm"), *options]) == 0
+    assert main(["info", str(tmp_path / "a.bsm")]) == 0
+    text = capsys.readouterr().out
+    assert expected in text and absent not in text
+
+
 def test_the_papers_rate_counts_every_coefficient(folder, tmp_path, capsys):
     options = ["--bits", "12", "--coefficients", "15", *SMALL]
     main(["encode", str(folder / "sample.ply"), "-q", "-o", str(tmp_path / "a.bsm"), *options])
@@ -268,7 +283,26 @@ def test_a_full_disk(folder):
         pytest.skip("no /dev/full on this system")
     done = bsm("decode", folder / "sample.bsm", "-q", "-f", "-o", "/dev/full", "--format", "ply")
     assert done.returncode == 9
-    assert done.stderr.count(b"\n") == 1 and b"No space left" in done.stderr
+    assert done.stderr.count(b"\n") == 1 and b"bsm: /dev/full: No space left" in done.stderr
+
+
+def test_a_file_that_may_not_grow_is_named_and_removed(folder, tmp_path):
+    resource = pytest.importorskip("resource")
+    done = bsm(
+        *("decode", folder / "sample.bsm", "-q", "-o", tmp_path / "a.ply"),
+        preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (1000, 1000)),
+    )
+    assert done.returncode == 9
+    assert done.stderr == f"bsm: {tmp_path / 'a.ply'}: File too large\n".encode()
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize(("command", "shown"), [("encode", True), ("info", False), ("compare", False)])
+def test_force_is_shown_where_files_are_written(capsys, command, shown):
+    with pytest.raises(SystemExit):
+        main([command, "--help"])
+    text = capsys.readouterr().out
+    assert ("--force" in text) is shown and "do harm" not in text
 
 
 def test_the_reader_of_a_pipe_goes_away(folder):

@@ -13,6 +13,7 @@ from tests.bsm.test_batch import bsm
 @pytest.mark.parametrize(
     ("words", "said"),
     [
+        (["enc"], "bsm: there is no command enc; did you mean encode?"),
         (["encdoe"], "bsm: there is no command encdoe; did you mean encode?"),
         (["quux"], "bsm: there is no command quux"),
         (["encode", "a.ply", "--tehta", "5"], "bsm encode: there is no option --tehta; did you mean --theta?"),

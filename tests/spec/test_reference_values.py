@@ -14,14 +14,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from bitstream.attributes.values import (
-    MOST_LARGEST,
-    FaceValueDecoder,
-    FaceValueEncoder,
-    ValueDecoder,
-    ValueEncoder,
-    canonical_levels,
-)
+from bitstream.attributes.faces import FaceValueDecoder, FaceValueEncoder
+from bitstream.attributes.octahedron import canonical_levels
+from bitstream.attributes.ranges import MOST_LARGEST
+from bitstream.attributes.values import ValueDecoder, ValueEncoder
 from tests.bitstream.fields.fields import KINDS, SOUPS, encode, values
 from tests.spec.test_reference_fields import damaged, outcome, plain, product
 from tools.grids import rounded, welded
@@ -42,7 +38,7 @@ def reference():
 
 
 def lists_of(decoder: FaceValueDecoder) -> Callable[[bytes, int], Any]:
-    return lambda payload, count: decoder.chunk(payload, count).tolist()
+    return lambda payload, count: decoder.chunk(payload, count)[1].tolist()
 
 
 def rows_of(reader: Any) -> Callable[[bytes, int], Any]:

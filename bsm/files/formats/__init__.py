@@ -1,1 +1,1 @@
-"""One module a format, each with what reads and writes it."""
+"""One module a format (PLY: three), each with what reads and writes it."""

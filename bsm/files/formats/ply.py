@@ -4,32 +4,23 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
 from itertools import count, takewhile
-from typing import Protocol
 
 import numpy as np
-import numpy.typing as npt
 
-from bitstream.errors import FormatError, MeshError, TruncatedError
+from bitstream.errors import MeshError
 from bsm.files.formats.columns import Array, Column, color_column, unused_name
-from bsm.files.formats.materials import materials_in, refers_to_image
+from bsm.files.formats.ply_header import IMAGE, Element, parse_header
+from bsm.files.formats.ply_tables import Table, tables_of
 from bsm.files.formats.polygons import Polygons
-from bsm.files.formats.remarks import parse_remarks, remarks
+from bsm.files.formats.remarks import remarks
 from bsm.files.formats.written import Library, Written, left_out
-from bsm.files.rows import Ints, Rows, as_integers, ranges, require_lines, single_suffices
+from bsm.files.rows import Ints, as_integers, single_suffices
 from codec.geometry.attributes import MOST_COMPONENTS, Attribute, Domain, Semantic
-from codec.geometry.mesh import Metadata, TriangleMesh
+from codec.geometry.mesh import TriangleMesh
 from codec.geometry.splitting import split_by_attributes
 
-_TYPES = {
-    "char": "i1", "uchar": "u1", "short": "i2", "ushort": "u2", "int": "i4", "uint": "u4", "float": "f4",
-    "int8": "i1", "uint8": "u1", "int16": "i2", "uint16": "u2", "int32": "i4", "uint32": "u4",
-    "double": "f8", "float32": "f4", "float64": "f8",
-}  # fmt: skip
-_ORDERS = {"ascii": "", "binary_little_endian": "<", "binary_big_endian": ">"}
 _LIST_NAMES = ("vertex_indices", "vertex_index")
-_MAX_ELEMENTS = 64
 
 _GROUPS: tuple[tuple[Semantic, tuple[str, ...]], ...] = (
     ("normal", ("nx", "ny", "nz")),
@@ -45,57 +36,6 @@ _GROUPS: tuple[tuple[Semantic, tuple[str, ...]], ...] = (
 """Properties that are one value together."""
 _NAMES = {"texnumber": "material", "material_index": "material"}
 """What properties are called here, unless by their own names."""
-_IMAGE = "TextureFile"
-"""A comment that begins so names an image; their numbers are those of the property texnumber."""
-
-
-@dataclass(frozen=True)
-class Property:
-    """One column of an element: a number, or a list of numbers behind its length (of the type `length`)."""
-
-    name: str
-    type: str
-    length: str | None = None
-
-
-@dataclass(frozen=True)
-class Element:
-    """A table of `count` rows."""
-
-    name: str
-    count: int
-    properties: tuple[Property, ...]
-
-    def index(self, *names: str) -> int:
-        """The place of the first property that has one of the names, or -1."""
-        return next((i for i, column in enumerate(self.properties) if column.name in names), -1)
-
-
-@dataclass(frozen=True)
-class Header:
-    """The order of the bytes ("" for text), the elements, where the body begins, and the comments."""
-
-    order: str
-    elements: tuple[Element, ...]
-    size: int
-    comments: tuple[str, ...] = ()
-
-    @property
-    def metadata(self) -> Metadata:
-        """What the comments say; images are those of materials."""
-        images = [line.removeprefix(_IMAGE).strip() for line in self.comments if line.startswith(f"{_IMAGE} ")]
-        found = parse_remarks(line for line in self.comments if not line.startswith(f"{_IMAGE} "))
-        shown = {
-            value
-            for material in materials_in(found).values()
-            for name, value in material.items()
-            if refers_to_image(name)
-        }
-        for number, name in enumerate(images):
-            found[f"image.{number}.name"] = name
-            if number not in shown:
-                found |= {f"material.{number}.name": name, f"material.{number}.map_Kd": number}
-        return found
 
 
 def read_ply(data: bytes) -> Polygons:
@@ -107,7 +47,7 @@ def read_ply(data: bytes) -> Polygons:
     if "vertex" not in names or "face" not in names:
         raise MeshError("this PLY file has no faces; point clouds are not supported")
     body = data[header.size :]
-    tables = _binary_tables(header, body) if header.order else _text_tables(header, body)
+    tables = tables_of(header, body)
     vertex, face = tables["vertex"], tables["face"]
     with np.errstate(invalid="ignore"):  # what is not a number is refused later
         places = _coordinates(vertex.element)
@@ -121,7 +61,7 @@ def read_ply(data: bytes) -> Polygons:
     )
 
 
-def _columns(table: _Table, domain: Domain, needed: Sequence[str]) -> Iterator[Column]:
+def _columns(table: Table, domain: Domain, needed: Sequence[str]) -> Iterator[Column]:
     """The properties that are numbers, those together that are one value."""
     properties = table.element.properties
     places = {
@@ -152,7 +92,7 @@ def _series(types: dict[str, str]) -> Iterator[tuple[str, list[str]]]:
         left = {one: kind for one, kind in left.items() if one not in together}
 
 
-def _wedges(table: _Table, corners: int, sizes: Ints) -> tuple[list[Column], list[str]]:
+def _wedges(table: Table, corners: int, sizes: Ints) -> tuple[list[Column], list[str]]:
     """Texture coordinates of corners, in a list beside that of the vertices; and the lists that mean nothing known."""
     found, dropped = [], []
     for place, column in enumerate(table.element.properties):
@@ -169,61 +109,6 @@ def _wedges(table: _Table, corners: int, sizes: Ints) -> tuple[list[Column], lis
     return found, dropped
 
 
-def parse_header(data: bytes) -> Header:
-    """Parse the lines up to `end_header`."""
-    begin = re.match(rb"ply[ \t]*(\r\n|\n|\r)", data)
-    if begin is None:
-        raise FormatError("this is not a PLY file: it does not begin with ply")
-    line_end = begin[1]  # old Macintosh files have \r alone
-    end = re.compile(rb"[\r\n][ \t]*end_header[ \t]*(?:" + line_end + rb"|\Z)").search(data, begin.end() - 1, 1 << 16)
-    if end is None:
-        raise TruncatedError("the PLY header has no end_header")
-    order: str | None = None
-    elements: list[Element] = []
-    comments: list[str] = []
-    for line in re.split("[\r\n]+", _decoded(data[begin.end() : end.start()])):
-        words = line.split()
-        try:
-            match words:
-                case []:
-                    pass
-                case ["comment" | "obj_info" as keyword, *_]:
-                    comments.append(line.strip().removeprefix(keyword).strip())
-                case ["format", name, *_]:
-                    order = _ORDERS[name]
-                case ["element", name, count]:
-                    elements.append(Element(name, _count(count), ()))
-                case ["property", "list", length, kind, name]:
-                    _extend(elements, Property(name, _TYPES[kind], _TYPES[length]))
-                case ["property", kind, name]:
-                    _extend(elements, Property(name, _TYPES[kind]))
-                case _:
-                    raise KeyError
-        except (KeyError, IndexError, ValueError):
-            raise FormatError(f"the PLY header has a line that makes no sense: {line[:80]!r}") from None
-    if order is None or len(elements) > _MAX_ELEMENTS:
-        raise FormatError("the PLY header names no format, or too many elements")
-    return Header(order, tuple(elements), end.end(), tuple(comments))
-
-
-def _decoded(text: bytes) -> str:
-    try:
-        return text.decode()
-    except UnicodeDecodeError:
-        return text.decode("latin-1")
-
-
-def _count(text: str) -> int:
-    if not re.fullmatch(r"\d{1,18}", text):
-        raise ValueError
-    return int(text)
-
-
-def _extend(elements: list[Element], column: Property) -> None:
-    last = elements[-1]
-    elements[-1] = Element(last.name, last.count, (*last.properties, column))
-
-
 def _coordinates(element: Element) -> list[int]:
     places = [element.index(name) for name in "xyz"]
     if min(places) < 0 or any(column.length for column in element.properties):
@@ -236,189 +121,6 @@ def _corner_list(element: Element) -> int:
     if place < 0 or element.properties[place].length is None:
         raise MeshError("the faces of this PLY file have no list vertex_indices")
     return place
-
-
-class _Table(Protocol):
-    """The rows of an element."""
-
-    element: Element
-
-    def numbers(self, place: int) -> Array:
-        """The property at a place, a number in each row, shape (count,)."""
-
-    def lists(self, place: int) -> tuple[Ints, Array]:
-        """The property at a place, a list in each row: how long they are, and their items one behind the other."""
-
-
-# --------------------------------------------------------------------------------------------------------------- text
-
-
-def _text_tables(header: Header, body: bytes) -> dict[str, _Table]:
-    """Elements as text: one row, one line."""
-    lines = [line for line in body.splitlines() if line.strip()]
-    require_lines(len(lines), sum(element.count for element in header.elements))
-    ends = np.cumsum([element.count for element in header.elements]).tolist()
-    return {
-        element.name: _TextTable(element, Rows(lines[end - element.count : end], element.name))
-        for element, end in zip(header.elements, ends)
-        if element.name in ("vertex", "face")
-    }
-
-
-@dataclass
-class _TextTable:
-    element: Element
-    rows: Rows
-
-    def numbers(self, place: int) -> Array:
-        return _typed(self.rows.values[self._starts(place)], self.element.properties[place].type)
-
-    def lists(self, place: int) -> tuple[Ints, Array]:
-        starts = self._starts(place)
-        sizes = self._sizes(starts)
-        items = self.rows.values[ranges(starts + 1, sizes)]
-        return sizes, _typed(items, self.element.properties[place].type)
-
-    def _starts(self, place: int) -> Ints:
-        """Where in all numbers those of a property begin; the number, or all of the list, are there."""
-        offsets = np.zeros(len(self.rows.counts), np.int64)
-        for column in self.element.properties[: place + 1]:
-            begin = offsets
-            self.rows.require(offsets + 1)
-            offsets = offsets + 1 + (self._sizes(self.rows.starts + begin) if column.length else 0)
-            self.rows.require(offsets)
-        return self.rows.starts + begin
-
-    def _sizes(self, starts: Ints) -> Ints:
-        sizes = as_integers(self.rows.values[starts], f"the length of a list of a {self.element.name}")
-        if (sizes < 0).any():
-            raise MeshError(f"{self.element.name} {int(np.argmax(sizes < 0))} has a list of negative length")
-        return sizes
-
-
-def _typed(values: Array, kind: str) -> Array:
-    """Numbers of a text in the type that the header declares, where they are of that type."""
-    with np.errstate(all="ignore"):
-        converted = values.astype(kind)
-        same = np.dtype(kind).kind == "f" or np.array_equal(converted, values)
-    return converted if same else values
-
-
-# ------------------------------------------------------------------------------------------------------------- binary
-
-
-def _binary_tables(header: Header, body: bytes) -> dict[str, _Table]:
-    """Elements as bytes, one behind the other."""
-    tables: dict[str, _Table] = {}
-    offset = 0
-    for element in header.elements:
-        table = _uniform_table(element, header.order, body, offset)
-        tables[element.name] = found = table or _ragged_table(element, header.order, body, offset)
-        offset = found.end
-    return tables
-
-
-@dataclass
-class _UniformTable:
-    """Rows of equal length: without lists, or with lists that are all as long as those of the first row."""
-
-    element: Element
-    rows: Array
-    end: int
-
-    def numbers(self, place: int) -> Array:
-        return _native(self.rows[str(place)])
-
-    def lists(self, place: int) -> tuple[Ints, Array]:
-        items = self.rows[str(place)]
-        return np.full(len(items), items.shape[1], dtype=np.int64), _native(items.reshape(-1))
-
-
-def _native(values: Array) -> Array:
-    return values.astype(values.dtype.newbyteorder("="))
-
-
-def _require_bytes(body: bytes, offset: int, needed: int) -> None:
-    if offset + needed > len(body):
-        missing = offset + needed - len(body)
-        raise TruncatedError(f"the PLY file is cut short: its header claims {missing} bytes more than there are")
-
-
-def _uniform_table(element: Element, order: str, body: bytes, offset: int) -> _UniformTable | None:
-    """The table of an element, if it is one; else None."""
-    fields: list[tuple[str, str] | tuple[str, str, tuple[int]]] = []
-    cursor = offset
-    for i, column in enumerate(element.properties):
-        if column.length is not None:
-            kind = np.dtype(order + column.length)
-            fields.append((f"length{i}", kind.str))
-            if element.count and cursor + kind.itemsize <= len(body):
-                length = int(np.frombuffer(body, kind, 1, cursor)[0])
-            else:
-                length = 0
-            cursor += kind.itemsize
-            if not 0 <= length <= len(body):
-                return None
-            fields.append((str(i), order + column.type, (length,)))
-            cursor += np.dtype(column.type).itemsize * length
-        else:
-            fields.append((str(i), order + column.type))
-            cursor += np.dtype(column.type).itemsize
-    lists = [i for i, column in enumerate(element.properties) if column.length]
-    needed = element.count * (cursor - offset)
-    if not lists:
-        _require_bytes(body, offset, needed)
-    elif offset + needed > len(body):
-        return None
-    rows = np.frombuffer(body, np.dtype(fields), element.count, offset) if needed else np.zeros(0, fields)
-    if any((rows[f"length{i}"] != rows[f"length{i}"][:1]).any() for i in lists):
-        return None
-    return _UniformTable(element, rows, offset + needed)
-
-
-@dataclass
-class _RaggedTable:
-    """Rows whose lists differ in length."""
-
-    element: Element
-    order: str
-    raw: npt.NDArray[np.uint8]
-    begin: int
-    end: int = 0
-
-    def numbers(self, place: int) -> Array:
-        return self.lists(place)[1]
-
-    def lists(self, place: int) -> tuple[Ints, Array]:
-        starts, sizes, _ = self.walk(place)
-        kind = np.dtype(self.order + self.element.properties[place].type)
-        picked: npt.NDArray[np.uint8] = self.raw[ranges(starts, sizes * kind.itemsize)]
-        return sizes, _native(picked.view(kind))
-
-    def walk(self, place: int) -> tuple[Ints, Ints, int]:
-        """Where each row's property begins, how many items it has, and where the last row ends."""
-        from bsm.files.formats.walk import walk_rows
-
-        widths = np.array(_widths(self.element))
-        starts, sizes, end = walk_rows(self.raw, self.begin, self.element.count, widths, place, self.order == ">")
-        if end < 0:
-            raise TruncatedError("the PLY file is cut short: a list runs over its end", offset=-end)
-        return starts, sizes, end
-
-
-def _widths(element: Element) -> list[tuple[int, int]]:
-    """The bytes of the length of each property's lists (0: it is a number), and of an item."""
-    return [
-        (np.dtype(column.length).itemsize if column.length else 0, np.dtype(column.type).itemsize)
-        for column in element.properties
-    ]
-
-
-def _ragged_table(element: Element, order: str, body: bytes, offset: int) -> _RaggedTable:
-    # Every row is at least as long as its numbers and the lengths of its lists.
-    _require_bytes(body, offset, element.count * sum(length or width for length, width in _widths(element)))
-    table = _RaggedTable(element, order, np.frombuffer(body, np.uint8), offset)
-    return replace(table, end=table.walk(0)[2])
 
 
 # ------------------------------------------------------------------------------------------------------------ writing
@@ -443,7 +145,7 @@ def write_ply(mesh: TriangleMesh, stem: str) -> Written:
     """
     library = Library(mesh, stem)
     mesh = split_by_attributes(mesh)
-    images = [f"{_IMAGE} {name}" for name in library.images.values()]
+    images = [f"{IMAGE} {name}" for name in library.images.values()]
     comments, unsaid = remarks(mesh.metadata, library.said)
     columns = {"vertex": _vertex_fields(mesh), "face": [("vertex_indices", mesh.faces)]}
     for attribute in mesh.attributes:

@@ -14,6 +14,8 @@ from codec.denoise.filters.vertex_update import FaceGeometry, face_geometry, fol
 SIGMA_R = 0.35
 VERTEX_ITERATIONS = 10
 PATIENT_VERTICES = 20
+"""Vertex updates where nothing hurries; half as many leave 0.2 % more of the angle, twice as many the same
+(tools.constants)."""
 AT_ONCE = 2
 
 

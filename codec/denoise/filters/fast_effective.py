@@ -11,6 +11,7 @@ from codec.denoise.filters.vertex_update import face_geometry, follow_normals
 
 THRESHOLD = 0.5
 VERTEX_ITERATIONS = 50
+"""The authors' values."""
 
 
 def fast_effective_denoising(positions: Positions, faces: Faces, iterations: int = 20) -> Positions:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 
 import numpy as np
 
@@ -22,6 +22,8 @@ from codec.denoise.filters.vertex_update import (
 SIGMA_R = 0.35
 RADIUS = 2.0
 VERTEX_ITERATIONS = 10
+"""The authors' defaults; with half or twice as many vertex iterations, 1.4 and 0.9 % more of the angle is left
+(tools.constants)."""
 
 Guide = Callable[[FaceGeometry, Topology], Floats]
 """From the mesh as it is to the unit normals, shape (m, 3), that the range kernel compares."""
@@ -65,6 +67,15 @@ class GuidedFilter:
         return follow_normals(positions, self.topology, normals, VERTEX_ITERATIONS)
 
 
+def guided_results(positions: Positions, topology: Topology, iterations: int) -> Iterator[Positions]:
+    """The start, and what guided normal filtering makes of it after 1, 2, ... iterations."""
+    yield positions
+    guided = GuidedFilter(positions, topology)
+    for _ in range(iterations):
+        positions = guided.step(positions)
+        yield positions
+
+
 def guided_normal_filtering(positions: Positions, faces: Faces, iterations: int = 20) -> Positions:
     """Denoise by guided normal filtering.
 
@@ -75,8 +86,5 @@ def guided_normal_filtering(positions: Positions, faces: Faces, iterations: int 
     iterations : int
         Outer iterations, of one normal filter and ten vertex updates each.
     """
-    current = np.array(positions, dtype=np.float64)
-    guided = GuidedFilter(current, Topology(faces, len(current)))
-    for _ in range(iterations):
-        current = guided.step(current)
-    return current
+    *_, filtered = guided_results(np.array(positions, np.float64), Topology(faces, len(positions)), iterations)
+    return filtered

@@ -173,7 +173,8 @@ def _carry(
         **result.fields,
     )
     surface = surface_of(domain, place.corners.faces, vertices, len(loose), joins)
-    said = f"{attribute.name}: {attribute.semantic} per {attribute.domain}, {result.said}"
+    what = "" if attribute.semantic in (attribute.name, "generic") else f"{attribute.semantic} "
+    said = f"{attribute.name}: {what}per {attribute.domain}, {result.said}"
     return Carried(declaration, seams, surface, levels, said), joins
 
 

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from bitstream.attributes.values import canonical_levels, octahedral_normals
+from bitstream.attributes.octahedron import canonical_levels, octahedral_normals
 from bitstream.container.declaration import BITS, LEVELS, OCTAHEDRAL, RECOMPUTED, Declaration
 from bitstream.errors import OptionError, TargetError
 from codec.static.attributes.quality import LEAST_NORMAL_BITS, MOST_BITS, MOST_NORMAL_BITS, Quality
@@ -178,7 +178,7 @@ def _octahedral(values: Values, quality: Quality, name: str) -> Quantized:
     if not (lengths > 0.0).all():
         said.append(f"{int((lengths == 0.0).sum())} of no length")
     if np.abs(lengths - 1.0)[lengths > 0.0].max(initial=0.0) > 1e-3:
-        said.append("made one long")
+        said.append("all of length one now")
     fields = {"coding": OCTAHEDRAL, "largest": (largest, largest)}
     return Quantized(fields, levels, ", ".join(said))
 

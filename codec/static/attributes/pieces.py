@@ -4,14 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from bitstream.attributes.values import (
-    MOST_COMPONENTS,
-    FaceValueDecoder,
-    FaceValueEncoder,
-    Kind,
-    ValueDecoder,
-    ValueEncoder,
-)
+from bitstream.attributes.faces import FaceValueDecoder, FaceValueEncoder
+from bitstream.attributes.ranges import MOST_COMPONENTS
+from bitstream.attributes.values import Kind, ValueDecoder, ValueEncoder
 from bitstream.container.declaration import COLOR, FACE, LEVELS, OCTAHEDRAL, TEXCOORD, Declaration
 from bitstream.container.wire import Cursor, write_varint
 from bitstream.errors import CorruptError
@@ -118,14 +113,10 @@ class PieceDecoder:
     def chunk(self, payload: bytes, count: int) -> tuple[Indices, Levels]:
         """The numbers of the next `count` values, and their pieces, shape (count, pieces)."""
         cursor, found = Cursor(payload), []
-        rows = np.arange(self.coded, self.coded + count, dtype=np.int32)
         for coder in self._coders:
             part = cursor.take(cursor.varint()) if len(self._coders) > 1 else cursor.rest()
-            if isinstance(coder, FaceValueDecoder):
-                found.append(coder.chunk(part, count))
-            else:
-                rows, pieces = coder.chunk(part, count)
-                found.append(pieces)
+            rows, pieces = coder.chunk(part, count)
+            found.append(pieces)
         cursor.finish()
         return rows, np.concatenate(found, axis=1)
 

@@ -19,8 +19,8 @@ from codec.geometry.mesh import TriangleMesh
 from codec.static.attributes.decoding import ValuesStage, completed
 from codec.static.attributes.relief import Solid
 from codec.static.events import BlockEvent, Changes, Losses, LossEvent, unreadable
-from codec.static.preamble import Structure
 from codec.static.stages import Arrival, Stage, misplaced
+from codec.static.structure import Structure
 from codec.static.work import CHUNK_COST, field_cost, grid_memory
 
 CHUNK = 1 << 15

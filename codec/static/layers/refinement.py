@@ -24,8 +24,8 @@ from codec.static.assembly import Assembly
 from codec.static.attributes.decoding import ValuesStage, completed
 from codec.static.attributes.relief import Solid
 from codec.static.events import Losses, LossEvent, RefinementEvent, unreadable
-from codec.static.preamble import Structure
 from codec.static.stages import Arrival, Stage, misplaced
+from codec.static.structure import Structure
 from codec.static.work import CHUNK_COST, field_cost, layer_memory
 from codec.threads import Lanes, Pending
 

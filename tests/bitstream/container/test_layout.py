@@ -65,9 +65,17 @@ def test_metadata_that_cannot_be_stored(entries):
         write(Metadata(entries))
 
 
+def test_metadata_of_too_many_entries():
+    many = {f"{i:03}": i for i in range(257)}
+    with pytest.raises(OptionError, match=r"257 entries .* 256 .* put several into one"):
+        write(Metadata(many))
+    many.popitem()
+    assert parse(Metadata(), write(Metadata(many))) == Metadata(many)
+
+
 def test_metadata_limit():
     payload = write(Metadata({"a": "x" * 100}))
-    with pytest.raises(LimitError):
+    with pytest.raises(LimitError, match="metadata_bytes = 105 is over the limit of 104"):
         parse(Metadata(), payload, Limits(metadata_bytes=len(payload) - 1))
     assert parse(Metadata(), payload, Limits(metadata_bytes=len(payload)))
 

@@ -6,8 +6,7 @@ import numpy as np
 import numpy.typing as npt
 from hypothesis import strategies as st
 
-from bitstream.fields.grid import GridDecoder, GridEncoder
-from bitstream.fields.levels import LevelsDecoder, LevelsEncoder
+from bitstream.fields.chunks import FieldDecoder, FieldEncoder
 from tests.shapes import Faces, grid_faces
 
 Ints = npt.NDArray[np.int32]
@@ -73,12 +72,12 @@ def sizes(total: int, chunk: int) -> list[int]:
     return [min(chunk, total - first) for first in range(0, total, chunk)]
 
 
-def encode(encoder: GridEncoder | LevelsEncoder, vertices: int, chunk: int) -> Chunks:
-    """All payloads, and of how many vertices each is."""
+def encode(encoder: FieldEncoder, vertices: int, chunk: int) -> Chunks:
+    """All payloads, and of how many vertices or faces each is."""
     return [(encoder.chunk(count), count) for count in sizes(vertices, chunk)]
 
 
-def decode(decoder: GridDecoder | LevelsDecoder, vertices: int, axes: int, chunks: Chunks) -> Ints:
+def decode(decoder: FieldDecoder, vertices: int, axes: int, chunks: Chunks) -> Ints:
     """What payloads say; -1 where they say nothing."""
     found = np.full((vertices, axes), -1, np.int32)
     for payload, count in chunks:

@@ -29,6 +29,7 @@ const SOURCES = [
     "bitstream/fields/corners.c",
     "bitstream/fields/grid.c",
     "bitstream/fields/levels.c",
+    "bitstream/fields/seen.c",
     "bitstream/fields/value.c",
     "codec/basis/cosines.simd.c",
     "codec/basis/orthogonal_iteration.simd.c",
