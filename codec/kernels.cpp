@@ -98,9 +98,8 @@ NB_MODULE(_kernels, m) {
     m.def("vertex_normals", &vertex_normals, "normals"_a, "starts"_a, "around"_a, "averaged"_a, Unlocked());
     m.def("follow_normals", &follow_normals, "positions"_a, "faces"_a, "starts"_a, "around"_a, "normals"_a,
           "iterations"_a, "free"_a, "offsets"_a, Unlocked());
-    m.def("dissect", &dissect, "offsets"_a, "neighbours"_a, "leaf"_a, "cuts"_a, "rows"_a, "firsts"_a, Unlocked());
-    m.def("find_borders", &find_borders, "offsets"_a, "neighbours"_a, "rows"_a, "firsts"_a, "most_work"_a, "scratch"_a,
-          "steps"_a, "owners"_a, "starts"_a, "borders"_a, "places"_a, Unlocked());
+    m.def("find_fronts", checked<&find_fronts>, "offsets"_a, "neighbours"_a, "leaf"_a, "most_work"_a, "scratch"_a,
+          "rows"_a, "steps"_a, "owners"_a, "firsts"_a, "starts"_a, "borders"_a, "places"_a, Unlocked());
     m.def("factorize_fronts", &factorize_fronts, "offsets"_a, "neighbours"_a, "weights"_a, "diagonal"_a, "fronts"_a,
           "column"_a, "scratch"_a, "values"_a, "inverse"_a, Unlocked());
     m.def("solve_columns", &solve_columns, "fronts"_a, "values"_a, "inverse"_a, "columns"_a, "power"_a, "scratch"_a,
@@ -115,8 +114,12 @@ NB_MODULE(_kernels, m) {
     m.def("reconstruct", &reconstruct, "subspace"_a, "coefficients"_a, "values"_a, Unlocked());
     m.def("look_around", &look_around, "offsets"_a, "neighbours"_a, "vertices"_a, "inside"_a, "sums"_a, "weights"_a,
           "stiffness"_a, "springs"_a, "pulls"_a, Unlocked());
+    m.def("continue_known", &continue_known, "fronts"_a, "values"_a, "inverse"_a, "springs"_a, "pulls"_a, "scratch"_a,
+          "continued"_a, Unlocked());
     m.def("block_normals", &block_normals, "faces"_a, "starts"_a, "members"_a, "vertices"_a, "place"_a, "positions"_a,
           "softness"_a, "least_length"_a, "normals"_a, Unlocked());
+    m.def("raise_block", &raise_block, "faces"_a, "starts"_a, "members"_a, "vertices"_a, "place"_a, "softness"_a,
+          "least_length"_a, "subspace"_a, "heights"_a, "scratch"_a, "positions"_a, Unlocked());
     m.def("apply_powers", &apply_powers, "offsets"_a, "neighbours"_a, "terms"_a, "degree"_a, Unlocked());
     m.def("combine_powers", &combine_powers, "positions"_a, "terms"_a, "weights"_a, "smoothed"_a, Unlocked());
     m.def("find_rings", &find_rings, "offsets"_a, "neighbours"_a, "number"_a, "vertices"_a, "rows"_a, "starts"_a,

@@ -97,10 +97,15 @@ def solve(factor: Factor, columns: Matrix, power: int) -> Matrix:
     """R^z X for X of shape (n, c), C-contiguous, with z = `power` >= 1."""
     n, c = columns.shape
     check_rows(factor, n)
-    solution, scratch = np.empty((n, c)), np.empty((n + 4) * (c + 8) + PADDING)
+    solution, scratch = np.empty((n, c)), np.empty(solving_space(n, c))
     columns = np.ascontiguousarray(columns)
     _kernels.solve_columns(factor.fronts, factor.values, factor.inverse, columns, power, scratch, solution)
     return solution
+
+
+def solving_space(rows: int, columns: int) -> int:
+    """Doubles of scratch that a solution takes."""
+    return (rows + 4) * (columns + 8) + PADDING
 
 
 def check_rows(factor: Factor, rows: int) -> None:

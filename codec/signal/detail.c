@@ -1,5 +1,7 @@
-/* Vertex normals of a block from the faces inside it (specification, M 11.3). */
+/* Vertex normals of a block from the faces inside it, and the detail layer along them (specification, M 11.3). */
 #include "codec/signal/detail.h"
+
+#include "codec/signal/transform.h"
 
 /* Normals at the rows of the block of `vertices`, from its own `positions`. `members` are the faces around each vertex;
  * `place`, one entry a vertex of the mesh, is scratch: zero before and after. */
@@ -33,4 +35,17 @@ void block_normals(ConstInts2 faces, ConstLongs starts, ConstInts members, Const
         for (int d = 0; d < 3; d++) normal[d] /= length;
     }
     for (int64_t r = 0; r < n; r++) place.data[vertices.data[r]] = 0;
+}
+
+/* Move a block along its normals by U e: `heights` are e, a column. `scratch` has a row of four for each of the block. */
+void raise_block(ConstInts2 faces, ConstLongs starts, ConstInts members, ConstInts vertices, Ints place, double softness,
+                 double least_length, ConstDoubles2 subspace, ConstDoubles2 heights, Doubles2 scratch,
+                 Doubles2 positions) {
+    int64_t n = vertices.size;
+    Doubles2 normals = {scratch.data, n, 3}, height = {scratch.data + 3 * n, n, 1};
+    ConstDoubles2 given = {positions.data, n, 3};
+    block_normals(faces, starts, members, vertices, place, given, softness, least_length, normals);
+    reconstruct(subspace, heights, height);
+    for (int64_t r = 0; r < n; r++)
+        for (int d = 0; d < 3; d++) positions.data[3 * r + d] += normals.data[3 * r + d] * height.data[r];
 }

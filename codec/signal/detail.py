@@ -18,7 +18,6 @@ from codec import _kernels
 from codec.arrays import Faces, Indices, Matrix, Order
 from codec.blocks.overlap import Block
 from codec.geometry.incidence import vertex_faces
-from codec.signal.transform import reconstruct
 
 Number = TypeVar("Number", bound=np.generic)
 
@@ -75,10 +74,26 @@ class Normals:
         return normals
 
 
-def displace(positions: Matrix, normals: Matrix, subspace: Matrix, coefficients: Matrix) -> Matrix:
-    """b + m (U e) for e of shape (d,): U has at least d columns."""
-    height = reconstruct(subspace, coefficients)
-    return positions + normals * height[:, None]
+    def raised(self, block: Block, positions: Matrix, subspace: Matrix, coefficients: Matrix) -> Matrix:
+        """b + m (U e) for e of shape (d,): U, shape (n_i, c), has at least d columns."""
+        surface, size, heights = self._surface, block.size, len(coefficients)
+        if positions.shape != (size, 3) or len(subspace) != size or heights > subspace.shape[1]:
+            raise ValueError(f"{heights} of {subspace.shape} coefficients for a block of {positions.shape} positions")
+        raised = np.array(positions, order="C")
+        _kernels.raise_block(
+            surface.faces,
+            surface.starts,
+            surface.members,
+            block.vertices,
+            self._place,
+            SOFTNESS,
+            LEAST,
+            np.ascontiguousarray(subspace),
+            coefficients.reshape(-1, 1),
+            np.empty((size, 4)),
+            raised,
+        )
+        return raised
 
 
 def fold_details(levels: npt.NDArray[Number]) -> npt.NDArray[Number]:

@@ -1,4 +1,5 @@
-/* What holds a block: the springs of the specification's M 7.3, summed over the rows' neighbours in their order. */
+/* What holds a block: the springs of the specification's M 7.3, summed over the rows' neighbours in their order; and what
+ * continues the known (M 7.4), sums in the order of rows. */
 #include "codec/signal/predict.h"
 
 static void hang(Doubles springs, Doubles2 pulls, int64_t row, double stiffness, const double *sum, double weight) {
@@ -22,4 +23,25 @@ void look_around(ConstInts offsets, ConstInts neighbours, ConstInts vertices, By
         }
     }
     for (int64_t r = 0; r < vertices.size; r++) inside.data[vertices.data[r]] = 0;
+}
+
+/* What continues the known into the rows of a block: mean + (L + S + delta)^-1 (y - S mean), with a factor of
+ * `factorize_fronts`; zero without springs. `scratch` holds a row more than `solve_columns` asks for. */
+void continue_known(Fronts fronts, Doubles values, ConstDoubles inverse, ConstDoubles springs, ConstDoubles2 pulls,
+                    Doubles scratch, Doubles2 continued) {
+    int64_t n = pulls.rows, m = pulls.columns;
+    double *mean = scratch.data, total = 0.0;
+    for (int64_t r = 0; r < n; r++) total += springs.data[r];
+    for (int64_t d = 0; d < m; d++) mean[d] = 0.0;
+    for (int64_t r = 0; r < n; r++)
+        for (int64_t d = 0; d < m; d++) mean[d] += pulls.data[r * m + d];
+    for (int64_t d = 0; d < m; d++) mean[d] = total > 0.0 ? mean[d] / total : 0.0;
+    for (int64_t r = 0; r < n; r++)
+        for (int64_t d = 0; d < m; d++)
+            continued.data[r * m + d] = total > 0.0 ? pulls.data[r * m + d] - springs.data[r] * mean[d] : 0.0;
+    if (!(total > 0.0)) return;
+    Doubles rest = {scratch.data + m, scratch.size - m};
+    solve_columns(fronts, values, inverse, (ConstDoubles2){continued.data, n, m}, 1, rest, continued);
+    for (int64_t r = 0; r < n; r++)
+        for (int64_t d = 0; d < m; d++) continued.data[r * m + d] += mean[d];
 }

@@ -17,7 +17,7 @@ import numpy as np
 
 from codec import _kernels
 from codec.arrays import Matrix
-from codec.basis.laplacian import Factor, Laplacian, factorize, solve
+from codec.basis.laplacian import Factor, Laplacian, check_rows, factorize, solving_space
 from codec.blocks.blend import Blend, degree_weights
 from codec.blocks.overlap import Block
 from codec.geometry.graph import Graph
@@ -125,11 +125,13 @@ def continued(factor: Factor, springs: Matrix, pulls: Matrix) -> Matrix:
     float64 array, shape (n, m)
         Zero without springs.
     """
-    total = float(springs.sum())
-    if not total > 0.0:
-        return np.zeros_like(pulls)
-    mean = pulls.sum(axis=0) / total
-    return np.asarray(mean + solve(factor, pulls - springs[:, None] * mean, 1))
+    rows, columns = pulls.shape
+    check_rows(factor, rows)
+    values, scratch = np.empty((rows, columns)), np.empty(columns + solving_space(rows, columns))
+    _kernels.continue_known(
+        factor.fronts, factor.values, factor.inverse, springs, np.ascontiguousarray(pulls), scratch, values
+    )
+    return values
 
 
 def extend(around: Surroundings) -> Matrix:

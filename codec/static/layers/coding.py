@@ -31,7 +31,7 @@ from bitstream.container.header import Header
 from codec.arrays import Faces, Integers, Levels, Matrix
 from codec.basis.dynamic_size import DynamicSize
 from codec.blocks.overlap import Block
-from codec.signal.detail import Normals, Surface, displace, fold_details, make_surface, unfold_details
+from codec.signal.detail import Normals, Surface, fold_details, make_surface, unfold_details
 from codec.signal.quantize import (
     BIT_WORTH,
     dequantize,
@@ -270,7 +270,7 @@ class Layered:
         decoded = self.base.positions(ground, levels)
         heights = _coefficients(levels.details, self.step)
         heights = unfold_details(heights, min(self.details, ground.block.size))
-        return displace(decoded, self.normals.of(ground.block, decoded), ground.dictionary, heights)
+        return self.normals.raised(ground.block, decoded, ground.dictionary, heights)
 
     def _levels(self, coordinates: Integers, details: Levels, size: int) -> BlockLevels:
         heights = min(details.size, self.details, size)

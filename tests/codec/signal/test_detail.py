@@ -1,9 +1,10 @@
 import numpy as np
 import pytest
 
+from codec.basis.orthogonal_iteration import hash_columns
 from codec.blocks.overlap import Block
 from codec.geometry.graph import graph_of_faces
-from codec.signal.detail import Normals, displace, fold_details, make_surface, unfold_details
+from codec.signal.detail import Normals, fold_details, make_surface, unfold_details
 from codec.static.encoder import Encoder
 from codec.static.options import EncodeOptions
 from tests.shapes import grid_faces, torus
@@ -50,9 +51,20 @@ def test_a_block_can_be_used_again():
 
 
 def test_heights_move_along_normals():
-    positions, normals = np.zeros((4, 3)), np.eye(4)[:, :3]
-    moved = displace(positions, normals, np.eye(4), np.array([2.0, 3.0]))
-    assert moved.tolist() == [[2, 0, 0], [0, 3, 0], [0, 0, 0], [0, 0, 0]]
+    mesh = torus(12, 8)
+    normals, block = Normals(make_surface(mesh.faces, len(mesh.positions))), whole(mesh)
+    subspace = hash_columns(block.size, 5)
+    raised = normals.raised(block, mesh.positions, subspace, np.array([0.25, -0.5]))
+    height = subspace[:, :2] @ np.array([0.25, -0.5])
+    assert np.allclose(raised, mesh.positions + normals.of(block, mesh.positions) * height[:, None], atol=1e-14)
+    assert np.array_equal(normals.raised(block, mesh.positions, subspace, np.zeros(0)), mesh.positions)
+
+
+def test_more_heights_than_columns_are_a_mistake():
+    mesh = torus(12, 8)
+    normals, block = Normals(make_surface(mesh.faces, len(mesh.positions))), whole(mesh)
+    with pytest.raises(ValueError, match="6 of"):
+        normals.raised(block, mesh.positions, np.zeros((block.size, 5)), np.zeros(6))
 
 
 @pytest.mark.parametrize("count", [0, 1, 2, 3, 7])
