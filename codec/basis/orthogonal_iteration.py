@@ -127,10 +127,10 @@ def first_columns(rows: int, width: int, noisy: bool) -> Matrix:
 
 def resized(previous: Matrix, width: int) -> Matrix:
     """The predecessor's columns, `width` of them, and cosines where it has fewer."""
-    rows, known = previous.shape
-    if known >= width:
-        return previous[:, :width]
-    return np.concatenate([previous, cosine_columns(rows, known, width)], axis=1)
+    rows = len(previous)
+    columns, table = np.empty((rows, width)), np.empty(rows + 8)
+    _kernels.resize_columns(np.ascontiguousarray(previous), table, columns)
+    return columns
 
 
 def exact_basis(laplacian: Laplacian, start: Matrix, springs: float | Matrix = 0.0, spend: Spend = free) -> Matrix:

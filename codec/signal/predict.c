@@ -26,20 +26,21 @@ void look_around(ConstInts offsets, ConstInts neighbours, ConstInts vertices, By
 }
 
 /* What continues the known into the rows of a block: mean + (L + S + delta)^-1 (y - S mean), with a factor of
- * `factorize_fronts`; zero without springs. `scratch` holds a row more than `solve_columns` asks for. */
-void continue_known(Fronts fronts, Doubles values, ConstDoubles inverse, ConstDoubles springs, ConstDoubles2 pulls,
-                    Doubles scratch, Doubles2 continued) {
+ * `factorize_fronts`; zero without springs, whose sum is `total`. `scratch` holds a row more than `solve_columns` asks for. */
+void continue_known(Fronts fronts, Doubles values, ConstDoubles inverse, ConstDoubles springs, double total,
+                    ConstDoubles2 pulls, Doubles scratch, Doubles2 continued) {
     int64_t n = pulls.rows, m = pulls.columns;
-    double *mean = scratch.data, total = 0.0;
-    for (int64_t r = 0; r < n; r++) total += springs.data[r];
+    double *mean = scratch.data;
+    if (!(total > 0.0)) {
+        for (int64_t i = 0; i < n * m; i++) continued.data[i] = 0.0;
+        return;
+    }
     for (int64_t d = 0; d < m; d++) mean[d] = 0.0;
     for (int64_t r = 0; r < n; r++)
         for (int64_t d = 0; d < m; d++) mean[d] += pulls.data[r * m + d];
-    for (int64_t d = 0; d < m; d++) mean[d] = total > 0.0 ? mean[d] / total : 0.0;
+    for (int64_t d = 0; d < m; d++) mean[d] /= total;
     for (int64_t r = 0; r < n; r++)
-        for (int64_t d = 0; d < m; d++)
-            continued.data[r * m + d] = total > 0.0 ? pulls.data[r * m + d] - springs.data[r] * mean[d] : 0.0;
-    if (!(total > 0.0)) return;
+        for (int64_t d = 0; d < m; d++) continued.data[r * m + d] = pulls.data[r * m + d] - springs.data[r] * mean[d];
     Doubles rest = {scratch.data + m, scratch.size - m};
     solve_columns(fronts, values, inverse, (ConstDoubles2){continued.data, n, m}, 1, rest, continued);
     for (int64_t r = 0; r < n; r++)

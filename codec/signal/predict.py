@@ -129,7 +129,14 @@ def continued(factor: Factor, springs: Matrix, pulls: Matrix) -> Matrix:
     check_rows(factor, rows)
     values, scratch = np.empty((rows, columns)), np.empty(columns + solving_space(rows, columns))
     _kernels.continue_known(
-        factor.fronts, factor.values, factor.inverse, springs, np.ascontiguousarray(pulls), scratch, values
+        factor.fronts,
+        factor.values,
+        factor.inverse,
+        springs,
+        float(springs.sum()),
+        np.ascontiguousarray(pulls),
+        scratch,
+        values,
     )
     return values
 

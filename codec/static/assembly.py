@@ -37,7 +37,7 @@ def blended(size: int, blocks: Iterable[DecodedBlock]) -> Matrix:
     blend = Blend(size)
     for block in blocks:
         blend.add(block.vertices, block.positions, block.weights)
-    return blend.positions(np.arange(size, dtype=np.int32))
+    return blend.all_positions()
 
 
 class Assembly:
@@ -81,8 +81,7 @@ class Assembly:
 
     def mesh(self) -> TriangleMesh:
         """The mesh in its own unit, once every block is in."""
-        everything = np.arange(self._graph.size, dtype=np.int32)
-        decoded = self._units.back(smooth(self._graph, self._blend.positions(everything), self._smoothing))
+        decoded = self._units.back(smooth(self._graph, self._blend.all_positions(), self._smoothing))
         return TriangleMesh(self._numbering.arranged(decoded), self._numbering.faces)
 
     @property
@@ -94,8 +93,7 @@ class Assembly:
         """Decoded positions, once every block is in; None if one was lost."""
         if not self.whole:
             return None
-        everything = np.arange(self._graph.size, dtype=np.int32)
-        return Solid(smooth(self._graph, self._blend.positions(everything), self._smoothing))
+        return Solid(smooth(self._graph, self._blend.all_positions(), self._smoothing))
 
     def base(self) -> tuple[Matrix, Mask]:
         """What refinement adds to: all positions in BSM units, shape (n, 3), and which of them, and of the vertices
@@ -104,7 +102,7 @@ class Assembly:
         everything = np.arange(self._graph.size, dtype=np.int32)
         if not self._lost:
             whole = np.ones(len(everything), np.bool_)
-            return smooth(self._graph, self._blend.positions(everything), self._smoothing), whole
+            return smooth(self._graph, self._blend.all_positions(), self._smoothing), whole
         known = self._blend.known(everything)
         positions = np.zeros((len(everything), 3))
         positions[known] = self._blend.positions(everything[known])
