@@ -124,6 +124,8 @@ NB_MODULE(_kernels, m) {
           "least_length"_a, "subspace"_a, "heights"_a, "scratch"_a, "positions"_a, Unlocked());
     m.def("apply_powers", &apply_powers, "offsets"_a, "neighbours"_a, "terms"_a, "degree"_a, Unlocked());
     m.def("combine_powers", &combine_powers, "positions"_a, "terms"_a, "weights"_a, "smoothed"_a, Unlocked());
+    m.def("smooth_all", checked<&smooth_all>, "offsets"_a, "neighbours"_a, "positions"_a, "weights"_a, "scratch"_a,
+          "smoothed"_a, Unlocked());
     m.def("find_rings", &find_rings, "offsets"_a, "neighbours"_a, "number"_a, "vertices"_a, "rows"_a, "starts"_a,
           Unlocked());
     m.def("filter_rows", &filter_rows, "offsets"_a, "neighbours"_a, "number"_a, "positions"_a, "weights"_a, "rows"_a,
