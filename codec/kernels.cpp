@@ -29,6 +29,7 @@ extern "C" {
 #include "codec/sequence/row_prediction.h"
 #include "codec/signal/detail.h"
 #include "codec/signal/frames.h"
+#include "codec/signal/place.h"
 #include "codec/signal/predict.h"
 #include "codec/signal/smooth.h"
 #include "codec/signal/transform.h"
@@ -118,10 +119,15 @@ NB_MODULE(_kernels, m) {
           "stiffness"_a, "springs"_a, "pulls"_a, Unlocked());
     m.def("continue_known", &continue_known, "fronts"_a, "values"_a, "inverse"_a, "springs"_a, "total"_a, "pulls"_a,
           "scratch"_a, "continued"_a, Unlocked());
+    m.def("suspend", checked<&suspend>, "offsets"_a, "neighbours"_a, "weights"_a, "diagonal"_a, "fronts"_a, "springs"_a,
+          "pulls"_a, "shift"_a, "scratch"_a, "values"_a, "inverse"_a, "continued"_a, Unlocked());
     m.def("block_normals", &block_normals, "faces"_a, "starts"_a, "members"_a, "vertices"_a, "place"_a, "positions"_a,
           "softness"_a, "least_length"_a, "normals"_a, Unlocked());
-    m.def("raise_block", &raise_block, "faces"_a, "starts"_a, "members"_a, "vertices"_a, "place"_a, "softness"_a,
-          "least_length"_a, "subspace"_a, "heights"_a, "scratch"_a, "positions"_a, Unlocked());
+    m.def("raise_block", checked<&raise_block>, "faces"_a, "starts"_a, "members"_a, "vertices"_a, "place"_a,
+          "softness"_a, "least_length"_a, "subspace"_a, "levels"_a, "count"_a, "half_step"_a, "scratch"_a, "positions"_a,
+          Unlocked());
+    m.def("place_block", checked<&place_block>, "prediction"_a, "subspace"_a, "levels"_a, "half_step"_a, "scratch"_a,
+          "positions"_a, Unlocked());
     m.def("apply_powers", &apply_powers, "offsets"_a, "neighbours"_a, "terms"_a, "degree"_a, Unlocked());
     m.def("combine_powers", &combine_powers, "positions"_a, "terms"_a, "weights"_a, "smoothed"_a, Unlocked());
     m.def("smooth_all", checked<&smooth_all>, "offsets"_a, "neighbours"_a, "positions"_a, "weights"_a, "scratch"_a,

@@ -84,13 +84,18 @@ class Factor:
 def factorize(laplacian: Laplacian, shift: float | Matrix) -> Factor:
     """Factorise L + delta I; `shift` is delta > 0, or one for every row, shape (n,)."""
     block, fronts, n = laplacian.block, laplacian.fronts, laplacian.block.size
-    values, inverse = np.empty(int(fronts.places[-1]) + PADDING), np.empty(n)
+    values, inverse = factor_room(fronts), np.empty(n)
     column, scratch = np.empty(n + 1, np.uint32), np.empty(2 * (n + 16) + PADDING)
     diagonal = laplacian.diagonal + shift
     _kernels.factorize_fronts(
         block.offsets, block.neighbours, laplacian.weights, diagonal, fronts, column, scratch, values, inverse
     )
     return Factor(fronts, values, inverse)
+
+
+def factor_room(fronts: Fronts) -> Matrix:
+    """Room for the values of a factor."""
+    return np.empty(int(fronts.places[-1]) + PADDING)
 
 
 def solve(factor: Factor, columns: Matrix, power: int) -> Matrix:

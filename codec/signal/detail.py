@@ -15,7 +15,7 @@ import numpy as np
 import numpy.typing as npt
 
 from codec import _kernels
-from codec.arrays import Faces, Indices, Matrix, Order
+from codec.arrays import Faces, Indices, Levels, Matrix, Order
 from codec.blocks.overlap import Block
 from codec.geometry.incidence import vertex_faces
 
@@ -73,13 +73,15 @@ class Normals:
         )
         return normals
 
+    def raise_block(
+        self, block: Block, subspace: Matrix, levels: Levels, count: int, step: float, positions: Matrix
+    ) -> None:
+        """Make positions b, shape (n_i, 3), C-contiguous, b + m (U e).
 
-    def raised(self, block: Block, positions: Matrix, subspace: Matrix, coefficients: Matrix) -> Matrix:
-        """b + m (U e) for e of shape (d,): U, shape (n_i, c), has at least d columns."""
-        surface, size, heights = self._surface, block.size, len(coefficients)
-        if positions.shape != (size, 3) or len(subspace) != size or heights > subspace.shape[1]:
-            raise ValueError(f"{heights} of {subspace.shape} coefficients for a block of {positions.shape} positions")
-        raised = np.array(positions, order="C")
+        `levels`, folded (see `fold_details`), are those of e, of which the first `count` are taken; U, shape (n_i, c),
+        has at least as many columns.
+        """
+        surface, size = self._surface, block.size
         _kernels.raise_block(
             surface.faces,
             surface.starts,
@@ -88,12 +90,13 @@ class Normals:
             self._place,
             SOFTNESS,
             LEAST,
-            np.ascontiguousarray(subspace),
-            coefficients.reshape(-1, 1),
-            np.empty((size, 4)),
-            raised,
+            subspace,
+            levels,
+            count,
+            step / 2,
+            np.empty(4 * size + count),
+            positions,
         )
-        return raised
 
 
 def fold_details(levels: npt.NDArray[Number]) -> npt.NDArray[Number]:
@@ -101,8 +104,3 @@ def fold_details(levels: npt.NDArray[Number]) -> npt.NDArray[Number]:
     folded = np.zeros((-(-len(levels) // 3), 3), levels.dtype)
     folded.reshape(-1)[: len(levels)] = levels
     return folded
-
-
-def unfold_details(rows: npt.NDArray[Number], limit: int) -> npt.NDArray[Number]:
-    """Twin of `fold_details`, for levels or what they stand for; at most `limit` of them."""
-    return rows.reshape(-1)[:limit]

@@ -46,3 +46,24 @@ void continue_known(Fronts fronts, Doubles values, ConstDoubles inverse, ConstDo
     for (int64_t r = 0; r < n; r++)
         for (int64_t d = 0; d < m; d++) continued.data[r * m + d] += mean[d];
 }
+
+/* A block on springs (M 7.3): the factor of L + S + delta I as `factorize_fronts` leaves it, and what continues the known.
+ * `scratch` has room for two numbers a row, and one, more than `continue_known` asks for. */
+int64_t suspend(ConstInts offsets, ConstInts neighbours, ConstDoubles weights, ConstDoubles diagonal, Fronts fronts,
+                ConstDoubles springs, ConstDoubles2 pulls, double shift, Doubles scratch, Doubles values, Doubles inverse,
+                Doubles2 continued) {
+    int64_t n = springs.size, m = pulls.columns;
+    if (n < 1 || diagonal.size != n || pulls.rows != n || continued.rows != n || continued.columns != m ||
+        inverse.size != n || scratch.size < 2 * n + 1 + m + (n + 4) * (m + 8) + 7)
+        return MISUSED;
+    double *sums = scratch.data, total = 0.0;
+    for (int64_t r = 0; r < n; r++) {
+        sums[r] = diagonal.data[r] + (springs.data[r] + shift);
+        total += springs.data[r];
+    }
+    Words column = {(uint32_t *)(scratch.data + n), n + 1};
+    Doubles rest = {scratch.data + 2 * n + 1, scratch.size - 2 * n - 1};
+    factorize_fronts(offsets, neighbours, weights, (ConstDoubles){sums, n}, fronts, column, rest, values, inverse);
+    continue_known(fronts, values, (ConstDoubles){inverse.data, n}, springs, total, pulls, rest, continued);
+    return 0;
+}

@@ -7,5 +7,8 @@ void look_around(ConstInts offsets, ConstInts neighbours, ConstInts vertices, By
                  ConstDoubles weights, double stiffness, Doubles springs, Doubles2 pulls);
 void continue_known(Fronts fronts, Doubles values, ConstDoubles inverse, ConstDoubles springs, double total,
                     ConstDoubles2 pulls, Doubles scratch, Doubles2 continued);
+int64_t suspend(ConstInts offsets, ConstInts neighbours, ConstDoubles weights, ConstDoubles diagonal, Fronts fronts,
+                ConstDoubles springs, ConstDoubles2 pulls, double shift, Doubles scratch, Doubles values, Doubles inverse,
+                Doubles2 continued);
 
 #endif

@@ -17,7 +17,7 @@ import numpy as np
 
 from codec import _kernels
 from codec.arrays import Matrix
-from codec.basis.laplacian import Factor, Laplacian, check_rows, factorize, solving_space
+from codec.basis.laplacian import Factor, Laplacian, check_rows, factor_room, factorize, solving_space
 from codec.blocks.blend import Blend, degree_weights
 from codec.blocks.overlap import Block
 from codec.geometry.graph import Graph
@@ -61,6 +61,35 @@ class Surroundings(Suspended):
     """
 
     pulls: Matrix
+
+    @cached_property
+    def factor(self) -> Factor:
+        return self._ground[0]
+
+    @property
+    def continuation(self) -> Matrix:
+        """Positions that continue what is known, shape (n, 3); zero where nothing is known."""
+        return self._ground[1]
+
+    @cached_property
+    def _ground(self) -> tuple[Factor, Matrix]:
+        block, fronts, rows = self.laplacian.block, self.laplacian.fronts, len(self.springs)
+        values, inverse, continued = factor_room(fronts), np.empty(rows), np.empty((rows, 3))
+        _kernels.suspend(
+            block.offsets,
+            block.neighbours,
+            self.laplacian.weights,
+            self.laplacian.diagonal,
+            fronts,
+            self.springs,
+            self.pulls,
+            self.shift,
+            np.empty(2 * rows + 4 + solving_space(rows, 3)),
+            values,
+            inverse,
+            continued,
+        )
+        return Factor(fronts, values, inverse), continued
 
 
 class Known:
@@ -139,8 +168,3 @@ def continued(factor: Factor, springs: Matrix, pulls: Matrix) -> Matrix:
         values,
     )
     return values
-
-
-def extend(around: Surroundings) -> Matrix:
-    """Positions of a block of n rows that continue what is known, shape (n, 3); zero where nothing is known."""
-    return continued(around.factor, around.springs, around.pulls)
