@@ -77,8 +77,8 @@ class CoefficientModel:
 
     def __post_init__(self) -> None:
         self.bank = make_bank(EXPECTATIONS * BINS * NODES, SELECTORS * NODES, EXPECTATIONS, limit=400, rate=4)
-        self.bank.slots[:] = self.experience.first_slots()
-        self.bank.weights[:] = self.experience.first_weights()
+        self.bank.slots[:] = self.experience.first_slots
+        self.bank.weights[:] = self.experience.first_weights
         self.rows = make_bank(17 * _ROWS_SPAN, _ROWS_SPAN, 2, limit=60)
         self.past = make_past(self.width)
         self.missing = np.zeros(1, np.int64)

@@ -32,7 +32,7 @@ class Laplacian:
     fronts : Fronts
         Found once for all factorisations.
     weights : float64 array
-        Of the entries of `block.neighbours`; above zero, and the same in both directions of an edge.
+        Of the entries of `block.neighbours`; above zero, and the same in both directions of an edge. Empty: all one.
     diagonal : float64 array, shape (n,)
         Sum of the weights of each row.
     """
@@ -52,7 +52,7 @@ def laplacian_of(block: Block) -> Laplacian:
         If factorising it would take too long, see `codec.basis.solver.fronts.find_fronts`.
     """
     fronts = find_fronts(block.offsets, block.neighbours)
-    return Laplacian(block, fronts, np.ones(len(block.neighbours)), block.degrees.astype(np.float64))
+    return Laplacian(block, fronts, np.empty(0), block.degrees.astype(np.float64))
 
 
 def weighted_laplacian(block: Block, weights: Matrix) -> Laplacian:

@@ -42,7 +42,7 @@ class Block:
     @cached_property
     def degrees(self) -> Indices:
         """Neighbours of each row inside the block: the weights of the blend."""
-        return np.diff(self.offsets)
+        return self.offsets[1:] - self.offsets[:-1]
 
 
 @dataclass(frozen=True, eq=False)

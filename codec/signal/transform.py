@@ -28,7 +28,7 @@ def project(subspace: Matrix, values: Matrix, count: int) -> Matrix:
 
 
 def placed(prediction: Matrix, subspace: Matrix, levels: Levels, step: float) -> Matrix:
-    """Prediction, shape (n, 3), plus U times the coefficients of levels, shape (c, 3), which the trellis made of `step`.
+    """Prediction, shape (n, 3), plus U times the coefficients of levels, shape (c, 3), on the two grids of the trellis.
 
     U is the first c columns of `subspace`, C-contiguous.
     """

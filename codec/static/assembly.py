@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
-from codec.arrays import Indices, Mask, Matrix
+from codec.arrays import Indices, Mask, Matrix, Order
 from codec.basis.cost import Spend, free
 from codec.blocks.blend import Blend
 from codec.blocks.overlap import Blocks
@@ -64,12 +65,27 @@ class Assembly:
         self._units = units
         self._numbering = numbering
         self._blend = Blend(graph.size)
-        self._missing = np.bincount(blocks.members, minlength=graph.size)
-        self._blended = np.zeros((graph.size, 3))
-        self._final = np.zeros(graph.size, np.bool_)
-        self._filter = LocalFilter(graph, smoothing, spend)
         self._spend = spend
         self._lost: list[int] = []
+
+    # Made for who asks what each block changes.
+
+    @cached_property
+    def _missing(self) -> Order:
+        """Copies of each vertex that have not come yet."""
+        return np.bincount(self._blocks.members, minlength=self._graph.size)
+
+    @cached_property
+    def _blended(self) -> Matrix:
+        return np.zeros((self._graph.size, 3))
+
+    @cached_property
+    def _final(self) -> Mask:
+        return np.zeros(self._graph.size, np.bool_)
+
+    @cached_property
+    def _filter(self) -> LocalFilter:
+        return LocalFilter(self._graph, self._smoothing, self._spend)
 
     def add(self, block: DecodedBlock) -> None:
         """Blend one block in."""

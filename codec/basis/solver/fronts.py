@@ -70,8 +70,8 @@ def find_fronts(offsets: npt.NDArray[np.int32], neighbours: npt.NDArray[np.int32
         If the graph has no small separators, as that of a surface has, and factorising it would take too long.
     """
     n = len(offsets) - 1
-    rows, steps, owners = np.empty(n, np.uint32), np.empty(n, np.uint32), np.empty(n, np.uint32)
-    firsts, starts, places = np.empty(n + 1, np.uint32), np.empty(n + 1, np.uint32), np.empty(n + 1, np.uint32)
+    rows, steps, owners = np.empty((3, n), np.uint32)
+    firsts, starts, places = np.empty((3, n + 1), np.uint32)
     scratch, sums = np.empty(3 * n, np.uint32), np.empty(2)
     room, count = 16 * n + 64, _FULL
     while count == _FULL:

@@ -10,7 +10,8 @@ What has no dictionary and no blocks, or comes behind them all, is no way of cod
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Any, Protocol
 
 import numpy as np
@@ -164,19 +165,15 @@ class Adaptive:
     width : int
         No level costs more or less with another one, so that the encoder may begin with more than it will need.
     step : float
-
-    Attributes
-    ----------
-    model : CoefficientModel
-        What the chain has taught.
     """
 
     width: int
     step: float
-    model: CoefficientModel = field(init=False, repr=False)
 
-    def __post_init__(self) -> None:
-        self.model = CoefficientModel(self.width)
+    @cached_property
+    def model(self) -> CoefficientModel:
+        """What the chain has taught."""
+        return CoefficientModel(self.width)
 
     @property
     def detail_rows(self) -> int:
@@ -216,24 +213,22 @@ class Layered:
     step : float
         Of the detail layer.
     surface : Surface
-
-    Attributes
-    ----------
-    model : CoefficientModel
-        What the chain has taught of the detail layer.
-    normals : Normals
     """
 
     base: Adaptive
     details: int
     step: float
     surface: Surface
-    model: CoefficientModel = field(init=False, repr=False)
-    normals: Normals = field(init=False, repr=False)
 
-    def __post_init__(self) -> None:
-        self.model = CoefficientModel(self.detail_rows, detail_experience())
-        self.normals = Normals(self.surface)
+    @cached_property
+    def model(self) -> CoefficientModel:
+        """What the chain has taught of the detail layer."""
+        return CoefficientModel(self.detail_rows, detail_experience())
+
+    @cached_property
+    def normals(self) -> Normals:
+        """Where that layer points."""
+        return Normals(self.surface)
 
     @property
     def width(self) -> int:
