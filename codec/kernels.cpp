@@ -29,6 +29,7 @@ extern "C" {
 #include "codec/sequence/row_prediction.h"
 #include "codec/signal/detail.h"
 #include "codec/signal/frames.h"
+#include "codec/signal/place.h"
 #include "codec/signal/predict.h"
 #include "codec/signal/smooth.h"
 #include "codec/signal/transform.h"
@@ -37,7 +38,8 @@ extern "C" {
 
 template <>
 struct nb::detail::type_caster<Fronts>
-    : nb::detail::TupleCaster<Fronts, ConstWords, ConstWords, ConstWords, ConstWords, ConstWords, ConstWords, ConstWords> {};
+    : nb::detail::TupleCaster<Fronts, ConstWords, ConstWords, ConstWords, ConstWords, ConstWords, ConstWords, ConstWords,
+                                 ConstDoubles> {};
 
 template <>
 struct nb::detail::type_caster<PredictionRules>
@@ -62,10 +64,9 @@ NB_MODULE(_kernels, m) {
     m.def("refine_partition", &refine_partition, "offsets"_a, "neighbours"_a, "labels"_a, "passes"_a, "sizes"_a,
           "votes"_a, Unlocked());
     m.def("group_by_label", &group_by_label, "labels"_a, "bounds"_a, "order"_a, Unlocked());
-    m.def("chain_parts", &chain_parts, "starts"_a, "ends"_a, "edges"_a, "shared"_a, "seen"_a, "trail"_a, "visited"_a,
-          "chain"_a, Unlocked());
-    m.def("grow_blocks", &grow_blocks, "offsets"_a, "neighbours"_a, "order"_a, "bounds"_a, "chain"_a, "size"_a,
-          "seen"_a, "starts"_a, "members"_a, Unlocked());
+    m.def("chain_blocks", checked<&chain_blocks>, "offsets"_a, "neighbours"_a, "order"_a, "bounds"_a, "labels"_a,
+          "size"_a, "links"_a, "shares"_a, "scratch"_a, "seen"_a, "chain"_a, "starts"_a, "edges"_a, "members"_a,
+          Unlocked());
     m.def("order_scratch", &order_scratch, "rows"_a, "edges"_a);
     m.def("order_block", &order_block, "offsets"_a, "neighbours"_a, "rows"_a, "vertices"_a, "local_offsets"_a,
           "local_neighbours"_a, "scratch"_a, Unlocked());
@@ -98,14 +99,15 @@ NB_MODULE(_kernels, m) {
     m.def("vertex_normals", &vertex_normals, "normals"_a, "starts"_a, "around"_a, "averaged"_a, Unlocked());
     m.def("follow_normals", &follow_normals, "positions"_a, "faces"_a, "starts"_a, "around"_a, "normals"_a,
           "iterations"_a, "free"_a, "offsets"_a, Unlocked());
-    m.def("dissect", &dissect, "offsets"_a, "neighbours"_a, "leaf"_a, "cuts"_a, "rows"_a, "firsts"_a, Unlocked());
-    m.def("find_borders", &find_borders, "offsets"_a, "neighbours"_a, "rows"_a, "firsts"_a, "most_work"_a, "scratch"_a,
-          "steps"_a, "owners"_a, "starts"_a, "borders"_a, "places"_a, Unlocked());
+    m.def("find_fronts", checked<&find_fronts>, "offsets"_a, "neighbours"_a, "leaf"_a, "most_work"_a, "scratch"_a,
+          "rows"_a, "steps"_a, "owners"_a, "firsts"_a, "starts"_a, "borders"_a, "places"_a, "sums"_a,
+          Unlocked());
     m.def("factorize_fronts", &factorize_fronts, "offsets"_a, "neighbours"_a, "weights"_a, "diagonal"_a, "fronts"_a,
           "column"_a, "scratch"_a, "values"_a, "inverse"_a, Unlocked());
     m.def("solve_columns", &solve_columns, "fronts"_a, "values"_a, "inverse"_a, "columns"_a, "power"_a, "scratch"_a,
           "solution"_a, Unlocked());
     m.def("cosines", &cosines, "first"_a, "table"_a, "columns"_a, Unlocked());
+    m.def("resize_columns", &resize_columns, "previous"_a, "table"_a, "columns"_a, Unlocked());
     m.def("iteration_space", &iteration_space, "n"_a, "c"_a);
     m.def("iterate", &iterate, "fronts"_a, "values"_a, "inverse"_a, "start"_a, "power"_a, "iterations"_a, "once"_a,
           "scratch"_a, "subspace"_a, Unlocked());
@@ -115,10 +117,21 @@ NB_MODULE(_kernels, m) {
     m.def("reconstruct", &reconstruct, "subspace"_a, "coefficients"_a, "values"_a, Unlocked());
     m.def("look_around", &look_around, "offsets"_a, "neighbours"_a, "vertices"_a, "inside"_a, "sums"_a, "weights"_a,
           "stiffness"_a, "springs"_a, "pulls"_a, Unlocked());
+    m.def("continue_known", &continue_known, "fronts"_a, "values"_a, "inverse"_a, "springs"_a, "total"_a, "pulls"_a,
+          "scratch"_a, "continued"_a, Unlocked());
+    m.def("suspend", checked<&suspend>, "offsets"_a, "neighbours"_a, "weights"_a, "diagonal"_a, "fronts"_a, "springs"_a,
+          "pulls"_a, "shift"_a, "scratch"_a, "values"_a, "inverse"_a, "continued"_a, Unlocked());
     m.def("block_normals", &block_normals, "faces"_a, "starts"_a, "members"_a, "vertices"_a, "place"_a, "positions"_a,
           "softness"_a, "least_length"_a, "normals"_a, Unlocked());
+    m.def("raise_block", checked<&raise_block>, "faces"_a, "starts"_a, "members"_a, "vertices"_a, "place"_a,
+          "softness"_a, "least_length"_a, "subspace"_a, "levels"_a, "count"_a, "half_step"_a, "scratch"_a, "positions"_a,
+          Unlocked());
+    m.def("place_block", checked<&place_block>, "prediction"_a, "subspace"_a, "levels"_a, "half_step"_a, "scratch"_a,
+          "positions"_a, Unlocked());
     m.def("apply_powers", &apply_powers, "offsets"_a, "neighbours"_a, "terms"_a, "degree"_a, Unlocked());
     m.def("combine_powers", &combine_powers, "positions"_a, "terms"_a, "weights"_a, "smoothed"_a, Unlocked());
+    m.def("smooth_all", checked<&smooth_all>, "offsets"_a, "neighbours"_a, "positions"_a, "weights"_a, "scratch"_a,
+          "smoothed"_a, Unlocked());
     m.def("find_rings", &find_rings, "offsets"_a, "neighbours"_a, "number"_a, "vertices"_a, "rows"_a, "starts"_a,
           Unlocked());
     m.def("filter_rows", &filter_rows, "offsets"_a, "neighbours"_a, "number"_a, "positions"_a, "weights"_a, "rows"_a,

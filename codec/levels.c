@@ -20,6 +20,7 @@
     }
 
 CHOOSE(void, cosines, (int64_t first, Doubles table, Doubles2 columns), (first, table, columns))
+CHOOSE(void, resize_columns, (ConstDoubles2 previous, Doubles table, Doubles2 columns), (previous, table, columns))
 CHOOSE(int64_t, iteration_space, (int64_t n, int64_t c), (n, c))
 CHOOSE(double, iterate,
        (Fronts fronts, Doubles values, ConstDoubles inverse, ConstDoubles2 start, int64_t power, int64_t iterations,

@@ -46,20 +46,27 @@ class Pending(Generic[Result]):
 
     def __init__(self, work: Callable[[], Result]) -> None:
         self._work: Callable[[], Result] | None = work
-        self._future: Future[Result] = Future()
+        self._outcome: Result
+        self._error: BaseException | None = None
+        self._coming = Lock()
+        self._coming.acquire()
 
     def run(self) -> None:
         """Do the work."""
         assert self._work is not None
         try:
-            self._future.set_result(self._work())
+            self._outcome = self._work()
         except BaseException as error:
-            self._future.set_exception(error)
+            self._error = error
         self._work = None
+        self._coming.release()
 
     def result(self) -> Result:
         """The result, or the error, once it is there."""
-        return self._future.result()
+        with self._coming:
+            if self._error is not None:
+                raise self._error
+            return self._outcome
 
 
 class Lanes:

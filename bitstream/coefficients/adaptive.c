@@ -76,3 +76,13 @@ KERNEL int64_t code_block(Coder given, Bank bank, Past past, ConstInts2 expectat
     close_coder(&coder, given);
     return 0;
 }
+
+/* Code the levels of a block, and behind their number those of a layer above it, in place (M 9.8, M 11.1). Returns the
+ * rows of that layer; where a reader finds more than `above` holds, or less than none, its levels are not coded. */
+int64_t code_layers(Coder given, CoefficientModel model, Ints2 levels, CoefficientModel over, int64_t rows, Ints2 above) {
+    if (code_block(given, model.bank, model.past, model.expectations, levels) == MISUSED) return MISUSED;
+    rows = code_rows(given, over.rows, over.missing, over.width, rows);
+    if (rows < 0 || rows > above.rows) return rows;
+    Ints2 coded = {above.data, rows, above.columns};
+    return code_block(given, over.bank, over.past, over.expectations, coded) == MISUSED ? MISUSED : rows;
+}

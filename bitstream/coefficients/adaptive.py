@@ -77,12 +77,17 @@ class CoefficientModel:
 
     def __post_init__(self) -> None:
         self.bank = make_bank(EXPECTATIONS * BINS * NODES, SELECTORS * NODES, EXPECTATIONS, limit=400, rate=4)
-        self.bank.slots[:] = self.experience.first_slots()
-        self.bank.weights[:] = self.experience.first_weights()
+        self.bank.slots[:] = self.experience.first_slots
+        self.bank.weights[:] = self.experience.first_weights
         self.rows = make_bank(17 * _ROWS_SPAN, _ROWS_SPAN, 2, limit=60)
         self.past = make_past(self.width)
         self.missing = np.zeros(1, np.int64)
         self.expectations = self.experience.expectations.astype(np.int32).reshape(-1, NEIGHBOURS)
+
+    @property
+    def parts(self) -> tuple[Bank, Bank, Past, npt.NDArray[np.int32], npt.NDArray[np.int64], int]:
+        """All of it as a kernel takes it."""
+        return self.bank, self.rows, self.past, self.expectations, self.missing, self.width
 
     def copy(self) -> CoefficientModel:
         """An independent copy of the present state."""
@@ -172,9 +177,8 @@ def encode_layers(model: CoefficientModel, levels: Levels, over: CoefficientMode
     _check_levels(model, levels)
     _check_levels(over, above)
     coder = start_writing(_BYTES_PER_LEVEL * (levels.size + above.size + 1))
-    _code_block(coder, model, np.array(levels, np.int32, order="C"))
-    _kernels.code_rows(coder, over.rows, over.missing, over.width, len(above))
-    _code_block(coder, over, np.array(above, np.int32, order="C"))
+    coded, over_it = np.array(levels, np.int32, order="C"), np.array(above, np.int32, order="C")
+    _kernels.code_layers(coder, model.parts, coded, over.parts, len(over_it), over_it)
     return finish_writing(coder)
 
 
@@ -189,12 +193,12 @@ def decode_layers(model: CoefficientModel, over: CoefficientModel, payload: byte
     if count > model.width:
         raise CorruptError(f"{count} coefficients where at most {model.width} are announced")
     coder = start_reading(payload)
-    levels = np.zeros((count, 3), np.int32)
-    _code_block(coder, model, levels)
-    above = np.zeros((_read_rows(coder, over, 0), 3), np.int32)
-    _code_block(coder, over, above)
-    finish_reading(coder)
-    return levels, above
+    levels, above = np.zeros((count, 3), np.int32), np.zeros((over.width, 3), np.int32)
+    rows = _kernels.code_layers(coder, model.parts, levels, over.parts, 0, above)
+    if overran(coder) or 0 <= rows <= over.width:
+        finish_reading(coder)
+        return levels, above[:rows]
+    raise _too_many_rows(over, rows, 0)
 
 
 def _code_block(coder: Coder, model: CoefficientModel, levels: Levels) -> None:
@@ -206,8 +210,12 @@ def _read_rows(coder: Coder, model: CoefficientModel, least: int) -> int:
     if overran(coder):
         finish_reading(coder)
     if not least <= rows <= model.width:
-        raise CorruptError(f"{rows} rows of levels where {least} to {model.width} are announced")
+        raise _too_many_rows(model, rows, least)
     return rows
+
+
+def _too_many_rows(model: CoefficientModel, rows: int, least: int) -> CorruptError:
+    return CorruptError(f"{rows} rows of levels where {least} to {model.width} are announced")
 
 
 def _check_levels(model: CoefficientModel, levels: Levels) -> None:

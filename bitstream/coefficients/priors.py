@@ -8,7 +8,7 @@ which the build makes a part of the kernels.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, cached_property
 
 import numpy as np
 import numpy.typing as npt
@@ -66,11 +66,13 @@ class Experience:
             np.frombuffer(data[second:], "<u2").reshape(_SHAPES["slots"]),
         )
 
+    @cached_property
     def first_slots(self) -> npt.NDArray[np.uint32]:
         """Slots of a fresh bank, as `bitstream.entropy.range_coder.Bank` holds them."""
         stored = self.slots.astype(np.int64)
         return (((stored >> 4) << 20) | (1 << 19) | ((stored & 15) << 2)).astype(np.uint32)
 
+    @cached_property
     def first_weights(self) -> npt.NDArray[np.int32]:
         """Mixing weights of a fresh bank."""
         return self.mixing.astype(np.int32) << 4

@@ -20,6 +20,15 @@ INLINE int32_t trellis_point(int state, int32_t level) {
     return level < 0 ? 2 * level + trellis_grid(state) : level;
 }
 
+/* Coefficients of the levels of a block, for half steps of this size. */
+INLINE void values_of_levels(const int32_t *levels, int64_t count, double half_step, double *values) {
+    int state = 0;
+    for (int64_t i = 0; i < count; i++) {
+        values[i] = (double)trellis_point(state, levels[i]) * half_step;
+        state = trellis_following(state, levels[i]);
+    }
+}
+
 void points_of_levels(ConstInts2 levels, Ints2 points);
 
 #endif

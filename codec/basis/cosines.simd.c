@@ -16,27 +16,46 @@ INLINE Part series(Part x, const int order) {
     return value;
 }
 
-/* Columns `first` and those after it; `table` is scratch of n + 1, and 7 more. */
-void LEVEL(cosines)(int64_t first, Doubles table, Doubles2 columns) {
-    int64_t rows = columns.rows, turn = 4 * rows;
+/* Entry k of the table is cos(pi k / (2 n)) for n `rows`: from the cosine up to pi / 4, from the sine of what is left to
+ * pi / 2 beyond. */
+INLINE void make_table(int64_t rows, double *table) {
     Part along;
     EACH(i, REGISTER) along[i] = i;
     double unit = PI / (double)(2 * rows);
-    /* Entry k is cos(pi k / (2 n)): from the cosine up to pi / 4, from the sine of what is left to pi / 2 beyond. */
     for (int64_t k = 0; k <= rows / 2; k += REGISTER)
-        *(UnalignedPart *)(table.data + k) = series(((double)k + along) * unit, 20);
+        *(UnalignedPart *)(table + k) = series(((double)k + along) * unit, 20);
     for (int64_t k = rows / 2 + 1; k <= rows; k += REGISTER) {
         Part x = ((double)(rows - k) - along) * unit;
-        *(UnalignedPart *)(table.data + k) = series(x, 21) * x;
+        *(UnalignedPart *)(table + k) = series(x, 21) * x;
     }
+}
+
+/* Row r of `count` columns from `first` on. */
+INLINE void fill_row(const double *table, int64_t rows, int64_t r, int64_t first, int64_t count, double *row) {
+    int64_t turn = 4 * rows, step = 2 * r + 1, angle = step * first % turn;
+    for (int64_t j = 0; j < count; j++) {
+        int64_t fold = least(angle, turn - angle);
+        double value = table[least(fold, 2 * rows - fold)];
+        row[j] = fold <= rows ? value : -value;
+        angle += step;
+        angle -= angle >= turn ? turn : 0;
+    }
+}
+
+/* Columns `first` and those after it; `table` is scratch of n + 1, and 7 more. */
+void LEVEL(cosines)(int64_t first, Doubles table, Doubles2 columns) {
+    make_table(columns.rows, table.data);
+    for (int64_t r = 0; r < columns.rows; r++)
+        fill_row(table.data, columns.rows, r, first, columns.columns, columns.data + r * columns.columns);
+}
+
+/* The first columns of `previous`, and cosines where it has fewer than `columns`; `table` as above. */
+void LEVEL(resize_columns)(ConstDoubles2 previous, Doubles table, Doubles2 columns) {
+    int64_t rows = columns.rows, kept = least(previous.columns, columns.columns), more = columns.columns - kept;
+    if (more > 0) make_table(rows, table.data);
     for (int64_t r = 0; r < rows; r++) {
-        int64_t step = 2 * r + 1, angle = step * first % turn;
         double *row = columns.data + r * columns.columns;
-        for (int64_t j = 0; j < columns.columns; j++) {
-            int64_t fold = least(angle, turn - angle);
-            row[j] = fold <= rows ? table.data[fold] : -table.data[2 * rows - fold];
-            angle += step;
-            if (angle >= turn) angle -= turn;
-        }
+        for (int64_t j = 0; j < kept; j++) row[j] = previous.data[r * previous.columns + j];
+        fill_row(table.data, rows, r, kept, more, row + kept);
     }
 }

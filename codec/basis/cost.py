@@ -10,8 +10,6 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TypeAlias
 
-import numpy as np
-
 from codec.basis.solver.fronts import Fronts
 
 Spend: TypeAlias = Callable[[float], None]
@@ -24,14 +22,12 @@ def free(work: float) -> None:
 
 def factor_cost(fronts: Fronts) -> float:
     """Of one factorisation."""
-    own, width = _sizes(fronts)
-    return float((own * width) @ width) / 14.0 + 40.0 * len(fronts.rows) + 4000.0
+    return float(fronts.sums[1]) / 14.0 + 40.0 * len(fronts.rows) + 4000.0
 
 
 def solve_cost(fronts: Fronts, columns: int) -> float:
     """Of one solution for so many columns, which are solved in panels of 32, a panel in vectors of eight."""
-    own, width = _sizes(fronts)
-    return 50.0 + float(own @ width) * (0.6 * -(-columns // 32) + 0.035 * _whole(columns))
+    return 50.0 + float(fronts.sums[0]) * (0.6 * -(-columns // 32) + 0.035 * _whole(columns))
 
 
 def onorm_cost(rows: int, columns: int) -> float:
@@ -61,12 +57,6 @@ def iteration_memory(fronts: Fronts, columns: int) -> int:
     """Bytes for finding a dictionary, at most, that itself included."""
     rows, whole = len(fronts.rows), _whole(columns)
     return 8 * (6 * rows * whole + 2 * whole * whole + int(fronts.places[-1])) + 500 * rows
-
-
-def _sizes(fronts: Fronts) -> tuple[np.ndarray[tuple[int], np.dtype[np.float64]], ...]:
-    """Steps of each front, and the width of its matrix."""
-    own = np.subtract(fronts.firsts[1:], fronts.firsts[:-1], dtype=np.float64)
-    return own, own + np.subtract(fronts.starts[1:], fronts.starts[:-1], dtype=np.float64)
 
 
 def _whole(columns: int) -> int:

@@ -32,7 +32,7 @@ class Laplacian:
     fronts : Fronts
         Found once for all factorisations.
     weights : float64 array
-        Of the entries of `block.neighbours`; above zero, and the same in both directions of an edge.
+        Of the entries of `block.neighbours`; above zero, and the same in both directions of an edge. Empty: all one.
     diagonal : float64 array, shape (n,)
         Sum of the weights of each row.
     """
@@ -52,7 +52,7 @@ def laplacian_of(block: Block) -> Laplacian:
         If factorising it would take too long, see `codec.basis.solver.fronts.find_fronts`.
     """
     fronts = find_fronts(block.offsets, block.neighbours)
-    return Laplacian(block, fronts, np.ones(len(block.neighbours)), block.degrees.astype(np.float64))
+    return Laplacian(block, fronts, np.empty(0), block.degrees.astype(np.float64))
 
 
 def weighted_laplacian(block: Block, weights: Matrix) -> Laplacian:
@@ -84,7 +84,7 @@ class Factor:
 def factorize(laplacian: Laplacian, shift: float | Matrix) -> Factor:
     """Factorise L + delta I; `shift` is delta > 0, or one for every row, shape (n,)."""
     block, fronts, n = laplacian.block, laplacian.fronts, laplacian.block.size
-    values, inverse = np.empty(int(fronts.places[-1]) + PADDING), np.empty(n)
+    values, inverse = factor_room(fronts), np.empty(n)
     column, scratch = np.empty(n + 1, np.uint32), np.empty(2 * (n + 16) + PADDING)
     diagonal = laplacian.diagonal + shift
     _kernels.factorize_fronts(
@@ -93,14 +93,24 @@ def factorize(laplacian: Laplacian, shift: float | Matrix) -> Factor:
     return Factor(fronts, values, inverse)
 
 
+def factor_room(fronts: Fronts) -> Matrix:
+    """Room for the values of a factor."""
+    return np.empty(int(fronts.places[-1]) + PADDING)
+
+
 def solve(factor: Factor, columns: Matrix, power: int) -> Matrix:
     """R^z X for X of shape (n, c), C-contiguous, with z = `power` >= 1."""
     n, c = columns.shape
     check_rows(factor, n)
-    solution, scratch = np.empty((n, c)), np.empty((n + 4) * (c + 8) + PADDING)
+    solution, scratch = np.empty((n, c)), np.empty(solving_space(n, c))
     columns = np.ascontiguousarray(columns)
     _kernels.solve_columns(factor.fronts, factor.values, factor.inverse, columns, power, scratch, solution)
     return solution
+
+
+def solving_space(rows: int, columns: int) -> int:
+    """Doubles of scratch that a solution takes."""
+    return (rows + 4) * (columns + 8) + PADDING
 
 
 def check_rows(factor: Factor, rows: int) -> None:

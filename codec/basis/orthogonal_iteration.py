@@ -67,17 +67,21 @@ def householder_orthonormalize(columns: Matrix) -> Matrix:
     return q
 
 
-def orthogonal_iteration(factor: Factor, start: Matrix, *, power: int, iterations: int, spend: Spend = free) -> Matrix:
+def orthogonal_iteration(
+    factor: Factor, start: Matrix, *, power: int, iterations: int, width: int | None = None, spend: Spend = free
+) -> Matrix:
     """U(t) = Onorm(R^z U(t-1)), `iterations` times (Algorithm 1).
 
     Parameters
     ----------
     factor : Factor
         Of R^-1, a matrix of n rows.
-    start : float64 array, shape (n, c)
+    start : float64 array, shape (n, c) or wider
         U(0); need not be orthonormal.
     power, iterations : int
         z and t_max.
+    width : int, optional
+        c, where `start` has more columns than are taken.
     spend : callable, optional
         Is told of the work before it is done.
 
@@ -85,27 +89,31 @@ def orthogonal_iteration(factor: Factor, start: Matrix, *, power: int, iteration
     -------
     float64 array, shape (n, c), C-contiguous
     """
-    spend(dictionary_cost(factor.fronts, start.shape[1], power, iterations))
+    rows, width = len(start), start.shape[1] if width is None else min(width, start.shape[1])
+    spend(dictionary_cost(factor.fronts, width, power, iterations))
     start = np.ascontiguousarray(start)
-    check_rows(factor, len(start))
-    subspace, scratch = np.empty(start.shape), np.empty(_kernels.iteration_space(*start.shape))
+    check_rows(factor, rows)
+    subspace, scratch = np.empty((rows, width)), np.empty(_kernels.iteration_space(rows, width))
     independence = _kernels.iterate(
         factor.fronts, factor.values, factor.inverse, start, power, iterations, ONCE, scratch, subspace
     )
     if independence < TWICE:
         # R^z has all but lost the higher columns. Orthonormalised after every R they stay, and the subspaces of the
         # first columns, which is all that Q depends on, are the same.
-        spend(careful_dictionary_cost(factor.fronts, start.shape[1], power, iterations))
-        subspace = start
+        spend(careful_dictionary_cost(factor.fronts, width, power, iterations))
+        subspace = start[:, :width]
         for _ in range(iterations * power):
             subspace = onorm(solve(factor, subspace, 1), spend)
     return subspace
 
 
 def follow_columns(previous: Matrix, width: int, noisy: bool) -> Matrix:
-    """The start of a block that follows: the predecessor's columns, and noise where `resized` might lack something."""
-    start = resized(previous, width)
-    return start + FOLLOWING_NOISE * hash_columns(*start.shape) if noisy else start
+    """The start of a block that follows, of `width` columns or more: the predecessor's columns, and noise where
+    `resized` might lack something.
+    """
+    if noisy:
+        return resized(previous, width) + FOLLOWING_NOISE * hash_columns(len(previous), width)
+    return previous if previous.shape[1] >= width else resized(previous, width)
 
 
 def first_columns(rows: int, width: int, noisy: bool) -> Matrix:
@@ -120,10 +128,10 @@ def first_columns(rows: int, width: int, noisy: bool) -> Matrix:
 
 def resized(previous: Matrix, width: int) -> Matrix:
     """The predecessor's columns, `width` of them, and cosines where it has fewer."""
-    rows, known = previous.shape
-    if known >= width:
-        return previous[:, :width]
-    return np.concatenate([previous, cosine_columns(rows, known, width)], axis=1)
+    rows = len(previous)
+    columns, table = np.empty((rows, width)), np.empty(rows + 8)
+    _kernels.resize_columns(np.ascontiguousarray(previous), table, columns)
+    return columns
 
 
 def exact_basis(laplacian: Laplacian, start: Matrix, springs: float | Matrix = 0.0, spend: Spend = free) -> Matrix:

@@ -14,14 +14,14 @@ int64_t LEVEL(iteration_space)(int64_t n, int64_t c) {
     return panels_size(&panels) + qr_size(&panels) + WIDTH - 1;
 }
 
-/* Orthogonal iterations with a factor of `factorize_fronts`; `once`: see `cholesky_qr`. Before the last, only the spans of
- * columns matter. Returns the least independence of all passes. */
+/* Orthogonal iterations with a factor of `factorize_fronts`, for as many of the columns of `start` as `subspace` has; `once`:
+ * see `cholesky_qr`. Before the last, only the spans of columns matter. Returns the least independence of all passes. */
 double LEVEL(iterate)(Fronts fronts, Doubles values, ConstDoubles inverse, ConstDoubles2 start, int64_t power, int64_t iterations,
                double once, Doubles scratch, Doubles2 subspace) {
-    int64_t c = start.columns;
+    int64_t c = subspace.columns;
     double *memory = aligned(scratch.data), least_seen = 1.0;
     Panels panels = panels_of(start.rows, c, memory);
-    LEVEL(pack)(start, fronts.rows.data, panels);
+    LEVEL(pack)(start, c, fronts.rows.data, panels);
     for (; iterations > 0 && least_seen > 0.0; iterations--) {
         LEVEL(substitute)(fronts, aligned(values.data), inverse.data, panels, power);
         double independence =
@@ -36,7 +36,7 @@ double LEVEL(iterate)(Fronts fronts, Doubles values, ConstDoubles inverse, Const
 double LEVEL(cholesky_onorm)(ConstDoubles2 columns, double once, Doubles scratch, Doubles2 subspace) {
     double *memory = aligned(scratch.data);
     Panels panels = panels_of(columns.rows, columns.columns, memory);
-    LEVEL(pack)(columns, 0, panels);
+    LEVEL(pack)(columns, columns.columns, 0, panels);
     double independence = LEVEL(cholesky_qr)(&panels, columns.columns, once, memory + panels_size(&panels));
     LEVEL(unpack)(panels, 0, subspace);
     return independence;

@@ -31,6 +31,10 @@ class Blend:
         """Which of `vertices` have a copy that counts."""
         return self.weights[vertices] > 0
 
+    def all_positions(self) -> Matrix:
+        """Weighted averages of all vertices, all of them known, shape (n, 3)."""
+        return self.sums / self.weights[:, None]
+
     def positions(self, vertices: Indices) -> Matrix:
         """Weighted averages for `vertices`, all of them known, shape (len(vertices), 3)."""
         return self.sums[vertices] / self.weights[vertices][:, None]

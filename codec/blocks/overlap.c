@@ -1,6 +1,7 @@
 /* Overlapping blocks in a chain, and the graph of one of them in row order (specification, M 5 and M 6). */
 #include "codec/blocks/overlap.h"
 #include "codec/blocks/bisection.h"
+#include "codec/geometry/sort.h"
 
 static const uint32_t FREE = 0xFFFFFFFFu;
 
@@ -145,4 +146,59 @@ bool chain_parts(ConstLongs starts, ConstInts ends, ConstLongs edges, Longs shar
         current = best;
     }
     return true;
+}
+
+/* The graph of the parts, as `chain_parts` takes it: a part's neighbours in ascending order. `counts`, one entry a part, is
+ * scratch. False where `ends` and `edges` have no room. */
+static bool link_parts(ConstInts offsets, ConstInts neighbours, ConstInts order, ConstInts bounds, ConstInts labels,
+                       Longs counts, Longs starts, Ints ends, Longs edges) {
+    int64_t found = 0;
+    for (int64_t p = 0; p < counts.size; p++) counts.data[p] = 0;
+    for (int64_t p = 0; p < counts.size; p++) {
+        starts.data[p] = found;
+        for (int64_t k = bounds.data[p]; k < bounds.data[p + 1]; k++) {
+            int32_t v = order.data[k];
+            for (int64_t i = offsets.data[v]; i < offsets.data[v + 1]; i++) {
+                int32_t other = labels.data[neighbours.data[i]];
+                if (other == p || counts.data[other]++ > 0) continue;
+                if (found == ends.size || found == edges.size) return false;
+                ends.data[found++] = other;
+            }
+        }
+        sort_ascending(ends.data + starts.data[p], found - starts.data[p]);
+        for (int64_t i = starts.data[p]; i < found; i++) {
+            edges.data[i] = counts.data[ends.data[i]];
+            counts.data[ends.data[i]] = 0;
+        }
+    }
+    starts.data[counts.size] = found;
+    return true;
+}
+
+/* The parts in a chain and grown to blocks: `chain_parts` and `grow_blocks`. Block i, in the order of the chain, sees
+ * `edges[i]` ends of edges. `links` and `shares` have room for each pair of parts that share an edge, `scratch` has seven
+ * entries a part. Returns the number of members. */
+int64_t chain_blocks(ConstInts offsets, ConstInts neighbours, ConstInts order, ConstInts bounds, ConstInts labels,
+                     int64_t size, Ints links, Longs shares, Longs scratch, Ints seen, Ints chain, Longs starts,
+                     Longs edges, Ints members) {
+    int64_t n = offsets.size - 1, parts = bounds.size - 1;
+    if (n < 0 || parts < 1 || order.size != n || labels.size != n || seen.size != n || scratch.size < 7 * parts ||
+        chain.size != parts || starts.size != parts + 1 || edges.size != parts)
+        return MISUSED;
+    int64_t *room = scratch.data;
+    Longs shared = {room, parts}, next = {room + parts, parts}, first = {room + 4 * parts, parts + 1};
+    Ints trail = {(int32_t *)(room + 2 * parts), parts};
+    Bytes visited = {(uint8_t *)(room + 3 * parts), parts};
+    if (!link_parts(offsets, neighbours, order, bounds, labels, shared, first, links, shares) ||
+        !chain_parts((ConstLongs){first.data, first.size}, (ConstInts){links.data, links.size},
+                     (ConstLongs){shares.data, shares.size}, shared, next, trail, visited, chain))
+        return MISUSED;
+    int64_t count =
+        grow_blocks(offsets, neighbours, order, bounds, (ConstInts){chain.data, parts}, size, seen, starts, members);
+    for (int64_t p = 0; p < parts; p++) {
+        edges.data[p] = 0;
+        for (int64_t i = starts.data[p]; i < starts.data[p + 1]; i++)
+            edges.data[p] += offsets.data[members.data[i] + 1] - offsets.data[members.data[i]];
+    }
+    return count;
 }

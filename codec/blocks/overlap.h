@@ -10,5 +10,8 @@ int64_t order_block(ConstInts offsets, ConstInts neighbours, ConstInts rows, Int
                     Ints local_neighbours, Words scratch);
 bool chain_parts(ConstLongs starts, ConstInts ends, ConstLongs edges, Longs shared, Longs seen, Ints trail,
                  Bytes visited, Ints chain);
+int64_t chain_blocks(ConstInts offsets, ConstInts neighbours, ConstInts order, ConstInts bounds, ConstInts labels,
+                     int64_t size, Ints links, Longs shares, Longs scratch, Ints seen, Ints chain, Longs starts,
+                     Longs edges, Ints members);
 
 #endif

@@ -42,7 +42,7 @@ class Block:
     @cached_property
     def degrees(self) -> Indices:
         """Neighbours of each row inside the block: the weights of the blend."""
-        return np.diff(self.offsets)
+        return self.offsets[1:] - self.offsets[:-1]
 
 
 @dataclass(frozen=True, eq=False)
@@ -58,6 +58,8 @@ class Blocks:
     cores : int32 array, shape (k,)
         Size of that part; the first `cores[i]` entries of a block's `members` are the part itself.
     starts : int64 array, shape (k + 1,)
+    edges : int64 array, shape (k,)
+        See `edges_of`.
     members : int32 array
         Vertices of block i, as they were found: `members[starts[i]:starts[i + 1]]`.
     """
@@ -66,6 +68,7 @@ class Blocks:
     chain: Indices
     cores: Indices
     starts: Order
+    edges: Order
     members: Indices
 
     @property
@@ -83,13 +86,7 @@ class Blocks:
 
     def edges_of(self, index: int) -> int:
         """Edges that the vertices of one block have in the mesh, which its making looks at."""
-        return int(self._edges[index + 1] - self._edges[index])
-
-    @cached_property
-    def _edges(self) -> Order:
-        """Edges of all blocks before each, and of all of them, as `edges_of` counts them."""
-        edges = np.diff(self.graph.offsets)[self.members]
-        return np.concatenate([[0], np.cumsum(edges, dtype=np.int64)])[self.starts]
+        return int(self.edges[index])
 
     def block(self, index: int) -> Block:
         """Order the rows of one block."""
@@ -120,15 +117,29 @@ def grow_blocks(graph: Graph, partition: Partition, size: int) -> Blocks:
     A block does not grow over vertices with more than `size` neighbours, so that no mesh makes it look at many edges.
     A part whose surroundings hold fewer than `size` vertices that it may grow over stays smaller.
     """
-    chain = _chain(graph, partition)
-    starts = np.empty(partition.parts + 1, np.int64)
-    members = np.empty(partition.parts * min(size, graph.size), np.int32)
-    seen = np.empty(graph.size, np.int32)
-    count = _kernels.grow_blocks(
-        graph.offsets, graph.neighbours, partition.order, partition.bounds, chain, size, seen, starts, members
+    parts, ends = partition.parts, len(graph.neighbours)
+    chain, starts, edges = np.empty(parts, np.int32), np.empty(parts + 1, np.int64), np.empty(parts, np.int64)
+    members, seen = np.empty(parts * min(size, graph.size), np.int32), np.empty(graph.size, np.int32)
+    pairs = min(ends, parts * (parts - 1))
+    links, shares, scratch = np.empty(pairs, np.int32), np.empty(pairs, np.int64), np.empty(7 * parts, np.int64)
+    count = _kernels.chain_blocks(
+        graph.offsets,
+        graph.neighbours,
+        partition.order,
+        partition.bounds,
+        partition.labels,
+        size,
+        links,
+        shares,
+        scratch,
+        seen,
+        chain,
+        starts,
+        edges,
+        members,
     )
     cores = np.diff(partition.bounds)[chain]
-    return Blocks(graph, chain, cores, starts, members[:count])
+    return Blocks(graph, chain, cores, starts, edges, members[:count])
 
 
 def _ordered(graph: Graph, rows: Indices) -> Block:
@@ -142,17 +153,3 @@ def _ordered(graph: Graph, rows: Indices) -> Block:
         if ends <= room:
             return Block(vertices, offsets, neighbours[:ends].copy())
         room = ends
-
-
-def _chain(graph: Graph, partition: Partition) -> Indices:
-    """The parts in the order in which they are visited."""
-    parts, labels = partition.parts, partition.labels
-    here, there = np.repeat(labels, np.diff(graph.offsets)), labels[graph.neighbours]
-    crossing = here != there
-    pairs, edges = np.unique(here[crossing].astype(np.int64) * parts + there[crossing], return_counts=True)
-    starts = np.searchsorted(pairs, np.arange(parts + 1, dtype=np.int64) * parts)
-    ends = (pairs % parts).astype(np.int32)
-    chain, trail, visited = np.empty(parts, np.int32), np.empty(parts, np.int32), np.empty(parts, np.uint8)
-    shared, seen = np.empty(parts, np.int64), np.empty(parts, np.int64)
-    _kernels.chain_parts(starts, ends, edges, shared, seen, trail, visited, chain)
-    return chain

@@ -81,8 +81,7 @@ class FirstFrame:
                 return self
         if self._next < count:
             raise CorruptError(f"the first frame ends after {self._next} of {count} blocks")
-        everything = np.arange(self._structure.header.vertices, dtype=np.int32)
-        return Gops(self._structure, self._blend.positions(everything), self._wishes).accept(arrival, queue)
+        return Gops(self._structure, self._blend.all_positions(), self._wishes).accept(arrival, queue)
 
     def _values(self, packet: packets.Values) -> AttributeEvent | LossEvent:
         try:

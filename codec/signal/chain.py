@@ -155,7 +155,7 @@ class Chain:
         assert self._subspace is not None
         start = rules.rounding(follow_columns(self._subspace, width, in_pieces(laplacian.block)))
         return orthogonal_iteration(
-            around.factor, start, power=rules.power, iterations=rules.iterations, spend=self._spend
+            around.factor, start, power=rules.power, iterations=rules.iterations, width=width, spend=self._spend
         )
 
     def commit(self, block: Block, subspace: Matrix, positions: Matrix) -> None:

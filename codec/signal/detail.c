@@ -1,5 +1,8 @@
-/* Vertex normals of a block from the faces inside it (specification, M 11.3). */
+/* Vertex normals of a block from the faces inside it, and the detail layer along them (specification, M 11.3). */
 #include "codec/signal/detail.h"
+
+#include "bitstream/coefficients/trellis.h"
+#include "codec/signal/transform.h"
 
 /* Normals at the rows of the block of `vertices`, from its own `positions`. `members` are the faces around each vertex;
  * `place`, one entry a vertex of the mesh, is scratch: zero before and after. */
@@ -33,4 +36,24 @@ void block_normals(ConstInts2 faces, ConstLongs starts, ConstInts members, Const
         for (int d = 0; d < 3; d++) normal[d] /= length;
     }
     for (int64_t r = 0; r < n; r++) place.data[vertices.data[r]] = 0;
+}
+
+/* Move a block along its normals by U e: e are the coefficients of the first `count` of the levels, which successive
+ * frequencies have in rows of three. `scratch` has room for them, and for four numbers for each row of the block. */
+int64_t raise_block(ConstInts2 faces, ConstLongs starts, ConstInts members, ConstInts vertices, Ints place,
+                    double softness, double least_length, ConstDoubles2 subspace, ConstInts2 levels, int64_t count,
+                    double half_step, Doubles scratch, Doubles2 positions) {
+    int64_t n = vertices.size;
+    if (subspace.rows != n || positions.rows != n || positions.columns != 3 || count < 0 || count > subspace.columns ||
+        count > levels.rows * levels.columns || scratch.size < 4 * n + count)
+        return MISUSED;
+    Doubles2 normals = {scratch.data, n, 3}, height = {scratch.data + 3 * n, n, 1};
+    double *values = scratch.data + 4 * n;
+    block_normals(faces, starts, members, vertices, place, (ConstDoubles2){positions.data, n, 3}, softness, least_length,
+                  normals);
+    values_of_levels(levels.data, count, half_step, values);
+    reconstruct(subspace, (ConstDoubles2){values, count, 1}, height);
+    for (int64_t r = 0; r < n; r++)
+        for (int d = 0; d < 3; d++) positions.data[3 * r + d] += normals.data[3 * r + d] * height.data[r];
+    return 0;
 }

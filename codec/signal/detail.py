@@ -15,10 +15,9 @@ import numpy as np
 import numpy.typing as npt
 
 from codec import _kernels
-from codec.arrays import Faces, Indices, Matrix, Order
+from codec.arrays import Faces, Indices, Levels, Matrix, Order
 from codec.blocks.overlap import Block
 from codec.geometry.incidence import vertex_faces
-from codec.signal.transform import reconstruct
 
 Number = TypeVar("Number", bound=np.generic)
 
@@ -74,11 +73,30 @@ class Normals:
         )
         return normals
 
+    def raise_block(
+        self, block: Block, subspace: Matrix, levels: Levels, count: int, step: float, positions: Matrix
+    ) -> None:
+        """Make positions b, shape (n_i, 3), C-contiguous, b + m (U e).
 
-def displace(positions: Matrix, normals: Matrix, subspace: Matrix, coefficients: Matrix) -> Matrix:
-    """b + m (U e) for e of shape (d,): U has at least d columns."""
-    height = reconstruct(subspace, coefficients)
-    return positions + normals * height[:, None]
+        `levels`, folded (see `fold_details`), are those of e, of which the first `count` are taken; U, shape (n_i, c),
+        has at least as many columns.
+        """
+        surface, size = self._surface, block.size
+        _kernels.raise_block(
+            surface.faces,
+            surface.starts,
+            surface.members,
+            block.vertices,
+            self._place,
+            SOFTNESS,
+            LEAST,
+            subspace,
+            levels,
+            count,
+            step / 2,
+            np.empty(4 * size + count),
+            positions,
+        )
 
 
 def fold_details(levels: npt.NDArray[Number]) -> npt.NDArray[Number]:
@@ -86,8 +104,3 @@ def fold_details(levels: npt.NDArray[Number]) -> npt.NDArray[Number]:
     folded = np.zeros((-(-len(levels) // 3), 3), levels.dtype)
     folded.reshape(-1)[: len(levels)] = levels
     return folded
-
-
-def unfold_details(rows: npt.NDArray[Number], limit: int) -> npt.NDArray[Number]:
-    """Twin of `fold_details`, for levels or what they stand for; at most `limit` of them."""
-    return rows.reshape(-1)[:limit]

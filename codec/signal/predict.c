@@ -1,4 +1,5 @@
-/* What holds a block: the springs of the specification's M 7.3, summed over the rows' neighbours in their order. */
+/* What holds a block: the springs of the specification's M 7.3, summed over the rows' neighbours in their order; and what
+ * continues the known (M 7.4), sums in the order of rows. */
 #include "codec/signal/predict.h"
 
 static void hang(Doubles springs, Doubles2 pulls, int64_t row, double stiffness, const double *sum, double weight) {
@@ -22,4 +23,47 @@ void look_around(ConstInts offsets, ConstInts neighbours, ConstInts vertices, By
         }
     }
     for (int64_t r = 0; r < vertices.size; r++) inside.data[vertices.data[r]] = 0;
+}
+
+/* What continues the known into the rows of a block: mean + (L + S + delta)^-1 (y - S mean), with a factor of
+ * `factorize_fronts`; zero without springs, whose sum is `total`. `scratch` holds a row more than `solve_columns` asks for. */
+void continue_known(Fronts fronts, Doubles values, ConstDoubles inverse, ConstDoubles springs, double total,
+                    ConstDoubles2 pulls, Doubles scratch, Doubles2 continued) {
+    int64_t n = pulls.rows, m = pulls.columns;
+    double *mean = scratch.data;
+    if (!(total > 0.0)) {
+        for (int64_t i = 0; i < n * m; i++) continued.data[i] = 0.0;
+        return;
+    }
+    for (int64_t d = 0; d < m; d++) mean[d] = 0.0;
+    for (int64_t r = 0; r < n; r++)
+        for (int64_t d = 0; d < m; d++) mean[d] += pulls.data[r * m + d];
+    for (int64_t d = 0; d < m; d++) mean[d] /= total;
+    for (int64_t r = 0; r < n; r++)
+        for (int64_t d = 0; d < m; d++) continued.data[r * m + d] = pulls.data[r * m + d] - springs.data[r] * mean[d];
+    Doubles rest = {scratch.data + m, scratch.size - m};
+    solve_columns(fronts, values, inverse, (ConstDoubles2){continued.data, n, m}, 1, rest, continued);
+    for (int64_t r = 0; r < n; r++)
+        for (int64_t d = 0; d < m; d++) continued.data[r * m + d] += mean[d];
+}
+
+/* A block on springs (M 7.3): the factor of L + S + delta I as `factorize_fronts` leaves it, and what continues the known.
+ * `scratch` has room for two numbers a row, and one, more than `continue_known` asks for. */
+int64_t suspend(ConstInts offsets, ConstInts neighbours, ConstDoubles weights, ConstDoubles diagonal, Fronts fronts,
+                ConstDoubles springs, ConstDoubles2 pulls, double shift, Doubles scratch, Doubles values, Doubles inverse,
+                Doubles2 continued) {
+    int64_t n = springs.size, m = pulls.columns;
+    if (n < 1 || diagonal.size != n || pulls.rows != n || continued.rows != n || continued.columns != m ||
+        inverse.size != n || scratch.size < 2 * n + 1 + m + (n + 4) * (m + 8) + 7)
+        return MISUSED;
+    double *sums = scratch.data, total = 0.0;
+    for (int64_t r = 0; r < n; r++) {
+        sums[r] = diagonal.data[r] + (springs.data[r] + shift);
+        total += springs.data[r];
+    }
+    Words column = {(uint32_t *)(scratch.data + n), n + 1};
+    Doubles rest = {scratch.data + 2 * n + 1, scratch.size - 2 * n - 1};
+    factorize_fronts(offsets, neighbours, weights, (ConstDoubles){sums, n}, fronts, column, rest, values, inverse);
+    continue_known(fronts, values, (ConstDoubles){inverse.data, n}, springs, total, pulls, rest, continued);
+    return 0;
 }

@@ -17,7 +17,7 @@ import numpy as np
 
 from codec import _kernels
 from codec.arrays import Matrix
-from codec.basis.laplacian import Factor, Laplacian, factorize, solve
+from codec.basis.laplacian import Factor, Laplacian, check_rows, factor_room, factorize, solving_space
 from codec.blocks.blend import Blend, degree_weights
 from codec.blocks.overlap import Block
 from codec.geometry.graph import Graph
@@ -61,6 +61,35 @@ class Surroundings(Suspended):
     """
 
     pulls: Matrix
+
+    @cached_property
+    def factor(self) -> Factor:
+        return self._ground[0]
+
+    @property
+    def continuation(self) -> Matrix:
+        """Positions that continue what is known, shape (n, 3); zero where nothing is known."""
+        return self._ground[1]
+
+    @cached_property
+    def _ground(self) -> tuple[Factor, Matrix]:
+        block, fronts, rows = self.laplacian.block, self.laplacian.fronts, len(self.springs)
+        values, inverse, continued = factor_room(fronts), np.empty(rows), np.empty((rows, 3))
+        _kernels.suspend(
+            block.offsets,
+            block.neighbours,
+            self.laplacian.weights,
+            self.laplacian.diagonal,
+            fronts,
+            self.springs,
+            self.pulls,
+            self.shift,
+            np.empty(2 * rows + 4 + solving_space(rows, 3)),
+            values,
+            inverse,
+            continued,
+        )
+        return Factor(fronts, values, inverse), continued
 
 
 class Known:
@@ -125,13 +154,17 @@ def continued(factor: Factor, springs: Matrix, pulls: Matrix) -> Matrix:
     float64 array, shape (n, m)
         Zero without springs.
     """
-    total = float(springs.sum())
-    if not total > 0.0:
-        return np.zeros_like(pulls)
-    mean = pulls.sum(axis=0) / total
-    return np.asarray(mean + solve(factor, pulls - springs[:, None] * mean, 1))
-
-
-def extend(around: Surroundings) -> Matrix:
-    """Positions of a block of n rows that continue what is known, shape (n, 3); zero where nothing is known."""
-    return continued(around.factor, around.springs, around.pulls)
+    rows, columns = pulls.shape
+    check_rows(factor, rows)
+    values, scratch = np.empty((rows, columns)), np.empty(columns + solving_space(rows, columns))
+    _kernels.continue_known(
+        factor.fronts,
+        factor.values,
+        factor.inverse,
+        springs,
+        float(springs.sum()),
+        np.ascontiguousarray(pulls),
+        scratch,
+        values,
+    )
+    return values

@@ -5,22 +5,25 @@
 typedef double Four __attribute__((vector_size(32)));
 typedef double UnalignedFour __attribute__((vector_size(32), aligned(8), may_alias));
 
-/* K^1 V to K^degree V behind V, each of 3 n numbers, in `terms`, which has room for one number more. */
+/* K V at one vertex. */
+INLINE Four apply(ConstInts offsets, ConstInts neighbours, const double *values, int64_t v) {
+    int64_t first = offsets.data[v], last = offsets.data[v + 1];
+    Four sum = {0.0, 0.0, 0.0, 0.0};
+    for (int64_t i = first; i < last; i++) sum += *(const UnalignedFour *)(values + 3 * (int64_t)neighbours.data[i]);
+    double share = 1.0 / (double)largest(last - first, 1);
+    Four moved = *(const UnalignedFour *)(values + 3 * v) - share * sum;
+    return last == first ? (Four){0.0, 0.0, 0.0, 0.0} : moved;
+}
+
+/* K^1 V to K^degree V behind V, each of 3 n numbers, in `terms`, which has room for one number more: the fourth number of
+ * a vertex is overwritten by the next one. */
 KERNEL void apply_powers(ConstInts offsets, ConstInts neighbours, Doubles terms, int64_t degree) {
     int64_t n = offsets.size - 1;
     for (int64_t k = 0; k < degree; k++) {
         const double *values = terms.data + 3 * n * k;
         double *result = terms.data + 3 * n * (k + 1);
-        for (int64_t v = 0; v < n; v++) {
-            int64_t first = offsets.data[v], last = offsets.data[v + 1];
-            Four sum = {0.0, 0.0, 0.0, 0.0};
-            for (int64_t i = first; i < last; i++) sum += *(const UnalignedFour *)(values + 3 * (int64_t)neighbours.data[i]);
-            double share = 1.0 / (double)largest(last - first, 1);
-            Four moved = *(const UnalignedFour *)(values + 3 * v) - share * sum;
-            if (last == first) moved = (Four){0.0, 0.0, 0.0, 0.0};
-            /* The fourth number is overwritten by the next vertex. */
-            *(UnalignedFour *)(result + 3 * v) = moved;
-        }
+        for (int64_t v = 0; v < n; v++)
+            *(UnalignedFour *)(result + 3 * v) = apply(offsets, neighbours, values, v);
     }
 }
 
@@ -32,6 +35,31 @@ KERNEL void combine_powers(ConstDoubles2 positions, ConstDoubles terms, ConstDou
         for (int64_t k = 0; k < weights.size; k++) value += weights.data[k] * terms.data[k * size + i];
         smoothed.data[i] = value;
     }
+}
+
+/* The same for one amount: `weights` of K^2 V and those after it. `scratch` has room for 6 n + 2 numbers. */
+KERNEL int64_t smooth_all(ConstInts offsets, ConstInts neighbours, ConstDoubles2 positions, ConstDoubles weights,
+                          Doubles scratch, Doubles2 smoothed) {
+    int64_t n = offsets.size - 1;
+    if (n < 0 || positions.rows != n || positions.columns != 3 || smoothed.rows != n || smoothed.columns != 3 ||
+        scratch.size < 6 * n + 2)
+        return MISUSED;
+    double *values = scratch.data, *result = scratch.data + 3 * n + 1;
+    for (int64_t i = 0; i < 3 * n; i++) values[i] = smoothed.data[i] = positions.data[i];
+    values[3 * n] = result[3 * n] = 0.0;
+    for (int64_t k = 0; k <= weights.size; k++) {
+        double weight = k > 0 ? weights.data[k - 1] : 0.0;
+        for (int64_t v = 0; v < n; v++) {
+            Four moved = apply(offsets, neighbours, values, v);
+            *(UnalignedFour *)(result + 3 * v) = moved;
+            if (k > 0)
+                for (int d = 0; d < 3; d++) smoothed.data[3 * v + d] += weight * moved[d];
+        }
+        double *other = values;
+        values = result;
+        result = other;
+    }
+    return 0;
 }
 
 /* `vertices` and the rings around them; ring k ends before starts[k]; `number` becomes their place in the list `rows`,

@@ -40,7 +40,12 @@ def filter_polynomial(amount: float) -> Matrix:
 
 def smooth(graph: Graph, positions: Matrix, amount: float) -> Matrix:
     """Filter all positions, shape (n, 3); isolated vertices stay where they are."""
-    return positions if amount == 0.0 else smoothing_spectrum(graph, positions).smoothed(amount)
+    if amount == 0.0:
+        return positions
+    positions = np.ascontiguousarray(positions)
+    smoothed, scratch = np.empty(positions.shape), np.empty(2 * positions.size + 2)
+    _kernels.smooth_all(graph.offsets, graph.neighbours, positions, filter_polynomial(amount), scratch, smoothed)
+    return smoothed
 
 
 @dataclass(frozen=True, eq=False)

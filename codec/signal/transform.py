@@ -11,7 +11,7 @@ import math
 import numpy as np
 
 from codec import _kernels
-from codec.arrays import Matrix
+from codec.arrays import Levels, Matrix
 
 
 def project(subspace: Matrix, values: Matrix, count: int) -> Matrix:
@@ -25,6 +25,16 @@ def project(subspace: Matrix, values: Matrix, count: int) -> Matrix:
     coefficients = np.empty((count, flat.shape[1]))
     _kernels.project(np.ascontiguousarray(subspace), flat, coefficients)
     return coefficients.reshape(count, *values.shape[1:])
+
+
+def placed(prediction: Matrix, subspace: Matrix, levels: Levels, step: float) -> Matrix:
+    """Prediction, shape (n, 3), plus U times the coefficients of levels, shape (c, 3), on the two grids of the trellis.
+
+    U is the first c columns of `subspace`, C-contiguous.
+    """
+    positions = np.empty(prediction.shape)
+    _kernels.place_block(prediction, subspace, levels, step / 2, np.empty(levels.size), positions)
+    return positions
 
 
 def reconstruct(subspace: Matrix, coefficients: Matrix) -> Matrix:

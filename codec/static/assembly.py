@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
-from codec.arrays import Indices, Mask, Matrix
+from codec.arrays import Indices, Mask, Matrix, Order
 from codec.basis.cost import Spend, free
 from codec.blocks.blend import Blend
 from codec.blocks.overlap import Blocks
@@ -37,7 +38,7 @@ def blended(size: int, blocks: Iterable[DecodedBlock]) -> Matrix:
     blend = Blend(size)
     for block in blocks:
         blend.add(block.vertices, block.positions, block.weights)
-    return blend.positions(np.arange(size, dtype=np.int32))
+    return blend.all_positions()
 
 
 class Assembly:
@@ -64,12 +65,27 @@ class Assembly:
         self._units = units
         self._numbering = numbering
         self._blend = Blend(graph.size)
-        self._missing = np.bincount(blocks.members, minlength=graph.size)
-        self._blended = np.zeros((graph.size, 3))
-        self._final = np.zeros(graph.size, np.bool_)
-        self._filter = LocalFilter(graph, smoothing, spend)
         self._spend = spend
         self._lost: list[int] = []
+
+    # Made for who asks what each block changes.
+
+    @cached_property
+    def _missing(self) -> Order:
+        """Copies of each vertex that have not come yet."""
+        return np.bincount(self._blocks.members, minlength=self._graph.size)
+
+    @cached_property
+    def _blended(self) -> Matrix:
+        return np.zeros((self._graph.size, 3))
+
+    @cached_property
+    def _final(self) -> Mask:
+        return np.zeros(self._graph.size, np.bool_)
+
+    @cached_property
+    def _filter(self) -> LocalFilter:
+        return LocalFilter(self._graph, self._smoothing, self._spend)
 
     def add(self, block: DecodedBlock) -> None:
         """Blend one block in."""
@@ -81,8 +97,7 @@ class Assembly:
 
     def mesh(self) -> TriangleMesh:
         """The mesh in its own unit, once every block is in."""
-        everything = np.arange(self._graph.size, dtype=np.int32)
-        decoded = self._units.back(smooth(self._graph, self._blend.positions(everything), self._smoothing))
+        decoded = self._units.back(smooth(self._graph, self._blend.all_positions(), self._smoothing))
         return TriangleMesh(self._numbering.arranged(decoded), self._numbering.faces)
 
     @property
@@ -94,8 +109,7 @@ class Assembly:
         """Decoded positions, once every block is in; None if one was lost."""
         if not self.whole:
             return None
-        everything = np.arange(self._graph.size, dtype=np.int32)
-        return Solid(smooth(self._graph, self._blend.positions(everything), self._smoothing))
+        return Solid(smooth(self._graph, self._blend.all_positions(), self._smoothing))
 
     def base(self) -> tuple[Matrix, Mask]:
         """What refinement adds to: all positions in BSM units, shape (n, 3), and which of them, and of the vertices
@@ -104,7 +118,7 @@ class Assembly:
         everything = np.arange(self._graph.size, dtype=np.int32)
         if not self._lost:
             whole = np.ones(len(everything), np.bool_)
-            return smooth(self._graph, self._blend.positions(everything), self._smoothing), whole
+            return smooth(self._graph, self._blend.all_positions(), self._smoothing), whole
         known = self._blend.known(everything)
         positions = np.zeros((len(everything), 3))
         positions[known] = self._blend.positions(everything[known])

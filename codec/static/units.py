@@ -39,7 +39,8 @@ class Units:
             If one is beyond the range of numbers.
         """
         with np.errstate(over="ignore", invalid="ignore"):
-            moved = positions * self.scale + np.array(self.center)
+            moved = positions * self.scale
+            moved += np.array(self.center)
         if not np.isfinite(moved).all():
             raise NumericError("positions are not finite in the unit of the mesh")
         return np.asarray(moved)

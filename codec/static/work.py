@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
-from threading import Condition
+from threading import Condition, RLock
 
 from bitstream.attributes.values import values_charge
 from bitstream.fields.grid import grid_charge
@@ -137,7 +137,8 @@ class Allowance:
         self._spent = self._owed = 0.0
         self._held = self._kept = 0.0
         self._received = 0
-        self._change = Condition()
+        self._lock = RLock()
+        self._change = Condition(self._lock)
 
     @property
     def limits(self) -> Limits:
@@ -151,7 +152,7 @@ class Allowance:
 
     def grant(self, vertices: int) -> None:
         """Take note of vertices that the stream really has, which count for work and memory."""
-        with self._change:
+        with self._lock:
             self._vertices += self._weight * vertices
 
     def spend(self, work: float, received: int = 0, shown: int = 0) -> None:
@@ -163,7 +164,7 @@ class Allowance:
             If all of it together is over the limit.
         """
         limits = self._limits
-        with self._change:
+        with self._lock:
             self._spent += work
             self._owed += max(0.0, work - limits.work_per_byte * received - limits.work_per_vertex * shown)
             limits.check("most_work", self._spent)
@@ -177,7 +178,7 @@ class Allowance:
         LimitError
             If all of it together is over the limit.
         """
-        with self._change:
+        with self._lock:
             self._kept += memory
             self._received += received
             self._limits.check_memory(self._kept, self._vertices, self._received)
@@ -204,7 +205,7 @@ class Allowance:
 
     def afford(self, memory: float) -> None:
         """Raise `LimitError` if there is no room for some memory besides what is kept."""
-        with self._change:
+        with self._lock:
             self._limits.check_memory(self._kept + memory, self._vertices, self._received)
 
     def _has_room(self, memory: float) -> bool:

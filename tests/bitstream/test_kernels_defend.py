@@ -121,6 +121,9 @@ def test_every_kernel_defends_itself(refusals: dict[str, int]) -> None:
     chosen = rate_distortion.choose_levels(CoefficientModel(60), 300 * given.astype(np.int64), 0.1).levels
     payload = adaptive.encode_blocks(CoefficientModel(60), [chosen])
     np.testing.assert_array_equal(adaptive.decode_blocks(CoefficientModel(60), payload, 1)[0], chosen)
+    payload = adaptive.encode_layers(CoefficientModel(60), chosen, CoefficientModel(60), chosen[:7])
+    found = adaptive.decode_layers(CoefficientModel(60), CoefficientModel(60), payload, len(chosen))
+    np.testing.assert_array_equal(np.concatenate(found), np.concatenate([chosen, chosen[:7]]))
     payload = matrices.encode_levels(matrices.make_level_bank(), [chosen], [chosen])
     matrix = np.zeros_like(chosen)
     matrices.decode_levels(matrices.make_level_bank(), payload, [matrix], [chosen])

@@ -46,7 +46,7 @@ INLINE void leave(const int vectors, int64_t p, const double *matrix, int64_t ap
     }
 }
 
-/* Factorise the matrix that has `diagonal`, and minus its weight for every edge, to the columns of C, as rows of the
+/* Factorise the matrix that has `diagonal`, and minus its weight, one without any, for every edge, to the columns of C, as rows of the
  * fronts' matrices, and D^-1. `column` is scratch of n + 1, `scratch` of two rows of a front's matrix, at most
  * 2 (n + 16). */
 void LEVEL(factorize_fronts)(ConstInts offsets, ConstInts neighbours, ConstDoubles weights, ConstDoubles diagonal,
@@ -64,7 +64,7 @@ void LEVEL(factorize_fronts)(ConstInts offsets, ConstInts neighbours, ConstDoubl
             matrix[k * apart + k] += diagonal.data[r];
             for (int64_t i = offsets.data[r]; i < offsets.data[r + 1]; i++) {
                 uint32_t step = fronts.steps.data[neighbours.data[i]];
-                if (step > front.first + k) matrix[k * apart + column.data[step]] -= weights.data[i];
+                if (step > front.first + k) matrix[k * apart + column.data[step]] -= weights.size > 0 ? weights.data[i] : 1.0;
             }
         }
         for (int64_t k = 0; k < own; k++) {

@@ -108,3 +108,26 @@ int64_t find_borders(ConstInts offsets, ConstInts neighbours, ConstWords rows, C
     }
     return size;
 }
+
+/* All that `Fronts` holds, of a graph of n rows in bisection order: `dissect`, `find_borders`, and of each front the own
+ * steps times the width, once and twice, summed. Returns how many fronts there are, or what `find_borders` does where that
+ * is below zero. `firsts`, `starts` and `places` have room for n + 1, `scratch` for 3 n. */
+int64_t find_fronts(ConstInts offsets, ConstInts neighbours, int64_t leaf, double most_work, Words scratch, Words rows,
+                    Words steps, Words owners, Words firsts, Words starts, Words borders, Words places, Doubles sums) {
+    int64_t n = offsets.size - 1;
+    if (n < 0 || scratch.size < 3 * n || rows.size != n || steps.size != n || owners.size != n || firsts.size != n + 1 ||
+        starts.size != n + 1 || places.size != n + 1 || sums.size != 2)
+        return MISUSED;
+    int64_t count = dissect(offsets, neighbours, leaf, (Ints){(int32_t *)scratch.data, n}, rows, firsts);
+    for (int64_t t = 0; t <= count; t++) firsts.data[t] = firsts.data[n - count + t];
+    int64_t size = find_borders(offsets, neighbours, (ConstWords){rows.data, n}, (ConstWords){firsts.data, count + 1},
+                                most_work, (Words){scratch.data, n + 2 * count}, steps, owners, starts, borders, places);
+    if (size < 0) return size;
+    sums.data[0] = sums.data[1] = 0.0;
+    for (int64_t t = 0; t < count; t++) {
+        double own = firsts.data[t + 1] - firsts.data[t], width = own + (starts.data[t + 1] - starts.data[t]);
+        sums.data[0] += own * width;
+        sums.data[1] += own * width * width;
+    }
+    return count;
+}

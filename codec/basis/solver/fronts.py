@@ -46,6 +46,9 @@ class Fronts(NamedTuple):
     places : uint32 array, shape (t + 1,)
         Where each front's matrix begins in an array of all of them; its rows are as far apart as they are
         long, in whole cache lines.
+    sums : float64 array, shape (2,)
+        Of all fronts, own steps times width of the matrix, and times width again: what a solution and what a
+        factorisation take.
     """
 
     rows: npt.NDArray[np.uint32]
@@ -55,6 +58,7 @@ class Fronts(NamedTuple):
     starts: npt.NDArray[np.uint32]
     borders: npt.NDArray[np.uint32]
     places: npt.NDArray[np.uint32]
+    sums: npt.NDArray[np.float64]
 
 
 def find_fronts(offsets: npt.NDArray[np.int32], neighbours: npt.NDArray[np.int32]) -> Fronts:
@@ -66,22 +70,32 @@ def find_fronts(offsets: npt.NDArray[np.int32], neighbours: npt.NDArray[np.int32
         If the graph has no small separators, as that of a surface has, and factorising it would take too long.
     """
     n = len(offsets) - 1
-    rows, firsts, cuts = np.empty(n, np.uint32), np.empty(n + 1, np.uint32), np.empty(n, np.int32)
-    count = _kernels.dissect(offsets, neighbours, LEAF, cuts, rows, firsts)
-    firsts = firsts[n - count :].copy()
-    steps, owners = np.empty(n, np.uint32), np.empty(n, np.uint32)
-    starts, places = np.empty(count + 1, np.uint32), np.empty(count + 1, np.uint32)
-    scratch = np.empty(n + 2 * count, np.uint32)
-    room, size = 16 * n + 64, _FULL
-    while size == _FULL:
+    rows, steps, owners = np.empty((3, n), np.uint32)
+    firsts, starts, places = np.empty((3, n + 1), np.uint32)
+    scratch, sums = np.empty(3 * n, np.uint32), np.empty(2)
+    room, count = 16 * n + 64, _FULL
+    while count == _FULL:
         borders = np.empty(room, np.uint32)
-        size = _kernels.find_borders(
-            offsets, neighbours, rows, firsts, float(WORK * n), scratch, steps, owners, starts, borders, places
+        count = _kernels.find_fronts(
+            offsets,
+            neighbours,
+            LEAF,
+            float(WORK * n),
+            scratch,
+            rows,
+            steps,
+            owners,
+            firsts,
+            starts,
+            borders,
+            places,
+            sums,
         )
         room *= 4
-    if size == _TOO_MUCH:
+    if count == _TOO_MUCH:
         raise LimitError(
             f"the faces of a block of {n} vertices are too entangled: more than {WORK} operations a vertex; "
             "if this is a surface, take smaller blocks"
         )
-    return Fronts(rows, steps, owners, firsts, starts, borders[:size].copy(), places)
+    firsts, starts, places = firsts[: count + 1], starts[: count + 1], places[: count + 1]
+    return Fronts(rows, steps, owners, firsts, starts, borders[: starts[-1]].copy(), places, sums)

@@ -33,7 +33,7 @@ INLINE int64_t padded_rows(int64_t n) { return (n / 4 + 1) * 4; }
 
 INLINE int64_t panels_size(const Panels *panels) { return panels->rows * panels->columns; }
 
-void LEVEL(pack)(ConstDoubles2 columns, const uint32_t *order, Panels panels);
+void LEVEL(pack)(ConstDoubles2 columns, int64_t count, const uint32_t *order, Panels panels);
 void LEVEL(unpack)(Panels panels, const uint32_t *order, Doubles2 columns);
 
 #endif

@@ -1,11 +1,11 @@
 /* Between a matrix row by row and its panels, the rows in any order. */
 #include "codec/basis/solver/panels.h"
 
-/* Panels whose row k is row `order[k]` of `columns`; without an order, row k. */
-void LEVEL(pack)(ConstDoubles2 columns, const uint32_t *order, Panels panels) {
+/* Panels of the first `count` columns, whose row k is row `order[k]` of `columns`; without an order, row k. */
+void LEVEL(pack)(ConstDoubles2 columns, int64_t count, const uint32_t *order, Panels panels) {
     for (int64_t b = 0; b < panel_count(&panels); b++) {
         Panel panel = panel_at(&panels, b);
-        int64_t width = least(panel.apart, columns.columns - panel.first);
+        int64_t width = least(panel.apart, count - panel.first);
         double *to = panel.data;
         for (int64_t k = 0; k < panels.rows; k++, to += panel.apart) {
             int64_t known = k < columns.rows ? width : 0;

@@ -104,7 +104,7 @@ void LEVEL(substitute)(Fronts fronts, const double *matrices, const double *inve
 void LEVEL(solve_columns)(Fronts fronts, Doubles values, ConstDoubles inverse, ConstDoubles2 columns, int64_t power,
                    Doubles scratch, Doubles2 solution) {
     Panels panels = {aligned(scratch.data), padded_rows(columns.rows), whole_vectors(columns.columns)};
-    LEVEL(pack)(columns, fronts.rows.data, panels);
+    LEVEL(pack)(columns, columns.columns, fronts.rows.data, panels);
     LEVEL(substitute)(fronts, aligned(values.data), inverse.data, panels, power);
     LEVEL(unpack)(panels, fronts.rows.data, solution);
 }

@@ -14,7 +14,7 @@ from codec.arrays import Matrix
 from codec.basis.cost import Spend, free
 from codec.basis.dynamic_size import DynamicSize
 from codec.signal.chain import Chain
-from codec.signal.predict import Surroundings, extend
+from codec.signal.predict import Surroundings
 from codec.static.assembly import DecodedBlock
 from codec.static.layers.coding import BlockLevels, Coding, Ground
 from codec.static.rules import Scheme
@@ -75,7 +75,7 @@ class ChainEncoder:
         around = chain.around(block)
         self._told.clear()
         dictionary = chain.dictionary(around, coding.width)
-        ground = Ground(block, extend(around), dictionary)
+        ground = Ground(block, around.continuation, dictionary)
         levels = coding.choose(ground, positions[block.vertices], self._sizes)
         decoded = coding.positions(ground, levels)
         work = (
@@ -144,7 +144,7 @@ class ChainDecoder:
         with allowance.hold(block_memory(around.laplacian, levels.width)):
             dictionary = chain.dictionary(around, levels.width)
             allowance.spend(ground_cost(around.laplacian, levels.width))
-            ground = Ground(block, extend(around), dictionary)
+            ground = Ground(block, around.continuation, dictionary)
             decoded = coding.positions(ground, levels)
             chain.commit(block, dictionary, decoded)
         if not np.isfinite(decoded).all():

@@ -10,7 +10,8 @@ What has no dictionary and no blocks, or comes behind them all, is no way of cod
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Any, Protocol
 
 import numpy as np
@@ -26,12 +27,11 @@ from bitstream.coefficients.adaptive import (
 from bitstream.coefficients.packed import pack_coefficients, unpack_coefficients
 from bitstream.coefficients.priors import detail_experience
 from bitstream.coefficients.rate_distortion import TARGET_UNIT, choose_levels
-from bitstream.coefficients.trellis import points_of_levels
 from bitstream.container.header import Header
 from codec.arrays import Faces, Integers, Levels, Matrix
 from codec.basis.dynamic_size import DynamicSize
 from codec.blocks.overlap import Block
-from codec.signal.detail import Normals, Surface, displace, fold_details, make_surface, unfold_details
+from codec.signal.detail import Normals, Surface, fold_details, make_surface
 from codec.signal.quantize import (
     BIT_WORTH,
     dequantize,
@@ -40,7 +40,7 @@ from codec.signal.quantize import (
     targets,
     unsigned_to_levels,
 )
-from codec.signal.transform import project, reconstruct
+from codec.signal.transform import placed, project, reconstruct
 
 
 @dataclass(frozen=True, eq=False)
@@ -165,19 +165,15 @@ class Adaptive:
     width : int
         No level costs more or less with another one, so that the encoder may begin with more than it will need.
     step : float
-
-    Attributes
-    ----------
-    model : CoefficientModel
-        What the chain has taught.
     """
 
     width: int
     step: float
-    model: CoefficientModel = field(init=False, repr=False)
 
-    def __post_init__(self) -> None:
-        self.model = CoefficientModel(self.width)
+    @cached_property
+    def model(self) -> CoefficientModel:
+        """What the chain has taught."""
+        return CoefficientModel(self.width)
 
     @property
     def detail_rows(self) -> int:
@@ -202,7 +198,7 @@ class Adaptive:
         return _plain(decode_coefficients(self.model, payload, count))
 
     def positions(self, ground: Ground, levels: BlockLevels) -> Matrix:
-        return ground.add(_coefficients(np.asarray(levels.coordinates, np.int32), self.step))
+        return placed(ground.prediction, ground.dictionary, np.asarray(levels.coordinates, np.int32), self.step)
 
 
 @dataclass(eq=False)
@@ -217,24 +213,22 @@ class Layered:
     step : float
         Of the detail layer.
     surface : Surface
-
-    Attributes
-    ----------
-    model : CoefficientModel
-        What the chain has taught of the detail layer.
-    normals : Normals
     """
 
     base: Adaptive
     details: int
     step: float
     surface: Surface
-    model: CoefficientModel = field(init=False, repr=False)
-    normals: Normals = field(init=False, repr=False)
 
-    def __post_init__(self) -> None:
-        self.model = CoefficientModel(self.detail_rows, detail_experience())
-        self.normals = Normals(self.surface)
+    @cached_property
+    def model(self) -> CoefficientModel:
+        """What the chain has taught of the detail layer."""
+        return CoefficientModel(self.detail_rows, detail_experience())
+
+    @cached_property
+    def normals(self) -> Normals:
+        """Where that layer points."""
+        return Normals(self.surface)
 
     @property
     def width(self) -> int:
@@ -268,13 +262,16 @@ class Layered:
 
     def positions(self, ground: Ground, levels: BlockLevels) -> Matrix:
         decoded = self.base.positions(ground, levels)
-        heights = _coefficients(levels.details, self.step)
-        heights = unfold_details(heights, min(self.details, ground.block.size))
-        return displace(decoded, self.normals.of(ground.block, decoded), ground.dictionary, heights)
+        heights = self._heights(levels.details, ground.block.size)
+        self.normals.raise_block(ground.block, ground.dictionary, levels.details, heights, self.step, decoded)
+        return decoded
 
     def _levels(self, coordinates: Integers, details: Levels, size: int) -> BlockLevels:
-        heights = min(details.size, self.details, size)
-        return BlockLevels(coordinates, details, max(len(coordinates), heights))
+        return BlockLevels(coordinates, details, max(len(coordinates), self._heights(details, size)))
+
+    def _heights(self, details: Levels, size: int) -> int:
+        """How many of the levels are heights; what fills up their last row is not."""
+        return min(details.size, self.details, size)
 
 
 def coding_of(header: Header, faces: Faces) -> Coding:
@@ -301,8 +298,3 @@ def _offered(ground: Ground, wanted: Matrix, width: int, sizes: DynamicSize | No
     residual = wanted - ground.prediction
     coefficients = ground.coefficients(residual, width)
     return coefficients if sizes is None else coefficients[: sizes.follow(residual, coefficients)]
-
-
-def _coefficients(levels: Levels, step: float) -> Matrix:
-    """Coefficients of levels on the two grids of the trellis, shape (c, 3)."""
-    return dequantize(points_of_levels(levels), step / 2)

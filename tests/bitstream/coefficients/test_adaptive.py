@@ -188,7 +188,7 @@ def test_the_shipped_experiences_are_those_of_the_format() -> None:
         again = Experience.from_bytes(experience.to_bytes())
         for one, other in zip(vars(experience).values(), vars(again).values()):
             np.testing.assert_array_equal(one, other)
-        assert (experience.first_slots() >> 20 == experience.slots >> 4).all()
+        assert (experience.first_slots >> 20 == experience.slots >> 4).all()
 
 
 def test_layers_round_trip_each_with_its_own_experience() -> None:

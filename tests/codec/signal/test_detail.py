@@ -1,9 +1,11 @@
 import numpy as np
 import pytest
 
+from bitstream.coefficients.trellis import points_of_levels
+from codec.basis.orthogonal_iteration import hash_columns
 from codec.blocks.overlap import Block
 from codec.geometry.graph import graph_of_faces
-from codec.signal.detail import Normals, displace, fold_details, make_surface, unfold_details
+from codec.signal.detail import Normals, fold_details, make_surface
 from codec.static.encoder import Encoder
 from codec.static.options import EncodeOptions
 from tests.shapes import grid_faces, torus
@@ -50,17 +52,33 @@ def test_a_block_can_be_used_again():
 
 
 def test_heights_move_along_normals():
-    positions, normals = np.zeros((4, 3)), np.eye(4)[:, :3]
-    moved = displace(positions, normals, np.eye(4), np.array([2.0, 3.0]))
-    assert moved.tolist() == [[2, 0, 0], [0, 3, 0], [0, 0, 0], [0, 0, 0]]
+    mesh = torus(12, 8)
+    normals, block = Normals(make_surface(mesh.faces, len(mesh.positions))), whole(mesh)
+    subspace, levels = hash_columns(block.size, 5), np.array([[3, -2, 0], [1, 7, 0]], np.int32)
+    raised = mesh.positions.copy()
+    normals.raise_block(block, subspace, levels, 4, 0.25, raised)
+    height = subspace[:, :4] @ (points_of_levels(levels).reshape(-1)[:4] * 0.125)
+    assert np.allclose(raised, mesh.positions + normals.of(block, mesh.positions) * height[:, None], atol=1e-14)
+    normals.raise_block(block, subspace, levels, 0, 0.25, same := mesh.positions.copy())
+    assert np.array_equal(same, mesh.positions)
+
+
+@pytest.mark.parametrize(("columns", "count"), [(5, 6), (9, 7), (5, -1)])
+def test_more_heights_than_columns_or_levels_are_a_mistake(columns, count):
+    mesh = torus(12, 8)
+    normals, block = Normals(make_surface(mesh.faces, len(mesh.positions))), whole(mesh)
+    with pytest.raises(ValueError, match="fit together"):
+        normals.raise_block(
+            block, np.zeros((block.size, columns)), np.zeros((2, 3), np.int32), count, 0.25, mesh.positions.copy()
+        )
 
 
 @pytest.mark.parametrize("count", [0, 1, 2, 3, 7])
-def test_folding_and_unfolding(count):
+def test_folding(count):
     levels = np.arange(1, count + 1, dtype=np.int32)
     folded = fold_details(levels)
     assert folded.shape == ((count + 2) // 3, 3)
-    assert unfold_details(folded, count).tolist() == levels.tolist()
+    assert folded.reshape(-1)[:count].tolist() == levels.tolist()
 
 
 def test_the_detail_layer_saves_bytes_at_equal_angles():

@@ -7,7 +7,7 @@ from codec.basis.laplacian import dense_laplacian, laplacian_of
 from codec.basis.orthogonal_iteration import exact_basis, first_columns
 from codec.blocks.overlap import Block
 from codec.geometry.graph import graph_of_faces
-from codec.signal.predict import Known, Surroundings, extend, unheld
+from codec.signal.predict import Known, Surroundings, unheld
 from codec.static.encoder import Encoder
 from codec.static.options import EncodeOptions
 from tests.shapes import patch, torus
@@ -38,7 +38,7 @@ def test_between_two_ends_a_path_is_a_straight_line():
     known.add(piece(graph, [11]), np.array([[11.0, -22.0, 0.5]]))
     middle = piece(graph, np.arange(1, 11))
     line = np.arange(1, 11)[:, None] * np.array([1.0, -2.0, 0.5 / 11])
-    assert np.abs(extend(known.around(laplacian_of(middle), SHIFT)) - line).max() < 1e-2
+    assert np.abs(known.around(laplacian_of(middle), SHIFT).continuation - line).max() < 1e-2
 
 
 def test_from_one_end_a_path_stays_where_it_is():
@@ -46,7 +46,7 @@ def test_from_one_end_a_path_stays_where_it_is():
     known = Known(graph, 8.0)
     known.add(piece(graph, [0]), np.array([[3.0, 4.0, 5.0]]))
     rest = piece(graph, np.arange(1, 12))
-    assert extend(known.around(laplacian_of(rest), SHIFT)) == pytest.approx(np.tile([3.0, 4.0, 5.0], (11, 1)))
+    assert known.around(laplacian_of(rest), SHIFT).continuation == pytest.approx(np.tile([3.0, 4.0, 5.0], (11, 1)))
 
 
 def test_what_is_not_connected_lies_at_the_mean():
@@ -54,7 +54,7 @@ def test_what_is_not_connected_lies_at_the_mean():
     known = Known(graph, 8.0)
     known.add(piece(graph, [0]), np.array([[1.0, 2.0, 3.0]]))
     block = piece(graph, [1, 2, 3, 4, 5])
-    assert extend(known.around(laplacian_of(block), SHIFT)) == pytest.approx(np.tile([1.0, 2.0, 3.0], (5, 1)))
+    assert known.around(laplacian_of(block), SHIFT).continuation == pytest.approx(np.tile([1.0, 2.0, 3.0], (5, 1)))
 
 
 def test_a_block_that_knows_of_nothing_is_predicted_at_zero():
@@ -62,8 +62,8 @@ def test_a_block_that_knows_of_nothing_is_predicted_at_zero():
     block = piece(graph, np.arange(5))
     around = Known(graph, 8.0).around(laplacian_of(block), SHIFT)
     assert not around.springs.any() and not around.pulls.any()
-    assert not extend(around).any()
-    assert not extend(unheld(laplacian_of(block), SHIFT)).any()
+    assert not around.continuation.any()
+    assert not unheld(laplacian_of(block), SHIFT).continuation.any()
 
 
 def test_springs_count_edges_that_leave_and_known_rows():
@@ -89,7 +89,7 @@ def test_the_extension_is_the_equilibrium_within_the_hull_of_the_pulls(seed):
     springs = np.where(random.random(63) < 0.2, random.integers(1, 9, 63), 0).astype(float)
     springs[0] = 1.0
     places = random.normal(size=(63, 3))
-    found = extend(Surroundings(laplacian_of(block), springs, SHIFT, springs[:, None] * places))
+    found = Surroundings(laplacian_of(block), springs, SHIFT, springs[:, None] * places).continuation
     expected = np.linalg.solve(dense_laplacian(block) + np.diag(springs), springs[:, None] * places)
     assert np.abs(found - expected).max() < 0.05
     held = places[springs > 0]

@@ -3,8 +3,9 @@ import math
 import numpy as np
 import pytest
 
+from bitstream.coefficients.trellis import points_of_levels
 from codec.basis.orthogonal_iteration import hash_columns
-from codec.signal.transform import project, reconstruct
+from codec.signal.transform import placed, project, reconstruct
 
 
 @pytest.mark.parametrize(("n", "c"), [(1, 1), (2, 2), (5, 0), (9, 2), (50, 7), (574, 57)])
@@ -23,3 +24,17 @@ def test_later_columns_change_no_bit():
     coefficients = project(narrow, values, 4)
     assert np.array_equal(project(subspace, values, 4), coefficients)
     assert np.array_equal(reconstruct(subspace, coefficients), reconstruct(narrow, coefficients))
+
+
+@pytest.mark.parametrize("count", [0, 1, 9])
+def test_a_block_is_placed_where_its_levels_say(count):
+    subspace, prediction = hash_columns(50, 9), hash_columns(50, 3)
+    levels = (40 * hash_columns(count, 3)).astype(np.int32)
+    expected = prediction + reconstruct(subspace, points_of_levels(levels) * 0.125)
+    assert np.array_equal(placed(prediction, subspace, levels, 0.25), expected)
+
+
+@pytest.mark.parametrize(("rows", "levels"), [(50, 10), (49, 3)])
+def test_a_block_of_another_shape_is_not_placed(rows, levels):
+    with pytest.raises(ValueError, match="fit together"):
+        placed(np.zeros((rows, 3)), hash_columns(50, 9), np.zeros((levels, 3), np.int32), 0.25)

@@ -23,6 +23,7 @@ def strip() -> Blocks:
         np.array([0, 1], np.int32),
         np.array([3, 2], np.int32),
         np.array([0, 3, 6]),
+        np.array([9, 9]),
         np.array([0, 1, 2, 3, 4, 2], np.int32),
     )
 

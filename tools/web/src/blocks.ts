@@ -46,7 +46,7 @@ export interface Block {
 
 /** How matrices with the pattern of a block are factorised; in the order of the kernels' structure. */
 export interface Fronts {
-    parts: readonly Words[];
+    parts: readonly (Words | Doubles)[];
     /** Doubles that the fronts' matrices take. */
     size: number;
     /** Operations of a factorisation, and entries that a solution goes through. */
@@ -196,7 +196,10 @@ function findFronts(memory: Memory, offsets: Ints, neighbours: Ints): Fronts {
     }
     if (size === TOO_MUCH) throw new LimitError(`the faces of a block of ${n} vertices are too entangled`);
     borders = memory.enlarged(borders, size);
-    return { parts: [rows, steps, owners, firsts, starts, borders, places], size: places.view[count], ...cost(firsts, starts) };
+    const sums = cost(firsts, starts);
+    const told = memory.doubles(2);
+    told.view.set([sums.entries, sums.work]);
+    return { parts: [rows, steps, owners, firsts, starts, borders, places, told], size: places.view[count], ...sums };
 }
 
 function cost(firsts: Words, starts: Words): { work: number; entries: number } {
