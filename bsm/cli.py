@@ -95,7 +95,7 @@ def _common(name: str) -> Parser:
 
 
 def _sentence(name: str) -> str:
-    return f"{COMMANDS[name].capitalize()}."
+    return f"{COMMANDS[name][0].upper()}{COMMANDS[name][1:]}."
 
 
 def _complete(parser: Parser, name: str) -> Parser:

@@ -25,7 +25,7 @@ TARGETS = {
     "bpv": "bpv",
     "size": "size",
 }
-"""Keyword of each target of a mesh, and its kind, see `codec.Target`."""
+"""Keyword of each target of a mesh, and its kind, see `codec.static.quality.targets`."""
 
 SEQUENCE_TARGETS = {"kg": "kg", "bpvf": "bpvf", "theta": "theta_deg", "nmsve_db": "nmsve_db"}
 """The same for sequences."""
