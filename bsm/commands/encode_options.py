@@ -85,8 +85,8 @@ ENCODE_FLAGS = (
 
 PRESETS = ("small", "balanced", "fine", "near-lossless", "lossless")
 PROMISES = (
-    "how far a vertex may be off, of the diagonal, and normals on average: small 2 %% and 12 degrees, balanced 1 %% and "
-    "8 (default), fine 0.5 %% and 3, near-lossless 0.05 %%; lossless: exactly as on a grid of 14 bits"
+    "how far a vertex may be off, of the diagonal, and normals on average: small 2 %% and 12 degrees, balanced 1 %% "
+    "and 8 (default), fine 0.5 %% and 3, near-lossless 0.05 %%; lossless: exactly as on a grid of 14 bits"
 )
 """Of the presets; written out, since importing what they are takes time."""
 
