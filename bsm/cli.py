@@ -41,7 +41,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         parser = command_parser(words[0])
         args = parser.parse_command(words[1:])
         code: int | None = args.run(args, Console(quiet=args.quiet))
-        sys.stdout.flush()
+        if sys.stdout is not None:  # closed by the shell
+            sys.stdout.flush()
         return code or 0
     except (Exception, KeyboardInterrupt, Terminated) as raised:
         error = behind(raised)
@@ -95,7 +96,7 @@ def _common(name: str) -> Parser:
 
 
 def _sentence(name: str) -> str:
-    return f"{COMMANDS[name].capitalize()}."
+    return f"{COMMANDS[name][0].upper()}{COMMANDS[name][1:]}."
 
 
 def _complete(parser: Parser, name: str) -> Parser:

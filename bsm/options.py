@@ -25,7 +25,7 @@ TARGETS = {
     "bpv": "bpv",
     "size": "size",
 }
-"""Keyword of each target of a mesh, and its kind, see `codec.Target`."""
+"""Keyword of each target of a mesh, and its kind, see `codec.static.quality.targets`."""
 
 SEQUENCE_TARGETS = {"kg": "kg", "bpvf": "bpvf", "theta": "theta_deg", "nmsve_db": "nmsve_db"}
 """The same for sequences."""
@@ -175,6 +175,21 @@ def _named(what: str, choices: Mapping[str, Any], name: str) -> Any:
 
 
 def _refuse(name: str, what: str, known: Iterable[str]) -> NoReturn:
+    for others, names in (("single meshes", _names_of_meshes()), ("sequences", _names_of_sequences())):
+        if name in names and what in ("a mesh", "a sequence"):
+            raise ArgumentError(f"{name} is for {others}, not for {what}")
     close = difflib.get_close_matches(name, known, 1)
     advice = f"did you mean {close[0]}?" if close else f"there are {', '.join(sorted(known))}"
     raise ArgumentError(f"there is no option {name} for {what}; {advice}")
+
+
+def _names_of_meshes() -> set[str]:
+    from codec.static.options import EncodeOptions
+
+    return {*get_type_hints(EncodeOptions), *TARGETS}
+
+
+def _names_of_sequences() -> set[str]:
+    from codec.sequence.options import SequenceOptions
+
+    return {*get_type_hints(SequenceOptions), *SEQUENCE_TARGETS, "low_delay"}

@@ -44,4 +44,4 @@ def check_options(
         if name in ranges:
             low, high = ranges[name]
             if not low <= value <= high:
-                raise OptionError(f"{name} = {value:g} is outside {low:g}..{high:g}")
+                raise OptionError(f"{name} = {value:g} is outside {low:.7g}..{high:.7g}")

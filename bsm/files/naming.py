@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import glob
-import sys
 from pathlib import Path
 
 from bitstream.errors import OptionError
 from bsm.files.remote import beside, inside, is_url, name_in
+from bsm.files.standard import standard_output
 
 
 def default_output(path: str, suffix: str) -> str:
@@ -58,5 +58,5 @@ def _with_suffix(path: str, suffix: str) -> Path:
 
 def refuse_terminal(path: str) -> None:
     """Raise `OptionError` if "-" is a terminal: binary data would only garble it."""
-    if path == "-" and sys.stdout.isatty():
+    if path == "-" and standard_output().isatty():
         raise OptionError("binary data is not written to a terminal; redirect it, or name a file with -o")

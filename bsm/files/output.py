@@ -7,7 +7,6 @@ import glob
 import os
 import re
 import signal
-import sys
 import tempfile
 import threading
 from collections.abc import Iterator
@@ -17,6 +16,7 @@ from types import FrameType
 from typing import BinaryIO
 
 from bsm.files.remote import is_url, open_remote_output, refuse_to_replace
+from bsm.files.standard import standard_output
 
 _TEMPORARY = ".part"
 _FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
@@ -46,8 +46,9 @@ def open_output(path: str | os.PathLike[str], *, overwrite: bool = False) -> Ite
         If the folder does not exist or is read-only, or the disk is full.
     """
     if os.fspath(path) == "-":
-        yield sys.stdout.buffer
-        sys.stdout.buffer.flush()
+        piped = standard_output()
+        yield piped
+        piped.flush()
         return
     if isinstance(path, str) and is_url(path):
         with open_remote_output(path, overwrite=overwrite) as remote:

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import io
 import os
-import sys
 from collections.abc import Iterator
 from typing import BinaryIO, TypeAlias, Union, cast
 
 from bitstream.errors import ArgumentError, FormatError, LimitError
 from bsm.files.remote import is_url, open_remote, without_scheme_of_files
+from bsm.files.standard import standard_input
 
 Source: TypeAlias = Union[str, "os.PathLike[str]", bytes, bytearray, memoryview, BinaryIO, "Input"]
 """A path ("-" is standard input) or URL, any buffer, or a binary file, which need not be seekable."""
@@ -111,7 +111,7 @@ class Input:
                 raise FormatError("this is a folder, not a file")
             self._opened = self.name != "-"
             # Closed at its end, or where `chunks` ends.
-            self._file = _opened(self.name) if self._opened else cast(BinaryIO, sys.stdin.buffer)
+            self._file = _opened(self.name) if self._opened else standard_input()
         read = getattr(self._file, "read1", self._file.read)
         piece = read(_CHUNK)
         if isinstance(piece, str):

@@ -286,6 +286,23 @@ def test_a_full_disk(folder):
     assert done.stderr.count(b"\n") == 1 and b"bsm: /dev/full: No space left" in done.stderr
 
 
+@pytest.mark.parametrize(
+    ("words", "code", "said"),
+    [
+        ("info {stream} >&-", 0, b""),
+        ("encode - -o {new} <&-", 9, b"bsm: standard input is closed\n"),
+        ("decode {stream} --format ply -o - >&-", 9, b"standard output is closed\n"),
+        ("encode {mesh} -q -o {new} <&- >&-", 0, b""),
+    ],
+)
+def test_what_the_shell_has_closed(folder, tmp_path, words, code, said):
+    places = {"stream": folder / "sample.bsm", "mesh": folder / "sample.ply", "new": tmp_path / "a.bsm"}
+    command = f"'{sys.executable}' -m bsm {words.format(**places)}"
+    done = subprocess.run(["bash", "-c", command], capture_output=True, timeout=120, check=False, cwd=ROOT)
+    assert (done.returncode, done.stderr.count(b"\n")) == (code, said.count(b"\n"))
+    assert done.stderr.endswith(said)
+
+
 def test_a_file_that_may_not_grow_is_named_and_removed(folder, tmp_path):
     resource = pytest.importorskip("resource")
     done = bsm(

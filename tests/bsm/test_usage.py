@@ -7,6 +7,8 @@ import pytest
 
 from bsm import __version__
 from bsm.cli import COMMANDS, main, program_parser
+from bsm.commands.encode_options import PROMISES
+from codec.static.options import PRESETS
 from tests.bsm.test_batch import bsm
 
 
@@ -89,3 +91,15 @@ def test_bash_completes(tmp_path):
 def test_every_command_says_what_it_takes_for_files():
     files = [action.dest for action in program_parser(complete=True).file_arguments()]
     assert {"inputs", "output", "original", "decoded", "permutation"} <= set(files)
+
+
+def test_help_says_what_presets_promise():
+    for name, options in PRESETS.items():
+        said = PROMISES.replace("%%", "%").split(f"{name} " if options.grid is None else f"{name}: ")[1]
+        contract = options.contract
+        if options.grid is not None:
+            assert said == f"exactly as on a grid of {options.grid} bits"
+        elif contract.angle < 180:
+            assert said.startswith(f"{100 * contract.farthest:g} % and {contract.angle:g}")
+        else:
+            assert said.startswith(f"{100 * contract.farthest:g} %;")
