@@ -93,7 +93,7 @@ class Refined:
         layer = base.layer(min(1.2 * math.radians(nominal) * edge, COARSEST_STEP), ratio)
         wanted, directions = base.wanted(layer)
         aim = Aim(layer.step / edge, 8.0 * layer.step if ratio else math.inf)
-        return base.refined((layer, self._shaper.levels(base.positions, wanted, directions, aim)))
+        return base.refined((layer, self._shaper.levels(base.positions, wanted, directions, aim))).draft()
 
     def _base(self, step: float) -> Base:
         if step not in self._bases:
@@ -116,7 +116,7 @@ class Grids:
     def draft(self, step: float) -> Draft:
         """The draft at a step."""
         cell = max(step * self._scale, self._shaped.finest)
-        held, places, _ = self._shaped.places(cell, Aim(0.4 * cell / self._edge, 3.0 * cell, 3))
+        held, places, _, _ = self._shaped.places(cell, Aim(0.4 * cell / self._edge, 3.0 * cell, 3))
         return self._shaped.draft(held, places)
 
     @property

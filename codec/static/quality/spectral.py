@@ -77,17 +77,40 @@ class Base:
             self.positions if positions is None else positions, self.frames, levels, layer.step, layer.ratio
         )
 
-    def refined(self, *added: tuple[Layer, Levels], borders: bool = False) -> Draft:
+    def refined(self, *added: tuple[Layer, Levels], borders: bool = False) -> Stack:
         """With layers of levels, shapes (n, axes); with `borders`, the last has some at vertices of these alone."""
-        positions = self.positions
-        body = self.draft.body
-        for number, (layer, levels) in enumerate(added):
-            positions = self.moved(layer, levels, positions)
-            last = number == len(added) - 1
-            body += tuple(encode_layer(self.prepared.mesh.faces, number, levels, borders=borders and last))
-        numbers = tuple(number for layer, _ in added for number in (layer.step, layer.ratio))
-        header = replace(self.draft.header, refinements=numbers, borders=int(borders))
-        return Draft(header, body, self.prepared.units.back(positions))
+        return Stack(self, added, borders)
+
+
+@dataclass(frozen=True, eq=False)
+class Stack:
+    """Layers of levels, shapes (n, axes), on a base; with `borders`, the last has some at vertices of these alone."""
+
+    base: Base
+    added: tuple[tuple[Layer, Levels], ...]
+    borders: bool
+
+    @cached_property
+    def positions(self) -> Matrix:
+        """As decoded, in BSM units."""
+        positions = self.base.positions
+        for layer, levels in self.added:
+            positions = self.base.moved(layer, levels, positions)
+        return positions
+
+    def draft(self) -> Draft:
+        """The stream."""
+        base = self.base
+        if not self.added:
+            return base.draft
+        body, last = base.draft.body, len(self.added) - 1
+        for number, (_, levels) in enumerate(self.added):
+            body += tuple(
+                encode_layer(base.prepared.mesh.faces, number, levels, borders=self.borders and number == last)
+            )
+        numbers = tuple(number for layer, _ in self.added for number in (layer.step, layer.ratio))
+        header = replace(base.draft.header, refinements=numbers, borders=int(self.borders))
+        return Draft(header, body, base.prepared.units.back(self.positions))
 
 
 SAMPLES, SAMPLE_OF = 1, 8
