@@ -26,7 +26,7 @@ from codec.static.quality.contract import ANY_ANGLE, Contract
 from codec.static.quality.draft import Draft
 from codec.static.quality.grid_search import COARSEST, GridSearch
 from codec.static.quality.lattices import rounded
-from codec.static.quality.search import FLATTEST, Trial, widest_step
+from codec.static.quality.search import Trial, widest_step
 from codec.static.quality.shaping import Aim, Shaper
 from codec.static.quality.spectral import Base, Spectral, Stack, base_step
 
@@ -51,6 +51,8 @@ FINEST = 2.0**-38
 """Smallest step, in BSM units."""
 STEEP, STEEP_HEIGHTS = 1.05, 0.65
 """How angles grow with the step of a layer, in their logarithms: of one along all axes, and along normals alone."""
+FLATTER = 0.6
+"""And how much less they may."""
 MARGIN = 1e-9
 """Of a bound on distances, for what rounding may add."""
 
@@ -145,7 +147,7 @@ class Fulfilment:
             return False
         if self._borders.vertices.any():
             return self._prepared.graph.size >= FEW_VERTICES
-        if self._contract.angle <= MODEL_ANGLE and self._shaper.character.is_model:
+        if self._grids.fits_model or (self._contract.angle <= MODEL_ANGLE and self._shaper.character.is_model):
             return False
         return self._prepared.has_low_frequencies and not self._blocks.is_flat(COARSE, FLAT)
 
@@ -256,7 +258,7 @@ class Fulfilment:
             math.inf,
             tries=3,
             most=COARSEST,
-            slopes=(FLATTEST, steep),
+            slopes=(FLATTER * steep, steep),
         )
 
     @property

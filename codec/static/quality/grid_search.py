@@ -29,6 +29,8 @@ HELPED, HELPED_MODELS = 0.62, 0.75
 """Angle that shaping leaves, of what rounding gives."""
 ON_MODEL = 1.0
 """A grid is tried whose entropy is below so much of that of one that is about right."""
+LATTICE_GAIN = 0.75
+"""And where it is below so much of it, the model was made on that grid."""
 PLATEAU, PLATEAU_STEPS = 1.25, 24
 """Where a grid four times as fine has no more entropy than this, so many steps a sixth of a power of two apart are
 compared, too."""
@@ -38,9 +40,9 @@ OTHERS = 2
 """So many of these."""
 ROUNDED_MORE = 1.1
 """Where rounding bends normals by so much more than what is asked for, shaping may still do."""
-TRIES, SLACK, FLATTER = 4, 0.05, 0.5
-"""In the search for a step; how far below a bound on angles it may stay; and how much less than that of rounded places
-the angle of shaped ones grows with it at least."""
+TRIES, SLACK, FLATTER, LAST_RESORTS = 4, 0.05, 0.5, 4
+"""In the search for a step, and where it has found none; how far below a bound on angles it may stay; and how much less
+than that of rounded places the angle of shaped ones grows with it at least."""
 CLOSE, MOST_COMPARED = 1.015, 2
 """Of drafts whose estimates are so close to the best, so many are compared as files."""
 SHARE_OF_MODELS, SHARE_IF_SHARP = 0.45, 0.5
@@ -131,6 +133,15 @@ class GridSearch:
         return SHARE * entropy + max(more, 0.0) * entropy
 
     @property
+    def fits_model(self) -> bool:
+        """Whether there is a grid that a model seems to have been made on: it has far less entropy there."""
+        if not self._character.is_model:
+            return False
+        first = self.first_step
+        bound = LATTICE_GAIN * self._character.entropy(first)
+        return any(entropy <= bound for entropy, _ in self._made_on(first))
+
+    @property
     def first_step(self) -> float:
         """The step of a grid that should be about right."""
         if self._angle >= ANY_ANGLE:
@@ -156,6 +167,10 @@ class GridSearch:
                 measure, first, self._angle, self._reach, tries=TRIES, most=self._most, slack=SLACK, slopes=slopes
             )
         kept = [trial for trial in trials if self._keeps(trial.closeness)]
+        for finer in range(1, LAST_RESORTS + 1):
+            if not kept:
+                trial = self._trial(shaped, min(first, self._widest) / 4.0**finer, WORTH)
+                kept = [trial] if self._keeps(trial.closeness) else []
         if self._prepared.graph.size >= FEW_VERTICES:
             best = min(kept, key=lambda trial: trial.found.estimate, default=None)
             for _, step in sorted(self._made_on(first if best is None else best.step))[:OTHERS]:

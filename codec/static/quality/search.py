@@ -9,8 +9,6 @@ from typing import Generic, TypeVar
 
 from codec.geometry.closeness import Closeness
 
-FLATTEST = 0.1
-"""How an angle grows with the step in their logarithms, at least."""
 SLACK = 0.03
 """How far below a bound on angles the search for a step may stay."""
 

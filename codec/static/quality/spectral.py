@@ -143,7 +143,8 @@ class Spectral:
         return self._planner.is_flat(step, share)
 
     def sample(self, step: float, original: Original) -> float:
-        """Mean angle of normals, degrees, in a few blocks at a step, before they are blended and smoothed.
+        """Mean angle of normals, degrees, in a few blocks at a step, before they are blended and smoothed, by
+        dictionaries of one iteration.
 
         0 where blocks are few: it would take as long as all of them.
         """
@@ -151,6 +152,7 @@ class Spectral:
         if blocks.count < SAMPLE_OF:
             return 0.0
         scheme, faces = self._planner.scheme(step), self._prepared.mesh.faces
+        scheme = replace(scheme, rules=replace(scheme.rules, key_iterations=1))
         positions, total, weight = self._prepared.positions.copy(), 0.0, 0.0
         for index in np.linspace(0, blocks.count - 1, 2 + SAMPLES).astype(int)[1:-1]:
             block = ChainEncoder(scheme).encode(int(index), self._prepared.positions).decoded
