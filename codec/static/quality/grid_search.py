@@ -9,7 +9,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from bitstream.fields.grid import MOST_LARGEST
 from codec.arrays import Levels
 from codec.geometry.closeness import Closeness, Original
 from codec.static.preamble import FEW_VERTICES, Prepared
@@ -49,6 +48,8 @@ SHARE_OF_MODELS, SHARE_IF_SHARP = 0.45, 0.5
 SHARE, SHARE_VERTICES, SHARE_OF_FEWER, SHARE_OF_BITS, MEAN_BITS = 0.47, 50_000, 0.05, 0.02, 7.0
 """What is coded of the entropy of rounded places, about: where surfaces have sharp edges, and otherwise; how that grows
 when vertices are half as many as so many, and with bits of a vertex above the mean."""
+MOST_EXTENTS = 256.0
+"""How many times its diagonal a model may be from the origin, for its places to be counted from there."""
 MOST_PARTS, COARSEST_GRIDS = 256, 3
 """Of models of few vertices: cells along the longest side, and how many of the coarsest grids that fit are tried."""
 
@@ -197,9 +198,9 @@ class GridSearch:
 
         Those that begin at the origin of the mesh's unit need not say where.
         """
-        grids = [shaped]
-        if (self._prepared.mesh.positions >= 0.0).all():
-            grids.append(Shaped(self._prepared, self._shaper, np.zeros(3), still=self._borders.vertices))
+        from_origin = Shaped(self._prepared, self._shaper, np.zeros(3), still=self._borders.vertices)
+        farthest = float(np.abs(self._prepared.mesh.positions).max())
+        grids = [shaped, from_origin] if farthest < MOST_EXTENTS * self._prepared.mesh.diagonal else [shaped]
         for grid in grids:
             left = COARSEST_GRIDS
             for parts in range(1, MOST_PARTS):
@@ -208,8 +209,7 @@ class GridSearch:
                     if self._keeps(trial.closeness):
                         left -= 1
                         step, places = trial.found.step, trial.found.places
-                        from_origin = grid is not shaped and int(places.max()) < MOST_LARGEST
-                        yield grid.draft_from_origin(step, places) if from_origin else grid.draft(step, places)
+                        yield grid.draft(step, places) if grid is shaped else grid.draft_from_origin(step, places)
 
     def _trial(self, shaped: Shaped, step: float, worth: float, *, axes: int = 2, sweeps: int = 3) -> Trial[Placed]:
         step = max(step, shaped.finest)

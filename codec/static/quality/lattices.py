@@ -151,9 +151,11 @@ class Shaped:
         return float(np.square(places - np.rint(places)).sum(axis=1).max()) * step**2 <= reach**2
 
     def draft_from_origin(self, step: float, places: Levels) -> Draft:
-        """The same of a grid that begins where the mesh's unit does: shorter to write, if places are few."""
-        held = Grid((0.0, 0.0, 0.0), step, tuple(int(value) for value in places.max(axis=0)))
-        return grid_draft(self._prepared, held, places)
+        """The same of a grid that begins where the mesh's unit does, which is shorter to write."""
+        least = places.min(axis=0)
+        corner = tuple(map(int, least)) if least.any() else ()
+        held = Grid((0.0, 0.0, 0.0), step, tuple(map(int, np.ptp(places, axis=0))), corner=corner)
+        return grid_draft(self._prepared, held, places - least)
 
     def _grid(self, step: float, places: Levels) -> Grid:
         least = places.min(axis=0)
