@@ -26,7 +26,7 @@ from codec.static.preamble import Parts, Prepared, prepare
 from codec.static.quality.contract import Contract
 from codec.static.quality.draft import Draft
 from codec.static.quality.fulfilment import Fulfilment
-from codec.static.quality.ladders import WIDEST, Blocks, Grids, Ladder, Refined
+from codec.static.quality.ladders import FINER, WIDEST, Blocks, Grids, Ladder, Refined
 from codec.static.quality.lattices import rounded, rounded_to_cells
 from codec.static.quality.shaping import Shaper
 from codec.static.quality.spectral import Spectral
@@ -236,7 +236,8 @@ class Encoder:
         if prepared.has_low_frequencies:
             if not 0.0 < theta < DETAILED_ANGLE:
                 yield Blocks(Spectral(prepared, options, WIDEST), finest, progress)
-            yield Refined(prepared, options, shaper, original, progress)
+            for finer in (1.0, FINER) if theta else (1.0,):
+                yield Refined(prepared, options, shaper, original, progress, finer)
         yield Grids(prepared, shaper)
 
     def _judged(self, draft: Draft) -> Attempt:

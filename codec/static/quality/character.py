@@ -78,6 +78,11 @@ class Character:
             step = min(step * min(max(ratio, 1.0 / 16.0), 16.0), most)
         return step
 
+    @property
+    def roughness(self) -> float:
+        """Mean angle between faces beside each other, degrees."""
+        return float(np.degrees(self._dihedrals.mean())) if len(self._dihedrals) else 0.0
+
     @cached_property
     def is_sharp(self) -> bool:
         """Whether the surface is flat nearly everywhere, and bent at few edges: as models are, and scans are not."""

@@ -43,8 +43,10 @@ FLAT = 0.15
 """Share of frequencies worth coding at a coarse step from which on a grid is smaller than blocks."""
 MANY_OUTLIERS = 0.01
 """Of this many vertices out of reach, more are cheaper to bring back along all axes of a layer that all have."""
-DOUBT = 1.4
-"""Blocks alone are not tried where a sample of them has normals so many times too wrong."""
+ROUGH, ROUGHEST = 1.57, 13.3
+"""Up to these mean angles between faces beside each other, over what is asked for, and at most, blocks alone are tried."""
+SHEET, SHEET_STEP = 1.0 / 16.0, 0.024
+"""Where they are so small, the surface is a flat sheet, which coarser blocks without details are enough for."""
 COARSE = 0.016
 """A step, in BSM units, at which blocks carry nothing but what they are for."""
 FINEST = 2.0**-38
@@ -157,23 +159,27 @@ class Fulfilment:
 
     def _spectral(self) -> Iterator[Draft]:
         angle = self._contract.angle
-        if angle >= PLAIN_ANGLE and self._plain_may_do():
-            base = self._blocks.base(self._options.first_step, self._progress)
+        coarse = Spectral(self._prepared, replace(self._options, detail=0.0), WIDEST)
+        if angle >= PLAIN_ANGLE and self._is_smooth:
+            sheet = self._shaper.character.roughness < SHEET * angle
+            base = (
+                coarse.base(SHEET_STEP, self._progress)
+                if sheet
+                else self._blocks.base(self._options.first_step, self._progress)
+            )
             plain = self._with_outliers(base, [])
             if self._original.angle(plain.positions) <= angle:
                 yield plain.draft()
                 return
-        coarse = replace(self._options, detail=0.0)
-        base = Spectral(self._prepared, coarse, WIDEST).base(base_step(angle), self._progress)
-        stack = self._refined(base)
+        stack = self._refined(coarse.base(base_step(angle), self._progress))
         if stack is not None:
             yield stack.draft()
 
-    def _plain_may_do(self) -> bool:
-        """Whether normals could be right without refinement; on faces that are flat, they are not."""
-        if self._shaper.character.is_model:
-            return False
-        return self._blocks.sample(self._options.first_step, self._original) < DOUBT * self._contract.angle
+    @property
+    def _is_smooth(self) -> bool:
+        """Whether normals can be right without refinement: they cannot where faces are flat, or bent at random."""
+        character = self._shaper.character
+        return not character.is_model and character.roughness < min(ROUGH * self._contract.angle, ROUGHEST)
 
     def _with_outliers(self, base: Base, layers: list[tuple[Layer, Levels]]) -> Stack:
         """With one more layer, if vertices are out of reach: of levels for these alone; and one for borders."""

@@ -10,12 +10,11 @@ import numpy as np
 from bitstream.container.header import Header, Layer
 from bitstream.limits import NAMED_LIMITS
 from codec.arrays import Levels, Matrix
-from codec.geometry.closeness import Original
 from codec.signal.frames import displaced, in_frames, local_frames
 from codec.signal.smooth import smooth
 from codec.static.admission import admit, patience
 from codec.static.assembly import blended
-from codec.static.layers.block_coder import ChainEncoder, Progress, encode_blocks
+from codec.static.layers.block_coder import Progress, encode_blocks
 from codec.static.layers.refinement import encode_layer
 from codec.static.options import EncodeOptions
 from codec.static.preamble import Prepared
@@ -113,13 +112,9 @@ class Stack:
         return Draft(header, body, base.prepared.units.back(self.positions))
 
 
-SAMPLES, SAMPLE_OF = 1, 8
-"""Blocks that are tried, and how many there must be."""
-
-
 def base_step(angle: float) -> float:
     """The step of blocks without a detail layer that refinement to a mean angle of normals, degrees, is cheapest on."""
-    return 0.016 if angle >= 5.0 else 0.008 if angle >= 2.5 else 0.004
+    return 0.016 if angle >= 6.0 else 0.012 if angle >= 4.0 else 0.008 if angle >= 2.5 else 0.004
 
 
 class Spectral:
@@ -141,28 +136,6 @@ class Spectral:
     def is_flat(self, step: float, share: float) -> bool:
         """Whether as large a share of all frequencies is worth coding at a step."""
         return self._planner.is_flat(step, share)
-
-    def sample(self, step: float, original: Original) -> float:
-        """Mean angle of normals, degrees, in a few blocks at a step, before they are blended and smoothed, by
-        dictionaries of one iteration.
-
-        0 where blocks are few: it would take as long as all of them.
-        """
-        blocks = self._prepared.blocks
-        if blocks.count < SAMPLE_OF:
-            return 0.0
-        scheme, faces = self._planner.scheme(step), self._prepared.mesh.faces
-        scheme = replace(scheme, rules=replace(scheme.rules, key_iterations=1))
-        positions, total, weight = self._prepared.positions.copy(), 0.0, 0.0
-        for index in np.linspace(0, blocks.count - 1, 2 + SAMPLES).astype(int)[1:-1]:
-            block = ChainEncoder(scheme).encode(int(index), self._prepared.positions).decoded
-            positions[block.vertices] = block.positions
-            inside = np.zeros(len(positions), np.bool_)
-            inside[block.vertices] = True
-            rows = np.asarray(inside[faces].all(axis=1))
-            total += original.angle_of(rows, positions)
-            weight += float(original.weights[rows].sum())
-        return total / weight if weight > 0.0 else 0.0
 
     def base(self, step: float, progress: Progress | None = None) -> Base:
         """The blocks at a step.
