@@ -152,6 +152,8 @@ NB_MODULE(_kernels, m) {
     m.def("collect_flaps", checked<&collect_flaps>, "faces"_a, "starts"_a, "members"_a, "pending"_a, "flaps"_a,
           Unlocked());
     m.def("group_flaps", checked<&group_flaps>, "flaps"_a, "starts"_a, "members"_a, Unlocked());
+    m.def("count_bends", checked<&count_bends>, "bends"_a, "stride"_a, "counts"_a, Unlocked());
+    m.def("count_bends_on", checked<&count_bends_on>, "corners"_a, "step"_a, "counts"_a, Unlocked());
     m.def("shape_levels", checked<&shape_levels>, "wanted"_a, "aim"_a, "moved"_a, "levels"_a, "directions"_a,
           "scales"_a, "pull"_a, "open"_a, Unlocked());
     m.def("shape_grid", checked<&shape_grid>, "wanted"_a, "aim"_a, "moved"_a, "places"_a, "step"_a, "flaps"_a,

@@ -162,12 +162,12 @@ def frames_of(stream):
             raise TruncatedError("the stream ends before END")  # F 2.4
         kind, length, start = tag[0] & 15, tag[0] >> 4, tag[1]
         require_limit(length, MOST_FRAME_BYTES, "frame length")  # F 3.2
-        size = 2 if kind == BLOCK else 4
+        size = 2 if kind == BLOCK or length < 128 else 4
         end = start + length
         if end + size > len(stream):
             raise TruncatedError("the stream ends inside a frame")
         body = stream[offset:end]
-        crc = binascii.crc_hqx(body, 0) if kind == BLOCK else zlib.crc32(body)
+        crc = binascii.crc_hqx(body, 0) if size == 2 else zlib.crc32(body)
         require(crc == int.from_bytes(stream[end : end + size], "little"), "checksum of a frame is wrong")  # F 3.3
         yield kind, stream[start:end], offset, number
         offset, number = end + size, number + 1
@@ -212,6 +212,7 @@ FIELDS = {
     "key_seed": (31, "method", 0, 1, 0),
     "borders": (32, "method", 0, 1, 0),
     "attributes": (33, int, 0, 255, 0),
+    "corner": (40, [0, 3], -(2**31), COUNT, []),
 }
 
 
@@ -255,13 +256,15 @@ def parse_header(payload):
     require(h["vertices"] <= 3 * h["faces"], "more vertices than corners")  # F 4.6
     if h["grid"]:
         others = {name for name in FIELDS if h[name] != FIELDS[name][4]}
-        allowed = {"vertices", "faces", "center", "scale", "grid", "lattice", "attributes"}
+        allowed = {"vertices", "faces", "center", "scale", "grid", "lattice", "attributes", "corner"}
         require(others <= allowed, "a grid, and something else")
         require(len(h["grid"]) == 3, "a grid of other than three axes")
         require(len(h["lattice"]) in (0, 2), "a lattice is not two numbers")
+        require(len(h["corner"]) in (0, 3), "a corner is not three numbers")
+        require(not h["corner"] or h["center"] == [0, 0, 0], "a corner and a center")
         require(not h["lattice"] or max(h["grid"]) <= h["lattice"][1] <= h["lattice"][0], "a lattice that is none")
     else:
-        require(not h["lattice"], "a lattice without a grid")
+        require(not h["lattice"] and not h["corner"], "a lattice or a corner without a grid")
         require(h["blocks"] and h["block_size"] and h["coefficients"], "no blocks, and no grid")
     require(h["blocks"] <= h["vertices"], "more blocks than vertices")
     require(h["block_size"] <= h["vertices"], "blocks larger than the mesh")
@@ -1008,7 +1011,7 @@ def decode_grid(mesh, grids):
     reader = GridReader(mesh.faces, header["vertices"], header["grid"])
     for _, _, count, payload in grids:
         reader.read(payload, count)
-    positions = [place(x, header["lattice"], header["center"], header["scale"]) for x in reader.x]
+    positions = [place(x, header) for x in reader.x]
     return np.array(positions), reader.x
 
 

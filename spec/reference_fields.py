@@ -642,12 +642,14 @@ class GridReader(Field):
         return t if below is None else below
 
 
-def place(values: Triple, lattice: list[int], center: list[float], scale: float) -> list[float]:
+def place(values: Triple, header: dict) -> list[float]:
     """V 12: the position of a vertex."""
-    if lattice:
-        m, k = lattice
+    if header["lattice"]:
+        m, k = header["lattice"]
         values = [(2 * value * m + k) // (2 * k) for value in values]
-    return [c + scale * y for c, y in zip(center, values)]
+    if header["corner"]:
+        values = [value + first for value, first in zip(values, header["corner"])]
+    return [c + header["scale"] * y for c, y in zip(header["center"], values)]
 
 
 # ---------------------------------------------------------------------------------------------------------------------

@@ -31,6 +31,12 @@ def patch(rows: int, columns: int) -> TriangleMesh:
     return TriangleMesh(np.stack([x, y, z], -1).reshape(-1, 3), grid_faces(rows, columns))
 
 
+def curved(mesh: TriangleMesh) -> TriangleMesh:
+    """With every line of vertices drawn out of line, so that no grid suits it."""
+    p = mesh.positions
+    return TriangleMesh(p + 0.05 * np.sin(3.0 * p[:, [1, 2, 0]] + 1.0) + 0.03 * np.sin(5.0 * p), mesh.faces)
+
+
 def torus(rows: int = 40, columns: int = 24, bumps: float = 0.05) -> TriangleMesh:
     """A bumpy torus, closed, genus one."""
     u, v = np.meshgrid(

@@ -197,6 +197,8 @@ class Header:
     """1: in the last layer of refinement only vertices of borders have levels."""
     attributes: int = integer(33, 0, MOST_ATTRIBUTES, default=0)
     """How many attributes the mesh has."""
+    corner: tuple[int, ...] = integers(40, -(2**31), COUNT, (0, 3), default=())
+    """First cell of a grid on each axis, counted from the origin of the mesh's unit; empty: `center` says it."""
 
     def __post_init__(self) -> None:
         normalise_fields(self, "header")
@@ -252,10 +254,12 @@ def _grid_rules(header: Header) -> dict[str, bool]:
         "a lattice that is not cells and points": bool(header.lattice) and not points,
         "a lattice with fewer points than the grid has values": 0 < points < max(header.grid),
         "a lattice of more points than cells": points > cells,
+        "a corner that is not one of three axes": len(header.corner) not in (0, 3),
+        "a corner and a center": bool(header.corner) and any(header.center),
     } | {
         f"a grid, and {name}": getattr(header, name) != default
         for name, default in HEADER_DEFAULTS.items()
-        if name not in ("grid", "lattice", "center", "scale", "attributes")
+        if name not in ("grid", "lattice", "center", "scale", "attributes", "corner")
     }
 
 
@@ -263,6 +267,7 @@ def _block_rules(header: Header) -> dict[str, bool]:
     return {
         "neither blocks nor a grid": not (header.blocks and header.block_size and header.coefficients),
         "a lattice without a grid": bool(header.lattice),
+        "a corner without a grid": bool(header.corner),
         "more vertices than the corners of its faces": header.vertices > 3 * header.faces,
         "more blocks than vertices": header.blocks > header.vertices,
         "blocks larger than the mesh": header.block_size > header.vertices,

@@ -16,6 +16,8 @@ VERSION = 0
 MAX_VARINT_BYTES = 5
 MAX_VARINT = (1 << 7 * MAX_VARINT_BYTES) - 1
 SKIPPABLE_TYPES = range(8, 12)
+SHORT = 128
+"""A payload of fewer bytes has a short checksum."""
 
 
 class FrameType(IntEnum):
@@ -107,21 +109,21 @@ def parse_varint(data: bytes | bytearray, start: int) -> tuple[int, int] | None:
     raise CorruptError(f"varint is longer than {MAX_VARINT_BYTES} bytes")
 
 
-def checksum_size(frame_type: int) -> int:
-    """Bytes of checksum behind a frame: two for the many small blocks, four for everything else."""
-    return 2 if frame_type == FrameType.BLOCK else 4
+def checksum_size(frame_type: int, length: int) -> int:
+    """Bytes of checksum behind a frame of so much payload: two for blocks and short ones, four for everything else."""
+    return 2 if frame_type == FrameType.BLOCK or length < SHORT else 4
 
 
-def checksum(frame_type: int, data: bytes | bytearray | memoryview) -> bytes:
-    """CRC-16 (CCITT polynomial 0x1021, initial value 0) for blocks, CRC-32 (as in zlib) otherwise; little-endian."""
-    value = binascii.crc_hqx(data, 0) if frame_type == FrameType.BLOCK else zlib.crc32(data)
-    return value.to_bytes(checksum_size(frame_type), "little")
+def checksum(size: int, data: bytes | bytearray | memoryview) -> bytes:
+    """Of two bytes: CRC-16 (CCITT polynomial 0x1021, initial value 0); of four: CRC-32 (as in zlib); little-endian."""
+    value = binascii.crc_hqx(data, 0) if size == 2 else zlib.crc32(data)
+    return value.to_bytes(size, "little")
 
 
 def write_frame(frame_type: int, payload: bytes) -> bytes:
     """Tag, payload and checksum."""
     body = write_varint(len(payload) << 4 | frame_type) + payload
-    return body + checksum(frame_type, body)
+    return body + checksum(checksum_size(frame_type, len(payload)), body)
 
 
 @dataclass(frozen=True, slots=True)
@@ -140,7 +142,7 @@ class Tag:
     @property
     def end(self) -> int:
         """Offset behind the frame."""
-        return self.checksum + checksum_size(self.type)
+        return self.checksum + checksum_size(self.type, self.length)
 
 
 def parse_tag(data: bytes | bytearray, start: int) -> Tag | None:
@@ -166,7 +168,7 @@ def parse_frame(data: bytes | bytearray, start: int, limits: Limits) -> Frame | 
     if tag.end > len(data):
         return None
     with memoryview(data) as view:
-        if checksum(tag.type, view[start : tag.checksum]) != view[tag.checksum : tag.end]:
+        if checksum(tag.end - tag.checksum, view[start : tag.checksum]) != view[tag.checksum : tag.end]:
             raise CorruptError(f"checksum of a frame of type {tag.type} and {tag.length} bytes is wrong")
         return Frame(tag.type, bytes(view[tag.payload : tag.checksum]), tag.end - start)
 

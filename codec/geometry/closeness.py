@@ -11,7 +11,7 @@ from codec import _kernels
 from codec.arrays import Faces, Indices, Mask, Positions
 from codec.geometry.metrics import Floats
 
-_LOST = math.pi
+LOST = math.pi
 """Angle of a face without area; no rounding of its vertices can give it a normal that is farther off."""
 
 
@@ -61,12 +61,12 @@ class Original:
     def angle(self, decoded: Positions) -> float:
         """Mean angle between corresponding normals, degrees; a face that lost its area counts as 180."""
         decoded = np.ascontiguousarray(decoded, np.float64)
-        return math.degrees(_kernels.weighted_angle(self.normals, self.weights, decoded, self.faces, _LOST))
+        return math.degrees(_kernels.weighted_angle(self.normals, self.weights, decoded, self.faces, LOST))
 
     def angle_of(self, rows: Mask, decoded: Positions) -> float:
         """What some faces contribute to `angle`."""
         normals, weights, faces = self.normals[rows], self.weights[rows], self.faces[rows]
-        return math.degrees(_kernels.weighted_angle(normals, weights, decoded, faces, _LOST))
+        return math.degrees(_kernels.weighted_angle(normals, weights, decoded, faces, LOST))
 
     def farthest(self, decoded: Positions) -> float:
         """Largest distance of a vertex from its place."""

@@ -60,5 +60,7 @@ class MeasuredSpectrum:
             energy[: block.size] += np.square(coefficients).mean(axis=1)
             count[: block.size] += 1
         energy /= np.maximum(count, 1)
-        smooth = np.array([energy[j - (j + 4) // 8 : j + (j + 4) // 8 + 1].mean() for j in range(width)])
+        sums, j = np.concatenate([[0.0], np.cumsum(energy)]), np.arange(width)
+        first, last = j - (j + 4) // 8, np.minimum(j + (j + 4) // 8 + 1, width)
+        smooth = (sums[last] - sums[first]) / (last - first)
         return np.sqrt(np.maximum.accumulate(smooth[::-1])[::-1])

@@ -26,7 +26,7 @@ from codec.static.preamble import Parts, Prepared, prepare
 from codec.static.quality.contract import Contract
 from codec.static.quality.draft import Draft
 from codec.static.quality.fulfilment import Fulfilment
-from codec.static.quality.ladders import WIDEST, Blocks, Grids, Ladder, Refined
+from codec.static.quality.ladders import FINER, WIDEST, Blocks, Grids, Ladder, Refined
 from codec.static.quality.lattices import rounded, rounded_to_cells
 from codec.static.quality.shaping import Shaper
 from codec.static.quality.spectral import Spectral
@@ -232,11 +232,12 @@ class Encoder:
             return
         theta = options.target.value if options.target is not None and options.target.kind == "theta_deg" else 0.0
         original = Original(prepared.positions, prepared.mesh.faces, by_area=not theta)
-        shaper = Shaper(original)
+        shaper = Shaper(original, prepared.graph)
         if prepared.has_low_frequencies:
             if not 0.0 < theta < DETAILED_ANGLE:
                 yield Blocks(Spectral(prepared, options, WIDEST), finest, progress)
-            yield Refined(prepared, options, shaper, original, progress)
+            for finer in (1.0, FINER) if theta else (1.0,):
+                yield Refined(prepared, options, shaper, original, progress, finer)
         yield Grids(prepared, shaper)
 
     def _judged(self, draft: Draft) -> Attempt:

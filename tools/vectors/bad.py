@@ -124,6 +124,14 @@ def _flipped(offset: int) -> bytes:
     return bytes(data)
 
 
+def _long_damaged() -> bytes:
+    frames = frames_of(_base())
+    head = len(stream_of(frames[:1])) - 8
+    data = bytearray(stream_of([frames[0], (8, bytes(200)), *frames[1:]]))
+    data[head + 100] ^= 0x10
+    return bytes(data)
+
+
 def _inserting(kind: int) -> Callable[[Frames], None]:
     return lambda frames: frames.insert(1, (kind, b""))
 
@@ -166,21 +174,22 @@ FRAMING: dict[str, Bad] = {
     "bad-empty": Bad("no bytes", "truncated", lambda: b""),
     "bad-magic-only": Bad("nothing behind the magic", "truncated", lambda: _base()[:4]),
     "unsupported-version": Bad("version 1", "unsupported", lambda: _base()[:4] + b"\x01" + _base()[5:]),
-    "bad-no-end": Bad("END is missing", "truncated", lambda: _base()[:-10]),
+    "bad-no-end": Bad("END is missing", "truncated", lambda: _base()[:-8]),
     "bad-half": Bad("the second half is missing", "truncated", lambda: _base()[: len(_base()) // 2]),
     "bad-trailing": Bad("a byte behind END", "corrupt", lambda: _base() + b"\0"),
     "bad-two-streams": Bad("a second stream behind the first", "corrupt", lambda: _base() + _base()),
     "bad-tag-long": Bad("a tag of six bytes", "corrupt", lambda: _raw_frame(b"\xff\xff\xff\xff\xff\x01")),
     "bad-tag-padded": Bad("a tag longer than need be", "corrupt", lambda: _raw_frame(b"\x81\x00" + bytes(8))),
     "bad-frame-huge": Bad("a frame that claims 2^30 bytes", "limit", lambda: _raw_frame(write_varint(1 << 34 | 1))),
-    "bad-checksum-header": Bad("a wrong CRC-32", "corrupt", lambda: _flipped(12)),
-    "bad-checksum-block": Bad("a wrong CRC-16", "corrupt", lambda: _flipped(len(_base()) - 16)),
+    "bad-checksum-header": Bad("a wrong CRC-16 of a short frame", "corrupt", lambda: _flipped(12)),
+    "bad-checksum-long": Bad("a wrong CRC-32 of a long frame", "corrupt", _long_damaged),
+    "bad-checksum-block": Bad("a wrong CRC-16 of a block", "corrupt", lambda: _flipped(len(_base()) - 14)),
     "bad-end-count": Bad("END counts one frame too many", "corrupt", lambda: _end(1, 0)),
     "bad-end-crc": Bad("END has another CRC-32 of the stream", "corrupt", lambda: _end(0, 1)),
     "bad-end-long": Bad(
         "END has a byte too many",
         "corrupt",
-        lambda: _base()[:-10] + write_frame(END, b"\x04" + bytes(5)),
+        lambda: _base()[:-8] + write_frame(END, b"\x04" + bytes(5)),
     ),
     "bad-skippable-first": Bad("a skippable frame before HEADER", "corrupt", _framed(lambda f: f.insert(0, (8, b"")))),
     "bad-connectivity-first": Bad("CONNECTIVITY before HEADER", "corrupt", _framed(_swap(HEADER, CONNECTIVITY))),

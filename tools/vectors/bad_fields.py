@@ -94,6 +94,9 @@ BAD_FIELDS: dict[str, Bad] = {
     "bad-lattice-cells": Bad(
         "a lattice of more points than cells", "corrupt", lambda: with_header(_grid(), lattice=[300, 400])
     ),
+    "bad-corner-two": Bad("a corner of two axes", "corrupt", lambda: with_header(_grid(), center=None, corner=[1, 2])),
+    "bad-corner-center": Bad("a corner and a center", "corrupt", lambda: with_header(_grid(), corner=[1, 2, 3])),
+    "bad-corner-blocks": Bad("a corner of blocks", "corrupt", lambda: with_header(_refined(), corner=[1, 2, 3])),
     "bad-no-blocks-no-grid": Bad("neither blocks nor a grid", "corrupt", lambda: with_header(_grid(), grid=None)),
     "unsupported-refinement": Bad(
         "REFINEMENT where `refinements` is empty", "unsupported", lambda: with_header(_refined(), refinements=None)

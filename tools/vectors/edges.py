@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import struct
-import zlib
 from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
@@ -12,7 +11,7 @@ import zstandard
 
 from bitstream.container.header import HEADER_FIELDS
 from bitstream.container.maps import write_map
-from bitstream.container.wire import FrameType
+from bitstream.container.wire import FrameType, write_frame
 from codec.geometry.mesh import TriangleMesh
 from codec.sequence.encoder import encode_sequence
 from codec.sequence.options import SequenceOptions
@@ -82,10 +81,9 @@ def _short_then_wrong() -> bytes:
     place = next(i for i, (kind, _) in enumerate(frames) if kind == BLOCK)
     frames[place] = (BLOCK, frames[place][1][:6])
     whole = stream_of(frames)
-    tail = bytearray(whole[-10:])
-    tail[2] ^= 1
-    tail[6:] = zlib.crc32(bytes(tail[:6])).to_bytes(4, "little")
-    return whole[:-10] + bytes(tail)
+    payload = bytearray(whole[-7:-2])
+    payload[1] ^= 1
+    return whole[:-8] + write_frame(FrameType.END, bytes(payload))
 
 
 def _swap_after(edit: Callable[[bytes], bytes]) -> Callable[[], bytes]:

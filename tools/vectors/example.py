@@ -49,12 +49,12 @@ def _bytes(stream: bytes) -> Iterator[tuple[bytes, str]]:
         else:
             yield payload[:1], f"method {payload[0]}"
             yield payload[1:], "coded faces"
-        yield frame[len(tag) + len(payload) :], "CRC-16" if kind == FrameType.BLOCK else "CRC-32"
-    start = len(stream) - 10
+        yield frame[len(tag) + len(payload) :], "CRC-16"
+    start = len(stream) - 8
     yield stream[start : start + 1], "END, 5 bytes"
     yield stream[start + 1 : start + 2], f"{stream[start + 1]} frames before it"
     yield stream[start + 2 : start + 6], "CRC-32 of all bytes before END"
-    yield stream[start + 6 :], "CRC-32"
+    yield stream[start + 6 :], "CRC-16"
 
 
 def _header(payload: bytes) -> Iterator[tuple[bytes, str]]:

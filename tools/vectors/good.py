@@ -68,7 +68,9 @@ def _with_isolated() -> TriangleMesh:
 
 def _skippable() -> bytes:
     frames = frames_of(encode(_small(), BASE))
-    return stream_of([frames[0], (8, b""), *frames[1:3], (11, b"skip this"), *frames[3:], (9, bytes(100))])
+    return stream_of(
+        [frames[0], (8, b""), *frames[1:3], (11, b"skip this"), *frames[3:], (9, bytes(127)), (9, bytes(128))]
+    )
 
 
 def _metadata() -> bytes:

@@ -94,7 +94,7 @@ def on_layers(mesh: TriangleMesh, count: int) -> bytes:
     made = Spectral(encoder._prepared, BASE).base(BASE.first_step)
     levels = made.wanted(ALL_AXES)[0]
     levels[count:] = 0
-    draft = made.refined((ALL_AXES, levels))
+    draft = made.refined((ALL_AXES, levels)).draft()
     layer = Refinement(0, 0, count, LevelsEncoder(made.prepared.mesh.faces, levels).chunk(count))
     body = (*(packet for packet in draft.body if not isinstance(packet, Refinement)), layer)
     return with_values(encoder, replace(draft, body=body), 1000, 14)

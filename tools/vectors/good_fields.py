@@ -16,6 +16,7 @@ from codec.geometry.mesh import TriangleMesh
 from codec.static.encoder import Encoder, encode
 from codec.static.options import EncodeOptions
 from codec.static.quality.spectral import Base, Spectral
+from tools.surgery import with_header
 from tools.vectors.good import BASE, Good
 from tools.vectors.meshes import hub, patch, shuffled, tangled, tetrahedron, together, torus, triangle
 
@@ -120,6 +121,14 @@ FIELDS: dict[str, Good] = {
     "good-grid-tetrahedron": Good("four vertices on a grid of one bit", lambda: encode(tetrahedron())),
     "good-grid-fine": Good("a grid of 20 bits", lambda: encode(_small(), EncodeOptions(grid=20))),
     "good-grid-lattice": Good("a lattice under a grid", lambda: encode(_exact_lattice(), EncodeOptions(grid=10))),
+    "good-grid-corner": Good(
+        "a grid that begins at given cells",
+        lambda: with_header(on_grid(_small(), counts=(120,)), center=None, corner=[1, -70000, 0]),
+    ),
+    "good-grid-corner-lattice": Good(
+        "a lattice under a grid that begins at given cells",
+        lambda: with_header(encode(_exact_lattice(), EncodeOptions(grid=10)), center=None, corner=[-1, 2, 300]),
+    ),
     "good-grid-chunks": Good("a grid in chunks", lambda: on_grid(_small(), counts=(1, 70, 49))),
     "good-grid-tangled": Good(
         "non-manifold, repeated, turned and degenerate faces on a grid",

@@ -39,26 +39,32 @@ class Grid:
         Largest value that is coded of each axis, or that a vertex has.
     lattice : (int, int), or ()
         (cells, points): a coded value k stands for the cell nearest to k * cells / points; (): for itself.
+    corner : (int, int, int), or ()
+        Cells from the origin on where the values begin; (): there.
     """
 
     origin: tuple[float, ...]
     step: float
     largest: tuple[int, ...]
     lattice: tuple[int, ...] = ()
+    corner: tuple[int, ...] = ()
 
     def positions(self, coded: Levels) -> Positions:
         """Of coded values, shape (n, 3), in the mesh's unit."""
-        return np.asarray(spread(coded, self.lattice) * self.step + np.array(self.origin))
+        places = spread(coded, self.lattice) + np.array(self.corner or (0, 0, 0), np.int64)
+        return np.asarray(places * self.step + np.array(self.origin))
 
     @property
     def fields(self) -> dict[str, Any]:
         """Twin of `grid_of`: what the header has to say."""
-        return {"center": self.origin, "scale": self.step, "grid": self.largest, "lattice": self.lattice}
+        return {"center": self.origin, "scale": self.step, "grid": self.largest, "lattice": self.lattice} | {
+            "corner": self.corner
+        }
 
 
 def grid_of(header: Header) -> Grid:
     """The grid of a stream."""
-    return Grid(header.center, header.scale, header.grid, header.lattice)
+    return Grid(header.center, header.scale, header.grid, header.lattice, header.corner)
 
 
 def encode_grid(faces: Indices, grid: Grid, coded: Levels) -> list[packets.Grid]:

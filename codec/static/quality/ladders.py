@@ -31,6 +31,10 @@ RATIOS = {"max_error_relative": 1.0, "nmsve_db": 3.0}
 it is about normals."""
 
 
+FINER = 1.6
+"""Rough meshes are smaller with blocks so much finer."""
+
+
 class Ladder(Protocol):
     """Drafts of one mesh."""
 
@@ -66,13 +70,22 @@ class Refined:
     shaper : Shaper
     original : Original
     progress : callable, optional
+    finer : float
+        How many times finer the blocks are than what is best on most meshes.
     """
 
     finest = 1e-6
 
     def __init__(
-        self, prepared: Prepared, options: EncodeOptions, shaper: Shaper, original: Original, progress: Progress | None
+        self,
+        prepared: Prepared,
+        options: EncodeOptions,
+        shaper: Shaper,
+        original: Original,
+        progress: Progress | None,
+        finer: float = 1.0,
     ) -> None:
+        self._finer = finer
         self._shaper = shaper
         self._original = original
         self._progress = progress
@@ -85,7 +98,7 @@ class Refined:
         """The draft at a step."""
         nominal = NOMINAL * step
         # Where the angle is known, base and axes are the same at all steps: sizes and angles do not jump.
-        base = self._base(base_step(self._angle or nominal))
+        base = self._base(base_step(self._angle or nominal) / self._finer)
         ratio = RATIOS.get(self._kind, 6.0)
         if self._angle is not None and self._original.angle(base.upright) < HEIGHTS_SHARE * self._angle:
             ratio = 0.0
@@ -93,7 +106,7 @@ class Refined:
         layer = base.layer(min(1.2 * math.radians(nominal) * edge, COARSEST_STEP), ratio)
         wanted, directions = base.wanted(layer)
         aim = Aim(layer.step / edge, 8.0 * layer.step if ratio else math.inf)
-        return base.refined((layer, self._shaper.levels(base.positions, wanted, directions, aim)))
+        return base.refined((layer, self._shaper.levels(base.positions, wanted, directions, aim))).draft()
 
     def _base(self, step: float) -> Base:
         if step not in self._bases:
@@ -116,7 +129,7 @@ class Grids:
     def draft(self, step: float) -> Draft:
         """The draft at a step."""
         cell = max(step * self._scale, self._shaped.finest)
-        held, places, _ = self._shaped.places(cell, Aim(0.4 * cell / self._edge, 3.0 * cell, 3))
+        held, places, _, _ = self._shaped.places(cell, Aim(0.4 * cell / self._edge, 3.0 * cell, 3))
         return self._shaped.draft(held, places)
 
     @property

@@ -130,14 +130,16 @@ class Shaped:
         """The least step, in BSM units, that a grid can have."""
         return max(float((self._prepared.positions - self._low).max()) / (MOST_LARGEST - 4), LEAST_CELL)
 
-    def places(self, step: float, aim: Aim, axes: int = 2) -> tuple[float, Levels, Positions]:
-        """The step as a header holds it, in the mesh's unit; places; and the positions there, in the mesh's unit."""
+    def places(self, step: float, aim: Aim, axes: int = 2) -> tuple[float, Levels, Positions, float]:
+        """The step as a header holds it, in the mesh's unit; places; the positions there, in the mesh's unit; and bytes
+        of second differences, by `Character.entropy`.
+        """
         unit = self._prepared.units.scale
         held = single(step * unit)
         wanted = np.floor((self._prepared.positions - self._low) / (held / unit) + 0.5).astype(np.int32)
-        places = self._shaper.places(wanted, self._low, held / unit, aim, axes)
+        places, bytes_of_bends = self._shaper.places(wanted, self._low, held / unit, aim, axes)
         places[self._still] = wanted[self._still]
-        return held, places, self._grid(held, places).positions(places - places.min(axis=0))
+        return held, places, self._grid(held, places).positions(places - places.min(axis=0)), bytes_of_bends
 
     def draft(self, step: float, places: Levels) -> Draft:
         """The stream of what `places` returned."""
@@ -149,9 +151,11 @@ class Shaped:
         return float(np.square(places - np.rint(places)).sum(axis=1).max()) * step**2 <= reach**2
 
     def draft_from_origin(self, step: float, places: Levels) -> Draft:
-        """The same of a grid that begins where the mesh's unit does: shorter to write, if places are few."""
-        held = Grid((0.0, 0.0, 0.0), step, tuple(int(value) for value in places.max(axis=0)))
-        return grid_draft(self._prepared, held, places)
+        """The same of a grid that begins where the mesh's unit does, which is shorter to write."""
+        least = places.min(axis=0)
+        corner = tuple(map(int, least)) if least.any() else ()
+        held = Grid((0.0, 0.0, 0.0), step, tuple(map(int, np.ptp(places, axis=0))), corner=corner)
+        return grid_draft(self._prepared, held, places - least)
 
     def _grid(self, step: float, places: Levels) -> Grid:
         least = places.min(axis=0)

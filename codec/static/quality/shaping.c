@@ -5,49 +5,133 @@
  * neighbour has moved. */
 #include "codec/static/quality/shaping.h"
 
-enum { FAN = 32 }; /* faces of one vertex that are looked at */
+enum { FAN = 32, MOVES = 32, LANES = 8 }; /* faces of one vertex that are looked at; moves; how many of them at once */
 
-typedef struct { /* the faces at a vertex: their other corners, wanted normals, weights */
-    int count;
-    double next[FAN][3], last[FAN][3], normal[FAN][3], weight[FAN];
+/* The faces at a vertex, `padded` with some of no weight: twice the area times the normal, in coordinates along the wanted
+ * normal and across it, in some unit of the vertex; and what a step in each direction adds to that, which is the same
+ * wherever the vertex is. */
+typedef struct {
+    int count, padded;
+    double unit, frame[3][3][FAN], edge[3][FAN];
+    float normal[3][FAN], turn[3][3][FAN], weight[FAN];
 } Fan;
 
-static void gather(const Wanted *wanted, ConstDoubles2 moved, int32_t v, Fan *fan) {
-    fan->count = 0;
-    for (int64_t i = wanted->around_starts.data[v]; i < wanted->around_starts.data[v + 1] && fan->count < FAN; i++) {
+typedef struct {
+    int count;
+    float by[3][MOVES]; /* steps in each direction */
+    float bent[MOVES];
+    double cost[MOVES];
+    int8_t code[MOVES];
+} Moves;
+
+INLINE double size(double x) { return x < 0.0 ? -x : x; }
+
+INLINE void gather(const Wanted *wanted, ConstDoubles2 moved, int32_t v, Fan *fan) {
+    const double *x = moved.data + 3 * (int64_t)v;
+    double u[3][FAN], w[3][FAN], normal[3][FAN], longest = 0.0;
+    int count = 0;
+    for (int64_t i = wanted->around_starts.data[v]; i < wanted->around_starts.data[v + 1] && count < FAN; i++, count++) {
         int32_t f = wanted->around.data[i];
         const int32_t *face = wanted->faces.data + 3 * (int64_t)f;
-        int corner = face[0] == v ? 0 : face[1] == v ? 1 : 2, k = fan->count++;
+        int corner = face[0] == v ? 0 : face[1] == v ? 1 : 2;
         const double *a = moved.data + 3 * (int64_t)face[(corner + 1) % 3];
         const double *b = moved.data + 3 * (int64_t)face[(corner + 2) % 3];
         for (int j = 0; j < 3; j++) {
-            fan->next[k][j] = a[j], fan->last[k][j] = b[j];
-            fan->normal[k][j] = wanted->normals.data[3 * (int64_t)f + j];
+            u[j][count] = a[j] - x[j], w[j][count] = b[j] - x[j];
+            normal[j][count] = wanted->normals.data[3 * (int64_t)f + j];
+            double length = size(u[j][count]) + size(w[j][count]);
+            longest = length > longest ? length : longest;
         }
-        fan->weight[k] = wanted->weights.data[f];
+        fan->weight[count] = (float)wanted->weights.data[f];
+    }
+    int padded = (count + LANES - 1) / LANES * LANES;
+    for (int k = count; k < padded; k++) {
+        for (int j = 0; j < 3; j++) u[j][k] = w[j][k] = normal[j][k] = 0.0;
+        fan->weight[k] = 0.0f;
+    }
+    fan->count = count, fan->padded = padded;
+    double unit = fan->unit = longest > 0.0 ? 1.0 / longest : 0.0;
+    for (int k = 0; k < padded; k++) {
+        /* A frame of the wanted normal (Duff and others, Building an orthonormal basis, revisited, 2017). */
+        double n0 = normal[0][k], n1 = normal[1][k], n2 = normal[2][k], sign = n2 < 0.0 ? -1.0 : 1.0;
+        double c = -1.0 / (sign + n2), d = n0 * n1 * c;
+        double frame[3][3] = {{n0, n1, n2}, {1.0 + sign * n0 * n0 * c, sign * d, -sign * n0}, {d, sign + n1 * n1 * c, -n1}};
+        double u0 = unit * u[0][k], u1 = unit * u[1][k], u2 = unit * u[2][k];
+        double w0 = unit * w[0][k], w1 = unit * w[1][k], w2 = unit * w[2][k];
+        double now[3] = {u1 * w2 - u2 * w1, u2 * w0 - u0 * w2, u0 * w1 - u1 * w0};
+        fan->edge[0][k] = u0 - w0, fan->edge[1][k] = u1 - w1, fan->edge[2][k] = u2 - w2;
+        for (int i = 0; i < 3; i++) {
+            for (int j = 0; j < 3; j++) fan->frame[i][j][k] = frame[i][j];
+            fan->normal[i][k] = (float)(frame[i][0] * now[0] + frame[i][1] * now[1] + frame[i][2] * now[2]);
+        }
     }
 }
 
-/* How bent the faces are with the vertex at x; no further than to `most`. */
-INLINE double bent(const Fan *fan, const double *x, double most) {
-    double sum = 0.0;
-    for (int k = 0; k < fan->count && sum < most; k++) {
-        const double *a = fan->next[k], *b = fan->last[k], *normal = fan->normal[k];
-        double u0 = a[0] - x[0], u1 = a[1] - x[1], u2 = a[2] - x[2], v0 = b[0] - x[0], v1 = b[1] - x[1], v2 = b[2] - x[2];
-        double n0 = u1 * v2 - u2 * v1, n1 = u2 * v0 - u0 * v2, n2 = u0 * v1 - u1 * v0;
-        double cosine = (n0 * normal[0] + n1 * normal[1] + n2 * normal[2]) /
-                        __builtin_sqrt(n0 * n0 + n1 * n1 + n2 * n2 + 1e-200);
-        double chord = 2.0 - 2.0 * cosine;
-        sum += fan->weight[k] * __builtin_sqrt(chord > 0.0 ? chord : 0.0);
+/* What a step in a direction adds. */
+INLINE void find_turn(Fan *fan, int a, const double *direction) {
+    double to[3] = {fan->unit * direction[0], fan->unit * direction[1], fan->unit * direction[2]};
+    for (int k = 0; k < fan->padded; k++) {
+        double e0 = fan->edge[0][k], e1 = fan->edge[1][k], e2 = fan->edge[2][k];
+        double turn[3] = {to[1] * e2 - to[2] * e1, to[2] * e0 - to[0] * e2, to[0] * e1 - to[1] * e0};
+        for (int i = 0; i < 3; i++)
+            fan->turn[a][i][k] =
+                (float)(fan->frame[i][0][k] * turn[0] + fan->frame[i][1][k] * turn[1] + fan->frame[i][2][k] * turn[2]);
     }
+}
+
+/* The chord between a normal with these coordinates, along what is wanted and across, and what is wanted. */
+INLINE float chord(float along, float across, float aside) {
+    float off = across * across + aside * aside;
+    float length = __builtin_sqrtf(along * along + off + 1e-30f);
+    float sum = length + (along < 0.0f ? -along : along);
+    return __builtin_sqrtf(2.0f * (along > 0.0f ? off : sum * sum) / (length * sum));
+}
+
+/* How bent the faces are. */
+INLINE double bent(const Fan *fan) {
+    float chords[FAN];
+    double sum = 0.0;
+    for (int k = 0; k < fan->padded; k++)
+        chords[k] = fan->weight[k] * chord(fan->normal[0][k], fan->normal[1][k], fan->normal[2][k]);
+    for (int k = 0; k < fan->count; k++) sum += chords[k];
     return sum;
+}
+
+/* The same with the vertex so many steps from where it is, in one direction. */
+INLINE double bent_by(const Fan *fan, int a, float by) {
+    float chords[FAN];
+    double sum = 0.0;
+    for (int k = 0; k < fan->padded; k++)
+        chords[k] = fan->weight[k] * chord(fan->normal[0][k] + by * fan->turn[a][0][k],
+                                           fan->normal[1][k] + by * fan->turn[a][1][k],
+                                           fan->normal[2][k] + by * fan->turn[a][2][k]);
+    for (int k = 0; k < fan->count; k++) sum += chords[k];
+    return sum;
+}
+
+/* The same of many moves, in three directions. */
+INLINE void bend(const Fan *fan, Moves *moves) {
+    for (int first = 0; first < moves->count; first += LANES) {
+        float sums[LANES] = {0.0f};
+        const float *by0 = moves->by[0] + first, *by1 = moves->by[1] + first, *by2 = moves->by[2] + first;
+        for (int k = 0; k < fan->count; k++) {
+            float at[3], turn[3][3], weight = fan->weight[k];
+            for (int i = 0; i < 3; i++) {
+                at[i] = fan->normal[i][k];
+                for (int a = 0; a < 3; a++) turn[a][i] = fan->turn[a][i][k];
+            }
+            for (int l = 0; l < LANES; l++)
+                sums[l] += weight * chord(at[0] + by0[l] * turn[0][0] + by1[l] * turn[1][0] + by2[l] * turn[2][0],
+                                          at[1] + by0[l] * turn[0][1] + by1[l] * turn[1][1] + by2[l] * turn[2][1],
+                                          at[2] + by0[l] * turn[0][2] + by1[l] * turn[1][2] + by2[l] * turn[2][2]);
+        }
+        for (int l = 0; l < LANES; l++) moves->bent[first + l] = sums[l];
+    }
 }
 
 INLINE double square(const double *a, const double *b) {
     return (a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]) + (a[2] - b[2]) * (a[2] - b[2]);
 }
-
-INLINE double size(double x) { return x < 0.0 ? -x : x; }
 
 static void open_around(const Wanted *wanted, int32_t v, Bytes open) {
     open.data[v] = 1;
@@ -80,29 +164,33 @@ KERNEL int64_t shape_levels(Wanted wanted, Aim aim, Doubles2 moved, Ints2 levels
         for (int32_t v = 0; v < (int32_t)levels.rows; v++) {
             if (!open.data[v]) continue;
             open.data[v] = 0;
+            double direction[3][3];
+            for (int64_t i = 0; i < 3 * axes; i++) direction[i / 3][i % 3] = directions.data[3 * v * axes + i];
             gather(&wanted, now_at, v, &fan);
-            double *at = moved.data + 3 * (int64_t)v, now = bent(&fan, at, __builtin_inf());
+            double *at = moved.data + 3 * (int64_t)v, now = bent(&fan);
             const double *place = wanted.positions.data + 3 * (int64_t)v;
             double far = square(place, at);
             int32_t first = wanted.beside_starts.data[v], end = wanted.beside_starts.data[v + 1];
             bool any = false;
-            for (int64_t a = 0; a < axes; a++) {
-                const double *direction = directions.data + (v * axes + a) * 3;
+            for (int a = 0; a < (int)axes; a++) {
                 double mean = 0.0;
                 for (int32_t i = first; i < end; i++) mean += levels.data[wanted.beside.data[i] * axes + a];
                 mean = end > first ? pull * mean / (end - first) : 0.0;
                 int32_t *level = levels.data + v * axes + a;
                 double unit = aim.worth / scales.data[a], stay = unit * size(*level - mean);
+                find_turn(&fan, a, direction[a]);
                 for (int by = -1; by <= 1; by += 2) {
-                    double there[3] = {at[0] + by * direction[0], at[1] + by * direction[1], at[2] + by * direction[2]};
+                    double there[3];
+                    for (int j = 0; j < 3; j++) there[j] = at[j] + by * direction[a][j];
                     double away = square(place, there), most = now + stay - unit * size(*level + by - mean);
                     if ((away > reach && away > far) || most <= 0.0) continue;
-                    double then = bent(&fan, there, most);
-                    if (then < most) {
-                        at[0] = there[0], at[1] = there[1], at[2] = there[2];
-                        now = then, far = away, *level += by, any = true;
-                        break;
-                    }
+                    double then = bent_by(&fan, a, (float)by);
+                    if (then >= most) continue;
+                    for (int j = 0; j < 3; j++) at[j] = there[j];
+                    for (int i = 0; i < 3; i++)
+                        for (int k = 0; k < fan.padded; k++) fan.normal[i][k] += (float)by * fan.turn[a][i][k];
+                    now = then, far = away, *level += by, any = true;
+                    break;
                 }
             }
             if (any) {
@@ -124,8 +212,10 @@ KERNEL int64_t shape_grid(Wanted wanted, Aim aim, Doubles2 moved, Ints2 places, 
         return MISUSED;
     ConstDoubles2 now_at = {moved.data, moved.rows, moved.columns};
     double reach = aim.reach * aim.reach;
+    const double direction[3][3] = {{step, 0.0, 0.0}, {0.0, step, 0.0}, {0.0, 0.0, step}};
     int64_t moves = 0;
     Fan fan;
+    Moves tried = {0};
     for (int64_t v = 0; v < open.size; v++) open.data[v] = 1;
     for (int64_t sweep = 0; sweep < aim.sweeps; sweep++)
         for (int32_t v = 0; v < (int32_t)places.rows; v++) {
@@ -145,8 +235,9 @@ KERNEL int64_t shape_grid(Wanted wanted, Aim aim, Doubles2 moved, Ints2 places, 
             double *at = moved.data + 3 * (int64_t)v;
             const double *place = wanted.positions.data + 3 * (int64_t)v;
             double far = square(place, at);
-            double best = bent(&fan, at, __builtin_inf()) + aim.worth * (rate[0][1] + rate[1][1] + rate[2][1]);
+            double best = bent(&fan) + aim.worth * (rate[0][1] + rate[1][1] + rate[2][1]);
             int pick = 13;
+            tried.count = 0;
             for (int c = 0; c < 27; c++) {
                 int by[3] = {c % 3 - 1, c / 3 % 3 - 1, c / 9 - 1}, along = (by[0] != 0) + (by[1] != 0) + (by[2] != 0);
                 if (along == 0 || along > axes) continue;
@@ -155,9 +246,15 @@ KERNEL int64_t shape_grid(Wanted wanted, Aim aim, Doubles2 moved, Ints2 places, 
                 double there[3] = {at[0] + step * by[0], at[1] + step * by[1], at[2] + step * by[2]};
                 double away = square(place, there);
                 if (away > reach && away > far) continue;
-                cost += bent(&fan, there, best - cost);
-                if (cost < best) best = cost, pick = c;
+                for (int a = 0; a < 3; a++) tried.by[a][tried.count] = (float)by[a];
+                tried.cost[tried.count] = cost;
+                tried.code[tried.count++] = (int8_t)c;
             }
+            if (tried.count == 0) continue;
+            for (int a = 0; a < 3; a++) find_turn(&fan, a, direction[a]);
+            bend(&fan, &tried);
+            for (int i = 0; i < tried.count; i++)
+                if (tried.cost[i] + tried.bent[i] < best) best = tried.cost[i] + tried.bent[i], pick = tried.code[i];
             if (pick == 13) continue;
             int by[3] = {pick % 3 - 1, pick / 3 % 3 - 1, pick / 9 - 1};
             for (int a = 0; a < 3; a++) at[a] += step * by[a], places.data[3 * (int64_t)v + a] += by[a];
@@ -216,5 +313,47 @@ int64_t group_flaps(ConstInts2 flaps, Ints starts, Ints members) {
     /* Every end has come down to where the row begins: move them up by one. */
     for (int64_t v = 0; v < n; v++) starts.data[v] = starts.data[v + 1];
     starts.data[n] = (int32_t)members.size;
+    return 0;
+}
+
+enum { EXACT = 16, OCTAVE = 4 };
+
+/* Which of `count` a magnitude is counted with: small ones by themselves, four an octave beyond. */
+INLINE int64_t bucket(int64_t magnitude, int64_t count) {
+    if (magnitude < EXACT) return least(magnitude, count - 1);
+    int bits = 63 - __builtin_clzll((uint64_t)magnitude);
+    return least(EXACT + OCTAVE * (bits - 4) + ((magnitude >> (bits - 2)) & 3), count - 1);
+}
+
+/* How often bends of each size come, `counts` (3 x buckets), on a grid: `corners` are rows of four vertices, from the
+ * corner of the grid on. */
+KERNEL int64_t count_bends_on(ConstDoubles2 corners, double step, Ints2 counts) {
+    if (corners.columns != 12 || counts.rows != 3 || counts.columns < 1 || !(step > 0.0)) return MISUSED;
+    for (int64_t i = 0; i < 3 * counts.columns; i++) counts.data[i] = 0;
+    double inverse = 1.0 / step;
+    for (int64_t i = 0; i < corners.rows; i++) {
+        const double *corner = corners.data + 12 * i;
+        for (int a = 0; a < 3; a++) {
+            int64_t place[4];
+            for (int k = 0; k < 4; k++) {
+                double at = corner[3 * k + a] * inverse + 0.5;
+                place[k] = at > 0.0 ? at < 0x1p60 ? (int64_t)at : (int64_t)1 << 60 : 0;
+            }
+            int64_t bend = place[0] + place[1] - place[2] - place[3];
+            counts.data[a * counts.columns + bucket(bend < 0 ? -bend : bend, counts.columns)]++;
+        }
+    }
+    return 0;
+}
+
+/* The same of every `stride`th row of given bends. */
+KERNEL int64_t count_bends(ConstInts2 bends, int64_t stride, Ints2 counts) {
+    if (bends.columns != 3 || counts.rows != 3 || counts.columns < 1 || stride < 1) return MISUSED;
+    for (int64_t i = 0; i < 3 * counts.columns; i++) counts.data[i] = 0;
+    for (int64_t i = 0; i < bends.rows; i += stride)
+        for (int a = 0; a < 3; a++) {
+            int64_t bend = bends.data[3 * i + a];
+            counts.data[a * counts.columns + bucket(bend < 0 ? -bend : bend, counts.columns)]++;
+        }
     return 0;
 }

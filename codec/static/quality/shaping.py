@@ -15,18 +15,14 @@ import numpy as np
 from codec import _kernels
 from codec.arrays import Indices, Levels, Matrix, Positions
 from codec.geometry.closeness import Original
-from codec.geometry.graph import graph_of_faces
+from codec.geometry.graph import Graph
 from codec.geometry.incidence import vertex_faces
+from codec.static.quality.character import Character
 
 PULL = 0.8
 """A level is expected at so much of the mean of its neighbours'."""
 RATES = np.log1p(np.arange(4096.0))
 """Bits, but for a factor, of a place on a grid that is so far from where a parallelogram would have it."""
-
-SHARP = 0.4
-"""Of the mean angle between faces beside each other: with a median below it, a surface has sharp edges."""
-MOST_FLAPS, MOST_BEND = 1 << 12, 1 << 10
-"""What entropy is measured on: so many second differences, and so large ones."""
 
 
 class Aim(NamedTuple):
@@ -53,11 +49,12 @@ class Shaper:
     ----------
     original : Original
         In BSM units.
+    graph : Graph
+        Of its faces.
     """
 
-    def __init__(self, original: Original) -> None:
+    def __init__(self, original: Original, graph: Graph) -> None:
         positions, faces = original.positions, original.faces
-        graph = graph_of_faces(faces, len(positions))
         around = vertex_faces(faces, len(positions))
         self._original = original
         self._graph = graph
@@ -68,11 +65,14 @@ class Shaper:
         self._open = np.empty(len(positions), np.uint8)
 
     @cached_property
+    def character(self) -> Character:
+        """Measures of the surface."""
+        return Character(self._original, self._flaps[0])
+
+    @property
     def mean_edge(self) -> float:
-        """Mean length of an edge, as faces count it: of their first edge."""
-        a, b = self._original.faces[:, 0], self._original.faces[:, 1]
-        lengths = np.sqrt(np.square(self._original.positions[a] - self._original.positions[b]).sum(axis=1))
-        return float(lengths.mean())
+        """Mean length of an edge."""
+        return self.character.mean_edge
 
     def levels(self, base: Positions, wanted: Levels, directions: Matrix, aim: Aim) -> Levels:
         """Levels along fixed directions.
@@ -94,8 +94,8 @@ class Shaper:
         _kernels.shape_levels(self._wanted, self._aim(aim, 1), moved, chosen, flat, scales, PULL, self._open)
         return chosen
 
-    def places(self, wanted: Levels, origin: Matrix, step: float, aim: Aim, axes: int = 2) -> Levels:
-        """Places on a grid.
+    def places(self, wanted: Levels, origin: Matrix, step: float, aim: Aim, axes: int = 2) -> tuple[Levels, float]:
+        """Places on a grid, and bytes of what they leave of second differences, by `Character.entropy`.
 
         Parameters
         ----------
@@ -112,36 +112,11 @@ class Shaper:
         flaps, starts, members = self._flaps
         bends = chosen[flaps[:, 0]] + chosen[flaps[:, 1]] - chosen[flaps[:, 2]] - chosen[flaps[:, 3]]
         moved = np.ascontiguousarray(chosen * step + origin)
+        bends = np.ascontiguousarray(bends)
         _kernels.shape_grid(
-            self._wanted, self._aim(aim, 3), moved, chosen, step, flaps, starts, members,
-            np.ascontiguousarray(bends), RATES, axes, self._open,
-        )  # fmt: skip
-        return chosen
-
-    def entropy(self, step: float) -> float:
-        """Bits of the mesh on a rounded grid, if each place took what a second difference takes, by a histogram."""
-        flaps = self._flaps[0]
-        some = flaps[:: max(1, len(flaps) // MOST_FLAPS)]
-        if not len(some):
-            return 0.0
-        positions = self._original.positions
-        corners = np.rint((positions[some] - positions.min(axis=0)) / step).astype(np.int64)
-        bends = np.abs(corners[:, 0] + corners[:, 1] - corners[:, 2] - corners[:, 3])
-        shares = [np.bincount(np.minimum(axis, MOST_BEND)) / len(some) for axis in bends.T]
-        magnitudes = sum(float(-(share[share > 0] * np.log2(share[share > 0])).sum()) for share in shares)
-        signs = sum(1.0 - float(share[0]) for share in shares)
-        return len(positions) * (magnitudes + signs)
-
-    @cached_property
-    def is_sharp(self) -> bool:
-        """Whether the surface is flat nearly everywhere, and bent at few edges: as models are, and scans are not."""
-        flaps = self._flaps[0]
-        some = self._original.positions[flaps[:: max(1, len(flaps) // MOST_FLAPS)]]
-        edge = some[:, 1] - some[:, 0]
-        first, second = np.cross(edge, some[:, 2] - some[:, 0]), np.cross(some[:, 3] - some[:, 0], edge)
-        across = np.cross(first, second)
-        angles = np.arctan2(np.sqrt((across * across).sum(axis=1)), (first * second).sum(axis=1))
-        return bool(len(angles) == 0 or np.median(angles) <= SHARP * angles.mean())
+            self._wanted, self._aim(aim, 3), moved, chosen, step, flaps, starts, members, bends, RATES, axes, self._open
+        )
+        return chosen, self.character.entropy_of(bends)
 
     def _aim(self, aim: Aim, share: int) -> tuple[float, float, int]:
         return aim.worth / (share * len(self._open)), float(aim.reach), aim.sweeps

@@ -10,12 +10,11 @@ import numpy as np
 from bitstream.container.header import Header, Layer
 from bitstream.limits import NAMED_LIMITS
 from codec.arrays import Levels, Matrix
-from codec.geometry.closeness import Original
 from codec.signal.frames import displaced, in_frames, local_frames
 from codec.signal.smooth import smooth
 from codec.static.admission import admit, patience
 from codec.static.assembly import blended
-from codec.static.layers.block_coder import ChainEncoder, Progress, encode_blocks
+from codec.static.layers.block_coder import Progress, encode_blocks
 from codec.static.layers.refinement import encode_layer
 from codec.static.options import EncodeOptions
 from codec.static.preamble import Prepared
@@ -77,26 +76,45 @@ class Base:
             self.positions if positions is None else positions, self.frames, levels, layer.step, layer.ratio
         )
 
-    def refined(self, *added: tuple[Layer, Levels], borders: bool = False) -> Draft:
+    def refined(self, *added: tuple[Layer, Levels], borders: bool = False) -> Stack:
         """With layers of levels, shapes (n, axes); with `borders`, the last has some at vertices of these alone."""
-        positions = self.positions
-        body = self.draft.body
-        for number, (layer, levels) in enumerate(added):
-            positions = self.moved(layer, levels, positions)
-            last = number == len(added) - 1
-            body += tuple(encode_layer(self.prepared.mesh.faces, number, levels, borders=borders and last))
-        numbers = tuple(number for layer, _ in added for number in (layer.step, layer.ratio))
-        header = replace(self.draft.header, refinements=numbers, borders=int(borders))
-        return Draft(header, body, self.prepared.units.back(positions))
+        return Stack(self, added, borders)
 
 
-SAMPLES, SAMPLE_OF = 1, 8
-"""Blocks that are tried, and how many there must be."""
+@dataclass(frozen=True, eq=False)
+class Stack:
+    """Layers of levels, shapes (n, axes), on a base; with `borders`, the last has some at vertices of these alone."""
+
+    base: Base
+    added: tuple[tuple[Layer, Levels], ...]
+    borders: bool
+
+    @cached_property
+    def positions(self) -> Matrix:
+        """As decoded, in BSM units."""
+        positions = self.base.positions
+        for layer, levels in self.added:
+            positions = self.base.moved(layer, levels, positions)
+        return positions
+
+    def draft(self) -> Draft:
+        """The stream."""
+        base = self.base
+        if not self.added:
+            return base.draft
+        body, last = base.draft.body, len(self.added) - 1
+        for number, (_, levels) in enumerate(self.added):
+            body += tuple(
+                encode_layer(base.prepared.mesh.faces, number, levels, borders=self.borders and number == last)
+            )
+        numbers = tuple(number for layer, _ in self.added for number in (layer.step, layer.ratio))
+        header = replace(base.draft.header, refinements=numbers, borders=int(self.borders))
+        return Draft(header, body, base.prepared.units.back(self.positions))
 
 
 def base_step(angle: float) -> float:
     """The step of blocks without a detail layer that refinement to a mean angle of normals, degrees, is cheapest on."""
-    return 0.016 if angle >= 5.0 else 0.008 if angle >= 2.5 else 0.004
+    return 0.016 if angle >= 6.0 else 0.012 if angle >= 4.0 else 0.008 if angle >= 2.5 else 0.004
 
 
 class Spectral:
@@ -118,26 +136,6 @@ class Spectral:
     def is_flat(self, step: float, share: float) -> bool:
         """Whether as large a share of all frequencies is worth coding at a step."""
         return self._planner.is_flat(step, share)
-
-    def sample(self, step: float, original: Original) -> float:
-        """Mean angle of normals, degrees, in a few blocks at a step, before they are blended and smoothed.
-
-        0 where blocks are few: it would take as long as all of them.
-        """
-        blocks = self._prepared.blocks
-        if blocks.count < SAMPLE_OF:
-            return 0.0
-        scheme, faces = self._planner.scheme(step), self._prepared.mesh.faces
-        positions, total, weight = self._prepared.positions.copy(), 0.0, 0.0
-        for index in np.linspace(0, blocks.count - 1, 2 + SAMPLES).astype(int)[1:-1]:
-            block = ChainEncoder(scheme).encode(int(index), self._prepared.positions).decoded
-            positions[block.vertices] = block.positions
-            inside = np.zeros(len(positions), np.bool_)
-            inside[block.vertices] = True
-            rows = np.asarray(inside[faces].all(axis=1))
-            total += original.angle_of(rows, positions)
-            weight += float(original.weights[rows].sum())
-        return total / weight if weight > 0.0 else 0.0
 
     def base(self, step: float, progress: Progress | None = None) -> Base:
         """The blocks at a step.

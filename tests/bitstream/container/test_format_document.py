@@ -8,7 +8,7 @@ import pytest
 
 from bitstream.container.declaration import Declaration
 from bitstream.container.header import FIRST_IGNORABLE_KEY, HEADER_FIELDS, Header, defaults_of, fields_of
-from bitstream.container.wire import SKIPPABLE_TYPES, FrameType, checksum
+from bitstream.container.wire import SHORT, SKIPPABLE_TYPES, FrameType, checksum
 from tests.bitstream.streams import BARE, encoded, read_all
 
 DOCUMENT = (Path(__file__).parents[3] / "spec" / "format.md").read_text()
@@ -18,6 +18,8 @@ def number(value) -> str:
     """A number as the document writes it: extreme powers of two as such."""
     if value in (2**20 - 1, 2**31 - 1, 2**32 - 1):
         return f"2^{int(value).bit_length()} - 1"
+    if value < 0 and number(-value).startswith("2^"):
+        return f"-{number(-value)}"
     mantissa, exponent = math.frexp(value)
     if mantissa == 0.5 and not 1e-3 < value < 1e6:
         return f"2^{exponent - 1}"
@@ -78,8 +80,9 @@ def test_frame_types_are_documented():
 
 
 def test_checksums_are_documented():
-    for frame_type in (FrameType.BLOCK, FrameType.HEADER):
-        assert f"0x{int.from_bytes(checksum(frame_type, b'123456789'), 'little'):X}" in DOCUMENT
+    for size in (2, 4):
+        assert f"0x{int.from_bytes(checksum(size, b'123456789'), 'little'):X}" in DOCUMENT
+    assert f"payloads of fewer than {SHORT} bytes" in DOCUMENT
 
 
 def test_example():

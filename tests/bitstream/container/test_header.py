@@ -53,7 +53,7 @@ def legal_value(name):
     return st.lists(number, min_size=least, max_size=most).map(tuple)
 
 
-NOT_ALONE = ("blocks", "block_size", "coefficients", "grid", "lattice", "refinements", "borders")
+NOT_ALONE = ("blocks", "block_size", "coefficients", "grid", "lattice", "refinements", "borders", "corner")
 
 
 @given(st.fixed_dictionaries({}, optional={n: legal_value(n) for n in HEADER_DEFAULTS if n not in NOT_ALONE}))
@@ -90,6 +90,8 @@ def test_layers_round_trip(layers):
         {"grid": (1, 2)},
         {"grid": (1, 2, 2**20)},
         {"lattice": (9,)},
+        {"corner": (1, 2)},
+        {"corner": (1, 2, 3)},  # and a center
         {"lattice": (2000, 1022)},  # fewer points than values
         {"lattice": (1022, 1023)},  # more points than cells
         {"grid": ()},  # a lattice, but no grid and no blocks

@@ -47,11 +47,14 @@ def test_varint_refuses_what_does_not_fit(value):
         write_varint(value)
 
 
-def test_frames_have_the_checksum_of_their_type():
-    block = b"\x36abc"  # three bytes, type 6
-    assert write_frame(6, b"abc") == block + binascii.crc_hqx(block, 0).to_bytes(2, "little")
-    other = b"\x33abc"
-    assert write_frame(3, b"abc") == other + zlib.crc32(other).to_bytes(4, "little")
+def test_blocks_and_short_frames_have_short_checksums():
+    for kind, payload, tag in ((6, b"abc", b"\x36"), (3, b"abc", b"\x33"), (3, b"a" * 127, b"\xf3\x0f")):
+        frame = tag + payload
+        assert write_frame(kind, payload) == frame + binascii.crc_hqx(frame, 0).to_bytes(2, "little")
+    block = b"\x86\x10" + b"a" * 128
+    assert write_frame(6, b"a" * 128) == block + binascii.crc_hqx(block, 0).to_bytes(2, "little")
+    other = b"\x83\x10" + b"a" * 128
+    assert write_frame(3, b"a" * 128) == other + zlib.crc32(other).to_bytes(4, "little")
 
 
 @given(st.integers(0, 15), st.binary(max_size=300))

@@ -13,7 +13,7 @@ from codec.geometry.mesh import TriangleMesh
 from codec.static.encoder import Encoder, encode
 from codec.static.options import EncodeOptions
 from codec.static.quality.contract import Contract, Fit
-from tests.shapes import patch, torus
+from tests.shapes import curved, patch, torus
 from tools.borders import halves
 
 
@@ -61,7 +61,7 @@ def test_parts_gape_by_no_more_than_they_may(mesh, keywords, gap):
 
 
 def test_it_takes_a_layer_of_borders_and_little_more():
-    mesh = patch(60, 50)
+    mesh = curved(patch(60, 50))
     plain, locked = (encode(mesh, encode_options(block_size=300, **more)) for more in ({}, {"lock_borders": True}))
     assert header_of(plain).borders == 0
     assert header_of(locked).borders == 1 and header_of(locked).layers[-1].axes == 3

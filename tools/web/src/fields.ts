@@ -125,7 +125,7 @@ export class Grid {
         const values = this.values.view;
         const positions = new Float64Array(3 * count);
         vertices.forEach((vertex, i) => {
-            for (let d = 0; d < 3; d++) positions[3 * i + d] = this.spread(values[3 * vertex + d]);
+            for (let d = 0; d < 3; d++) positions[3 * i + d] = this.spread(values[3 * vertex + d]) + (header.corner[d] ?? 0);
         });
         inMeshUnits(positions, header);
         vertices.forEach((vertex, i) => this.positions.set(positions.subarray(3 * i, 3 * i + 3), 3 * vertex));

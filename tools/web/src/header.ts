@@ -38,6 +38,7 @@ export interface Header {
     keySeed: number;
     borders: number;
     attributes: number;
+    corner: number[];
 }
 
 const COUNT = 2 ** 31 - 1;
@@ -76,6 +77,7 @@ const FIELDS: Fields<keyof Header> = {
     keySeed: { key: 31, type: "method", low: 0, high: 1, default: 0 },
     borders: { key: 32, type: "method", low: 0, high: 1, default: 0 },
     attributes: { key: 33, type: "int", low: 0, high: 255, default: 0 },
+    corner: { key: 40, type: "ints", low: -(2 ** 31), high: COUNT, default: [], lengths: [0, 3] },
 };
 
 /** Rows of all blocks together, at most: so many for each vertex, and so many more (F 4.6). */
@@ -99,10 +101,10 @@ function checkContradictions(header: Header): void {
     if (broken) throw new CorruptError(`the header contradicts itself: ${broken[0]}`);
 }
 
-const OF_A_GRID: (keyof Header)[] = ["vertices", "faces", "center", "scale", "grid", "lattice", "attributes"];
+const OF_A_GRID: (keyof Header)[] = ["vertices", "faces", "center", "scale", "grid", "lattice", "attributes", "corner"];
 
 function gridRules(header: Header): [string, boolean][] {
-    const { vertices, faces, grid, lattice } = header;
+    const { vertices, faces, center, corner, grid, lattice } = header;
     const [cells, points] = lattice.length === 2 ? lattice : [0, 0];
     const others = (Object.keys(FIELDS) as (keyof Header)[]).filter((name) => !OF_A_GRID.includes(name));
     return [
@@ -111,6 +113,8 @@ function gridRules(header: Header): [string, boolean][] {
         ["a lattice that is not cells and points", lattice.length === 1],
         ["a lattice with fewer points than the grid has values", points > 0 && points < Math.max(...grid)],
         ["a lattice of more points than cells", points > cells],
+        ["a corner that is not one of three axes", corner.length % 3 !== 0],
+        ["a corner and a center", corner.length > 0 && !same(center, FIELDS.center.default)],
         ["a grid, and fields of blocks", others.some((name) => !same(header[name], FIELDS[name].default))],
     ];
 }
@@ -122,6 +126,7 @@ function blockRules(header: Header): [string, boolean][] {
     return [
         ["neither blocks nor a grid", blocks * blockSize * coefficients === 0],
         ["a lattice without a grid", header.lattice.length > 0],
+        ["a corner without a grid", header.corner.length > 0],
         ["more vertices than the corners of its faces", vertices > 3 * faces],
         ["more blocks than vertices", blocks > vertices],
         ["blocks larger than the mesh", blockSize > vertices],

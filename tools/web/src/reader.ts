@@ -50,6 +50,8 @@ const KINDS: Record<number, Kind> = {
     15: "end",
 };
 const BLOCK_TAG = 6;
+/** A payload of fewer bytes has a short checksum (F 3). */
+const SHORT = 128;
 const MAX_VARINT_BYTES = 5;
 
 /** What may follow a frame of each type, metadata and skippable frames left aside (F 3.7, F 3.8). */
@@ -159,7 +161,7 @@ function frameOf(tag: { value: number; end: number }): { type: number; length: n
     const type = tag.value % 16;
     const length = Math.floor(tag.value / 16);
     const sum = tag.end + length;
-    return { type, length, sum, end: sum + (type === BLOCK_TAG ? 2 : 4) };
+    return { type, length, sum, end: sum + (type === BLOCK_TAG || length < SHORT ? 2 : 4) };
 }
 
 function littleEndian(bytes: Uint8Array): number {
@@ -428,7 +430,7 @@ export class Reader {
         checkLimit(this.limits, "frameBytes", length);
         if (end > this.end) return undefined;
         const body = this.buffer.subarray(start, sum);
-        const expected = type === BLOCK_TAG ? crc16(body) : crc32(body);
+        const expected = end - sum === 2 ? crc16(body) : crc32(body);
         if (littleEndian(this.buffer.subarray(sum, end)) !== expected) {
             throw new CorruptError(`the checksum of a frame of type ${type} and ${length} bytes is wrong`);
         }

@@ -31,10 +31,10 @@ function mended(stream: Uint8Array): Uint8Array {
         if (!tag) return stream;
         const end = tag.end + Math.floor(tag.value / 16);
         const type = tag.value % 16;
-        const size = type === 6 ? 2 : 4;
+        const size = type === 6 || tag.value < 16 * 128 ? 2 : 4;
         if (end + size > stream.length) return stream;
         if (type === 15 && end - tag.end > 4) view.setUint32(end - 4, crc32(stream.subarray(0, at)), true);
-        if (type === 6) view.setUint16(end, crc16(stream.subarray(at, end)), true);
+        if (size === 2) view.setUint16(end, crc16(stream.subarray(at, end)), true);
         else view.setUint32(end, crc32(stream.subarray(at, end)), true);
         at = end + size;
     }

@@ -18,7 +18,7 @@ from codec.static.encoder import Encoder, encode
 from codec.static.events import AttributeEvent, EndEvent, LossEvent
 from codec.static.options import PRESETS, EncodeOptions
 from codec.static.quality.targets import Target
-from tests.shapes import patch, tetrahedron, torus
+from tests.shapes import curved, patch, tetrahedron, torus
 from tools.surgery import frames_of, stream_of
 
 KINDS = ("uint8", "int8", "uint16", "int16", "uint32", "int32")
@@ -299,7 +299,7 @@ def tolerated(stream: bytes) -> tuple[set[str], int, int]:
 
 
 def test_what_is_lost_of_one_attribute_spoils_no_other():
-    mesh = dressed(patch(60, 50))
+    mesh = dressed(curved(patch(60, 50)))
     stream = encode(mesh)
     everything = {one.name for one in mesh.attributes}
     for packet, begin, end in frames(stream):

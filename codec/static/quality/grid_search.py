@@ -1,0 +1,234 @@
+"""Looking for the grid on which a mesh is smallest, within bounds: its step, and how much normals count."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from contextlib import AbstractContextManager
+from dataclasses import dataclass
+
+import numpy as np
+
+from codec.arrays import Levels
+from codec.geometry.closeness import Closeness, Original
+from codec.static.preamble import FEW_VERTICES, Prepared
+from codec.static.quality.borders import ROUND, Borders
+from codec.static.quality.contract import ANY_ANGLE, Contract
+from codec.static.quality.draft import Draft
+from codec.static.quality.lattices import Shaped
+from codec.static.quality.search import Trial, widest_step
+from codec.static.quality.shaping import Aim, Shaper
+
+COARSEST = 0.05
+"""Largest step, in BSM units."""
+WORTH, WORTH_ANGLE, WORTH_GROWTH, WORTH_OF_MODELS = 0.4, 3.0, 0.7, 1.6
+"""What a nat is worth, in angles that a step bends a mean face by: where 3 degrees are asked for, how it grows with
+what is asked for, and of models, whose bits are not where their area is."""
+HELPED, HELPED_MODELS = 0.62, 0.75
+"""Angle that shaping leaves, of what rounding gives."""
+ON_MODEL = 1.0
+"""A grid is tried whose entropy is below so much of that of one that is about right."""
+LATTICE_GAIN = 0.75
+"""And where it is below so much of it, the model was made on that grid."""
+PLATEAU, PLATEAU_STEPS = 1.25, 24
+"""Where a grid four times as fine has no more entropy than this, so many steps a sixth of a power of two apart are
+compared, too."""
+FINEST_BITS = 16
+"""Bits along the longest side of the finest grid that is tried without need."""
+OTHERS = 2
+"""So many of these."""
+ROUNDED_MORE = 1.1
+"""Where rounding bends normals by so much more than what is asked for, shaping may still do."""
+TRIES, SLACK, FLATTER, LAST_RESORTS = 4, 0.05, 0.5, 4
+"""In the search for a step, and where it has found none; how far below a bound on angles it may stay; and how much less
+than that of rounded places the angle of shaped ones grows with it at least."""
+CLOSE, MOST_COMPARED = 1.015, 2
+"""Of drafts whose estimates are so close to the best, so many are compared as files."""
+SHARE_OF_MODELS, SHARE_IF_SHARP = 0.45, 0.5
+SHARE, SHARE_VERTICES, SHARE_OF_FEWER, SHARE_OF_BITS, MEAN_BITS = 0.47, 50_000, 0.05, 0.02, 7.0
+"""What is coded of the entropy of rounded places, about: where surfaces have sharp edges, and otherwise; how that grows
+when vertices are half as many as so many, and with bits of a vertex above the mean."""
+MOST_EXTENTS = 256.0
+"""How many times its diagonal a model may be from the origin, for its places to be counted from there."""
+MOST_PARTS, COARSEST_GRIDS = 256, 3
+"""Of models of few vertices: cells along the longest side, and how many of the coarsest grids that fit are tried."""
+
+
+@dataclass(frozen=True, eq=False)
+class Placed:
+    """Places that may be coded.
+
+    Parameters
+    ----------
+    step : float
+        As a header holds it, in the mesh's unit.
+    places : int32 array, shape (n, 3)
+    estimate : float
+        What their bytes grow with: the entropy of their second differences.
+    """
+
+    step: float
+    places: Levels
+    estimate: float
+
+
+class GridSearch:
+    """Tries grids for one mesh.
+
+    Parameters
+    ----------
+    prepared : Prepared
+    original : Original
+    shaper : Shaper
+    contract : Contract
+    reach : float
+        How far a vertex may come to lie from its place, in BSM units.
+    borders : Borders
+    told : callable
+        A context in which one trial is made.
+    """
+
+    def __init__(
+        self,
+        prepared: Prepared,
+        original: Original,
+        shaper: Shaper,
+        contract: Contract,
+        reach: float,
+        borders: Borders,
+        told: Callable[[], AbstractContextManager[None]],
+    ) -> None:
+        self._prepared = prepared
+        self._original = original
+        self._shaper = shaper
+        self._character = shaper.character
+        self._angle = contract.angle
+        self._reach = reach
+        self._borders = borders
+        self._told = told
+        self._edge = shaper.mean_edge or 1.0
+        self._extent = float(np.ptp(prepared.positions, axis=0).max())
+        self._most = min(1.6 * reach, borders.cell, COARSEST)
+        self._widest = min(ROUND * reach, borders.cell)
+
+    def drafts(self) -> Iterator[Draft]:
+        """Those that may be smallest."""
+        shaped = Shaped(self._prepared, self._shaper, still=self._borders.vertices)
+        tried = sorted(self._tried(shaped), key=lambda trial: trial.found.estimate)
+        for trial in tried[:MOST_COMPARED]:
+            if trial.found.estimate <= CLOSE * tried[0].found.estimate:
+                yield shaped.draft(trial.found.step, trial.found.places)
+        if self._prepared.graph.size < FEW_VERTICES and self._angle < ANY_ANGLE:
+            yield from self._coarsest(shaped)
+
+    @property
+    def bytes(self) -> float:
+        """Of the places, rather too few."""
+        first, size = self.first_step, self._prepared.graph.size
+        entropy = min([self._character.entropy(first), *(entropy for entropy, _ in self._made_on(first))])
+        if self._character.is_model:
+            return SHARE_OF_MODELS * entropy
+        if self._character.is_sharp:
+            return SHARE_IF_SHARP * entropy
+        more = SHARE_OF_FEWER * math.log2(SHARE_VERTICES / size) + SHARE_OF_BITS * (8.0 * entropy / size - MEAN_BITS)
+        return SHARE * entropy + max(more, 0.0) * entropy
+
+    @property
+    def fits_model(self) -> bool:
+        """Whether there is a grid that a model seems to have been made on: it has far less entropy there."""
+        if not self._character.is_model:
+            return False
+        first = self.first_step
+        bound = LATTICE_GAIN * self._character.entropy(first)
+        return any(entropy <= bound for entropy, _ in self._made_on(first))
+
+    @property
+    def first_step(self) -> float:
+        """The step of a grid that should be about right."""
+        if self._angle >= ANY_ANGLE:
+            return self._widest
+        helped = HELPED_MODELS if self._character.is_model else HELPED
+        return self._character.step_of(self._angle / helped, self._most)
+
+    def _tried(self, shaped: Shaped) -> list[Trial[Placed]]:
+        """Those that keep the bounds."""
+        first, trials = self.first_step, list[Trial[Placed]]()
+        if self._angle >= ANY_ANGLE:
+            trials.append(self._trial(shaped, first, 0.8, axes=3, sweeps=6))
+        else:
+            worth = self._worth
+
+            def measure(step: float) -> Trial[Placed]:
+                trials.append(self._trial(shaped, step, worth))
+                return trials[-1]
+
+            steep = self._steepness(first)
+            slopes = FLATTER * steep, steep
+            widest_step(
+                measure, first, self._angle, self._reach, tries=TRIES, most=self._most, slack=SLACK, slopes=slopes
+            )
+        kept = [trial for trial in trials if self._keeps(trial.closeness)]
+        for finer in range(1, LAST_RESORTS + 1):
+            if not kept:
+                trial = self._trial(shaped, min(first, self._widest) / 4.0**finer, WORTH)
+                kept = [trial] if self._keeps(trial.closeness) else []
+        if self._prepared.graph.size >= FEW_VERTICES:
+            best = min(kept, key=lambda trial: trial.found.estimate, default=None)
+            for _, step in sorted(self._made_on(first if best is None else best.step))[:OTHERS]:
+                trial = self._trial(shaped, step, WORTH_OF_MODELS)
+                if self._keeps(trial.closeness):
+                    kept.append(trial)
+        return kept
+
+    def _made_on(self, right: float) -> Iterator[tuple[float, float]]:
+        """Entropy and step of grids that have less of it than one that is about right: a model may be made on them."""
+        character, last = self._character, self._extent * 2.0**-FINEST_BITS
+        least = ON_MODEL * character.entropy(right)
+        steps = [self._extent / ((1 << bits) - 1) for bits in range(1, FINEST_BITS)]
+        if character.entropy(max(right / 4.0, last)) <= PLATEAU * least:
+            steps += [right * 2.0 ** (-count / 6.0) for count in range(1, PLATEAU_STEPS)]
+        for step in steps:
+            if last <= step <= self._widest and abs(step - right) > 0.01 * right:
+                entropy = character.entropy(step)
+                if entropy <= least and character.rounded_angle(step) <= ROUNDED_MORE * self._angle:
+                    yield entropy, step
+
+    def _coarsest(self, shaped: Shaped) -> Iterator[Draft]:
+        """The coarsest grids on which a model of few vertices is right already where it is rounded.
+
+        Those that begin at the origin of the mesh's unit need not say where.
+        """
+        from_origin = Shaped(self._prepared, self._shaper, np.zeros(3), still=self._borders.vertices)
+        farthest = float(np.abs(self._prepared.mesh.positions).max())
+        grids = [shaped, from_origin] if farthest < MOST_EXTENTS * self._prepared.mesh.diagonal else [shaped]
+        for grid in grids:
+            left = COARSEST_GRIDS
+            for parts in range(1, MOST_PARTS):
+                if left and grid.fits(self._extent / parts, min(self._reach, self._borders.cell / ROUND)):
+                    trial = self._trial(grid, self._extent / parts, 0.8)
+                    if self._keeps(trial.closeness):
+                        left -= 1
+                        step, places = trial.found.step, trial.found.places
+                        yield grid.draft(step, places) if grid is shaped else grid.draft_from_origin(step, places)
+
+    def _trial(self, shaped: Shaped, step: float, worth: float, *, axes: int = 2, sweeps: int = 3) -> Trial[Placed]:
+        step = max(step, shaped.finest)
+        with self._told():
+            aim = Aim(worth * step / self._edge, self._reach, sweeps)
+            held, places, decoded, estimate = shaped.places(step, aim, axes)
+            closeness = self._original.closeness(self._prepared.units.into(decoded))
+        return Trial(step, closeness, Placed(held, places, estimate))
+
+    def _keeps(self, closeness: Closeness) -> bool:
+        return closeness.farthest <= self._reach and closeness.angle <= self._angle
+
+    @property
+    def _worth(self) -> float:
+        if self._character.is_model:
+            return WORTH_OF_MODELS
+        return WORTH * min(max(math.pow(self._angle / WORTH_ANGLE, WORTH_GROWTH), 0.5), 2.0)
+
+    def _steepness(self, step: float) -> float:
+        """How the angle of rounded grids grows with the step about one, in their logarithms."""
+        coarse, fine = self._character.rounded_angle(step), self._character.rounded_angle(0.7 * step)
+        return min(max(math.log(max(coarse, 1e-6) / max(fine, 1e-6)) / -math.log(0.7), 0.4), 1.2)

@@ -1,0 +1,88 @@
+"""The largest step that keeps bounds."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Generic, TypeVar
+
+from codec.geometry.closeness import Closeness
+
+SLACK = 0.03
+"""How far below a bound on angles the search for a step may stay."""
+
+Found = TypeVar("Found")
+
+
+@dataclass(frozen=True)
+class Trial(Generic[Found]):
+    """What a step came to."""
+
+    step: float
+    closeness: Closeness
+    found: Found
+
+
+def widest_step(
+    measure: Callable[[float], Trial[Found]],
+    first: float,
+    angle: float,
+    reach: float,
+    *,
+    tries: int,
+    most: float,
+    slopes: tuple[float, float],
+    slack: float = SLACK,
+) -> Trial[Found] | None:
+    """About the largest step whose trial keeps the bounds: a secant in the logarithms, within brackets.
+
+    Parameters
+    ----------
+    measure : callable
+        Tries a step.
+    first : float
+        To begin with.
+    angle : float
+        Degrees; the search ends where the trial's is at most `slack` below (a share of it).
+    reach : float
+        How far a vertex may be from its place.
+    tries : int
+    most : float
+        The largest step that may be tried.
+    slack : float
+    slopes : (float, float)
+        How the angle grows with the step, in their logarithms, at least and at most; at most as long as nobody knows.
+    """
+    aim = math.log(angle * (1.0 - slack / 2.0))
+    best: Trial[Found] | None = None
+    good: tuple[float, float] | None = None
+    bad: tuple[float, float] | None = None
+    step, slope = min(first, most), slopes[1]
+    before: tuple[float, float] | None = None
+    for _ in range(tries):
+        trial = measure(step)
+        kept = trial.closeness.angle <= angle
+        near = trial.closeness.farthest <= reach
+        at = math.log(step), math.log(max(trial.closeness.angle, 1e-6))
+        if before is not None and at[0] != before[0]:
+            slope = min(max((at[1] - before[1]) / (at[0] - before[0]), slopes[0]), slopes[1])
+        before = at
+        if kept and near:
+            if best is None or step > best.step:
+                best, good = trial, at
+            if trial.closeness.angle > angle * (1.0 - slack) or step >= most:
+                break
+        elif bad is None or at[0] < bad[0]:
+            bad = at[0], math.log(1.05 * angle) if kept else at[1]
+        if good is not None and bad is not None:
+            if bad[0] - good[0] < slack:
+                break
+            share = (aim - good[1]) / max(bad[1] - good[1], 1e-9)
+            step = math.exp(good[0] + min(max(share, 0.15), 0.85) * (bad[0] - good[0]))
+        elif kept and not near:
+            step *= 0.8
+        else:
+            step *= math.exp(min(max((aim - at[1]) / slope, -1.2), 1.2))
+        step = min(step, most)
+    return best
