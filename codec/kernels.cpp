@@ -145,6 +145,7 @@ NB_MODULE(_kernels, m) {
           "rounding"_a, "encoding"_a, "rules"_a, "factor"_a, "row"_a, "expected"_a, Unlocked());
     m.def("component_sizes", checked<&component_sizes>, "offsets"_a, "neighbours"_a, "seen"_a, "waiting"_a, "sizes"_a,
           Unlocked());
+    m.def("reaches_all", checked<&reaches_all>, "offsets"_a, "neighbours"_a, "scratch"_a, Unlocked());
     m.def("weighted_angle", &weighted_angle, "normals"_a, "weights"_a, "decoded"_a, "faces"_a, "lost"_a, Unlocked());
     m.def("farthest_apart", &farthest_apart, "original"_a, "decoded"_a, Unlocked());
     m.def("local_frames", checked<&local_frames>, "positions"_a, "faces"_a, "frames"_a, Unlocked());

@@ -4,7 +4,7 @@ from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 
 from codec.blocks.bisection import bisect
-from codec.geometry.graph import graph_of_faces
+from codec.geometry.graph import component_sizes, graph_of_faces, is_connected
 from tests.shapes import grid_faces
 
 soups = hnp.arrays(np.int32, st.tuples(st.integers(1, 40), st.just(3)), elements=st.integers(0, 19))
@@ -17,6 +17,13 @@ def test_a_graph_holds_each_edge_once_in_both_directions(faces):
     edges = {(int(a), int(b)) for f in faces for a in f for b in f if a != b}
     found = [(v, int(w)) for v in range(20) for w in graph.neighbours[graph.offsets[v] : graph.offsets[v + 1]]]
     assert found == sorted(edges)
+
+
+@settings(deadline=None)
+@given(soups, st.integers(1, 20))
+def test_a_graph_is_connected_where_it_is_one_component(faces, size):
+    graph = graph_of_faces(faces % size, size)
+    assert is_connected(graph) == (len(component_sizes(graph)) == 1)
 
 
 def test_a_vertex_of_high_degree_has_sorted_neighbours():
