@@ -1,9 +1,10 @@
 import numpy as np
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 
-from codec.blocks.bisection import bisect
+from codec.blocks.bisection import WORTH_A_THREAD, bisect
 from codec.geometry.graph import component_sizes, graph_of_faces, is_connected
 from tests.shapes import grid_faces
 
@@ -70,3 +71,11 @@ def test_a_bisection_does_not_mix_components():
         frozenset(range(144)),
         frozenset(range(144, 288)),
     }
+
+
+@pytest.mark.parametrize("parts", [2, 3, 7, 46])
+def test_two_threads_cut_as_one_does(parts):
+    graph = graph_of_faces(grid_faces(100, 99), 9900)
+    assert graph.size >= WORTH_A_THREAD
+    for one, two in zip(bisect(graph, parts), bisect(graph, parts, threads=2), strict=True):
+        assert np.array_equal(one, two)
