@@ -61,6 +61,10 @@ NB_MODULE(_kernels, m) {
     m.def("nearest_faces", &nearest_faces, "corners"_a, "owner"_a, "depth"_a, Unlocked());
     m.def("bisection_scratch", &bisection_scratch, "size"_a);
     m.def("bisect", &bisect, "offsets"_a, "neighbours"_a, "order"_a, "bounds"_a, "scratch"_a, Unlocked());
+    m.def("bisect_once", &bisect_once, "offsets"_a, "neighbours"_a, "order"_a, "bounds"_a, "scratch"_a, "second"_a,
+          Unlocked());
+    m.def("bisect_half", &bisect_half, "offsets"_a, "neighbours"_a, "order"_a, "bounds"_a, "half"_a, "scratch"_a,
+          Unlocked());
     m.def("refine_partition", &refine_partition, "offsets"_a, "neighbours"_a, "labels"_a, "passes"_a, "sizes"_a,
           "votes"_a, Unlocked());
     m.def("group_by_label", &group_by_label, "labels"_a, "bounds"_a, "order"_a, Unlocked());
@@ -145,6 +149,7 @@ NB_MODULE(_kernels, m) {
           "rounding"_a, "encoding"_a, "rules"_a, "factor"_a, "row"_a, "expected"_a, Unlocked());
     m.def("component_sizes", checked<&component_sizes>, "offsets"_a, "neighbours"_a, "seen"_a, "waiting"_a, "sizes"_a,
           Unlocked());
+    m.def("reaches_all", checked<&reaches_all>, "offsets"_a, "neighbours"_a, "scratch"_a, Unlocked());
     m.def("weighted_angle", &weighted_angle, "normals"_a, "weights"_a, "decoded"_a, "faces"_a, "lost"_a, Unlocked());
     m.def("farthest_apart", &farthest_apart, "original"_a, "decoded"_a, Unlocked());
     m.def("local_frames", checked<&local_frames>, "positions"_a, "faces"_a, "frames"_a, Unlocked());

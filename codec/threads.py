@@ -6,7 +6,7 @@ import os
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import Future, ThreadPoolExecutor
-from threading import Lock
+from threading import Lock, Thread
 from typing import Any, Generic, TypeVar
 
 Item = TypeVar("Item")
@@ -67,6 +67,17 @@ class Pending(Generic[Result]):
             if self._error is not None:
                 raise self._error
             return self._outcome
+
+
+def side_by_side(first: Callable[[], Result], second: Callable[[], Result]) -> tuple[Result, Result]:
+    """Do two pieces of work at the same time, the second one on a thread of its own."""
+    pending = Pending(second)
+    thread = Thread(target=pending.run)
+    thread.start()
+    try:
+        return first(), pending.result()
+    finally:
+        thread.join()
 
 
 class Lanes:

@@ -30,23 +30,28 @@ INLINE void make_table(int64_t rows, double *table) {
     }
 }
 
-/* Row r of `count` columns from `first` on. */
-INLINE void fill_row(const double *table, int64_t rows, int64_t r, int64_t first, int64_t count, double *row) {
-    int64_t turn = 4 * rows, step = 2 * r + 1, angle = step * first % turn;
-    for (int64_t j = 0; j < count; j++) {
-        int64_t fold = least(angle, turn - angle);
-        double value = table[least(fold, 2 * rows - fold)];
-        row[j] = fold <= rows ? value : -value;
-        angle += step;
-        angle -= angle >= turn ? turn : 0;
+/* `count` columns from `first` on; their rows are `apart`. */
+INLINE void fill_columns(const double *table, int64_t rows, int64_t first, int64_t count, double *columns, int64_t apart) {
+    int64_t turn = 4 * rows, start = first % turn, more = 2 * first % turn;
+    for (int64_t r = 0; r < rows; r++) {
+        int64_t step = 2 * r + 1, angle = start;
+        double *row = columns + r * apart;
+        for (int64_t j = 0; j < count; j++) {
+            int64_t fold = least(angle, turn - angle);
+            double value = table[least(fold, 2 * rows - fold)];
+            row[j] = fold <= rows ? value : -value;
+            angle += step;
+            angle -= angle >= turn ? turn : 0;
+        }
+        start += more;
+        start -= start >= turn ? turn : 0;
     }
 }
 
 /* Columns `first` and those after it; `table` is scratch of n + 1, and 7 more. */
 void LEVEL(cosines)(int64_t first, Doubles table, Doubles2 columns) {
     make_table(columns.rows, table.data);
-    for (int64_t r = 0; r < columns.rows; r++)
-        fill_row(table.data, columns.rows, r, first, columns.columns, columns.data + r * columns.columns);
+    fill_columns(table.data, columns.rows, first, columns.columns, columns.data, columns.columns);
 }
 
 /* The first columns of `previous`, and cosines where it has fewer than `columns`; `table` as above. */
@@ -56,6 +61,6 @@ void LEVEL(resize_columns)(ConstDoubles2 previous, Doubles table, Doubles2 colum
     for (int64_t r = 0; r < rows; r++) {
         double *row = columns.data + r * columns.columns;
         for (int64_t j = 0; j < kept; j++) row[j] = previous.data[r * previous.columns + j];
-        fill_row(table.data, rows, r, kept, more, row + kept);
     }
+    fill_columns(table.data, rows, kept, more, columns.data + kept, columns.columns);
 }

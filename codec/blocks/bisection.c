@@ -87,53 +87,112 @@ static void sort_segment(Work *work, uint32_t *segment, int64_t size) {
         for (int64_t i = 0; i < size; i++) segment[i] = source[i];
 }
 
-/* Cut a graph into `bounds.size - 1` parts: part p is `order[bounds[p]:bounds[p + 1]]`. */
-bool bisect(ConstInts offsets, ConstInts neighbours, Ints order, Ints bounds, Words scratch) {
-    int64_t size = offsets.size - 1, parts = bounds.size - 1;
-    if (size < 0 || parts < 1 || order.size < size || scratch.size < bisection_scratch(size)) return false;
+static bool open_work(Work *work, ConstInts offsets, ConstInts neighbours, Ints order, Ints bounds, Words scratch) {
+    int64_t size = offsets.size - 1;
+    if (size < 0 || bounds.size < 2 || order.size < size || scratch.size < bisection_scratch(size)) return false;
     if (neighbours.size < offsets.data[size]) return false;
-    uint32_t *segments = (uint32_t *)order.data, *room = scratch.data;
-    Work work = {.offsets = offsets.data, .neighbours = neighbours.data};
-    work.colours = room;
-    work.distances[0] = (int32_t *)(room + size);
-    work.distances[1] = (int32_t *)(room + 2 * size);
-    work.queue = room + 3 * size;
-    work.keys = room + 4 * size + 1;
-    work.buckets = room + 5 * size + 1;
+    uint32_t *room = scratch.data;
+    *work = (Work){.offsets = offsets.data, .neighbours = neighbours.data, .colours = room};
+    work->distances[0] = (int32_t *)(room + size);
+    work->distances[1] = (int32_t *)(room + 2 * size);
+    work->queue = room + 3 * size;
+    work->keys = room + 4 * size + 1;
+    work->buckets = room + 5 * size + 1;
+    return true;
+}
+
+/* All vertices as one segment. */
+static Segment begin(Work *work, uint32_t *segments, int64_t size, Ints bounds) {
+    int64_t parts = bounds.size - 1;
     for (int64_t v = 0; v < size; v++) {
         segments[v] = (uint32_t)v;
-        work.colours[v] = 0;
+        work->colours[v] = 0;
     }
     for (int64_t p = 0; p < parts; p++) bounds.data[p] = 0;
     bounds.data[parts] = (int32_t)size;
     /* The low end of the whole is the vertex that a sweep from vertex 0 reaches last. */
     if (size > LEAF) {
-        sweep(&work, segments, size, 0, work.distances[1]);
-        sweep(&work, segments, size, work.queue[size - 1], work.distances[0]);
+        sweep(work, segments, size, 0, work->distances[1]);
+        sweep(work, segments, size, work->queue[size - 1], work->distances[0]);
     }
+    return (Segment){0, size, 0, parts, 0};
+}
+
+static Segment lower(Segment s, int64_t cut) { return (Segment){s.first, cut, s.part, s.parts / 2, 0}; }
+
+static Segment upper(Segment s, int64_t cut) {
+    return (Segment){cut, s.last, s.part + s.parts / 2, s.parts - s.parts / 2, 1};
+}
+
+/* Cut a segment of several parts in two, of `colour` and of the one after the next; returns where. */
+static int64_t cut_segment(Work *work, uint32_t *segments, Segment s, uint32_t colour) {
+    uint32_t *segment = segments + s.first;
+    int64_t count = s.last - s.first;
+    if (count > LEAF) {
+        const int32_t *distance = work->distances[s.kept];
+        uint32_t far = segment[0];
+        for (int64_t i = 0; i < count; i++)
+            if (distance[segment[i]] > distance[far]) far = segment[i];
+        sweep(work, segment, count, far, work->distances[1 - s.kept]);
+        sort_segment(work, segment, count);
+    }
+    int64_t cut = s.first + count * (s.parts / 2) / s.parts;
+    for (int64_t i = s.first; i < cut; i++) work->colours[segments[i]] = colour;
+    for (int64_t i = cut; i < s.last; i++) work->colours[segments[i]] = colour + 2;
+    return cut;
+}
+
+/* Cut a segment into its parts, with colours from `colour` on. */
+static void cut_on(Work *work, uint32_t *segments, Segment whole, uint32_t colour, Ints bounds) {
     Segment stack[DEPTH];
-    stack[0] = (Segment){0, size, 0, parts, 0};
-    uint32_t colour = 2;
+    stack[0] = whole;
     for (int depth = 1; depth > 0;) {
         Segment s = stack[--depth];
         if (s.parts == 1) continue;
-        uint32_t *segment = segments + s.first;
-        int64_t count = s.last - s.first;
-        if (count > LEAF) {
-            const int32_t *distance = work.distances[s.kept];
-            uint32_t far = segment[0];
-            for (int64_t i = 0; i < count; i++)
-                if (distance[segment[i]] > distance[far]) far = segment[i];
-            sweep(&work, segment, count, far, work.distances[1 - s.kept]);
-            sort_segment(&work, segment, count);
-        }
-        int64_t half = s.parts / 2, cut = s.first + count * half / s.parts;
-        bounds.data[s.part + half] = (int32_t)cut;
-        stack[depth++] = (Segment){cut, s.last, s.part + half, s.parts - half, 1};
-        stack[depth++] = (Segment){s.first, cut, s.part, half, 0};
+        int64_t cut = cut_segment(work, segments, s, colour);
+        bounds.data[s.part + s.parts / 2] = (int32_t)cut;
+        stack[depth++] = upper(s, cut);
+        stack[depth++] = lower(s, cut);
         colour += 4;
-        for (int64_t i = s.first; i < cut; i++) work.colours[segments[i]] = colour;
-        for (int64_t i = cut; i < s.last; i++) work.colours[segments[i]] = colour + 2;
     }
+}
+
+enum { FIRST_COLOUR = 6 };
+
+/* Cut a graph into `bounds.size - 1` parts: part p is `order[bounds[p]:bounds[p + 1]]`. */
+bool bisect(ConstInts offsets, ConstInts neighbours, Ints order, Ints bounds, Words scratch) {
+    Work work;
+    if (!open_work(&work, offsets, neighbours, order, bounds, scratch)) return false;
+    uint32_t *segments = (uint32_t *)order.data;
+    cut_on(&work, segments, begin(&work, segments, offsets.size - 1, bounds), FIRST_COLOUR, bounds);
+    return true;
+}
+
+/* The first cut of `bisect`, after which `bisect_half` can go on with both halves at once: one with `scratch`, the other
+ * one with `second`. */
+bool bisect_once(ConstInts offsets, ConstInts neighbours, Ints order, Ints bounds, Words scratch, Words second) {
+    Work work, other;
+    if (!open_work(&work, offsets, neighbours, order, bounds, scratch) ||
+        !open_work(&other, offsets, neighbours, order, bounds, second) || bounds.size < 3)
+        return false;
+    int64_t size = offsets.size - 1;
+    uint32_t *segments = (uint32_t *)order.data;
+    Segment whole = begin(&work, segments, size, bounds);
+    bounds.data[whole.parts / 2] = (int32_t)cut_segment(&work, segments, whole, FIRST_COLOUR);
+    for (int64_t v = 0; v < size; v++) {
+        other.colours[v] = work.colours[v];
+        for (int end = 0; end < 2; end++) other.distances[end][v] = work.distances[end][v];
+    }
+    return true;
+}
+
+/* Half 0 or 1 of what `bisect_once` has cut. */
+bool bisect_half(ConstInts offsets, ConstInts neighbours, Ints order, Ints bounds, int64_t half, Words scratch) {
+    Work work;
+    if (!open_work(&work, offsets, neighbours, order, bounds, scratch) || bounds.size < 3) return false;
+    Segment whole = {0, offsets.size - 1, 0, bounds.size - 1, 0};
+    int64_t cut = bounds.data[whole.parts / 2];
+    if (cut < 0 || cut > whole.last) return false;
+    cut_on(&work, (uint32_t *)order.data, half ? upper(whole, cut) : lower(whole, cut), FIRST_COLOUR + 4, bounds);
     return true;
 }

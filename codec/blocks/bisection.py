@@ -15,9 +15,13 @@ from bitstream.errors import OptionError
 from codec import _kernels
 from codec.arrays import Indices
 from codec.geometry.graph import Graph
+from codec.threads import available_threads, side_by_side
+
+WORTH_A_THREAD = 8192
+"""Vertices of a graph from which on a second thread gains more than it costs."""
 
 
-def bisect(graph: Graph, parts: int) -> tuple[Indices, Indices]:
+def bisect(graph: Graph, parts: int, threads: int | None = 1) -> tuple[Indices, Indices]:
     """Cut a graph into parts whose sizes differ by as little as proportional halving allows.
 
     Parameters
@@ -26,6 +30,8 @@ def bisect(graph: Graph, parts: int) -> tuple[Indices, Indices]:
         On n vertices.
     parts : int
         From 1 to n.
+    threads : int, optional
+        With more than one, both halves are cut at once; None: one per core.
 
     Returns
     -------
@@ -36,6 +42,16 @@ def bisect(graph: Graph, parts: int) -> tuple[Indices, Indices]:
     """
     order, bounds = np.empty(graph.size, np.int32), np.empty(parts + 1, np.int32)
     scratch = np.empty(_kernels.bisection_scratch(graph.size), np.uint32)
-    if not _kernels.bisect(graph.offsets, graph.neighbours, order, bounds, scratch):
+    arrays = graph.offsets, graph.neighbours, order, bounds
+    if parts > 1 and graph.size >= WORTH_A_THREAD and (threads or available_threads()) > 1:
+        second = np.empty_like(scratch)
+        done = _kernels.bisect_once(*arrays, scratch, second) and all(
+            side_by_side(
+                lambda: _kernels.bisect_half(*arrays, 0, scratch), lambda: _kernels.bisect_half(*arrays, 1, second)
+            )
+        )
+    else:
+        done = _kernels.bisect(*arrays, scratch)
+    if not done:
         raise OptionError(f"{graph.size} vertices cannot be cut into {parts} parts")
     return order, bounds

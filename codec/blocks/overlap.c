@@ -35,7 +35,7 @@ int64_t grow_blocks(ConstInts offsets, ConstInts neighbours, ConstInts order, Co
 
 static uint64_t table_size(int64_t rows) {
     uint64_t capacity = 16;
-    while (capacity < 2 * (uint64_t)rows) capacity *= 2;
+    while (capacity < 4 * (uint64_t)rows) capacity *= 2;
     return capacity;
 }
 

@@ -48,12 +48,13 @@ def partition_of_labels(labels: Indices) -> Partition:
     return _grouped(rank[compact])
 
 
-def derive_partition(graph: Graph, parts: int) -> Partition:
+def derive_partition(graph: Graph, parts: int, threads: int | None = 1) -> Partition:
     """Recursive bisection, then two passes that move boundary vertices to where most of their neighbours are.
 
-    Integers only, so that a decoder arrives at the same parts from the decoded faces, and no label is sent.
+    Integers only, so that a decoder arrives at the same parts from the decoded faces, and no label is sent. On so many
+    `threads` (None: one per core).
     """
-    order, bounds = bisect(graph, parts)
+    order, bounds = bisect(graph, parts, threads)
     labels = np.empty(graph.size, np.int32)
     labels[order] = np.repeat(np.arange(parts, dtype=np.int32), np.diff(bounds))
     sizes, votes = np.empty(parts, np.int64), np.empty(parts, np.int32)

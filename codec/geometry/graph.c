@@ -70,3 +70,23 @@ int64_t component_sizes(ConstInts offsets, ConstInts neighbours, Bytes seen, Int
     }
     return count;
 }
+
+/* Whether there is a way from vertex 0 to all others; `scratch` has two entries a vertex, and one more. */
+int64_t reaches_all(ConstInts offsets, ConstInts neighbours, Ints scratch) {
+    int64_t n = offsets.size - 1, tail = 1;
+    if (n < 0 || scratch.size < 2 * n + 1) return MISUSED;
+    int32_t *unseen = scratch.data, *waiting = scratch.data + n;
+    for (int64_t v = 0; v < n; v++) unseen[v] = v > 0;
+    waiting[0] = 0;
+    for (int64_t head = 0; head < tail && tail < n; head++) {
+        int32_t v = waiting[head];
+        for (int32_t i = offsets.data[v]; i < offsets.data[v + 1]; i++) {
+            /* Without a branch, which the processor could not predict: what is not new is overwritten. */
+            int32_t w = neighbours.data[i];
+            waiting[tail] = w;
+            tail += unseen[w];
+            unseen[w] = 0;
+        }
+    }
+    return tail == n;
+}

@@ -51,4 +51,4 @@ def component_sizes(graph: Graph) -> Indices:
 
 def is_connected(graph: Graph) -> bool:
     """Whether there is a way between any two vertices."""
-    return len(component_sizes(graph)) == 1
+    return bool(_kernels.reaches_all(graph.offsets, graph.neighbours, np.empty(2 * graph.size + 1, np.int32)))

@@ -38,7 +38,7 @@ def vertex_faces(faces: Faces, n: int) -> Rows:
     """
     starts, members = np.empty(n + 1, np.int64), np.empty(faces.size, np.int32)
     _kernels.vertex_faces(np.ascontiguousarray(faces, np.int32), starts, members)
-    return Rows(starts, members[: starts[n]].copy())
+    return Rows(starts, members[: starts[n]])
 
 
 def vertex_neighbours(faces: Faces, n: int) -> Rows:

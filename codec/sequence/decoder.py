@@ -254,6 +254,7 @@ class SequenceDecoder(StreamDecoder[Item]):
             check=lambda header: check_header(header, limits),
             begin=lambda structure: FirstFrame(structure, wishes),
             rounding=rounding,
+            threads=threads,
         )
         super().__init__(Beginning(body), limits, tolerant=tolerant)
 

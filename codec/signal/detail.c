@@ -4,30 +4,41 @@
 #include "bitstream/coefficients/trellis.h"
 #include "codec/signal/transform.h"
 
+/* A position or a direction, and a number that does not count. */
+typedef double Four __attribute__((vector_size(32)));
+typedef double UnalignedFour __attribute__((vector_size(32), aligned(8), may_alias));
+
+/* Row r; what is read beyond it is in the next row, but for the last row. */
+INLINE Four point(ConstDoubles2 positions, int64_t r) {
+    const double *row = positions.data + 3 * r;
+    if (r + 1 == positions.rows) return (Four){row[0], row[1], row[2], 0.0};
+    return *(const UnalignedFour *)row;
+}
+
+/* y, z and x. */
+INLINE Four turned(Four v) { return (Four){v[1], v[2], v[0], v[3]}; }
+
+INLINE Four cross(Four u, Four v) { return turned(u) * turned(turned(v)) - turned(turned(u)) * turned(v); }
+
 /* Normals at the rows of the block of `vertices`, from its own `positions`. `members` are the faces around each vertex;
  * `place`, one entry a vertex of the mesh, is scratch: zero before and after. */
-void block_normals(ConstInts2 faces, ConstLongs starts, ConstInts members, ConstInts vertices, Ints place,
-                   ConstDoubles2 positions, double softness, double least_length, Doubles2 normals) {
+KERNEL void block_normals(ConstInts2 faces, ConstLongs starts, ConstInts members, ConstInts vertices, Ints place,
+                          ConstDoubles2 positions, double softness, double least_length, Doubles2 normals) {
     int64_t n = vertices.size;
     for (int64_t r = 0; r < n; r++) place.data[vertices.data[r]] = (int32_t)r + 1;
     double total = 0.0;
     for (int64_t r = 0; r < n; r++) {
-        double x = 0.0, y = 0.0, z = 0.0;
+        Four sum = {0.0, 0.0, 0.0, 0.0};
         for (int64_t k = starts.data[vertices.data[r]]; k < starts.data[vertices.data[r] + 1]; k++) {
             const int32_t *face = faces.data + 3 * (int64_t)members.data[k];
             int64_t a = place.data[face[0]], b = place.data[face[1]], c = place.data[face[2]];
             if (a == 0 || b == 0 || c == 0) continue;
-            const double *p = positions.data + 3 * (a - 1), *q = positions.data + 3 * (b - 1);
-            const double *s = positions.data + 3 * (c - 1);
-            double ux = q[0] - p[0], uy = q[1] - p[1], uz = q[2] - p[2];
-            double vx = s[0] - p[0], vy = s[1] - p[1], vz = s[2] - p[2];
-            x += uy * vz - uz * vy;
-            y += uz * vx - ux * vz;
-            z += ux * vy - uy * vx;
+            Four corner = point(positions, a - 1);
+            sum += cross(point(positions, b - 1) - corner, point(positions, c - 1) - corner);
         }
         double *normal = normals.data + 3 * r;
-        normal[0] = x, normal[1] = y, normal[2] = z;
-        total += x * x + y * y + z * z;
+        for (int d = 0; d < 3; d++) normal[d] = sum[d];
+        total += sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2];
     }
     double soft = softness * softness * total / (double)n + least_length * least_length;
     for (int64_t r = 0; r < n; r++) {

@@ -97,7 +97,8 @@ class Assembly:
 
     def mesh(self) -> TriangleMesh:
         """The mesh in its own unit, once every block is in."""
-        decoded = self._units.back(smooth(self._graph, self._blend.all_positions(), self._smoothing))
+        smoothed = smooth(self._graph, self._blend.all_positions(), self._smoothing)
+        decoded = self._units.back(smoothed, out=smoothed)
         return TriangleMesh(self._numbering.arranged(decoded), self._numbering.faces)
 
     @property

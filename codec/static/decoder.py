@@ -194,6 +194,7 @@ class Decoder(StreamDecoder[Item]):
             begin=begin,
             tolerant=tolerant,
             rounding=rounding,
+            threads=threads,
         )
         super().__init__(Beginning(body), limits, tolerant=tolerant)
         self._lanes = lanes

@@ -65,6 +65,8 @@ class Structure:
         What may still be done.
     rounding : callable
         See `ChainRules`.
+    threads : int, optional
+        For what does not go block by block; None: one per core.
     """
 
     header: Header
@@ -75,6 +77,7 @@ class Structure:
     declarations: Declarations
     allowance: Allowance
     rounding: Rounding = unchanged
+    threads: int | None = 1
 
     @property
     def units(self) -> Units:
@@ -94,7 +97,7 @@ class Structure:
         copies = min(header.blocks * header.block_size, MOST_COPIES * header.vertices + FREE_COPIES)
         self.allowance.keep(COPY_MEMORY * copies)
         self.allowance.spend(partition_cost(self.graph, header.blocks, copies))
-        partition = self.partition or derive_partition(self.graph, header.blocks)
+        partition = self.partition or derive_partition(self.graph, header.blocks, self.threads)
         largest = int(np.diff(partition.bounds).max())
         if largest > header.block_size:
             raise CorruptError(f"a part of {largest} vertices in blocks of {header.block_size}")
@@ -113,6 +116,7 @@ class Body:
     begin: Callable[[Structure], Stage[Any]]
     tolerant: bool = False
     rounding: Rounding = unchanged
+    threads: int | None = 1
 
 
 @dataclass(frozen=True, eq=False)
@@ -187,6 +191,7 @@ class Connected:
                     self.declarations,
                     self.body.allowance,
                     self.body.rounding,
+                    self.body.threads,
                 )
                 following = self.body.begin(structure)
                 queue.append(self.numbering.event(self.header.vertices))

@@ -30,8 +30,8 @@ class Units:
         """Positions of the mesh in BSM units."""
         return np.asarray((positions - np.array(self.center)) / self.scale)
 
-    def back(self, positions: Matrix) -> Positions:
-        """Positions in BSM units as the mesh has them.
+    def back(self, positions: Matrix, out: Matrix | None = None) -> Positions:
+        """Positions in BSM units as the mesh has them; in `out`, which may be those given.
 
         Raises
         ------
@@ -39,7 +39,7 @@ class Units:
             If one is beyond the range of numbers.
         """
         with np.errstate(over="ignore", invalid="ignore"):
-            moved = positions * self.scale
+            moved = np.multiply(positions, self.scale, out=out)
             moved += np.array(self.center)
         if not np.isfinite(moved).all():
             raise NumericError("positions are not finite in the unit of the mesh")

@@ -50,6 +50,15 @@ int64_t dissect(ConstInts offsets, ConstInts neighbours, int64_t leaf, Ints cuts
     return n - count;
 }
 
+/* Enter a step in the border of front t, which ends before step `end`, unless it is there. Without a branch, which the
+ * processor could not predict: what is not entered is overwritten, and marks of steps before the end do not count. */
+INLINE int64_t enter(uint32_t step, uint32_t t, int64_t end, uint32_t *mark, uint32_t *borders, int64_t size) {
+    borders[size] = step;
+    size += (step >= end) & (mark[step] != t);
+    mark[step] = t;
+    return size;
+}
+
 /* The borders of the fronts that `dissect` found, and all else that `Fronts` holds.
  *
  * Returns the size of `borders`; -1 if there is no room for them; -2 if a factorisation takes more operations than
@@ -75,21 +84,14 @@ int64_t find_borders(ConstInts offsets, ConstInts neighbours, ConstWords rows, C
         if (borders.size < size + n + 2) return -1;
         for (int64_t k = first; k < end; k++) {
             for (int64_t i = offsets.data[rows.data[k]]; i < offsets.data[rows.data[k] + 1]; i++) {
-                uint32_t step = steps.data[neighbours.data[i]];
-                if (step >= end && mark[step] != t) {
-                    mark[step] = (uint32_t)t;
-                    borders.data[size++] = step;
-                }
+                size = enter(steps.data[neighbours.data[i]], (uint32_t)t, end, mark, borders.data, size);
             }
         }
         for (uint32_t c = child[t]; c != NONE; c = sibling[c]) {
-            for (int64_t i = starts.data[c]; i < starts.data[c + 1]; i++) {
-                uint32_t step = borders.data[i];
-                if (step >= end && step < n && mark[step] != t) {
-                    mark[step] = (uint32_t)t;
-                    borders.data[size++] = step;
-                }
-            }
+            int64_t last = starts.data[c + 1];
+            last -= last > starts.data[c] && borders.data[last - 1] == n;
+            for (int64_t i = starts.data[c]; i < last; i++)
+                size = enter(borders.data[i], (uint32_t)t, end, mark, borders.data, size);
         }
         sort_ascending((int32_t *)borders.data + begin, size - begin);
         if (size > begin) {

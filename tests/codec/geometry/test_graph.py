@@ -1,10 +1,11 @@
 import numpy as np
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 
-from codec.blocks.bisection import bisect
-from codec.geometry.graph import graph_of_faces
+from codec.blocks.bisection import WORTH_A_THREAD, bisect
+from codec.geometry.graph import component_sizes, graph_of_faces, is_connected
 from tests.shapes import grid_faces
 
 soups = hnp.arrays(np.int32, st.tuples(st.integers(1, 40), st.just(3)), elements=st.integers(0, 19))
@@ -17,6 +18,13 @@ def test_a_graph_holds_each_edge_once_in_both_directions(faces):
     edges = {(int(a), int(b)) for f in faces for a in f for b in f if a != b}
     found = [(v, int(w)) for v in range(20) for w in graph.neighbours[graph.offsets[v] : graph.offsets[v + 1]]]
     assert found == sorted(edges)
+
+
+@settings(deadline=None)
+@given(soups, st.integers(1, 20))
+def test_a_graph_is_connected_where_it_is_one_component(faces, size):
+    graph = graph_of_faces(faces % size, size)
+    assert is_connected(graph) == (len(component_sizes(graph)) == 1)
 
 
 def test_a_vertex_of_high_degree_has_sorted_neighbours():
@@ -63,3 +71,11 @@ def test_a_bisection_does_not_mix_components():
         frozenset(range(144)),
         frozenset(range(144, 288)),
     }
+
+
+@pytest.mark.parametrize("parts", [2, 3, 7, 46])
+def test_two_threads_cut_as_one_does(parts):
+    graph = graph_of_faces(grid_faces(100, 99), 9900)
+    assert graph.size >= WORTH_A_THREAD
+    for one, two in zip(bisect(graph, parts), bisect(graph, parts, threads=2), strict=True):
+        assert np.array_equal(one, two)
