@@ -20,7 +20,6 @@ from codec.sequence.decoder import FrameEvent, SequenceDecoder
 from codec.static.decoder import Decoder
 from codec.static.encoder import encode
 from codec.static.events import ConnectivityEvent, HeaderEvent
-from codec.static.work import SEQUENCE_WEIGHT
 from tools.vectors.meshes import torus
 
 HOWS = ("events", "whole", "tolerant")
@@ -36,7 +35,7 @@ class Taken:
     outcome : str
         "decoded", or the error.
     vertices : int
-        That count for memory and work: those of the faces, of a sequence `SEQUENCE_WEIGHT` times.
+        Those of the faces.
     shown : int
         Vertices of all frames of a sequence.
     work : float
@@ -103,7 +102,7 @@ def decode_all(data: bytes, how: str, limits: Limits) -> Taken:
                     case HeaderEvent(found):
                         size = found.vertices
                     case ConnectivityEvent():
-                        taken.vertices = size * (SEQUENCE_WEIGHT if sequence else 1)
+                        taken.vertices = size
                     case FrameEvent():
                         taken.shown += size
             taken.outcome = "decoded"

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from functools import cache
 from typing import Any
@@ -233,11 +233,11 @@ def _copies(rows: int, columns: int) -> bytes:
     return _blocky(("torus", rows, columns), order, blocks=blocks, block_size=min(size, 64), power=1)
 
 
-def _sequence(rows: int, columns: int, gops: list[GopBody], *, width: int, **fields: Any) -> bytes:
+def _sequence(rows: int, columns: int, gops: Iterable[GopBody], *, width: int, part: int = 400, **fields: Any) -> bytes:
     coded = _coded("torus", rows, columns)
     size = len(coded.vertex_order)
-    blocks = max(1, size // 400)
-    parts = min(size, 440)
+    blocks = max(1, size // part)
+    parts = min(size, part + part // 10 + 2)
     values = {
         **PACKED,
         "blocks": blocks,
@@ -254,11 +254,11 @@ def _sequence(rows: int, columns: int, gops: list[GopBody], *, width: int, **fie
     return stream_of(frames)
 
 
-def _still(rows: int, columns: int, width: int, components: int) -> bytes:
+def _still(rows: int, columns: int, width: int, components: int, part: int = 400) -> bytes:
     """Levels of a GOP in which nothing happens."""
     coded = _coded("torus", rows, columns)
     graph = graph_of_faces(coded.faces, len(coded.vertex_order))
-    partition = derive_partition(graph, max(1, graph.size // 400))
+    partition = derive_partition(graph, max(1, graph.size // part))
     cores = grow_blocks(graph, partition, 1).cores
     levels = [np.zeros((min(width, int(core)), components), np.int32) for core in cores]
     return encode_levels(make_level_bank(), levels, level_references(levels, components))
@@ -392,6 +392,24 @@ BOMBS: dict[str, Bomb] = {
     "sequence-power": Bomb(
         "the same by iterations without end",
         lambda: _sequence(40, 40, [_cosine_gop(1, 0)], width=8, power=64, key_iterations=1024),
+    ),
+    "sequence-tiny": Bomb(
+        "parts of one vertex", lambda: _sequence(256, 256, [_cosine_gop(1, 0)], width=8, part=1, power=1)
+    ),
+    "sequence-small": Bomb(
+        "parts of ten vertices", lambda: _sequence(256, 256, [_cosine_gop(1, 0)], width=10, part=10, power=1)
+    ),
+    "sequence-again": Bomb(
+        "more dictionaries than there is room for, frame after frame",
+        lambda: _sequence(250, 200, _key_gops(40, _still(250, 200, 440, 3)), width=440, power=2, key_iterations=2),
+    ),
+    "gop-part": Bomb(
+        "many components of one part",
+        lambda: _sequence(70, 70, [_cosine_gop(300, 160, _still(70, 70, 4, 160, 4900))], width=4, part=4900, power=1),
+    ),
+    "gop-components": Bomb(
+        "as many components as there is room for",
+        lambda: _sequence(250, 200, [_cosine_gop(64, 75, _still(250, 200, 20, 75))] * 3, width=20),
     ),
     "gop-wide": Bomb(
         "a GOP of 1,024 frames and 3,072 components",
