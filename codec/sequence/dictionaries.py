@@ -35,6 +35,8 @@ TETHER = 2.0**-16
 """Stiffness with which every row hangs on the mean of the pulls; it places what no spring reaches."""
 SITE_MEMORY, ROW_MEMORY = 6000.0, 224.0
 """Bytes of what is known of a part besides its factor, whatever its size and for each row."""
+SPARE = 4.0 * 2**20
+"""Bytes that no dictionary is kept in, though they are granted."""
 
 Result = TypeVar("Result")
 
@@ -168,7 +170,8 @@ class Dictionaries:
 
     def fits(self, memory: float, use: float, received: int = 0) -> bool:
         """Whether `reserve` finds room when so many more bytes have come."""
-        return self._needed(memory, use) <= self._allowance.room(received)
+        room = self._room(memory, use, received)
+        return self._making_beside(room) <= room
 
     def reserve(self, memory: float = 0.0, use: float = 0.0) -> float:
         """Have room for what comes next, and keep as many dictionaries as there is room for besides.
@@ -190,20 +193,25 @@ class Dictionaries:
         LimitError
             If there is not even room without any dictionary kept.
         """
-        allowance, needed = self._allowance, self._needed(memory, use)
-        allowance.afford(needed)
-        count = int(np.searchsorted(self._sizes, allowance.room() - needed, side="right")) - 1
+        room = self._room(memory, use)
+        making = self._making_beside(room)
+        self._allowance.afford(self._allowance.room() - room + making)
+        count = int(np.searchsorted(self._sizes, room - making, side="right")) - 1
         held = memory + float(self._sizes[count])
-        allowance.keep(held - self._reserved)
+        self._allowance.keep(held - self._reserved)
         self._reserved, self._use = held, use
         self._parts[count:] = [None] * (len(self.sites) - count)
         again = self._work[min(self._kept, count) :]
         self._kept = count
         return float(np.nansum(again))
 
-    def _needed(self, memory: float, use: float) -> float:
-        """Bytes besides what is kept for other reasons than the latest `reserve`, and besides dictionaries."""
-        return memory + use + self._making - self._reserved
+    def _room(self, memory: float, use: float, received: int = 0) -> float:
+        """Bytes for dictionaries besides what `reserve` is told."""
+        return self._allowance.room(received) + self._reserved - memory - use - SPARE
+
+    def _making_beside(self, room: float) -> float:
+        """Bytes for making dictionaries, unless all are there and have room."""
+        return 0.0 if all(self._parts) and self._sizes[-1] <= room else self._making
 
     def each(self, use: Callable[[int, Part], Result]) -> Iterator[Result]:
         """What `use` gives for the number of each part and the part, in their order.

@@ -14,7 +14,7 @@ from codec.blocks.overlap import Blocks, grow_blocks
 from codec.blocks.partition import derive_partition
 from codec.geometry.graph import graph_of_faces
 from codec.geometry.mesh import TriangleMesh
-from codec.sequence.dictionaries import Dictionaries, Part, find_sites
+from codec.sequence.dictionaries import SPARE, Dictionaries, Part, find_sites
 from codec.sequence.encoder import FIRST_FRAME
 from codec.static.work import Allowance
 from tests.shapes import patch, torus
@@ -106,7 +106,7 @@ def test_what_there_is_no_room_for_is_made_again() -> None:
     largest = max(site.making for site in ample.sites)
     allowance = Allowance(Limits())
     narrow = dictionaries(mesh, 12, 1000, allowance=allowance)
-    allowance.keep(allowance.room() - largest - 0.4 * needed)
+    allowance.keep(allowance.room() - largest - SPARE - 0.4 * needed)
     assert narrow.reserve() == 0.0  # nobody knows yet what making them takes
     first, second = list(narrow.each(bases)), list(narrow.each(bases))
     for one, two, three in zip(wanted, first, second, strict=True):
