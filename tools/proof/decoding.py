@@ -79,10 +79,16 @@ def _by_events(
                         values[event.name] = _with_values(values.get(event.name), event, rows)
                     case LossEvent():
                         losses += 1
-    arrays = arrays_of(values.values())
+        arrays = arrays_of([] if losses else _completed(decoder, values))
     if kind is SequenceDecoder:
         return (np.array(frames).reshape(len(frames), vertices, 3), faces, arrays), losses
     return (positions[0] if positions else np.zeros((0, 3)), faces, arrays), losses
+
+
+def _completed(decoder: Decoder | SequenceDecoder, told: dict[str, Attribute]) -> list[Attribute]:
+    """What events have told of attributes, in the order of the mesh, and recomputed normals, which no event tells."""
+    mesh = decoder if isinstance(decoder, SequenceDecoder) else decoder.finish()
+    return [told.get(one.name, one) for one in mesh.attributes if one.name in told or one.semantic == "normal"]
 
 
 def _with_values(known: Attribute | None, event: AttributeEvent, rows: int) -> Attribute:
