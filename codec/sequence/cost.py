@@ -9,9 +9,9 @@ from codec.sequence.dictionaries import Site
 from codec.sequence.gop import BATCH
 from codec.static.work import LEVEL
 
-FRAME, SHOWN = 3e4, 20.0
+FRAME, SHOWN = 2.5e4, 11.0
 """Of a frame, and of a vertex in it."""
-PART = 1.5e5
+PART = 1e5
 """Of a part in a GOP, whatever its size."""
 LOOP = 40.0
 """Of a column in a row of a closed loop."""
@@ -33,10 +33,11 @@ def gop_cost(sites: tuple[Site, ...], vertices: int, body: GopBody) -> float:
     columns, frames = body.components, body.frames
     fields = sum(_part_cost(site.fronts, site.width, columns) for site in sites)
     cosines = 30.0 * frames * columns if body.method <= GopMethod.COSINES else 0.0
-    shown = frames * (FRAME + vertices * (SHOWN + 0.3 * columns))
+    shown = frames * (FRAME + vertices * (SHOWN + 0.2 * columns))
     return PART * len(sites) + fields + cosines + shown
 
 
 def _part_cost(fronts: Fronts, width: int, columns: int) -> float:
+    rows = len(fronts.rows)
     loop = float(width * columns) * (LEVEL + LOOP)
-    return loop + solve_cost(fronts, columns) + columns * len(fronts.rows) * (0.1 * width + 20.0)
+    return loop + solve_cost(fronts, columns) + rows * (width * (1.0 + 0.1 * columns) + 20.0 * columns)

@@ -35,6 +35,8 @@ TETHER = 2.0**-16
 """Stiffness with which every row hangs on the mean of the pulls; it places what no spring reaches."""
 SITE_MEMORY, ROW_MEMORY = 6000.0, 224.0
 """Bytes of what is known of a part besides its factor, whatever its size and for each row."""
+UNCODED = 1e5
+"""Nanoseconds by which a part is cheaper than a block that is decoded, before it has its dictionary."""
 SPARE = 4.0 * 2**20
 """Bytes that no dictionary is kept in, though they are granted."""
 
@@ -284,7 +286,7 @@ def find_sites(
 
     def find(index: int) -> Site:
         size = len(blocks.core(index))
-        allowance.spend(block_cost(size, blocks.edges_of(index), 0))
+        allowance.spend(block_cost(size, blocks.edges_of(index), 0) - UNCODED)
         held = hold(graph, weights, rank, blocks.part(index))
         fronts = held.laplacian.fronts
         allowance.keep(SITE_MEMORY + ROW_MEMORY * size + 8.0 * int(fronts.places[-1]))

@@ -18,27 +18,27 @@ from codec.basis.cost import factor_cost, iteration_memory, solve_cost
 from codec.basis.laplacian import Laplacian
 from codec.geometry.graph import Graph
 
-BLOCK = 2.5e5
+BLOCK = 1.85e5
 """Of a block, whatever its size."""
-ROW, LOOK, LEVEL = 1200.0, 30.0, 90.0
+ROW, LOOK, LEVEL = 650.0, 25.0, 90.0
 """Of a row of a block, of an edge that one has in the mesh, and of a coded level."""
 COPY_MEMORY = 4
 """Bytes for each row of all blocks."""
-CHUNK_COST = 6e4
-"""Of a frame of a grid or of a layer, whatever it holds."""
-FRESH, MOST_FRESH = 3.0, 4e6
+CODED = 800.0
+"""Of a byte of coded values."""
+FRESH, MOST_FRESH = 2.0, 4e6
 """Of a vertex of the mesh for each chain, in memory that is fresh; beyond some size that costs nothing."""
 
 
 def mesh_cost(vertices: int, faces: int, received: int) -> float:
     """Of faces and graph; what meets at more vertices than a closed surface has was cut and is sewn together again."""
     sewn = max(0.0, faces / 2.0 - vertices)
-    return 100.0 * vertices + 60.0 * faces + 700.0 * sewn + 400.0 * received
+    return 140.0 * vertices + 85.0 * faces + 700.0 * sewn + 400.0 * received
 
 
 def order_cost(vertices: int, faces: int, received: int) -> float:
     """Of the order that a mesh had."""
-    return 600.0 * vertices + 900.0 * faces + 100.0 * received
+    return 500.0 * vertices + 750.0 * faces + 100.0 * received
 
 
 def partition_cost(graph: Graph, blocks: int, copies: int) -> float:
@@ -83,8 +83,23 @@ def block_memory(laplacian: Laplacian, columns: int) -> int:
 
 
 def field_cost(vertices: int, faces: int, axes: int) -> float:
-    """Of a grid or a layer of refinement, with so many values for each vertex."""
+    """Of a grid or an attribute, with so many values for each vertex, before its bytes are counted."""
     return vertices * (600.0 + 350.0 * axes) + 150.0 * faces
+
+
+def layer_cost(vertices: int, faces: int, axes: int) -> float:
+    """Of a layer of refinement, before its bytes are counted."""
+    return vertices * (400.0 + 230.0 * axes) + 100.0 * faces
+
+
+def grid_chunk_cost(received: int) -> float:
+    """Of a frame of a grid."""
+    return 3.5e4 + CODED * received
+
+
+def chunk_cost(received: int) -> float:
+    """Of a frame of a layer or of an attribute."""
+    return 8e4 + CODED * received
 
 
 def grid_memory(vertices: int, faces: int) -> float:

@@ -36,8 +36,8 @@ from codec.static.numbering import Numbering
 from codec.static.quality.whole import Complete
 from codec.static.stages import Arrival, Stage, misplaced
 from codec.static.work import (
-    CHUNK_COST,
     Allowance,
+    chunk_cost,
     coding_memory,
     field_cost,
     values_cost,
@@ -169,7 +169,7 @@ class Valued:
             allowance.spend(field_cost(self._rows, faces, self.declaration.components))
             self._coder = PieceDecoder(self.declaration, self._surface, relief, allowance.limits)
         allowance.keep(0.0, len(packet.data))
-        allowance.spend(CHUNK_COST, len(packet.data))
+        allowance.spend(chunk_cost(len(packet.data)), len(packet.data))
         coder = self._coder
         if packet.first != coder.coded:
             raise CorruptError(f"the values before number {packet.first} are missing; others depend on them")

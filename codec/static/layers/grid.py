@@ -21,7 +21,7 @@ from codec.static.attributes.relief import Solid
 from codec.static.events import BlockEvent, Changes, Losses, LossEvent, unreadable
 from codec.static.stages import Arrival, Stage, misplaced
 from codec.static.structure import Structure
-from codec.static.work import CHUNK_COST, field_cost, grid_memory
+from codec.static.work import field_cost, grid_chunk_cost, grid_memory
 
 CHUNK = 1 << 15
 """Vertices of a frame: large meshes are seen while they arrive."""
@@ -105,7 +105,7 @@ class GridStage:
     def _decode(self, packet: packets.Grid, queue: deque[Any]) -> None:
         if self._broken:
             return
-        self._structure.allowance.spend(CHUNK_COST, len(packet.data))
+        self._structure.allowance.spend(grid_chunk_cost(len(packet.data)), len(packet.data))
         try:
             if packet.first != self._decoder.coded:
                 raise CorruptError(f"positions from number {self._decoder.coded} on are missing; others depend on them")

@@ -26,7 +26,7 @@ from codec.static.attributes.relief import Solid
 from codec.static.events import Losses, LossEvent, RefinementEvent, unreadable
 from codec.static.stages import Arrival, Stage, misplaced
 from codec.static.structure import Structure
-from codec.static.work import CHUNK_COST, field_cost, layer_memory
+from codec.static.work import chunk_cost, layer_cost, layer_memory
 from codec.threads import Lanes, Pending
 
 CHUNK = 1 << 15
@@ -115,7 +115,7 @@ class LayerDecoder:
 
     def decode(self, packet: packets.Refinement) -> tuple[Indices, Levels]:
         """Vertices and their levels; once a packet is missing or broken, the rest of the layer cannot be decoded."""
-        self._structure.allowance.spend(CHUNK_COST, len(packet.data))
+        self._structure.allowance.spend(chunk_cost(len(packet.data)), len(packet.data))
         following = self._decoder.coded
         if packet.first != following:
             raise CorruptError(f"layer {packet.layer + 1} lacks the vertices before {packet.first}: the rest is lost")
@@ -127,7 +127,7 @@ class LayerDecoder:
         borders = bool(header.borders) and self._layer == len(header.layers) - 1
         axes, faces = header.layers[self._layer].axes, structure.faces
         allowance.keep(layer_memory(header.vertices, len(faces), axes))
-        allowance.spend(field_cost(header.vertices, len(faces), axes))
+        allowance.spend(layer_cost(header.vertices, len(faces), axes))
         return LevelsDecoder(faces, header.vertices, axes, allowance.limits, borders=borders)
 
 
