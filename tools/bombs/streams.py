@@ -295,8 +295,9 @@ def _long_metadata(entries: int, length: int) -> bytes:
 
 
 def _valued(rows: int, columns: int, count: int, chunk: int, *, coded: int | None = None, **fields: Any) -> bytes:
-    """A grid of nothing with so many attributes of nothing, all alike."""
-    frames = frames_of(_grid(rows, columns, 1 << 15))
+    """A mesh with so many attributes of nothing, all alike."""
+    blocks = {"blocks": 1 + rows * columns // 4000, "block_size": min(rows * columns, 8000), "power": 1}
+    frames = frames_of(_blocky(("torus", rows, columns), attributes=count, **blocks))
     shape = _coded("torus", rows, columns)
     size = rows * columns if coded is None else coded
     values = {"rows": size, "largest": (1,) * 4, "kind": 7, "components": 4, "origin": OTHERWISE, **fields}
@@ -311,8 +312,7 @@ def _valued(rows: int, columns: int, count: int, chunk: int, *, coded: int | Non
         for first in range(0, size, chunk):
             some = min(chunk, size - first)
             chunks.append(_written(packets.Values(index, first, some, encoder.chunk(some))))
-    header = _header(shape, grid=(1, 1, 1), attributes=count)
-    return stream_of([header, frames[1], *declared, *frames[2:], *chunks])
+    return stream_of([*frames[:2], *declared, *frames[2:], *chunks])
 
 
 def _written(packet: packets.Packet) -> tuple[int, bytes]:
@@ -451,8 +451,8 @@ BOMBS: dict[str, Bomb] = {
         lambda: _valued(60, 60, 3, 1, kind=0, components=1, largest=(1,), origin=AS_CODED),
     ),
     "values-normals": Bomb(
-        "150 times normals that nobody sends",
-        lambda: _valued(60, 60, 150, 1, kind=6, components=3, semantic=2, coding=RECOMPUTED, coded=0, largest=()),
+        "15 times normals that nobody sends",
+        lambda: _valued(400, 400, 15, 1, kind=6, components=3, semantic=2, coding=RECOMPUTED, coded=0, largest=()),
     ),
     "values-faces": Bomb(
         "attributes of faces",
