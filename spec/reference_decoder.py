@@ -895,8 +895,8 @@ class Allowance:
         whole = -(-columns // 8) * 8
         require_limit(8 * (6 * rows * whole + 2 * whole**2), MOST_MEMORY + 1024 * self.vertices, "memory")
         solution = 40 * rows * (0.6 * -(-columns // 32) + 0.035 * whole)
-        rounding = rows * (3 + 0.6 * whole + whole**2 / 30)
-        self.work += 10 * rows * whole + iterations * (power * solution + rounding)
+        rounding = rows * (3 + 0.5 * whole + whole**2 / 29)
+        self.work += 5 * rows * whole + iterations * (power * solution + rounding)
         require_limit(self.work, MOST_WORK + 3.2e4 * (self.vertices + self.shown), "work")
 
 

@@ -12,7 +12,7 @@ from typing import TypeAlias
 
 from codec.basis.solver.fronts import Fronts
 
-ONCE = 10.0
+ONCE = 5.0
 """Of each number of a dictionary, however often it is iterated."""
 CARE = 1.2
 """Orthonormalisations that one takes where columns are close to dependent."""
@@ -38,7 +38,7 @@ def solve_cost(fronts: Fronts, columns: int) -> float:
 def onorm_cost(rows: int, columns: int) -> float:
     """Of one orthonormalisation."""
     whole = _whole(columns)
-    return rows * (3.0 + 0.6 * whole + whole * whole / 30.0) + 1500.0
+    return rows * (3.0 + 0.5 * whole + whole * whole / 29.0) + 1500.0
 
 
 def reflection_cost(rows: int, columns: int) -> float:

@@ -113,8 +113,13 @@ def layer_memory(vertices: int, faces: int, axes: int) -> float:
 
 
 def values_memory(values: int, faces: int, components: int) -> float:
-    """Bytes that an attribute is kept in: its values, and where they belong."""
-    return 8.0 * components * values + 8.0 * values + 12.0 * faces
+    """Bytes that an attribute is kept in: its values as they come and as the user has them, and where they belong."""
+    return 16.0 * components * values + 12.0 * values + 12.0 * faces
+
+
+def recomputing_memory(values: int, faces: int) -> float:
+    """Bytes for making normals."""
+    return 200.0 * faces + 100.0 * values
 
 
 def values_cost(values: int, faces: int) -> float:

@@ -451,8 +451,8 @@ BOMBS: dict[str, Bomb] = {
         lambda: _valued(60, 60, 3, 1, kind=0, components=1, largest=(1,), origin=AS_CODED),
     ),
     "values-normals": Bomb(
-        "15 times normals that nobody sends",
-        lambda: _valued(400, 400, 15, 1, kind=6, components=3, semantic=2, coding=RECOMPUTED, coded=0, largest=()),
+        "six times normals that nobody sends",
+        lambda: _valued(400, 400, 6, 1, kind=6, components=3, semantic=2, coding=RECOMPUTED, coded=0, largest=()),
     ),
     "values-faces": Bomb(
         "attributes of faces",

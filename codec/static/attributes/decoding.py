@@ -40,6 +40,7 @@ from codec.static.work import (
     chunk_cost,
     coding_memory,
     field_cost,
+    recomputing_memory,
     values_cost,
     values_memory,
 )
@@ -155,6 +156,8 @@ class Valued:
             raise CorruptError(f"attribute {declaration.name!r} has {declaration.rows} values where {expected} belong")
         self._rows = expected
         structure.allowance.keep(values_memory(expected, len(declarations.faces), declaration.components))
+        if self.complete:
+            structure.allowance.afford(recomputing_memory(expected, len(declarations.faces)))
         structure.allowance.spend(values_cost(expected, len(declarations.faces)))
         self._coder: PieceDecoder | None = None
 

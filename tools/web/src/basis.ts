@@ -140,7 +140,7 @@ export function solutionCost(block: Block, columns: number): number {
 }
 
 export function roundingCost(rows: number, columns: number): number {
-    return rows * (3 + 0.6 * whole(columns) + whole(columns) ** 2 / 30);
+    return rows * (3 + 0.5 * whole(columns) + whole(columns) ** 2 / 29);
 }
 
 /** Columns as they are computed: in vectors of eight. */
