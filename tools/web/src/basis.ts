@@ -140,7 +140,7 @@ export function solutionCost(block: Block, columns: number): number {
 }
 
 export function roundingCost(rows: number, columns: number): number {
-    return rows * (3 + 0.5 * whole(columns) + whole(columns) ** 2 / 29);
+    return rows * (4 + whole(columns) ** 2 / 27) + whole(columns) ** 3 / 40;
 }
 
 /** Columns as they are computed: in vectors of eight. */
@@ -171,7 +171,7 @@ export function orthogonalIteration(
         );
         if (independence >= TWICE) return { rows, columns, values: subspace.view.slice() };
         // R^power has all but lost the higher columns: orthonormalised after every R they stay (M 8.4).
-        allowance.spend(iterations * power * (solutionCost(block, columns) + 1.2 * roundingCost(rows, columns)));
+        allowance.spend(iterations * power * (solutionCost(block, columns) + 2 * roundingCost(rows, columns)));
         let current = start;
         for (let k = 0; k < iterations * power; k++) current = solvedOnorm(memory, block, factor, current, allowance);
         return current;
