@@ -55,7 +55,6 @@ class Limits:
             vertices=1 << 20,
             faces=1 << 22,
             frame_bytes=1 << 26,
-            work_per_vertex=1e4,
             most_work=8e9,
             most_memory=800 << 20,
             sequence_bytes=400 << 20,

@@ -884,7 +884,8 @@ class Allowance:
     """M 14.2, M 14.3: what dictionaries may take."""
 
     def __init__(self, header):
-        self.vertices = header["vertices"] * (8 if header["gop_frames"] else 1)
+        self.vertices = header["vertices"]
+        self.shown = 0  # vertices of frames of a sequence
         self.work = 0.0
 
     def spend(self, header, rows, columns, follows):
@@ -897,9 +898,9 @@ class Allowance:
         whole = -(-columns // 8) * 8
         require_limit(8 * (6 * rows * whole + 2 * whole**2), MOST_MEMORY + 1024 * self.vertices, "memory")
         solution = 40 * rows * (0.6 * -(-columns // 32) + 0.035 * whole)
-        rounding = rows * (4 + whole**2 / 27) + whole**3 / 40
-        self.work += iterations * (power * solution + rounding)
-        require_limit(self.work, MOST_WORK + 3.2e4 * self.vertices, "work")
+        rounding = rows * (3 + 0.5 * whole + whole**2 / 29)
+        self.work += 5 * rows * whole + iterations * (power * solution + rounding)
+        require_limit(self.work, MOST_WORK + 3.2e4 * (self.vertices + self.shown), "work")
 
 
 def data_of(packets, kind, known):
@@ -1334,6 +1335,9 @@ def edge_weights(mesh, positions):
 
 def decode_frames(mesh, gops, first_frame):
     """S 7: all frames, in the unit of the mesh."""
+    if not gops:
+        return []  # S 8.3
+    mesh.allowance.shown = mesh.header["vertices"] * Gop(gops[0][1], mesh.header["gop_frames"]).frames
     rank = {v: index for index, core in enumerate(mesh.cores) for v in core}
     weight = edge_weights(mesh, first_frame)
     parts = [Part(mesh, weight, core, rank) for core in mesh.cores]

@@ -12,6 +12,11 @@ from typing import TypeAlias
 
 from codec.basis.solver.fronts import Fronts
 
+ONCE = 5.0
+"""Of each number of a dictionary, however often it is iterated."""
+CARE = 1.2
+"""Orthonormalisations that one takes where columns are close to dependent."""
+
 Spend: TypeAlias = Callable[[float], None]
 """Is told of work before it is done, and may refuse it by raising `LimitError`."""
 
@@ -33,7 +38,7 @@ def solve_cost(fronts: Fronts, columns: int) -> float:
 def onorm_cost(rows: int, columns: int) -> float:
     """Of one orthonormalisation."""
     whole = _whole(columns)
-    return rows * (4.0 + whole * whole / 27.0) + whole**3 / 40.0 + 1500.0
+    return rows * (3.0 + 0.5 * whole + whole * whole / 29.0) + 1500.0
 
 
 def reflection_cost(rows: int, columns: int) -> float:
@@ -43,13 +48,15 @@ def reflection_cost(rows: int, columns: int) -> float:
 
 def dictionary_cost(fronts: Fronts, columns: int, power: int, iterations: int) -> float:
     """Of a dictionary whose columns power and iterations do not lose."""
-    rounding = onorm_cost(len(fronts.rows), columns)
-    return iterations * (power * solve_cost(fronts, columns) + rounding)
+    rows = len(fronts.rows)
+    return ONCE * rows * _whole(columns) + iterations * (
+        power * solve_cost(fronts, columns) + onorm_cost(rows, columns)
+    )
 
 
 def careful_dictionary_cost(fronts: Fronts, columns: int, power: int, iterations: int) -> float:
     """Of one that would lose them, so that they are made orthonormal after every solution; without reflections."""
-    rounding = 2.0 * onorm_cost(len(fronts.rows), columns)
+    rounding = CARE * onorm_cost(len(fronts.rows), columns)
     return iterations * power * (solve_cost(fronts, columns) + rounding)
 
 

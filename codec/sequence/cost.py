@@ -4,34 +4,40 @@ from __future__ import annotations
 
 from bitstream.container.gop import GopBody, GopMethod
 from codec.basis.cost import solve_cost
-from codec.sequence.dictionaries import Part
-from codec.sequence.gop import Setting
+from codec.basis.solver.fronts import Fronts
+from codec.sequence.dictionaries import Site
+from codec.sequence.gop import BATCH
 from codec.static.work import LEVEL
 
-FRAME, SHOWN = 3e4, 20.0
+FRAME, SHOWN = 2.5e4, 11.0
 """Of a frame, and of a vertex in it."""
-PART = 1.5e5
+PART = 1e5
 """Of a part in a GOP, whatever its size."""
 LOOP = 40.0
 """Of a column in a row of a closed loop."""
 
 
 def gop_memory(vertices: int, body: GopBody) -> float:
-    """Bytes for decoding a GOP."""
-    cosines = 8.0 * (3 * body.frames) ** 2 if body.method is GopMethod.COSINES else 0.0
-    return 16.0 * body.components * (vertices + 3 * body.frames) + cosines
+    """Bytes for decoding a GOP, besides those of one part after the other: levels, components, a few frames."""
+    shown = 48.0 * min(body.frames, BATCH) + 96.0
+    return vertices * (12.0 * body.components + shown) + 72.0 * body.components * body.frames
 
 
-def gop_cost(setting: Setting, body: GopBody) -> float:
+def loop_memory(rows: int, body: GopBody) -> float:
+    """Bytes for a part of so many vertices: its levels and coefficients in the loop, and what becomes of them."""
+    return 48.0 * rows * body.components
+
+
+def gop_cost(sites: tuple[Site, ...], vertices: int, body: GopBody) -> float:
     """Of the levels, loops and fields of a GOP, and of its frames."""
     columns, frames = body.components, body.frames
-    fields = sum(_part_cost(part, columns) for part in setting.parts)
-    cosines = 10.0 * (3 * frames) ** 2 if body.method <= GopMethod.COSINES else 0.0
-    shown = frames * (FRAME + setting.vertices * (SHOWN + 0.3 * columns))
-    return PART * len(setting.parts) + fields + cosines + shown
+    fields = sum(_part_cost(site.fronts, site.width, columns) for site in sites)
+    cosines = 30.0 * frames * columns if body.method <= GopMethod.COSINES else 0.0
+    shown = frames * (FRAME + vertices * (SHOWN + 0.2 * columns))
+    return PART * len(sites) + fields + cosines + shown
 
 
-def _part_cost(part: Part, columns: int) -> float:
-    rows, width = len(part.basis), part.basis.shape[1]
+def _part_cost(fronts: Fronts, width: int, columns: int) -> float:
+    rows = len(fronts.rows)
     loop = float(width * columns) * (LEVEL + LOOP)
-    return float(loop + solve_cost(part.held.laplacian.fronts, columns) + columns * rows * (0.1 * width + 20.0))
+    return loop + solve_cost(fronts, columns) + rows * (width * (1.0 + 0.1 * columns) + 20.0 * columns)

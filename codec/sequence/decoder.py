@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from typing import TypeAlias
+from typing import TypeAlias, TypeVar
 
 import numpy as np
 
@@ -19,16 +19,16 @@ from bitstream.limits import DEFAULT_LIMITS, Limits
 from codec.arrays import Faces, Matrix, Positions
 from codec.blocks.blend import Blend
 from codec.geometry.attributes import Attribute
-from codec.sequence.cost import gop_cost, gop_memory
+from codec.sequence.cost import gop_cost, gop_memory, loop_memory
 from codec.sequence.gop import GopDecoder, make_setting
 from codec.signal.chain import Rounding, unchanged
 from codec.static.attributes.decoding import Carried, without_positions
 from codec.static.events import AttributeEvent, ConnectivityEvent, EndEvent, HeaderEvent, LossEvent, unreadable
-from codec.static.layers.block_coder import ChainDecoder
+from codec.static.layers.block_coder import FRAME, ChainDecoder
 from codec.static.rules import chain_rules
 from codec.static.stages import Arrival, Ended, Stage, StreamDecoder, misplaced
 from codec.static.structure import Beginning, Body, Structure
-from codec.static.work import SEQUENCE_WEIGHT, Allowance
+from codec.static.work import Allowance
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,6 +41,7 @@ class FrameEvent:
 
 Event: TypeAlias = HeaderEvent | ConnectivityEvent | AttributeEvent | FrameEvent | LossEvent | EndEvent | Signal
 Item: TypeAlias = Event | Iterator[FrameEvent]
+Result = TypeVar("Result")
 
 
 @dataclass(frozen=True)
@@ -97,6 +98,7 @@ class FirstFrame:
         """Decode the next block."""
         if packet.index != self._next:
             raise CorruptError(f"block {packet.index} of the first frame where block {self._next} belongs")
+        self._structure.allowance.keep(0.0, len(packet.data) + FRAME)
         scheme = self._structure.scheme
         if scheme.chain_of(packet.index) != self._chain.number:
             self._chain = ChainDecoder(scheme, scheme.chain_of(packet.index), self._structure.allowance)
@@ -109,22 +111,13 @@ class Gops:
     """The first frame is known, shape (n, 3), in BSM units; GOPs come."""
 
     def __init__(self, structure: Structure, first_frame: Matrix, wishes: Wishes) -> None:
-        header = structure.header
         self._structure = structure
+        self._first_frame = first_frame
         self._wishes = wishes
-        setting = make_setting(
-            structure.scheme,
-            structure.faces,
-            first_frame,
-            width=header.coefficients,
-            cotangent=header.weights == 1,
-            threads=wishes.threads,
-            allowance=structure.allowance,
-        )
-        self._decoder = GopDecoder(setting)
+        self._decoder: GopDecoder | None = None  # made when a GOP is there, whose frames and bytes pay for it
         self._next = 0  # the frame that comes next in the stream
         self._skipped: list[GopBody] = []  # low-delay frames since the latest key frame, not decoded
-        self._damage: list[BsmError] = []  # since the latest GOP that was whole
+        self._damage: BsmError | None = None  # the first since frames were lost
         self._lossy = False  # whether a loss was reported, so that an END that counts more frames is no news
         self._ended = False
 
@@ -147,33 +140,64 @@ class Gops:
     def _accept_gop(self, packet: packets.Gop, queue: deque[Item]) -> None:
         if packet.index > self._next:
             self._report_loss(packet.index - self._next, queue)
-        try:
-            body = self._parsed(packet)
-            frames = self._decoded(body)
-        except BsmError as error:
-            if not self._wishes.tolerant:
-                raise
-            self._lose(error)
+        body = self._tolerated(lambda: self._parsed(packet))
+        if body is None:
+            return
+        decoder = self._paid_for(body, len(packet.data))
+        frames = self._tolerated(lambda: self._frames(decoder, body, len(packet.data)))
+        if frames is None:
+            self._structure.allowance.show(-self._structure.header.vertices * body.frames)
             return
         queue.append(self._events(self._next, frames))
         self._next += body.frames
 
     def _parsed(self, packet: packets.Gop) -> GopBody:
-        header, allowance = self._structure.header, self._structure.allowance
+        header, limits = self._structure.header, self._structure.allowance.limits
         if packet.index < self._next:
             raise CorruptError(f"frame {packet.index} comes again behind frame {self._next - 1}")
         body = parse_gop_body(packet.data, header.gop_frames)
-        memory = gop_memory(header.vertices, body)
-        allowance.limits.check("sequence_bytes", memory)
-        allowance.afford(memory)
-        shown = header.vertices * body.frames
-        allowance.spend(gop_cost(self._decoder.setting, body), len(packet.data), shown)
+        limits.check("sequence_bytes", gop_memory(header.vertices, body))
         last = packet.index + body.frames - 1
         if 0 < header.frames <= last:
             raise CorruptError(f"frames {packet.index} to {last} of {header.frames}")
         return body
 
-    def _decoded(self, body: GopBody) -> Iterator[Matrix]:
+    def _tolerated(self, work: Callable[[], Result]) -> Result | None:
+        """What `work` gives, or None if a loss is what it gives."""
+        try:
+            return work()
+        except BsmError as error:
+            if not self._wishes.tolerant:
+                raise
+            self._lose(error)
+            return None
+
+    def _paid_for(self, body: GopBody, received: int) -> GopDecoder:
+        """The decoder, made when a GOP is there: it may do what the GOP's bytes and frames grant."""
+        structure, header = self._structure, self._structure.header
+        structure.allowance.keep(0.0, received)
+        structure.allowance.show(header.vertices * body.frames)
+        if self._decoder is None:
+            setting = make_setting(
+                structure.scheme,
+                structure.faces,
+                self._first_frame,
+                width=header.coefficients,
+                cotangent=header.weights == 1,
+                threads=self._wishes.threads,
+                allowance=structure.allowance,
+            )
+            self._decoder = GopDecoder(setting)
+        return self._decoder
+
+    def _frames(self, decoder: GopDecoder, body: GopBody, received: int) -> Iterator[Matrix]:
+        """`_decoded`, if that is allowed."""
+        vertices, dictionaries = self._structure.header.vertices, decoder.setting.dictionaries
+        again = dictionaries.reserve(gop_memory(vertices, body), loop_memory(dictionaries.largest, body))
+        self._structure.allowance.spend(again + gop_cost(dictionaries.sites, vertices, body), received)
+        return self._decoded(decoder, body)
+
+    def _decoded(self, decoder: GopDecoder, body: GopBody) -> Iterator[Matrix]:
         """Frames of a GOP, or nothing of it where no frame of it is wanted and none that is depends on it."""
         if body.method is not GopMethod.NEXT_FRAME:
             self._skipped.clear()
@@ -182,9 +206,9 @@ class Gops:
                 self._skipped.append(body)
             return iter(())
         for earlier in self._skipped:
-            self._decoder.decode(earlier)
+            decoder.decode(earlier)
         self._skipped.clear()
-        return self._decoder.decode(body)
+        return decoder.decode(body)
 
     def _events(self, first: int, frames: Iterator[Matrix]) -> Iterator[FrameEvent]:
         for index, frame in enumerate(frames, first):
@@ -193,20 +217,24 @@ class Gops:
 
     def _lose(self, error: BsmError) -> None:
         """Take note that frames are lost; how many is known when the next ones come."""
-        self._damage.append(error)
-        self._skipped.clear()
-        self._decoder.forget()
+        self._damage = self._damage or error.with_traceback(None)  # with which memory would stay
+        self._forget()
 
     def _report_loss(self, frames: int, queue: deque[Item]) -> None:
         if not self._wishes.tolerant:
             raise CorruptError(f"{frames} frames from number {self._next} on are missing")
-        error = self._damage[0] if self._damage else CorruptError("a GOP is missing")
+        error = self._damage or CorruptError("a GOP is missing")
         queue.append(LossEvent(None, error, range(self._next, self._next + frames)))
-        self._decoder.forget()
-        self._skipped.clear()
-        self._damage.clear()
+        self._forget()
+        self._damage = None
         self._next += frames
         self._lossy = True
+
+    def _forget(self) -> None:
+        """No frame refers to one that has come."""
+        self._skipped.clear()
+        if self._decoder is not None:
+            self._decoder.forget()
 
     def _end(self, queue: deque[Item]) -> None:
         announced = self._structure.header.frames
@@ -248,7 +276,7 @@ class SequenceDecoder(StreamDecoder[Item]):
     ) -> None:
         self._attributes: list[Attribute] = []
         wishes = Wishes(threads, tolerant, start, self._attributes)
-        self._allowance = Allowance(limits, SEQUENCE_WEIGHT)
+        self._allowance = Allowance(limits)
         body = Body(
             self._allowance,
             check=lambda header: check_header(header, limits),

@@ -1,31 +1,98 @@
-"""The dictionaries of a sequence, built once, and the way between vertices and coefficients.
+"""The dictionaries of a sequence, and the way between vertices and coefficients.
 
 The parts of the mesh are taken in the order of the chain, without overlap. Each hangs with springs on the parts before
 it, where they have a common edge: the harmonic extension of what is known there is its prediction, orthogonal
 iterations with its held Laplacian L + S give its dictionary, and what is coded is the difference from the extension
 (see `codec.signal.predict`; here edges have weights). All of this is linear, so that it may be applied to positions, to
 differences of frames and to components of trajectories alike.
+
+A dictionary of as many columns as rows is several times larger than all else that is known of its part. So a decoder
+keeps those for which there is room, and makes the others again whenever it needs them.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from functools import cached_property
+from typing import TypeVar
 
 import numpy as np
 
 from codec.arrays import Faces, Indices, Matrix, Positions
-from codec.basis.cost import factor_cost
+from codec.basis.cost import Spend, factor_cost
 from codec.basis.laplacian import Factor
+from codec.basis.solver.fronts import Fronts
 from codec.basis.weighted import Held, binary_weights, cotangent_weights, hold
 from codec.blocks.overlap import Blocks
 from codec.signal.chain import ChainRules, key_dictionary
 from codec.signal.predict import Suspended, continued
 from codec.signal.transform import project, reconstruct
-from codec.static.work import Allowance, block_cost, block_memory, part_memory
+from codec.static.work import Allowance, block_cost, block_memory
 from codec.threads import ordered_map
 
 TETHER = 2.0**-16
 """Stiffness with which every row hangs on the mean of the pulls; it places what no spring reaches."""
+SITE_MEMORY, ROW_MEMORY = 6000.0, 224.0
+"""Bytes of what is known of a part besides its factor, whatever its size and for each row."""
+UNCODED = 1e5
+"""Nanoseconds by which a part is cheaper than a block that is decoded, before it has its dictionary."""
+SPARE = 4.0 * 2**20
+"""Bytes that no dictionary is kept in, though they are granted."""
+
+Result = TypeVar("Result")
+
+
+@dataclass(frozen=True, eq=False)
+class Site:
+    """A part of the mesh before it has its dictionary.
+
+    Parameters
+    ----------
+    held : Held
+        What it hangs on.
+    factor : Factor
+        Of its Laplacian, its springs and `TETHER`.
+    width : int
+        Columns c_i of its dictionary.
+    """
+
+    held: Held
+    factor: Factor
+    width: int
+
+    @property
+    def vertices(self) -> Indices:
+        """Vertex of the mesh behind each row, shape (n_i,)."""
+        return self.held.laplacian.block.vertices
+
+    @property
+    def fronts(self) -> Fronts:
+        """How its Laplacian is factorised."""
+        return self.held.laplacian.fronts
+
+    @property
+    def memory(self) -> float:
+        """Bytes of its dictionary."""
+        return 8.0 * len(self.vertices) * self.width
+
+    @property
+    def making(self) -> float:
+        """Bytes for making its dictionary, that itself included."""
+        return block_memory(self.held.laplacian, self.width)
+
+    def extend(self, field: Matrix) -> Matrix:
+        """Rows, shape (n_i, m), that continue what a field, shape (n, m), holds before this part."""
+        return continued(self.factor, self.held.springs, self.held.pulls(field))
+
+    def settle(self, field: Matrix) -> None:
+        """Add the extension to what a field, shape (n, m), holds here."""
+        field[self.vertices] += self.extend(field)
+
+    def furnished(self, rules: ChainRules, spend: Spend) -> Part:
+        """With its dictionary, that of a key block; `spend` is told of the work."""
+        suspended = Suspended(self.held.laplacian, self.held.springs, rules.shift)
+        return Part(self, key_dictionary(rules, suspended, self.width, spend))
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,53 +101,163 @@ class Part:
 
     Parameters
     ----------
-    held : Held
-        What it hangs on.
-    factor : Factor
-        Of its Laplacian, its springs and `TETHER`.
+    site : Site
     basis : float64 array, shape (n_i, c_i)
         U, orthonormal columns.
     """
 
-    held: Held
-    factor: Factor
+    site: Site
     basis: Matrix
 
     @property
     def vertices(self) -> Indices:
         """Vertex of the mesh behind each row, shape (n_i,)."""
-        return self.held.laplacian.block.vertices
-
-    def extend(self, field: Matrix) -> Matrix:
-        """Rows, shape (n_i, m), that continue what a field, shape (n, m), holds before this part."""
-        return continued(self.factor, self.held.springs, self.held.pulls(field))
+        return self.site.vertices
 
     def difference(self, wanted: Matrix, field: Matrix) -> Matrix:
         """Coefficients, shape (c_i, m), of what a field is wanted to be here less what the parts before let expect."""
-        return project(self.basis, wanted[self.vertices] - self.extend(field), self.basis.shape[1])
+        return project(self.basis, wanted[self.vertices] - self.site.extend(field), self.basis.shape[1])
+
+    def lay(self, field: Matrix, difference: Matrix) -> None:
+        """Let a field be its difference from the extension here, shape (c_i, m), which `Site.settle` completes."""
+        field[self.vertices] = reconstruct(self.basis, difference)
 
     def place(self, field: Matrix, difference: Matrix) -> None:
         """Fill this part of a field from its difference to the extension, shape (c_i, m)."""
-        field[self.vertices] = self.extend(field) + reconstruct(self.basis, difference)
+        self.lay(field, difference)
+        self.site.settle(field)
 
 
-def differences(parts: tuple[Part, ...], field: Matrix) -> list[Matrix]:
-    """Of all parts, in their order."""
-    return [part.difference(field, field) for part in parts]
+class Dictionaries:
+    """Those of all parts: kept of the first ones, as many as there is room for, and made again of the others.
+
+    Parameters
+    ----------
+    sites : tuple of Site
+        In the order of the chain.
+    rules : ChainRules
+        Those of a key block are made.
+    allowance : Allowance
+        What a decoder may still do.
+    threads : int, optional
+        For making dictionaries.
+    """
+
+    def __init__(
+        self, sites: tuple[Site, ...], rules: ChainRules, allowance: Allowance, threads: int | None = None
+    ) -> None:
+        self.sites = sites
+        self._rules = rules
+        self._allowance = allowance
+        self._threads = threads
+        self._parts: list[Part | None] = [None] * len(sites)
+        self._work = np.full(len(sites), np.nan)  # for making each; not known before it was made once
+        self._kept = 0
+        self._reserved = self._use = 0.0
+
+    @property
+    def largest(self) -> int:
+        """Rows of the largest part."""
+        return max(len(site.vertices) for site in self.sites)
+
+    @cached_property
+    def _sizes(self) -> Matrix:
+        """Bytes of the dictionaries of so many first parts, shape (k + 1,)."""
+        return np.cumsum([0.0, *(site.memory for site in self.sites)])
+
+    @cached_property
+    def _making(self) -> float:
+        """Bytes for making any of them."""
+        return max(site.making for site in self.sites)
+
+    def fits(self, memory: float, use: float, received: int = 0) -> bool:
+        """Whether `reserve` finds room when so many more bytes have come."""
+        room = self._room(memory, use, received)
+        return self._making_beside(room) <= room
+
+    def reserve(self, memory: float = 0.0, use: float = 0.0) -> float:
+        """Have room for what comes next, and keep as many dictionaries as there is room for besides.
+
+        Parameters
+        ----------
+        memory : float
+            Bytes that it takes, instead of what was reserved before.
+        use : float
+            Bytes that using one dictionary takes.
+
+        Returns
+        -------
+        float
+            Work for making again, once, those that there will not be.
+
+        Raises
+        ------
+        LimitError
+            If there is not even room without any dictionary kept.
+        """
+        room = self._room(memory, use)
+        making = self._making_beside(room)
+        self._allowance.afford(self._allowance.room() - room + making)
+        count = int(np.searchsorted(self._sizes, room - making, side="right")) - 1
+        held = memory + float(self._sizes[count])
+        self._allowance.keep(held - self._reserved)
+        self._reserved, self._use = held, use
+        self._parts[count:] = [None] * (len(self.sites) - count)
+        again = self._work[min(self._kept, count) :]
+        self._kept = count
+        return float(np.nansum(again))
+
+    def _room(self, memory: float, use: float, received: int = 0) -> float:
+        """Bytes for dictionaries besides what `reserve` is told."""
+        return self._allowance.room(received) + self._reserved - memory - use - SPARE
+
+    def _making_beside(self, room: float) -> float:
+        """Bytes for making dictionaries, unless all are there and have room."""
+        return 0.0 if all(self._parts) and self._sizes[-1] <= room else self._making
+
+    def each(self, use: Callable[[int, Part], Result]) -> Iterator[Result]:
+        """What `use` gives for the number of each part and the part, in their order.
+
+        Where parts have to be furnished first, on several threads.
+        """
+        threads = 1 if all(self._parts) else self._threads
+        return ordered_map(lambda index: self._used(index, use), range(len(self.sites)), threads)
+
+    def _used(self, index: int, use: Callable[[int, Part], Result]) -> Result:
+        part = self._parts[index]
+        if part is not None:
+            return use(index, part)
+        with self._allowance.hold(self.sites[index].making + self._use):
+            part = self._furnished(index)
+            if index < self._kept:
+                self._parts[index] = part
+            return use(index, part)
+
+    def _furnished(self, index: int) -> Part:
+        """A part with its dictionary, whose work is spent when it is made first, and otherwise by who has reserved."""
+        told: list[float] = []
+
+        def spend(work: float) -> None:
+            told.append(work)
+            if np.isnan(self._work[index]):
+                self._allowance.spend(work)
+
+        part = self.sites[index].furnished(self._rules, spend)
+        self._work[index] = sum(told)
+        return part
 
 
-def build_dictionaries(
+def find_sites(
     blocks: Blocks,
     faces: Faces,
     first_frame: Positions,
-    rules: ChainRules,
     *,
     width: int,
     cotangent: bool,
     threads: int | None,
     allowance: Allowance,
-) -> tuple[Part, ...]:
-    """The dictionary of every part, in the order of the chain, with weights from the decoded first frame.
+) -> tuple[Site, ...]:
+    """What the dictionary of every part follows from, with weights from the decoded first frame.
 
     Parameters
     ----------
@@ -88,8 +265,6 @@ def build_dictionaries(
         Of the mesh; only the blocks' cores are used.
     first_frame : float64 array, shape (n, 3)
         As the decoder has it.
-    rules : ChainRules
-        Those of a key block are made.
     width : int
         Columns of each dictionary, at most; a part has no more of them than vertices.
     cotangent : bool
@@ -109,16 +284,13 @@ def build_dictionaries(
     for index in range(blocks.count):
         rank[blocks.core(index)] = index
 
-    def build(index: int) -> Part:
+    def find(index: int) -> Site:
         size = len(blocks.core(index))
-        columns = min(width, size)
-        allowance.spend(block_cost(size, blocks.edges_of(index), 0))
+        allowance.spend(block_cost(size, blocks.edges_of(index), 0) - UNCODED)
         held = hold(graph, weights, rank, blocks.part(index))
-        allowance.keep(part_memory(held.laplacian.fronts, columns))
-        allowance.spend(2.0 * factor_cost(held.laplacian.fronts))
-        with allowance.hold(block_memory(held.laplacian, columns)):
-            suspended = Suspended(held.laplacian, held.springs, rules.shift)
-            basis = key_dictionary(rules, suspended, columns, allowance.spend)
-        return Part(held, Suspended(held.laplacian, held.springs, TETHER).factor, basis)
+        fronts = held.laplacian.fronts
+        allowance.keep(SITE_MEMORY + ROW_MEMORY * size + 8.0 * int(fronts.places[-1]))
+        allowance.spend(2.0 * factor_cost(fronts))
+        return Site(held, Suspended(held.laplacian, held.springs, TETHER).factor, min(width, size))
 
-    return tuple(ordered_map(build, range(blocks.count), threads))
+    return tuple(ordered_map(find, range(blocks.count), threads))

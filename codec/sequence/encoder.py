@@ -19,7 +19,7 @@ from bitstream.limits import NAMED_LIMITS
 from codec.arrays import Matrix, Order
 from codec.geometry.attributes import Attribute
 from codec.geometry.mesh import Metadata, TriangleMesh
-from codec.sequence.cost import gop_memory
+from codec.sequence.cost import gop_cost, gop_memory, loop_memory
 from codec.sequence.decoder import decode_sequence
 from codec.sequence.gop import GopEncoder, Setting, make_setting
 from codec.sequence.options import SequenceOptions
@@ -31,14 +31,14 @@ from codec.static.admission import admit, as_of_decoders
 from codec.static.assembly import blended
 from codec.static.attributes.encoding import carry, place_of_first_frame, with_attributes
 from codec.static.attributes.quality import qualities
-from codec.static.layers.block_coder import CodedBlock, Progress, encode_blocks
+from codec.static.layers.block_coder import FRAME, CodedBlock, Progress, encode_blocks
 from codec.static.layers.coding import Adaptive
 from codec.static.preamble import Parts, Prepared, prepare
 from codec.static.quality.draft import Draft
 from codec.static.quality.targets import search_step
 from codec.static.rules import STIFFNESS, Scheme
 from codec.static.units import single
-from codec.static.work import SEQUENCE_WEIGHT, Allowance
+from codec.static.work import Allowance
 
 FINEST_STEP = 2e-5
 """Below, a search for a target does not look."""
@@ -193,10 +193,9 @@ class SequenceEncoder:
         number = 0
         checked = _checked(chain([first], source), np.shape(first), prepared)
         while group := list(islice(checked, opening.header.gop_frames)):
-            body = encoder.encode(np.array(group), number, tell)
-            opening.admit(body)
-            yield writer.write(packets.Gop(number, write_gop_body(body)))
-            number += len(group)
+            for body in _affordable(opening, encoder, group, number, tell):
+                yield writer.write(packets.Gop(number, write_gop_body(body)))
+                number += body.frames
         if self._count and number != self._count:
             raise OptionError(f"{self._count} frames were announced and {number} came")
         yield writer.end()
@@ -224,10 +223,40 @@ class Opening:
     allowance: Allowance
     limits: str
 
-    def admit(self, body: GopBody) -> None:
-        """Raise `OptionError` if decoders would refuse a GOP."""
+    def has_room(self, body: GopBody) -> bool:
+        """Whether decoders have the memory for a GOP."""
+        dictionaries = self.setting.dictionaries
+        beside = loop_memory(dictionaries.largest, body)
+        return dictionaries.fits(gop_memory(self.setting.vertices, body), beside, len(body.levels) + len(body.basis))
+
+    def admit(self, body: GopBody, number: int) -> None:
+        """Do the sums of decoders for a GOP from frame `number` on, or raise `OptionError` if they would refuse it."""
+        vertices, allowance, dictionaries = self.setting.vertices, self.allowance, self.setting.dictionaries
+        received = len(body.levels) + len(body.basis)
+        allowance.keep(0.0, received)
+        allowance.show(vertices * (body.frames if number else body.frames - 1))
         with as_of_decoders(self.limits):
-            self.allowance.afford(gop_memory(self.header.vertices, body))
+            allowance.limits.check("sequence_bytes", gop_memory(vertices, body))
+            again = dictionaries.reserve(gop_memory(vertices, body), loop_memory(dictionaries.largest, body))
+            allowance.spend(again + gop_cost(dictionaries.sites, vertices, body), received)
+
+
+def _affordable(
+    opening: Opening, encoder: GopEncoder, frames: list[Matrix], number: int, progress: Progress
+) -> Iterator[GopBody]:
+    """Frames as one GOP, or as shorter ones where decoders would lack the memory for that."""
+    body = encoder.encode(np.array(frames), number, progress)
+    half = len(frames) // 2
+    if half and not opening.has_room(body):
+        yield from _affordable(opening, encoder, frames[:half], number, _silent)
+        yield from _affordable(opening, encoder, frames[half:], number + half, _silent)
+    else:
+        opening.admit(body, number)
+        yield body
+
+
+def _silent(done: int, blocks: int) -> None:
+    """What was told once is not told again."""
 
 
 def open_sequence(prepared: Prepared, options: SequenceOptions, frames: int, progress: Progress) -> Opening:
@@ -259,9 +288,11 @@ def open_sequence(prepared: Prepared, options: SequenceOptions, frames: int, pro
         **scheme.fields(),
     )
     positions = blended(prepared.graph.size, (block.decoded for block in blocks))
-    allowance = Allowance(NAMED_LIMITS[options.limits](), SEQUENCE_WEIGHT)
+    allowance = Allowance(NAMED_LIMITS[options.limits]())
+    allowance.show(header.vertices)  # the first GOP does, at least
     with as_of_decoders(options.limits):
         admit(allowance, prepared, blocks)
+        allowance.keep(0.0, sum(len(block.packet.data) + FRAME for block in blocks))
         allowance.limits.check("sequence_bytes", 8.0 * header.vertices * header.coefficients)
         setting = make_setting(
             scheme,

@@ -5,7 +5,7 @@ Positions are in BSM units throughout.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -15,7 +15,7 @@ from bitstream.container.gop import MAX_EXPONENT, GopBody, GopMethod
 from bitstream.entropy.range_coder import Bank
 from bitstream.errors import CorruptError
 from codec.arrays import Faces, Levels, Matrix
-from codec.sequence.dictionaries import Part, build_dictionaries, differences
+from codec.sequence.dictionaries import Dictionaries, Part, Site, find_sites
 from codec.sequence.options import SequenceOptions
 from codec.sequence.row_prediction import (
     Loop,
@@ -30,7 +30,7 @@ from codec.static.layers.block_coder import Progress
 from codec.static.rules import Scheme
 from codec.static.work import Allowance
 
-BATCH = 16
+BATCH = 8
 """Frames that are reconstructed at a time."""
 
 
@@ -41,18 +41,31 @@ class Setting:
     Parameters
     ----------
     vertices : int
-    parts : tuple of Part
+    dictionaries : Dictionaries
     first : list of float64 arrays, shapes (c_i, 3)
         The decoded first frame, each part as its difference from what the parts before let expect.
     """
 
     vertices: int
-    parts: tuple[Part, ...]
+    dictionaries: Dictionaries
     first: list[Matrix]
+
+    @property
+    def sites(self) -> tuple[Site, ...]:
+        """The parts of the mesh."""
+        return self.dictionaries.sites
 
     def empty_levels(self, columns: int) -> list[Levels]:
         """Levels of all parts, to be read."""
-        return [np.zeros((part.basis.shape[1], columns), np.int32) for part in self.parts]
+        return [np.zeros((site.width, columns), np.int32) for site in self.sites]
+
+    def field(self, columns: int, decoded: Callable[[int], Matrix]) -> Matrix:
+        """The field, shape (n, m), of the differences that `decoded` gives of each part, shape (c_i, m)."""
+        field = np.zeros((self.vertices, columns))
+        laid = self.dictionaries.each(lambda index, part: part.lay(field, decoded(index)))
+        for site, _ in zip(self.sites, laid, strict=True):
+            site.settle(field)
+        return field
 
 
 def make_setting(
@@ -65,18 +78,14 @@ def make_setting(
     threads: int | None,
     allowance: Allowance,
 ) -> Setting:
-    """Build the dictionaries from the decoded first frame, shape (n, 3); see `build_dictionaries`."""
-    parts = build_dictionaries(
-        scheme.blocks,
-        faces,
-        first_frame,
-        scheme.rules,
-        width=width,
-        cotangent=cotangent,
-        threads=threads,
-        allowance=allowance,
+    """Make the dictionaries from the decoded first frame, shape (n, 3); see `find_sites`."""
+    sites = find_sites(
+        scheme.blocks, faces, first_frame, width=width, cotangent=cotangent, threads=threads, allowance=allowance
     )
-    return Setting(len(first_frame), parts, differences(parts, first_frame))
+    dictionaries = Dictionaries(sites, scheme.rules, allowance, threads)
+    dictionaries.reserve()
+    first = list(dictionaries.each(lambda _, part: part.difference(first_frame, first_frame)))
+    return Setting(len(first_frame), dictionaries, first)
 
 
 def level_references(matrices: list[Levels], columns: int) -> list[Levels]:
@@ -87,7 +96,7 @@ def level_references(matrices: list[Levels], columns: int) -> list[Levels]:
 def decode_basis(body: GopBody) -> Matrix:
     """Temporal basis of a GOP, shape (3T, r)."""
     if body.method is GopMethod.COSINES:
-        return np.ascontiguousarray(cosine_basis(body.frames)[:, : body.components])
+        return cosine_basis(body.frames, body.components)
     levels = np.zeros((3, body.frames, body.components), np.int32)
     decode_levels(make_level_bank(), body.basis, list(levels), level_references(list(levels), body.components))
     return dequantize_basis(levels, body.exponents)
@@ -132,6 +141,7 @@ class GopEncoder:
 
     def __init__(self, setting: Setting, options: SequenceOptions) -> None:
         self._setting = setting
+        self._parts: tuple[Part, ...] = tuple(setting.dictionaries.each(lambda _, part: part))
         self._options = options
         self._step = float(np.float32(options.step))
         self._history = FrameHistory(setting.first)
@@ -148,13 +158,13 @@ class GopEncoder:
         history = self._history
         frame = np.zeros_like(wanted)
         levels, coefficients = [], []
-        for k, part in enumerate(self._setting.parts):
+        for k, part in enumerate(self._parts):
             target = part.difference(wanted, frame) - history.base(k)
             coded, change = history.loops[k].encode(history.known(k), target, self._step, self._options.rounding)
             levels.append(coded)
             coefficients.append(history.base(k) + change)
             part.place(frame, coefficients[k])
-            progress(len(levels), len(self._setting.parts))
+            progress(len(levels), len(self._parts))
         payload = encode_levels(history.bank, levels, history.levels)
         history.commit(levels, coefficients)
         method = GopMethod.KEY_FRAME if key else GopMethod.NEXT_FRAME
@@ -193,12 +203,12 @@ class GopEncoder:
         wanted = motion @ projection(decode_basis(body))
         field = np.zeros_like(wanted)
         levels = []
-        for part, first in zip(self._setting.parts, self._setting.first):
+        for part, first in zip(self._parts, self._setting.first, strict=True):
             target = part.difference(wanted, field)
             coded, decoded = Loop(3, body.components).encode(first, target, self._step, self._options.rounding)
             part.place(field, decoded)
             levels.append(coded)
-            progress(len(levels), len(self._setting.parts))
+            progress(len(levels), len(self._parts))
         payload = encode_levels(make_level_bank(), levels, level_references(levels, body.components))
         return replace(body, levels=payload)
 
@@ -229,12 +239,14 @@ class GopDecoder:
             raise CorruptError("a frame refers to one that is not there")
         levels = self.setting.empty_levels(3)
         decode_levels(history.bank, body.levels, levels, history.levels)
-        frame = np.zeros((self.setting.vertices, 3))
-        coefficients = []
-        for k, part in enumerate(self.setting.parts):
+        coefficients = [np.empty(0)] * len(levels)
+
+        def decoded(k: int) -> Matrix:
             change = history.loops[k].decode(history.known(k), levels[k], body.step)
-            coefficients.append(history.base(k) + change)
-            part.place(frame, coefficients[k])
+            coefficients[k] = history.base(k) + change
+            return coefficients[k]
+
+        frame = self.setting.field(3, decoded)
         history.commit(levels, coefficients)
         self._history = history
         return frame
@@ -244,9 +256,7 @@ class GopDecoder:
         basis = decode_basis(body)
         levels = setting.empty_levels(columns)
         decode_levels(make_level_bank(), body.levels, levels, level_references(levels, columns))
-        field = np.zeros((setting.vertices, columns))
-        for part, matrix, first in zip(setting.parts, levels, setting.first):
-            part.place(field, Loop(3, columns).decode(first, matrix, body.step))
+        field = setting.field(columns, lambda k: Loop(3, columns).decode(setting.first[k], levels[k], body.step))
         return _batches(field, basis.reshape(3, body.frames, columns))
 
 

@@ -47,20 +47,24 @@ def frames_of(matrix: Matrix) -> Matrix:
     return np.ascontiguousarray(matrix.reshape(len(matrix), 3, -1).transpose(2, 0, 1))
 
 
-def _cosines(frames: int) -> Matrix:
-    """The orthonormal cosine transform (DCT-II), shape (T, T): row t, column frequency."""
-    columns = cosine_columns(frames, 0, frames) * np.sqrt(2.0 / frames)
-    columns[:, 0] = np.sqrt(1.0 / frames)
+def _cosines(frames: int, count: int | None = None) -> Matrix:
+    """The orthonormal cosine transform (DCT-II), shape (T, T): row t, column frequency; or its first columns."""
+    columns = cosine_columns(frames, 0, frames if count is None else count) * np.sqrt(2.0 / frames)
+    columns[:, :1] = np.sqrt(1.0 / frames)
     return np.asarray(columns)
 
 
-def cosine_basis(frames: int) -> Matrix:
-    """The cosine transform of each coordinate, shape (3T, 3T): frequencies ascend, x, y and z of each side by side."""
-    single = _cosines(frames)
-    basis = np.zeros((3, frames, frames, 3))
+def cosine_basis(frames: int, components: int | None = None) -> Matrix:
+    """The cosine transform of each coordinate, shape (3T, 3T): frequencies ascend, x, y and z of each side by side.
+
+    Or its first columns, shape (3T, r).
+    """
+    components = 3 * frames if components is None else components
+    single = _cosines(frames, -(-components // 3))
+    basis = np.zeros((3, frames, *single.shape[1:], 3))
     for axis in range(3):
         basis[axis, :, :, axis] = single
-    return basis.reshape(3 * frames, 3 * frames)
+    return np.ascontiguousarray(basis.reshape(3 * frames, 3 * single.shape[1])[:, :components])
 
 
 def basis_steps(exponents: npt.NDArray[np.int32]) -> Matrix:

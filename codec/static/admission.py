@@ -38,7 +38,7 @@ def admit(allowance: Allowance, prepared: Prepared, blocks: Sequence[CodedBlock]
     """
     vertices, faces = prepared.graph.size, len(prepared.mesh.faces)
     allowance.grant(vertices)
-    allowance.keep(mesh_memory(vertices, faces))
+    allowance.keep(mesh_memory(vertices, faces), len(prepared.connectivity.data))
     allowance.spend(mesh_cost(vertices, faces, len(prepared.connectivity.data)))
     allowance.spend(partition_cost(prepared.graph, len(blocks), len(blocks) * prepared.size))
     allowance.afford(max(block.memory for block in blocks))

@@ -19,7 +19,7 @@ from codec.static.events import Changes, Losses
 from codec.static.numbering import Numbering
 from codec.static.units import Units
 
-COPY = 100.0
+COPY = 90.0
 """Nanoseconds for saying where a vertex is."""
 
 

@@ -82,7 +82,7 @@ class BlockStage:
         )
         self._chain = ChainDecoder(self._scheme, 0, structure.allowance)
         self._next = 0
-        self._ended = False
+        self._complete: Complete | None = None
 
     def accept(self, arrival: Arrival, queue: deque[Item]) -> Stage[Item]:
         match arrival:
@@ -113,9 +113,7 @@ class BlockStage:
             case packets.End():
                 self._end(queue)
             case Signal.END_OF_STREAM:
-                if not self._ended:  # a tolerant reader may find no END
-                    self._end(queue)
-                return completed(self._assembly, self._structure)
+                return self._complete or self._end(queue)  # a tolerant reader may find no END
             case _:
                 raise misplaced(arrival)
         return self
@@ -138,10 +136,11 @@ class BlockStage:
             queue.append(LossEvent(lost, error))
         self._next = index
 
-    def _end(self, queue: deque[Item]) -> None:
+    def _end(self, queue: deque[Item]) -> Complete:
         self._skip_to(self._scheme.blocks.count, queue)
-        self._ended = True
-        queue.append(completed(self._assembly, self._structure))
+        self._complete = completed(self._assembly, self._structure)
+        queue.append(self._complete)
+        return self._complete
 
 
 class Decoder(StreamDecoder[Item]):

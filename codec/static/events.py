@@ -146,6 +146,10 @@ class LossEvent:
     error: BsmError
     frames: range = range(0)
 
+    def __post_init__(self) -> None:
+        # Who keeps losses shall not keep what there was where they came to light.
+        self.error.__traceback__ = self.error.__context__ = self.error.__cause__ = None
+
 
 @dataclass(frozen=True, eq=False)
 class Losses:

@@ -16,32 +16,29 @@ from bitstream.fields.levels import levels_charge
 from bitstream.limits import Limits
 from codec.basis.cost import factor_cost, iteration_memory, solve_cost
 from codec.basis.laplacian import Laplacian
-from codec.basis.solver.fronts import Fronts
 from codec.geometry.graph import Graph
 
-BLOCK = 2.5e5
+BLOCK = 1.85e5
 """Of a block, whatever its size."""
-ROW, LOOK, LEVEL = 1200.0, 30.0, 90.0
+ROW, LOOK, LEVEL = 650.0, 25.0, 90.0
 """Of a row of a block, of an edge that one has in the mesh, and of a coded level."""
-SEQUENCE_WEIGHT = 8
-"""Vertices that one of a sequence counts for, since its dictionaries are kept."""
 COPY_MEMORY = 4
 """Bytes for each row of all blocks."""
-CHUNK_COST = 6e4
-"""Of a frame of a grid or of a layer, whatever it holds."""
-FRESH, MOST_FRESH = 3.0, 4e6
+CODED = 800.0
+"""Of a byte of coded values."""
+FRESH, MOST_FRESH = 2.0, 4e6
 """Of a vertex of the mesh for each chain, in memory that is fresh; beyond some size that costs nothing."""
 
 
 def mesh_cost(vertices: int, faces: int, received: int) -> float:
     """Of faces and graph; what meets at more vertices than a closed surface has was cut and is sewn together again."""
     sewn = max(0.0, faces / 2.0 - vertices)
-    return 100.0 * vertices + 60.0 * faces + 700.0 * sewn + 400.0 * received
+    return 140.0 * vertices + 85.0 * faces + 700.0 * sewn + 400.0 * received
 
 
 def order_cost(vertices: int, faces: int, received: int) -> float:
     """Of the order that a mesh had."""
-    return 600.0 * vertices + 900.0 * faces + 100.0 * received
+    return 500.0 * vertices + 750.0 * faces + 100.0 * received
 
 
 def partition_cost(graph: Graph, blocks: int, copies: int) -> float:
@@ -86,8 +83,23 @@ def block_memory(laplacian: Laplacian, columns: int) -> int:
 
 
 def field_cost(vertices: int, faces: int, axes: int) -> float:
-    """Of a grid or a layer of refinement, with so many values for each vertex."""
+    """Of a grid or an attribute, with so many values for each vertex, before its bytes are counted."""
     return vertices * (600.0 + 350.0 * axes) + 150.0 * faces
+
+
+def layer_cost(vertices: int, faces: int, axes: int) -> float:
+    """Of a layer of refinement, before its bytes are counted."""
+    return vertices * (400.0 + 230.0 * axes) + 100.0 * faces
+
+
+def grid_chunk_cost(received: int) -> float:
+    """Of a frame of a grid."""
+    return 3.5e4 + CODED * received
+
+
+def chunk_cost(received: int) -> float:
+    """Of a frame of a layer or of an attribute."""
+    return 8e4 + CODED * received
 
 
 def grid_memory(vertices: int, faces: int) -> float:
@@ -101,8 +113,13 @@ def layer_memory(vertices: int, faces: int, axes: int) -> float:
 
 
 def values_memory(values: int, faces: int, components: int) -> float:
-    """Bytes that an attribute is kept in: its values, and where they belong."""
-    return 8.0 * components * values + 8.0 * values + 12.0 * faces
+    """Bytes that an attribute is kept in: its values as they come and as the user has them, and where they belong."""
+    return 16.0 * components * values + 12.0 * values + 12.0 * faces
+
+
+def recomputing_memory(values: int, faces: int) -> float:
+    """Bytes for making normals."""
+    return 200.0 * faces + 100.0 * values
 
 
 def values_cost(values: int, faces: int) -> float:
@@ -115,25 +132,17 @@ def coding_memory(values: int, faces: int, components: int) -> float:
     return values_charge(values, faces, 2 * components, "normal")
 
 
-def part_memory(fronts: Fronts, columns: int) -> float:
-    """Bytes that a part of a sequence is kept in: its dictionary, its factor, and what it hangs on."""
-    return 8.0 * len(fronts.rows) * columns + 8.0 * int(fronts.places[-1]) + 200.0 * len(fronts.rows)
-
-
 class Allowance:
     """How much a decoder may still do; blocks of several chains draw on it at the same time.
 
     Parameters
     ----------
     limits : Limits
-    weight : int
-        Vertices that one of the mesh counts for.
     """
 
-    def __init__(self, limits: Limits, weight: int = 1) -> None:
+    def __init__(self, limits: Limits) -> None:
         self._limits = limits
-        self._weight = weight
-        self._vertices = 0
+        self._vertices = self._shown = 0
         self._spent = self._owed = 0.0
         self._held = self._kept = 0.0
         self._received = 0
@@ -150,13 +159,23 @@ class Allowance:
         """All work so far, in nanoseconds."""
         return self._spent
 
+    def room(self, received: int = 0) -> float:
+        """Bytes for which there is room besides those that are kept, with so many more received."""
+        with self._lock:
+            return self._limits.memory_for(self._vertices, self._received + received) - self._kept
+
     def grant(self, vertices: int) -> None:
         """Take note of vertices that the stream really has, which count for work and memory."""
         with self._lock:
-            self._vertices += self._weight * vertices
+            self._vertices += vertices
 
-    def spend(self, work: float, received: int = 0, shown: int = 0) -> None:
-        """Take note of work to come, and of the bytes that ask for it and vertices of frames that it shows.
+    def show(self, vertices: int) -> None:
+        """Take note of vertices of frames that are shown, which count for work."""
+        with self._lock:
+            self._shown += vertices
+
+    def spend(self, work: float, received: int = 0) -> None:
+        """Take note of work to come, and of the bytes that ask for it.
 
         Raises
         ------
@@ -166,9 +185,9 @@ class Allowance:
         limits = self._limits
         with self._lock:
             self._spent += work
-            self._owed += max(0.0, work - limits.work_per_byte * received - limits.work_per_vertex * shown)
+            self._owed += max(0.0, work - limits.work_per_byte * received)
             limits.check("most_work", self._spent)
-            limits.check_work(self._owed, self._vertices)
+            limits.check_work(self._owed, self._vertices + self._shown)
 
     def keep(self, memory: float, received: int = 0) -> None:
         """Take note of memory that is kept to the end, and of bytes that stand for it.

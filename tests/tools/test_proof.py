@@ -12,6 +12,7 @@ from bitstream.errors import BsmError, CorruptError, TruncatedError
 from tools.proof import shard as proof
 from tools.proof.__main__ import Part, cuts, plan, run, table
 from tools.proof.decoding import is_sequence, piecewise, whole
+from tools.proof.encodes import store, stored
 from tools.proof.inputs import mutant, random_stream, vector_seeds
 from tools.proof.places import ROOT, environments, processors
 from tools.proof.shard import SUITES, Shard
@@ -19,6 +20,7 @@ from tools.proof.tally import Tally
 from tools.vectors.store import FOLDER, distance, scale_of
 
 CHAIN = (FOLDER / "good-chain.bsm").read_bytes()
+TEXTURED = (FOLDER / "good-attribute-uv-blocks.bsm").read_bytes()
 SEQUENCE = (FOLDER / "good-sequence-learnt.bsm").read_bytes()
 
 
@@ -35,18 +37,40 @@ def test_tallies_are_added():
 
 def test_outcomes_are_held_against_each_other():
     tally, decoded = Tally(), whole(CHAIN)
-    positions, faces = decoded
+    positions, faces, attributes = decoded
     assert tally.hold(CHAIN, decoded, decoded) is None and tally.inexact == 0
-    nearly = (positions + 1e-13, faces)
+    nearly = (positions + 1e-13, faces, attributes)
     assert tally.hold(CHAIN, nearly, decoded) is None and tally.inexact == 1 and 0 < tally.worst < 1e-12
     assert "last bit" in tally.hold(CHAIN, nearly, decoded, exact=True)
-    assert "off by" in tally.hold(CHAIN, (positions + 1e-6, faces), decoded)
-    assert "faces" in tally.hold(CHAIN, (positions, faces[::-1]), decoded)
-    assert "shape" in tally.hold(CHAIN, (positions[:-1], faces), decoded)
+    assert "off by" in tally.hold(CHAIN, (positions + 1e-6, faces, attributes), decoded)
+    assert "faces" in tally.hold(CHAIN, (positions, faces[::-1], attributes), decoded)
+    assert "shape" in tally.hold(CHAIN, (positions[:-1], faces, attributes), decoded)
     assert "corrupt instead of decoded" in tally.hold(CHAIN, CorruptError("no"), decoded)
     assert "corrupt instead of truncated" in tally.hold(CHAIN, CorruptError("no"), TruncatedError("yes"))
     assert tally.hold(CHAIN, CorruptError("this"), CorruptError("that")) is None
     assert tally.differing == 6
+
+
+def test_attributes_are_held_against_each_other():
+    tally, decoded = Tally(), whole(TEXTURED)
+    *rest, attributes = decoded
+    assert len(attributes) > 1
+    for name, values in attributes.items():
+        other = values.copy()
+        other.flat[0] += 1
+        assert repr(name) in tally.hold(TEXTURED, (*rest, {**attributes, name: other}), decoded)
+        assert "attributes" in tally.hold(TEXTURED, (*rest, {**attributes, "another": values}), decoded)
+    name = next(name for name, values in attributes.items() if values.dtype.kind == "f")
+    nearly = (*rest, {**attributes, name: attributes[name] * (1 + 1e-6)})
+    assert not np.array_equal(nearly[2][name], attributes[name])
+    assert tally.hold(TEXTURED, nearly, decoded) is None
+    assert "differs" in tally.hold(TEXTURED, nearly, decoded, exact=True)
+
+
+def test_what_was_decoded_elsewhere_can_be_stored(tmp_path):
+    decoded = whole(TEXTURED)
+    store(tmp_path / "0.npz", decoded)
+    assert Tally().hold(TEXTURED, stored(tmp_path / "0.npz"), decoded, exact=True) is None
 
 
 def test_distances_are_in_extents():
@@ -58,7 +82,7 @@ def test_distances_are_in_extents():
     assert distance(far + 1e-6, far, 1.0)[1] < 1e-8, "rounding at that distance is no difference"
 
 
-@pytest.mark.parametrize("stream", [CHAIN, SEQUENCE])
+@pytest.mark.parametrize("stream", [CHAIN, SEQUENCE, TEXTURED])
 def test_pieces_and_tolerance_change_nothing(shard, stream):
     outcome = whole(stream)
     proof.agree(shard, stream, outcome)
@@ -79,7 +103,7 @@ def test_findings_and_escapes_are_noted_and_kept(shard, tmp_path):
 def test_a_wrong_decoder_is_found(shard, monkeypatch):
     def wrong(stream, *rest, **more):
         outcome = whole(stream, *rest, **more)
-        return outcome if isinstance(outcome, BsmError) else (outcome[0] * 1.001, outcome[1])
+        return outcome if isinstance(outcome, BsmError) else (outcome[0] * 1.001, *outcome[1:])
 
     monkeypatch.setattr(proof, "whole", wrong)
     monkeypatch.setattr(proof, "steady", lambda stream: True)

@@ -19,8 +19,7 @@ from bsm.files.sequence_stream import peek_header
 from codec.sequence.decoder import FrameEvent, SequenceDecoder
 from codec.static.decoder import Decoder
 from codec.static.encoder import encode
-from codec.static.events import ConnectivityEvent, HeaderEvent
-from codec.static.work import SEQUENCE_WEIGHT
+from codec.static.events import ConnectivityEvent, HeaderEvent, LossEvent
 from tools.vectors.meshes import torus
 
 HOWS = ("events", "whole", "tolerant")
@@ -36,7 +35,7 @@ class Taken:
     outcome : str
         "decoded", or the error.
     vertices : int
-        That count for memory and work: those of the faces, of a sequence `SEQUENCE_WEIGHT` times.
+        Those of the faces.
     shown : int
         Vertices of all frames of a sequence.
     work : float
@@ -92,6 +91,7 @@ def decode_all(data: bytes, how: str, limits: Limits) -> Taken:
     header, _ = peek_header(iter([data]))
     sequence = header is not None and header.gop_frames > 0
     taken, tolerant, size = Taken(), how == "tolerant", 0
+    losses = []  # a caller may keep them
     with SequenceDecoder(limits, tolerant=tolerant) if sequence else Decoder(limits, tolerant=tolerant) as decoder:
         try:
             decoder.receive_data(data)
@@ -103,7 +103,9 @@ def decode_all(data: bytes, how: str, limits: Limits) -> Taken:
                     case HeaderEvent(found):
                         size = found.vertices
                     case ConnectivityEvent():
-                        taken.vertices = size * (SEQUENCE_WEIGHT if sequence else 1)
+                        taken.vertices = size
+                    case LossEvent():
+                        losses.append(event)
                     case FrameEvent():
                         taken.shown += size
             taken.outcome = "decoded"

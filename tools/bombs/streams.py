@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from functools import cache
 from typing import Any
@@ -19,11 +19,14 @@ from bitstream.connectivity.order import encode_arrangement
 from bitstream.connectivity.partition import encode_labels
 from bitstream.connectivity.seams import code_seams
 from bitstream.connectivity.valence_model import RARE_HEADER, code_rare, make_models
+from bitstream.container import packets
+from bitstream.container.declaration import AS_CODED, FACE, OTHERWISE, RECOMPUTED, Declaration
 from bitstream.container.gop import GopBody, GopMethod, write_gop_body
 from bitstream.container.header import HEADER_DEFAULTS, HEADER_FIELDS
+from bitstream.container.layout import FRAME_TYPES, WRITERS
 from bitstream.container.maps import write_map
 from bitstream.container.splits import Splits, encode_splits
-from bitstream.container.wire import FrameType, write_varint
+from bitstream.container.wire import FrameType, write_frame, write_varint
 from bitstream.entropy.range_coder import finish_writing, make_room, start_writing
 from bitstream.fields.grid import GridEncoder
 from bitstream.fields.levels import LevelsEncoder
@@ -31,7 +34,9 @@ from codec.blocks.overlap import grow_blocks
 from codec.blocks.partition import derive_partition, partition_of_labels
 from codec.geometry.graph import graph_of_faces
 from codec.sequence.gop import level_references
-from tools.surgery import Frames, stream_of
+from codec.static.attributes.pieces import PieceEncoder
+from codec.static.attributes.surface import surface_of
+from tools.surgery import Frames, frames_of, stream_of
 from tools.vectors.meshes import torus
 
 Faces = npt.NDArray[np.int32]
@@ -233,11 +238,11 @@ def _copies(rows: int, columns: int) -> bytes:
     return _blocky(("torus", rows, columns), order, blocks=blocks, block_size=min(size, 64), power=1)
 
 
-def _sequence(rows: int, columns: int, gops: list[GopBody], *, width: int, **fields: Any) -> bytes:
+def _sequence(rows: int, columns: int, gops: Iterable[GopBody], *, width: int, part: int = 400, **fields: Any) -> bytes:
     coded = _coded("torus", rows, columns)
     size = len(coded.vertex_order)
-    blocks = max(1, size // 400)
-    parts = min(size, 440)
+    blocks = max(1, size // part)
+    parts = min(size, part + part // 10 + 2)
     values = {
         **PACKED,
         "blocks": blocks,
@@ -254,11 +259,11 @@ def _sequence(rows: int, columns: int, gops: list[GopBody], *, width: int, **fie
     return stream_of(frames)
 
 
-def _still(rows: int, columns: int, width: int, components: int) -> bytes:
+def _still(rows: int, columns: int, width: int, components: int, part: int = 400) -> bytes:
     """Levels of a GOP in which nothing happens."""
     coded = _coded("torus", rows, columns)
     graph = graph_of_faces(coded.faces, len(coded.vertex_order))
-    partition = derive_partition(graph, max(1, graph.size // 400))
+    partition = derive_partition(graph, max(1, graph.size // part))
     cores = grow_blocks(graph, partition, 1).cores
     levels = [np.zeros((min(width, int(core)), components), np.int32) for core in cores]
     return encode_levels(make_level_bank(), levels, level_references(levels, components))
@@ -279,6 +284,60 @@ def _metadata(entries: int) -> bytes:
     frames: Frames = [_header(coded, **blocks), (FrameType.METADATA, payload), _faces(coded)]
     skippable: Frames = [(8, b"")] * 100_000
     return stream_of([*frames, *skippable, *_blocks(1, 1)])
+
+
+def _long_metadata(entries: int, length: int) -> bytes:
+    """As many bytes of metadata as there may be."""
+    payload = write_map([(f"{number:0250}", "x" * length) for number in range(entries)])
+    coded = _coded("torus", 12, 12)
+    blocks = {**PACKED, "blocks": 1, "block_size": 144, "coefficients": 1}
+    return stream_of([_header(coded, **blocks), (FrameType.METADATA, payload), _faces(coded), *_blocks(1, 1)])
+
+
+def _valued(rows: int, columns: int, count: int, chunk: int, *, coded: int | None = None, **fields: Any) -> bytes:
+    """A mesh with so many attributes of nothing, all alike."""
+    blocks = {"blocks": 1 + rows * columns // 4000, "block_size": min(rows * columns, 8000), "power": 1}
+    frames = frames_of(_blocky(("torus", rows, columns), attributes=count, **blocks))
+    shape = _coded("torus", rows, columns)
+    size = rows * columns if coded is None else coded
+    values = {"rows": size, "largest": (1,) * 4, "kind": 7, "components": 4, "origin": OTHERWISE, **fields}
+    declared, chunks = [], []
+    for index in range(count):
+        declaration = Declaration(name=f"{index}", **values)
+        declared.append(_written(packets.Attribute(index, declaration, b"")))
+        if declaration.rows == 0:
+            continue
+        surface = surface_of(declaration.domain, shape.faces, rows * columns, 0, None)
+        encoder = PieceEncoder(declaration, surface, np.zeros((size, len(declaration.largest)), np.int32), None)
+        for first in range(0, size, chunk):
+            some = min(chunk, size - first)
+            chunks.append(_written(packets.Values(index, first, some, encoder.chunk(some))))
+    return stream_of([*frames[:2], *declared, *frames[2:], *chunks])
+
+
+def _written(packet: packets.Packet) -> tuple[int, bytes]:
+    kind = FRAME_TYPES[type(packet)]
+    return kind, WRITERS[kind](packet)
+
+
+def _torn(stream: bytes, rubbish: bytes) -> bytes:
+    """The stream with rubbish before its END, as a tolerant decoder may be sent."""
+    last = len(stream_of([])) - len(stream_of([])[:5])
+    return stream[:-last] + rubbish + stream[-last:]
+
+
+def _rubbish(size: int) -> bytes:
+    """Bytes that seem to begin a long frame at every other place."""
+    tag = write_frame(FrameType.BLOCK, bytes(60_000))[:3]
+    return (tag * (size // len(tag) + 1))[:size]
+
+
+def _worthless(rows: int, columns: int, count: int, size: int) -> bytes:
+    """Blocks that end too early, one as the other, but are chains of their own."""
+    coded = _coded("torus", rows, columns)
+    header = _header(coded, blocks=count, block_size=size, coefficients=64, key_interval=1)
+    blocks = [(FrameType.BLOCK, write_varint(index) + write_varint(64)) for index in range(count)]
+    return stream_of([header, _faces(coded), *blocks])
 
 
 def one_block(rows: int, columns: int, width: int, **fields: Any) -> bytes:
@@ -384,6 +443,27 @@ BOMBS: dict[str, Bomb] = {
     "layers": Bomb("four layers of three axes", lambda: _layers(512, 512, 1 << 15)),
     "layers-chunks": Bomb("the same, vertex by vertex", lambda: _layers(50, 50, 1)),
     "metadata": Bomb("256 names and 100,000 frames to skip", lambda: _metadata(256)),
+    "metadata-long": Bomb("eight MiB of metadata", lambda: _long_metadata(256, 32_000)),
+    "values": Bomb("75 attributes of four doubles", lambda: _valued(60, 60, 75, 1 << 15)),
+    "values-corners": Bomb("fewer on more corners", lambda: _valued(500, 500, 5, 1 << 15)),
+    "values-chunks": Bomb(
+        "attributes, value by value",
+        lambda: _valued(60, 60, 3, 1, kind=0, components=1, largest=(1,), origin=AS_CODED),
+    ),
+    "values-normals": Bomb(
+        "six times normals that nobody sends",
+        lambda: _valued(400, 400, 6, 1, kind=6, components=3, semantic=2, coding=RECOMPUTED, coded=0, largest=()),
+    ),
+    "values-faces": Bomb(
+        "attributes of faces",
+        lambda: _valued(100, 100, 20, 1 << 15, domain=FACE, origin=AS_CODED, coded=20_000),
+    ),
+    "torn": Bomb(
+        "a megabyte of rubbish behind the blocks",
+        lambda: _torn(one_block(20, 20, 4), _rubbish(1 << 20)),
+    ),
+    "torn-chunks": Bomb("half of a stream of tiny frames", lambda: _grid(100, 100, 1)[: 9 * 4000]),
+    "worthless": Bomb("blocks that end too early", lambda: _worthless(64, 64, 1000, 100)),
     "sequence": Bomb("dictionaries of all columns", lambda: _sequence(200, 200, [_cosine_gop(1, 0)], width=440)),
     "sequence-large": Bomb(
         "the same of many vertices",
@@ -392,6 +472,24 @@ BOMBS: dict[str, Bomb] = {
     "sequence-power": Bomb(
         "the same by iterations without end",
         lambda: _sequence(40, 40, [_cosine_gop(1, 0)], width=8, power=64, key_iterations=1024),
+    ),
+    "sequence-tiny": Bomb(
+        "parts of one vertex", lambda: _sequence(256, 256, [_cosine_gop(1, 0)], width=8, part=1, power=1)
+    ),
+    "sequence-small": Bomb(
+        "parts of ten vertices", lambda: _sequence(256, 256, [_cosine_gop(1, 0)], width=10, part=10, power=1)
+    ),
+    "sequence-again": Bomb(
+        "more dictionaries than there is room for, frame after frame",
+        lambda: _sequence(250, 200, _key_gops(40, _still(250, 200, 440, 3)), width=440, power=2, key_iterations=2),
+    ),
+    "gop-part": Bomb(
+        "many components of one part",
+        lambda: _sequence(70, 70, [_cosine_gop(300, 160, _still(70, 70, 4, 160, 4900))], width=4, part=4900, power=1),
+    ),
+    "gop-components": Bomb(
+        "as many components as there is room for",
+        lambda: _sequence(250, 200, [_cosine_gop(64, 75, _still(250, 200, 20, 75))] * 3, width=20),
     ),
     "gop-wide": Bomb(
         "a GOP of 1,024 frames and 3,072 components",

@@ -10,11 +10,13 @@ import numpy as np
 from bitstream.container.reader import END_OF_STREAM, NEED_DATA
 from bitstream.errors import BsmError
 from bitstream.limits import DEFAULT_LIMITS, Limits
-from codec.sequence.decoder import FrameEvent, SequenceDecoder, decode_sequence
+from codec.geometry.attributes import Attribute
+from codec.sequence.decoder import FrameEvent, SequenceDecoder
 from codec.static.decoder import Decoder, decode
-from codec.static.events import BlockEvent, ConnectivityEvent, LossEvent, RefinementEvent
+from codec.static.events import AttributeEvent, BlockEvent, ConnectivityEvent, LossEvent, RefinementEvent
 from tools.proof.tally import Decoded, Outcome
 from tools.surgery import first_entries
+from tools.vectors.store import arrays_of
 
 GOP_FRAMES = 23
 """Header key that only sequences store."""
@@ -26,12 +28,12 @@ def is_sequence(stream: bytes) -> bool:
 
 
 def whole(stream: bytes, limits: Limits = DEFAULT_LIMITS, threads: int = 1) -> Outcome:
-    """By the functions for complete streams."""
+    """All at once: a mesh by the function for complete streams."""
     try:
         if is_sequence(stream):
-            return decode_sequence(stream, limits, threads)
+            return _by_events(stream, [stream], limits, threads)[0]
         mesh = decode(stream, limits, threads)
-        return mesh.positions, mesh.faces
+        return mesh.positions, mesh.faces, arrays_of(mesh.attributes)
     except BsmError as error:
         return error
 
@@ -41,18 +43,21 @@ def piecewise(
 ) -> tuple[Outcome, int]:
     """By events, from pieces of random lengths; and how many losses were told."""
     try:
-        return _by_events(stream, random, limits, threads, tolerant)
+        return _by_events(stream, _pieces(stream, random), limits, threads, tolerant)
     except BsmError as error:
         return error, 0
 
 
-def _by_events(stream: bytes, random: Random, limits: Limits, threads: int, tolerant: bool) -> tuple[Decoded, int]:
+def _by_events(
+    stream: bytes, pieces: list[bytes], limits: Limits, threads: int, tolerant: bool = False
+) -> tuple[Decoded, int]:
     kind = SequenceDecoder if is_sequence(stream) else Decoder
     faces, vertices, losses = np.zeros((0, 3), np.int32), 0, 0
     positions: list[np.ndarray] = []
     frames: list[np.ndarray] = []
+    values: dict[str, Attribute] = {}
     with kind(limits, threads, tolerant=tolerant) as decoder:
-        for piece in (*_pieces(stream, random), b""):
+        for piece in (*pieces, b""):
             if piece:
                 decoder.receive_data(piece)
             else:
@@ -67,11 +72,31 @@ def _by_events(stream: bytes, random: Random, limits: Limits, threads: int, tole
                         positions[0][event.vertices] = event.positions
                     case FrameEvent():
                         frames.append(event.positions)
+                    case AttributeEvent():
+                        rows = vertices if event.domain == "vertex" else len(faces)
+                        if event.indices is not None:
+                            rows = 1 + int(event.indices.max(initial=-1))
+                        values[event.name] = _with_values(values.get(event.name), event, rows)
                     case LossEvent():
                         losses += 1
+        arrays = arrays_of([] if losses else _completed(decoder, values))
     if kind is SequenceDecoder:
-        return (np.array(frames).reshape(len(frames), vertices, 3), faces), losses
-    return (positions[0] if positions else np.zeros((0, 3)), faces), losses
+        return (np.array(frames).reshape(len(frames), vertices, 3), faces, arrays), losses
+    return (positions[0] if positions else np.zeros((0, 3)), faces, arrays), losses
+
+
+def _completed(decoder: Decoder | SequenceDecoder, told: dict[str, Attribute]) -> list[Attribute]:
+    """What events have told of attributes, in the order of the mesh, and recomputed normals, which no event tells."""
+    mesh = decoder if isinstance(decoder, SequenceDecoder) else decoder.finish()
+    return [told.get(one.name, one) for one in mesh.attributes if one.name in told or one.semantic == "normal"]
+
+
+def _with_values(known: Attribute | None, event: AttributeEvent, rows: int) -> Attribute:
+    """An attribute with what an event tells of it; zeros where nothing has come yet."""
+    shape = (rows, *event.values.shape[1:])
+    values = np.zeros(shape, event.values.dtype) if known is None else known.values.copy()
+    values[event.rows] = event.values
+    return Attribute(event.name, values, event.domain, event.semantic, event.indices)
 
 
 def _pieces(stream: bytes, random: Random) -> list[bytes]:

@@ -18,6 +18,7 @@ from bitstream.errors import BsmError
 from tools.copies import refuse_other_kernels
 from tools.proof.decoding import whole
 from tools.proof.inputs import random_stream
+from tools.proof.tally import Decoded
 
 
 def random_streams(seed: str, count: int) -> list[bytes | str]:
@@ -31,6 +32,20 @@ def random_streams(seed: str, count: int) -> list[bytes | str]:
         except Exception:
             streams.append(traceback.format_exc(limit=-3))
     return streams
+
+
+def store(path: Path, decoded: Decoded) -> None:
+    """Write what was decoded to a file; names of attributes are no names of files."""
+    positions, faces, attributes = decoded
+    numbered = {f"array {number}": values for number, values in enumerate(attributes.values())}
+    np.savez(path, positions=positions, faces=faces, names=np.array([*attributes], str), **numbered)  # type: ignore[arg-type]
+
+
+def stored(path: Path) -> Decoded:
+    """What `store` has written."""
+    with np.load(path) as file:
+        attributes = {str(name): file[f"array {number}"] for number, name in enumerate(file["names"])}
+        return file["positions"], file["faces"], attributes
 
 
 def main() -> None:
@@ -53,7 +68,7 @@ def main() -> None:
         if isinstance(outcome, BsmError):
             (args.folder / f"{path.stem}.txt").write_text(f"{type(outcome).__name__} {outcome}")
         else:
-            np.savez(args.folder / f"{path.stem}.npz", positions=outcome[0], faces=outcome[1])
+            store(args.folder / f"{path.stem}.npz", outcome)
 
 
 if __name__ == "__main__":

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from random import Random
-from typing import Any
+from typing import Any, get_args
 
 import numpy as np
 
 from codec.arrays import Positions
+from codec.geometry.attributes import Attribute, Domain
 from codec.geometry.mesh import TriangleMesh
 from codec.sequence.encoder import encode_sequence
 from codec.sequence.options import SequenceOptions
@@ -22,6 +24,8 @@ from tools.vectors.store import FOLDER
 
 SEED_BYTES = 4096
 """Larger vectors are not mutated: they probe size, and cost time."""
+ATTRIBUTES = 0.25
+"""Share of meshes that have one, and of those that have another."""
 SEQUENCES = 0.25
 """Share of sequences among random streams."""
 
@@ -58,7 +62,35 @@ def random_mesh(random: Random) -> TriangleMesh:
             mesh = TriangleMesh(deform(random, mesh.positions), mesh.faces)
     if random.random() < 0.15:
         mesh = shuffled(mesh)
+    while random.random() < ATTRIBUTES:
+        mesh = replace(mesh, attributes=(*mesh.attributes, _attribute(random, mesh)))
     return mesh
+
+
+def _attribute(random: Random, mesh: TriangleMesh) -> Attribute:
+    """Values that are smooth, noisy or few, of any type, domain and meaning."""
+    domain: Domain = random.choice(get_args(Domain))
+    semantic, components = random.choice(
+        (("generic", random.randrange(1, 5)), ("color", 3), ("normal", 3), ("texcoord", 2))
+    )
+    places = mesh.positions[mesh.faces].mean(axis=1) if domain == "face" else mesh.positions
+    if domain == "corner":
+        places = mesh.positions[mesh.faces.ravel()]
+    numbers = np.random.default_rng(random.randrange(1 << 30))
+    extent = np.ptp(mesh.positions) or 1.0
+    waves = np.sin(places @ numbers.normal(size=(3, components)) * 4 / extent)
+    values = waves + random.choice((0.0, 0.01, 1.0)) * numbers.normal(size=waves.shape)
+    kind = random.choice(("uint8", "float32") if semantic == "color" else _NUMBERS)
+    if semantic == "color":
+        values = np.clip((values + 1.0) / 2.0, 0.0, 1.0)
+    if semantic in ("normal", "texcoord"):
+        kind = random.choice(("float32", "float64"))
+    scale = 255.0 if kind == "uint8" else 100.0 if kind.startswith(("int", "uint")) else 1.0
+    stored = np.clip(values * scale, *((0, 255) if kind == "uint8" else (-1e6, 1e6)))
+    return Attribute(f"{semantic} {len(mesh.attributes)}", stored.astype(kind), domain, semantic)  # type: ignore[arg-type]
+
+
+_NUMBERS = ("uint8", "int16", "int32", "float32", "float64")
 
 
 def _soup(random: Random) -> TriangleMesh:
@@ -173,4 +205,5 @@ def _sequence(random: Random) -> bytes:
         "frame_rate": lambda: 25.0,
     }
     options = {"step": 2.0 ** -random.randrange(4, 14), "block_size": random.choice((12, 36, 100)), "threads": 1}
-    return encode_sequence(positions, mesh.faces, SequenceOptions(**{**options, **_some(random, choices, 0.4)}))
+    chosen = SequenceOptions(**{**options, **_some(random, choices, 0.4)})
+    return encode_sequence(positions, mesh.faces, chosen, attributes=mesh.attributes)

@@ -30,7 +30,7 @@ from bitstream.errors import BsmError, LimitError, NumericError
 from bsm.steadiness import check_steadiness
 from tools.fuzz.targets import LIMITS
 from tools.proof.decoding import piecewise, whole
-from tools.proof.encodes import random_streams
+from tools.proof.encodes import random_streams, stored
 from tools.proof.inputs import mutant, random_stream, vector_seeds
 from tools.proof.places import Place, environments, processors
 from tools.proof.tally import Outcome, Tally
@@ -202,8 +202,7 @@ def _stored(path: Path) -> Outcome:
         name, problem = refused.read_text().split(" ", 1)
         kind: type[BsmError] = getattr(errors, name)
         return kind(problem)
-    with np.load(path.with_suffix(".npz")) as file:
-        return file["positions"], file["faces"]
+    return stored(path.with_suffix(".npz"))
 
 
 def steady(stream: bytes) -> bool:
@@ -253,8 +252,7 @@ def reference(stream: bytes) -> Outcome:
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # it computes on with what is not finite, and looks afterwards
         try:
-            positions, faces = module.decode(stream)
-            return positions, faces
+            return module.decode_all(stream)  # type: ignore[no-any-return]
         except tuple(module.EXIT_CODES) as error:
             kind: type[BsmError] = getattr(errors, type(error).__name__)
             return kind(str(error))

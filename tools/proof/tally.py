@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, fields
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
 from bitstream.errors import BsmError
-from tools.vectors.store import PEAK, RMS, distance, scale_of
+from tools.vectors.store import PEAK, RMS, Arrays, alike, distance, scale_of
 
-Decoded = tuple[npt.NDArray[np.float64], npt.NDArray[np.int32]]
-"""Positions, shape (n, 3) or (T, n, 3), and faces, shape (m, 3)."""
+Decoded = tuple[npt.NDArray[np.float64], npt.NDArray[np.int32], Arrays]
+"""Positions, shape (n, 3) or (T, n, 3), faces, shape (m, 3), and the arrays of attributes."""
 Outcome = Decoded | BsmError
 
 
@@ -82,6 +83,8 @@ class Tally:
             return "the faces differ"
         if found[0].shape != expected[0].shape:
             return f"positions of shape {found[0].shape} instead of {expected[0].shape}"
+        if problem := _other_attributes(found[2], expected[2], exact):
+            return problem
         if np.array_equal(found[0], expected[0]):
             return None
         rms, peak = distance(found[0], expected[0], scale_of(stream))
@@ -90,6 +93,20 @@ class Tally:
         if exact:
             return f"positions are off by {peak:.1e}, and should be the same to the last bit"
         return None if rms <= RMS and peak <= PEAK else f"positions are off by {rms:.1e} (rms) and {peak:.1e}"
+
+
+def _other_attributes(found: Arrays, expected: Arrays, exact: bool) -> str | None:
+    """In what attributes differ, or None; floats may by what rounding does, unless `exact`."""
+    if set(found) != set(expected):
+        return f"attributes {sorted(found)} instead of {sorted(expected)}"
+    for name, values in expected.items():
+        if not (_same(found[name], values) if exact else alike(found[name], values)):
+            return f"{name!r} differs"
+    return None
+
+
+def _same(found: npt.NDArray[Any], expected: npt.NDArray[Any]) -> bool:
+    return found.dtype == expected.dtype and np.array_equal(found, expected)
 
 
 def error_class(error: BsmError) -> str:

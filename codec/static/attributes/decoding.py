@@ -36,10 +36,11 @@ from codec.static.numbering import Numbering
 from codec.static.quality.whole import Complete
 from codec.static.stages import Arrival, Stage, misplaced
 from codec.static.work import (
-    CHUNK_COST,
     Allowance,
+    chunk_cost,
     coding_memory,
     field_cost,
+    recomputing_memory,
     values_cost,
     values_memory,
 )
@@ -155,6 +156,8 @@ class Valued:
             raise CorruptError(f"attribute {declaration.name!r} has {declaration.rows} values where {expected} belong")
         self._rows = expected
         structure.allowance.keep(values_memory(expected, len(declarations.faces), declaration.components))
+        if self.complete:
+            structure.allowance.afford(recomputing_memory(expected, len(declarations.faces)))
         structure.allowance.spend(values_cost(expected, len(declarations.faces)))
         self._coder: PieceDecoder | None = None
 
@@ -169,7 +172,7 @@ class Valued:
             allowance.spend(field_cost(self._rows, faces, self.declaration.components))
             self._coder = PieceDecoder(self.declaration, self._surface, relief, allowance.limits)
         allowance.keep(0.0, len(packet.data))
-        allowance.spend(CHUNK_COST, len(packet.data))
+        allowance.spend(chunk_cost(len(packet.data)), len(packet.data))
         coder = self._coder
         if packet.first != coder.coded:
             raise CorruptError(f"the values before number {packet.first} are missing; others depend on them")

@@ -19,9 +19,10 @@ from codec.geometry.mesh import TriangleMesh
 from codec.static.attributes.decoding import ValuesStage, completed
 from codec.static.attributes.relief import Solid
 from codec.static.events import BlockEvent, Changes, Losses, LossEvent, unreadable
+from codec.static.quality.whole import Complete
 from codec.static.stages import Arrival, Stage, misplaced
 from codec.static.structure import Structure
-from codec.static.work import CHUNK_COST, field_cost, grid_memory
+from codec.static.work import field_cost, grid_chunk_cost, grid_memory
 
 CHUNK = 1 << 15
 """Vertices of a frame: large meshes are seen while they arrive."""
@@ -87,7 +88,7 @@ class GridStage:
         self._decoder = GridDecoder(structure.faces, size, self._grid.largest, structure.allowance.limits)
         self._chunks = 0
         self._broken = False
-        self._ended = False
+        self._complete: Complete | None = None
         self._result = OnGrid(structure, np.zeros((size, 3)), np.zeros((size, 3), np.int32), np.zeros(size, np.bool_))
 
     def accept(self, arrival: Arrival, queue: deque[Any]) -> Stage[Any]:
@@ -101,9 +102,7 @@ class GridStage:
             case packets.End():
                 self._end(queue)
             case Signal.END_OF_STREAM:
-                if not self._ended:  # a tolerant reader may find no END
-                    self._end(queue)
-                return completed(self._result, self._structure)
+                return self._complete or self._end(queue)  # a tolerant reader may find no END
             case _:
                 raise misplaced(arrival)
         return self
@@ -111,7 +110,7 @@ class GridStage:
     def _decode(self, packet: packets.Grid, queue: deque[Any]) -> None:
         if self._broken:
             return
-        self._structure.allowance.spend(CHUNK_COST, len(packet.data))
+        self._structure.allowance.spend(grid_chunk_cost(len(packet.data)), len(packet.data))
         try:
             if packet.first != self._decoder.coded:
                 raise CorruptError(f"positions from number {self._decoder.coded} on are missing; others depend on them")
@@ -133,9 +132,10 @@ class GridStage:
         self._broken = True
         queue.append(LossEvent(None, error))
 
-    def _end(self, queue: deque[Any]) -> None:
-        self._ended = True
-        queue.append(completed(self._result, self._structure))
+    def _end(self, queue: deque[Any]) -> Complete:
+        self._complete = completed(self._result, self._structure)
+        queue.append(self._complete)
+        return self._complete
 
 
 @dataclass(frozen=True, eq=False)

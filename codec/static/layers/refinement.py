@@ -24,9 +24,10 @@ from codec.static.assembly import Assembly
 from codec.static.attributes.decoding import ValuesStage, completed
 from codec.static.attributes.relief import Solid
 from codec.static.events import Losses, LossEvent, RefinementEvent, unreadable
+from codec.static.quality.whole import Complete
 from codec.static.stages import Arrival, Stage, misplaced
 from codec.static.structure import Structure
-from codec.static.work import CHUNK_COST, field_cost, layer_memory
+from codec.static.work import chunk_cost, layer_cost, layer_memory
 from codec.threads import Lanes, Pending
 
 CHUNK = 1 << 15
@@ -68,7 +69,7 @@ class RefinementStage:
         self._lanes = lanes
         self._layers = layers
         self._tolerant = tolerant
-        self._ended = False
+        self._complete: Complete | None = None
         self._structure = structure
         self._refined = Refined(assembly, structure)
         self._decoders = [LayerDecoder(structure, number) for number in range(len(header.layers))]
@@ -77,7 +78,7 @@ class RefinementStage:
         match arrival:
             case packets.Refinement():
                 if arrival.layer >= self._layers:
-                    return self._complete(queue)
+                    return self._end(queue)
                 self._decode(arrival, queue)
             case packets.Damaged():
                 if arrival.type is not FrameType.VALUES:
@@ -86,9 +87,9 @@ class RefinementStage:
             case packets.Values():
                 return ValuesStage(self._refined, self._structure, self._tolerant).accept(arrival, queue)
             case packets.End():
-                self._complete(queue)
+                self._end(queue)
             case Signal.END_OF_STREAM:
-                return self._complete(queue)
+                return self._complete or self._end(queue)
             case _:
                 raise misplaced(arrival)
         return self
@@ -98,12 +99,10 @@ class RefinementStage:
         pending = self._lanes.submit(-1 - packet.layer, lambda: decoder.decode(packet))
         queue.append(PendingLevels(packet.layer, pending, self._refined))
 
-    def _complete(self, queue: deque[Any]) -> Stage[Any]:
-        complete = completed(self._refined, self._structure)
-        if not self._ended:
-            queue.append(complete)
-        self._ended = True
-        return complete
+    def _end(self, queue: deque[Any]) -> Complete:
+        self._complete = completed(self._refined, self._structure)
+        queue.append(self._complete)
+        return self._complete
 
 
 class LayerDecoder:
@@ -115,7 +114,7 @@ class LayerDecoder:
 
     def decode(self, packet: packets.Refinement) -> tuple[Indices, Levels]:
         """Vertices and their levels; once a packet is missing or broken, the rest of the layer cannot be decoded."""
-        self._structure.allowance.spend(CHUNK_COST, len(packet.data))
+        self._structure.allowance.spend(chunk_cost(len(packet.data)), len(packet.data))
         following = self._decoder.coded
         if packet.first != following:
             raise CorruptError(f"layer {packet.layer + 1} lacks the vertices before {packet.first}: the rest is lost")
@@ -127,7 +126,7 @@ class LayerDecoder:
         borders = bool(header.borders) and self._layer == len(header.layers) - 1
         axes, faces = header.layers[self._layer].axes, structure.faces
         allowance.keep(layer_memory(header.vertices, len(faces), axes))
-        allowance.spend(field_cost(header.vertices, len(faces), axes))
+        allowance.spend(layer_cost(header.vertices, len(faces), axes))
         return LevelsDecoder(faces, header.vertices, axes, allowance.limits, borders=borders)
 
 

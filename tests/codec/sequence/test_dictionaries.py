@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pytest
 
+from bitstream.errors import LimitError
 from bitstream.limits import Limits
+from codec.arrays import Matrix
 from codec.blocks.overlap import Blocks, grow_blocks
 from codec.blocks.partition import derive_partition
 from codec.geometry.graph import graph_of_faces
 from codec.geometry.mesh import TriangleMesh
-from codec.sequence.dictionaries import Part, build_dictionaries, differences
+from codec.sequence.dictionaries import SPARE, Dictionaries, Part, find_sites
 from codec.sequence.encoder import FIRST_FRAME
 from codec.static.work import Allowance
 from tests.shapes import patch, torus
@@ -22,24 +26,34 @@ def blocks_of(mesh: TriangleMesh, parts: int) -> Blocks:
     return grow_blocks(graph, partition, int(np.diff(partition.bounds).max()))
 
 
-def dictionaries(mesh: TriangleMesh, parts: int, width: int, cotangent: bool = True) -> tuple[Part, ...]:
-    blocks = blocks_of(mesh, parts)
-    return build_dictionaries(
-        blocks,
+def dictionaries(
+    mesh: TriangleMesh, parts: int, width: int, cotangent: bool = True, allowance: Allowance | None = None
+) -> Dictionaries:
+    allowance = allowance or Allowance(Limits())
+    sites = find_sites(
+        blocks_of(mesh, parts),
         mesh.faces,
         mesh.positions,
-        FIRST_FRAME,
         width=width,
         cotangent=cotangent,
         threads=1,
-        allowance=Allowance(Limits()),
+        allowance=allowance,
     )
+    return Dictionaries(sites, FIRST_FRAME, allowance, threads=2)
+
+
+def parts_of(*arguments: Any) -> tuple[Part, ...]:
+    return tuple(dictionaries(*arguments).each(lambda _, part: part))
+
+
+def differences(parts: tuple[Part, ...], field: Matrix) -> list[Matrix]:
+    return [part.difference(field, field) for part in parts]
 
 
 @pytest.mark.parametrize("cotangent", [True, False])
 def test_full_dictionaries_give_a_field_back(cotangent: bool) -> None:
     mesh = torus(16, 10)
-    parts = dictionaries(mesh, 4, 1000, cotangent)
+    parts = parts_of(mesh, 4, 1000, cotangent)
     assert sorted(np.concatenate([part.vertices for part in parts]).tolist()) == list(range(160))
     wanted = np.random.default_rng(0).normal(size=(160, 5))
     field = np.zeros_like(wanted)
@@ -51,7 +65,7 @@ def test_full_dictionaries_give_a_field_back(cotangent: bool) -> None:
 
 def test_a_translation_is_all_in_the_first_part() -> None:
     mesh = patch(12, 12)
-    parts = dictionaries(mesh, 5, 1000)
+    parts = parts_of(mesh, 5, 1000)
     first, *others = differences(parts, np.tile([1.0, -2.0, 3.0], (144, 1)))
     # The lowest column of a part that hangs on nothing is constant: its coefficient is sqrt(n) times the translation.
     assert first[0] == pytest.approx(np.sqrt(len(parts[0].vertices)) * np.array([1.0, -2.0, 3.0]))
@@ -62,7 +76,7 @@ def test_a_translation_is_all_in_the_first_part() -> None:
 def test_the_extension_is_harmonic() -> None:
     mesh = patch(9, 9)
     graph = blocks_of(mesh, 2).graph
-    _, second = dictionaries(mesh, 2, 5, cotangent=False)  # which is exact, however narrow the dictionary
+    _, second = parts_of(mesh, 2, 5, False)  # which is exact, however narrow the dictionary
     known = np.zeros((81, 3))
     outside = np.setdiff1d(np.arange(81), second.vertices)
     known[outside] = mesh.positions[outside]
@@ -74,5 +88,34 @@ def test_the_extension_is_harmonic() -> None:
 
 def test_a_narrow_dictionary_has_the_lowest_columns_of_a_wide_one() -> None:
     mesh = torus(16, 10)
-    for narrow, wide in zip(dictionaries(mesh, 3, 7), dictionaries(mesh, 3, 1000), strict=True):
+    for narrow, wide in zip(parts_of(mesh, 3, 7), parts_of(mesh, 3, 1000), strict=True):
         np.testing.assert_allclose(narrow.basis, wide.basis[:, :7], atol=1e-9)
+
+
+def test_what_there_is_no_room_for_is_made_again() -> None:
+    mesh = torus(40, 30)
+    ample = dictionaries(mesh, 12, 1000)
+    ample.reserve()
+    wanted = [part.basis for part in ample.each(lambda _, part: part)]
+    assert all(one is two.basis for one, two in zip(wanted, ample.each(lambda _, part: part), strict=True))
+
+    def bases(_: int, part: Part) -> Matrix:
+        return part.basis
+
+    needed = sum(site.memory for site in ample.sites)
+    largest = max(site.making for site in ample.sites)
+    allowance = Allowance(Limits())
+    narrow = dictionaries(mesh, 12, 1000, allowance=allowance)
+    allowance.keep(allowance.room() - largest - SPARE - 0.4 * needed)
+    assert narrow.reserve() == 0.0  # nobody knows yet what making them takes
+    first, second = list(narrow.each(bases)), list(narrow.each(bases))
+    for one, two, three in zip(wanted, first, second, strict=True):
+        np.testing.assert_array_equal(one, two)
+        np.testing.assert_array_equal(one, three)
+    again = [one is not two for one, two in zip(first, second, strict=True)]
+    assert 0 < sum(again) < 12
+    assert again == sorted(again)  # the first ones are kept
+    assert narrow.reserve() > 0.0
+    with pytest.raises(LimitError, match="memory"):
+        narrow.reserve(needed)
+    assert len(list(narrow.each(bases))) == 12

@@ -43,12 +43,12 @@ def spent(monkeypatch):
     amounts, latest = [], []
     real = Allowance.spend
 
-    def spy(self, work, received=0, shown=0):
+    def spy(self, work, received=0):
         if latest != [self]:
             latest[:] = [self]
             amounts.clear()
         amounts.append(work)
-        real(self, work, received, shown)
+        real(self, work, received)
 
     monkeypatch.setattr(Allowance, "spend", spy)
     return amounts
@@ -100,8 +100,9 @@ def test_vertices_bytes_and_frames_grant_work():
     allowance = Allowance(Limits(work=10.0, work_per_vertex=3.0, work_per_byte=2.0))
     allowance.grant(4)
     allowance.spend(22.0)
-    allowance.spend(20.0, received=7, shown=2)
-    with pytest.raises(LimitError, match="23"):
+    allowance.show(2)
+    allowance.spend(20.0, received=7)
+    with pytest.raises(LimitError, match="29"):
         allowance.spend(1.0)
 
 
