@@ -44,7 +44,7 @@ FLAT = 0.15
 MANY_OUTLIERS = 0.01
 """Of this many vertices out of reach, more are cheaper to bring back along all axes of a layer that all have."""
 ROUGH, ROUGHEST = 1.57, 13.3
-"""Up to these mean angles between faces beside each other, over what is asked for, and at most, blocks alone are tried."""
+"""Up to these mean angles between adjacent faces, over what is asked for, and at most, blocks alone are tried."""
 SHEET, SHEET_STEP = 1.0 / 16.0, 0.024
 """Where they are so small, the surface is a flat sheet, which coarser blocks without details are enough for."""
 COARSE = 0.016
