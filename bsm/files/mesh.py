@@ -7,6 +7,7 @@ they are read: what claims more than it holds is refused before anything is allo
 
 from __future__ import annotations
 
+import codecs
 import gzip
 import io
 import os
@@ -97,6 +98,7 @@ def read_mesh(
     data = given.read_all()
     if data.startswith(b"\x1f\x8b"):
         path, name, data = None, name.removesuffix(".gz"), _unzipped(data)
+    data = data.removeprefix(codecs.BOM_UTF8)
     if not data:
         raise FormatError("the file is empty")
     if data.startswith(MAGIC):

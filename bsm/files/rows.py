@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from itertools import chain
 from typing import Any
 
@@ -34,8 +34,8 @@ class Rows:
         self.starts: Ints = np.cumsum(self.counts) - self.counts
         try:
             self.values: Doubles = np.array(list(chain.from_iterable(fields)), dtype=np.float64)
-        except ValueError as error:
-            raise MeshError(f"a {what} is not made of numbers: {error}") from error
+        except ValueError:
+            raise MeshError(f"a {what} is not made of numbers: {_strange(chain.from_iterable(fields))!r}") from None
 
     def require(self, needed: int | Ints) -> None:
         """Raise `MeshError` unless every line has at least `needed` numbers."""
@@ -57,6 +57,16 @@ class Rows:
             raise MeshError(f"{self.what} {int(np.argmax(sizes < 0))} has a negative number of corners")
         self.require(before + 1 + sizes)
         return sizes, as_integers(self.values[ranges(self.starts + before + 1, sizes)], "a vertex index")
+
+
+def _strange(words: Iterable[bytes]) -> str:
+    """The first that is no number."""
+    for word in words:
+        try:
+            float(word)
+        except ValueError:
+            return word[:40].decode(errors="replace")
+    return ""
 
 
 def ranges(starts: Ints, sizes: Ints) -> Ints:

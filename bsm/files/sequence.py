@@ -88,8 +88,8 @@ def open_sequence(source: Source, file_format: str | None = None, reader: str | 
     head = given.peek(len(NPY))
     if head == NPY or file_format == "npy":
         return _arrays(given)
-    if not head.startswith(ZIP):
-        return None
+    if not head.startswith(ZIP) or (file_format is None and Path(given.name).suffix.lower() not in ("", ".npz")):
+        return None  # a 3MF is a ZIP, too
     archive: Archive = given.name if given.is_file else io.BytesIO(given.peek(1 << 32))
     shape = npz_shape(archive)
     if len(shape) != 3:

@@ -114,6 +114,33 @@ def test_a_scene_of_trimesh(trimesh):
     assert as_mesh(scene).metadata == ours.metadata
 
 
+def test_parts_without_a_material_get_none(trimesh, tmp_path):
+    first, second = bsm.trimesh.to_trimesh(painted()), trimesh.creation.box()
+    trimesh.Scene({"box": second, "ring": first, "other": second}).export(tmp_path / "a.glb")
+    ours = bsm.load(tmp_path / "a.glb")
+    for again in (ours, bsm.decode(bsm.encode(ours))):
+        bsm.save(again, tmp_path / "b.glb")
+        shown = trimesh.load_scene(tmp_path / "b.glb").geometry
+        images = {name: part.visual.material.baseColorTexture for name, part in shown.items()}
+        assert images["ring"] is not None and images["box"] is None and images["other"] is None
+        found = bsm.load(tmp_path / "b.glb")
+        assert {name for name in found.metadata if name.startswith(("material.", "image."))} == {
+            name for name in ours.metadata if name.startswith(("material.", "image."))
+        }
+        numbers = attribute(found, "material").values[:, 0]
+        assert np.bincount(numbers).tolist() == [2 * len(second.faces), len(first.faces)]
+    whole = bsm.trimesh.to_trimesh(ours).visual
+    assert len(whole.material.materials) == 2 and np.bincount(whole.face_materials)[1] == 2 * len(second.faces)
+
+
+def test_texture_coordinates_alone_invent_no_material(trimesh, tmp_path):
+    mesh = painted()
+    bsm.save(TriangleMesh(mesh.positions, mesh.faces, (attribute(mesh, "texcoord"),)), tmp_path / "a.glb")
+    found = bsm.load(tmp_path / "a.glb")
+    assert attribute(found, "texcoord").components == 2
+    assert not [name for name in found.metadata if name.startswith(("material.", "image."))]
+
+
 def test_damaged_streams_in_trimesh(trimesh, tmp_path):
     data = bsm.encode(painted(), **EXACT)
     (tmp_path / "a.bsm").write_bytes(data[:-30])

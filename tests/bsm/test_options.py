@@ -68,7 +68,7 @@ def test_a_value_of_the_wrong_type_is_named(name):
         ({"stepp": 1}, ArgumentError, "did you mean step?"),
         ({"thetta": 1}, ArgumentError, "did you mean theta?"),
         ({"elephant": 1}, ArgumentError, "there are attributes, basis"),
-        ({"kg": 1}, ArgumentError, "no option kg for a mesh"),
+        ({"kg": 1}, ArgumentError, "kg is for sequences, not for a mesh"),
         ({"bits": 2.5}, ArgumentError, "a whole number or None, not 2.5"),
         ({"step": True}, ArgumentError, "a number or None, not True"),
         ({"predict": 1}, ArgumentError, "True or False"),
@@ -85,7 +85,7 @@ def test_what_is_refused(keywords, error, words):
 
 
 def test_a_sequence_has_fewer_options():
-    with pytest.raises(ArgumentError, match="no option power for a sequence"):
+    with pytest.raises(ArgumentError, match="power is for single meshes, not for a sequence"):
         sequence_options(power=3)
 
 

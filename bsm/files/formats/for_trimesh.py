@@ -33,12 +33,15 @@ def arguments_of(mesh: TriangleMesh) -> dict[str, Any]:
     if texcoord is not None or materials:
         uv = None if texcoord is None else texcoord.values[:, :2]
         numbers = face_numbers(mesh, "material")
-        several = numbers is not None and len(materials) > 1
-        material = trimesh.visual.material.MultiMaterial(materials) if several else next(iter(materials), None)
         place = {number: place for place, number in enumerate(known)}
+        if not materials or (numbers is not None and not np.isin(numbers.values, list(known)).all()):
+            # Of faces of whose material nothing is said: trimesh would give them a grey one, and an image.
+            materials.append(trimesh.visual.material.PBRMaterial())
+        several = numbers is not None and len(materials) > 1
+        material = trimesh.visual.material.MultiMaterial(materials) if several else materials[0]
         of_each = None
         if several and numbers is not None:
-            of_each = np.array([place.get(number, 0) for number in numbers.values[:, 0].tolist()])
+            of_each = np.array([place.get(number, len(known)) for number in numbers.values[:, 0].tolist()])
         visual = trimesh.visual.TextureVisuals(uv=uv, material=material, face_materials=of_each)
         if color is not None:
             visual.vertex_attributes["color"] = _rgba(color)

@@ -245,15 +245,18 @@ def _metadata(parts: list[_Part], of_scene: dict[str, Any]) -> dict[str, Value]:
 
 
 def _materials(parts: list[_Part]) -> tuple[dict[str, Value], Array]:
-    """The metadata of all materials and their images, and the number of each face's material."""
+    """The metadata of all materials and their images, and the number of each face's material.
+
+    Faces without one have a number of which nothing is said.
+    """
     known: list[Material] = []
     images: list[bytes] = []
     numbers = [np.empty(0, np.int32)]
     for part in parts:
         several, of_faces = part.materials()
         places = np.zeros(max(len(several), 1), np.int32)
-        for place, material in enumerate(several):
-            words = _words_of(material, images)
+        for place, material in enumerate(several or [None]):
+            words = {} if material is None else _words_of(material, images)
             if words not in known:
                 known.append(words)
             places[place] = known.index(words)
@@ -266,7 +269,7 @@ def _materials(parts: list[_Part]) -> tuple[dict[str, Value], Array]:
 def _words_of(material: Any, images: list[bytes]) -> Material:
     """A material of trimesh in the words of glTF, or of MTL; new images are added to `images`."""
     given = dict(getattr(material, "_data", None) or {})
-    if not given:  # one with the words of MTL
+    if not given and hasattr(material, "diffuse"):  # one with the words of MTL
         given = {"Kd": material.diffuse, "Ka": material.ambient, "Ks": material.specular, "Ns": material.glossiness}
         given |= {"map_Kd": material.image, "name": material.name, **getattr(material, "kwargs", {})}
     found: Material = {}
@@ -288,7 +291,8 @@ def _words_of(material: Any, images: list[bytes]) -> Material:
                 numbers = numbers / 255
             kept = numbers[:3] if name.startswith("K") else numbers
             found[name] = " ".join(f"{number:.6g}" for number in kept)
-    return {name: value for name, value in found.items() if not isinstance(value, float) or np.isfinite(value)}
+    said = {name: value for name, value in found.items() if not isinstance(value, float) or np.isfinite(value)}
+    return {} if said == {"doubleSided": 0} else said  # that is what holds where nothing is said
 
 
 def _bytes_of_image(image: Any) -> bytes:

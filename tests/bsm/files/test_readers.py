@@ -19,6 +19,7 @@ from bitstream.errors import (
 )
 from bitstream.limits import Limits
 from bsm.files.mesh import format_mesh, read_mesh, write_mesh
+from bsm.files.sequence import open_sequence
 from codec.geometry.mesh import TriangleMesh
 from tests.shapes import tetrahedron, torus
 
@@ -33,6 +34,22 @@ OURS = ("obj", "off", "ply", "stl")
 def test_compressed_files(kind, tmp_path):
     (tmp_path / f"a.{kind}.gz").write_bytes(gzip.compress(format_mesh(tetrahedron(), kind)))
     assert len(read_mesh(tmp_path / f"a.{kind}.gz").mesh.faces) == 4
+
+
+@pytest.mark.parametrize("kind", ["obj", "off", "ply"])
+def test_a_byte_order_mark_is_no_part_of_a_file(kind):
+    text = {"obj": "v {}\nv {}\nv {}\nf 1 2 3\n", "off": "OFF\n3 1 0\n{}\n{}\n{}\n3 0 1 2\n"}.get(
+        kind,
+        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+        "element face 1\nproperty list uchar int vertex_indices\nend_header\n{}\n{}\n{}\n3 0 1 2\n",
+    )
+    data = text.format("5 0 0", "1 0 0", "0 1 0").encode("utf-8-sig")
+    assert read_mesh(data).mesh.positions.tolist() == [[5, 0, 0], [1, 0, 0], [0, 1, 0]]
+
+
+def test_what_is_no_number_is_shown():
+    with pytest.raises(MeshError, match=r"a vertex is not made of numbers: '1,5'$"):
+        read_mesh(b"v 0 0 0\nv 1,5 0 0\nv 0 1 0\nf 1 2 3\n")
 
 
 def test_damaged_compressed_files():
@@ -136,6 +153,7 @@ def test_formats_that_trimesh_writes(trimesh, kind, tmp_path):
     for needed in {"3mf": ("networkx", "lxml"), "dae": ("collada",)}.get(kind, ()):
         pytest.importorskip(needed)
     trimesh.Trimesh(*torus_arrays(), process=False).export(tmp_path / f"a.{kind}")
+    assert open_sequence(tmp_path / f"a.{kind}") is None, "a 3MF is a ZIP, as an npz is"
     mesh = read_mesh(tmp_path / f"a.{kind}").mesh
     positions, faces = torus_arrays()
     assert mesh.positions[mesh.faces] == pytest.approx(positions[faces], abs=1e-5)
