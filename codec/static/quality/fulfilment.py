@@ -260,7 +260,7 @@ class Fulfilment:
             self._first_layer(ratio),
             self._contract.angle,
             math.inf,
-            tries=3,
+            tries=2 if self._shaper.character.is_model else 3,
             most=COARSEST,
             slopes=(FLATTER * steep, steep),
         )

@@ -36,8 +36,8 @@ PLATEAU, PLATEAU_STEPS = 1.25, 24
 compared, too."""
 FINEST_BITS = 16
 """Bits along the longest side of the finest grid that is tried without need."""
-OTHERS = 2
-"""So many of these."""
+OTHERS, ALIKE = 2, 1.25
+"""So many of these, if they are nearly as good as the best."""
 ROUNDED_MORE = 1.1
 """Where rounding bends normals by so much more than what is asked for, shaping may still do."""
 QUICK_VERTICES = 4000
@@ -196,7 +196,9 @@ class GridSearch:
         return kept
 
     def _on_grids(self, shaped: Shaped, grids: list[tuple[float, float]]) -> Iterator[Trial[Placed]]:
-        for _, step in grids[:OTHERS]:
+        for entropy, step in grids[:OTHERS]:
+            if entropy > ALIKE * grids[0][0]:
+                break
             trial = self._trial(shaped, step, WORTH_OF_MODELS)
             if self._keeps(trial.closeness):
                 yield trial
