@@ -38,8 +38,8 @@ KERNEL double weighted_angle(ConstDoubles2 normals, ConstDoubles weights, ConstD
             double length = __builtin_sqrt(n0 * n0 + n1 * n1 + n2 * n2);
             double sides = __builtin_sqrt((u0 * u0 + u1 * u1 + u2 * u2) * (v0 * v0 + v1 * v1 + v2 * v2));
             bool whole = length > 1e-9 * sides;
-            double inverse = 1.0 / (whole ? length : 1.0);
-            double d0 = n0 * inverse - normal[0][l], d1 = n1 * inverse - normal[1][l], d2 = n2 * inverse - normal[2][l];
+            double by = whole ? length : 1.0;
+            double d0 = n0 / by - normal[0][l], d1 = n1 / by - normal[1][l], d2 = n2 / by - normal[2][l];
             double half = 0.5 * __builtin_sqrt(d0 * d0 + d1 * d1 + d2 * d2);
             angle[l] = whole ? 2.0 * arc_sine(half < 1.0 ? half : 1.0) : lost;
         }

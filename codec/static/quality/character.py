@@ -86,7 +86,7 @@ class Character:
     @cached_property
     def is_sharp(self) -> bool:
         """Whether the surface is flat nearly everywhere, and bent at few edges: as models are, and scans are not."""
-        return bool(len(self._dihedrals) == 0 or np.median(self._dihedrals) <= SHARP * self._dihedrals.mean())
+        return bool(len(self._dihedrals) == 0 or np.median(self._dihedrals) < SHARP * self._dihedrals.mean())
 
     @cached_property
     def is_model(self) -> bool:

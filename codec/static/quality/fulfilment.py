@@ -7,7 +7,7 @@ models and assets; they decide about bytes and time, never about whether a contr
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import replace
 from functools import cached_property
@@ -51,6 +51,12 @@ COARSE = 0.016
 """A step, in BSM units, at which blocks carry nothing but what they are for."""
 FINEST = 2.0**-38
 """Smallest step, in BSM units."""
+ALL_AXES = 6.0
+"""How much coarser levels in the plane are than those along the normal."""
+HEIGHTS, HEIGHTS_OF_MODELS = 1.34, 2.6
+"""Step of a layer along normals over what moves the end of a mean edge by the angle that is asked for."""
+LAYER, LAYER_IF_ROUGH, LEAST_LAYER, MOST_LAYER = 2.22, 0.09, 0.94, 1.5
+"""The same along all axes; less by degrees between faces beside each other."""
 STEEP, STEEP_HEIGHTS = 1.05, 0.65
 """How angles grow with the step of a layer, in their logarithms: of one along all axes, and along normals alone."""
 FLATTER = 0.6
@@ -225,23 +231,15 @@ class Fulfilment:
         many = MANY_OUTLIERS * len(base.positions)
         heights = self._original.angle(base.upright) <= self._contract.angle and self._outliers(base.upright) <= many
         if heights:
-            layer = base.layer(self._first_layer, 0.0)
+            layer = base.layer(self._first_layer(0.0), 0.0)
             heights = self._outliers(base.moved(layer, base.wanted(layer)[0])) <= many
-        best = self._refinement(base, 0.0 if heights else 6.0, lambda moved: moved)
+        best = self._refinement(base, 0.0 if heights else ALL_AXES)
         if heights and (best is None or self._outliers(base.moved(*best.found)) > many):
-            heights = False
-            best = self._refinement(base, 6.0, lambda moved: moved)
-        stack = None if best is None else self._with_outliers(base, [best.found])
-        if stack is not None and not self._within(self._original.closeness(stack.positions)):
-            # What is brought back bends normals a little; nearly always, there is room for that.
-            best = self._refinement(base, 0.0 if heights else 6.0, lambda moved: self._brought_back(base, moved))
-            stack = None if best is None else self._with_outliers(base, [best.found])
-        return stack
+            best = self._refinement(base, ALL_AXES)
+        return None if best is None else self._with_outliers(base, [best.found])
 
-    def _refinement(
-        self, base: Base, ratio: float, then: Callable[[Matrix], Matrix]
-    ) -> Trial[tuple[Layer, Levels]] | None:
-        """One layer whose normals are right, where borders are back at their places, and after what comes then."""
+    def _refinement(self, base: Base, ratio: float) -> Trial[tuple[Layer, Levels]] | None:
+        """One layer whose normals are right, where borders, and vertices out of reach, are back at their places."""
         lock, still = self._lock(base), self._borders.vertices
         start = base.positions if lock is None else base.moved(*lock)
 
@@ -253,21 +251,25 @@ class Fulfilment:
             with self._told():
                 levels = self._shaper.levels(start, wanted, directions, aim)
                 levels[still] = 0
-                closeness = self._original.closeness(then(base.moved(layer, levels, start)))
+                closeness = self._original.closeness(self._brought_back(base, base.moved(layer, levels, start)))
             return Trial(step, closeness, (layer, levels))
 
         steep = STEEP if ratio else STEEP_HEIGHTS
         return widest_step(
             measure,
-            self._first_layer,
+            self._first_layer(ratio),
             self._contract.angle,
             math.inf,
-            tries=3,
+            tries=2 if self._shaper.character.is_model else 3,
             most=COARSEST,
             slopes=(FLATTER * steep, steep),
         )
 
-    @property
-    def _first_layer(self) -> float:
+    def _first_layer(self, ratio: float) -> float:
         """The step of a layer that should be about right."""
-        return 1.2 * math.radians(self._contract.angle) * self._edge
+        character = self._shaper.character
+        if ratio:
+            factor = min(max(LAYER - LAYER_IF_ROUGH * character.roughness, LEAST_LAYER), MOST_LAYER)
+        else:
+            factor = HEIGHTS_OF_MODELS if character.is_model else HEIGHTS
+        return factor * math.radians(self._contract.angle) * self._edge

@@ -6,6 +6,7 @@ import math
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -35,17 +36,19 @@ PLATEAU, PLATEAU_STEPS = 1.25, 24
 compared, too."""
 FINEST_BITS = 16
 """Bits along the longest side of the finest grid that is tried without need."""
-OTHERS = 2
-"""So many of these."""
+OTHERS, ALIKE = 2, 1.25
+"""So many of these, if they are nearly as good as the best."""
 ROUNDED_MORE = 1.1
 """Where rounding bends normals by so much more than what is asked for, shaping may still do."""
-TRIES, SLACK, FLATTER, LAST_RESORTS = 4, 0.05, 0.5, 4
-"""In the search for a step, and where it has found none; how far below a bound on angles it may stay; and how much less
-than that of rounded places the angle of shaped ones grows with it at least."""
+QUICK_VERTICES = 4000
+"""Of fewer, a trial takes no time worth speaking of."""
+TRIES, SLACK, FLATTER, LAST_RESORTS = (4, 7), (0.05, 0.025), 0.5, 4
+"""In the search for a step (of many vertices; of few), and where it has found none; how far below a bound on angles it
+may stay; and how much less than that of rounded places the angle of shaped ones grows with it at least."""
 CLOSE, MOST_COMPARED = 1.015, 2
 """Of drafts whose estimates are so close to the best, so many are compared as files."""
-SHARE_OF_MODELS, SHARE_IF_SHARP = 0.45, 0.5
-SHARE, SHARE_VERTICES, SHARE_OF_FEWER, SHARE_OF_BITS, MEAN_BITS = 0.47, 50_000, 0.05, 0.02, 7.0
+SHARE_OF_MODELS, SHARE_IF_SHARP = 0.45, 0.52
+SHARE, SHARE_VERTICES, SHARE_OF_FEWER, SHARE_OF_BITS, MEAN_BITS = 0.575, 50_000, 0.027, 0.02, 7.0
 """What is coded of the entropy of rounded places, about: where surfaces have sharp edges, and otherwise; how that grows
 when vertices are half as many as so many, and with bits of a vertex above the mean."""
 MOST_EXTENTS = 256.0
@@ -125,24 +128,27 @@ class GridSearch:
     def bytes(self) -> float:
         """Of the places, rather too few."""
         first, size = self.first_step, self._prepared.graph.size
-        entropy = min([self._character.entropy(first), *(entropy for entropy, _ in self._made_on(first))])
+        entropy = min([self._character.entropy(first), *(entropy for entropy, _ in self._model_grids)])
         if self._character.is_model:
             return SHARE_OF_MODELS * entropy
         if self._character.is_sharp:
             return SHARE_IF_SHARP * entropy
         more = SHARE_OF_FEWER * math.log2(SHARE_VERTICES / size) + SHARE_OF_BITS * (8.0 * entropy / size - MEAN_BITS)
-        return SHARE * entropy + max(more, 0.0) * entropy
+        return (SHARE + more) * entropy
 
     @property
     def fits_model(self) -> bool:
         """Whether there is a grid that a model seems to have been made on: it has far less entropy there."""
         if not self._character.is_model:
             return False
-        first = self.first_step
-        bound = LATTICE_GAIN * self._character.entropy(first)
-        return any(entropy <= bound for entropy, _ in self._made_on(first))
+        bound = LATTICE_GAIN * self._character.entropy(self.first_step)
+        return any(entropy <= bound for entropy, _ in self._model_grids)
 
-    @property
+    @cached_property
+    def _model_grids(self) -> list[tuple[float, float]]:
+        return sorted(self._made_on(self.first_step))
+
+    @cached_property
     def first_step(self) -> float:
         """The step of a grid that should be about right."""
         if self._angle >= ANY_ANGLE:
@@ -152,11 +158,15 @@ class GridSearch:
 
     def _tried(self, shaped: Shaped) -> list[Trial[Placed]]:
         """Those that keep the bounds."""
+        if self.fits_model:
+            kept = [*self._on_grids(shaped, self._model_grids)]
+            if kept:
+                return kept
         first, trials = self.first_step, list[Trial[Placed]]()
         if self._angle >= ANY_ANGLE:
             trials.append(self._trial(shaped, first, 0.8, axes=3, sweeps=6))
         else:
-            worth = self._worth
+            worth, few = self._worth, self._prepared.graph.size < QUICK_VERTICES
 
             def measure(step: float) -> Trial[Placed]:
                 trials.append(self._trial(shaped, step, worth))
@@ -165,7 +175,14 @@ class GridSearch:
             steep = self._steepness(first)
             slopes = FLATTER * steep, steep
             widest_step(
-                measure, first, self._angle, self._reach, tries=TRIES, most=self._most, slack=SLACK, slopes=slopes
+                measure,
+                first,
+                self._angle,
+                self._reach,
+                tries=TRIES[few],
+                most=self._most,
+                slack=SLACK[few],
+                slopes=slopes,
             )
         kept = [trial for trial in trials if self._keeps(trial.closeness)]
         for finer in range(1, LAST_RESORTS + 1):
@@ -174,11 +191,17 @@ class GridSearch:
                 kept = [trial] if self._keeps(trial.closeness) else []
         if self._prepared.graph.size >= FEW_VERTICES:
             best = min(kept, key=lambda trial: trial.found.estimate, default=None)
-            for _, step in sorted(self._made_on(first if best is None else best.step))[:OTHERS]:
-                trial = self._trial(shaped, step, WORTH_OF_MODELS)
-                if self._keeps(trial.closeness):
-                    kept.append(trial)
+            grids = self._model_grids if best is None else sorted(self._made_on(best.step))
+            kept += self._on_grids(shaped, grids)
         return kept
+
+    def _on_grids(self, shaped: Shaped, grids: list[tuple[float, float]]) -> Iterator[Trial[Placed]]:
+        for entropy, step in grids[:OTHERS]:
+            if entropy > ALIKE * grids[0][0]:
+                break
+            trial = self._trial(shaped, step, WORTH_OF_MODELS)
+            if self._keeps(trial.closeness):
+                yield trial
 
     def _made_on(self, right: float) -> Iterator[tuple[float, float]]:
         """Entropy and step of grids that have less of it than one that is about right: a model may be made on them."""

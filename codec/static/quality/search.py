@@ -83,6 +83,8 @@ def widest_step(
         elif kept and not near:
             step *= 0.8
         else:
-            step *= math.exp(min(max((aim - at[1]) / slope, -1.2), 1.2))
+            # Too fine a step can be coarser next time; too coarse ones come to nothing.
+            gentle = slope if kept else math.sqrt(slopes[0] * slope)
+            step *= math.exp(min(max((aim - at[1]) / gentle, -1.2), 1.2))
         step = min(step, most)
     return best

@@ -1,0 +1,112 @@
+"""Grids: what tells which is smallest, and that it is found."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from bsm.files.mesh import read_mesh
+from bsm.options import encode_options
+from codec.geometry.closeness import Original
+from codec.geometry.graph import graph_of_faces
+from codec.geometry.mesh import TriangleMesh
+from codec.static.decoder import decode
+from codec.static.encoder import Encoder, encode
+from codec.static.joining import join
+from codec.static.options import PRESETS, EncodeOptions
+from codec.static.quality.character import Character
+from codec.static.quality.shaping import Shaper
+from tests.shapes import curved, grid_faces, patch, torus
+
+
+def box(cells: int, lines: int, seed: int = 0) -> TriangleMesh:
+    """The surface of a cube, cut by lines at whole multiples of a cell, more of them than fit a coarser grid."""
+    random = np.random.default_rng(seed)
+    at = np.sort(np.concatenate([[0, cells], 1 + random.choice(cells - 1, lines - 2, replace=False)])) / cells
+    u, v = (axis.ravel() for axis in np.meshgrid(at, at, indexing="ij"))
+    faces, count = grid_faces(lines, lines), lines * lines
+    sides = [np.stack([u, v, np.full_like(u, side)], -1) for side in (0.0, 1.0)]
+    positions = np.concatenate([np.roll(side, axis, axis=1) for axis in range(3) for side in sides])
+    apart = TriangleMesh(positions, np.concatenate([faces + number * count for number in range(6)]))
+    return join(apart, keep=False).mesh
+
+
+def character_of(mesh: TriangleMesh) -> Character:
+    """Measures of a mesh in its own unit."""
+    return Shaper(Original(mesh.positions, mesh.faces), graph_of_faces(mesh.faces, len(mesh.positions))).character
+
+
+def test_entropy_is_that_of_the_histogram() -> None:
+    mesh = curved(patch(20, 30))
+    shaper = Shaper(Original(mesh.positions, mesh.faces), graph_of_faces(mesh.faces, len(mesh.positions)))
+    flaps, step = shaper._flaps[0], 0.004
+    places = np.floor((mesh.positions - mesh.positions.min(axis=0)) / step + 0.5).astype(np.int32)
+    bends = places[flaps[:, 0]] + places[flaps[:, 1]] - places[flaps[:, 2]] - places[flaps[:, 3]]
+    assert np.abs(bends).max() < 16, "where every size is counted by itself"
+    bits = 0.0
+    for axis in np.abs(bends).T:
+        shares = np.bincount(axis) / len(axis)
+        shares = shares[shares > 0]
+        bits += (axis > 0).mean() - (shares * np.log2(shares)).sum()
+    wanted = len(mesh.positions) * bits / 8
+    assert shaper.character.entropy(step) == pytest.approx(wanted)
+    assert shaper.character.entropy_of(bends) == pytest.approx(wanted)
+
+
+def test_twice_as_fine_a_grid_takes_three_bits_more_of_a_rough_mesh() -> None:
+    mesh = torus(40, 30)
+    noise = np.random.default_rng(0).normal(size=mesh.positions.shape)
+    character = character_of(TriangleMesh(mesh.positions + 0.02 * noise, mesh.faces))
+    for step in (1e-2, 1e-3, 1e-4):
+        more = character.entropy(step / 2) - character.entropy(step)
+        assert 8 * more / len(mesh.positions) == pytest.approx(3.0, abs=0.3)
+
+
+def test_a_step_bends_as_much_as_it_should() -> None:
+    mesh = torus(60, 40)
+    character = character_of(mesh)
+    for angle in (1.0, 4.0, 10.0):
+        step = character.step_of(angle, 1.0)
+        places = np.floor((mesh.positions - mesh.positions.min(axis=0)) / step + 0.5) * step
+        assert Original(mesh.positions, mesh.faces).angle(places) == pytest.approx(angle, rel=0.15)
+
+
+def test_kinds_of_surfaces_are_told_apart() -> None:
+    assert character_of(box(64, 20)).is_model
+    assert not character_of(torus(60, 40)).is_sharp
+    assert not character_of(curved(patch(40, 40))).is_model
+
+
+@pytest.mark.parametrize("preset", ["small", "balanced", "fine", "near-lossless"])
+def test_the_grid_that_a_model_was_made_on_is_found(preset: str) -> None:
+    mesh = box(255, 24)
+    draft = Encoder(mesh, PRESETS[preset]).draft()
+    assert draft.header.grid
+    assert draft.size <= 1.2 * len(encode(mesh, EncodeOptions(grid=8)))
+
+
+@pytest.mark.real
+def test_it_is_found_however_much_coarser_a_grid_would_do(meshes: Path) -> None:
+    mesh = read_mesh(str(meshes / "static" / "twelve_dodecahedron.ply")).mesh
+    sizes = [len(encode(mesh, PRESETS[preset])) for preset in ("balanced", "fine", "lossless")]
+    assert sizes[0] <= 1.01 * sizes[1] < sizes[2]
+
+
+@pytest.mark.parametrize("gap", [0.01, 0.001])
+def test_what_locks_borders_makes_no_stream_smaller(gap: float) -> None:
+    mesh = curved(patch(40, 40))
+    plain, locked = (encode(mesh, encode_options(**more)) for more in ({}, {"lock_borders": gap}))
+    assert len(plain) <= 1.01 * len(locked)
+
+
+def test_a_small_model_counts_its_cells_from_the_origin() -> None:
+    corners = np.array([(x, y, z) for x in (-1.0, 1.0) for y in (-1.0, 1.0) for z in (-1.0, 1.0)])
+    sides = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
+    faces = [face for a, b, c, d in sides for face in ((a, b, c), (a, c, d))]
+    encoder = Encoder(TriangleMesh(corners, faces))
+    data = encoder.encode()
+    assert encoder.draft().header.corner == (-1, -1, -1)
+    assert np.array_equal(decode(data).positions, encoder.mesh.positions)
+    assert len(data) <= 55
