@@ -18,9 +18,9 @@ from codec.basis.cost import factor_cost, iteration_memory, solve_cost
 from codec.basis.laplacian import Laplacian
 from codec.geometry.graph import Graph
 
-BLOCK = 1.85e5
+BLOCK = 1.45e5
 """Of a block, whatever its size."""
-ROW, LOOK, LEVEL = 650.0, 25.0, 90.0
+ROW, LOOK, LEVEL = 600.0, 25.0, 90.0
 """Of a row of a block, of an edge that one has in the mesh, and of a coded level."""
 COPY_MEMORY = 4
 """Bytes for each row of all blocks."""
