@@ -83,12 +83,12 @@ def block_memory(laplacian: Laplacian, columns: int) -> int:
 
 
 def field_cost(vertices: int, faces: int, axes: int) -> float:
-    """Of a grid or an attribute, with so many values for each vertex, before its bytes are counted."""
+    """Of a grid, with so many values for each vertex, before its bytes are counted."""
     return vertices * (600.0 + 350.0 * axes) + 150.0 * faces
 
 
 def layer_cost(vertices: int, faces: int, axes: int) -> float:
-    """Of a layer of refinement, before its bytes are counted."""
+    """Of a layer of refinement or an attribute, before its bytes are counted."""
     return vertices * (400.0 + 230.0 * axes) + 100.0 * faces
 
 
