@@ -14,7 +14,7 @@ from codec.basis.solver.fronts import Fronts
 
 ONCE = 5.0
 """Of each number of a dictionary, however often it is iterated."""
-CARE = 1.2
+CARE = 1.1
 """Orthonormalisations that one takes where columns are close to dependent."""
 
 Spend: TypeAlias = Callable[[float], None]

@@ -18,9 +18,9 @@ from codec.basis.cost import factor_cost, iteration_memory, solve_cost
 from codec.basis.laplacian import Laplacian
 from codec.geometry.graph import Graph
 
-BLOCK = 1.85e5
+BLOCK = 1.45e5
 """Of a block, whatever its size."""
-ROW, LOOK, LEVEL = 650.0, 25.0, 90.0
+ROW, LOOK, LEVEL = 600.0, 25.0, 90.0
 """Of a row of a block, of an edge that one has in the mesh, and of a coded level."""
 COPY_MEMORY = 4
 """Bytes for each row of all blocks."""
@@ -83,12 +83,12 @@ def block_memory(laplacian: Laplacian, columns: int) -> int:
 
 
 def field_cost(vertices: int, faces: int, axes: int) -> float:
-    """Of a grid or an attribute, with so many values for each vertex, before its bytes are counted."""
+    """Of a grid, with so many values for each vertex, before its bytes are counted."""
     return vertices * (600.0 + 350.0 * axes) + 150.0 * faces
 
 
 def layer_cost(vertices: int, faces: int, axes: int) -> float:
-    """Of a layer of refinement, before its bytes are counted."""
+    """Of a layer of refinement or an attribute, before its bytes are counted."""
     return vertices * (400.0 + 230.0 * axes) + 100.0 * faces
 
 

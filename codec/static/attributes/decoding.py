@@ -39,7 +39,7 @@ from codec.static.work import (
     Allowance,
     chunk_cost,
     coding_memory,
-    field_cost,
+    layer_cost,
     recomputing_memory,
     values_cost,
     values_memory,
@@ -169,7 +169,7 @@ class Valued:
         coding = coding_memory(self._rows, faces, self.declaration.components)
         if self._coder is None:
             allowance.keep(coding)
-            allowance.spend(field_cost(self._rows, faces, self.declaration.components))
+            allowance.spend(layer_cost(self._rows, faces, self.declaration.components))
             self._coder = PieceDecoder(self.declaration, self._surface, relief, allowance.limits)
         allowance.keep(0.0, len(packet.data))
         allowance.spend(chunk_cost(len(packet.data)), len(packet.data))

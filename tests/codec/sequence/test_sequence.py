@@ -21,9 +21,10 @@ from bitstream.errors import (
     TargetError,
     UnsupportedError,
 )
-from bitstream.limits import Limits
+from bitstream.limits import NAMED_LIMITS, Limits
 from codec.geometry.metrics import kg_error
 from codec.sequence.decoder import FrameEvent, SequenceDecoder, decode_sequence
+from codec.sequence.dictionaries import Site
 from codec.sequence.encoder import SequenceEncoder, encode_sequence
 from codec.sequence.options import SequenceOptions
 from codec.sequence.targets import SequenceTarget, compare_sequences
@@ -387,6 +388,71 @@ def test_limits():
     for limits in (Limits(gop_frames=7), Limits(frames=11), Limits(sequence_bytes=1e5), Limits(vertices=100)):
         with pytest.raises(LimitError):
             decode_sequence(data, limits)
+
+
+def made(monkeypatch):
+    """How many dictionaries are made, from now on."""
+    count, real = [], Site.furnished
+    monkeypatch.setattr(Site, "furnished", lambda site, *rest: (count.append(1), real(site, *rest))[1])
+    return count
+
+
+@pytest.mark.parametrize("way", WAYS)
+@pytest.mark.parametrize("threads", [1, 3])
+def test_dictionaries_without_room_are_made_for_every_gop(monkeypatch, way, threads):
+    data, _ = encoded(*bending(16, 60, 32), **way)
+    count = made(monkeypatch)
+    ample, _ = decode_sequence(data, threads=threads)
+    parts = len(count)
+    scarce = least_memory(data)
+    count.clear()
+    np.testing.assert_array_equal(decode_sequence(data, scarce, threads)[0], ample)
+    assert len(count) > parts > 3
+
+
+def memory_of(size):
+    return Limits(memory=size, memory_per_vertex=0, memory_per_byte=0)
+
+
+def least_memory(data):
+    """Limits of so little memory that hardly anything is kept, but the stream is decoded."""
+    for size in range(4_000_000, 10_000_000, 50_000):
+        try:
+            decode_sequence(data, memory_of(size))
+        except LimitError as error:
+            assert "memory" in str(error)
+        else:
+            return memory_of(size)
+    raise AssertionError("everything is refused")
+
+
+def test_gops_end_earlier_where_decoders_lack_the_memory(monkeypatch):
+    positions, faces = bending(32, 60, 32)
+    short, _ = encoded(positions, faces, gop=8, step=1e-5, transform="cosine")
+    granted = least_memory(short)
+    monkeypatch.setitem(NAMED_LIMITS, "default", lambda: granted)
+    data, wanted = encoded(positions, faces, gop=32, step=1e-5, transform="cosine")
+    assert 1 < len(gop_spans(data)) < 32
+    decoded, _ = decode_sequence(data, granted)
+    np.testing.assert_allclose(decoded, wanted, atol=1e-3)
+    monkeypatch.setitem(NAMED_LIMITS, "default", lambda: memory_of(granted.memory - 3e6))
+    with pytest.raises(OptionError, match="memory"):
+        encoded(positions, faces, gop=32)
+
+
+def test_frames_that_are_shown_grant_work():
+    data, _ = encoded(*bending(16), gop=16)
+    with SequenceDecoder(Limits(work_per_byte=0)) as decoder:
+        decoder.receive_data(data)
+        decoder.receive_eof()
+        while decoder.next_event() is not END_OF_STREAM:
+            pass
+        work = decoder.work
+    per_vertex = 0.3 * work / (480 * 17)
+    granted = Limits(work=0.71 * work, work_per_vertex=per_vertex, work_per_byte=0)
+    assert len(decode_sequence(data, granted)[0]) == 16
+    with pytest.raises(LimitError, match="work"):
+        decode_sequence(data, Limits(work=0.71 * work, work_per_vertex=per_vertex / 2, work_per_byte=0))
 
 
 @pytest.mark.parametrize("way", WAYS)
