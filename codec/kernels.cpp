@@ -67,6 +67,7 @@ NB_MODULE(_kernels, m) {
           Unlocked());
     m.def("refine_partition", &refine_partition, "offsets"_a, "neighbours"_a, "labels"_a, "passes"_a, "sizes"_a,
           "votes"_a, Unlocked());
+    m.def("label_parts", checked<&label_parts>, "order"_a, "bounds"_a, "labels"_a, Unlocked());
     m.def("group_by_label", &group_by_label, "labels"_a, "bounds"_a, "order"_a, Unlocked());
     m.def("chain_blocks", checked<&chain_blocks>, "offsets"_a, "neighbours"_a, "order"_a, "bounds"_a, "labels"_a,
           "size"_a, "links"_a, "shares"_a, "scratch"_a, "seen"_a, "chain"_a, "starts"_a, "edges"_a, "members"_a,

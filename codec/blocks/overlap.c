@@ -1,6 +1,7 @@
 /* Overlapping blocks in a chain, and the graph of one of them in row order (specification, M 5 and M 6). */
 #include "codec/blocks/overlap.h"
 #include "codec/blocks/bisection.h"
+#include "codec/geometry/graph.h"
 #include "codec/geometry/sort.h"
 
 static const uint32_t FREE = 0xFFFFFFFFu;
@@ -182,7 +183,7 @@ int64_t chain_blocks(ConstInts offsets, ConstInts neighbours, ConstInts order, C
                      int64_t size, Ints links, Longs shares, Longs scratch, Ints seen, Ints chain, Longs starts,
                      Longs edges, Ints members) {
     int64_t n = offsets.size - 1, parts = bounds.size - 1;
-    if (n < 0 || parts < 1 || order.size != n || labels.size != n || seen.size != n || scratch.size < 7 * parts ||
+    if (!fits_graph(offsets, neighbours) || parts < 1 || order.size != n || labels.size != n || seen.size != n || scratch.size < 7 * parts ||
         chain.size != parts || starts.size != parts + 1 || edges.size != parts)
         return MISUSED;
     int64_t *room = scratch.data;

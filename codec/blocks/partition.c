@@ -38,6 +38,15 @@ void refine_partition(ConstInts offsets, ConstInts neighbours, Ints labels, int6
     }
 }
 
+/* The part of each vertex, where part p is `order[bounds[p]:bounds[p + 1]]`. */
+int64_t label_parts(ConstInts order, ConstInts bounds, Ints labels) {
+    int64_t parts = bounds.size - 1;
+    if (parts < 0 || bounds.data[0] < 0 || bounds.data[parts] > order.size || labels.size != order.size) return MISUSED;
+    for (int64_t p = 0; p < parts; p++)
+        for (int64_t i = bounds.data[p]; i < bounds.data[p + 1]; i++) labels.data[order.data[i]] = (int32_t)p;
+    return 0;
+}
+
 /* Vertices label after label, ascending within each; labels are below `bounds.size - 1`. */
 void group_by_label(ConstInts labels, Ints bounds, Ints order) {
     int64_t parts = bounds.size - 1;

@@ -56,7 +56,7 @@ def derive_partition(graph: Graph, parts: int, threads: int | None = 1) -> Parti
     """
     order, bounds = bisect(graph, parts, threads)
     labels = np.empty(graph.size, np.int32)
-    labels[order] = np.repeat(np.arange(parts, dtype=np.int32), np.diff(bounds))
+    _kernels.label_parts(order, bounds, labels)
     sizes, votes = np.empty(parts, np.int64), np.empty(parts, np.int32)
     _kernels.refine_partition(graph.offsets, graph.neighbours, labels, REFINEMENT_PASSES, sizes, votes)
     return _grouped(labels)

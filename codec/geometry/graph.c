@@ -74,7 +74,7 @@ int64_t component_sizes(ConstInts offsets, ConstInts neighbours, Bytes seen, Int
 /* Whether there is a way from vertex 0 to all others; `scratch` has two entries a vertex, and one more. */
 int64_t reaches_all(ConstInts offsets, ConstInts neighbours, Ints scratch) {
     int64_t n = offsets.size - 1, tail = 1;
-    if (n < 0 || scratch.size < 2 * n + 1) return MISUSED;
+    if (!fits_graph(offsets, neighbours) || scratch.size < 2 * n + 1) return MISUSED;
     int32_t *unseen = scratch.data, *waiting = scratch.data + n;
     for (int64_t v = 0; v < n; v++) unseen[v] = v > 0;
     waiting[0] = 0;

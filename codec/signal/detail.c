@@ -55,7 +55,8 @@ int64_t raise_block(ConstInts2 faces, ConstLongs starts, ConstInts members, Cons
                     double softness, double least_length, ConstDoubles2 subspace, ConstInts2 levels, int64_t count,
                     double half_step, Doubles scratch, Doubles2 positions) {
     int64_t n = vertices.size;
-    if (subspace.rows != n || positions.rows != n || positions.columns != 3 || count < 0 || count > subspace.columns ||
+    if (starts.size != place.size + 1 || members.size < starts.data[place.size] || subspace.rows != n ||
+        positions.rows != n || positions.columns != 3 || count < 0 || count > subspace.columns ||
         count > levels.rows * levels.columns || scratch.size < 4 * n + count)
         return MISUSED;
     Doubles2 normals = {scratch.data, n, 3}, height = {scratch.data + 3 * n, n, 1};

@@ -2,6 +2,8 @@
  * continues the known (M 7.4), sums in the order of rows. */
 #include "codec/signal/predict.h"
 
+#include "codec/geometry/graph.h"
+
 static void hang(Doubles springs, Doubles2 pulls, int64_t row, double stiffness, const double *sum, double weight) {
     springs.data[row] += stiffness;
     for (int d = 0; d < 3; d++) pulls.data[3 * row + d] += stiffness * (sum[d] / weight);
@@ -53,8 +55,9 @@ int64_t suspend(ConstInts offsets, ConstInts neighbours, ConstDoubles weights, C
                 ConstDoubles springs, ConstDoubles2 pulls, double shift, Doubles scratch, Doubles values, Doubles inverse,
                 Doubles2 continued) {
     int64_t n = springs.size, m = pulls.columns;
-    if (n < 1 || diagonal.size != n || pulls.rows != n || continued.rows != n || continued.columns != m ||
-        inverse.size != n || scratch.size < 2 * n + 1 + m + (n + 4) * (m + 8) + 7)
+    if (!fits_graph(offsets, neighbours) || offsets.size != n + 1 || diagonal.size != n || pulls.rows != n ||
+        continued.rows != n || continued.columns != m || !fits_factor(&fronts, n, values, inverse) ||
+        (weights.size > 0 && weights.size < offsets.data[n]) || scratch.size < 2 * n + 1 + m + (n + 4) * (m + 8) + 7)
         return MISUSED;
     double *sums = scratch.data, total = 0.0;
     for (int64_t r = 0; r < n; r++) {

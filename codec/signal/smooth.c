@@ -1,6 +1,8 @@
 /* A polynomial of K = I - D^-1 A on positions (specification, M 12.2): sums over neighbours in ascending order. */
 #include "codec/signal/smooth.h"
 
+#include "codec/geometry/graph.h"
+
 /* A position, and the number behind it. */
 typedef double Four __attribute__((vector_size(32)));
 typedef double UnalignedFour __attribute__((vector_size(32), aligned(8), may_alias));
@@ -41,7 +43,7 @@ KERNEL void combine_powers(ConstDoubles2 positions, ConstDoubles terms, ConstDou
 KERNEL int64_t smooth_all(ConstInts offsets, ConstInts neighbours, ConstDoubles2 positions, ConstDoubles weights,
                           Doubles scratch, Doubles2 smoothed) {
     int64_t n = offsets.size - 1;
-    if (n < 0 || positions.rows != n || positions.columns != 3 || smoothed.rows != n || smoothed.columns != 3 ||
+    if (!fits_graph(offsets, neighbours) || positions.rows != n || positions.columns != 3 || smoothed.rows != n || smoothed.columns != 3 ||
         scratch.size < 6 * n + 2)
         return MISUSED;
     double *values = scratch.data, *result = scratch.data + 3 * n + 1;

@@ -211,14 +211,15 @@ class Allowance:
         LimitError
             If there will never be room.
         """
-        with self._change:
+        with self._lock:
             self._limits.check_memory(self._kept + memory, self._vertices, self._received)
-            self._change.wait_for(lambda: self._held == 0.0 or self._has_room(memory))
+            if self._held > 0.0:
+                self._change.wait_for(lambda: self._held == 0.0 or self._has_room(memory))
             self._held += memory
         try:
             yield
         finally:
-            with self._change:
+            with self._lock:
                 self._held -= memory
                 self._change.notify_all()
 

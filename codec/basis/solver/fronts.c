@@ -3,6 +3,7 @@
  * A. George, "Nested dissection of a regular finite element mesh", 1973; fronts.py says what a front is.
  */
 #include "codec/basis/solver/front.h"
+#include "codec/geometry/graph.h"
 #include "codec/geometry/sort.h"
 
 #define NONE UINT32_MAX
@@ -117,7 +118,7 @@ int64_t find_borders(ConstInts offsets, ConstInts neighbours, ConstWords rows, C
 int64_t find_fronts(ConstInts offsets, ConstInts neighbours, int64_t leaf, double most_work, Words scratch, Words rows,
                     Words steps, Words owners, Words firsts, Words starts, Words borders, Words places, Doubles sums) {
     int64_t n = offsets.size - 1;
-    if (n < 0 || scratch.size < 3 * n || rows.size != n || steps.size != n || owners.size != n || firsts.size != n + 1 ||
+    if (!fits_graph(offsets, neighbours) || scratch.size < 3 * n || rows.size != n || steps.size != n || owners.size != n || firsts.size != n + 1 ||
         starts.size != n + 1 || places.size != n + 1 || sums.size != 2)
         return MISUSED;
     int64_t count = dissect(offsets, neighbours, leaf, (Ints){(int32_t *)scratch.data, n}, rows, firsts);

@@ -10,6 +10,15 @@ typedef struct {
     ConstDoubles sums;
 } Fronts;
 
+/* Whether there is room for a factor of these fronts of n rows. */
+INLINE bool fits_factor(const Fronts *fronts, int64_t n, Doubles values, Doubles inverse) {
+    int64_t count = fronts->firsts.size - 1;
+    return n > 0 && fronts->sums.size == 2 && fronts->rows.size == n && fronts->steps.size == n && fronts->owners.size == n && count > 0 &&
+           fronts->starts.size == count + 1 && fronts->places.size == count + 1 &&
+           fronts->borders.size >= fronts->starts.data[count] && inverse.size == n &&
+           values.size >= (int64_t)fronts->places.data[count] + 7;
+}
+
 int64_t dissect(ConstInts offsets, ConstInts neighbours, int64_t leaf, Ints cuts, Words rows, Words firsts);
 int64_t find_borders(ConstInts offsets, ConstInts neighbours, ConstWords rows, ConstWords firsts, double most_work,
                      Words scratch, Words steps, Words owners, Words starts, Words borders, Words places);
