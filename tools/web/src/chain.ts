@@ -1,5 +1,5 @@
 /** One chain of blocks: what its blocks know of those before them (specification, M 7 to M 11). */
-import { degreesOf, EXACT_ITERATIONS, EXACT_POWER, exactBasis, firstColumns, followColumns, orthogonalIteration, reconstruct, roundingCost, solutionCost, solveColumns, whole, type Matrix } from "./basis";
+import { degreesOf, EXACT_ITERATIONS, EXACT_POWER, exactBasis, firstColumns, followColumns, orthogonalIteration, reconstruct, roundingCost, solutionCost, solveColumns, whole } from "./basis";
 import { makeBlock, membersOf, type Block, type Blocks } from "./blocks";
 import { CoefficientModel, unpackLevels } from "./coefficients";
 import { Coder } from "./entropy";
@@ -7,6 +7,7 @@ import { CorruptError, NumericError } from "./errors";
 import type { Header } from "./header";
 import type { Bytes, Doubles, Ints, Longs, Memory } from "./kernels";
 import { checkLimit, type Limits } from "./limits";
+import { areFinite } from "./numbers";
 
 export const TETHER = 2 ** -16;
 const SOFTNESS = 2 ** -10;
@@ -43,7 +44,7 @@ export function spendOn(allowance: Allowance, header: Header, block: Block, colu
 }
 
 /** U of a block that follows none (M 8.3 to M 8.5). */
-export function keyDictionary(memory: Memory, header: Header, block: Block, springs: Float64Array, width: number, allowance: Allowance): Matrix {
+export function keyDictionary(memory: Memory, header: Header, block: Block, springs: Float64Array, width: number, allowance: Allowance): Doubles {
     if (isExact(header, false)) return exactBasis(memory, block, springs, width, allowance);
     const start = firstColumns(memory, block, width, false);
     const shift = springs.map((spring) => spring + header.shift);
@@ -120,7 +121,9 @@ export class ChainDecoder {
     private readonly details?: CoefficientModel;
     private readonly known?: Blend;
     private readonly inside?: Bytes;
-    private subspace?: Matrix;
+    private readonly behind: number;
+    /** The dictionary of the block before, behind what the chain has learnt. */
+    private subspace?: Doubles;
 
     constructor(
         private readonly memory: Memory,
@@ -136,11 +139,13 @@ export class ChainDecoder {
             this.inside = memory.bytes(blocks.graph.size);
             this.inside.view.fill(0);
         }
+        this.behind = memory.mark();
     }
 
     /** Decode the chain's next block. */
     decode(index: number, width: number, payload: Uint8Array): DecodedBlock {
-        return this.memory.scratch(() => {
+        let decoded!: DecodedBlock;
+        this.subspace = this.memory.keep(() => {
             const { header, memory } = this;
             const block = makeBlock(memory, this.blocks.graph, membersOf(this.blocks, index));
             const { points, details } = this.readPoints(payload, width, block);
@@ -150,16 +155,16 @@ export class ChainDecoder {
             const subspace = this.dictionary(block, springs, columns);
             const coefficients = points.map((point) => (point * header.step) / 2);
             const positions = reconstruct(memory, subspace, coefficients, 3);
-            extend(memory, block, springs, pulls, this.header.shift).forEach((value, i) => (positions[i] += value));
+            extend(memory, block, springs, pulls, this.header.shift, positions);
             if (details.length > 0) this.displace(block, positions, subspace, details);
-            if (!positions.every(Number.isFinite)) throw new NumericError("the coefficients reconstruct to positions that are not finite");
+            if (!areFinite(positions)) throw new NumericError("the coefficients reconstruct to positions that are not finite");
             const vertices = block.vertices.view.slice();
             const degrees = degreesOf(block).map((degree) => Math.max(degree, 1));
-            const decoded = { index, vertices, positions, weights: this.copyWeights(index, vertices, degrees) };
-            this.subspace = subspace;
+            decoded = { index, vertices, positions, weights: this.copyWeights(index, vertices, degrees) };
             this.known?.add(decoded, degrees);
-            return decoded;
-        });
+            return subspace;
+        }, this.behind);
+        return decoded;
     }
 
     /** Coefficients of x, y and z, and of the detail layer, in half steps. */
@@ -193,12 +198,12 @@ export class ChainDecoder {
     }
 
     /** The dictionary that a block starts from, if it follows another. */
-    private predecessor(block: Block): Matrix | undefined {
+    private predecessor(block: Block): Doubles | undefined {
         return this.header.seeding === 0 && this.subspace?.rows === block.size ? this.subspace : undefined;
     }
 
     /** U of a block (M 8.3 to M 8.5). */
-    private dictionary(block: Block, springs: Float64Array, width: number): Matrix {
+    private dictionary(block: Block, springs: Float64Array, width: number): Doubles {
         const { header, memory } = this;
         const previous = this.predecessor(block);
         if (header.basis === 1 || !previous) return keyDictionary(memory, header, block, springs, width, this.allowance);
@@ -207,7 +212,7 @@ export class ChainDecoder {
     }
 
     /** Move rows along their normals (M 11.3, M 11.4). */
-    private displace(block: Block, positions: Float64Array, subspace: Matrix, details: Float64Array): void {
+    private displace(block: Block, positions: Float64Array, subspace: Doubles, details: Float64Array): void {
         const { memory, surface, header } = this;
         const heights = reconstruct(memory, subspace, details.map((point) => (point * header.detailStep) / 2), 1);
         memory.scratch(() => {
@@ -215,7 +220,8 @@ export class ChainDecoder {
             const normals = memory.doubles(positions.length, 3);
             const given = memory.copy(positions, 3);
             memory.run("block_normals", faces, starts, members, block.vertices, place, given, SOFTNESS, LEAST_NORMAL, normals);
-            normals.view.forEach((normal, i) => (positions[i] += normal * heights[Math.floor(i / 3)]));
+            const { view } = normals;
+            for (let i = 0; i < view.length; i++) positions[i] += view[i] * heights[Math.floor(i / 3)];
         });
     }
 
@@ -229,13 +235,13 @@ export class ChainDecoder {
     }
 }
 
-/** Positions that continue what is known (M 7.4). */
-function extend(memory: Memory, block: Block, springs: Float64Array, pulls: Float64Array, delta: number): Float64Array {
+/** Add to positions what continues those that are known (M 7.4). */
+function extend(memory: Memory, block: Block, springs: Float64Array, pulls: Float64Array, delta: number, positions: Float64Array): void {
     const total = springs.reduce((sum, spring) => sum + spring, 0);
-    if (total === 0) return new Float64Array(pulls.length);
+    if (total === 0) return;
     const mean = [0, 0, 0];
-    pulls.forEach((pull, i) => (mean[i % 3] += pull / total));
+    for (let i = 0; i < pulls.length; i++) mean[i % 3] += pulls[i] / total;
     const loads = pulls.map((pull, i) => pull - springs[Math.floor(i / 3)] * mean[i % 3]);
-    const shift = springs.map((spring) => spring + delta);
-    return solveColumns(memory, block, shift, loads, 3).map((value, i) => value + mean[i % 3]);
+    const rest = solveColumns(memory, block, springs.map((spring) => spring + delta), loads, 3);
+    for (let i = 0; i < rest.length; i++) positions[i] += rest[i] + mean[i % 3];
 }

@@ -1,5 +1,5 @@
 /** Frames of a sequence, which follow the blocks of its first frame (specification, sequence.md). */
-import { factorize, reconstruct, solve, cosineColumns, type Factor, type Matrix } from "./basis";
+import { factorize, reconstruct, solve, cosineColumns, type Factor } from "./basis";
 import { makeBlock, type Block, type Blocks } from "./blocks";
 import { keyDictionary, spendOn, TETHER, type Allowance } from "./chain";
 import { Coder, makeBank, unsignedSpan, type Bank } from "./entropy";
@@ -54,7 +54,7 @@ interface Part {
     outer: Ints;
     stiffness: Doubles;
     factor: Factor;
-    basis: Matrix;
+    basis: Doubles;
 }
 
 /** What low-delay frames refer to, part by part (S 7.2). */
@@ -166,7 +166,7 @@ export class Sequence {
         spendOn(allowance, header, block, columns, false);
         const factor = factorize(memory, block, springs.map((spring) => spring + TETHER));
         const total = springs.reduce((sum, spring) => sum + spring, 0);
-        const basis = keyDictionary(memory, header, block, springs, columns, allowance);
+        const basis = memory.keep(() => keyDictionary(memory, header, block, springs, columns, allowance));
         return { block, springs, total, starts, outer, stiffness, factor, basis };
     }
 
@@ -197,9 +197,8 @@ export class Sequence {
             for (let i = 0; i < width; i++) rest[row * width + i] = values[vertex * width + i] - rest[row * width + i];
         });
         return memory.scratch(() => {
-            const { values, columns } = part.basis;
-            const coefficients = memory.doubles(columns * width, width);
-            memory.run("project", memory.copy(values, columns), memory.copy(rest, width), coefficients);
+            const coefficients = memory.doubles(part.basis.columns! * width, width);
+            memory.run("project", part.basis, memory.copy(rest, width), coefficients);
             return coefficients.view.slice();
         });
     }
@@ -279,7 +278,7 @@ export class Sequence {
         this.startModel();
         const basis = gop.method === LEARNT ? this.learntBasis(gop) : cosineBasis(memory, gop);
         this.startModel();
-        const levels = this.readLevels(gop.levels, parts.map((part) => part.basis.columns), columns);
+        const levels = this.readLevels(gop.levels, parts.map((part) => part.basis.columns!), columns);
         if (columns === 0) return Array.from({ length: gop.frames }, () => () => new Float64Array(3 * this.header.vertices));
         const field = this.emptyField(columns);
         parts.forEach((part, k) => {
@@ -325,7 +324,7 @@ export class Sequence {
         const { history } = this;
         if (!history) throw new CorruptError("a frame refers to one that is not there");
         memory.release(this.behindBank);
-        const levels = this.readLevels(gop.levels, parts.map((part) => part.basis.columns), 3, history.levels);
+        const levels = this.readLevels(gop.levels, parts.map((part) => part.basis.columns!), 3, history.levels);
         const field = this.emptyField(3);
         const latest = parts.map((part, k) => {
             const [start, now, before] = [first[k], history.latest[k], history.before[k]];
@@ -357,15 +356,16 @@ function emptyMoments(known: number, columns: number): Float64Array {
 }
 
 /** The orthonormal cosines over time, a row for each frame (S 5.1). */
-function temporalCosines(memory: Memory, frames: number): Matrix {
+function temporalCosines(memory: Memory, frames: number): Doubles {
     const cosines = cosineColumns(memory, frames, 0, frames);
-    const values = cosines.values.map((value, i) => value * Math.sqrt((i % frames ? 2 : 1) / frames));
-    return { ...cosines, values };
+    const { view } = cosines;
+    for (let i = 0; i < view.length; i++) view[i] *= Math.sqrt((i % frames ? 2 : 1) / frames);
+    return cosines;
 }
 
 /** B of method 1, 3 T rows (S 5.1). */
 function cosineBasis(memory: Memory, { frames, components }: Gop): Float64Array {
-    const { values } = temporalCosines(memory, frames);
+    const values = temporalCosines(memory, frames).view;
     const basis = new Float64Array(3 * frames * components);
     for (let i = 0; i < components; i++) {
         const [f, d] = [Math.floor(i / 3), i % 3];
