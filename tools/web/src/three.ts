@@ -1,11 +1,9 @@
 /** BSM streams in three.js: a geometry that fills while the bytes arrive, and a loader. */
 import { BufferAttribute, BufferGeometry, Loader, type LoadingManager } from "three";
-import type { Attribute } from "./attributes";
-import type { BlockEvent, ConnectivityEvent, Event, LossEvent, RefinementEvent } from "./decoder";
-import type { Header } from "./header";
-import type { Kernels } from "./kernels";
-import { checkLimit, DEFAULT_LIMITS, type Limits } from "./limits";
-import { DecoderThread, type DrawnEvent } from "./thread";
+import {
+    checkLimit, DecoderThread, DEFAULT_LIMITS, type Attribute, type BlockEvent, type ConnectivityEvent, type DrawnEvent, type Event, type Header,
+    type Kernels, type Limits, type LossEvent, type RefinementEvent,
+} from "./index";
 
 /** What happens to a geometry while it is filled. */
 export interface Progress {

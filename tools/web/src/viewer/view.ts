@@ -1,10 +1,6 @@
 /** A stream as it arrives, cut at any byte, over a link of any speed; sequences play. */
 import { BufferAttribute } from "three";
-import type { LossEvent } from "../decoder";
-import { errorLike } from "../errors";
-import type { Header } from "../header";
-import type { Kernels } from "../kernels";
-import { DecoderThread } from "../thread";
+import { DecoderThread, errorLike, type Header, type Kernels, type LossEvent } from "../index";
 import { BSMGeometry } from "../three";
 import { coloursOf, errorsOf, LEGENDS, type Errors, type Scheme } from "./colours";
 import { Playback } from "./playback";
