@@ -10,11 +10,14 @@ const SOURCES = join(WEB, "src");
 const OPTIONS = { bundle: true, minify: true, format: "esm", target: "es2022", charset: "utf8", loader: { ".wasm": "binary", ".html": "text" }, legalComments: "none", logLevel: "warning", write: false };
 const BUNDLED = ["three", "fzstd"];
 
-/** Leaves out what most meshes can do without: sequences, attributes, split vertices, damage, packed coefficients. */
+/**
+ * Leaves out what most meshes can do without: sequences, attributes, split vertices, damage, packed coefficients, and
+ * decoding while the page does something else.
+ */
 const SMALL = {
     name: "small",
     setup({ onResolve }) {
-        onResolve({ filter: /^\.\/(sequence|attributes|declaration|splits|tolerant|zstd)$/ }, () => ({ path: join(SOURCES, "absent.ts") }));
+        onResolve({ filter: /^\.\/(sequence|attributes|declaration|splits|station|tolerant|zstd)$/ }, () => ({ path: join(SOURCES, "absent.ts") }));
     },
 };
 

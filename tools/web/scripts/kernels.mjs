@@ -70,15 +70,19 @@ const KERNELS = [
     "expect_normals", "code_scalars", "code_texcoords", "code_normals", "code_faces", "cotangents", "hold", "pull", "follow_rows",
 ];
 
+const TARGET = "--target=wasm32";
 const FLAGS = [
-    "--target=wasm32", "-DBSM_DECODER", "-std=gnu11", "-ffreestanding", "-fno-builtin", "-ffp-contract=off", "-ffunction-sections",
-    "-fdata-sections", "-fvisibility=hidden", "-Wno-unknown-pragmas", "-nostdlib",
+    TARGET, "-DBSM_DECODER", "-std=gnu11", "-ffreestanding", "-fno-builtin", "-ffp-contract=off", "-ffunction-sections",
+    "-fdata-sections", "-fvisibility=hidden", "-Wno-unknown-pragmas",
 ];
 
 const LINK = [
     "-Wl,--no-entry", "-Wl,--gc-sections", "-Wl,--strip-all", "-Wl,--export=__heap_base", "-Wl,--export=PRIORS",
     "-Wl,-z,stack-size=262144", "-Wl,--stack-first", "-Wl,--max-memory=4294967296",
 ];
+
+/** Sources whose functions are copied to where they are called only if that makes them smaller: they are not the slow ones. */
+const LEAN = /connectivity|attributes|grid\.c/;
 
 /** Kernels of sequences and attributes. */
 const LEFT_OUT = [
@@ -143,12 +147,17 @@ export function compileKernels({ vectors, small }) {
         writeFileSync(data, [UNPACK, ...tables, `void make_tables(void) { ${unpackers.map((name) => `${name}();`).join(" ")} }`,
             `const unsigned char PRIORS[${priors.length}] = {${[...priors]}};`].join("\n"));
         const target = join(folder, "kernels.wasm");
-        const options = [...FLAGS, "-Oz", ...(vectors ? ["-msimd128"] : [])];
+        const clang = (...args) => execFileSync("clang", args, { cwd: ROOT, env: { ...process.env, PATH: withoutPackages() } });
+        const objects = [...SOURCES, data].map((source, i) => {
+            const object = join(folder, `${i}.o`);
+            clang(...FLAGS, "-Oz", ...(vectors ? ["-msimd128"] : []), ...(LEAN.test(source) ? ["-DBSM_LEAN"] : []), "-I", ".", "-c", source, "-o", object);
+            return object;
+        });
         const kernels = KERNELS.filter((name) => !small || !LEFT_OUT.includes(name));
-        const link = [...LINK, ...kernels.map((name) => `-Wl,--export=${name}`)];
-        execFileSync("clang", [...options, "-I", ".", ...SOURCES, data, ...link, "-o", target], { cwd: ROOT, env: { ...process.env, PATH: withoutPackages() } });
+        clang(TARGET, "-nostdlib", ...objects, ...LINK, ...kernels.map((name) => `-Wl,--export=${name}`), "-o", target);
         const features = ["--enable-bulk-memory", "--enable-sign-ext", "--enable-nontrapping-float-to-int", ...(vectors ? ["--enable-simd"] : [])];
-        execFileSync(join(WEB, "node_modules/.bin/wasm-opt"), [target, "-Oz", ...features, "-o", target]);
+        // The stack grows down to the first address, which it never reaches: so no pointer wraps where a constant is added.
+        execFileSync(join(WEB, "node_modules/.bin/wasm-opt"), [target, "-Oz", "--converge", "--low-memory-unused", ...features, "-o", target]);
         return readFileSync(target);
     } finally {
         rmSync(folder, { recursive: true });

@@ -118,10 +118,11 @@ function resized(memory: Memory, previous: Doubles, width: number): Doubles {
     const columns = previous.columns!;
     const resized = memory.doubles(rows * width, width);
     memory.scratch(() => {
-        const more = columns < width ? cosineColumns(memory, rows, columns, width).view : new Float64Array(0);
-        const [from, to] = [previous.view, resized.view];
-        for (let r = 0; r < rows; r++) {
-            for (let j = 0; j < width; j++) to[r * width + j] = j < columns ? from[r * columns + j] : more[r * (width - columns) + j - columns];
+        const cosines = columns < width ? cosineColumns(memory, rows, columns, width) : undefined;
+        const [from, more, to] = [previous.view, cosines?.view, resized.view];
+        for (let r = 0, i = 0, k = 0; r < rows; r++, i += width) {
+            for (let j = 0; j < Math.min(columns, width); j++) to[i + j] = from[r * columns + j];
+            for (let j = columns; j < width; j++) to[i + j] = more![k++];
         }
     });
     return resized;

@@ -1,11 +1,10 @@
 /** What runs in a thread: a decoder, or a helper of one. */
-import { Decoder, END_OF_STREAM, NEED_BLOCK, NEED_DATA, type Event, type FrameEvent } from "./decoder";
+import { END_OF_STREAM, NEED_DATA, type Event, type FrameEvent } from "./decoder";
 import { BsmError, type Described } from "./errors";
-import type { Header } from "./header";
 import { Helper, type Share, type SharedBlock } from "./helper";
 import { Kernels } from "./kernels";
 import type { Limits } from "./limits";
-import { helpersFor, Team } from "./team";
+import { DecodersDesk } from "./station";
 
 /** What a thread says of a stream; frames come in single precision, as they are drawn. */
 export type DrawnEvent = Exclude<Event, FrameEvent> | FrameEvent<Float32Array>;
@@ -38,9 +37,9 @@ export type Answer =
     | { taken: number }
     | { fault: string };
 
-type Say = (answer: Answer, moved?: Transferable[]) => void;
+export type Say = (answer: Answer, moved?: Transferable[]) => void;
 
-/** Takes what a thread is told. */
+/** Takes the bytes of a stream, and null for their end. */
 export interface Desk {
     take: (data: Uint8Array | null) => void;
 }
@@ -82,75 +81,6 @@ class HelpersDesk implements Desk {
             const { block } = shared;
             this.say({ shared, task }, block && [block.vertices.buffer, block.positions.buffer, block.weights.buffer]);
         }
-    }
-}
-
-class DecodersDesk implements Desk {
-    private readonly decoder: Decoder;
-    private taken = 0;
-    /** All pieces, until the header tells whether there will be helpers. */
-    private pieces?: (Uint8Array | null)[] = [];
-    private team?: Team;
-    /** Why no more blocks come. */
-    private over?: string;
-
-    constructor(
-        private readonly start: Start,
-        private readonly say: Say,
-        private readonly guarded: (work: () => void) => void,
-    ) {
-        const { kernels, limits, tolerant } = start;
-        this.decoder = new Decoder(new Kernels(kernels), limits, { tolerant, helpers: (header) => this.findHelpers(header) });
-    }
-
-    take(data: Uint8Array | null): void {
-        this.pieces?.push(data);
-        this.pass(data);
-        if (data) this.decoder.receiveData(data);
-        else this.decoder.receiveEof();
-        this.taken += data?.length ?? 0;
-        this.tell();
-    }
-
-    private findHelpers(header: Header): number {
-        const pieces = this.pieces!;
-        const count = helpersFor(header, this.start.worthwhile);
-        this.pieces = undefined;
-        if (count === 0) return 0;
-        this.team = new Team(count);
-        const onBlock = (shared: SharedBlock): void =>
-            this.guarded(() => {
-                this.decoder.receiveBlock(shared);
-                this.tell();
-            });
-        const onOver = (why: string): void =>
-            this.guarded(() => {
-                this.over = why;
-                this.tell();
-            });
-        const found = this.team.begin(this.start, count, { onBlock, onOver });
-        for (const piece of pieces) this.pass(piece);
-        return found;
-    }
-
-    private pass(data: Uint8Array | null): void {
-        if (data) this.team?.receiveData(data);
-        else this.team?.receiveEof();
-    }
-
-    /** Say everything that is known now. */
-    private tell(): void {
-        for (let event; (event = this.decoder.nextEvent()) !== NEED_BLOCK; ) {
-            if (event === NEED_DATA || event === END_OF_STREAM) {
-                if (event === END_OF_STREAM) this.team?.close();
-                return this.say({ taken: this.taken });
-            }
-            if (event.type === "frame") {
-                const positions = Float32Array.from(event.positions);
-                this.say({ event: { ...event, positions } }, [positions.buffer]);
-            } else this.say({ event });
-        }
-        if (this.over !== undefined) throw new Error(`a block does not come: ${this.over}`);
     }
 }
 
