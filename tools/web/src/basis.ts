@@ -36,7 +36,9 @@ export function degreesOf(block: Block): Float64Array {
 function diagonalOf(block: Block): Float64Array {
     if (!block.weights) return degreesOf(block);
     const [offsets, weights] = [block.offsets.view, block.weights.view];
-    return Float64Array.from({ length: block.size }, (_, row) => weights.subarray(offsets[row], offsets[row + 1]).reduce((a, b) => a + b, 0));
+    const sums = new Float64Array(block.size);
+    for (let row = 0; row < sums.length; row++) for (let k = offsets[row]; k < offsets[row + 1]; k++) sums[row] += weights[k];
+    return sums;
 }
 
 /** C and D^-1 of L with `shift` on its diagonal. */

@@ -7,6 +7,7 @@ import { CorruptError, NumericError, UnsupportedError, type BsmError } from "./e
 import type { Header } from "./header";
 import type { Doubles, Ints, Memory } from "./kernels";
 import { checkLimit, type Limits } from "./limits";
+import { areFinite } from "./numbers";
 import { Cursor } from "./reader";
 
 const LEARNT = 0;
@@ -140,7 +141,7 @@ export class Sequence {
         if (header.weights === 0) return weights;
         memory.run("cotangents", offsets, neighbours, faces, frame, FLATNESS, SMALLNESS, weights);
         const { view } = weights;
-        if (!view.every(Number.isFinite)) throw new NumericError("the first frame is too large for weights of its edges");
+        if (!areFinite(view)) throw new NumericError("the first frame is too large for weights of its edges");
         view.forEach((sum, i) => {
             const positive = (sum + Math.sqrt(sum * sum + BEND)) / 2;
             view[i] = SMALLEST_WEIGHT + (LARGEST_WEIGHT * positive) / (LARGEST_WEIGHT + positive);
@@ -181,9 +182,14 @@ export class Sequence {
             memory.run("pull", part.starts, part.outer, part.stiffness, field, pulls);
             const { view } = pulls;
             const mean = new Float64Array(width);
-            view.forEach((pull, i) => (mean[i % width] += pull / total));
-            view.forEach((pull, i) => (view[i] = pull - springs[Math.floor(i / width)] * mean[i % width]));
-            return solve(memory, block, part.factor, pulls).view.map((value, i) => value + mean[i % width]);
+            const eachEntry = (work: (i: number, row: number, column: number) => void): void => {
+                for (let row = 0, i = 0; row < block.size; row++) for (let column = 0; column < width; column++) work(i++, row, column);
+            };
+            eachEntry((i, _, column) => (mean[column] += view[i] / total));
+            eachEntry((i, row, column) => (view[i] -= springs[row] * mean[column]));
+            const rows = solve(memory, block, part.factor, pulls).view.slice();
+            eachEntry((i, _, column) => (rows[i] += mean[column]));
+            return rows;
         });
     }
 
@@ -207,9 +213,11 @@ export class Sequence {
     private place(part: Part, field: Doubles, difference: Float64Array): void {
         const width = field.columns!;
         const rows = this.extend(part, field);
-        reconstruct(this.memory, part.basis, difference, width).forEach((value, i) => (rows[i] += value));
-        const values = field.view;
-        part.block.vertices.view.forEach((vertex, row) => values.set(rows.subarray(row * width, (row + 1) * width), vertex * width));
+        const own = reconstruct(this.memory, part.basis, difference, width);
+        const [values, vertices] = [field.view, part.block.vertices.view];
+        for (let row = 0, i = 0; row < vertices.length; row++) {
+            for (let at = vertices[row] * width, end = at + width; at < end; at++, i++) values[at] = rows[i] + own[i];
+        }
     }
 
     /** A model that has learnt nothing (S 4.1); what lies behind the parts is given back. */
@@ -259,7 +267,7 @@ export class Sequence {
             );
             moments.set(state.view);
             const values = decoded.view.slice();
-            if (values.every(Number.isFinite)) return values;
+            if (areFinite(values)) return values;
             throw new NumericError("the levels reconstruct to coefficients that are not finite");
         });
     }
@@ -293,9 +301,12 @@ export class Sequence {
         const { memory, header } = this;
         const columns = field.columns!;
         return memory.scratch(() => {
-            const weights = Float64Array.from({ length: 3 * columns }, (_, i) => basis[((i % 3) * frames + t) * columns + Math.floor(i / 3)]);
+            const weights = memory.doubles(3 * columns, 3);
+            for (let d = 0; d < 3; d++) {
+                for (let i = 0, from = (d * frames + t) * columns; i < columns; i++) weights.view[3 * i + d] = basis[from + i];
+            }
             const positions = memory.doubles(3 * header.vertices, 3);
-            memory.run("reconstruct", field, memory.copy(weights, 3), positions);
+            memory.run("reconstruct", field, weights, positions);
             return positions.view.slice();
         });
     }
