@@ -69,28 +69,10 @@ INLINE void reconstruct_tile(const int axes, ConstDoubles2 subspace, ConstDouble
             values.data[(r + i) * values.columns + d + a] = sums[a].part[i / REGISTER][i % REGISTER];
 }
 
-/* Rows r to r + ROWS, the last one again and again beyond the end, of a vector of axes from d on. */
-INLINE void reconstruct_rows(ConstDoubles2 subspace, ConstDoubles2 coefficients, int64_t r, int64_t d, Doubles2 values) {
-    const double *rows[ROWS];
-    Vector sums[ROWS];
-    EACH(i, ROWS) {
-        rows[i] = subspace.data + least(r + i, subspace.rows - 1) * subspace.columns;
-        sums[i] = zeros();
-    }
-    for (int64_t q = 0; q < coefficients.rows; q++) {
-        Vector axes = load(coefficients.data + q * coefficients.columns + d);
-        EACH(i, ROWS) sums[i] = sum_of(sums[i], scaled(axes, rows[i][q]));
-    }
-    EACH(i, ROWS) store(values.data + least(r + i, subspace.rows - 1) * values.columns + d, sums[i]);
-}
-
 /* V = U E, for as many columns U of `subspace` as there are rows of `coefficients`. */
 void LEVEL(reconstruct)(ConstDoubles2 subspace, ConstDoubles2 coefficients, Doubles2 values) {
-    int64_t wide = values.columns / WIDTH * WIDTH;
-    for (int64_t d = 0; d < wide; d += WIDTH)
-        for (int64_t r = 0; r < subspace.rows; r += ROWS) reconstruct_rows(subspace, coefficients, r, d, values);
     for (int64_t r = 0; r < subspace.rows; r += WIDTH) {
-        int64_t d = wide;
+        int64_t d = 0;
         for (; d + 3 <= values.columns; d += 3) reconstruct_tile(3, subspace, coefficients, r, d, values);
         for (; d < values.columns; d++) reconstruct_tile(1, subspace, coefficients, r, d, values);
     }

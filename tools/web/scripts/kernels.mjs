@@ -62,10 +62,10 @@ const KERNELS = [
     "make_tables",
     "code_one_unsigned", "match_halfedges", "conquer", "code_fans", "code_degenerate", "code_steps", "code_turns",
     "code_labels", "points_of_levels", "code_rows", "code_block", "vertex_faces", "bisect", "refine_partition",
-    "group_by_label", "chain_parts", "grow_blocks", "order_scratch", "order_block", "add_copies", "collect_edges",
-    "dissect", "find_borders", "factorize_fronts", "solve_columns", "cosines", "iteration_space", "iterate",
-    "cholesky_onorm", "householder", "reconstruct", "look_around", "block_normals", "apply_powers",
-    "combine_powers", "find_rings", "filter_rows", "link_corners", "order_vertices", "keep_borders", "code_grid", "code_levels",
+    "group_by_label", "chain_blocks", "order_scratch", "order_block", "add_copies", "collect_edges",
+    "find_fronts", "suspend", "factorize_fronts", "solve_columns", "resize_columns", "iteration_space", "iterate",
+    "cholesky_onorm", "householder", "reconstruct", "look_around", "block_normals", "smooth_all",
+    "find_rings", "filter_rows", "link_corners", "order_vertices", "keep_borders", "code_grid", "code_levels",
     "local_frames", "add_levels", "code_matrix", "project", "code_edges", "join_corners",
     "expect_normals", "code_scalars", "code_texcoords", "code_normals", "code_faces", "cotangents", "hold", "pull", "follow_rows",
 ];
@@ -82,7 +82,7 @@ const LINK = [
 ];
 
 /** Sources whose functions are copied to where they are called only if that makes them smaller: they are not the slow ones. */
-const LEAN = /connectivity|attributes|grid\.c/;
+const LEAN = /connectivity|attributes|fields|codec\/blocks|fronts\.c|geometry/;
 
 /** Kernels of sequences and attributes. */
 const LEFT_OUT = [
@@ -119,6 +119,24 @@ void unpack_${name}(void) { unpack_table(PACKED_${name}, ${name}, ${length}, ${B
     });
 }
 
+/**
+ * What coefficients start from (specification, M 9.1), each of the two sets with its slots not by expectation, bin and
+ * node, but by node, bin and expectation: so they are easier to compress.
+ */
+function arrangedPriors(bytes) {
+    const words = new Uint16Array(bytes.buffer, bytes.byteOffset, bytes.length / 2);
+    const [expectations, bins, nodes] = [3, 48, 38];
+    const others = words.length / 2 - expectations * bins * nodes;
+    const arranged = [0, words.length / 2].flatMap((start) => [
+        ...words.subarray(start, start + others),
+        ...Array.from({ length: expectations * bins * nodes }, (_, i) => {
+            const [node, bin, expectation] = [Math.floor(i / expectations / bins), Math.floor(i / expectations) % bins, i % expectations];
+            return words[start + others + (expectation * bins + bin) * nodes + node];
+        }),
+    ]);
+    return [...new Uint8Array(Uint16Array.from(arranged).buffer)];
+}
+
 const UNPACK = `#include <stdint.h>
 #define unpack_table(packed, table, length, bytes) \\
     for (int32_t i = 0, value = 0; i < (length); i++) { \\
@@ -141,11 +159,11 @@ export function compileKernels({ vectors, small }) {
     const folder = mkdtempSync(join(tmpdir(), "bsm-kernels-"));
     try {
         const data = join(folder, "data.c");
-        const priors = readFileSync(join(ROOT, "spec/priors.bin"));
+        const priors = Uint8Array.from(readFileSync(join(ROOT, "spec/priors.bin")));
         const tables = TABLES.flatMap((path) => packedTables(readFileSync(join(ROOT, path), "utf8")));
         const unpackers = tables.map((table) => /unpack_[A-Z]+/.exec(table)[0]);
         writeFileSync(data, [UNPACK, ...tables, `void make_tables(void) { ${unpackers.map((name) => `${name}();`).join(" ")} }`,
-            `const unsigned char PRIORS[${priors.length}] = {${[...priors]}};`].join("\n"));
+            `const unsigned char PRIORS[${priors.length}] = {${arrangedPriors(priors)}};`].join("\n"));
         const target = join(folder, "kernels.wasm");
         const clang = (...args) => execFileSync("clang", args, { cwd: ROOT, env: { ...process.env, PATH: withoutPackages() } });
         const objects = [...SOURCES, data].map((source, i) => {

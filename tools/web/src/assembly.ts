@@ -192,13 +192,9 @@ export class Assembly {
         if (header.smoothing === 0) return blended.view.slice();
         return memory.scratch(() => {
             const { offsets, neighbours } = this.blocks.graph;
-            const size = blended.length;
-            const powers = memory.doubles((DEGREE + 1) * size + 1);
-            powers.view.set(blended.view);
-            memory.run("apply_powers", offsets, neighbours, powers, BigInt(DEGREE));
-            const smoothed = memory.doubles(size, 3);
-            const terms = powers.part(2 * size, (DEGREE - 1) * size);
-            memory.run("combine_powers", blended, terms, memory.copy(filterPolynomial(header.smoothing)), smoothed);
+            const smoothed = memory.doubles(blended.length, 3);
+            const scratch = memory.doubles(2 * blended.length + 2);
+            memory.call("smooth_all", offsets, neighbours, blended, memory.copy(filterPolynomial(header.smoothing)), scratch, smoothed);
             return smoothed.view.slice();
         });
     }

@@ -9,14 +9,16 @@ import { areFinite } from "./numbers";
 const ONCE = 1e-5;
 const TWICE = 1e-13;
 /** What makes a basis exact (M 8.5). */
-export const EXACT_POWER = 2;
-export const EXACT_ITERATIONS = 128;
+export const EXACT: Schedule = [2, 128];
 const EXACT_SHIFT = 2 ** -5;
 /** The share of hash columns in a start that might lack something, of cosines and of a predecessor's columns (M 8.3). */
 const START_NOISE = 0.25;
 const FOLLOWING_NOISE = 2 ** -8;
 /** Doubles more than a kernel uses of an array that it begins where a cache line does. */
 const PADDING = 7;
+
+/** z and t of an orthogonal iteration. */
+export type Schedule = readonly [power: number, iterations: number];
 
 /** C and D^-1 of L + diagonal = P^T C D C^T P. */
 export interface Factor {
@@ -41,14 +43,27 @@ function diagonalOf(block: Block): Float64Array {
     return sums;
 }
 
+function factorRoom(memory: Memory, block: Block): Factor {
+    return { values: memory.doubles(block.fronts.size + PADDING), inverse: memory.doubles(block.size) };
+}
+
+function weightsOf(memory: Memory, block: Block): Doubles {
+    const weights = block.weights ?? memory.doubles(block.neighbours.length);
+    if (!block.weights) weights.view.fill(1);
+    return weights;
+}
+
+function solvingSpace(rows: number, columns: number): number {
+    return (rows + 4) * (columns + 8) + PADDING;
+}
+
 /** C and D^-1 of L with `shift` on its diagonal. */
 export function factorize(memory: Memory, block: Block, shift: Float64Array): Factor {
     const n = block.size;
-    const factor = { values: memory.doubles(block.fronts.size + PADDING), inverse: memory.doubles(n) };
+    const factor = factorRoom(memory, block);
     memory.scratch(() => {
         const diagonal = memory.copy(diagonalOf(block).map((sum, row) => sum + shift[row]));
-        const weights = block.weights ?? memory.doubles(block.neighbours.length);
-        if (!block.weights) weights.view.fill(1);
+        const weights = weightsOf(memory, block);
         const column = memory.words(n + 1);
         const scratch = memory.doubles(2 * (n + 16) + PADDING);
         const { offsets, neighbours, fronts } = block;
@@ -61,35 +76,43 @@ export function solve(memory: Memory, block: Block, factor: Factor, columns: Dou
     const width = columns.columns!;
     const solution = memory.doubles(columns.length, width);
     memory.scratch(() => {
-        const scratch = memory.doubles((block.size + 4) * (width + 8) + PADDING);
+        const scratch = memory.doubles(solvingSpace(block.size, width));
         memory.run("solve_columns", block.fronts.parts, factor.values, factor.inverse, columns, 1n, scratch, solution);
     });
     return solution;
 }
 
-/** (L + diagonal)^-1 of columns outside of memory. */
-export function solveColumns(memory: Memory, block: Block, shift: Float64Array, columns: Float64Array, width: number): Float64Array {
-    return memory.scratch(() =>
-        solve(memory, block, factorize(memory, block, shift), memory.copy(columns, width)).view.slice(),
-    );
+/** A block on springs: the factor of L + S + delta, and positions that continue what the springs hang on (M 7.4). */
+export function suspend(memory: Memory, block: Block, springs: Doubles, pulls: Doubles, delta: number): { factor: Factor; continued: Doubles } {
+    const n = block.size;
+    const factor = factorRoom(memory, block);
+    const continued = memory.doubles(3 * n, 3);
+    memory.scratch(() => {
+        const { offsets, neighbours, fronts } = block;
+        const diagonal = memory.copy(diagonalOf(block));
+        const scratch = memory.doubles(2 * n + 4 + solvingSpace(n, 3));
+        memory.call(
+            "suspend", offsets, neighbours, weightsOf(memory, block), diagonal, fronts.parts, springs, pulls, delta, scratch, factor.values,
+            factor.inverse, continued,
+        );
+    });
+    return { factor, continued };
 }
 
-/** Cosine columns `first` to `last` - 1 (M 8.2). */
-export function cosineColumns(memory: Memory, rows: number, first: number, last: number): Doubles {
-    const values = memory.doubles(rows * (last - first), last - first);
-    memory.scratch(() => memory.run("cosines", BigInt(first), memory.doubles(rows + 8), values));
-    return values;
+/** The first cosine columns (M 8.2). */
+export function cosineColumns(memory: Memory, rows: number, columns: number): Doubles {
+    return resized(memory, memory.doubles(0, 0), rows, columns);
 }
 
 /** The start of a block that follows: the predecessor's columns, and noise where the block is in pieces (M 8.3). */
 export function followColumns(memory: Memory, block: Block, previous: Doubles, width: number): Doubles {
-    const start = resized(memory, previous, width);
-    return inPieces(block) ? withNoise(memory, start, FOLLOWING_NOISE) : start;
+    if (inPieces(block)) return withNoise(memory, resized(memory, previous, block.size, width), FOLLOWING_NOISE);
+    return previous.columns! >= width ? previous : resized(memory, previous, block.size, width);
 }
 
 /** The start of a block that follows none: cosines, and noise where the block is in pieces or the basis exact (M 8.3). */
 export function firstColumns(memory: Memory, block: Block, width: number, exact: boolean): Doubles {
-    const start = cosineColumns(memory, block.size, 0, width);
+    const start = cosineColumns(memory, block.size, width);
     return exact || inPieces(block) ? withNoise(memory, start, START_NOISE) : start;
 }
 
@@ -113,21 +136,11 @@ function inPieces({ size, offsets, neighbours }: Block): boolean {
     return count < size;
 }
 
-/** The predecessor's columns, `width` of them, and cosines where it has fewer. */
-function resized(memory: Memory, previous: Doubles, width: number): Doubles {
-    if (previous.columns === width) return previous;
-    const { rows } = previous;
-    const columns = previous.columns!;
-    const resized = memory.doubles(rows * width, width);
-    memory.scratch(() => {
-        const cosines = columns < width ? cosineColumns(memory, rows, columns, width) : undefined;
-        const [from, more, to] = [previous.view, cosines?.view, resized.view];
-        for (let r = 0, i = 0, k = 0; r < rows; r++, i += width) {
-            for (let j = 0; j < Math.min(columns, width); j++) to[i + j] = from[r * columns + j];
-            for (let j = columns; j < width; j++) to[i + j] = more![k++];
-        }
-    });
-    return resized;
+/** The first `width` columns of others, and cosines where there are fewer. */
+function resized(memory: Memory, previous: Doubles, rows: number, width: number): Doubles {
+    const columns = memory.doubles(rows * width, width);
+    memory.scratch(() => memory.run("resize_columns", previous, memory.doubles(rows + 8), columns));
+    return columns;
 }
 
 /** Nanoseconds that a solution takes, and an orthonormalisation (M 14.3). */
@@ -144,21 +157,19 @@ export function whole(columns: number): number {
     return 8 * Math.ceil(columns / 8);
 }
 
-/** U(t) = Onorm(R^power U(t - 1)), `iterations` times (M 8.4). */
+/** U(t) = Onorm(R^power U(t - 1)), `iterations` times, of the first `columns` of a start (M 8.4). */
 export function orthogonalIteration(
     memory: Memory,
     block: Block,
+    factor: Factor,
     start: Doubles,
-    shift: Float64Array,
-    power: number,
-    iterations: number,
+    columns: number,
+    [power, iterations]: Schedule,
     allowance: Allowance,
 ): Doubles {
     const { rows } = start;
-    const columns = start.columns!;
     const subspace = memory.doubles(rows * columns, columns);
     memory.scratch(() => {
-        const factor = factorize(memory, block, shift);
         const scratch = iterationScratch(memory, rows, columns);
         const { values, inverse } = factor;
         const fronts = block.fronts.parts;
@@ -168,7 +179,7 @@ export function orthogonalIteration(
         if (independence >= TWICE) return;
         // R^power has all but lost the higher columns: orthonormalised after every R they stay (M 8.4).
         allowance.spend(iterations * power * (solutionCost(block, columns) + 2 * roundingCost(rows, columns)));
-        subspace.view.set(start.view);
+        subspace.view.set((start.columns === columns ? start : resized(memory, start, rows, columns)).view);
         for (let k = 0; k < iterations * power; k++) solveOnorm(memory, block, factor, subspace, allowance);
     });
     return subspace;
@@ -199,9 +210,9 @@ function householder(memory: Memory, columns: Doubles, q: Doubles): void {
 
 /** The exact basis of L + springs (M 8.5). */
 export function exactBasis(memory: Memory, block: Block, springs: Float64Array, width: number, allowance: Allowance): Doubles {
+    const factor = factorize(memory, block, springs.map((spring) => spring + EXACT_SHIFT));
     const start = firstColumns(memory, block, width, true);
-    const shift = springs.map((spring) => spring + EXACT_SHIFT);
-    return orthogonalIteration(memory, block, start, shift, EXACT_POWER, EXACT_ITERATIONS, allowance);
+    return orthogonalIteration(memory, block, factor, start, width, EXACT, allowance);
 }
 
 /** Fixed pseudo-random numbers in [-1, 1) (M 8.6). */

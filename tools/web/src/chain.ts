@@ -1,5 +1,8 @@
 /** One chain of blocks: what its blocks know of those before them (specification, M 7 to M 11). */
-import { degreesOf, EXACT_ITERATIONS, EXACT_POWER, exactBasis, firstColumns, followColumns, orthogonalIteration, reconstruct, roundingCost, solutionCost, solveColumns, whole } from "./basis";
+import {
+    degreesOf, EXACT, exactBasis, factorize, firstColumns, followColumns, orthogonalIteration, reconstruct, roundingCost, solutionCost, suspend, whole,
+    type Factor, type Schedule,
+} from "./basis";
 import { makeBlock, membersOf, type Block, type Blocks } from "./blocks";
 import { CoefficientModel, unpackLevels } from "./coefficients";
 import { Coder } from "./entropy";
@@ -31,8 +34,8 @@ export interface DecodedBlock {
 }
 
 /** Power and iterations of a block that follows another, or of one that does not. */
-function scheduleOf(header: Header, follows: boolean): [number, number] {
-    return isExact(header, follows) ? [EXACT_POWER, EXACT_ITERATIONS] : [header.power, iterationsOf(header, follows)];
+function scheduleOf(header: Header, follows: boolean): Schedule {
+    return isExact(header, follows) ? EXACT : [header.power, iterationsOf(header, follows)];
 }
 
 /** Take the work and the memory of a dictionary of so many columns from what is allowed (M 14.2 to M 14.4). */
@@ -43,12 +46,20 @@ export function spendOn(allowance: Allowance, header: Header, block: Block, colu
     allowance.spend(block.fronts.work / 7 + iterations * (power * solutionCost(block, columns) + roundingCost(rows, columns)));
 }
 
-/** U of a block that follows none (M 8.3 to M 8.5). */
-export function keyDictionary(memory: Memory, header: Header, block: Block, springs: Float64Array, width: number, allowance: Allowance): Doubles {
+/** U of a block that follows none (M 8.3 to M 8.5); `held` is the factor of L + springs + delta, where there is one. */
+export function keyDictionary(
+    memory: Memory,
+    header: Header,
+    block: Block,
+    springs: Float64Array,
+    width: number,
+    allowance: Allowance,
+    held?: Factor,
+): Doubles {
     if (isExact(header, false)) return exactBasis(memory, block, springs, width, allowance);
+    const factor = held ?? factorize(memory, block, springs.map((spring) => spring + header.shift));
     const start = firstColumns(memory, block, width, false);
-    const shift = springs.map((spring) => spring + header.shift);
-    return orthogonalIteration(memory, block, start, shift, header.power, iterationsOf(header, false), allowance);
+    return orthogonalIteration(memory, block, factor, start, width, scheduleOf(header, false), allowance);
 }
 
 function isExact(header: Header, follows: boolean): boolean {
@@ -152,10 +163,12 @@ export class ChainDecoder {
             const columns = Math.min(Math.max(width, details.length), block.size);
             const { springs, pulls } = this.lookAround(block);
             spendOn(this.allowance, this.header, block, columns, this.predecessor(block) !== undefined);
-            const subspace = this.dictionary(block, springs, columns);
+            const { factor, continued } = suspend(memory, block, springs, pulls, header.shift);
+            const subspace = this.dictionary(block, springs, factor, columns);
             const coefficients = points.map((point) => (point * header.step) / 2);
             const positions = reconstruct(memory, subspace, coefficients, 3);
-            extend(memory, block, springs, pulls, this.header.shift, positions);
+            const { view } = continued;
+            for (let i = 0; i < view.length; i++) positions[i] += view[i];
             if (details.length > 0) this.displace(block, positions, subspace, details);
             if (!areFinite(positions)) throw new NumericError("the coefficients reconstruct to positions that are not finite");
             const vertices = block.vertices.view.slice();
@@ -184,17 +197,19 @@ export class ChainDecoder {
     }
 
     /** Springs at each row, and what they pull to (M 7.3). */
-    private lookAround(block: Block): { springs: Float64Array; pulls: Float64Array } {
+    private lookAround(block: Block): { springs: Doubles; pulls: Doubles } {
         const { memory, known, inside } = this;
-        if (!known || !inside) return { springs: new Float64Array(block.size), pulls: new Float64Array(3 * block.size) };
-        return memory.scratch(() => {
-            const springs = memory.doubles(block.size);
-            const pulls = memory.doubles(3 * block.size, 3);
+        const springs = memory.doubles(block.size);
+        const pulls = memory.doubles(3 * block.size, 3);
+        if (known && inside) {
             const { offsets, neighbours } = this.blocks.graph;
             const stiffness = this.header.prediction[0];
             memory.run("look_around", offsets, neighbours, block.vertices, inside, known.sums, known.weights, stiffness, springs, pulls);
-            return { springs: springs.view.slice(), pulls: pulls.view.slice() };
-        });
+        } else {
+            springs.view.fill(0);
+            pulls.view.fill(0);
+        }
+        return { springs, pulls };
     }
 
     /** The dictionary that a block starts from, if it follows another. */
@@ -203,12 +218,12 @@ export class ChainDecoder {
     }
 
     /** U of a block (M 8.3 to M 8.5). */
-    private dictionary(block: Block, springs: Float64Array, width: number): Doubles {
-        const { header, memory } = this;
+    private dictionary(block: Block, springs: Doubles, factor: Factor, width: number): Doubles {
+        const { header, memory, allowance } = this;
         const previous = this.predecessor(block);
-        if (header.basis === 1 || !previous) return keyDictionary(memory, header, block, springs, width, this.allowance);
-        const shift = springs.map((spring) => spring + header.shift);
-        return orthogonalIteration(memory, block, followColumns(memory, block, previous, width), shift, header.power, header.iterations, this.allowance);
+        if (header.basis === 1 || !previous) return keyDictionary(memory, header, block, springs.view.slice(), width, allowance, factor);
+        const start = followColumns(memory, block, previous, width);
+        return orthogonalIteration(memory, block, factor, start, width, scheduleOf(header, true), allowance);
     }
 
     /** Move rows along their normals (M 11.3, M 11.4). */
@@ -233,15 +248,4 @@ export class ChainDecoder {
         const core = new Set(members.part(starts[index], cores[index]).view);
         return Float64Array.from(vertices, (vertex) => (core.has(vertex) ? 1 : 0));
     }
-}
-
-/** Add to positions what continues those that are known (M 7.4). */
-function extend(memory: Memory, block: Block, springs: Float64Array, pulls: Float64Array, delta: number, positions: Float64Array): void {
-    const total = springs.reduce((sum, spring) => sum + spring, 0);
-    if (total === 0) return;
-    const mean = [0, 0, 0];
-    for (let i = 0; i < pulls.length; i++) mean[i % 3] += pulls[i] / total;
-    const loads = pulls.map((pull, i) => pull - springs[Math.floor(i / 3)] * mean[i % 3]);
-    const rest = solveColumns(memory, block, springs.map((spring) => spring + delta), loads, 3);
-    for (let i = 0; i < rest.length; i++) positions[i] += rest[i] + mean[i % 3];
 }

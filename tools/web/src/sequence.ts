@@ -293,20 +293,21 @@ export class Sequence {
             const moments = emptyMoments(3, columns);
             this.place(part, field, this.follow(first[k], 3, levels[k], columns, moments, gop.step));
         });
-        return Array.from({ length: gop.frames }, (_, t) => () => this.frameOf(field, basis, gop.frames, t));
+        const components = transposed(memory, field);
+        return Array.from({ length: gop.frames }, (_, t) => () => this.frameOf(components, basis, gop.frames, t));
     }
 
-    /** Frame t of components over a temporal basis. */
-    private frameOf(field: Doubles, basis: Float64Array, frames: number, t: number): Float64Array {
+    /** Frame t of components, a row each, over a temporal basis. */
+    private frameOf(components: Doubles, basis: Float64Array, frames: number, t: number): Float64Array {
         const { memory, header } = this;
-        const columns = field.columns!;
+        const columns = components.rows;
         return memory.scratch(() => {
             const weights = memory.doubles(3 * columns, 3);
             for (let d = 0; d < 3; d++) {
                 for (let i = 0, from = (d * frames + t) * columns; i < columns; i++) weights.view[3 * i + d] = basis[from + i];
             }
             const positions = memory.doubles(3 * header.vertices, 3);
-            memory.run("reconstruct", field, weights, positions);
+            memory.run("project", components, weights, positions);
             return positions.view.slice();
         });
     }
@@ -357,6 +358,16 @@ function core({ members, starts, cores }: Blocks, index: number): Ints {
     return members.part(starts[index], cores[index]);
 }
 
+/** A matrix with rows for columns. */
+function transposed(memory: Memory, matrix: Doubles): Doubles {
+    const { rows } = matrix;
+    const columns = matrix.columns!;
+    const turned = memory.doubles(matrix.length, rows);
+    const [from, to] = [matrix.view, turned.view];
+    for (let c = 0, i = 0; c < columns; c++) for (let r = 0; r < rows; r++) to[i++] = from[r * columns + c];
+    return turned;
+}
+
 /** A matrix as kernels take it, of any number of columns, none included. */
 function shaped(memory: Memory, place: Ints, rows: number): Ints | readonly [Ints, bigint] {
     return place.columns! > 0 ? place : [memory.ints(rows), 0n];
@@ -368,7 +379,7 @@ function emptyMoments(known: number, columns: number): Float64Array {
 
 /** The orthonormal cosines over time, a row for each frame (S 5.1). */
 function temporalCosines(memory: Memory, frames: number): Doubles {
-    const cosines = cosineColumns(memory, frames, 0, frames);
+    const cosines = cosineColumns(memory, frames, frames);
     const { view } = cosines;
     for (let i = 0; i < view.length; i++) view[i] *= Math.sqrt((i % frames ? 2 : 1) / frames);
     return cosines;
