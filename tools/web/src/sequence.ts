@@ -293,21 +293,20 @@ export class Sequence {
             const moments = emptyMoments(3, columns);
             this.place(part, field, this.follow(first[k], 3, levels[k], columns, moments, gop.step));
         });
-        const components = transposed(memory, field);
-        return Array.from({ length: gop.frames }, (_, t) => () => this.frameOf(components, basis, gop.frames, t));
+        return Array.from({ length: gop.frames }, (_, t) => () => this.frameOf(field, basis, gop.frames, t));
     }
 
-    /** Frame t of components, a row each, over a temporal basis. */
-    private frameOf(components: Doubles, basis: Float64Array, frames: number, t: number): Float64Array {
+    /** Frame t of components over a temporal basis. */
+    private frameOf(field: Doubles, basis: Float64Array, frames: number, t: number): Float64Array {
         const { memory, header } = this;
-        const columns = components.rows;
+        const columns = field.columns!;
         return memory.scratch(() => {
             const weights = memory.doubles(3 * columns, 3);
             for (let d = 0; d < 3; d++) {
                 for (let i = 0, from = (d * frames + t) * columns; i < columns; i++) weights.view[3 * i + d] = basis[from + i];
             }
             const positions = memory.doubles(3 * header.vertices, 3);
-            memory.run("project", components, weights, positions);
+            memory.run("reconstruct", field, weights, positions);
             return positions.view.slice();
         });
     }
@@ -356,16 +355,6 @@ export class Sequence {
 
 function core({ members, starts, cores }: Blocks, index: number): Ints {
     return members.part(starts[index], cores[index]);
-}
-
-/** A matrix with rows for columns. */
-function transposed(memory: Memory, matrix: Doubles): Doubles {
-    const { rows } = matrix;
-    const columns = matrix.columns!;
-    const turned = memory.doubles(matrix.length, rows);
-    const [from, to] = [matrix.view, turned.view];
-    for (let c = 0, i = 0; c < columns; c++) for (let r = 0; r < rows; r++) to[i++] = from[r * columns + c];
-    return turned;
 }
 
 /** A matrix as kernels take it, of any number of columns, none included. */
