@@ -53,10 +53,16 @@ BSM_ARRAY(Doubles, double)
 #else
 #define LEVEL(name) name
 #endif
+/* Copied to every call, but where a decoder is built alone that has to be small: what that costs time is little. */
+#ifdef BSM_LEAN
+#define INLINE static inline __attribute__((unused))
+#else
 #define INLINE static inline __attribute__((always_inline))
-/* Copied to every call for speed, but to none in a decoder that is built alone: that is sent to where it is needed. */
+#endif
+/* Copied to every call for speed, but to none in a decoder that is built alone, which has one of all files: that is sent
+ * to where it is needed. */
 #ifdef BSM_DECODER
-#define SHARED static __attribute__((noinline, unused))
+#define SHARED __attribute__((noinline, weak))
 #else
 #define SHARED INLINE
 #endif

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import deque
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -24,8 +25,8 @@ from codec.static.stages import Arrival, Stage, misplaced
 from codec.static.structure import Structure
 from codec.static.work import field_cost, grid_chunk_cost, grid_memory
 
-CHUNK = 1 << 15
-"""Vertices of a frame: large meshes are seen while they arrive."""
+FIRST, CHUNK = 1 << 12, 1 << 15
+"""Vertices of the first frame, and of each that follows: large meshes are seen while they arrive, from early on."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -71,8 +72,9 @@ def grid_of(header: Header) -> Grid:
 def encode_grid(faces: Indices, grid: Grid, coded: Levels) -> list[packets.Grid]:
     """The packets of coded values, shape (n, 3), between 0 and the grid's largest."""
     encoder, size = GridEncoder(faces, coded, grid.largest), len(coded)
-    starts = range(0, size, CHUNK)
-    return [packets.Grid(start, min(CHUNK, size - start), encoder.chunk(min(CHUNK, size - start))) for start in starts]
+    starts = [*range(0, min(size, 1)), *range(FIRST, size, CHUNK)]
+    counts = [end - start for start, end in pairwise([*starts, size])]
+    return [packets.Grid(start, count, encoder.chunk(count)) for start, count in zip(starts, counts, strict=True)]
 
 
 class GridStage:

@@ -10,27 +10,39 @@ const SOURCES = join(WEB, "src");
 const OPTIONS = { bundle: true, minify: true, format: "esm", target: "es2022", charset: "utf8", loader: { ".wasm": "binary", ".html": "text" }, legalComments: "none", logLevel: "warning", write: false };
 const BUNDLED = ["three", "fzstd"];
 
-/** Lets a script import another as text, bundled to run in a thread of its own: `worker:./path.ts`. */
-const THREADS = {
-    name: "threads",
-    setup({ onResolve, onLoad }) {
-        onResolve({ filter: /^worker:/ }, ({ path, resolveDir }) => ({ path: join(resolveDir, path.slice("worker:".length)), namespace: "thread" }));
-        onLoad({ filter: /./, namespace: "thread" }, async ({ path }) => ({ contents: await bundle(path, { format: "iife" }), loader: "text" }));
-    },
-};
-
-/** Leaves out what most meshes can do without: sequences, attributes, split vertices, damage, packed coefficients. */
+/**
+ * Leaves out what most meshes can do without: sequences, attributes, split vertices, damage, packed coefficients, and
+ * decoding while the page does something else.
+ */
 const SMALL = {
     name: "small",
     setup({ onResolve }) {
-        onResolve({ filter: /^\.\/(sequence|attributes|declaration|splits|tolerant|zstd)$/ }, () => ({ path: join(SOURCES, "absent.ts") }));
+        onResolve({ filter: /^\.\/(sequence|attributes|declaration|splits|station|tolerant|zstd)$/ }, () => ({ path: join(SOURCES, "absent.ts") }));
     },
 };
 
 async function bundle(entry, options = {}) {
-    const result = await build({ ...OPTIONS, plugins: [THREADS], ...options, entryPoints: [entry] });
+    const result = await build({ ...OPTIONS, ...options, entryPoints: [entry] });
     return result.outputFiles[0].text;
 }
+
+/** The decoder as a module inside of one function, `bsm`, whose text threads are made of. */
+async function decoder(entry, plugins = []) {
+    const text = await bundle(join(SOURCES, entry), { plugins });
+    const [exports, list] = /export\{([^}]*)\};\s*$/.exec(text);
+    const names = list.split(",").map((item) => item.split(" as ").reverse());
+    const given = names.map(([name, own]) => (own ? `${name}:${own}` : name));
+    return `const made=function bsm(){${text.slice(0, -exports.length)}return{${given}}};export const{${names.map(([name]) => name)}}=made();\n`;
+}
+
+/** Takes the decoder from another script, or from its text. */
+const using = (resolved) => ({
+    name: "using",
+    setup({ onResolve, onLoad }) {
+        onResolve({ filter: /\/index$/ }, () => (resolved.path ? { path: resolved.path, external: true } : { path: "bsm.js", namespace: "decoder" }));
+        onLoad({ filter: /./, namespace: "decoder" }, () => ({ contents: resolved.text, loader: "js" }));
+    },
+});
 
 function licences(packages) {
     return packages.map((name) => `${name}\n\n${readFileSync(join(WEB, "node_modules", name, "LICENSE"), "utf8").trim()}`).join("\n\n\n");
@@ -39,11 +51,12 @@ function licences(packages) {
 /** Path and content of everything that is built of TypeScript. */
 async function products() {
     const define = { LICENCES: JSON.stringify(licences(BUNDLED)) };
-    const script = (await bundle(join(SOURCES, "viewer/viewer.ts"), { define })).replaceAll("</script", "<\\/script");
+    const whole = await decoder("index.ts");
+    const script = (await bundle(join(SOURCES, "viewer/viewer.ts"), { define, plugins: [using({ text: whole })] })).replaceAll("</script", "<\\/script");
     return [
-        [join(WEB, "built/bsm.js"), await bundle(join(SOURCES, "index.ts"))],
-        [join(WEB, "built/small.js"), await bundle(join(SOURCES, "index.ts"), { plugins: [SMALL] })],
-        [join(WEB, "built/three.js"), await bundle(join(SOURCES, "three.ts"), { external: ["three"] })],
+        [join(WEB, "built/bsm.js"), whole],
+        [join(WEB, "built/small.js"), await decoder("small.ts", [SMALL])],
+        [join(WEB, "built/three.js"), await bundle(join(SOURCES, "three.ts"), { external: ["three"], plugins: [using({ path: "./bsm.js" })] })],
         [join(WEB, "built/LICENSES.txt"), `${licences(BUNDLED)}\n`],
         [join(VIEWER, "page.html"), readFileSync(join(SOURCES, "viewer/page.html"), "utf8")],
         [join(VIEWER, "viewer.js"), script],

@@ -25,10 +25,13 @@ from bsm.evaluation.draco import encode_draco
 from bsm.viewer.content import DRACO_LEVEL, compared
 from codec.geometry.mesh import TriangleMesh
 meshes, folder = sys.argv[1:]
+PRESETS = ["small", "balanced", "fine", "near-lossless", "lossless"]
 mesh = bsm.load(f"{meshes}/static/bunny_34834.ply")
 data = bsm.encode(mesh)
 content = compared("bunny", data, mesh)
 open(f"{folder}/bunny.bsm", "wb").write(data)
+for preset in PRESETS:
+    open(f"{folder}/bunny-{preset}.bsm", "wb").write(data if preset == "balanced" else bsm.encode(mesh, preset=preset))
 ordered = TriangleMesh(content.original.astype(float), bsm.decode(data).faces)
 open(f"{folder}/bunny.drc", "wb").write(encode_draco(ordered, content.draco.bits, DRACO_LEVEL))
 with np.load(f"{meshes}/dynamic/samba.npz") as arrays:
@@ -36,7 +39,7 @@ with np.load(f"{meshes}/dynamic/samba.npz") as arrays:
     groups = bsm.encode_sequence(arrays["positions"], arrays["faces"], frame_rate=30, gop=25)
 open(f"{folder}/samba.bsm", "wb").write(frames)
 open(f"{folder}/samba-groups.bsm", "wb").write(groups)
-print(json.dumps({"theta": bsm.compare(mesh, data).theta_deg, "draco": content.draco.theta, "bits": content.draco.bits}))
+print(json.dumps({"theta": bsm.compare(mesh, data).theta_deg, "draco": content.draco.theta, "bits": content.draco.bits, "presets": PRESETS}))
 `;
 
 const DECODE = `
@@ -82,30 +85,72 @@ async function withPage(work) {
     }
 }
 
-/** Milliseconds of the first and the other decodings, bytes at which the first block is there, and work up to it. */
+/**
+ * Milliseconds of decodings, alone and in a team, and the least times that both took in turns; the first is that of a page
+ * which has decoded nothing yet.
+ */
 function decodeInPage(address) {
     return withPage(async (page) => {
         await page.goto(`${address}empty`);
         return page.evaluate(async ([rounds]) => {
-            const { Decoder, decode, Kernels, NEED_DATA } = await import("/bsm.js");
+            const { decode, Kernels, Team } = await import("/bsm.js");
             const kernels = await Kernels.compile(await (await fetch("/kernels.wasm")).arrayBuffer());
             const stream = new Uint8Array(await (await fetch("/bunny.bsm")).arrayBuffer());
-            const begin = performance.now();
-            const decoder = new Decoder(kernels);
-            let first = 0;
-            for (let event; event?.type !== "block"; ) {
-                event = decoder.nextEvent();
-                if (event === NEED_DATA) decoder.receiveData(stream.subarray(first, ++first));
-            }
-            const work = performance.now() - begin;
-            const times = [];
+            const team = new Team();
+            const [alone, together] = [[], []];
             for (let k = 0; k < rounds; k++) {
                 const before = performance.now();
                 decode(kernels, stream);
-                times.push(performance.now() - before);
+                const between = performance.now();
+                await team.decode(kernels, stream);
+                alone.push(between - before);
+                together.push(performance.now() - between);
             }
-            return { first, bytes: stream.length, work, times };
+            return { alone, together, processors: navigator.hardwareConcurrency };
         }, [ROUNDS]);
+    });
+}
+
+/** Bytes at which the faces have come and the first block is there, and milliseconds of work up to it, in a page of its own. */
+function beginInPage(address, name) {
+    return withPage(async (page) => {
+        await page.goto(`${address}empty`);
+        return page.evaluate(async ([name]) => {
+            const { Decoder, Kernels, NEED_DATA } = await import("/bsm.js");
+            const kernels = await Kernels.compile(await (await fetch("/kernels.wasm")).arrayBuffer());
+            const stream = new Uint8Array(await (await fetch(`/${name}`)).arrayBuffer());
+            const firstOf = (size) => {
+                const decoder = new Decoder(kernels);
+                for (let at = 0; ; at += size) {
+                    for (let event; (event = decoder.nextEvent()) !== NEED_DATA; ) if (event.type === "block") return at;
+                    decoder.receiveData(stream.subarray(at, at + size));
+                }
+            };
+            const first = firstOf(1);
+            const begin = performance.now();
+            firstOf(first);
+            return { first, bytes: stream.length, work: performance.now() - begin };
+        }, [name]);
+    });
+}
+
+/** Milliseconds until each frame of a sequence is there, from the moment that all its bytes are; the page's thread slowed down. */
+function framesInPage(address, name, rate) {
+    return withPage(async (page, session) => {
+        await page.goto(`${address}empty`);
+        await session.send("Emulation.setCPUThrottlingRate", { rate });
+        return page.evaluate(async ([name]) => {
+            const { Decoder, END_OF_STREAM, Kernels } = await import("/bsm.js");
+            const kernels = await Kernels.compile(await (await fetch("/kernels.wasm")).arrayBuffer());
+            const stream = new Uint8Array(await (await fetch(`/${name}`)).arrayBuffer());
+            const begin = performance.now();
+            const decoder = new Decoder(kernels);
+            const times = [];
+            decoder.receiveData(stream);
+            decoder.receiveEof();
+            for (let event; (event = decoder.nextEvent()) !== END_OF_STREAM; ) if (event.type === "frame") times.push(performance.now() - begin);
+            return times;
+        }, [name]);
     });
 }
 
@@ -122,10 +167,15 @@ function fetchInPage(address, script) {
 
 const OURS = `(async () => {
     const begin = performance.now();
-    const bytes = async (name) => (await fetch(name)).arrayBuffer();
-    const [{ decode, Kernels }, wasm, stream] = await Promise.all([import("/small.js"), bytes("/small.wasm"), bytes("/bunny.bsm")]);
-    const { faces } = decode(await Kernels.compile(wasm), new Uint8Array(stream));
-    return { time: performance.now() - begin, faces: faces.length / 3 };
+    const since = () => performance.now() - begin;
+    const wasm = WebAssembly.compileStreaming(fetch("/small.wasm"));
+    const bytes = fetch("/bunny.bsm").then((response) => response.arrayBuffer());
+    const { Kernels, Team } = await import("/small.js");
+    const team = new Team();
+    const [module, stream] = await Promise.all([wasm, bytes]);
+    const fetched = since();
+    const { faces } = await team.decode(new Kernels(module), new Uint8Array(stream));
+    return { time: since(), fetched, faces: faces.length / 3 };
 })()`;
 
 const DRACO = `(async () => {
@@ -137,6 +187,7 @@ const DRACO = `(async () => {
         element.src = "/draco_wasm_wrapper.js";
     });
     const [wasmBinary, stream] = await Promise.all([bytes("/draco_decoder.wasm"), bytes("/bunny.drc"), script]);
+    const fetched = performance.now() - begin;
     const module = await new Promise((onModuleLoaded) => DracoDecoderModule({ wasmBinary, onModuleLoaded: (module) => onModuleLoaded({ module }) }));
     const draco = module.module;
     const [decoder, mesh, buffer] = [new draco.Decoder(), new draco.Mesh(), new draco.DecoderBuffer()];
@@ -151,7 +202,7 @@ const DRACO = `(async () => {
     const positions = new draco.DracoFloat32Array();
     decoder.GetAttributeFloatForAllPoints(mesh, decoder.GetAttribute(mesh, decoder.GetAttributeId(mesh, draco.POSITION)), positions);
     const values = Float32Array.from({ length: positions.size() }, (_, i) => positions.GetValue(i));
-    return { time: performance.now() - begin, faces: index.length / 3, values: values.length };
+    return { time: performance.now() - begin, fetched, faces: index.length / 3, values: values.length };
 })()`;
 
 /** Stops processes three quarters of the time, from a thread of its own. */
@@ -203,14 +254,18 @@ function playInPage(folder, stream, slow) {
                 while (!(document.body.dataset.state === "complete" && document.querySelector("[name=play]").textContent === "Play")) {
                     const now = await new Promise(requestAnimationFrame);
                     const frame = document.body.dataset.frame;
-                    if (frame !== undefined && frame !== seen.at(-1)?.frame) seen.push({ frame, time: now - begin });
+                    if (frame !== undefined) seen.push({ frame, time: now - begin, there: document.body.dataset.there });
                 }
-                return seen.map(({ frame, time }) => ({ frame: Number(frame), time }));
+                return seen.map(({ frame, time, there }) => ({ frame: Number(frame), time, there: Number(there) }));
             });
             // Playing begins where frames begin to follow each other; before that the first one waits for those behind it.
-            const start = seen[1].time - (1000 / 30) * seen[1].frame;
-            const late = seen.map(({ frame, time }) => time - start - (1000 / 30) * frame);
-            return { start, shown: seen.length, last: seen.at(-1).frame + 1, late: Math.max(...late.slice(1)) };
+            const second = seen.find(({ frame }) => frame > 0);
+            const start = second.time - (1000 / 30) * second.frame;
+            const changes = seen.filter(({ frame }, i) => i === 0 || frame !== seen[i - 1].frame);
+            const late = changes.slice(1).map(({ frame, time }) => time - start - (1000 / 30) * frame);
+            const last = seen.at(-1).frame + 1;
+            const due = Array.from({ length: last }, (_, k) => (seen.find(({ time }) => time >= start + (1000 / 30) * k) ?? seen.at(-1)).there > k);
+            return { start, last, shown: changes.length, there: due.filter(Boolean).length, late: Math.max(...late) };
         } finally {
             await release();
         }
@@ -230,25 +285,38 @@ if (meshes) {
         empty: Buffer.from("<!doctype html><title>empty</title>"), "bsm.js": built("bsm.js"), "kernels.wasm": built("kernels.wasm"), "bunny.bsm": read("bunny.bsm"), "small.js": built("small.js"), "small.wasm": built("small.wasm"),
         "bunny.drc": read("bunny.drc"), "draco_wasm_wrapper.js": draco("draco_wasm_wrapper.js"), "draco_decoder.wasm": draco("draco_decoder.wasm"),
     };
+    for (const name of ["samba.bsm", "samba-groups.bsm", ...found.presets.map((preset) => `bunny-${preset}.bsm`)]) contents[name] = read(name);
     const files = Object.fromEntries(Object.entries(contents).map(([name, content]) => [name, brotliCompressSync(content)]));
     const { server, address } = await serve(files);
     try {
+        for (const preset of found.presets) {
+            const { first, bytes, work } = await beginInPage(address, `bunny-${preset}.bsm`);
+            console.log(`bunny, ${preset}: the first block is there after ${first} of ${bytes} bytes (${((100 * first) / bytes).toFixed(0)} %) and ${milliseconds(work)} of work`);
+        }
         const [before, inPage, after] = [python(DECODE, join(folder, "bunny.bsm"), String(ROUNDS)), await decodeInPage(address), python(DECODE, join(folder, "bunny.bsm"), String(ROUNDS))];
         const ours = smallest([...before, ...after]);
-        console.log(`bunny: the first block is there after ${inPage.first} of ${inPage.bytes} bytes (${((100 * inPage.first) / inPage.bytes).toFixed(0)} %) and ${milliseconds(inPage.work)} of work`);
-        console.log(`bunny: decoded in ${milliseconds(smallest(inPage.times))} in Chromium, ${milliseconds(ours)} in Python on one thread: ${(smallest(inPage.times) / ours).toFixed(2)} x`);
+        const { alone, together, processors } = inPage;
+        console.log(`bunny: decoded in ${milliseconds(smallest(alone))} in Chromium (at first ${milliseconds(alone[0])}), ${milliseconds(ours)} in Python on one thread: ${(smallest(alone) / ours).toFixed(2)} x; in threads on ${processors} processors ${milliseconds(smallest(together))}`);
         const [bsm, rival] = [[], []];
         for (let k = 0; k < 5; k++) {
-            bsm.push((await fetchInPage(address, OURS)).time);
-            rival.push((await fetchInPage(address, DRACO)).time);
+            bsm.push(await fetchInPage(address, OURS));
+            rival.push(await fetchInPage(address, DRACO));
         }
+        const [fastest, theirs] = [bsm, rival].map((runs) => runs.reduce((best, run) => (run.time < best.time ? run : best)));
         const fetched = (...names) => names.reduce((sum, name) => sum + files[name].length, 0);
-        console.log(`bunny over 10 Mbit/s, cold: ${milliseconds(smallest(bsm))} for ${fetched("small.js", "small.wasm", "bunny.bsm")} bytes at ${found.theta.toFixed(2)} degrees;`);
-        console.log(`    Draco ${milliseconds(smallest(rival))} for ${fetched("draco_wasm_wrapper.js", "draco_decoder.wasm", "bunny.drc")} bytes at ${found.draco.toFixed(2)} degrees (${found.bits} bits)`);
+        console.log(`bunny over 10 Mbit/s, cold: ${milliseconds(fastest.time)}, ${milliseconds(fastest.fetched)} of them until all is fetched, for ${fetched("small.js", "small.wasm", "bunny.bsm")} bytes at ${found.theta.toFixed(2)} degrees;`);
+        console.log(`    Draco ${milliseconds(theirs.time)}, ${milliseconds(theirs.fetched)} of them until all is fetched, for ${fetched("draco_wasm_wrapper.js", "draco_decoder.wasm", "bunny.drc")} bytes at ${found.draco.toFixed(2)} degrees (${found.bits} bits)`);
         for (const stream of ["samba.bsm", "samba-groups.bsm"]) {
+            for (const rate of [1, 4]) {
+                const times = await framesInPage(address, stream, rate);
+                const steps = times.slice(1).map((time, k) => time - times[k]).sort((a, b) => a - b);
+                const slow = rate > 1 ? `, ${rate} times slower` : "";
+                const pace = (1000 * times.length) / times.at(-1);
+                console.log(`${stream} in the thread of a page${slow}: the first frame after ${milliseconds(times[0])} of work, the others ${steps[steps.length >> 1].toFixed(1)} ms, at most ${milliseconds(steps.at(-1))}; ${pace.toFixed(0)} frames a second on average`);
+            }
             for (const slow of [undefined, "main thread", "everything"]) {
-                const { start, shown, last, late } = await playInPage(folder, stream, slow);
-                console.log(`${stream} (${read(stream).length} bytes) over 1 Mbit/s${slow ? `, ${slow} four times slower` : ""}: plays after ${milliseconds(start)}; ${shown} of ${last} frames shown, at most ${milliseconds(late)} late`);
+                const { start, there, shown, last, late } = await playInPage(folder, stream, slow);
+                console.log(`${stream} (${read(stream).length} bytes) over 1 Mbit/s${slow ? `, ${slow} four times slower` : ""}: plays after ${milliseconds(start)}; ${there} of ${last} frames decoded in time, ${shown} drawn, at most ${milliseconds(late)} late`);
             }
         }
     } finally {

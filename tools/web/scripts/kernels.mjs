@@ -62,23 +62,27 @@ const KERNELS = [
     "make_tables",
     "code_one_unsigned", "match_halfedges", "conquer", "code_fans", "code_degenerate", "code_steps", "code_turns",
     "code_labels", "points_of_levels", "code_rows", "code_block", "vertex_faces", "bisect", "refine_partition",
-    "group_by_label", "chain_parts", "grow_blocks", "order_scratch", "order_block", "add_copies", "collect_edges",
-    "dissect", "find_borders", "factorize_fronts", "solve_columns", "cosines", "iteration_space", "iterate",
-    "cholesky_onorm", "householder", "reconstruct", "look_around", "block_normals", "apply_powers",
-    "combine_powers", "find_rings", "filter_rows", "link_corners", "order_vertices", "keep_borders", "code_grid", "code_levels",
+    "group_by_label", "chain_blocks", "order_scratch", "order_block", "add_copies", "collect_edges",
+    "find_fronts", "suspend", "factorize_fronts", "solve_columns", "resize_columns", "iteration_space", "iterate",
+    "cholesky_onorm", "householder", "reconstruct", "look_around", "block_normals", "smooth_all",
+    "find_rings", "filter_rows", "link_corners", "order_vertices", "keep_borders", "code_grid", "code_levels",
     "local_frames", "add_levels", "code_matrix", "project", "code_edges", "join_corners",
     "expect_normals", "code_scalars", "code_texcoords", "code_normals", "code_faces", "cotangents", "hold", "pull", "follow_rows",
 ];
 
+const TARGET = "--target=wasm32";
 const FLAGS = [
-    "--target=wasm32", "-DBSM_DECODER", "-std=gnu11", "-ffreestanding", "-fno-builtin", "-ffp-contract=off", "-ffunction-sections",
-    "-fdata-sections", "-fvisibility=hidden", "-Wno-unknown-pragmas", "-nostdlib",
+    TARGET, "-DBSM_DECODER", "-std=gnu11", "-ffreestanding", "-fno-builtin", "-ffp-contract=off", "-ffunction-sections",
+    "-fdata-sections", "-fvisibility=hidden", "-Wno-unknown-pragmas",
 ];
 
 const LINK = [
     "-Wl,--no-entry", "-Wl,--gc-sections", "-Wl,--strip-all", "-Wl,--export=__heap_base", "-Wl,--export=PRIORS",
     "-Wl,-z,stack-size=262144", "-Wl,--stack-first", "-Wl,--max-memory=4294967296",
 ];
+
+/** Sources whose functions are copied to where they are called only if that makes them smaller: they are not the slow ones. */
+const LEAN = /connectivity|attributes|fields|codec\/blocks|fronts\.c|geometry/;
 
 /** Kernels of sequences and attributes. */
 const LEFT_OUT = [
@@ -115,6 +119,24 @@ void unpack_${name}(void) { unpack_table(PACKED_${name}, ${name}, ${length}, ${B
     });
 }
 
+/**
+ * What coefficients start from (specification, M 9.1), each of the two sets with its slots not by expectation, bin and
+ * node, but by node, bin and expectation: so they are easier to compress.
+ */
+function arrangedPriors(bytes) {
+    const words = new Uint16Array(bytes.buffer, bytes.byteOffset, bytes.length / 2);
+    const [expectations, bins, nodes] = [3, 48, 38];
+    const others = words.length / 2 - expectations * bins * nodes;
+    const arranged = [0, words.length / 2].flatMap((start) => [
+        ...words.subarray(start, start + others),
+        ...Array.from({ length: expectations * bins * nodes }, (_, i) => {
+            const [node, bin, expectation] = [Math.floor(i / expectations / bins), Math.floor(i / expectations) % bins, i % expectations];
+            return words[start + others + (expectation * bins + bin) * nodes + node];
+        }),
+    ]);
+    return [...new Uint8Array(Uint16Array.from(arranged).buffer)];
+}
+
 const UNPACK = `#include <stdint.h>
 #define unpack_table(packed, table, length, bytes) \\
     for (int32_t i = 0, value = 0; i < (length); i++) { \\
@@ -137,18 +159,23 @@ export function compileKernels({ vectors, small }) {
     const folder = mkdtempSync(join(tmpdir(), "bsm-kernels-"));
     try {
         const data = join(folder, "data.c");
-        const priors = readFileSync(join(ROOT, "spec/priors.bin"));
+        const priors = Uint8Array.from(readFileSync(join(ROOT, "spec/priors.bin")));
         const tables = TABLES.flatMap((path) => packedTables(readFileSync(join(ROOT, path), "utf8")));
         const unpackers = tables.map((table) => /unpack_[A-Z]+/.exec(table)[0]);
         writeFileSync(data, [UNPACK, ...tables, `void make_tables(void) { ${unpackers.map((name) => `${name}();`).join(" ")} }`,
-            `const unsigned char PRIORS[${priors.length}] = {${[...priors]}};`].join("\n"));
+            `const unsigned char PRIORS[${priors.length}] = {${arrangedPriors(priors)}};`].join("\n"));
         const target = join(folder, "kernels.wasm");
-        const options = [...FLAGS, "-Oz", ...(vectors ? ["-msimd128"] : [])];
+        const clang = (...args) => execFileSync("clang", args, { cwd: ROOT, env: { ...process.env, PATH: withoutPackages() } });
+        const objects = [...SOURCES, data].map((source, i) => {
+            const object = join(folder, `${i}.o`);
+            clang(...FLAGS, "-Oz", ...(vectors ? ["-msimd128"] : []), ...(LEAN.test(source) ? ["-DBSM_LEAN"] : []), "-I", ".", "-c", source, "-o", object);
+            return object;
+        });
         const kernels = KERNELS.filter((name) => !small || !LEFT_OUT.includes(name));
-        const link = [...LINK, ...kernels.map((name) => `-Wl,--export=${name}`)];
-        execFileSync("clang", [...options, "-I", ".", ...SOURCES, data, ...link, "-o", target], { cwd: ROOT, env: { ...process.env, PATH: withoutPackages() } });
+        clang(TARGET, "-nostdlib", ...objects, ...LINK, ...kernels.map((name) => `-Wl,--export=${name}`), "-o", target);
         const features = ["--enable-bulk-memory", "--enable-sign-ext", "--enable-nontrapping-float-to-int", ...(vectors ? ["--enable-simd"] : [])];
-        execFileSync(join(WEB, "node_modules/.bin/wasm-opt"), [target, "-Oz", ...features, "-o", target]);
+        // The stack grows down to the first address, which it never reaches: so no pointer wraps where a constant is added.
+        execFileSync(join(WEB, "node_modules/.bin/wasm-opt"), [target, "-Oz", "--converge", "--low-memory-unused", ...features, "-o", target]);
         return readFileSync(target);
     } finally {
         rmSync(folder, { recursive: true });

@@ -40,3 +40,9 @@ export function unpackZstd(): never {
 export function split(): never {
     return absent("split vertices");
 }
+
+export class DecodersDesk {
+    constructor() {
+        absent("streams in a thread of its own");
+    }
+}

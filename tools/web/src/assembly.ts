@@ -4,6 +4,7 @@ import { Blend, type DecodedBlock } from "./chain";
 import { NumericError } from "./errors";
 import type { Header } from "./header";
 import type { Doubles, Ints, Memory } from "./kernels";
+import { areFinite, rowsOf, upTo } from "./numbers";
 
 const DEGREE = 5;
 const NODES = [0.4, 0.9, 1.4, 1.8];
@@ -28,8 +29,9 @@ export function filterPolynomial(amount: number): Float64Array {
 
 /** Positions in BSM units as the mesh has them (M 12.5), in place. */
 export function inMeshUnits(positions: Float64Array, header: Header): Float64Array {
-    for (let i = 0; i < positions.length; i++) positions[i] = positions[i] * header.scale + header.center[i % 3];
-    if (!positions.every(Number.isFinite)) throw new NumericError("positions are not finite in the unit of the mesh");
+    const { scale, center } = header;
+    for (let i = 0; i < positions.length; i++) positions[i] = positions[i] * scale + center[i % 3];
+    if (!areFinite(positions)) throw new NumericError("positions are not finite in the unit of the mesh");
     return positions;
 }
 
@@ -57,7 +59,7 @@ export class Assembly {
         this.number.view.fill(-1);
         this.final = new Uint8Array(size);
         this.missing = new Int32Array(size);
-        for (let index = 0; index < blocks.count; index++) membersOf(blocks, index).view.forEach((vertex) => this.missing[vertex]++);
+        for (const vertex of blocks.members.view) this.missing[vertex]++;
     }
 
     /** Blend one block in. */
@@ -100,7 +102,7 @@ export class Assembly {
 
     /** All positions in BSM units, once every block is in. */
     base(): Float64Array {
-        this.settle(Int32Array.from({ length: this.blocks.graph.size }, (_, vertex) => vertex));
+        this.settle(upTo(this.blocks.graph.size));
         return this.smoothEverything();
     }
 
@@ -118,8 +120,7 @@ export class Assembly {
         vertices.set(moved);
         vertices.set(finished, moved.length);
         const positions = new Float64Array(3 * vertices.length);
-        const blended = this.blended.view;
-        moved.forEach((vertex, i) => positions.set(blended.subarray(3 * vertex, 3 * vertex + 3), 3 * i));
+        positions.set(rowsOf(this.blended.view, moved));
         positions.set(this.smoothed(finished), 3 * moved.length);
         // What levels or frames move later is not final.
         const final = new Uint8Array(vertices.length);
@@ -168,12 +169,7 @@ export class Assembly {
     /** Filtered positions of some vertices, in BSM units (M 12.2). */
     private smoothed(vertices: Int32Array): Float64Array {
         const { memory, number, header } = this;
-        if (header.smoothing === 0) {
-            const blended = this.blended.view;
-            const positions = new Float64Array(3 * vertices.length);
-            vertices.forEach((vertex, i) => positions.set(blended.subarray(3 * vertex, 3 * vertex + 3), 3 * i));
-            return positions;
-        }
+        if (header.smoothing === 0) return rowsOf(this.blended.view, vertices);
         return memory.scratch(() => {
             const { offsets, neighbours } = this.blocks.graph;
             const { rows, starts } = this.rings(vertices, DEGREE);
@@ -196,13 +192,9 @@ export class Assembly {
         if (header.smoothing === 0) return blended.view.slice();
         return memory.scratch(() => {
             const { offsets, neighbours } = this.blocks.graph;
-            const size = blended.length;
-            const powers = memory.doubles((DEGREE + 1) * size + 1);
-            powers.view.set(blended.view);
-            memory.run("apply_powers", offsets, neighbours, powers, BigInt(DEGREE));
-            const smoothed = memory.doubles(size, 3);
-            const terms = powers.part(2 * size, (DEGREE - 1) * size);
-            memory.run("combine_powers", blended, terms, memory.copy(filterPolynomial(header.smoothing)), smoothed);
+            const smoothed = memory.doubles(blended.length, 3);
+            const scratch = memory.doubles(2 * blended.length + 2);
+            memory.call("smooth_all", offsets, neighbours, blended, memory.copy(filterPolynomial(header.smoothing)), scratch, smoothed);
             return smoothed.view.slice();
         });
     }

@@ -3,13 +3,13 @@ import type { Block } from "./blocks";
 import type { Allowance } from "./chain";
 import { NumericError } from "./errors";
 import type { Doubles, Memory } from "./kernels";
+import { areFinite } from "./numbers";
 
 /** Independence of the columns from which one pass of Cholesky QR is enough, and from which two are. */
 const ONCE = 1e-5;
 const TWICE = 1e-13;
 /** What makes a basis exact (M 8.5). */
-export const EXACT_POWER = 2;
-export const EXACT_ITERATIONS = 128;
+export const EXACT: Schedule = [2, 128];
 const EXACT_SHIFT = 2 ** -5;
 /** The share of hash columns in a start that might lack something, of cosines and of a predecessor's columns (M 8.3). */
 const START_NOISE = 0.25;
@@ -17,12 +17,8 @@ const FOLLOWING_NOISE = 2 ** -8;
 /** Doubles more than a kernel uses of an array that it begins where a cache line does. */
 const PADDING = 7;
 
-/** A matrix outside of the kernels' memory, row after row. */
-export interface Matrix {
-    rows: number;
-    columns: number;
-    values: Float64Array;
-}
+/** z and t of an orthogonal iteration. */
+export type Schedule = readonly [power: number, iterations: number];
 
 /** C and D^-1 of L + diagonal = P^T C D C^T P. */
 export interface Factor {
@@ -33,23 +29,41 @@ export interface Factor {
 /** Degree of each row inside its block. */
 export function degreesOf(block: Block): Float64Array {
     const offsets = block.offsets.view;
-    return Float64Array.from({ length: block.size }, (_, row) => offsets[row + 1] - offsets[row]);
+    const degrees = new Float64Array(block.size);
+    for (let row = 0; row < degrees.length; row++) degrees[row] = offsets[row + 1] - offsets[row];
+    return degrees;
 }
 
 /** Sum of the weights of each row. */
 function diagonalOf(block: Block): Float64Array {
     if (!block.weights) return degreesOf(block);
     const [offsets, weights] = [block.offsets.view, block.weights.view];
-    return Float64Array.from({ length: block.size }, (_, row) => weights.subarray(offsets[row], offsets[row + 1]).reduce((a, b) => a + b, 0));
+    const sums = new Float64Array(block.size);
+    for (let row = 0; row < sums.length; row++) for (let k = offsets[row]; k < offsets[row + 1]; k++) sums[row] += weights[k];
+    return sums;
+}
+
+function factorRoom(memory: Memory, block: Block): Factor {
+    return { values: memory.doubles(block.fronts.size + PADDING), inverse: memory.doubles(block.size) };
+}
+
+function weightsOf(memory: Memory, block: Block): Doubles {
+    const weights = block.weights ?? memory.doubles(block.neighbours.length);
+    if (!block.weights) weights.view.fill(1);
+    return weights;
+}
+
+function solvingSpace(rows: number, columns: number): number {
+    return (rows + 4) * (columns + 8) + PADDING;
 }
 
 /** C and D^-1 of L with `shift` on its diagonal. */
 export function factorize(memory: Memory, block: Block, shift: Float64Array): Factor {
     const n = block.size;
-    const factor = { values: memory.doubles(block.fronts.size + PADDING), inverse: memory.doubles(n) };
+    const factor = factorRoom(memory, block);
     memory.scratch(() => {
         const diagonal = memory.copy(diagonalOf(block).map((sum, row) => sum + shift[row]));
-        const weights = block.weights ?? memory.copy(new Float64Array(block.neighbours.length).fill(1));
+        const weights = weightsOf(memory, block);
         const column = memory.words(n + 1);
         const scratch = memory.doubles(2 * (n + 16) + PADDING);
         const { offsets, neighbours, fronts } = block;
@@ -62,76 +76,71 @@ export function solve(memory: Memory, block: Block, factor: Factor, columns: Dou
     const width = columns.columns!;
     const solution = memory.doubles(columns.length, width);
     memory.scratch(() => {
-        const scratch = memory.doubles((block.size + 4) * (width + 8) + PADDING);
+        const scratch = memory.doubles(solvingSpace(block.size, width));
         memory.run("solve_columns", block.fronts.parts, factor.values, factor.inverse, columns, 1n, scratch, solution);
     });
     return solution;
 }
 
-/** (L + diagonal)^-1 of columns outside of memory. */
-export function solveColumns(memory: Memory, block: Block, shift: Float64Array, columns: Float64Array, width: number): Float64Array {
-    return memory.scratch(() =>
-        solve(memory, block, factorize(memory, block, shift), memory.copy(columns, width)).view.slice(),
-    );
+/** A block on springs: the factor of L + S + delta, and positions that continue what the springs hang on (M 7.4). */
+export function suspend(memory: Memory, block: Block, springs: Doubles, pulls: Doubles, delta: number): { factor: Factor; continued: Doubles } {
+    const n = block.size;
+    const factor = factorRoom(memory, block);
+    const continued = memory.doubles(3 * n, 3);
+    memory.scratch(() => {
+        const { offsets, neighbours, fronts } = block;
+        const diagonal = memory.copy(diagonalOf(block));
+        const scratch = memory.doubles(2 * n + 4 + solvingSpace(n, 3));
+        memory.call(
+            "suspend", offsets, neighbours, weightsOf(memory, block), diagonal, fronts.parts, springs, pulls, delta, scratch, factor.values,
+            factor.inverse, continued,
+        );
+    });
+    return { factor, continued };
 }
 
-/** Cosine columns `first` to `last` - 1 (M 8.2). */
-export function cosineColumns(memory: Memory, rows: number, first: number, last: number): Matrix {
-    const columns = last - first;
-    const values = memory.scratch(() => {
-        const place = memory.doubles(rows * columns, columns);
-        memory.run("cosines", BigInt(first), memory.doubles(rows + 8), place);
-        return place.view.slice();
-    });
-    return { rows, columns, values };
+/** The first cosine columns (M 8.2). */
+export function cosineColumns(memory: Memory, rows: number, columns: number): Doubles {
+    return resized(memory, memory.doubles(0, 0), rows, columns);
 }
 
 /** The start of a block that follows: the predecessor's columns, and noise where the block is in pieces (M 8.3). */
-export function followColumns(memory: Memory, block: Block, previous: Matrix, width: number): Matrix {
-    const start = resized(memory, previous, width);
-    return inPieces(block) ? withNoise(start, FOLLOWING_NOISE) : start;
+export function followColumns(memory: Memory, block: Block, previous: Doubles, width: number): Doubles {
+    if (inPieces(block)) return withNoise(memory, resized(memory, previous, block.size, width), FOLLOWING_NOISE);
+    return previous.columns! >= width ? previous : resized(memory, previous, block.size, width);
 }
 
 /** The start of a block that follows none: cosines, and noise where the block is in pieces or the basis exact (M 8.3). */
-export function firstColumns(memory: Memory, block: Block, width: number, exact: boolean): Matrix {
-    const start = cosineColumns(memory, block.size, 0, width);
-    return exact || inPieces(block) ? withNoise(start, START_NOISE) : start;
+export function firstColumns(memory: Memory, block: Block, width: number, exact: boolean): Doubles {
+    const start = cosineColumns(memory, block.size, width);
+    return exact || inPieces(block) ? withNoise(memory, start, START_NOISE) : start;
 }
 
-function withNoise({ rows, columns, values }: Matrix, share: number): Matrix {
-    return { rows, columns, values: values.map((value, i) => value + share * hashEntry(Math.floor(i / columns), i % columns)) };
+function withNoise(memory: Memory, { view, columns }: Doubles, share: number): Doubles {
+    return memory.copy(view.map((value, i) => value + share * hashEntry(Math.floor(i / columns!), i % columns!)), columns);
 }
 
 /** Whether the graph of a block has several components. */
 function inPieces({ size, offsets, neighbours }: Block): boolean {
+    const [starts, beside] = [offsets.view, neighbours.view];
     const found = new Uint8Array(size);
-    const waiting = [0];
+    const waiting = new Int32Array(size);
     let count = 1;
     found[0] = 1;
-    for (let row = waiting.pop(); row !== undefined; row = waiting.pop()) {
-        for (let k = offsets.view[row]!; k < offsets.view[row + 1]!; k++) {
-            const next = neighbours.view[k]!;
-            if (found[next]) continue;
-            found[next] = 1;
-            count++;
-            waiting.push(next);
+    for (let next = 0; next < count; next++) {
+        const row = waiting[next];
+        for (let k = starts[row]; k < starts[row + 1]; k++) {
+            if (found[beside[k]]++ === 0) waiting[count++] = beside[k];
         }
     }
     return count < size;
 }
 
-/** The predecessor's columns, `width` of them, and cosines where it has fewer. */
-function resized(memory: Memory, previous: Matrix, width: number): Matrix {
-    if (previous.columns === width) return previous;
-    const { rows } = previous;
-    const kept = Math.min(previous.columns, width);
-    const values = new Float64Array(rows * width);
-    for (let r = 0; r < rows; r++) values.set(previous.values.subarray(r * previous.columns, r * previous.columns + kept), r * width);
-    if (kept < width) {
-        const more = cosineColumns(memory, rows, kept, width);
-        for (let r = 0; r < rows; r++) values.set(more.values.subarray(r * more.columns, (r + 1) * more.columns), r * width + kept);
-    }
-    return { rows, columns: width, values };
+/** The first `width` columns of others, and cosines where there are fewer. */
+function resized(memory: Memory, previous: Doubles, rows: number, width: number): Doubles {
+    const columns = memory.doubles(rows * width, width);
+    memory.scratch(() => memory.run("resize_columns", previous, memory.doubles(rows + 8), columns));
+    return columns;
 }
 
 /** Nanoseconds that a solution takes, and an orthonormalisation (M 14.3). */
@@ -148,65 +157,62 @@ export function whole(columns: number): number {
     return 8 * Math.ceil(columns / 8);
 }
 
-/** U(t) = Onorm(R^power U(t - 1)), `iterations` times (M 8.4). */
+/** U(t) = Onorm(R^power U(t - 1)), `iterations` times, of the first `columns` of a start (M 8.4). */
 export function orthogonalIteration(
     memory: Memory,
     block: Block,
-    start: Matrix,
-    shift: Float64Array,
-    power: number,
-    iterations: number,
+    factor: Factor,
+    start: Doubles,
+    columns: number,
+    [power, iterations]: Schedule,
     allowance: Allowance,
-): Matrix {
-    const { rows, columns } = start;
-    return memory.scratch(() => {
-        const factor = factorize(memory, block, shift);
-        const given = memory.copy(start.values, columns);
-        const subspace = memory.doubles(rows * columns, columns);
+): Doubles {
+    const { rows } = start;
+    const subspace = memory.doubles(rows * columns, columns);
+    memory.scratch(() => {
         const scratch = iterationScratch(memory, rows, columns);
         const { values, inverse } = factor;
         const fronts = block.fronts.parts;
         const independence = memory.run(
-            "iterate", fronts, values, inverse, given, BigInt(power), BigInt(iterations), ONCE, scratch, subspace,
+            "iterate", fronts, values, inverse, start, BigInt(power), BigInt(iterations), ONCE, scratch, subspace,
         );
-        if (independence >= TWICE) return { rows, columns, values: subspace.view.slice() };
+        if (independence >= TWICE) return;
         // R^power has all but lost the higher columns: orthonormalised after every R they stay (M 8.4).
         allowance.spend(iterations * power * (solutionCost(block, columns) + 2 * roundingCost(rows, columns)));
-        let current = start;
-        for (let k = 0; k < iterations * power; k++) current = solvedOnorm(memory, block, factor, current, allowance);
-        return current;
+        subspace.view.set((start.columns === columns ? start : resized(memory, start, rows, columns)).view);
+        for (let k = 0; k < iterations * power; k++) solveOnorm(memory, block, factor, subspace, allowance);
     });
+    return subspace;
 }
 
 function iterationScratch(memory: Memory, rows: number, columns: number): Doubles {
     return memory.doubles(memory.call("iteration_space", BigInt(rows), BigInt(columns)));
 }
 
-function solvedOnorm(memory: Memory, block: Block, factor: Factor, start: Matrix, allowance: Allowance): Matrix {
-    const { rows, columns } = start;
-    return memory.scratch(() => {
-        const solved = solve(memory, block, factor, memory.copy(start.values, columns));
-        const subspace = memory.doubles(rows * columns, columns);
+/** Overwrite U by Onorm(R U). */
+function solveOnorm(memory: Memory, block: Block, factor: Factor, subspace: Doubles, allowance: Allowance): void {
+    const { rows } = subspace;
+    const columns = subspace.columns!;
+    memory.scratch(() => {
+        const solved = solve(memory, block, factor, subspace);
         const independence = memory.run("cholesky_onorm", solved, ONCE, iterationScratch(memory, rows, columns), subspace);
-        if (independence < TWICE) {
-            allowance.spend(0.35 * rows * columns ** 2);
-            householder(memory, solved, subspace);
-        }
-        return { rows, columns, values: subspace.view.slice() };
+        if (independence >= TWICE) return;
+        allowance.spend(0.35 * rows * columns ** 2);
+        householder(memory, solved, subspace);
     });
 }
 
 /** Q of the QR factorisation with positive diagonal of columns close to dependent (M 8.1); they are overwritten. */
 function householder(memory: Memory, columns: Doubles, q: Doubles): void {
-    if (!columns.view.every(Number.isFinite)) throw new NumericError("the subspace iteration produced a value that is not finite");
+    if (!areFinite(columns.view)) throw new NumericError("the subspace iteration produced a value that is not finite");
     memory.scratch(() => memory.run("householder", columns, memory.doubles(3 * columns.columns!), q));
 }
 
 /** The exact basis of L + springs (M 8.5). */
-export function exactBasis(memory: Memory, block: Block, springs: Float64Array, width: number, allowance: Allowance): Matrix {
+export function exactBasis(memory: Memory, block: Block, springs: Float64Array, width: number, allowance: Allowance): Doubles {
+    const factor = factorize(memory, block, springs.map((spring) => spring + EXACT_SHIFT));
     const start = firstColumns(memory, block, width, true);
-    const shift = springs.map((spring) => spring + EXACT_SHIFT);
-    return orthogonalIteration(memory, block, start, shift, EXACT_POWER, EXACT_ITERATIONS, allowance);
+    return orthogonalIteration(memory, block, factor, start, width, EXACT, allowance);
 }
 
 /** Fixed pseudo-random numbers in [-1, 1) (M 8.6). */
@@ -219,11 +225,10 @@ function hashEntry(row: number, column: number): number {
 }
 
 /** U E, shape (rows, width), for coefficients E of so many columns (M 10.2). */
-export function reconstruct(memory: Memory, subspace: Matrix, coefficients: Float64Array, width: number): Float64Array {
+export function reconstruct(memory: Memory, subspace: Doubles, coefficients: Float64Array, width: number): Float64Array {
     return memory.scratch(() => {
-        const columns = memory.copy(subspace.values, subspace.columns);
         const values = memory.doubles(subspace.rows * width, width);
-        memory.run("reconstruct", columns, memory.copy(coefficients, width), values);
+        memory.run("reconstruct", subspace, memory.copy(coefficients, width), values);
         return values.view.slice();
     });
 }

@@ -4,6 +4,7 @@ import type { Doubles, Ints, Memory, Words } from "./kernels";
 
 const REFINEMENT_PASSES = 2n;
 const LEAF = 16n;
+const CHAIN_SCRATCH = 7; // numbers for each part
 const MOST_WORK = 65536;
 const FULL = -1;
 const TOO_MUCH = -2;
@@ -97,62 +98,21 @@ export function largestPart(partition: Partition): number {
 
 /** Put the parts into a chain and grow each to at most `size` vertices (M 5). */
 export function growBlocks(memory: Memory, graph: Graph, partition: Partition, size: number): Blocks {
-    const { parts, order, bounds } = partition;
+    const { parts, order, bounds, labels } = partition;
     const room = memory.ints(parts * Math.min(size, graph.size));
     const { starts, cores, count } = memory.scratch(() => {
-        const chain = chainParts(memory, graph, partition);
-        const places = memory.longs(parts + 1);
-        const seen = memory.ints(graph.size);
         const { offsets, neighbours } = graph;
-        const count = memory.call("grow_blocks", offsets, neighbours, order, bounds, chain, BigInt(size), seen, places, room);
+        const pairs = Math.min(neighbours.length, parts * (parts - 1));
+        const [links, shares, scratch] = [memory.ints(pairs), memory.longs(pairs), memory.longs(CHAIN_SCRATCH * parts)];
+        const [seen, chain, places, edges] = [memory.ints(graph.size), memory.ints(parts), memory.longs(parts + 1), memory.longs(parts)];
+        const count = memory.call(
+            "chain_blocks", offsets, neighbours, order, bounds, labels, BigInt(size), links, shares, scratch, seen, chain, places, edges, room,
+        );
         const ends = bounds.view;
-        const cores = Int32Array.from(chain.view, (part) => ends[part + 1] - ends[part]);
+        const cores = chain.view.map((part) => ends[part + 1] - ends[part]);
         return { starts: Float64Array.from(places.view, Number), cores, count };
     });
     return { graph, count: parts, cores, starts, members: memory.enlarged(room, count) };
-}
-
-/** The parts in the order in which they are visited. */
-function chainParts(memory: Memory, graph: Graph, partition: Partition): Ints {
-    const { parts, labels } = partition;
-    const [offsets, neighbours, label] = [graph.offsets.view, graph.neighbours.view, labels.view];
-    let crossing = 0;
-    const visit = (found: (pair: number) => void): void => {
-        for (let v = 0; v < graph.size; v++) {
-            const here = label[v];
-            for (let i = offsets[v]; i < offsets[v + 1]; i++) {
-                if (label[neighbours[i]] !== here) found(here * parts + label[neighbours[i]]);
-            }
-        }
-    };
-    visit(() => crossing++);
-    const pairs = new Float64Array(crossing);
-    let filled = 0;
-    visit((pair) => (pairs[filled++] = pair));
-    pairs.sort();
-    const [starts, ends, edges]: [number[], number[], number[]] = [[], [], []];
-    for (let i = 0; i < crossing; ) {
-        const first = i;
-        while (i < crossing && pairs[i] === pairs[first]) i++;
-        const from = Math.floor(pairs[first] / parts);
-        while (starts.length <= from) starts.push(ends.length);
-        ends.push(pairs[first] - from * parts);
-        edges.push(i - first);
-    }
-    while (starts.length <= parts) starts.push(ends.length);
-
-    const chain = memory.ints(parts);
-    memory.scratch(() => {
-        const rows = memory.longs(parts + 1);
-        const columns = memory.ints(ends.length);
-        const shared = memory.longs(edges.length);
-        rows.view.set(starts.map(BigInt));
-        columns.view.set(ends);
-        shared.view.set(edges.map(BigInt));
-        const [sums, seen, trail, visited] = [memory.longs(parts), memory.longs(parts), memory.ints(parts), memory.bytes(parts)];
-        memory.run("chain_parts", rows, columns, shared, sums, seen, trail, visited, chain);
-    });
-    return chain;
 }
 
 /** Vertices of a block in the order in which they were found. */
@@ -181,35 +141,17 @@ export function makeBlock(memory: Memory, graph: Graph, rows: Ints): Block {
 /** Which rows are eliminated when. */
 function findFronts(memory: Memory, offsets: Ints, neighbours: Ints): Fronts {
     const n = offsets.length - 1;
-    const rows = memory.words(n);
-    const found = memory.words(n + 1);
-    const count = memory.scratch(() => memory.call("dissect", offsets, neighbours, LEAF, memory.ints(n), rows, found));
-    const firsts = found.part(n - count, count + 1);
-    const [steps, owners] = [memory.words(n), memory.words(n)];
-    const [starts, places] = [memory.words(count + 1), memory.words(count + 1)];
-    const work = MOST_WORK * n;
-    const scratch = memory.words(n + 2 * count);
+    const [rows, steps, owners] = [memory.words(n), memory.words(n), memory.words(n)];
+    const [firsts, starts, places] = [memory.words(n + 1), memory.words(n + 1), memory.words(n + 1)];
+    const [scratch, sums] = [memory.words(3 * n), memory.doubles(2)];
     let borders = memory.words(16 * n + 64);
-    let size = FULL;
-    while ((size = memory.call("find_borders", offsets, neighbours, rows, firsts, work, scratch, steps, owners, starts, borders, places)) === FULL) {
+    let count = FULL;
+    while ((count = memory.call("find_fronts", offsets, neighbours, LEAF, MOST_WORK * n, scratch, rows, steps, owners, firsts, starts, borders, places, sums)) === FULL) {
         borders = memory.enlarged(borders, 4 * borders.length);
     }
-    if (size === TOO_MUCH) throw new LimitError(`the faces of a block of ${n} vertices are too entangled`);
-    borders = memory.enlarged(borders, size);
-    const sums = cost(firsts, starts);
-    const told = memory.doubles(2);
-    told.view.set([sums.entries, sums.work]);
-    return { parts: [rows, steps, owners, firsts, starts, borders, places, told], size: places.view[count], ...sums };
-}
-
-function cost(firsts: Words, starts: Words): { work: number; entries: number } {
-    const [own, border] = [firsts.view, starts.view];
-    let [work, entries] = [0, 0];
-    for (let f = 0; f + 1 < own.length; f++) {
-        const steps = own[f + 1] - own[f];
-        const width = steps + border[f + 1] - border[f];
-        work += steps * width * width;
-        entries += steps * width;
-    }
-    return { work, entries };
+    if (count === TOO_MUCH) throw new LimitError(`the faces of a block of ${n} vertices are too entangled`);
+    borders = memory.enlarged(borders, starts.view[count]);
+    const [first, start, place] = [firsts, starts, places].map((ends) => ends.part(0, count + 1));
+    const [entries, work] = sums.view;
+    return { parts: [rows, steps, owners, first, start, borders, place, sums], size: places.view[count], work, entries };
 }

@@ -1,5 +1,8 @@
 /** One chain of blocks: what its blocks know of those before them (specification, M 7 to M 11). */
-import { degreesOf, EXACT_ITERATIONS, EXACT_POWER, exactBasis, firstColumns, followColumns, orthogonalIteration, reconstruct, roundingCost, solutionCost, solveColumns, whole, type Matrix } from "./basis";
+import {
+    degreesOf, EXACT, exactBasis, factorize, firstColumns, followColumns, orthogonalIteration, reconstruct, roundingCost, solutionCost, suspend, whole,
+    type Factor, type Schedule,
+} from "./basis";
 import { makeBlock, membersOf, type Block, type Blocks } from "./blocks";
 import { CoefficientModel, unpackLevels } from "./coefficients";
 import { Coder } from "./entropy";
@@ -7,6 +10,7 @@ import { CorruptError, NumericError } from "./errors";
 import type { Header } from "./header";
 import type { Bytes, Doubles, Ints, Longs, Memory } from "./kernels";
 import { checkLimit, type Limits } from "./limits";
+import { areFinite } from "./numbers";
 
 export const TETHER = 2 ** -16;
 const SOFTNESS = 2 ** -10;
@@ -30,8 +34,8 @@ export interface DecodedBlock {
 }
 
 /** Power and iterations of a block that follows another, or of one that does not. */
-function scheduleOf(header: Header, follows: boolean): [number, number] {
-    return isExact(header, follows) ? [EXACT_POWER, EXACT_ITERATIONS] : [header.power, iterationsOf(header, follows)];
+function scheduleOf(header: Header, follows: boolean): Schedule {
+    return isExact(header, follows) ? EXACT : [header.power, iterationsOf(header, follows)];
 }
 
 /** Take the work and the memory of a dictionary of so many columns from what is allowed (M 14.2 to M 14.4). */
@@ -42,12 +46,20 @@ export function spendOn(allowance: Allowance, header: Header, block: Block, colu
     allowance.spend(block.fronts.work / 7 + iterations * (power * solutionCost(block, columns) + roundingCost(rows, columns)));
 }
 
-/** U of a block that follows none (M 8.3 to M 8.5). */
-export function keyDictionary(memory: Memory, header: Header, block: Block, springs: Float64Array, width: number, allowance: Allowance): Matrix {
+/** U of a block that follows none (M 8.3 to M 8.5); `held` is the factor of L + springs + delta, where there is one. */
+export function keyDictionary(
+    memory: Memory,
+    header: Header,
+    block: Block,
+    springs: Float64Array,
+    width: number,
+    allowance: Allowance,
+    held?: Factor,
+): Doubles {
     if (isExact(header, false)) return exactBasis(memory, block, springs, width, allowance);
+    const factor = held ?? factorize(memory, block, springs.map((spring) => spring + header.shift));
     const start = firstColumns(memory, block, width, false);
-    const shift = springs.map((spring) => spring + header.shift);
-    return orthogonalIteration(memory, block, start, shift, header.power, iterationsOf(header, false), allowance);
+    return orthogonalIteration(memory, block, factor, start, width, scheduleOf(header, false), allowance);
 }
 
 function isExact(header: Header, follows: boolean): boolean {
@@ -120,7 +132,9 @@ export class ChainDecoder {
     private readonly details?: CoefficientModel;
     private readonly known?: Blend;
     private readonly inside?: Bytes;
-    private subspace?: Matrix;
+    private readonly behind: number;
+    /** The dictionary of the block before, behind what the chain has learnt. */
+    private subspace?: Doubles;
 
     constructor(
         private readonly memory: Memory,
@@ -136,30 +150,34 @@ export class ChainDecoder {
             this.inside = memory.bytes(blocks.graph.size);
             this.inside.view.fill(0);
         }
+        this.behind = memory.mark();
     }
 
     /** Decode the chain's next block. */
     decode(index: number, width: number, payload: Uint8Array): DecodedBlock {
-        return this.memory.scratch(() => {
+        let decoded!: DecodedBlock;
+        this.subspace = this.memory.keep(() => {
             const { header, memory } = this;
             const block = makeBlock(memory, this.blocks.graph, membersOf(this.blocks, index));
             const { points, details } = this.readPoints(payload, width, block);
             const columns = Math.min(Math.max(width, details.length), block.size);
             const { springs, pulls } = this.lookAround(block);
             spendOn(this.allowance, this.header, block, columns, this.predecessor(block) !== undefined);
-            const subspace = this.dictionary(block, springs, columns);
+            const { factor, continued } = suspend(memory, block, springs, pulls, header.shift);
+            const subspace = this.dictionary(block, springs, factor, columns);
             const coefficients = points.map((point) => (point * header.step) / 2);
             const positions = reconstruct(memory, subspace, coefficients, 3);
-            extend(memory, block, springs, pulls, this.header.shift).forEach((value, i) => (positions[i] += value));
+            const { view } = continued;
+            for (let i = 0; i < view.length; i++) positions[i] += view[i];
             if (details.length > 0) this.displace(block, positions, subspace, details);
-            if (!positions.every(Number.isFinite)) throw new NumericError("the coefficients reconstruct to positions that are not finite");
+            if (!areFinite(positions)) throw new NumericError("the coefficients reconstruct to positions that are not finite");
             const vertices = block.vertices.view.slice();
             const degrees = degreesOf(block).map((degree) => Math.max(degree, 1));
-            const decoded = { index, vertices, positions, weights: this.copyWeights(index, vertices, degrees) };
-            this.subspace = subspace;
+            decoded = { index, vertices, positions, weights: this.copyWeights(index, vertices, degrees) };
             this.known?.add(decoded, degrees);
-            return decoded;
-        });
+            return subspace;
+        }, this.behind);
+        return decoded;
     }
 
     /** Coefficients of x, y and z, and of the detail layer, in half steps. */
@@ -179,35 +197,37 @@ export class ChainDecoder {
     }
 
     /** Springs at each row, and what they pull to (M 7.3). */
-    private lookAround(block: Block): { springs: Float64Array; pulls: Float64Array } {
+    private lookAround(block: Block): { springs: Doubles; pulls: Doubles } {
         const { memory, known, inside } = this;
-        if (!known || !inside) return { springs: new Float64Array(block.size), pulls: new Float64Array(3 * block.size) };
-        return memory.scratch(() => {
-            const springs = memory.doubles(block.size);
-            const pulls = memory.doubles(3 * block.size, 3);
+        const springs = memory.doubles(block.size);
+        const pulls = memory.doubles(3 * block.size, 3);
+        if (known && inside) {
             const { offsets, neighbours } = this.blocks.graph;
             const stiffness = this.header.prediction[0];
             memory.run("look_around", offsets, neighbours, block.vertices, inside, known.sums, known.weights, stiffness, springs, pulls);
-            return { springs: springs.view.slice(), pulls: pulls.view.slice() };
-        });
+        } else {
+            springs.view.fill(0);
+            pulls.view.fill(0);
+        }
+        return { springs, pulls };
     }
 
     /** The dictionary that a block starts from, if it follows another. */
-    private predecessor(block: Block): Matrix | undefined {
+    private predecessor(block: Block): Doubles | undefined {
         return this.header.seeding === 0 && this.subspace?.rows === block.size ? this.subspace : undefined;
     }
 
     /** U of a block (M 8.3 to M 8.5). */
-    private dictionary(block: Block, springs: Float64Array, width: number): Matrix {
-        const { header, memory } = this;
+    private dictionary(block: Block, springs: Doubles, factor: Factor, width: number): Doubles {
+        const { header, memory, allowance } = this;
         const previous = this.predecessor(block);
-        if (header.basis === 1 || !previous) return keyDictionary(memory, header, block, springs, width, this.allowance);
-        const shift = springs.map((spring) => spring + header.shift);
-        return orthogonalIteration(memory, block, followColumns(memory, block, previous, width), shift, header.power, header.iterations, this.allowance);
+        if (header.basis === 1 || !previous) return keyDictionary(memory, header, block, springs.view.slice(), width, allowance, factor);
+        const start = followColumns(memory, block, previous, width);
+        return orthogonalIteration(memory, block, factor, start, width, scheduleOf(header, true), allowance);
     }
 
     /** Move rows along their normals (M 11.3, M 11.4). */
-    private displace(block: Block, positions: Float64Array, subspace: Matrix, details: Float64Array): void {
+    private displace(block: Block, positions: Float64Array, subspace: Doubles, details: Float64Array): void {
         const { memory, surface, header } = this;
         const heights = reconstruct(memory, subspace, details.map((point) => (point * header.detailStep) / 2), 1);
         memory.scratch(() => {
@@ -215,7 +235,8 @@ export class ChainDecoder {
             const normals = memory.doubles(positions.length, 3);
             const given = memory.copy(positions, 3);
             memory.run("block_normals", faces, starts, members, block.vertices, place, given, SOFTNESS, LEAST_NORMAL, normals);
-            normals.view.forEach((normal, i) => (positions[i] += normal * heights[Math.floor(i / 3)]));
+            const { view } = normals;
+            for (let i = 0; i < view.length; i++) positions[i] += view[i] * heights[Math.floor(i / 3)];
         });
     }
 
@@ -227,15 +248,4 @@ export class ChainDecoder {
         const core = new Set(members.part(starts[index], cores[index]).view);
         return Float64Array.from(vertices, (vertex) => (core.has(vertex) ? 1 : 0));
     }
-}
-
-/** Positions that continue what is known (M 7.4). */
-function extend(memory: Memory, block: Block, springs: Float64Array, pulls: Float64Array, delta: number): Float64Array {
-    const total = springs.reduce((sum, spring) => sum + spring, 0);
-    if (total === 0) return new Float64Array(pulls.length);
-    const mean = [0, 0, 0];
-    pulls.forEach((pull, i) => (mean[i % 3] += pull / total));
-    const loads = pulls.map((pull, i) => pull - springs[Math.floor(i / 3)] * mean[i % 3]);
-    const shift = springs.map((spring) => spring + delta);
-    return solveColumns(memory, block, shift, loads, 3).map((value, i) => value + mean[i % 3]);
 }

@@ -55,7 +55,9 @@ export class CoefficientModel {
         for (let i = 0; i < WEIGHTS; i++) weights[i] = numbers.getUint16(2 * i, true);
         for (let i = 0; i < MIXING; i++) mixing[i] = 16 * numbers.getInt16(2 * (WEIGHTS + i), true);
         for (let i = 0; i < SLOTS; i++) {
-            const stored = numbers.getUint16(2 * (WEIGHTS + MIXING + i), true);
+            // They are kept by node, bin and expectation, see `scripts/kernels.mjs`.
+            const [expectation, bin, node] = [Math.floor(i / NODES / BINS), Math.floor(i / NODES) % BINS, i % NODES];
+            const stored = numbers.getUint16(2 * (WEIGHTS + MIXING + (node * BINS + bin) * EXPECTATIONS + expectation), true);
             slots[i] = ((stored >> 4) << 20) | (1 << 19) | ((stored & 15) << 2);
         }
     }

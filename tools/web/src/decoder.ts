@@ -1,28 +1,28 @@
 /** A stream to a mesh, block by block, while it arrives. */
 import { Attributes, type Attribute, type Solid } from "./attributes";
 import { Assembly, inMeshUnits, type Changes } from "./assembly";
-import { derivePartition, groupLabels, growBlocks, largestPart, makeGraph, type Blocks, type Graph, type Partition } from "./blocks";
-import { Allowance, chainLength, ChainDecoder, type DecodedBlock, type Surface } from "./chain";
-import { decodeArrangement, decodeConnectivity, decodeLabels } from "./connectivity";
+import type { Blocks } from "./blocks";
+import { Allowance, type DecodedBlock } from "./chain";
+import { decodeArrangement } from "./connectivity";
 import type { Declaration } from "./declaration";
-import { BsmError, CorruptError, UnsupportedError, type Described } from "./errors";
+import { BsmError, CorruptError, errorLike, UnsupportedError, type Described } from "./errors";
 import { Grid, Refinement } from "./fields";
 import type { Header } from "./header";
-import type { Ints, Kernels, Memory } from "./kernels";
+import { isMine, type SharedBlock } from "./helper";
+import type { Kernels, Memory } from "./kernels";
 import { checkLimit, DEFAULT_LIMITS, type Limits } from "./limits";
 import { Numbering, permuted, type Loose } from "./numbering";
 import { Cursor, END_OF_STREAM, NEED_DATA, Reader, type Damaged, type Packet, type Signal } from "./reader";
 import { Sequence } from "./sequence";
 import { split } from "./splits";
+import { Structure, type Chains } from "./structure";
 import { TolerantReader } from "./tolerant";
 
-const CONNECTIVITY_METHOD = 1;
-const PARTITION_METHOD = 0;
 const ORDER_METHOD = 1;
 const SPLITS_METHOD = 2;
 const MAX_STIFFNESS = 65536;
-/** Vertices that one of a sequence counts for (M 14.3). */
-const SEQUENCE_WEIGHT = 8;
+/** The next block is one that a helper has to send first. */
+export const NEED_BLOCK = "need block";
 
 /** The header has arrived. */
 export interface HeaderEvent {
@@ -76,6 +76,8 @@ export type Event = HeaderEvent | ConnectivityEvent | BlockEvent | RefinementEve
 export interface Wishes {
     /** Report damage behind the faces as `LossEvent`, and go on with everything that does not depend on what is lost. */
     tolerant?: boolean;
+    /** Asked once the header is there: how many helpers share the work on chains of blocks. */
+    helpers?: (header: Header) => number;
 }
 
 /** An attribute is there, whole. */
@@ -103,13 +105,18 @@ interface ComingFrame {
     make: () => Float64Array;
 }
 
-type Item = Event | DecodedBlock | ComingFrame;
+/** A block that a helper decodes. */
+interface AwaitedBlock {
+    awaited: number;
+}
+
+type Item = Event | DecodedBlock | ComingFrame | AwaitedBlock;
 
 /**
  * Takes the bytes of a stream as they come, and gives events as soon as they can be known.
  *
- * The events do not depend on how the bytes are cut up. An error is thrown by `nextEvent` after the events before it,
- * and by every later call.
+ * The events do not depend on how the bytes are cut up, nor on helpers; limits of work and memory hold for each helper as
+ * they do for the decoder. An error is thrown by `nextEvent` after the events before it, and by every later call.
  */
 export class Decoder {
     private readonly limits: Limits;
@@ -119,16 +126,15 @@ export class Decoder {
     private readonly queue: Item[] = [];
     private error?: BsmError;
     private header?: Header;
-    private faces?: Ints;
-    private graph?: Graph;
-    private surface?: Surface;
-    private partition?: Partition;
+    private structure?: Structure;
     private numbering?: Numbering;
-    private blocks?: Blocks;
     private assembly?: Assembly;
-    private chain?: { number: number; decoder: ChainDecoder; next: number };
-    private behindMesh = 0;
+    private chains?: Chains;
     private nextIndex = 0;
+    private among = 1;
+    private readonly whole: { attributes: Attribute[]; first?: Float64Array } = { attributes: [] };
+    /** What helpers have sent before it was its turn. */
+    private readonly shared = new Map<number, SharedBlock>();
     private grid?: Grid;
     private chunks = 0;
     private attributes?: Attributes;
@@ -160,33 +166,44 @@ export class Decoder {
         this.reader.receiveEof();
     }
 
+    /** Take what a helper has decoded. */
+    receiveBlock(shared: SharedBlock): void {
+        this.shared.set(shared.index, shared);
+    }
+
     /** Bytes of the stream that the events so far are made of. */
     get position(): number {
         return this.reader.position;
     }
 
-    /** The next event, or `NEED_DATA`; `END_OF_STREAM` after the end and `receiveEof`. */
-    nextEvent(): Event | Signal {
+    /** The next event, or `NEED_DATA`; with helpers `NEED_BLOCK`; `END_OF_STREAM` after the end and `receiveEof`. */
+    nextEvent(): Event | Signal | typeof NEED_BLOCK {
         const item = this.nextItem();
         if (typeof item === "string" || "type" in item) return item;
         if ("make" in item) return { type: "frame", index: item.frame, positions: this.made(item) };
         return this.guarded(() => ({ type: "block", index: item.index, ...this.numbering!.spread(this.assembly!.changes(item)) }), item.index);
     }
 
-    /** Decode the rest of a complete stream; faster than asking for events. */
+    /** Decode the rest of a complete stream; faster than asking for events. Without helpers it is there at once. */
     finish(): Mesh {
+        return this.advance() as Mesh;
+    }
+
+    /** The same with helpers: to be called again where it has come to a block that is not there yet. */
+    advance(): Mesh | typeof NEED_BLOCK {
+        const { whole } = this;
         this.receiveEof();
-        const attributes: Attribute[] = [];
-        let first: Float64Array | undefined;
         for (let item; (item = this.nextItem()) !== END_OF_STREAM; ) {
+            if (item === NEED_BLOCK) return item;
             if (typeof item === "string") continue;
             if ("type" in item) {
-                if (item.type === "attribute") attributes.push(item);
-            } else if ("make" in item) first ??= this.made(item);
+                if (item.type === "attribute") whole.attributes.push(item);
+            } else if ("make" in item) whole.first ??= this.made(item);
             else this.assembly!.add(item);
         }
         const { numbering } = this;
-        return { positions: first ?? this.guarded(() => numbering!.arranged(this.wholePositions())), faces: numbering!.faces, attributes };
+        const positions = whole.first ?? this.guarded(() => numbering!.arranged(this.wholePositions()));
+        return { positions, faces: numbering!.faces, attributes: whole.attributes };
     }
 
     /** A frame's positions in the unit of the mesh. */
@@ -194,13 +211,23 @@ export class Decoder {
         return this.guarded(() => this.numbering!.arranged(inMeshUnits(frame.make(), this.header!)));
     }
 
-    private nextItem(): Item | Signal {
+    private nextItem(): Exclude<Item, AwaitedBlock> | Signal | typeof NEED_BLOCK {
         for (;;) {
-            const item = this.queue.shift();
-            if (item) return item;
-            if (this.error) throw this.error;
-            const signal = this.takePacket();
-            if (signal) return signal;
+            const item = this.queue[0];
+            if (item && "awaited" in item) {
+                const shared = this.shared.get(item.awaited);
+                if (!shared) return NEED_BLOCK;
+                this.shared.delete(item.awaited);
+                this.queue.shift();
+                this.acceptShared(shared);
+            } else if (item) {
+                this.queue.shift();
+                return item;
+            } else {
+                if (this.error) throw this.error;
+                const signal = this.takePacket();
+                if (signal) return signal;
+            }
         }
     }
 
@@ -246,7 +273,7 @@ export class Decoder {
             case "connectivity":
                 return this.acceptConnectivity(packet.method, packet.data);
             case "partition":
-                return this.acceptPartition(packet.method, packet.data);
+                return this.structure!.acceptPartition(packet.method, packet.data);
             case "order":
                 return this.acceptOrder(packet.method, packet.data);
             case "block":
@@ -289,7 +316,7 @@ export class Decoder {
 
     private acceptDamage({ kind, offset, length, reason }: Damaged): void {
         const error = new CorruptError(`${length} bytes cannot be read: ${reason}`, { offset });
-        const begun = this.blocks ?? this.grid;
+        const begun = this.chains ?? this.grid;
         if (this.header!.gopFrames > 0 && begun) {
             if (this.nextIndex < this.header!.blocks) throw error;
             const sequence = this.begunSequence();
@@ -311,38 +338,26 @@ export class Decoder {
         checkLimit(this.limits, "coefficients", header.details);
         if (header.gopFrames > 0) checkLimit(this.limits, "sequenceBytes", 8 * header.vertices * header.coefficients);
         this.header = header;
+        this.among = 1 + (this.wishes.helpers?.(header) ?? 0);
         this.queue.push({ type: "header", header });
     }
 
     private acceptConnectivity(method: number, data: Uint8Array): void {
-        const { memory, header } = this;
-        if (method !== CONNECTIVITY_METHOD) throw new UnsupportedError(`connectivity method ${method} is unknown to this decoder`);
-        this.faces = decodeConnectivity(memory, data, header!.vertices, header!.faces, this.limits);
-        this.allowance.grant(header!.vertices * (header!.gopFrames > 0 ? SEQUENCE_WEIGHT : 1));
-        if (header!.grid.length > 0) return;
-        this.graph = makeGraph(memory, this.faces, header!.vertices);
-        if (header!.details > 0) this.surface = makeSurface(memory, this.faces, header!.vertices);
-    }
-
-    private acceptPartition(method: number, data: Uint8Array): void {
-        if (method !== PARTITION_METHOD) throw new UnsupportedError(`partition method ${method} is unknown to this decoder`);
-        const { offsets, neighbours } = this.graph!;
-        const labels = decodeLabels(this.memory, data, offsets, neighbours, this.header!.blocks);
-        this.partition = groupLabels(this.memory, labels, this.header!.blocks);
+        this.structure = new Structure(this.memory, this.header!, method, data, this.limits, this.allowance);
     }
 
     private acceptOrder(method: number, data: Uint8Array): void {
-        const { memory, faces, header, limits } = this;
+        const { memory, structure, header, limits } = this;
         const splits = method === SPLITS_METHOD && !header!.gopFrames;
         if (!splits && method !== ORDER_METHOD) throw new UnsupportedError(`order method ${method} is unknown to this decoder`);
         const cursor = new Cursor(data);
         const order = splits ? cursor.take(cursor.varint()) : data;
-        const arrangement = decodeArrangement(memory, order, faces!, header!.vertices);
+        const arrangement = decodeArrangement(memory, order, structure!.faces, header!.vertices);
         this.numbering = splits ? split(cursor.rest(), arrangement, limits) : permuted(arrangement);
     }
 
     private acceptAttribute(index: number, declaration: Declaration, seams: Uint8Array): void {
-        this.attributes ??= new Attributes(this.memory, this.header!, this.faces!, this.limits);
+        this.attributes ??= new Attributes(this.memory, this.header!, this.structure!.faces, this.limits);
         const { attributes } = this;
         this.tolerating(() => attributes.declare(index, declaration, seams), undefined, true);
     }
@@ -364,7 +379,7 @@ export class Decoder {
         else {
             this.built();
             this.skipTo(this.header!.blocks);
-            if (!this.refinement) this.memory.release(this.behindMesh);
+            if (!this.refinement) this.chains!.release();
         }
         attributes.check(this.numbering!);
         return attributes;
@@ -380,22 +395,19 @@ export class Decoder {
     }
 
     private acceptBlock(index: number, coefficients: number, data: Uint8Array): void {
-        const blocks = this.built();
+        this.built();
         this.skipTo(index);
         this.nextIndex++;
-        const length = chainLength(this.header!);
-        const number = Math.floor(index / length);
-        if (this.chain?.number !== number) {
-            this.memory.release(this.behindMesh);
-            const decoder = new ChainDecoder(this.memory, this.header!, blocks, this.allowance, this.surface);
-            this.chain = { number, decoder, next: number * length };
-        }
-        const { chain } = this;
-        this.tolerating(() => {
-            if (chain.next !== index) throw new CorruptError(`the block depends on block ${chain.next}, which is lost`);
-            this.queue.push(chain.decoder.decode(index, coefficients, data));
-            chain.next++;
-        }, index);
+        if (!isMine(this.header!, index, { number: 0, among: this.among })) this.queue.push({ awaited: index });
+        else this.tolerating(() => this.queue.push(this.chains!.decode(index, coefficients, data)), index);
+    }
+
+    private acceptShared({ index, block, problem }: SharedBlock): void {
+        const refuse = (): never => {
+            throw errorLike(problem!);
+        };
+        if (block) this.queue.unshift(block);
+        else this.guarded(() => this.tolerating(refuse, index), index);
     }
 
     private acceptGrid(first: number, count: number, data: Uint8Array): void {
@@ -410,7 +422,7 @@ export class Decoder {
     private begunGrid(): Grid {
         if (this.grid) return this.grid;
         this.announce();
-        return (this.grid = new Grid(this.memory, this.faces!, this.header!));
+        return (this.grid = new Grid(this.memory, this.structure!.faces, this.header!));
     }
 
     private acceptGop(index: number, data: Uint8Array): void {
@@ -428,9 +440,9 @@ export class Decoder {
         const blocks = this.built();
         if (this.sequence) return this.sequence;
         this.expect(this.header!.blocks);
-        this.memory.release(this.behindMesh);
+        this.chains!.release();
         const base = this.assembly!.base();
-        return (this.sequence = new Sequence(this.memory, this.header!, blocks, this.limits, this.faces!, base, this.allowance));
+        return (this.sequence = new Sequence(this.memory, this.header!, blocks, this.limits, this.structure!.faces, base, this.allowance));
     }
 
     /** Report frames that were lost before frame `index`. */
@@ -451,9 +463,9 @@ export class Decoder {
         this.built();
         if (this.refinement) return this.refinement;
         this.skipTo(this.header!.blocks);
-        this.memory.release(this.behindMesh);
-        const { memory, faces, header, assembly } = this;
-        return (this.refinement = new Refinement(memory, faces!, header!, assembly!.base(), assembly!.spoilt()));
+        this.chains!.release();
+        const { memory, structure, header, assembly } = this;
+        return (this.refinement = new Refinement(memory, structure!.faces, header!, assembly!.base(), assembly!.spoilt()));
     }
 
     /** All positions in the unit of the mesh, as vertices are numbered in the decoded faces. */
@@ -462,7 +474,7 @@ export class Decoder {
     }
 
     private acceptEnd(): void {
-        if (!this.faces) throw new CorruptError("the stream ends before its first block");
+        if (!this.structure) throw new CorruptError("the stream ends before its first block");
         this.over = true;
         if (this.attributes) {
             const recomputed = this.begunAttributes().recomputed(this.numbering!, () => this.solid());
@@ -505,31 +517,20 @@ export class Decoder {
     }
 
     private announce(): void {
-        this.numbering ??= new Numbering(this.faces!.view.slice(), this.header!.vertices);
+        this.numbering ??= new Numbering(this.structure!.faces.view.slice(), this.header!.vertices);
         const { faces, size, loose } = this.numbering;
         this.queue.push({ type: "connectivity", faces, vertices: size, loose });
     }
 
     /** The blocks, built when the first of them is needed. */
     private built(): Blocks {
-        if (this.blocks) return this.blocks;
-        const { memory, header, graph } = this;
-        const partition = this.partition ?? derivePartition(memory, graph!, header!.blocks);
-        const largest = largestPart(partition);
-        if (largest > header!.blockSize) throw new CorruptError(`a part of ${largest} vertices in blocks of ${header!.blockSize}`);
-        this.blocks = growBlocks(memory, graph!, partition, header!.blockSize);
-        this.assembly = new Assembly(memory, this.blocks, header!);
-        this.behindMesh = memory.mark();
+        const { blocks } = this.structure!;
+        if (this.chains) return blocks;
+        this.assembly = new Assembly(this.memory, blocks, this.header!);
+        this.chains = this.structure!.chains;
         this.announce();
-        return this.blocks;
+        return blocks;
     }
-}
-
-function makeSurface(memory: Memory, faces: Ints, size: number): Surface {
-    const surface = { faces, starts: memory.longs(size + 1), members: memory.ints(faces.length), place: memory.ints(size) };
-    surface.place.view.fill(0);
-    memory.run("vertex_faces", faces, surface.starts, surface.members);
-    return surface;
 }
 
 /** Decode a complete stream. */

@@ -4,6 +4,7 @@ import { Coder } from "./entropy";
 import { CorruptError, NumericError } from "./errors";
 import type { Header } from "./header";
 import type { Argument, Doubles, Ints, Memory } from "./kernels";
+import { areFinite, rowsOf, upTo } from "./numbers";
 
 const PREDICTIONS = 7;
 const TERMS = 7;
@@ -55,7 +56,7 @@ export function linkCorners(memory: Memory, faces: Ints, size: number): Argument
     starts.view.fill(0);
     corners.view.fill(0);
     opposite.view.fill(-1);
-    rank.view.forEach((_, vertex, all) => (all[vertex] = vertex));
+    rank.view.set(upTo(size));
     const linked = [faces, starts, corners, opposite, rank];
     memory.scratch(() => {
         const scratch = memory.ints(size + faces.length);
@@ -124,11 +125,11 @@ export class Grid {
         const vertices = this.order.view.slice(first, first + count);
         const values = this.values.view;
         const positions = new Float64Array(3 * count);
-        vertices.forEach((vertex, i) => {
-            for (let d = 0; d < 3; d++) positions[3 * i + d] = this.spread(values[3 * vertex + d]) + (header.corner[d] ?? 0);
-        });
+        for (let i = 0; i < 3 * count; i++) {
+            positions[i] = this.spread(values[3 * vertices[Math.floor(i / 3)] + (i % 3)]) + (header.corner[i % 3] ?? 0);
+        }
         inMeshUnits(positions, header);
-        vertices.forEach((vertex, i) => this.positions.set(positions.subarray(3 * i, 3 * i + 3), 3 * vertex));
+        for (let i = 0; i < 3 * count; i++) this.positions[3 * vertices[Math.floor(i / 3)] + (i % 3)] = positions[i];
         return { vertices, positions, final: new Uint8Array(count).fill(1) };
     }
 
@@ -190,11 +191,10 @@ export class Refinement {
         const before = moved.view.slice();
         memory.call("add_levels", moved, this.frames.part(9 * first, 9 * count, 9), levels, step, ratio);
         const spoilt = this.spoilt.subarray(first, first + count);
-        const rows = Int32Array.from({ length: count }, (_, row) => row).filter((row) => !spoilt[row]);
+        const rows = upTo(count).filter((row) => !spoilt[row]);
         const after = moved.view;
-        spoilt.forEach((bad, row) => bad && after.set(before.subarray(3 * row, 3 * row + 3), 3 * row));
-        const positions = new Float64Array(3 * rows.length);
-        rows.forEach((row, i) => positions.set(after.subarray(3 * row, 3 * row + 3), 3 * i));
+        for (let row = 0; row < count; row++) if (spoilt[row]) after.set(before.subarray(3 * row, 3 * row + 3), 3 * row);
+        const positions = rowsOf(after, rows);
         const vertices = rows.map((row) => first + row);
         for (const vertex of vertices) this.reached[layer][vertex] = 1;
         return { vertices, positions: inMeshUnits(positions, header), final: new Uint8Array(rows.length) };
@@ -202,9 +202,8 @@ export class Refinement {
 
     /** Vertices that a layer which has begun did not reach. */
     unrefined(): Int32Array {
-        const vertices = Int32Array.from({ length: this.header.vertices }, (_, vertex) => vertex);
         const begun = this.reached.filter((layer) => layer.includes(1));
-        return vertices.filter((vertex) => begun.some((layer) => !layer[vertex]));
+        return upTo(this.header.vertices).filter((vertex) => begun.some((layer) => !layer[vertex]));
     }
 
     /** All positions in BSM units. */
@@ -214,7 +213,7 @@ export class Refinement {
 
     /** All positions in the unit of the mesh. */
     whole(): Float64Array {
-        if (!this.positions.view.every(Number.isFinite)) throw new NumericError("refined positions are not finite");
+        if (!areFinite(this.positions.view)) throw new NumericError("refined positions are not finite");
         return inMeshUnits(this.positions.view.slice(), this.header);
     }
 

@@ -19,9 +19,11 @@ export type Argument = bigint | number | Place<Numbers> | readonly Argument[];
 
 /** An array in the memory of the kernels; of two dimensions if `columns` is given. */
 export class Place<View extends Numbers> {
+    private numbers?: View;
+
     constructor(
         private readonly memory: Memory,
-        private readonly kind: Kind<View>,
+        readonly kind: Kind<View>,
         readonly pointer: number,
         readonly length: number,
         readonly columns?: number,
@@ -29,7 +31,14 @@ export class Place<View extends Numbers> {
 
     /** Its numbers, until the next allocation. */
     get view(): View {
-        return new this.kind(this.memory.buffer, this.pointer, this.length);
+        const { buffer } = this.memory;
+        if (this.numbers?.buffer !== buffer) this.numbers = new this.kind(buffer, this.pointer, this.length);
+        return this.numbers!;
+    }
+
+    /** How many rows it has. */
+    get rows(): number {
+        return this.columns === undefined ? this.length : this.columns && this.length / this.columns;
     }
 
     /** The numbers from `start` on, as an array of their own shape. */
@@ -77,6 +86,8 @@ export function hasVectors(): boolean {
 
 /** A stack of arrays, and the kernels that take them. */
 export class Memory {
+    /** All of it; another one whenever it grows. */
+    buffer: ArrayBuffer;
     private readonly frame: number;
     private top: number;
 
@@ -84,14 +95,11 @@ export class Memory {
         private readonly exports: Exports,
         private readonly limit: number,
     ) {
+        this.buffer = exports.memory.buffer;
         this.frame = align((exports.__heap_base as WebAssembly.Global).value as number);
         this.top = this.frame + ARGUMENT_BYTES;
         this.reserve(this.top);
         this.run("make_tables");
-    }
-
-    get buffer(): ArrayBuffer {
-        return this.exports.memory.buffer;
     }
 
     /** Bytes in use. */
@@ -123,6 +131,15 @@ export class Memory {
         }
     }
 
+    /** The array that `work` returns, moved to `mark`: all else that was allocated behind it is given back. */
+    keep<View extends Numbers>(work: () => Place<View>, mark = this.mark()): Place<View> {
+        const { kind, pointer, length, columns } = this.scratch(work);
+        this.release(mark);
+        const kept = this.place(kind, length, columns);
+        new Uint8Array(this.buffer).copyWithin(kept.pointer, pointer, pointer + length * kind.BYTES_PER_ELEMENT);
+        return kept;
+    }
+
     bytes(length: number): Bytes {
         return this.place(Uint8Array, length);
     }
@@ -144,7 +161,7 @@ export class Memory {
     }
 
     /** An array with the numbers of `values`. */
-    copy(values: Float64Array, columns?: number): Doubles {
+    copy(values: ArrayLike<number>, columns?: number): Doubles {
         const place = this.doubles(values.length, columns);
         place.view.set(values);
         return place;
@@ -152,7 +169,7 @@ export class Memory {
 
     /** The array allocated last, with room for `length` numbers. */
     enlarged<View extends Numbers>(place: Place<View>, length: number): Place<View> {
-        const kind = (place as unknown as { kind: Kind<View> }).kind;
+        const { kind } = place;
         const end = place.pointer + align(place.length * kind.BYTES_PER_ELEMENT);
         if (end !== this.top) throw new RangeError("only the array allocated last can grow");
         this.top = place.pointer;
@@ -181,11 +198,10 @@ export class Memory {
             else return argument.forEach(write);
             at += 8;
         };
-        const writeArray = ({ pointer, length, columns }: Place<Numbers>): void => {
+        const writeArray = ({ pointer, rows, columns }: Place<Numbers>): void => {
             view.setUint32(at, pointer, true);
-            const sizes = columns === undefined ? [length] : [columns ? length / columns : 0, columns];
-            sizes.forEach((size, i) => view.setBigInt64(at + 8 + 8 * i, BigInt(size), true));
-            at += 8 + 8 * sizes.length;
+            for (const size of columns === undefined ? [rows] : [rows, columns]) view.setBigInt64((at += 8), BigInt(size), true);
+            at += 8;
         };
         const passed = args.map((argument) => {
             if (typeof argument === "bigint" || typeof argument === "number") return argument;
@@ -210,6 +226,7 @@ export class Memory {
         if (missing <= 0) return;
         try {
             this.exports.memory.grow(missing);
+            this.buffer = this.exports.memory.buffer;
         } catch {
             throw new LimitError(`this machine has no ${end} bytes of memory for the decoder`);
         }

@@ -1,5 +1,5 @@
 /** Frames of a sequence, which follow the blocks of its first frame (specification, sequence.md). */
-import { factorize, reconstruct, solve, cosineColumns, type Factor, type Matrix } from "./basis";
+import { factorize, reconstruct, solve, cosineColumns, type Factor } from "./basis";
 import { makeBlock, type Block, type Blocks } from "./blocks";
 import { keyDictionary, spendOn, TETHER, type Allowance } from "./chain";
 import { Coder, makeBank, unsignedSpan, type Bank } from "./entropy";
@@ -7,6 +7,7 @@ import { CorruptError, NumericError, UnsupportedError, type BsmError } from "./e
 import type { Header } from "./header";
 import type { Doubles, Ints, Memory } from "./kernels";
 import { checkLimit, type Limits } from "./limits";
+import { areFinite } from "./numbers";
 import { Cursor } from "./reader";
 
 const LEARNT = 0;
@@ -54,7 +55,7 @@ interface Part {
     outer: Ints;
     stiffness: Doubles;
     factor: Factor;
-    basis: Matrix;
+    basis: Doubles;
 }
 
 /** What low-delay frames refer to, part by part (S 7.2). */
@@ -140,7 +141,7 @@ export class Sequence {
         if (header.weights === 0) return weights;
         memory.run("cotangents", offsets, neighbours, faces, frame, FLATNESS, SMALLNESS, weights);
         const { view } = weights;
-        if (!view.every(Number.isFinite)) throw new NumericError("the first frame is too large for weights of its edges");
+        if (!areFinite(view)) throw new NumericError("the first frame is too large for weights of its edges");
         view.forEach((sum, i) => {
             const positive = (sum + Math.sqrt(sum * sum + BEND)) / 2;
             view[i] = SMALLEST_WEIGHT + (LARGEST_WEIGHT * positive) / (LARGEST_WEIGHT + positive);
@@ -166,7 +167,7 @@ export class Sequence {
         spendOn(allowance, header, block, columns, false);
         const factor = factorize(memory, block, springs.map((spring) => spring + TETHER));
         const total = springs.reduce((sum, spring) => sum + spring, 0);
-        const basis = keyDictionary(memory, header, block, springs, columns, allowance);
+        const basis = memory.keep(() => keyDictionary(memory, header, block, springs, columns, allowance));
         return { block, springs, total, starts, outer, stiffness, factor, basis };
     }
 
@@ -181,9 +182,14 @@ export class Sequence {
             memory.run("pull", part.starts, part.outer, part.stiffness, field, pulls);
             const { view } = pulls;
             const mean = new Float64Array(width);
-            view.forEach((pull, i) => (mean[i % width] += pull / total));
-            view.forEach((pull, i) => (view[i] = pull - springs[Math.floor(i / width)] * mean[i % width]));
-            return solve(memory, block, part.factor, pulls).view.map((value, i) => value + mean[i % width]);
+            const eachEntry = (work: (i: number, row: number, column: number) => void): void => {
+                for (let row = 0, i = 0; row < block.size; row++) for (let column = 0; column < width; column++) work(i++, row, column);
+            };
+            eachEntry((i, _, column) => (mean[column] += view[i] / total));
+            eachEntry((i, row, column) => (view[i] -= springs[row] * mean[column]));
+            const rows = solve(memory, block, part.factor, pulls).view.slice();
+            eachEntry((i, _, column) => (rows[i] += mean[column]));
+            return rows;
         });
     }
 
@@ -197,9 +203,8 @@ export class Sequence {
             for (let i = 0; i < width; i++) rest[row * width + i] = values[vertex * width + i] - rest[row * width + i];
         });
         return memory.scratch(() => {
-            const { values, columns } = part.basis;
-            const coefficients = memory.doubles(columns * width, width);
-            memory.run("project", memory.copy(values, columns), memory.copy(rest, width), coefficients);
+            const coefficients = memory.doubles(part.basis.columns! * width, width);
+            memory.run("project", part.basis, memory.copy(rest, width), coefficients);
             return coefficients.view.slice();
         });
     }
@@ -208,9 +213,11 @@ export class Sequence {
     private place(part: Part, field: Doubles, difference: Float64Array): void {
         const width = field.columns!;
         const rows = this.extend(part, field);
-        reconstruct(this.memory, part.basis, difference, width).forEach((value, i) => (rows[i] += value));
-        const values = field.view;
-        part.block.vertices.view.forEach((vertex, row) => values.set(rows.subarray(row * width, (row + 1) * width), vertex * width));
+        const own = reconstruct(this.memory, part.basis, difference, width);
+        const [values, vertices] = [field.view, part.block.vertices.view];
+        for (let row = 0, i = 0; row < vertices.length; row++) {
+            for (let at = vertices[row] * width, end = at + width; at < end; at++, i++) values[at] = rows[i] + own[i];
+        }
     }
 
     /** A model that has learnt nothing (S 4.1); what lies behind the parts is given back. */
@@ -260,7 +267,7 @@ export class Sequence {
             );
             moments.set(state.view);
             const values = decoded.view.slice();
-            if (values.every(Number.isFinite)) return values;
+            if (areFinite(values)) return values;
             throw new NumericError("the levels reconstruct to coefficients that are not finite");
         });
     }
@@ -279,7 +286,7 @@ export class Sequence {
         this.startModel();
         const basis = gop.method === LEARNT ? this.learntBasis(gop) : cosineBasis(memory, gop);
         this.startModel();
-        const levels = this.readLevels(gop.levels, parts.map((part) => part.basis.columns), columns);
+        const levels = this.readLevels(gop.levels, parts.map((part) => part.basis.columns!), columns);
         if (columns === 0) return Array.from({ length: gop.frames }, () => () => new Float64Array(3 * this.header.vertices));
         const field = this.emptyField(columns);
         parts.forEach((part, k) => {
@@ -294,9 +301,12 @@ export class Sequence {
         const { memory, header } = this;
         const columns = field.columns!;
         return memory.scratch(() => {
-            const weights = Float64Array.from({ length: 3 * columns }, (_, i) => basis[((i % 3) * frames + t) * columns + Math.floor(i / 3)]);
+            const weights = memory.doubles(3 * columns, 3);
+            for (let d = 0; d < 3; d++) {
+                for (let i = 0, from = (d * frames + t) * columns; i < columns; i++) weights.view[3 * i + d] = basis[from + i];
+            }
             const positions = memory.doubles(3 * header.vertices, 3);
-            memory.run("reconstruct", field, memory.copy(weights, 3), positions);
+            memory.run("reconstruct", field, weights, positions);
             return positions.view.slice();
         });
     }
@@ -325,7 +335,7 @@ export class Sequence {
         const { history } = this;
         if (!history) throw new CorruptError("a frame refers to one that is not there");
         memory.release(this.behindBank);
-        const levels = this.readLevels(gop.levels, parts.map((part) => part.basis.columns), 3, history.levels);
+        const levels = this.readLevels(gop.levels, parts.map((part) => part.basis.columns!), 3, history.levels);
         const field = this.emptyField(3);
         const latest = parts.map((part, k) => {
             const [start, now, before] = [first[k], history.latest[k], history.before[k]];
@@ -357,15 +367,16 @@ function emptyMoments(known: number, columns: number): Float64Array {
 }
 
 /** The orthonormal cosines over time, a row for each frame (S 5.1). */
-function temporalCosines(memory: Memory, frames: number): Matrix {
-    const cosines = cosineColumns(memory, frames, 0, frames);
-    const values = cosines.values.map((value, i) => value * Math.sqrt((i % frames ? 2 : 1) / frames));
-    return { ...cosines, values };
+function temporalCosines(memory: Memory, frames: number): Doubles {
+    const cosines = cosineColumns(memory, frames, frames);
+    const { view } = cosines;
+    for (let i = 0; i < view.length; i++) view[i] *= Math.sqrt((i % frames ? 2 : 1) / frames);
+    return cosines;
 }
 
 /** B of method 1, 3 T rows (S 5.1). */
 function cosineBasis(memory: Memory, { frames, components }: Gop): Float64Array {
-    const { values } = temporalCosines(memory, frames);
+    const values = temporalCosines(memory, frames).view;
     const basis = new Float64Array(3 * frames * components);
     for (let i = 0; i < components; i++) {
         const [f, d] = [Math.floor(i / 3), i % 3];

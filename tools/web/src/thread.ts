@@ -1,18 +1,11 @@
 /** A decoder in a thread of its own: the page stays free while it works. */
-import type { Event, FrameEvent, Wishes } from "./decoder";
-import { errorLike, type BsmError, type Described } from "./errors";
+import { openDesk, type Answer, type Desk, type DrawnEvent, type Order, type Start } from "./desk";
+import { errorLike, type BsmError } from "./errors";
 import type { Kernels } from "./kernels";
 import type { Limits } from "./limits";
-import script from "worker:./worker.ts";
+import { startWorker } from "./workers";
 
-/** What a thread says of a stream; frames come in single precision, as they are drawn. */
-export type DrawnEvent = Exclude<Event, FrameEvent> | FrameEvent<Float32Array>;
-
-/** What is said to the worker: first how to begin, then pieces of the stream, then null for its end. */
-export type Order = { kernels: WebAssembly.Module; limits: Partial<Limits>; wishes: Wishes } | Uint8Array | null;
-
-/** What the worker says: an event, what is wrong, or that all bytes so far are decoded. */
-export type Answer = { event: DrawnEvent } | { problem: Described } | { taken: number } | { fault: string };
+export type { DrawnEvent };
 
 /** What is to be done with what is decoded. */
 export interface Listener {
@@ -23,25 +16,37 @@ export interface Listener {
     onTaken?: (bytes: number) => void;
 }
 
-/** Takes the bytes of a stream as they come; what they say is heard later, in its order. */
+/**
+ * Takes the bytes of a stream as they come; what they say is heard later, in its order.
+ *
+ * Where the page may have no threads the decoder runs in the one that there is, a piece at a time.
+ */
 export class DecoderThread {
-    private readonly worker: Worker;
+    private worker?: Worker;
+    private desk?: Desk;
+    /** What was said before the thread was known to run. */
+    private unheard?: Order[] = [];
+    private closed = false;
 
-    constructor(kernels: Kernels, listener: Listener, limits: Partial<Limits> = {}, wishes: Wishes = {}) {
-        const url = URL.createObjectURL(new Blob([script], { type: "text/javascript" }));
-        this.worker = new Worker(url, { name: "BSM decoder" });
-        URL.revokeObjectURL(url);
-        this.worker.onmessage = ({ data }: MessageEvent<Answer>) => {
-            if ("event" in data) listener.onEvent(data.event);
-            else if ("taken" in data) listener.onTaken?.(data.taken);
-            else listener.onError("problem" in data ? errorLike(data.problem) : new Error(data.fault));
-        };
-        this.worker.onerror = ({ message }) => listener.onError(new Error(`the decoder's thread does not run: ${message ?? "it could not be started"}`));
-        this.say({ kernels: kernels.module, limits, wishes });
+    constructor(
+        kernels: Kernels,
+        private readonly listener: Listener,
+        limits: Partial<Limits> = {},
+        wishes: Pick<Start, "tolerant" | "worthwhile"> = {},
+    ) {
+        this.worker = startWorker("BSM decoder");
+        if (this.worker) {
+            this.worker.onmessage = ({ data }: MessageEvent<Answer>) => this.hear(data);
+            this.worker.onerror = ({ message }) => {
+                if (this.unheard) this.stay();
+                else listener.onError(new Error(`the decoder's thread does not run: ${message ?? "it was stopped"}`));
+            };
+        } else this.stay();
+        this.say({ ...wishes, kernels: kernels.module, limits });
     }
 
     receiveData(data: Uint8Array): void {
-        this.say(data);
+        this.say(data.slice());
     }
 
     receiveEof(): void {
@@ -50,11 +55,36 @@ export class DecoderThread {
 
     /** Stop at once; nothing more is heard. */
     close(): void {
-        this.worker.onmessage = null;
-        this.worker.terminate();
+        this.closed = true;
+        this.worker?.terminate();
+    }
+
+    /** Have no thread: do what was asked for so far, and what will be, in this one. */
+    private stay(): void {
+        const orders = this.unheard!;
+        this.worker = this.unheard = undefined;
+        for (const order of orders) this.say(order);
     }
 
     private say(order: Order): void {
-        this.worker.postMessage(order);
+        this.unheard?.push(order);
+        if (this.worker) this.worker.postMessage(order);
+        else setTimeout(() => this.obey(order));
+    }
+
+    private obey(order: Order): void {
+        if (this.closed) return;
+        if (order === null || order instanceof Uint8Array) this.desk!.take(order);
+        else this.desk = openDesk({ ...order, worthwhile: Infinity }, (answer) => this.hear(answer));
+    }
+
+    private hear(answer: Answer): void {
+        const { listener } = this;
+        if (this.closed) return;
+        if ("ready" in answer) this.unheard = undefined;
+        else if ("event" in answer) listener.onEvent(answer.event);
+        else if ("taken" in answer) listener.onTaken?.(answer.taken);
+        else if ("problem" in answer) listener.onError(errorLike(answer.problem));
+        else if ("fault" in answer) listener.onError(new Error(answer.fault));
     }
 }

@@ -1,11 +1,9 @@
 /** BSM streams in three.js: a geometry that fills while the bytes arrive, and a loader. */
 import { BufferAttribute, BufferGeometry, Loader, type LoadingManager } from "three";
-import type { Attribute } from "./attributes";
-import type { BlockEvent, ConnectivityEvent, Event, LossEvent, RefinementEvent } from "./decoder";
-import type { Header } from "./header";
-import type { Kernels } from "./kernels";
-import { checkLimit, DEFAULT_LIMITS, type Limits } from "./limits";
-import { DecoderThread, type DrawnEvent } from "./thread";
+import {
+    checkLimit, DecoderThread, DEFAULT_LIMITS, type Attribute, type BlockEvent, type ConnectivityEvent, type DrawnEvent, type Event, type Header,
+    type Kernels, type Limits, type LossEvent, type RefinementEvent,
+} from "./index";
 
 /** What happens to a geometry while it is filled. */
 export interface Progress {
@@ -78,8 +76,7 @@ export class BSMGeometry extends BufferGeometry {
     /** Take the positions of a frame that is there. */
     showFrame(index: number): void {
         this.points.set(this.frames[index]);
-        this.touched.fill(1);
-        this.updateNormals();
+        this.renewNormals();
         this.redraw();
     }
 
@@ -175,10 +172,44 @@ export class BSMGeometry extends BufferGeometry {
                 y += uz * vx - ux * vz;
                 z += ux * vy - uy * vx;
             }
-            const length = Math.hypot(x, y, z) || 1;
+            const length = Math.sqrt(x * x + y * y + z * z) || 1;
             normals[3 * vertex] = x / length;
             normals[3 * vertex + 1] = y / length;
             normals[3 * vertex + 2] = z / length;
+        }
+    }
+
+    /** Normals of all vertices: each face is looked at once, and not from each of its corners. */
+    private renewNormals(): void {
+        const { faces, waiting, normals: n, points: p } = this;
+        n.fill(0);
+        for (let face = 0, k = 0; face < waiting.length; face++, k += 3) {
+            if (waiting[face] > 0) continue;
+            const [a, b, c] = [3 * faces[k], 3 * faces[k + 1], 3 * faces[k + 2]];
+            const ux = p[b] - p[a];
+            const uy = p[b + 1] - p[a + 1];
+            const uz = p[b + 2] - p[a + 2];
+            const vx = p[c] - p[a];
+            const vy = p[c + 1] - p[a + 1];
+            const vz = p[c + 2] - p[a + 2];
+            const x = uy * vz - uz * vy;
+            const y = uz * vx - ux * vz;
+            const z = ux * vy - uy * vx;
+            n[a] += x;
+            n[a + 1] += y;
+            n[a + 2] += z;
+            n[b] += x;
+            n[b + 1] += y;
+            n[b + 2] += z;
+            n[c] += x;
+            n[c + 1] += y;
+            n[c + 2] += z;
+        }
+        for (let i = 0; i < n.length; i += 3) {
+            const length = Math.sqrt(n[i] * n[i] + n[i + 1] * n[i + 1] + n[i + 2] * n[i + 2]) || 1;
+            n[i] /= length;
+            n[i + 1] /= length;
+            n[i + 2] /= length;
         }
     }
 

@@ -202,6 +202,51 @@ describe("the page in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromium a
         assert.deepEqual(complaints, []);
     });
 
+    for (const [place, headers] of [["free", {}], ["locked", { "Content-Security-Policy": "worker-src 'none'" }]] as [string, Record<string, string>][]) {
+        test(`decodes with helpers where threads are ${place === "free" ? "allowed" : "forbidden"}`, async () => {
+            const script = `
+                import { decode, DecoderThread, Kernels, Team } from "/bsm/bsm.js";
+                let shared = 0;
+                window.Worker = class extends Worker {
+                    constructor(...given) {
+                        super(...given);
+                        this.addEventListener("message", ({ data }) => (shared += Number("shared" in data)));
+                    }
+                };
+                const kernels = await Kernels.compile(await (await fetch("/bsm/kernels.wasm")).arrayBuffer());
+                const data = new Uint8Array(await (await fetch("/stream/good-keys.bsm")).arrayBuffer());
+                const alone = decode(kernels, data);
+                const same = ({ positions }) => positions.length === alone.positions.length && positions.every((x, i) => x === alone.positions[i]);
+                const team = new Team(1, 0);
+                const meshes = await Promise.all([team.decode(kernels, data), team.decode(kernels, data)]);
+                const helped = shared;
+                const problem = await team.decode(kernels, data.slice(0, -20)).catch((error) => error.name);
+                team.close();
+                const positions = new Float64Array(alone.positions.length);
+                await new Promise((keep, fail) => {
+                    const onEvent = (event) => {
+                        if (event.type === "block") event.vertices.forEach((vertex, i) => positions.set(event.positions.subarray(3 * i, 3 * i + 3), 3 * vertex));
+                        if (event.type === "end") keep();
+                    };
+                    const thread = new DecoderThread(kernels, { onEvent, onError: fail }, {}, { worthwhile: 0 });
+                    for (let at = 0; at < data.length; at += 100) thread.receiveData(data.subarray(at, at + 100));
+                    thread.receiveEof();
+                });
+                window.found = { whole: meshes.every(same), streamed: same({ positions }), helped, problem };`;
+            await page.route("https://bsm.test/**", (route) => {
+                const [, folder, name] = /test\/(\w*)\/?(.*)$/.exec(route.request().url())!;
+                const folders: Record<string, string> = { bsm: join(WEB, "built"), stream: VECTORS };
+                return folders[folder] ? route.fulfill({ path: join(folders[folder], name) }) : route.fulfill({ headers: { ...headers, "Content-Type": "text/html" }, body: `<script type="module">${script}</script>` });
+            });
+            await page.goto(`https://bsm.test/${place}`);
+            const found = await (await page.waitForFunction(() => (window as unknown as { found: unknown }).found, undefined, { timeout: 20_000 })).jsonValue();
+            complaints.splice(0, complaints.length, ...complaints.filter((address) => !address.startsWith("https://bsm.test/")));
+            await page.unroute("https://bsm.test/**");
+            assert.deepEqual(found, { whole: true, streamed: true, helped: place === "free" ? 4 : 0, problem: "TruncatedError" });
+            assert.deepEqual(complaints, []);
+        });
+    }
+
     test("says how far a mesh is from its original, and how long Draco's file takes", async () => {
         const { positions } = readNpz(readFileSync(join(VECTORS, `${STREAM}.npz`)));
         const moved = Float32Array.from(positions.values);

@@ -2,6 +2,8 @@
 import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { pathToFileURL } from "node:url";
+import { crc16, crc32 } from "../src/checksums";
+import { parseVarint } from "../src/reader";
 import { decode, Decoder, END_OF_STREAM, Kernels, NEED_DATA, type Attribute, type Event, type Limits, type Mesh } from "../src/index";
 
 export const WEB = process.cwd();
@@ -62,4 +64,27 @@ export function savedPage(folder: string, streams: Record<string, Uint8Array>, m
 
 export function base64(bytes: Uint8Array): string {
     return Buffer.from(bytes).toString("base64");
+}
+
+/** The stream with the right checksum in every frame, so that damage reaches what is behind it. */
+export function mended(stream: Uint8Array): Uint8Array {
+    const view = new DataView(stream.buffer, stream.byteOffset, stream.byteLength);
+    for (let at = 5; at < stream.length; ) {
+        let tag;
+        try {
+            tag = parseVarint(stream, at, stream.length);
+        } catch {
+            return stream;
+        }
+        if (!tag) return stream;
+        const end = tag.end + Math.floor(tag.value / 16);
+        const type = tag.value % 16;
+        const size = type === 6 || tag.value < 16 * 128 ? 2 : 4;
+        if (end + size > stream.length) return stream;
+        if (type === 15 && end - tag.end > 4) view.setUint32(end - 4, crc32(stream.subarray(0, at)), true);
+        if (size === 2) view.setUint16(end, crc16(stream.subarray(at, end)), true);
+        else view.setUint32(end, crc32(stream.subarray(at, end)), true);
+        at = end + size;
+    }
+    return stream;
 }

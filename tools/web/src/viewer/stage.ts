@@ -1,5 +1,5 @@
 /** Camera, light and the mesh on a canvas. */
-import { AmbientLight, type BufferAttribute, BufferGeometry, DirectionalLight, DoubleSide, Mesh, MeshStandardMaterial, PerspectiveCamera, Scene, Spherical, WebGLRenderer } from "three";
+import { AmbientLight, type BufferAttribute, BufferGeometry, DirectionalLight, DoubleSide, Mesh, MeshLambertMaterial, PerspectiveCamera, Scene, Spherical, WebGLRenderer } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 
 const TURN = Math.PI / 24;
@@ -12,12 +12,12 @@ export class Stage {
     private readonly camera = new PerspectiveCamera(35, 1, 0.01, 100);
     private readonly scene = new Scene();
     private readonly controls: OrbitControls;
-    private readonly material = new MeshStandardMaterial({ color: PLAIN, roughness: 0.7, side: DoubleSide });
+    private readonly material = new MeshLambertMaterial({ color: PLAIN, side: DoubleSide });
     private readonly watch = new ResizeObserver(() => this.fit());
     private mesh = new Mesh(new BufferGeometry(), this.material);
 
     constructor(private readonly canvas: HTMLCanvasElement) {
-        this.renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true });
+        this.renderer = new WebGLRenderer({ canvas, antialias: isFast(), alpha: true });
         this.renderer.setPixelRatio(devicePixelRatio);
         this.controls = new OrbitControls(this.camera, canvas);
         this.controls.addEventListener("change", () => this.draw());
@@ -95,4 +95,11 @@ export class Stage {
         this.controls.update();
         this.draw();
     }
+}
+
+/** Whether something draws that was made for it; where programs do, smooth edges would take most of the time. */
+function isFast(): boolean {
+    const context = document.createElement("canvas").getContext("webgl2", { failIfMajorPerformanceCaveat: true });
+    context?.getExtension("WEBGL_lose_context")?.loseContext();
+    return context !== null;
 }

@@ -1,10 +1,6 @@
 /** A stream as it arrives, cut at any byte, over a link of any speed; sequences play. */
 import { BufferAttribute } from "three";
-import type { LossEvent } from "../decoder";
-import { errorLike } from "../errors";
-import type { Header } from "../header";
-import type { Kernels } from "../kernels";
-import { DecoderThread } from "../thread";
+import { DecoderThread, errorLike, type Header, type Kernels, type LossEvent } from "../index";
 import { BSMGeometry } from "../three";
 import { coloursOf, errorsOf, LEGENDS, type Errors, type Scheme } from "./colours";
 import { Playback } from "./playback";
@@ -269,13 +265,14 @@ export class View {
             this.stale = true;
         }
         const total = geometry.header!.frames || there;
+        this.root.dataset.frame = String(this.frameShown);
+        this.root.dataset.there = String(there);
         this.frame.max = String(total - 1);
         this.frame.value = String(this.frameShown);
         this.label(playback);
         const ahead = there < total ? `, ${there} are there` : "";
-        this.part("time").textContent = `${this.frameShown + 1} of ${total}${ahead}; ${spent((this.frameShown / playback.rate) * SECOND)}`;
+        this.say("time", `${this.frameShown + 1} of ${total}${ahead}; ${spent((this.frameShown / playback.rate) * SECOND)}`);
         this.frame.setAttribute("aria-valuetext", `frame ${this.frameShown + 1} of ${total}`);
-        this.root.dataset.frame = String(this.frameShown);
     }
 
     /** Colours and errors of what is there. */

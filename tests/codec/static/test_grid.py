@@ -1,0 +1,17 @@
+"""Positions on a grid, frame by frame."""
+
+import pytest
+
+import bsm
+from codec.static.layers.grid import FIRST
+from tests.shapes import torus
+
+
+@pytest.mark.parametrize("rows, sizes", [(40, [960]), (200, [FIRST, 200 * 24 - FIRST])])
+def test_the_first_frame_is_small(rows: int, sizes: list[int]) -> None:
+    decoder, found = bsm.Decoder(), []
+    decoder.receive_data(bsm.encode(torus(rows), preset="lossless"))
+    while isinstance(event := decoder.next_event(), bsm.HeaderEvent | bsm.ConnectivityEvent | bsm.BlockEvent):
+        if isinstance(event, bsm.BlockEvent):
+            found.append(len(event.vertices))
+    assert found == sizes
