@@ -11,7 +11,7 @@ from codec.static.work import LEVEL
 
 FRAME, SHOWN = 2.5e4, 11.0
 """Of a frame, and of a vertex in it."""
-PART = 1e5
+PART = 6e4
 """Of a part in a GOP, whatever its size."""
 LOOP = 40.0
 """Of a column in a row of a closed loop."""

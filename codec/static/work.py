@@ -24,6 +24,8 @@ ROW, LOOK, LEVEL = 600.0, 25.0, 90.0
 """Of a row of a block, of an edge that one has in the mesh, and of a coded level."""
 COPY_MEMORY = 4
 """Bytes for each row of all blocks."""
+ATTRIBUTE = 4e5
+"""Of an attribute, however few values it has."""
 CODED = 800.0
 """Of a byte of coded values."""
 FRESH, MOST_FRESH = 2.0, 4e6
@@ -124,7 +126,7 @@ def recomputing_memory(values: int, faces: int) -> float:
 
 def values_cost(values: int, faces: int) -> float:
     """Of arranging the values of an attribute, or of making normals again."""
-    return 150.0 * values + 60.0 * faces
+    return ATTRIBUTE + 150.0 * values + 60.0 * faces
 
 
 def coding_memory(values: int, faces: int, components: int) -> float:
