@@ -222,10 +222,11 @@ export class Memory {
 
     private reserve(end: number): void {
         if (end > this.limit) throw new LimitError(`memory = ${end} bytes is over the limit of ${this.limit}`);
-        const missing = Math.ceil((end - this.buffer.byteLength) / PAGE);
-        if (missing <= 0) return;
+        const size = this.buffer.byteLength;
+        if (end <= size) return;
         try {
-            this.exports.memory.grow(missing);
+            // By a quarter at least: each time all views of it are lost.
+            this.exports.memory.grow(Math.ceil(Math.max(end - size, Math.min(size / 4, this.limit - size)) / PAGE));
             this.buffer = this.exports.memory.buffer;
         } catch {
             throw new LimitError(`this machine has no ${end} bytes of memory for the decoder`);
