@@ -44,6 +44,32 @@ describe("Firefox", { skip: !existsSync(FIREFOX) && `no Firefox at ${FIREFOX}`, 
         }
     });
 
+    test("decodes with a helper", async () => {
+        await page.goto(savedPage(folder, {}));
+        const [script, wasm, stream] = [join(WEB, "built/bsm.js"), join(WEB, "built", BUILDS[0]), join(VECTORS, "good-keys.bsm")].map((path) => base64(readFileSync(path)));
+        const found = await page.evaluate(
+            async (script, wasm, stream) => {
+                const bytes = (text: string): Uint8Array<ArrayBuffer> => Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
+                const bsm = await import(`data:text/javascript;base64,${script}`);
+                let shared = 0;
+                window.Worker = class extends Worker {
+                    constructor(url: string | URL, options?: WorkerOptions) {
+                        super(url, options);
+                        this.addEventListener("message", ({ data }) => (shared += Number("shared" in data)));
+                    }
+                };
+                const team = new bsm.Team(1, 0);
+                const { positions } = await team.decode(await bsm.Kernels.compile(bytes(wasm)), bytes(stream));
+                team.close();
+                return { positions: [...positions], shared };
+            },
+            script,
+            wasm,
+            stream,
+        );
+        assert.deepEqual(found, { positions: [...decode(await compile(BUILDS[0]), read("good-keys")).positions], shared: 2 });
+    });
+
     test("draws and plays, or says that this machine cannot draw", async (t) => {
         await page.goto(savedPage(folder, { sequence: read("good-sequence-learnt") }));
         await page.waitForSelector("body[data-state=complete], body[data-state=failed]", { timeout: 30_000 });
