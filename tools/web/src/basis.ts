@@ -178,7 +178,7 @@ export function orthogonalIteration(
         );
         if (independence >= TWICE) return;
         // R^power has all but lost the higher columns: orthonormalised after every R they stay (M 8.4).
-        allowance.spend(iterations * power * (solutionCost(block, columns) + 1.2 * roundingCost(rows, columns)));
+        allowance.spend(iterations * power * (solutionCost(block, columns) + 1.1 * roundingCost(rows, columns)));
         subspace.view.set((start.columns === columns ? start : resized(memory, start, rows, columns)).view);
         for (let k = 0; k < iterations * power; k++) solveOnorm(memory, block, factor, subspace, allowance);
     });

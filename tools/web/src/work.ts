@@ -1,11 +1,11 @@
 /** What all but dictionaries costs, in nanoseconds of a processor core (specification, M 14.3). */
-const BLOCK = 1.85e5;
+const BLOCK = 1.45e5;
 const PART = 1e5;
-const [ROW, LOOK, LEVEL, LOOP] = [650, 25, 90, 40];
+const [ROW, LOOK, LEVEL, LOOP] = [600, 25, 90, 40];
 /** Of a byte of coded values. */
 const CODED = 800;
 /** By which a part of a sequence is cheaper than a block, before it has its dictionary. */
-export const UNCODED = 1e5;
+export const UNCODED = 6e4;
 /** Bytes of a block's frame besides its levels, at least. */
 export const FRAME = 5;
 
