@@ -32,12 +32,12 @@ export function blockCost(rows: number, edges: number, levels: number): number {
     return BLOCK + ROW * rows + LOOK * edges + LEVEL * levels;
 }
 
-/** Of a grid or an attribute, with so many values for each vertex, before its bytes are counted. */
+/** Of a grid, with so many values for each vertex, before its bytes are counted. */
 export function fieldCost(vertices: number, faces: number, axes: number): number {
     return vertices * (600 + 350 * axes) + 150 * faces;
 }
 
-/** Of a layer of refinement, before its bytes are counted. */
+/** Of a layer of refinement or an attribute, before its bytes are counted. */
 export function layerCost(vertices: number, faces: number, axes: number): number {
     return vertices * (400 + 230 * axes) + 100 * faces;
 }
