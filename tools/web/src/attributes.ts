@@ -8,7 +8,7 @@ import type { Header } from "./header";
 import type { Argument, Ints, Memory } from "./kernels";
 import { checkLimit, type Limits } from "./limits";
 import type { Numbering } from "./numbering";
-import { layerCost } from "./work";
+import { layerCost, valuesCost } from "./work";
 
 const SEAM = 1;
 const SEAMS = { inputs: 4, others: 9, slots: 32 * 32 + 9 * 16 + 256 + 9 };
@@ -91,7 +91,7 @@ export class Attributes {
     /** What its values cost, before their bytes are counted. */
     costOf(index: number): number {
         const { rows = 0, components = 0 } = this.valued.get(index)?.declaration ?? {};
-        return layerCost(rows, this.header.faces, components);
+        return valuesCost(rows, this.header.faces) + layerCost(rows, this.header.faces, components);
     }
 
     /** Decode a chunk of values; the attribute, if it is whole now. */

@@ -1,11 +1,11 @@
 /** What all but dictionaries costs, in nanoseconds of a processor core (specification, M 14.3). */
 const BLOCK = 1.45e5;
-const PART = 1e5;
+const PART = 6e4;
 const [ROW, LOOK, LEVEL, LOOP] = [600, 25, 90, 40];
 /** Of a byte of coded values. */
 const CODED = 800;
 /** By which a part of a sequence is cheaper than a block, before it has its dictionary. */
-export const UNCODED = 6e4;
+export const UNCODED = 8e4;
 /** Bytes of a block's frame besides its levels, at least. */
 export const FRAME = 5;
 
@@ -40,6 +40,11 @@ export function fieldCost(vertices: number, faces: number, axes: number): number
 /** Of a layer of refinement or an attribute, before its bytes are counted. */
 export function layerCost(vertices: number, faces: number, axes: number): number {
     return vertices * (400 + 230 * axes) + 100 * faces;
+}
+
+/** Of an attribute, besides what it costs as a layer. */
+export function valuesCost(values: number, faces: number): number {
+    return 4e5 + 150 * values + 60 * faces;
 }
 
 /** Of a frame of a grid. */
