@@ -8,6 +8,7 @@ import type { Header } from "./header";
 import type { Argument, Ints, Memory } from "./kernels";
 import { checkLimit, type Limits } from "./limits";
 import type { Numbering } from "./numbering";
+import { layerCost, valuesCost } from "./work";
 
 const SEAM = 1;
 const SEAMS = { inputs: 4, others: 9, slots: 32 * 32 + 9 * 16 + 256 + 9 };
@@ -85,6 +86,12 @@ export class Attributes {
         const all = [...this.valued.values()].map((one) => one.declaration);
         checkLimit(this.limits, "attributeValues", [...all, declaration].reduce((sum, one) => sum + this.numbersOf(one), 0));
         this.valued.set(index, { declaration, joins: this.joinsOf(index, declaration, seams), values: new Float64Array(0), coded: 0 });
+    }
+
+    /** What its values cost, before their bytes are counted. */
+    costOf(index: number): number {
+        const { rows = 0, components = 0 } = this.valued.get(index)?.declaration ?? {};
+        return valuesCost(rows, this.header.faces) + layerCost(rows, this.header.faces, components);
     }
 
     /** Decode a chunk of values; the attribute, if it is whole now. */

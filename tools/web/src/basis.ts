@@ -149,7 +149,7 @@ export function solutionCost(block: Block, columns: number): number {
 }
 
 export function roundingCost(rows: number, columns: number): number {
-    return rows * (4 + whole(columns) ** 2 / 27) + whole(columns) ** 3 / 40;
+    return rows * (3 + 0.5 * whole(columns) + whole(columns) ** 2 / 29);
 }
 
 /** Columns as they are computed: in vectors of eight. */
@@ -178,7 +178,7 @@ export function orthogonalIteration(
         );
         if (independence >= TWICE) return;
         // R^power has all but lost the higher columns: orthonormalised after every R they stay (M 8.4).
-        allowance.spend(iterations * power * (solutionCost(block, columns) + 2 * roundingCost(rows, columns)));
+        allowance.spend(iterations * power * (solutionCost(block, columns) + 1.1 * roundingCost(rows, columns)));
         subspace.view.set((start.columns === columns ? start : resized(memory, start, rows, columns)).view);
         for (let k = 0; k < iterations * power; k++) solveOnorm(memory, block, factor, subspace, allowance);
     });

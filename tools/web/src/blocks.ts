@@ -70,6 +70,12 @@ export function groupLabels(memory: Memory, labels: Ints, parts: number): Partit
     return { parts, order, bounds, labels };
 }
 
+/** Edges that vertices have in the mesh, all together. */
+export function edgesOf({ offsets }: Graph, vertices: Ints): number {
+    const ends = offsets.view;
+    return vertices.view.reduce((sum, vertex) => sum + ends[vertex + 1] - ends[vertex], 0);
+}
+
 /** The partition that follows from the graph alone (M 4). */
 export function derivePartition(memory: Memory, graph: Graph, parts: number): Partition {
     const labels = memory.ints(graph.size);

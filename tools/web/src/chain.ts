@@ -3,13 +3,14 @@ import {
     degreesOf, EXACT, exactBasis, factorize, firstColumns, followColumns, orthogonalIteration, reconstruct, roundingCost, solutionCost, suspend, whole,
     type Factor, type Schedule,
 } from "./basis";
-import { makeBlock, membersOf, type Block, type Blocks } from "./blocks";
+import { edgesOf, makeBlock, membersOf, type Block, type Blocks } from "./blocks";
 import { CoefficientModel, unpackLevels } from "./coefficients";
 import { Coder } from "./entropy";
 import { CorruptError, NumericError } from "./errors";
 import type { Header } from "./header";
 import type { Bytes, Doubles, Ints, Longs, Memory } from "./kernels";
 import { checkLimit, type Limits } from "./limits";
+import { blockCost, FRAME } from "./work";
 import { areFinite } from "./numbers";
 
 export const TETHER = 2 ** -16;
@@ -43,7 +44,7 @@ export function spendOn(allowance: Allowance, header: Header, block: Block, colu
     const [power, iterations] = scheduleOf(header, follows);
     const rows = block.size;
     allowance.hold(8 * (6 * rows * whole(columns) + 2 * whole(columns) ** 2));
-    allowance.spend(block.fronts.work / 7 + iterations * (power * solutionCost(block, columns) + roundingCost(rows, columns)));
+    allowance.spend(block.fronts.work / 7 + 5 * rows * whole(columns) + iterations * (power * solutionCost(block, columns) + roundingCost(rows, columns)));
 }
 
 /** U of a block that follows none (M 8.3 to M 8.5); `held` is the factor of L + springs + delta, where there is one. */
@@ -76,8 +77,9 @@ export function chainLength(header: Header): number {
 
 /** How much work a decoder may still do, and how much memory it may take. */
 export class Allowance {
-    private spent = 0;
+    private owed = 0;
     private vertices = 0;
+    private shown = 0;
 
     constructor(private readonly limits: Limits) {}
 
@@ -86,18 +88,24 @@ export class Allowance {
         this.vertices += vertices;
     }
 
-    spend(work: number): void {
-        this.spent += work;
-        this.check("work", this.spent, this.limits.workPerVertex);
+    /** Take note of vertices of frames that are shown; fewer than none are not, after all. */
+    show(vertices: number): void {
+        this.shown += vertices;
+    }
+
+    /** Take note of work to come, and of the bytes that ask for it. */
+    spend(work: number, received = 0): void {
+        this.owed += Math.max(0, work - this.limits.workPerByte * received);
+        this.check("work", this.owed, this.limits.workPerVertex * (this.vertices + this.shown));
     }
 
     /** Take note of memory for a while. */
     hold(memory: number): void {
-        this.check("blockMemory", memory, this.limits.blockMemoryPerVertex);
+        this.check("blockMemory", memory, this.limits.blockMemoryPerVertex * this.vertices);
     }
 
-    private check(name: "work" | "blockMemory", value: number, perVertex: number): void {
-        checkLimit({ ...this.limits, [name]: this.limits[name] + perVertex * this.vertices }, name, value);
+    private check(name: "work" | "blockMemory", value: number, granted: number): void {
+        checkLimit({ ...this.limits, [name]: this.limits[name] + granted }, name, value);
     }
 }
 
@@ -158,7 +166,10 @@ export class ChainDecoder {
         let decoded!: DecodedBlock;
         this.subspace = this.memory.keep(() => {
             const { header, memory } = this;
-            const block = makeBlock(memory, this.blocks.graph, membersOf(this.blocks, index));
+            const members = membersOf(this.blocks, index);
+            const levels = 3 * (width + Math.ceil(header.details / 3));
+            this.allowance.spend(blockCost(members.length, edgesOf(this.blocks.graph, members), levels), payload.length + FRAME);
+            const block = makeBlock(memory, this.blocks.graph, members);
             const { points, details } = this.readPoints(payload, width, block);
             const columns = Math.min(Math.max(width, details.length), block.size);
             const { springs, pulls } = this.lookAround(block);

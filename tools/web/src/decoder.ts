@@ -17,6 +17,7 @@ import { Sequence } from "./sequence";
 import { split } from "./splits";
 import { Structure, type Chains } from "./structure";
 import { TolerantReader } from "./tolerant";
+import { chunkCost, fieldCost, gridChunkCost, layerCost, orderCost } from "./work";
 
 const ORDER_METHOD = 1;
 const SPLITS_METHOD = 2;
@@ -350,6 +351,7 @@ export class Decoder {
         const { memory, structure, header, limits } = this;
         const splits = method === SPLITS_METHOD && !header!.gopFrames;
         if (!splits && method !== ORDER_METHOD) throw new UnsupportedError(`order method ${method} is unknown to this decoder`);
+        this.allowance.spend(orderCost(header!.vertices, header!.faces, data.length), data.length);
         const cursor = new Cursor(data);
         const order = splits ? cursor.take(cursor.varint()) : data;
         const arrangement = decodeArrangement(memory, order, structure!.faces, header!.vertices);
@@ -365,6 +367,8 @@ export class Decoder {
     private acceptValues(index: number, first: number, count: number, data: Uint8Array): void {
         const attributes = this.begunAttributes();
         this.tolerating(() => {
+            if (first === 0) this.allowance.spend(attributes.costOf(index));
+            this.allowance.spend(chunkCost(data.length), data.length);
             const attribute = attributes.decode(index, first, count, data, this.numbering!, () => this.solid());
             if (attribute) this.queue.push({ type: "attribute", ...attribute });
         });
@@ -413,6 +417,7 @@ export class Decoder {
     private acceptGrid(first: number, count: number, data: Uint8Array): void {
         this.begunGrid();
         if (this.gridBroken) return;
+        this.allowance.spend(gridChunkCost(data.length), data.length);
         this.gridBroken = !this.tolerating(() => {
             const changes = this.grid!.decode(first, count, data);
             this.queue.push({ type: "block", index: this.chunks++, ...this.numbering!.spread(changes) });
@@ -422,6 +427,7 @@ export class Decoder {
     private begunGrid(): Grid {
         if (this.grid) return this.grid;
         this.announce();
+        this.allowance.spend(fieldCost(this.header!.vertices, this.header!.faces, 3));
         return (this.grid = new Grid(this.memory, this.structure!.faces, this.header!));
     }
 
@@ -453,7 +459,10 @@ export class Decoder {
 
     private acceptRefinement(layer: number, first: number, count: number, data: Uint8Array): void {
         const refinement = this.begunRefinement();
+        const { vertices, faces, refinements } = this.header!;
         this.tolerating(() => {
+            if (first === 0) this.allowance.spend(layerCost(vertices, faces, refinements[2 * layer + 1] === 0 ? 1 : 3));
+            this.allowance.spend(chunkCost(data.length), data.length);
             const changes = refinement.decode(layer, first, count, data);
             this.queue.push({ type: "refinement", layer, ...this.numbering!.spread(changes) });
         });

@@ -18,9 +18,10 @@ export interface Limits {
     sequenceBytes: number;
     /** Bytes of the frames that a geometry keeps to show them again. */
     keptBytes: number;
-    /** Nanoseconds of a processor core for dictionaries, by the estimates of the specification (M 14.3), and how many more for each vertex. */
+    /** Nanoseconds of a processor core, by the estimates of the specification (M 14.3), and how many more for each vertex and byte. */
     work: number;
     workPerVertex: number;
+    workPerByte: number;
     /** Bytes for the dictionary of a block while it is made (M 14.2), and how many more for each vertex. */
     blockMemory: number;
     blockMemoryPerVertex: number;
@@ -44,6 +45,7 @@ export const DEFAULT_LIMITS: Readonly<Limits> = {
     keptBytes: 2 ** 30,
     work: 8e8,
     workPerVertex: 3.2e4,
+    workPerByte: 1.6e4,
     blockMemory: 2 ** 26,
     blockMemoryPerVertex: 2 ** 10,
     memory: 2 ** 31,

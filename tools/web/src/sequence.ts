@@ -1,6 +1,6 @@
 /** Frames of a sequence, which follow the blocks of its first frame (specification, sequence.md). */
-import { factorize, reconstruct, solve, cosineColumns, type Factor } from "./basis";
-import { makeBlock, type Block, type Blocks } from "./blocks";
+import { factorize, reconstruct, solutionCost, solve, cosineColumns, type Factor } from "./basis";
+import { edgesOf, makeBlock, type Block, type Blocks } from "./blocks";
 import { keyDictionary, spendOn, TETHER, type Allowance } from "./chain";
 import { Coder, makeBank, unsignedSpan, type Bank } from "./entropy";
 import { CorruptError, NumericError, UnsupportedError, type BsmError } from "./errors";
@@ -9,6 +9,7 @@ import type { Doubles, Ints, Memory } from "./kernels";
 import { checkLimit, type Limits } from "./limits";
 import { areFinite } from "./numbers";
 import { Cursor } from "./reader";
+import { blockCost, partCost, shownCost, UNCODED } from "./work";
 
 const LEARNT = 0;
 const COSINES = 1;
@@ -68,9 +69,11 @@ interface History {
 
 /** Decodes the GOPs of one sequence; what it keeps lies in memory behind all that the first frame has. */
 export class Sequence {
-    private readonly parts: Part[] = [];
-    private readonly first: Float64Array[];
-    private readonly behindParts: number;
+    /** Made when a GOP is there, whose frames pay for them (S 8.3). */
+    private parts: Part[] = [];
+    private first: Float64Array[] = [];
+    private behindParts = 0;
+    private failure?: unknown;
     private bank!: Bank;
     private behindBank = 0;
     private history?: History;
@@ -85,17 +88,29 @@ export class Sequence {
         private readonly header: Header,
         private readonly blocks: Blocks,
         private readonly limits: Limits,
-        faces: Ints,
-        firstFrame: Float64Array,
-        allowance: Allowance,
-    ) {
-        const frame = memory.copy(firstFrame, 3);
-        const weights = this.edgeWeights(faces, frame);
-        const rank = memory.ints(blocks.graph.size);
-        for (let index = 0; index < blocks.count; index++) for (const vertex of core(blocks, index).view) rank.view[vertex] = index;
-        for (let index = 0; index < blocks.count; index++) this.parts.push(this.makePart(index, weights, rank, allowance));
-        this.first = this.parts.map((part) => this.difference(part, frame));
-        this.behindParts = memory.mark();
+        private readonly faces: Ints,
+        private readonly firstFrame: Float64Array,
+        private readonly allowance: Allowance,
+    ) {}
+
+    /** Make the parts; what is wrong with them is so for every GOP. */
+    private begin(): void {
+        if (this.failure) throw this.failure;
+        if (this.parts.length > 0) return;
+        const { memory, blocks, allowance } = this;
+        try {
+            const frame = memory.copy(this.firstFrame, 3);
+            const weights = this.edgeWeights(this.faces, frame);
+            const rank = memory.ints(blocks.graph.size);
+            for (let index = 0; index < blocks.count; index++) for (const vertex of core(blocks, index).view) rank.view[vertex] = index;
+            const parts = Array.from({ length: blocks.count }, (_, index) => this.makePart(index, weights, rank, allowance));
+            this.first = parts.map((part) => this.difference(part, frame));
+            this.parts = parts;
+            this.behindParts = memory.mark();
+        } catch (error) {
+            this.failure = error;
+            throw error;
+        }
     }
 
     /** Frames of the GOP from frame `index` on, each made when it is called; valid until the next GOP. */
@@ -107,9 +122,27 @@ export class Sequence {
         checkLimit(this.limits, "sequenceBytes", 16 * columns * (header.vertices + 3 * gop.frames));
         const last = index + gop.frames;
         if (header.frames > 0 && last > header.frames) throw new CorruptError(`frame ${last - 1} of ${header.frames}`);
-        const frames = gop.method <= COSINES ? this.transformed(gop) : [this.single(gop)];
+        const frames = this.paidFor(gop, data.length);
         this.next = last;
         return frames;
+    }
+
+    /** The frames of a GOP, if its frames and bytes pay for them. */
+    private paidFor(gop: Gop, received: number): (() => Float64Array)[] {
+        const { header, allowance } = this;
+        allowance.show(header.vertices * gop.frames);
+        try {
+            this.begin();
+            const parts = this.parts.reduce(
+                (sum, { block, basis }) => sum + partCost(block.size, basis.columns!, gop.components) + solutionCost(block, gop.components),
+                0,
+            );
+            allowance.spend(parts + shownCost(header.vertices, gop.frames, gop.components), received);
+            return gop.method <= COSINES ? this.transformed(gop) : [this.single(gop)];
+        } catch (error) {
+            allowance.show(-header.vertices * gop.frames);
+            throw error;
+        }
     }
 
     /** Take note that frames are lost; how many is known when the next ones come. */
@@ -154,8 +187,7 @@ export class Sequence {
         const { graph } = this.blocks;
         const binary = makeBlock(memory, graph, core(this.blocks, index));
         const { size, vertices, offsets, neighbours } = binary;
-        const around = graph.offsets.view;
-        const room = vertices.view.reduce((sum, vertex) => sum + around[vertex + 1] - around[vertex], 0);
+        const room = edgesOf(graph, vertices);
         const [inner, held] = [memory.doubles(neighbours.length), memory.doubles(size)];
         const [starts, outer, stiffness] = [memory.ints(size + 1), memory.ints(room), memory.doubles(room)];
         memory.run(
@@ -164,6 +196,7 @@ export class Sequence {
         const block = { ...binary, weights: inner };
         const springs = held.view.slice();
         const columns = Math.min(header.coefficients, size);
+        allowance.spend(blockCost(size, room, 0) - UNCODED);
         spendOn(allowance, header, block, columns, false);
         const factor = factorize(memory, block, springs.map((spring) => spring + TETHER));
         const total = springs.reduce((sum, spring) => sum + spring, 0);

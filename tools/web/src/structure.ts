@@ -6,11 +6,12 @@ import { CorruptError, UnsupportedError } from "./errors";
 import type { Header } from "./header";
 import type { Ints, Memory } from "./kernels";
 import type { Limits } from "./limits";
+import { labelsCost, meshCost, partitionCost } from "./work";
 
 const CONNECTIVITY_METHOD = 1;
 const PARTITION_METHOD = 0;
-/** Vertices that one of a sequence counts for (M 14.3). */
-const SEQUENCE_WEIGHT = 8;
+/** Copies that blocks may have of each vertex, and besides (F 4.6). */
+const [MOST_COPIES, FREE_COPIES] = [16, 2 ** 16];
 
 /** Made of the packets in front of the blocks. */
 export class Structure {
@@ -29,10 +30,11 @@ export class Structure {
         limits: Limits,
         private readonly allowance: Allowance,
     ) {
-        const { vertices, faces, gopFrames, grid, details } = header;
+        const { vertices, faces, grid, details } = header;
         if (method !== CONNECTIVITY_METHOD) throw new UnsupportedError(`connectivity method ${method} is unknown to this decoder`);
         this.faces = decodeConnectivity(memory, data, vertices, faces, limits);
-        allowance.grant(vertices * (gopFrames > 0 ? SEQUENCE_WEIGHT : 1));
+        allowance.grant(vertices);
+        allowance.spend(meshCost(vertices, faces, data.length), data.length);
         if (grid.length > 0) return;
         this.graph = makeGraph(memory, this.faces, vertices);
         if (details > 0) this.surface = makeSurface(memory, this.faces, vertices);
@@ -40,7 +42,8 @@ export class Structure {
 
     acceptPartition(method: number, data: Uint8Array): void {
         if (method !== PARTITION_METHOD) throw new UnsupportedError(`partition method ${method} is unknown to this decoder`);
-        const { offsets, neighbours } = this.graph!;
+        const { size, offsets, neighbours } = this.graph!;
+        this.allowance.spend(labelsCost(size, neighbours.length, data.length), data.length);
         const labels = decodeLabels(this.memory, data, offsets, neighbours, this.header.blocks);
         this.partition = groupLabels(this.memory, labels, this.header.blocks);
     }
@@ -48,7 +51,9 @@ export class Structure {
     /** The blocks, built when they are first asked for. */
     get blocks(): Blocks {
         if (this.grown) return this.grown;
-        const { memory, header, graph } = this;
+        const { memory, header, graph, allowance } = this;
+        const copies = Math.min(header.blocks * header.blockSize, MOST_COPIES * header.vertices + FREE_COPIES);
+        allowance.spend(partitionCost(graph!.size, graph!.neighbours.length, header.blocks, copies));
         const partition = this.partition ?? derivePartition(memory, graph!, header.blocks);
         const largest = largestPart(partition);
         if (largest > header.blockSize) throw new CorruptError(`a part of ${largest} vertices in blocks of ${header.blockSize}`);

@@ -1,0 +1,68 @@
+/** What all but dictionaries costs, in nanoseconds of a processor core (specification, M 14.3). */
+const BLOCK = 1.45e5;
+const PART = 6e4;
+const [ROW, LOOK, LEVEL, LOOP] = [600, 25, 90, 40];
+/** Of a byte of coded values. */
+const CODED = 800;
+/** By which a part of a sequence is cheaper than a block, before it has its dictionary. */
+export const UNCODED = 8e4;
+/** Bytes of a block's frame besides its levels, at least. */
+export const FRAME = 5;
+
+/** Of faces and graph; what meets at more vertices than a closed surface has is sewn together. */
+export function meshCost(vertices: number, faces: number, received: number): number {
+    return 140 * vertices + 85 * faces + 700 * Math.max(0, faces / 2 - vertices) + 400 * received;
+}
+
+export function orderCost(vertices: number, faces: number, received: number): number {
+    return 500 * vertices + 750 * faces + 100 * received;
+}
+
+/** Of cutting a graph of so many vertices and ends of edges into parts, and of growing these to so many copies. */
+export function partitionCost(vertices: number, ends: number, blocks: number, copies: number): number {
+    return (vertices + ends) * (4 * (32 - Math.clz32(blocks)) + 20) + 100 * blocks + 30 * copies;
+}
+
+export function labelsCost(vertices: number, ends: number, received: number): number {
+    return 300 * vertices + 30 * ends + 100 * received;
+}
+
+/** Of all of a block but its dictionary, with so many edges in the mesh. */
+export function blockCost(rows: number, edges: number, levels: number): number {
+    return BLOCK + ROW * rows + LOOK * edges + LEVEL * levels;
+}
+
+/** Of a grid, with so many values for each vertex, before its bytes are counted. */
+export function fieldCost(vertices: number, faces: number, axes: number): number {
+    return vertices * (600 + 350 * axes) + 150 * faces;
+}
+
+/** Of a layer of refinement or an attribute, before its bytes are counted. */
+export function layerCost(vertices: number, faces: number, axes: number): number {
+    return vertices * (400 + 230 * axes) + 100 * faces;
+}
+
+/** Of an attribute, besides what it costs as a layer. */
+export function valuesCost(values: number, faces: number): number {
+    return 4e5 + 150 * values + 60 * faces;
+}
+
+/** Of a frame of a grid. */
+export function gridChunkCost(received: number): number {
+    return 3.5e4 + CODED * received;
+}
+
+/** Of a frame of a layer or of an attribute. */
+export function chunkCost(received: number): number {
+    return 8e4 + CODED * received;
+}
+
+/** Of a part in a GOP of r components, besides the solution of so many columns. */
+export function partCost(rows: number, width: number, components: number): number {
+    return PART + width * components * (LEVEL + LOOP) + rows * (width * (1 + 0.1 * components) + 20 * components);
+}
+
+/** Of showing the frames of a GOP. */
+export function shownCost(vertices: number, frames: number, components: number): number {
+    return 30 * frames * components + frames * (2.5e4 + vertices * (11 + 0.2 * components));
+}
