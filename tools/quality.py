@@ -27,7 +27,7 @@ from typing import TypeVar
 
 import numpy as np
 
-from bitstream.errors import BsmError
+from bitstream.errors import BsmError, MeshError
 from bsm.evaluation.draco import encode_draco
 from bsm.files.mesh import read_mesh
 from codec.arrays import Positions
@@ -132,19 +132,24 @@ def contracts(path: Path, args: argparse.Namespace) -> Iterator[Row]:
         mesh, decoded = encoder.mesh, decode(data, threads=1).positions
         kept = Original(mesh.positions, mesh.faces).closeness(decoded)
         ours = surfaces(mesh, decoded)
-        size = next(
-            (
-                len(draco_bytes(mesh, bits))
-                for bits in DRACO_BITS
-                if all(a <= b for a, b in zip(surfaces(mesh, draco_positions(mesh, bits)), ours, strict=True))
-            ),
-            0,
-        )
+        size = smallest_draco(mesh, ours)
         text = (
             f"{len(mesh.positions):7d} vertices {len(data):7d} bytes, Draco {size:7d}; farthest "
             f"{kept.farthest / (mesh.diagonal or 1.0):.4f}  angle {kept.angle:5.2f}; Hausdorff {ours[0]:.4f}"
         )
         yield Row(preset, text, len(data) / size if size else math.nan)
+
+
+def smallest_draco(mesh: TriangleMesh, ours: tuple[float, float]) -> int:
+    """Bytes of the first of Draco's files that is as good; 0 if none is, or Draco does not take the mesh."""
+    try:
+        for bits in DRACO_BITS:
+            theirs = surfaces(mesh, draco_positions(mesh, bits))
+            if all(a <= b for a, b in zip(theirs, ours, strict=True)):
+                return len(draco_bytes(mesh, bits))
+    except MeshError:
+        pass
+    return 0
 
 
 def surfaces(mesh: TriangleMesh, decoded: Positions) -> tuple[float, float]:

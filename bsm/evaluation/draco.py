@@ -26,10 +26,16 @@ def encode_draco(mesh: TriangleMesh, position_bits: int, level: int) -> bytes:
     ------
     DependencyError
         If DracoPy is missing.
+    MeshError
+        If Draco does not take the mesh: one whose faces have no area, for instance.
     """
-    data: bytes = _draco().encode(
-        mesh.positions.astype(np.float32), mesh.faces, quantization_bits=position_bits, compression_level=level
-    )
+    draco = _draco()
+    try:
+        data: bytes = draco.encode(
+            mesh.positions.astype(np.float32), mesh.faces, quantization_bits=position_bits, compression_level=level
+        )
+    except draco.EncodingFailedException as error:
+        raise MeshError(f"Draco does not take this mesh: {error}") from error
     return data
 
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from bitstream.errors import DependencyError, UnsupportedError
+from bitstream.errors import DependencyError, MeshError, UnsupportedError
 from bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.files.permutation import in_order_of
 from bsm.files.pipes import Input
@@ -75,7 +75,7 @@ def compared(name: str, stream: bytes, original: TriangleMesh, limits: Limits = 
 
 
 def _rival(original: TriangleMesh, decoded: TriangleMesh) -> Rival | None:
-    """Draco's file of `original` that keeps the normals as well as `decoded` does; None without DracoPy."""
+    """Draco's file of `original` with normals as good as those of `decoded`; None without DracoPy, or if it refuses."""
     from bsm.evaluation.draco import decode_draco, encode_draco, positions_in_order
     from codec.geometry.metrics import Reference
 
@@ -84,9 +84,10 @@ def _rival(original: TriangleMesh, decoded: TriangleMesh) -> Rival | None:
     for bits in DRACO_BITS:
         try:
             data = encode_draco(original, bits, DRACO_LEVEL)
-        except DependencyError:
+            positions = positions_in_order(original, decode_draco(data), bits)
+        except (DependencyError, MeshError):
             return None
-        kept = reference.theta(positions_in_order(original, decode_draco(data), bits))
+        kept = reference.theta(positions)
         if kept <= theta or math.isclose(kept, theta):
             return Rival(len(data), bits, kept)
     return None

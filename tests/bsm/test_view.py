@@ -105,6 +105,14 @@ def test_draco_beside_it_keeps_the_normals_as_well(tmp_path):
     assert 100 < draco.bytes == len(encode_draco(in_order(data, mesh), draco.bits, DRACO_LEVEL))
 
 
+def test_what_draco_does_not_take_is_shown_without_it():
+    pytest.importorskip("DracoPy")
+    line = bsm.TriangleMesh(np.eye(3), np.array([[0, 1, 1]], np.int32))
+    with pytest.raises(bsm.MeshError, match="Draco does not take"):
+        encode_draco(line, 11, DRACO_LEVEL)
+    assert compared("line", bsm.encode(line), line).draco is None
+
+
 def in_order(data: bytes, mesh: bsm.TriangleMesh) -> bsm.TriangleMesh:
     original = compared("ball", data, mesh).original
     assert original is not None
