@@ -295,7 +295,7 @@ def parse_header(payload):
 
 
 class Packets(dict):
-    """Payloads by the type of their frames, up to the end of the stream or its first fault, which is kept (F 3.13)."""
+    """Payloads by the type of their frames, up to the end of the stream or its first fault, which is kept (F 3.15)."""
 
     fault = None
 
@@ -323,6 +323,8 @@ def read_frames(stream, packets):
     order = {HEADER: 0, CONNECTIVITY: 1, PARTITION: 2, ORDER: 3, BLOCK: 4, GOP: 5, GRID: 5, REFINEMENT: 5, END: 6}
     order |= {ATTRIBUTE: 3.5, VALUES: 5.5}
     for kind, payload, offset, number in frames_of(stream):
+        if header is None and kind == ATTRIBUTE:
+            declaration_of(payload)  # F 3.15
         if header is None:
             require(kind == HEADER, "the first frame must be HEADER")  # F 3.7
         if 8 <= kind <= 11:
@@ -403,12 +405,16 @@ def read_frames(stream, packets):
             packets[kind].append(parsed)
 
 
-def parse_attribute(payload, packets, header):
-    """F 5.8."""
+def declaration_of(payload):
     index, at = payload_varint(payload, 0)
     size, at = payload_varint(payload, at)
     require(size <= len(payload) - at, "a declaration ends too early")
-    one = Declaration(parse_fields(payload[at : at + size], ATTRIBUTE_FIELDS), payload[at + size :])
+    return index, Declaration(parse_fields(payload[at : at + size], ATTRIBUTE_FIELDS), payload[at + size :])
+
+
+def parse_attribute(payload, packets, header):
+    """F 5.8."""
+    index, one = declaration_of(payload)
     every = [*packets[ATTRIBUTE], one]
     numbers = sum((x.rows if x.coding != 3 else 3 * header["faces"]) * max(x.words, x.components) for x in every)
     require_limit(numbers, MOST_VALUES, "values of attributes")
@@ -1337,6 +1343,7 @@ def decode_frames(mesh, gops, first_frame):
     """S 7: all frames, in the unit of the mesh."""
     if not gops:
         return []  # S 8.3
+    require(gops[0][0] == 0, "the first GOP is missing")  # S 1.2
     mesh.allowance.shown = mesh.header["vertices"] * Gop(gops[0][1], mesh.header["gop_frames"]).frames
     rank = {v: index for index, core in enumerate(mesh.cores) for v in core}
     weight = edge_weights(mesh, first_frame)

@@ -193,6 +193,9 @@ class Connected:
                     self.body.rounding,
                     self.body.threads,
                 )
+                if not self.body.tolerant:
+                    for declared in self.declarations.known:
+                        self.declarations.rows_of(declared, self.numbering)
                 following = self.body.begin(structure)
                 queue.append(self.numbering.event(self.header.vertices))
                 return following.accept(arrival, queue)

@@ -157,6 +157,16 @@ BAD_ATTRIBUTES: dict[str, Bad] = {
     "bad-attribute-rows-none": _declared("no rows", 0, rows=None),
     "bad-attribute-rows-more": _declared("more rows than there are corners apart", 0, rows=200),
     "bad-attribute-rows-fewer": _declared("fewer rows than vertices", 2, rows=55),
+    "bad-attribute-rows-first": Bad(
+        "more rows than faces, before positions that end too early",
+        "corrupt",
+        lambda: with_payload(with_declaration(_all(), 3, rows=113), FrameType.GRID, b"\0\x38", 0),
+    ),
+    "unsupported-attribute-first": Bad(
+        "an ATTRIBUTE of an unknown origin where HEADER belongs",
+        "unsupported",
+        lambda: stream_of(_moved(ATTRIBUTE, 0)(frames_of(with_declaration(_all(), 0, origin=64)))),
+    ),
     "bad-attribute-rows-faces": _declared("more rows than faces", 3, rows=113),
     "bad-attribute-rows-limit": _declared("more values than are granted", 0, "limit", rows=2**31 - 1),
     "bad-attribute-largest": _declared("a largest level too few", 0, largest=[100]),

@@ -56,6 +56,11 @@ def _renumbered(frames: Frames) -> Frames:
     return [*frames[:place], (FrameType.GOP, b"\x05" + frames[place][1][1:]), *frames[place + 1 :]]
 
 
+def _unknown_behind_gap(frames: Frames) -> Frames:
+    place = _gops_of(frames)[0]
+    return [*frames[:place], (FrameType.GOP, b"\x01\x04" + frames[place][1][2:]), *frames[place + 1 :]]
+
+
 def _step(value: float) -> Edit:
     return lambda data: data[: _STEP.start] + struct.pack("<f", value) + data[_STEP.stop :]
 
@@ -81,6 +86,9 @@ BAD_SEQUENCES: dict[str, Bad] = {
     ),
     "bad-sequence-missing-end": Bad("fewer frames than announced", "corrupt", _frames(_without(1))),
     "bad-sequence-missing-begin": Bad("the first GOP is missing", "corrupt", _frames(_without(0))),
+    "bad-sequence-missing-unknown": Bad(
+        "the first GOP is missing, and the method of the next is unknown", "corrupt", _frames(_unknown_behind_gap)
+    ),
     "bad-sequence-overlap": Bad("a GOP that begins in the one before", "corrupt", _frames(_renumbered)),
     "bad-sequence-block": Bad("a block of the first frame is missing", "corrupt", _frames(_first_block_gone)),
     "bad-sequence-step-zero": Bad("a step of 0", "corrupt", _gop(_step(0.0))),

@@ -12,7 +12,7 @@ import numpy as np
 
 from bitstream.attributes.seams import Joins, decode_seams
 from bitstream.container import packets
-from bitstream.container.declaration import CORNER, RECOMPUTED, Declaration
+from bitstream.container.declaration import CORNER, FACE, RECOMPUTED, Declaration
 from bitstream.container.reader import Signal
 from bitstream.errors import BsmError, CorruptError
 from bitstream.fields.corners import Corners, corners_of
@@ -88,6 +88,24 @@ class Declarations:
         one = Declared(packet.index, packet.declaration, self._joins(packet))
         return replace(self, known=(*self.known, one))
 
+    def rows_of(self, one: Declared, numbering: Numbering) -> int:
+        """How many values of an attribute are coded (D 1.2), or belong to it, if it is recomputed.
+
+        Raises
+        ------
+        CorruptError
+            If its declaration says otherwise.
+        """
+        declaration = one.declaration
+        if declaration.domain == FACE:
+            expected = len(self.faces)
+        else:
+            places = self.vertices if one.joins is None else len(one.joins.vertices)
+            expected = places + loose_of(declaration, numbering)
+        if declaration.coding != RECOMPUTED and declaration.rows != expected:
+            raise CorruptError(f"attribute {declaration.name!r} has {declaration.rows} values where {expected} belong")
+        return expected
+
     def _joins(self, packet: packets.Attribute) -> Joins | None:
         declaration = packet.declaration
         if declaration.domain != CORNER:
@@ -151,10 +169,7 @@ class Valued:
         self._surface: Surface = surface_of(
             declaration.domain, declarations.faces, declarations.vertices, self._loose, declared.joins
         )
-        expected = len(self._surface.vertices) if declaration.domain != 2 else len(declarations.faces)
-        if declaration.coding != RECOMPUTED and declaration.rows != expected:
-            raise CorruptError(f"attribute {declaration.name!r} has {declaration.rows} values where {expected} belong")
-        self._rows = expected
+        expected = self._rows = declarations.rows_of(declared, structure.numbering)
         structure.allowance.keep(values_memory(expected, len(declarations.faces), declaration.components))
         if self.complete:
             structure.allowance.afford(recomputing_memory(expected, len(declarations.faces)))
