@@ -527,6 +527,7 @@ export class Decoder {
 
     private announce(): void {
         this.numbering ??= new Numbering(this.structure!.faces.view.slice(), this.header!.vertices);
+        if (!this.wishes.tolerant) this.attributes?.check(this.numbering);
         const { faces, size, loose } = this.numbering;
         this.queue.push({ type: "connectivity", faces, vertices: size, loose });
     }
