@@ -103,6 +103,13 @@ def scale_of(stream: bytes) -> float:
     return abs(scale) if isinstance(scale, float) else 0.0
 
 
+def is_full(stream: bytes) -> bool:
+    """Whether dictionaries may have as many columns as rows, by the header."""
+    entries = first_entries(stream)
+    columns, rows = (entries.get(HEADER_FIELDS[name].key) for name in ("coefficients", "block_size"))
+    return columns is not None and columns == rows
+
+
 def extent(positions: npt.NDArray[Any], scale: float) -> float:
     """The unit of tolerances (M 15.3): of `scale`, the diagonal and what rounding leaves of either, the greatest."""
     points = positions.reshape(-1, 3).astype(np.float64)
