@@ -17,7 +17,7 @@ from tools.proof.inputs import mutant, random_stream, vector_seeds
 from tools.proof.places import ROOT, environments, processors
 from tools.proof.shard import SUITES, Shard
 from tools.proof.tally import Tally
-from tools.vectors.store import FOLDER, distance, scale_of
+from tools.vectors.store import FOLDER, distance, is_full, scale_of
 
 CHAIN = (FOLDER / "good-chain.bsm").read_bytes()
 TEXTURED = (FOLDER / "good-attribute-uv-blocks.bsm").read_bytes()
@@ -65,6 +65,16 @@ def test_attributes_are_held_against_each_other():
     assert not np.array_equal(nearly[2][name], attributes[name])
     assert tally.hold(TEXTURED, nearly, decoded) is None
     assert "differs" in tally.hold(TEXTURED, nearly, decoded, exact=True)
+
+
+def test_dictionaries_as_wide_as_high_may_lose_more_and_sequences_may_not():
+    full = (FOLDER / "good-all-columns.bsm").read_bytes()
+    positions, faces, attributes = decoded = whole(full)
+    assert is_full(full) and not is_full(CHAIN) and not is_full(SEQUENCE)
+    assert Tally().hold(full, (positions + 1e-7, faces, attributes), decoded) is None
+    assert "off by" in Tally().hold(full, (positions + 1e-3, faces, attributes), decoded)
+    frames, faces, attributes = decoded = whole(SEQUENCE)
+    assert "off by" in Tally().hold(SEQUENCE, (frames + 1e-6, faces, attributes), decoded)
 
 
 def test_what_was_decoded_elsewhere_can_be_stored(tmp_path):
