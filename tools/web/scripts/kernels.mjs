@@ -119,22 +119,50 @@ void unpack_${name}(void) { unpack_table(PACKED_${name}, ${name}, ${length}, ${B
     });
 }
 
+/** Slots that nothing was learnt for have one of these: they are sent as counts above those of the others. */
+const UNLEARNT = [2048, 409, 3686].map((probability) => probability << 4);
+
 /**
- * What coefficients start from (specification, M 9.1), each of the two sets with its slots not by expectation, bin and
- * node, but by node, bin and expectation: so they are easier to compress.
+ * What coefficients start from (specification, M 9.1), as bytes that are easier to compress: for every slot, by node, bin and
+ * expectation, its count, or which of `UNLEARNT` it is; the probabilities of the others; weights. Those of 16 bits
+ * come as all their low bytes and then the high ones. `unpack_priors` makes the specification's table of them.
  */
-function arrangedPriors(bytes) {
+function packedPriors(bytes) {
     const words = new Uint16Array(bytes.buffer, bytes.byteOffset, bytes.length / 2);
-    const [expectations, bins, nodes] = [3, 48, 38];
-    const others = words.length / 2 - expectations * bins * nodes;
-    const arranged = [0, words.length / 2].flatMap((start) => [
-        ...words.subarray(start, start + others),
-        ...Array.from({ length: expectations * bins * nodes }, (_, i) => {
+    const [sets, expectations, bins, nodes] = [2, 3, 48, 38];
+    const slots = expectations * bins * nodes;
+    const others = words.length / sets - slots;
+    const [counts, probabilities, weights] = [[], [], []];
+    for (let start = 0; start < words.length; start += others + slots) {
+        weights.push(...words.subarray(start, start + others));
+        for (let i = 0; i < slots; i++) {
             const [node, bin, expectation] = [Math.floor(i / expectations / bins), Math.floor(i / expectations) % bins, i % expectations];
-            return words[start + others + (expectation * bins + bin) * nodes + node];
-        }),
-    ]);
-    return [...new Uint8Array(Uint16Array.from(arranged).buffer)];
+            const word = words[start + others + (expectation * bins + bin) * nodes + node];
+            const unlearnt = UNLEARNT.indexOf(word);
+            counts.push(unlearnt < 0 ? word & 15 : unlearnt && 15 + unlearnt);
+            if (unlearnt < 0 && (word & 15) === 0) throw new Error("a slot that nothing was learnt for has another probability");
+            if (unlearnt < 0) probabilities.push(word >> 4);
+        }
+    }
+    const planes = (numbers) => [...numbers.map((number) => number & 255), ...numbers.map((number) => number >> 8)];
+    return `static const uint8_t COUNTS[] = {${counts}}, PROBABILITIES[] = {${planes(probabilities)}}, WEIGHTS[] = {${planes(weights)}};
+uint16_t PRIORS[${words.length}];
+static void unpack_priors(void) {
+    static const uint16_t UNLEARNT[] = {${UNLEARNT}};
+    const uint8_t *count = COUNTS, *probability = PROBABILITIES, *weight = WEIGHTS;
+    uint16_t *words = PRIORS;
+    for (int set = 0; set < ${sets}; set++) {
+        for (int i = 0; i < ${others}; i++, weight++) *words++ = weight[0] | weight[${weights.length}] << 8;
+        for (int node = 0; node < ${nodes}; node++)
+            for (int i = 0; i < ${expectations * bins}; i++, count++) {
+                int word = *count && *count < 16 ? (probability[0] | probability[${probabilities.length}] << 8) << 4 | *count : 0;
+                if (word) probability++;
+                words[(i % ${expectations} * ${bins} + i / ${expectations}) * ${nodes} + node] = word ? word : UNLEARNT[*count ? *count - 15 : 0];
+            }
+        words += ${slots};
+    }
+}
+`;
 }
 
 const UNPACK = `#include <stdint.h>
@@ -162,8 +190,8 @@ export function compileKernels({ vectors, small }) {
         const priors = Uint8Array.from(readFileSync(join(ROOT, "spec/priors.bin")));
         const tables = TABLES.flatMap((path) => packedTables(readFileSync(join(ROOT, path), "utf8")));
         const unpackers = tables.map((table) => /unpack_[A-Z]+/.exec(table)[0]);
-        writeFileSync(data, [UNPACK, ...tables, `void make_tables(void) { ${unpackers.map((name) => `${name}();`).join(" ")} }`,
-            `const unsigned char PRIORS[${priors.length}] = {${arrangedPriors(priors)}};`].join("\n"));
+        writeFileSync(data, [UNPACK, ...tables, packedPriors(priors),
+            `void make_tables(void) { unpack_priors(); ${unpackers.map((name) => `${name}();`).join(" ")} }`].join("\n"));
         const target = join(folder, "kernels.wasm");
         const clang = (...args) => execFileSync("clang", args, { cwd: ROOT, env: { ...process.env, PATH: withoutPackages() } });
         const objects = [...SOURCES, data].map((source, i) => {

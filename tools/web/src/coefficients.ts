@@ -17,7 +17,7 @@ const ROWS_SPAN = unsignedSpan(ROWS_UNARY);
 const WEIGHTS = EXPECTATIONS * SITUATIONS * NEIGHBOURS;
 const MIXING = SELECTORS * NODES * EXPECTATIONS;
 const SLOTS = EXPECTATIONS * BINS * NODES;
-const EXPERIENCE_BYTES = 2 * (WEIGHTS + MIXING + SLOTS);
+const EXPERIENCE = WEIGHTS + MIXING + SLOTS;
 
 /** Which of the two learnt sets of numbers a model starts from (M 9.1). */
 export type Layer = "coordinates" | "details";
@@ -48,16 +48,12 @@ export class CoefficientModel {
     }
 
     private learnBeforehand(layer: Layer): void {
-        const bytes = this.memory.priors(2 * EXPERIENCE_BYTES);
-        const start = layer === "details" ? EXPERIENCE_BYTES : 0;
-        const numbers = new DataView(bytes.buffer, bytes.byteOffset + start, EXPERIENCE_BYTES);
+        const numbers = this.memory.priors(layer === "details" ? EXPERIENCE : 0, EXPERIENCE);
         const [weights, mixing, slots] = [this.expectations.view, this.bank[1].view, this.bank[0].view];
-        for (let i = 0; i < WEIGHTS; i++) weights[i] = numbers.getUint16(2 * i, true);
-        for (let i = 0; i < MIXING; i++) mixing[i] = 16 * numbers.getInt16(2 * (WEIGHTS + i), true);
+        weights.set(numbers.subarray(0, WEIGHTS));
+        for (let i = 0; i < MIXING; i++) mixing[i] = (numbers[WEIGHTS + i] << 16) >> 12;
         for (let i = 0; i < SLOTS; i++) {
-            // They are kept by node, bin and expectation, see `scripts/kernels.mjs`.
-            const [expectation, bin, node] = [Math.floor(i / NODES / BINS), Math.floor(i / NODES) % BINS, i % NODES];
-            const stored = numbers.getUint16(2 * (WEIGHTS + MIXING + (node * BINS + bin) * EXPECTATIONS + expectation), true);
+            const stored = numbers[WEIGHTS + MIXING + i];
             slots[i] = ((stored >> 4) << 20) | (1 << 19) | ((stored & 15) << 2);
         }
     }

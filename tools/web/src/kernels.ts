@@ -107,9 +107,9 @@ export class Memory {
         return this.top;
     }
 
-    /** The numbers that coefficients start from (specification, M 9.1). */
-    priors(length: number): Uint8Array {
-        return new Uint8Array(this.buffer, (this.exports.PRIORS as WebAssembly.Global).value as number, length);
+    /** Some of the numbers that coefficients start from, of 16 bits (specification, M 9.1). */
+    priors(start: number, length: number): Uint16Array {
+        return new Uint16Array(this.buffer, ((this.exports.PRIORS as WebAssembly.Global).value as number) + 2 * start, length);
     }
 
     mark(): number {
