@@ -33,13 +33,17 @@ export interface HeaderEvent {
 
 /**
  * The faces have arrived, three vertices each, in the order that the mesh had if the stream stores that; how many
- * vertices there are, and where those are that no face uses.
+ * vertices there are, and where those are that no face uses. Of a mesh in sections, the faces of one: they come behind those
+ * of the sections before it.
  */
 export interface ConnectivityEvent {
     type: "connectivity";
     faces: Int32Array;
     vertices: number;
     loose: Loose;
+    /** Which section, from 0, and whether it is the last one. */
+    section: number;
+    last: boolean;
 }
 
 /** A block, or a chunk of a grid, has been decoded: which vertices it moved or finished, and where they are now. */
@@ -339,12 +343,20 @@ export class Decoder {
         checkLimit(this.limits, "coefficients", header.details);
         if (header.gopFrames > 0) checkLimit(this.limits, "sequenceBytes", 8 * header.vertices * header.coefficients);
         this.header = header;
+        this.structure = new Structure(this.memory, header, this.limits, this.allowance);
         this.among = 1 + (this.wishes.helpers?.(header) ?? 0);
         this.queue.push({ type: "header", header });
     }
 
     private acceptConnectivity(method: number, data: Uint8Array): void {
-        this.structure = new Structure(this.memory, this.header!, method, data, this.limits, this.allowance);
+        const { connectivity } = this.structure!;
+        if (connectivity.section > 0) {
+            this.built();
+            this.skipTo(connectivity.sections[connectivity.section - 1].blocks);
+            this.assembly!.leave();
+        }
+        this.structure!.accept(method, data);
+        this.chains = undefined;
     }
 
     private acceptOrder(method: number, data: Uint8Array): void {
@@ -359,6 +371,7 @@ export class Decoder {
     }
 
     private acceptAttribute(index: number, declaration: Declaration, seams: Uint8Array): void {
+        this.expectFaces();
         this.attributes ??= new Attributes(this.memory, this.header!, this.structure!.faces, this.limits);
         const { attributes } = this;
         this.tolerating(() => attributes.declare(index, declaration, seams), undefined, true);
@@ -469,6 +482,7 @@ export class Decoder {
     }
 
     private begunRefinement(): Refinement {
+        this.expectFaces();
         this.built();
         if (this.refinement) return this.refinement;
         this.skipTo(this.header!.blocks);
@@ -483,7 +497,7 @@ export class Decoder {
     }
 
     private acceptEnd(): void {
-        if (!this.structure) throw new CorruptError("the stream ends before its first block");
+        this.expectFaces();
         this.over = true;
         if (this.attributes) {
             const recomputed = this.begunAttributes().recomputed(this.numbering!, () => this.solid());
@@ -514,6 +528,11 @@ export class Decoder {
         return { missing: numbered(missing), degraded: numbered(Int32Array.from(worse)) };
     }
 
+    /** Check that the faces of all sections are there. */
+    private expectFaces(): void {
+        if (!this.structure?.connectivity.whole) throw new CorruptError("faces are missing");
+    }
+
     private expect(index: number): void {
         if (index !== this.nextIndex) throw new CorruptError("the frame of a block is missing", { block: this.nextIndex });
     }
@@ -526,17 +545,20 @@ export class Decoder {
     }
 
     private announce(): void {
-        this.numbering ??= new Numbering(this.structure!.faces.view.slice(), this.header!.vertices);
+        const { connectivity, before } = this.structure!;
+        const { section, vertices, known, whole } = connectivity;
+        if (!this.numbering || section > 1) this.numbering = new Numbering(connectivity.faces.view.slice(0, 3 * known), vertices);
         if (!this.wishes.tolerant) this.attributes?.check(this.numbering);
         const { faces, size, loose } = this.numbering;
-        this.queue.push({ type: "connectivity", faces, vertices: size, loose });
+        this.queue.push({ type: "connectivity", faces: faces.slice(3 * before.faces), vertices: size, loose, section: section - 1, last: whole });
     }
 
     /** The blocks, built when the first of them is needed. */
     private built(): Blocks {
-        const { blocks } = this.structure!;
+        const { blocks, connectivity } = this.structure!;
         if (this.chains) return blocks;
-        this.assembly = new Assembly(this.memory, blocks, this.header!);
+        this.assembly ??= new Assembly(this.memory, this.header!);
+        this.assembly.extend(blocks, connectivity.whole);
         this.chains = this.structure!.chains;
         this.announce();
         return blocks;
