@@ -53,9 +53,10 @@ const SOURCES = [
     "codec/signal/smooth.c",
     "codec/signal/transform.simd.c",
     "tools/web/src/memory.c",
+    "tools/web/src/tables.c",
 ];
 
-/** Tables alone, which are sent as differences. */
+/** Tables that the kernels make for themselves, by `tables.c`. */
 const TABLES = ["bitstream/entropy/tables.c", "bitstream/fields/tables.c"];
 
 const KERNELS = [
@@ -101,24 +102,6 @@ function withoutPackages() {
     return process.env.PATH.split(delimiter).filter((folder) => !folder.includes("node_modules")).join(delimiter);
 }
 
-const BYTES = { uint16_t: 2, int16_t: 2, int32_t: 4 };
-
-/**
- * The tables of a C file as differences, which are easier to compress; their bytes plane by plane, the least first.
- * `unpack_NAME` makes a table of them.
- */
-function packedTables(text) {
-    return [...text.matchAll(/const (\w+) (\w+)\[(\d+)\] = \{([^}]*)\}/g)].map(([, type, name, length, body]) => {
-        const values = body.split(",").map(Number).slice(0, Number(length));
-        const differences = values.map((value, i) => value - (i ? values[i - 1] : 0));
-        const planes = Array.from({ length: BYTES[type] }, (_, k) => differences.map((step) => (step >> (8 * k)) & 255)).flat();
-        return `static const uint8_t PACKED_${name}[] = {${planes}};
-${type} ${name}[${length}];
-void unpack_${name}(void) { unpack_table(PACKED_${name}, ${name}, ${length}, ${BYTES[type]}); }
-`;
-    });
-}
-
 /** Slots that nothing was learnt for have one of these: they are sent as counts above those of the others. */
 const UNLEARNT = [2048, 409, 3686].map((probability) => probability << 4);
 
@@ -145,9 +128,10 @@ function packedPriors(bytes) {
         }
     }
     const planes = (numbers) => [...numbers.map((number) => number & 255), ...numbers.map((number) => number >> 8)];
-    return `static const uint8_t COUNTS[] = {${counts}}, PROBABILITIES[] = {${planes(probabilities)}}, WEIGHTS[] = {${planes(weights)}};
+    return `#include <stdint.h>
+static const uint8_t COUNTS[] = {${counts}}, PROBABILITIES[] = {${planes(probabilities)}}, WEIGHTS[] = {${planes(weights)}};
 uint16_t PRIORS[${words.length}];
-static void unpack_priors(void) {
+void unpack_priors(void) {
     static const uint16_t UNLEARNT[] = {${UNLEARNT}};
     const uint8_t *count = COUNTS, *probability = PROBABILITIES, *weight = WEIGHTS;
     uint16_t *words = PRIORS;
@@ -165,15 +149,20 @@ static void unpack_priors(void) {
 `;
 }
 
-const UNPACK = `#include <stdint.h>
-#define unpack_table(packed, table, length, bytes) \\
-    for (int32_t i = 0, value = 0; i < (length); i++) { \\
-        uint32_t step = 0; \\
-        for (int k = 0; k < (bytes); k++) step |= (uint32_t)(packed)[k * (length) + i] << (8 * k); \\
-        value = (int32_t)((uint32_t)value + step); \\
-        (table)[i] = value; \\
+/** Compare the tables that the kernels make with those of the repository. */
+function checkTables(clang, objects, priors, target) {
+    const tables = TABLES.flatMap((path) => [...readFileSync(join(ROOT, path), "utf8").matchAll(/const (\w+)_t (\w+)\[(\d+)\] = \{([^}]*)\}/g)]);
+    const expected = tables.map(([, type, name, length, body]) => [type, name, body.split(",").map(Number).slice(0, Number(length))]);
+    expected.push(["uint16", "PRIORS", [...new Uint16Array(priors.buffer)]]);
+    const exported = ["make_tables", ...expected.map(([, name]) => name)].map((name) => `-Wl,--export=${name}`);
+    clang(TARGET, "-nostdlib", ...objects, "-Wl,--no-entry", ...exported, "-o", target);
+    const { exports } = new WebAssembly.Instance(new WebAssembly.Module(readFileSync(target)));
+    exports.make_tables();
+    for (const [type, name, values] of expected) {
+        const made = new { uint16: Uint16Array, int16: Int16Array, int32: Int32Array }[type](exports.memory.buffer, exports[name].value, values.length);
+        if (values.some((value, i) => made[i] !== value)) throw new Error(`the kernels make another table ${name} than the repository has`);
     }
-`;
+}
 
 /** Every build: whether with vector instructions, and whether without what only sequences and attributes need. */
 export const KERNEL_BUILDS = {
@@ -188,10 +177,7 @@ export function compileKernels({ vectors, small }) {
     try {
         const data = join(folder, "data.c");
         const priors = Uint8Array.from(readFileSync(join(ROOT, "spec/priors.bin")));
-        const tables = TABLES.flatMap((path) => packedTables(readFileSync(join(ROOT, path), "utf8")));
-        const unpackers = tables.map((table) => /unpack_[A-Z]+/.exec(table)[0]);
-        writeFileSync(data, [UNPACK, ...tables, packedPriors(priors),
-            `void make_tables(void) { unpack_priors(); ${unpackers.map((name) => `${name}();`).join(" ")} }`].join("\n"));
+        writeFileSync(data, packedPriors(priors));
         const target = join(folder, "kernels.wasm");
         const clang = (...args) => execFileSync("clang", args, { cwd: ROOT, env: { ...process.env, PATH: withoutPackages() } });
         const objects = [...SOURCES, data].map((source, i) => {
@@ -199,6 +185,7 @@ export function compileKernels({ vectors, small }) {
             clang(...FLAGS, "-Oz", ...(vectors ? ["-msimd128"] : []), ...(LEAN.test(source) ? ["-DBSM_LEAN"] : []), "-I", ".", "-c", source, "-o", object);
             return object;
         });
+        checkTables(clang, objects.slice(-2), priors, target);
         const kernels = KERNELS.filter((name) => !small || !LEFT_OUT.includes(name));
         clang(TARGET, "-nostdlib", ...objects, ...LINK, ...kernels.map((name) => `-Wl,--export=${name}`), "-o", target);
         const features = ["--enable-bulk-memory", "--enable-sign-ext", "--enable-nontrapping-float-to-int", ...(vectors ? ["--enable-simd"] : [])];
