@@ -74,6 +74,11 @@ def mesh_memory(vertices: int, faces: int) -> float:
     return 200.0 * vertices + 60.0 * faces
 
 
+def section_memory(vertices: int, faces: int) -> float:
+    """Bytes of what stays of a section when the next one has come: graph, partition and what is around vertices."""
+    return 60.0 * vertices + 20.0 * faces
+
+
 def order_memory(vertices: int, faces: int) -> float:
     """Bytes for restoring the order that a mesh had, with copies of its vertices at up to every corner."""
     return 32.0 * vertices + 60.0 * faces

@@ -154,7 +154,7 @@ class Spectral:
         prepared, options = self._prepared, self._options
         scheme = self._planner.scheme(step)
         blocks = encode_blocks(
-            scheme,
+            [scheme],
             prepared.positions,
             threads=options.threads,
             doi=options.doi,
