@@ -57,10 +57,11 @@ interface Walk {
 export class ConnectivityDecoder {
     /** All faces, shape (m, 3), that are there or will come. */
     faces!: Ints;
-    /** Sections, faces and vertices that are there. */
+    /** Sections, faces and vertices that are there, and blocks that these are enough for. */
     section = 0;
     known = 0;
     vertices = 0;
+    blocks = 0;
     readonly sections: Section[];
     private walk?: Walk;
     /** What lies in memory behind the faces, and behind all that the next section needs. */
@@ -93,7 +94,7 @@ export class ConnectivityDecoder {
         }
         if (this.whole) memory.release(this.behind);
         this.top = memory.mark();
-        [this.known, this.vertices] = [faces, known];
+        [this.known, this.vertices, this.blocks] = [faces, known, blocks];
     }
 
     private begin(payload: Uint8Array): Walk {

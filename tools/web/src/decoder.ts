@@ -41,9 +41,9 @@ export interface ConnectivityEvent {
     faces: Int32Array;
     vertices: number;
     loose: Loose;
-    /** Which section, from 0, and whether it is the last one. */
+    /** Which section, from 0, and how many there are in all. */
     section: number;
-    last: boolean;
+    sections: number;
 }
 
 /** A block, or a chunk of a grid, has been decoded: which vertices it moved or finished, and where they are now. */
@@ -328,7 +328,7 @@ export class Decoder {
             if (kind !== "end" || !sequence.lossy) sequence.lose(error);
             return;
         }
-        if (!begun && kind !== "block" && kind !== "attribute") throw error;
+        if (begun ? kind === "connectivity" && !this.structure!.connectivity.whole : kind !== "block" && kind !== "attribute") throw error;
         if (this.grid) this.gridBroken = true;
         this.lose(error);
     }
@@ -352,7 +352,7 @@ export class Decoder {
         const { connectivity } = this.structure!;
         if (connectivity.section > 0) {
             this.built();
-            this.skipTo(connectivity.sections[connectivity.section - 1].blocks);
+            this.skipTo(connectivity.blocks);
             this.assembly!.leave();
         }
         this.structure!.accept(method, data);
@@ -371,7 +371,7 @@ export class Decoder {
     }
 
     private acceptAttribute(index: number, declaration: Declaration, seams: Uint8Array): void {
-        this.expectFaces();
+        this.expectFaces(this.header!.blocks);
         this.attributes ??= new Attributes(this.memory, this.header!, this.structure!.faces, this.limits);
         const { attributes } = this;
         this.tolerating(() => attributes.declare(index, declaration, seams), undefined, true);
@@ -482,7 +482,6 @@ export class Decoder {
     }
 
     private begunRefinement(): Refinement {
-        this.expectFaces();
         this.built();
         if (this.refinement) return this.refinement;
         this.skipTo(this.header!.blocks);
@@ -497,7 +496,7 @@ export class Decoder {
     }
 
     private acceptEnd(): void {
-        this.expectFaces();
+        if (!this.structure?.connectivity.section) throw new CorruptError("the stream ends before its first block");
         this.over = true;
         if (this.attributes) {
             const recomputed = this.begunAttributes().recomputed(this.numbering!, () => this.solid());
@@ -528,9 +527,9 @@ export class Decoder {
         return { missing: numbered(missing), degraded: numbered(Int32Array.from(worse)) };
     }
 
-    /** Check that the faces of all sections are there. */
-    private expectFaces(): void {
-        if (!this.structure?.connectivity.whole) throw new CorruptError("faces are missing");
+    /** Check that the faces for so many blocks are there. */
+    private expectFaces(blocks: number): void {
+        if (blocks > this.structure!.connectivity.blocks) throw new CorruptError("the faces of a section are missing");
     }
 
     private expect(index: number): void {
@@ -539,6 +538,7 @@ export class Decoder {
 
     /** Give up the blocks before `index` that did not come. */
     private skipTo(index: number): void {
+        this.expectFaces(index);
         for (; this.nextIndex < index; this.nextIndex++) {
             this.tolerating(() => this.expect(index), this.nextIndex);
         }
@@ -546,11 +546,11 @@ export class Decoder {
 
     private announce(): void {
         const { connectivity, before } = this.structure!;
-        const { section, vertices, known, whole } = connectivity;
+        const { section, sections, vertices, known } = connectivity;
         if (!this.numbering || section > 1) this.numbering = new Numbering(connectivity.faces.view.slice(0, 3 * known), vertices);
         if (!this.wishes.tolerant) this.attributes?.check(this.numbering);
         const { faces, size, loose } = this.numbering;
-        this.queue.push({ type: "connectivity", faces: faces.slice(3 * before.faces), vertices: size, loose, section: section - 1, last: whole });
+        this.queue.push({ type: "connectivity", faces: faces.slice(3 * before.faces), vertices: size, loose, section: section - 1, sections: sections.length });
     }
 
     /** The blocks, built when the first of them is needed. */
