@@ -38,13 +38,12 @@ from codec.static.units import Units
 from codec.static.work import (
     COPY_MEMORY,
     Allowance,
+    MeshMemory,
     labels_cost,
     mesh_cost,
-    mesh_memory,
     order_cost,
     order_memory,
     partition_cost,
-    section_memory,
 )
 
 
@@ -96,8 +95,8 @@ class Growth:
         self._count = len(self._spans)
         cuts = [span.faces.stop for span in header.spans[:-1]]
         self._decoder = ConnectivityDecoder(header.vertices, header.faces, allowance.limits, cuts)
+        self._memory = MeshMemory(allowance)
         self._vertices = 0
-        self._kept = self._of_earlier = 0.0
 
     def take(self, packet: packets.Connectivity) -> Section:
         """The next section.
@@ -114,11 +113,7 @@ class Growth:
         first, self._vertices, faces = self._vertices, known.vertices, len(known.faces)
         if known.vertices - first < len(span.blocks):
             raise CorruptError(f"{len(span.blocks)} blocks in section {number} of {known.vertices - first} vertices")
-        allowance.grant(known.vertices - first)
-        memory = self._of_earlier + mesh_memory(known.vertices, faces)
-        allowance.keep(memory - self._kept, received)
-        self._kept = memory
-        self._of_earlier += section_memory(known.vertices, faces)
+        self._memory.grow(known.vertices, faces, received)
         allowance.spend(mesh_cost(known.vertices, faces, received), received)
         graph = graph_of_faces(known.faces, known.vertices)
         return Section(number, self._count, span, first, known.faces, graph)
