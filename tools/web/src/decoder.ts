@@ -328,7 +328,9 @@ export class Decoder {
             if (kind !== "end" || !sequence.lossy) sequence.lose(error);
             return;
         }
-        if (begun ? kind === "connectivity" && !this.structure!.connectivity.whole : kind !== "block" && kind !== "attribute") throw error;
+        const { section, whole } = this.structure!.connectivity;
+        const bearable = begun ? kind !== "connectivity" || whole : section > 0 && (kind === "block" || kind === "attribute");
+        if (!bearable) throw error;
         if (this.grid) this.gridBroken = true;
         this.lose(error);
     }
