@@ -41,8 +41,10 @@ export function meshOfEvents(events: Iterable<Event>): Mesh {
     const attributes: Attribute[] = [];
     for (const event of events) {
         if (event.type === "connectivity") {
-            faces = Int32Array.from(event.faces);
+            faces = Int32Array.from([...faces, ...event.faces]);
+            const before = positions;
             positions = new Float64Array(3 * event.vertices).fill(NaN);
+            positions.set(before);
             event.loose.vertices.forEach((v, i) => positions.set(event.loose.positions.subarray(3 * i, 3 * i + 3), 3 * v));
         }
         if (event.type === "attribute") attributes.push(event);
