@@ -302,8 +302,10 @@ class _Part:
 
         match event:
             case ConnectivityEvent(faces, vertices):
-                self._faces = faces
-                self._positions, self._known = np.zeros((vertices, 3)), np.zeros(vertices, np.bool_)
+                more = vertices - len(self._known)
+                self._faces = np.concatenate([self._faces, faces])
+                self._positions = np.concatenate([self._positions, np.zeros((more, 3))])
+                self._known = np.concatenate([self._known, np.zeros(more, np.bool_)])
             case BlockEvent() | RefinementEvent():
                 self._positions[event.vertices] = event.positions
                 self._known[event.vertices] = True

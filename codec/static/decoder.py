@@ -91,7 +91,7 @@ class BlockStage:
     def accept(self, arrival: Arrival, queue: deque[Item]) -> Stage[Item]:
         section = self._structure.section
         match arrival:
-            case packets.Block():
+            case packets.Block(index) if index < self._blocks.stop:
                 self._skip_to(arrival.index, queue)
                 self._decode(arrival, queue)
                 if (
@@ -110,6 +110,7 @@ class BlockStage:
             case packets.Damaged():
                 queue.append(LossEvent(None, unreadable(arrival)))
             case _ if not section.is_last:
+                # Only behind damage; nothing can be made of what belongs to faces that are not there.
                 raise CorruptError(f"the faces of section {section.number + 1} of {section.count} are missing")
             case packets.Refinement():
                 self._skip_to(self._blocks.stop, queue)

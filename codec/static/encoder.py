@@ -279,7 +279,7 @@ class Encoder:
             parts,
             keep_order=options.keep_order,
             splits=self._joined.splits,
-            sections=options.sections or 1,
+            sections=options.sections_wanted,
         )
 
     @cached_property

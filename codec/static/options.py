@@ -120,7 +120,8 @@ class EncodeOptions:
         Where that grid has a place; None: where the mesh's unit has its zero.
     sections : int, optional
         In how many sections the mesh comes where it comes in blocks: each has faces of its own, and blocks that need
-        no faces of later ones, so that something can be drawn before all faces have come. None: one.
+        no faces of later ones, so that something can be drawn before all faces have come. None: two, of large meshes
+        whose surfaces do not meet in single vertices, unless `keep_order`, `bits` or METIS ask for what that excludes.
     limits : str
         Name of the limits of those who will decode: "default", "service" or "wide"; what they would refuse is an error.
     threads : int, optional
@@ -191,6 +192,12 @@ class EncodeOptions:
         if self.is_grid or self.target is not None or self.says_how:
             return None
         return self.contract
+
+    @property
+    def sections_wanted(self) -> int | None:
+        """In how many sections blocks are to come; None: as many as are worth it."""
+        whole = self.keep_order or self.partition == "metis" or self.bits is not None
+        return 1 if whole and self.sections is None else self.sections
 
     @property
     def grade(self) -> Grade:

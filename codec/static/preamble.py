@@ -168,11 +168,13 @@ class Prepared:
         OptionError
             If blocks of this size would hold more copies of each vertex than a stream may.
         """
-        partitions, vertices = [area.partition for area in self.areas], self.graph.size
-        size = max(block_size(one, self.parts.overlap) for one in partitions)
-        parts = sum(one.parts for one in partitions)
-        if parts * size > MOST_COPIES * vertices + FREE_COPIES:
-            raise OptionError(f"{parts} blocks of {size} of {vertices} vertices overlap too much; take a smaller one")
+        size, parts = max(block_size(area.partition, self.parts.overlap) for area in self.areas), 0
+        for area in self.areas:
+            parts, vertices = parts + area.partition.parts, area.graph.size
+            if parts * size > MOST_COPIES * vertices + FREE_COPIES:
+                raise OptionError(
+                    f"{parts} blocks of {size} of {vertices} vertices overlap too much; take a smaller one"
+                )
         return size
 
     @cached_property
@@ -235,7 +237,7 @@ class Parts:
 
 
 def prepare(
-    mesh: TriangleMesh, parts: Parts, *, keep_order: bool, splits: Splits | None = None, sections: int = 1
+    mesh: TriangleMesh, parts: Parts, *, keep_order: bool, splits: Splits | None = None, sections: int | None = 1
 ) -> Prepared:
     """Code the connectivity of a mesh.
 
@@ -246,8 +248,8 @@ def prepare(
     keep_order : bool
     splits : Splits, optional
         What a mesh whose order is kept needs to become the given one.
-    sections : int
-        In how many the blocks come.
+    sections : int, optional
+        In how many blocks come; None: as many as are worth it.
 
     Raises
     ------
@@ -256,9 +258,10 @@ def prepare(
     """
     used, kept = mesh.without_isolated_vertices()
     dropped = len(mesh.positions) - len(kept)
-    places = possible_cuts(len(used.faces)) if sections != 1 else ()
-    connectivity = encode_connectivity(used.faces, len(kept), places)
-    cuts = choose_cuts(connectivity.cuts, len(kept), parts.count(len(kept)), sections)
+    vertices = len(kept)
+    connectivity = encode_connectivity(used.faces, vertices, possible_cuts(len(used.faces), vertices, sections))
+    size = len(connectivity.payload)
+    cuts = choose_cuts(connectivity.cuts, vertices, parts.count(vertices), size, sections)
     coding_order = kept[connectivity.vertex_order]
     ordered = TriangleMesh(mesh.positions[coding_order], connectivity.faces)
     order: tuple[packets.Order, ...] = ()

@@ -18,7 +18,7 @@ from bitstream.connectivity.faces import ConnectivityDecoder
 from bitstream.connectivity.order import decode_arrangement
 from bitstream.connectivity.partition import decode_labels
 from bitstream.container import packets
-from bitstream.container.header import Header, Span
+from bitstream.container.header import FREE_COPIES, MOST_COPIES, Header, Span
 from bitstream.container.splits import decode_splits
 from bitstream.container.wire import Cursor, FrameType
 from bitstream.errors import BsmError, CorruptError, UnsupportedError
@@ -104,19 +104,26 @@ class Growth:
         Raises
         ------
         BsmError
-            See `ConnectivityDecoder.take`; `CorruptError` also where there are fewer vertices than blocks.
+            See `ConnectivityDecoder.take`; `CorruptError` also where there are too few vertices for blocks.
         """
         _check_method("connectivity", packet.method, CONNECTIVITY_METHOD)
         allowance, received = self._allowance, len(packet.data)
         known = self._decoder.take(packet.data)
         number, span = self._spans.popleft()
+        self._check(number, span, known.vertices)
         first, self._vertices, faces = self._vertices, known.vertices, len(known.faces)
-        if known.vertices - first < len(span.blocks):
-            raise CorruptError(f"{len(span.blocks)} blocks in section {number} of {known.vertices - first} vertices")
         self._memory.grow(known.vertices, faces, received)
         allowance.spend(mesh_cost(known.vertices, faces, received), received)
         graph = graph_of_faces(known.faces, known.vertices)
         return Section(number, self._count, span, first, known.faces, graph)
+
+    def _check(self, number: int, span: Span, vertices: int) -> None:
+        """Raise `CorruptError` if a section, with which there are so many vertices, has too few for its blocks."""
+        own, rows = vertices - self._vertices, span.blocks.stop * self._header.block_size
+        if own < len(span.blocks):
+            raise CorruptError(f"{len(span.blocks)} blocks in section {number} of {own} vertices")
+        if rows > MOST_COPIES * vertices + FREE_COPIES:
+            raise CorruptError(f"blocks of {rows} rows at section {number}, where there are {vertices} vertices")
 
 
 @dataclass(frozen=True, eq=False)
@@ -256,7 +263,7 @@ class Connected:
                 return replace(self, partition=partition_of_labels(labels))
             case packets.Order(method, data):
                 return replace(self, numbering=self._numbering(method, data))
-            case packets.Attribute():
+            case packets.Attribute() if self.section.is_last:
                 return self._declared(arrival, queue)
             case packets.Damaged(type=FrameType.BLOCK | FrameType.ATTRIBUTE):
                 queue.append(LossEvent(None, unreadable(arrival)))
