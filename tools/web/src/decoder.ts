@@ -373,7 +373,7 @@ export class Decoder {
     }
 
     private acceptAttribute(index: number, declaration: Declaration, seams: Uint8Array): void {
-        this.expectFaces(this.header!.blocks);
+        this.structure!.expectFaces(this.header!.blocks);
         this.attributes ??= new Attributes(this.memory, this.header!, this.structure!.faces, this.limits);
         const { attributes } = this;
         this.tolerating(() => attributes.declare(index, declaration, seams), undefined, true);
@@ -415,6 +415,7 @@ export class Decoder {
 
     private acceptBlock(index: number, coefficients: number, data: Uint8Array): void {
         this.built();
+        this.structure!.expectFaces(index + 1);
         this.skipTo(index);
         this.nextIndex++;
         if (!isMine(this.header!, index, { number: 0, among: this.among })) this.queue.push({ awaited: index });
@@ -529,18 +530,13 @@ export class Decoder {
         return { missing: numbered(missing), degraded: numbered(Int32Array.from(worse)) };
     }
 
-    /** Check that the faces for so many blocks are there. */
-    private expectFaces(blocks: number): void {
-        if (blocks > this.structure!.connectivity.blocks) throw new CorruptError("the faces of a section are missing");
-    }
-
     private expect(index: number): void {
         if (index !== this.nextIndex) throw new CorruptError("the frame of a block is missing", { block: this.nextIndex });
     }
 
     /** Give up the blocks before `index` that did not come. */
     private skipTo(index: number): void {
-        this.expectFaces(index);
+        this.structure!.expectFaces(index);
         for (; this.nextIndex < index; this.nextIndex++) {
             this.tolerating(() => this.expect(index), this.nextIndex);
         }

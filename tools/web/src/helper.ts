@@ -88,6 +88,7 @@ export class Helper {
     }
 
     private decode({ index, coefficients, data }: Extract<Packet, { type: "block" }>): SharedBlock {
+        this.structure!.expectFaces(index + 1);
         this.chains ??= this.structure!.chains;
         try {
             return { index, block: this.chains.decode(index, coefficients, data) };

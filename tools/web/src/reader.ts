@@ -280,7 +280,7 @@ class Grammar {
         const { first, blocks } = sections[begun - 1] ?? { first: 0, blocks: 0 };
         const wrong =
             packet.type === "connectivity" ? begun === sections.length || (this.nextBlock < blocks && !lossy)
-            : packet.type === "block" ? begun > 0 && (packet.index < first || packet.index >= blocks)
+            : packet.type === "block" ? begun > 0 && (packet.index < first || (packet.index >= blocks && !lossy))
             : begun < sections.length && !lossy && ["attribute", "refinement", "values", "end"].includes(packet.type);
         if (wrong) throw new CorruptError(`${packet.type} may not come in section ${begun} of ${sections.length}`);
     }

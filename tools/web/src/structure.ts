@@ -50,6 +50,11 @@ export class Structure {
         if (header.details > 0) this.surface = makeSurface(memory, faces, vertices);
     }
 
+    /** Check that the faces that so many blocks need are there. */
+    expectFaces(blocks: number): void {
+        if (blocks > this.connectivity.blocks) throw new CorruptError("the faces of a section are missing");
+    }
+
     acceptPartition(method: number, data: Uint8Array): void {
         if (method !== PARTITION_METHOD) throw new UnsupportedError(`partition method ${method} is unknown to this decoder`);
         const { size, offsets, neighbours } = this.graph!;
