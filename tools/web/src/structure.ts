@@ -15,8 +15,7 @@ export class Structure {
     readonly connectivity: ConnectivityDecoder;
     /** Faces and vertices of sections before the present one. */
     before = { faces: 0, vertices: 0 };
-    private graph?: Graph;
-    private surface?: Surface;
+    private made?: Graph;
     private partition?: Partition;
     private grown?: Blocks;
 
@@ -36,18 +35,25 @@ export class Structure {
 
     /** Take the faces of the next section; nothing that the memory holds of the one before it is needed any more. */
     accept(method: number, data: Uint8Array): void {
-        const { memory, connectivity, allowance, header } = this;
+        const { connectivity, allowance } = this;
         if (method !== CONNECTIVITY_METHOD) throw new UnsupportedError(`connectivity method ${method} is unknown to this decoder`);
         this.before = { faces: connectivity.known, vertices: connectivity.vertices };
         connectivity.take(data);
         const { known, vertices } = connectivity;
         allowance.grant(vertices - this.before.vertices);
         allowance.spend(meshCost(vertices, known, data.length), data.length);
-        this.grown = undefined;
-        if (header.grid.length > 0) return;
-        const faces = this.faces.part(0, 3 * known, 3);
-        this.graph = makeGraph(memory, faces, vertices);
-        if (header.details > 0) this.surface = makeSurface(memory, faces, vertices);
+        this.made = this.grown = undefined;
+    }
+
+    /** Faces of this section and those before it. */
+    private get known(): Ints {
+        const { faces, known } = this.connectivity;
+        return faces.part(0, 3 * known, 3);
+    }
+
+    /** Their graph, made when it is first asked for. */
+    private get graph(): Graph {
+        return (this.made ??= makeGraph(this.memory, this.known, this.connectivity.vertices));
     }
 
     /** Check that the faces that so many blocks need are there. */
@@ -57,7 +63,7 @@ export class Structure {
 
     acceptPartition(method: number, data: Uint8Array): void {
         if (method !== PARTITION_METHOD) throw new UnsupportedError(`partition method ${method} is unknown to this decoder`);
-        const { size, offsets, neighbours } = this.graph!;
+        const { size, offsets, neighbours } = this.graph;
         this.allowance.spend(labelsCost(size, neighbours.length, data.length), data.length);
         const labels = decodeLabels(this.memory, data, offsets, neighbours, this.header.blocks);
         this.partition = groupLabels(this.memory, labels, this.header.blocks);
@@ -67,19 +73,21 @@ export class Structure {
     get blocks(): Blocks {
         if (this.grown) return this.grown;
         const { memory, header, graph, allowance, connectivity, before } = this;
-        const { size, neighbours } = graph!;
+        const { size, neighbours } = graph;
         const { first, blocks } = connectivity.sections[connectivity.section - 1];
         const count = blocks - first;
         allowance.spend(partitionCost(size, neighbours.length, count, Math.min(count * header.blockSize, mostCopies(size))));
-        const partition = this.partition ?? derivePartition(memory, lastOf(memory, graph!, before.vertices), count);
+        const partition = this.partition ?? derivePartition(memory, lastOf(memory, graph, before.vertices), count);
         const largest = largestPart(partition);
         if (largest > header.blockSize) throw new CorruptError(`a part of ${largest} vertices in blocks of ${header.blockSize}`);
-        return (this.grown = growBlocks(memory, graph!, partition, header.blockSize, first));
+        return (this.grown = growBlocks(memory, graph, partition, header.blockSize, first));
     }
 
     /** Chains of these blocks, in memory from here on. */
     get chains(): Chains {
-        return new Chains(this.memory, this.header, this.blocks, this.allowance, this.surface);
+        const { memory, header, blocks, allowance } = this;
+        const surface = header.details > 0 ? makeSurface(memory, this.known, blocks.graph.size) : undefined;
+        return new Chains(memory, header, blocks, allowance, surface);
     }
 }
 
