@@ -26,15 +26,12 @@ from bsm.viewer.content import DRACO_LEVEL, compared
 from codec.geometry.mesh import TriangleMesh
 meshes, folder = sys.argv[1:]
 PRESETS = ["small", "balanced", "fine", "near-lossless", "lossless"]
-SECTIONS = [1, 2, 3, 4, 6, 8]
 mesh = bsm.load(f"{meshes}/static/bunny_34834.ply")
 data = bsm.encode(mesh)
 content = compared("bunny", data, mesh)
 open(f"{folder}/bunny.bsm", "wb").write(data)
 for preset in PRESETS:
     open(f"{folder}/bunny-{preset}.bsm", "wb").write(data if preset == "balanced" else bsm.encode(mesh, preset=preset))
-for number in SECTIONS:
-    open(f"{folder}/bunny-{number} sections.bsm", "wb").write(bsm.encode(mesh, sections=number))
 ordered = TriangleMesh(content.original.astype(float), bsm.decode(data).faces)
 open(f"{folder}/bunny.drc", "wb").write(encode_draco(ordered, content.draco.bits, DRACO_LEVEL))
 with np.load(f"{meshes}/dynamic/samba.npz") as arrays:
@@ -42,7 +39,7 @@ with np.load(f"{meshes}/dynamic/samba.npz") as arrays:
     groups = bsm.encode_sequence(arrays["positions"], arrays["faces"], frame_rate=30, gop=25)
 open(f"{folder}/samba.bsm", "wb").write(frames)
 open(f"{folder}/samba-groups.bsm", "wb").write(groups)
-print(json.dumps({"theta": bsm.compare(mesh, data).theta_deg, "draco": content.draco.theta, "bits": content.draco.bits, "kinds": PRESETS + [f"{number} sections" for number in SECTIONS]}))
+print(json.dumps({"theta": bsm.compare(mesh, data).theta_deg, "draco": content.draco.theta, "bits": content.draco.bits, "presets": PRESETS}))
 `;
 
 const DECODE = `
@@ -69,7 +66,7 @@ const smallest = (times) => Math.min(...times);
 /** A server of the loopback interface; everything comes compressed, as a page would fetch it. */
 async function serve(files) {
     const server = createServer((request, response) => {
-        const file = files[decodeURIComponent(request.url.slice(1))];
+        const file = files[request.url.slice(1)];
         if (!file) return response.writeHead(404).end();
         const type = request.url.endsWith(".wasm") ? "application/wasm" : request.url.endsWith(".js") ? "text/javascript" : "text/html";
         response.writeHead(200, { "Content-Type": type, "Content-Encoding": "br", "Content-Length": file.length }).end(file);
@@ -288,13 +285,13 @@ if (meshes) {
         empty: Buffer.from("<!doctype html><title>empty</title>"), "bsm.js": built("bsm.js"), "kernels.wasm": built("kernels.wasm"), "bunny.bsm": read("bunny.bsm"), "small.js": built("small.js"), "small.wasm": built("small.wasm"),
         "bunny.drc": read("bunny.drc"), "draco_wasm_wrapper.js": draco("draco_wasm_wrapper.js"), "draco_decoder.wasm": draco("draco_decoder.wasm"),
     };
-    for (const name of ["samba.bsm", "samba-groups.bsm", ...found.kinds.map((kind) => `bunny-${kind}.bsm`)]) contents[name] = read(name);
+    for (const name of ["samba.bsm", "samba-groups.bsm", ...found.presets.map((preset) => `bunny-${preset}.bsm`)]) contents[name] = read(name);
     const files = Object.fromEntries(Object.entries(contents).map(([name, content]) => [name, brotliCompressSync(content)]));
     const { server, address } = await serve(files);
     try {
-        for (const kind of found.kinds) {
-            const { first, bytes, work } = await beginInPage(address, `bunny-${kind}.bsm`);
-            console.log(`bunny, ${kind}: the first block is there after ${first} of ${bytes} bytes (${((100 * first) / bytes).toFixed(0)} %) and ${milliseconds(work)} of work`);
+        for (const preset of found.presets) {
+            const { first, bytes, work } = await beginInPage(address, `bunny-${preset}.bsm`);
+            console.log(`bunny, ${preset}: the first block is there after ${first} of ${bytes} bytes (${((100 * first) / bytes).toFixed(0)} %) and ${milliseconds(work)} of work`);
         }
         const [before, inPage, after] = [python(DECODE, join(folder, "bunny.bsm"), String(ROUNDS)), await decodeInPage(address), python(DECODE, join(folder, "bunny.bsm"), String(ROUNDS))];
         const ours = smallest([...before, ...after]);

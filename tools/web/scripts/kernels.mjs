@@ -53,6 +53,7 @@ const SOURCES = [
     "codec/signal/smooth.c",
     "codec/signal/transform.simd.c",
     "tools/web/src/memory.c",
+    "tools/web/src/noise.c",
     "tools/web/src/tables.c",
 ];
 
@@ -60,7 +61,7 @@ const SOURCES = [
 const TABLES = ["bitstream/entropy/tables.c", "bitstream/fields/tables.c"];
 
 const KERNELS = [
-    "make_tables",
+    "make_tables", "learn_beforehand", "add_noise",
     "code_one_unsigned", "match_halfedges", "conquer", "code_fans", "code_degenerate", "code_steps", "code_turns",
     "code_labels", "points_of_levels", "code_rows", "code_block", "vertex_faces", "bisect", "refine_partition",
     "group_by_label", "chain_blocks", "order_scratch", "order_block", "add_copies", "collect_edges",
@@ -78,7 +79,7 @@ const FLAGS = [
 ];
 
 const LINK = [
-    "-Wl,--no-entry", "-Wl,--gc-sections", "-Wl,--strip-all", "-Wl,--export=__heap_base", "-Wl,--export=PRIORS",
+    "-Wl,--no-entry", "-Wl,--gc-sections", "-Wl,--strip-all", "-Wl,--export=__heap_base",
     "-Wl,-z,stack-size=262144", "-Wl,--stack-first", "-Wl,--max-memory=4294967296",
 ];
 
@@ -108,7 +109,7 @@ const UNLEARNT = [2048, 409, 3686].map((probability) => probability << 4);
 /**
  * What coefficients start from (specification, M 9.1), as bytes that are easier to compress: for every slot, by node, bin and
  * expectation, its count, or which of `UNLEARNT` it is; the probabilities of the others; weights. Those of 16 bits
- * come as all their low bytes and then the high ones. `unpack_priors` makes the specification's table of them.
+ * come as all their low bytes and then the high ones. `learn_beforehand` makes a model of them.
  */
 function packedPriors(bytes) {
     const words = new Uint16Array(bytes.buffer, bytes.byteOffset, bytes.length / 2);
@@ -117,6 +118,7 @@ function packedPriors(bytes) {
     const others = words.length / sets - slots;
     const [counts, probabilities, weights] = [[], [], []];
     for (let start = 0; start < words.length; start += others + slots) {
+        probabilities.before = probabilities.length;
         weights.push(...words.subarray(start, start + others));
         for (let i = 0; i < slots; i++) {
             const [node, bin, expectation] = [Math.floor(i / expectations / bins), Math.floor(i / expectations) % bins, i % expectations];
@@ -128,39 +130,53 @@ function packedPriors(bytes) {
         }
     }
     const planes = (numbers) => [...numbers.map((number) => number & 255), ...numbers.map((number) => number >> 8)];
-    return `#include <stdint.h>
-static const uint8_t COUNTS[] = {${counts}}, PROBABILITIES[] = {${planes(probabilities)}}, WEIGHTS[] = {${planes(weights)}};
-uint16_t PRIORS[${words.length}];
-void unpack_priors(void) {
-    static const uint16_t UNLEARNT[] = {${UNLEARNT}};
-    const uint8_t *count = COUNTS, *probability = PROBABILITIES, *weight = WEIGHTS;
-    uint16_t *words = PRIORS;
-    for (int set = 0; set < ${sets}; set++) {
-        for (int i = 0; i < ${others}; i++, weight++) *words++ = weight[0] | weight[${weights.length}] << 8;
-        for (int node = 0; node < ${nodes}; node++)
-            for (int i = 0; i < ${expectations * bins}; i++, count++) {
-                int word = *count && *count < 16 ? (probability[0] | probability[${probabilities.length}] << 8) << 4 | *count : 0;
-                if (word) probability++;
-                words[(i % ${expectations} * ${bins} + i / ${expectations}) * ${nodes} + node] = word ? word : UNLEARNT[*count ? *count - 15 : 0];
-            }
-        words += ${slots};
+    return `#include "bitstream/kernel.h"
+static const uint8_t COUNTS[] = {${counts}}, PROBABILITIES[] = {${planes(probabilities)}}, NUMBERS[] = {${planes(weights)}};
+int64_t learn_beforehand(int64_t details, Ints2 expectations, Ints2 weights, Words slots) {
+    int64_t learnt = expectations.rows * expectations.columns, others = learnt + weights.rows * weights.columns;
+    if (others != ${others} || slots.size != ${slots} || details < 0 || details > 1) return MISUSED;
+    static const uint16_t UNLEARNT[] = {${UNLEARNT.map((word) => word >> 4)}};
+    const uint8_t *count = COUNTS + details * slots.size, *probability = PROBABILITIES + details * ${probabilities.before}, *number = NUMBERS + details * others;
+    for (int64_t i = 0; i < others; i++, number++) {
+        int32_t value = number[0] | number[${weights.length}] << 8;
+        if (i < learnt) expectations.data[i] = value;
+        else weights.data[i - learnt] = 16 * (int16_t)value;
     }
+    for (int node = 0; node < ${nodes}; node++)
+        for (int i = 0; i < ${expectations * bins}; i++, count++) {
+            int known = *count && *count < 16;
+            uint32_t share = known ? probability[0] | probability[${probabilities.length}] << 8 : UNLEARNT[*count ? *count - 15 : 0];
+            probability += known;
+            slots.data[(i % ${expectations} * ${bins} + i / ${expectations}) * ${nodes} + node] = share << 20 | 1 << 19 | (known ? *count << 2 : 0);
+        }
+    return 0;
 }
 `;
 }
 
-/** Compare the tables that the kernels make with those of the repository. */
+/** Compare the tables and models that the kernels make with those of the repository. */
 function checkTables(clang, objects, priors, target) {
     const tables = TABLES.flatMap((path) => [...readFileSync(join(ROOT, path), "utf8").matchAll(/const (\w+)_t (\w+)\[(\d+)\] = \{([^}]*)\}/g)]);
-    const expected = tables.map(([, type, name, length, body]) => [type, name, body.split(",").map(Number).slice(0, Number(length))]);
-    expected.push(["uint16", "PRIORS", [...new Uint16Array(priors.buffer)]]);
-    const exported = ["make_tables", ...expected.map(([, name]) => name)].map((name) => `-Wl,--export=${name}`);
-    clang(TARGET, "-nostdlib", ...objects, "-Wl,--no-entry", ...exported, "-o", target);
+    const exported = ["make_tables", "learn_beforehand", "__heap_base", ...tables.map(([, , name]) => name)].map((name) => `-Wl,--export=${name}`);
+    clang(TARGET, "-nostdlib", ...objects, "-Wl,--no-entry", "-Wl,--initial-memory=1048576", ...exported, "-o", target);
     const { exports } = new WebAssembly.Instance(new WebAssembly.Module(readFileSync(target)));
+    const { buffer } = exports.memory;
+    const compare = (name, made, values) => {
+        if (values.some((value, i) => made[i] !== value)) throw new Error(`the kernels make other ${name} than the repository has`);
+    };
     exports.make_tables();
-    for (const [type, name, values] of expected) {
-        const made = new { uint16: Uint16Array, int16: Int16Array, int32: Int32Array }[type](exports.memory.buffer, exports[name].value, values.length);
-        if (values.some((value, i) => made[i] !== value)) throw new Error(`the kernels make another table ${name} than the repository has`);
+    for (const [, type, name, length, body] of tables) {
+        const kind = { uint16: Uint16Array, int16: Int16Array, int32: Int32Array }[type];
+        compare(name, new kind(buffer, exports[name].value, Number(length)), body.split(",").map(Number).slice(0, Number(length)));
+    }
+    const [given, sizes] = [exports.__heap_base.value, [[18, 20], [76, 3], [5472]]];
+    const places = sizes.map((_, k) => given + 1024 + 32768 * k);
+    sizes.forEach((shape, k) => new BigInt64Array(buffer, given + 64 * k).set([places[k], ...shape].map(BigInt)));
+    for (const [set, words] of [0, 1].map((set) => [set, new Uint16Array(priors.buffer, 12120 * set, 6060)])) {
+        exports.learn_beforehand(BigInt(set), given, given + 64, given + 128);
+        compare("expectations", new Int32Array(buffer, places[0], 360), words.subarray(0, 360));
+        compare("weights", new Int32Array(buffer, places[1], 228), Array.from(words.subarray(360, 588), (word) => 16 * ((word << 16) >> 16)));
+        compare("slots", new Uint32Array(buffer, places[2], 5472), Array.from(words.subarray(588), (word) => (((word >> 4) << 20) | (1 << 19) | ((word & 15) << 2)) >>> 0));
     }
 }
 

@@ -107,11 +107,6 @@ export class Memory {
         return this.top;
     }
 
-    /** Some of the numbers that coefficients start from, of 16 bits (specification, M 9.1). */
-    priors(start: number, length: number): Uint16Array {
-        return new Uint16Array(this.buffer, ((this.exports.PRIORS as WebAssembly.Global).value as number) + 2 * start, length);
-    }
-
     mark(): number {
         return this.top;
     }

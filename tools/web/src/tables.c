@@ -8,8 +8,6 @@ uint16_t SQUASH[5760], RECIPROCAL[1024];
 int16_t STRETCH[4096], ODDS[544], LESS[544];
 int32_t SURVIVAL[1025];
 
-void unpack_priors(void);
-
 /* e^x - 1, also where that is small. */
 static double growth(double x) {
     double term = x /= 4096, sum = 0;
@@ -71,5 +69,4 @@ void make_tables(void) {
         ODDS[i] = limited(256 * odds);
         LESS[i] = limited(256 * (odds - d));
     }
-    unpack_priors();
 }
