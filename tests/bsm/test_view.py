@@ -179,6 +179,7 @@ DAMAGED = {
     bsm.Decoder: [
         "labels",
         "keys",
+        "sections",
         "details",
         "layers",
         "refined",

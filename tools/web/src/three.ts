@@ -34,6 +34,8 @@ export class BSMGeometry extends BufferGeometry {
     layers = 0;
     /** Blocks, or chunks of a grid, that are there. */
     blocks = 0;
+    /** Sections whose faces are there. */
+    sections = 0;
     /** Attributes that are there, as the stream has them; the geometry has those that it can draw once it is whole. */
     readonly carried: Attribute[] = [];
     /** Positions of the vertices, shape (n, 3). */
@@ -90,7 +92,8 @@ export class BSMGeometry extends BufferGeometry {
         return spread;
     }
 
-    private acceptFaces({ faces: added, vertices: size, loose }: ConnectivityEvent): void {
+    private acceptFaces({ faces: added, vertices: size, loose, section }: ConnectivityEvent): void {
+        this.sections = section + 1;
         const [known, before, index] = [this.faces.length, this.origin.length, this.getIndex()];
         const faces = grown(this.faces, known + added.length);
         faces.set(added, known);
