@@ -11,25 +11,26 @@ const TERMS = 7;
 const CONTEXTS = 6;
 const NODES = 66;
 const WEIGHT_ROWS = NODES + 3 * CONTEXTS;
-const INPUTS = PREDICTIONS + CONTEXTS + 1;
+/** Weights of a decision, and sizes of errors, in whole vectors. */
+const LANES = 16;
 const SLOTS = CONTEXTS * 512 * NODES;
 const HITS = PREDICTIONS * 32;
-const SCALES = PREDICTIONS * 512;
+const SCALES = 512;
 const LEARNER = TERMS * (TERMS + 1) + 2 * TERMS;
 const SUM_LEARNERS = 48;
 
 /** What has been learnt about integers; the structure ValueModel of the kernels (V 3). */
 export function makeModel(memory: Memory): Argument {
     const [slots, hits] = [memory.words(SLOTS), memory.words(HITS)];
-    const weights = memory.ints(WEIGHT_ROWS * INPUTS, INPUTS);
-    const scales = memory.ints(2 * SCALES, 2);
+    const weights = memory.ints(WEIGHT_ROWS * LANES, LANES);
+    const scales = memory.ints(SCALES * LANES, LANES);
     slots.view.fill(2 ** 31);
     hits.view.fill(2 ** 28);
     scales.view.fill(0);
     const numbers = weights.view.fill(0);
     for (let row = 0; row < NODES; row++) {
-        numbers.fill(Math.floor((65536 * 9) / (8 * PREDICTIONS)), row * INPUTS, row * INPUTS + PREDICTIONS);
-        numbers.fill(6000, row * INPUTS + PREDICTIONS, (row + 1) * INPUTS - 1);
+        numbers.fill(Math.floor((65536 * 9) / (8 * PREDICTIONS)), row * LANES, row * LANES + PREDICTIONS);
+        numbers.fill(6000, row * LANES + PREDICTIONS, row * LANES + PREDICTIONS + CONTEXTS);
     }
     return [slots, hits, weights, scales];
 }
