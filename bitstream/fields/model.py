@@ -14,8 +14,7 @@ _CONTEXTS = 6
 _CONTEXT_SIZE = 512
 _NODES = 66
 _WEIGHT_ROWS = _NODES + 3 * 6
-_LANES = 16
-"""Weights of a decision, or sizes of errors and how often they were seen: whole vectors."""
+_INPUTS = PREDICTIONS + _CONTEXTS + 1
 _HIT_CONTEXTS = 32
 _SCALE_CONTEXTS = 512
 
@@ -34,14 +33,14 @@ class ValueModel(NamedTuple):
 
 def make_model() -> ValueModel:
     """A model that has learnt nothing."""
-    weights = np.zeros((_WEIGHT_ROWS, _LANES), np.int32)
+    weights = np.zeros((_WEIGHT_ROWS, _INPUTS), np.int32)
     weights[:_NODES, :PREDICTIONS] = (1 << 16) * 9 // (8 * PREDICTIONS)
-    weights[:_NODES, PREDICTIONS : PREDICTIONS + _CONTEXTS] = 6000
+    weights[:_NODES, PREDICTIONS:-1] = 6000
     return ValueModel(
         np.full(_CONTEXTS * _CONTEXT_SIZE * _NODES, 1 << 31, np.uint32),
         np.full(PREDICTIONS * _HIT_CONTEXTS, 1 << 28, np.uint32),
         weights,
-        np.zeros((_SCALE_CONTEXTS, _LANES), np.int32),
+        np.zeros((PREDICTIONS * _SCALE_CONTEXTS, 2), np.int32),
     )
 
 

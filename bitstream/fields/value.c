@@ -13,23 +13,18 @@ enum {
     REACH = 1 << 22,                 /* where the classes of the distance end */
 };
 
-typedef int32_t Four __attribute__((vector_size(16), may_alias));
-typedef uint32_t UnsignedFour __attribute__((vector_size(16), aligned(4), may_alias));
-typedef int32_t Two __attribute__((vector_size(8)));
-typedef double Pair __attribute__((vector_size(16)));
-
 typedef struct { /* a value under way */
     RangeCoder *coder;
     const ValueModel *model;
     const Expectation *e;
-    int32_t inverse[PREDICTIONS]; /* of the scales: 2^38 by 1/4096 */
-    Four input[VALUE_LANES / 4];
+    int64_t inverse[PREDICTIONS]; /* of the scales: 2^38 by 1/4096 */
+    int32_t input[VALUE_INPUTS];
 } Work;
 
 bool fits_values(const ValueModel *model) {
     return model->slots.size == CONTEXTS * CONTEXT_SIZE * VALUE_NODES && model->hits.size == PREDICTIONS * HIT_CONTEXTS
-        && model->weights.rows == VALUE_NODES + WEIGHT_SETS * KINDS && model->weights.columns == VALUE_LANES
-        && model->scales.rows == SCALE_CONTEXTS && model->scales.columns == 2 * SCALE_LANES;
+        && model->weights.rows == VALUE_NODES + WEIGHT_SETS * KINDS && model->weights.columns == VALUE_INPUTS
+        && model->scales.rows == PREDICTIONS * SCALE_CONTEXTS && model->scales.columns == 2;
 }
 
 /* -ln of the probability that an error exceeds `distance` (1/16), in 2^-16 nat (V 4.1). */
@@ -55,39 +50,25 @@ INLINE int32_t entry(int32_t d) {
 INLINE int32_t odds_of(int32_t d) { return ODDS[entry(d)]; }
 INLINE int32_t less_of(int32_t d) { return LESS[entry(d)]; }
 
-/* Whole numbers, and so exact: the sum of products of an input and two weights. */
-INLINE Pair mixed(Two input, Two own, Two other) {
-    return __builtin_convertvector(input, Pair) * (__builtin_convertvector(own, Pair) + __builtin_convertvector(other, Pair));
-}
-
-INLINE Two lower(Four x) { return __builtin_shufflevector(x, x, 0, 1); }
-INLINE Two upper(Four x) { return __builtin_shufflevector(x, x, 2, 3); }
-
-INLINE int32_t *inputs_of(Work *w) { return (int32_t *)w->input; }
-
 /* Mix a decision, code it and learn from it; the inputs of the predictions are set (V 3.2). */
-static int decide(Work *w, int node, int kind, int bit) {
+OFTEN static int decide(Work *w, int node, int kind, int bit) {
     uint32_t *slots[CONTEXTS];
-    int32_t *input = inputs_of(w);
     for (int i = 0; i < CONTEXTS; i++) {
         slots[i] = w->model->slots.data + (i * CONTEXT_SIZE + w->e->context[i]) * VALUE_NODES + node;
-        input[PREDICTIONS + i] = slot_odds(*slots[i]);
+        w->input[PREDICTIONS + i] = slot_odds(*slots[i]);
     }
-    UnsignedFour *own = (UnsignedFour *)(w->model->weights.data + node * VALUE_LANES);
-    UnsignedFour *other = (UnsignedFour *)(w->model->weights.data + (VALUE_NODES + w->e->set * KINDS + kind) * VALUE_LANES);
-    Pair total = {0.0, 0.0};
-    for (int i = 0; i < VALUE_LANES / 4; i++) {
-        Four in = w->input[i], a = (Four)own[i], b = (Four)other[i];
-        total += mixed(lower(in), lower(a), lower(b)) + mixed(upper(in), upper(a), upper(b));
-    }
-    uint32_t probability = squashed((int64_t)(total[0] + total[1]) >> 16);
+    w->input[VALUE_INPUTS - 1] = 256;
+    int32_t *own = w->model->weights.data + node * VALUE_INPUTS;
+    int32_t *other = w->model->weights.data + (VALUE_NODES + w->e->set * KINDS + kind) * VALUE_INPUTS;
+    int64_t total = 0;
+    for (int i = 0; i < VALUE_INPUTS; i++) total += w->input[i] * ((int64_t)own[i] + other[i]);
+    uint32_t probability = squashed(total >> 16);
     bit = code_bit(w->coder, probability, bit);
 
-    int32_t error = (bit * ONE - (int32_t)probability) * RATE;
-    for (int i = 0; i < VALUE_LANES / 4; i++) { /* |input| < 2^12, |error| < 2^20: see `trained` */
-        UnsignedFour step = (UnsignedFour)((w->input[i] * error + (1 << 19)) >> 20);
-        own[i] += step;
-        other[i] += step;
+    int64_t error = ((int64_t)bit * ONE - probability) * RATE;
+    for (int i = 0; i < VALUE_INPUTS; i++) {
+        own[i] = trained(own[i], w->input[i], error);
+        other[i] = trained(other[i], w->input[i], error);
     }
     for (int i = 0; i < CONTEXTS; i++) learn_slot(slots[i], bit, SLOT_LIMIT);
     return bit;
@@ -96,17 +77,14 @@ static int decide(Work *w, int node, int kind, int bit) {
 INLINE int32_t bounded(int32_t odds) { return within(odds, -MOST_ODDS, MOST_ODDS); }
 INLINE int32_t first_scale(const Expectation *e) { return e->scale < 2 ? 2 : e->scale; }
 
-/* The learnt sizes of errors, the expected one counting as if seen twice; returns that of the guess, 1/16 (V 3.3).
- *
- * Dividends are whole numbers below 2^53, so that the whole part of a quotient is exact. */
+/* The learnt sizes of errors, the expected one counting as if seen twice; returns that of the guess, 1/16 (V 3.3). */
 INLINE int32_t find_scales(Work *w) {
-    const int32_t *scale = w->model->scales.data + 2 * SCALE_LANES * w->e->scale_context;
-    double expected = (double)((int64_t)first_scale(w->e) << 9);
     int64_t mean = 0;
     for (int j = 0; j < PREDICTIONS; j++) {
-        double seen = scale[SCALE_LANES + j];
-        mean = largest((int64_t)((scale[j] * seen + expected) / (seen + 2.0)), 256);
-        w->inverse[j] = (int32_t)(0x1p38 / (double)mean);
+        const int32_t *scale = w->model->scales.data + 2 * (j * SCALE_CONTEXTS + w->e->scale_context);
+        mean = ((int64_t)scale[0] * scale[1] + ((int64_t)first_scale(w->e) << 9)) / (scale[1] + 2);
+        mean = largest(mean, 256);
+        w->inverse[j] = (INT64_C(1) << 38) / mean;
     }
     return (int32_t)(mean >> 8);
 }
@@ -129,7 +107,7 @@ INLINE bool ask(Work *w, int32_t *value, int32_t *asked, int *asks) {
             int64_t away = (int64_t)candidate * FINE - e->prediction[j];
             if (away < 0) away = -away;
             int32_t inner = survival(away - FINE / 2, w->inverse[j]), outer = survival(away + FINE / 2, w->inverse[j]);
-            inputs_of(w)[j] = bounded(-odds_of(inner - less_of(outer - inner) * 256));
+            w->input[j] = bounded(-odds_of(inner - less_of(outer - inner) * 256));
         }
         asked[*asks] = candidate;
         *asks += 1;
@@ -145,7 +123,7 @@ INLINE bool ask(Work *w, int32_t *value, int32_t *asked, int *asks) {
 INLINE int choose_side(Work *w, int32_t start, int node, int up) {
     for (int j = 0; j < PREDICTIONS; j++) {
         int64_t away = (int64_t)start * FINE - FINE / 2 - w->e->prediction[j];
-        inputs_of(w)[j] = bounded((survival(-away, w->inverse[j]) - survival(away, w->inverse[j])) >> 8);
+        w->input[j] = bounded((survival(-away, w->inverse[j]) - survival(away, w->inverse[j])) >> 8);
     }
     return decide(w, node, 1, up);
 }
@@ -163,7 +141,7 @@ INLINE int choose_half(Work *w, int64_t edge, int direction, int64_t inner, int 
             int32_t middle = survival(-t, inverse);
             odds = odds_of(middle - survival(-b, inverse)) - less_of(survival(-a, inverse) - middle);
         }
-        inputs_of(w)[j] = bounded(odds);
+        w->input[j] = bounded(odds);
     }
     return decide(w, node, kind, outer);
 }
@@ -186,7 +164,7 @@ INLINE int64_t code_distance(
         int64_t far = edge + direction * next * FINE;
         for (int j = 0; j < PREDICTIONS; j++) {
             outer[j] = survival(direction * (far - w->e->prediction[j]), w->inverse[j]);
-            inputs_of(w)[j] = bounded(-odds_of(outer[j] - inner[j]));
+            w->input[j] = bounded(-odds_of(outer[j] - inner[j]));
             inner[j] = outer[j];
         }
         int node = CLASS_NODE + 2 * (int)least(class, 14) + (direction > 0);
@@ -205,21 +183,20 @@ INLINE int64_t code_distance(
 /* Hit rates and scales, after a value (V 3.4). */
 INLINE void learn_errors(const Work *w, int32_t value) {
     const Expectation *e = w->e;
-    int32_t *mean = w->model->scales.data + 2 * SCALE_LANES * e->scale_context, *seen = mean + SCALE_LANES;
-    for (int j = 0; j < PREDICTIONS; j++, mean++, seen++) {
+    for (int j = 0; j < PREDICTIONS; j++) {
         learn_slot(w->model->hits.data + j * HIT_CONTEXTS + e->hit_context, whole(e->prediction[j]) == value, HIT_LIMIT);
+        int32_t *scale = w->model->scales.data + 2 * (j * SCALE_CONTEXTS + e->scale_context);
         int64_t error = (int64_t)value * FINE - e->prediction[j];
-        int64_t usual = *seen > 0 ? *mean : (int64_t)first_scale(e) << 8;
-        int64_t size = least((error < 0 ? -error : error) << 8, 8 * usual + 4096); /* an outlier counts as eight */
-        *mean += (int32_t)((least(size, 1 << 30) - *mean) * RECIPROCAL[*seen] >> 16);
-        if (*seen < SCALE_LIMIT) ++*seen;
+        int64_t usual = scale[1] > 0 ? scale[0] : (int64_t)first_scale(e) << 8;
+        int64_t seen = least((error < 0 ? -error : error) << 8, 8 * usual + 4096); /* an outlier counts as eight */
+        scale[0] += (int32_t)((least(seen, 1 << 30) - scale[0]) * RECIPROCAL[scale[1]] >> 16);
+        if (scale[1] < SCALE_LIMIT) scale[1]++;
     }
 }
 
-int32_t code_value(RangeCoder *coder, const ValueModel *model, const Expectation *e, int32_t value) {
+OFTEN int32_t code_value(RangeCoder *coder, const ValueModel *model, const Expectation *e, int32_t value) {
     Work w;
     w.coder = coder, w.model = model, w.e = e;
-    w.input[VALUE_LANES / 4 - 1] = (Four){0, 256, 0, 0};
     int32_t typical = find_scales(&w), asked[MOST_ASKS];
     int asks;
     if (!ask(&w, &value, asked, &asks)) {

@@ -19,8 +19,6 @@ enum {
     KINDS = 6, /* of decisions */
     MOST_ASKS = 3,
     VALUE_INPUTS = PREDICTIONS + CONTEXTS + 1,
-    VALUE_LANES = 16, /* inputs, and zeros behind them: whole vectors */
-    SCALE_LANES = 8,
     /* Nodes of the decisions, by kind. */
     ASK_NODE = 0,
     SIDE_NODE = ASK_NODE + 2 * PREDICTIONS,
@@ -34,9 +32,8 @@ enum {
 typedef struct {
     Words slots;   /* CONTEXTS x CONTEXT_SIZE x VALUE_NODES */
     Words hits;    /* PREDICTIONS x HIT_CONTEXTS: how often a prediction is exact */
-    Ints2 weights; /* VALUE_NODES + WEIGHT_SETS * KINDS rows of VALUE_LANES */
-    Ints2 scales;  /* SCALE_CONTEXTS rows: of each prediction the mean size of its errors in 1/4096, from SCALE_LANES on
-                      how often it was seen */
+    Ints2 weights; /* VALUE_NODES + WEIGHT_SETS * KINDS rows of VALUE_INPUTS */
+    Ints2 scales;  /* PREDICTIONS x SCALE_CONTEXTS rows: mean size of an error in 1/4096, and how often it was seen */
 } ValueModel;
 
 typedef struct { /* filled by the front-end */

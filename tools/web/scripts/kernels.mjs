@@ -73,7 +73,7 @@ const KERNELS = [
 const TARGET = "--target=wasm32";
 const FLAGS = [
     TARGET, "-DBSM_DECODER", "-std=gnu11", "-ffreestanding", "-fno-builtin", "-ffp-contract=off", "-ffunction-sections",
-    "-fdata-sections", "-fvisibility=hidden", "-mnontrapping-fptoint", "-Wno-unknown-pragmas",
+    "-fdata-sections", "-fvisibility=hidden", "-Wno-unknown-pragmas",
 ];
 
 const LINK = [
@@ -154,19 +154,22 @@ const UNPACK = `#include <stdint.h>
     }
 `;
 
+/** Sources of what takes most time where positions are on a grid, or refined. */
+const HOT = /fields|conquest/;
+
 /**
  * Every build: whether with vector instructions, which kernels it is without, and which sources are compiled for speed,
  * and not for their size alone.
  */
 export const KERNEL_BUILDS = {
-    "built/kernels.wasm": { vectors: true },
-    "built/kernels-scalar.wasm": { vectors: false },
+    "built/kernels.wasm": { vectors: true, fast: HOT },
+    "built/kernels-scalar.wasm": { vectors: false, fast: HOT },
     "built/small.wasm": { vectors: true, without: REST },
-    "built/quick.wasm": { vectors: true, without: [...REST, ...BLOCKS, "PRIORS"], fast: /fields/ },
+    "built/quick.wasm": { vectors: true, without: [...REST, ...BLOCKS, "PRIORS"], fast: HOT },
 };
 
 /** One of them. */
-export function compileKernels({ vectors, without = [], fast = /^$/ }) {
+export function compileKernels({ vectors, without = [], fast }) {
     const folder = mkdtempSync(join(tmpdir(), "bsm-kernels-"));
     try {
         const data = join(folder, "data.c");
@@ -179,15 +182,16 @@ export function compileKernels({ vectors, without = [], fast = /^$/ }) {
         const clang = (...args) => execFileSync("clang", args, { cwd: ROOT, env: { ...process.env, PATH: withoutPackages() } });
         const objects = [...SOURCES, data].map((source, i) => {
             const object = join(folder, `${i}.o`);
-            const how = fast.test(source) ? ["-O2"] : LEAN.test(source) ? ["-Oz", "-DBSM_LEAN"] : ["-Oz"];
+            const how = fast?.test(source) ? ["-O2"] : LEAN.test(source) ? ["-Oz", "-DBSM_LEAN"] : ["-Oz"];
             clang(...FLAGS, ...how, ...(vectors ? ["-msimd128"] : []), "-I", ".", "-c", source, "-o", object);
             return object;
         });
         const exported = ["__heap_base", "PRIORS", ...KERNELS].filter((name) => !without.includes(name));
         clang(TARGET, "-nostdlib", ...objects, ...LINK, ...exported.map((name) => `-Wl,--export=${name}`), "-o", target);
         const features = ["--enable-bulk-memory", "--enable-sign-ext", "--enable-nontrapping-float-to-int", ...(vectors ? ["--enable-simd"] : [])];
+        const limits = fast ? ["--one-caller-inline-max-function-size=100"] : [];
         // The stack grows down to the first address, which it never reaches: so no pointer wraps where a constant is added.
-        execFileSync(join(WEB, "node_modules/.bin/wasm-opt"), [target, "-Oz", "--converge", "--low-memory-unused", ...features, "-o", target]);
+        execFileSync(join(WEB, "node_modules/.bin/wasm-opt"), [target, "-Oz", "--converge", "--low-memory-unused", ...limits, ...features, "-o", target]);
         return readFileSync(target);
     } finally {
         rmSync(folder, { recursive: true });

@@ -11,26 +11,25 @@ const TERMS = 7;
 const CONTEXTS = 6;
 const NODES = 66;
 const WEIGHT_ROWS = NODES + 3 * CONTEXTS;
-/** Weights of a decision, and sizes of errors, in whole vectors. */
-const LANES = 16;
+const INPUTS = PREDICTIONS + CONTEXTS + 1;
 const SLOTS = CONTEXTS * 512 * NODES;
 const HITS = PREDICTIONS * 32;
-const SCALES = 512;
+const SCALES = PREDICTIONS * 512;
 const LEARNER = TERMS * (TERMS + 1) + 2 * TERMS;
 const SUM_LEARNERS = 48;
 
 /** What has been learnt about integers; the structure ValueModel of the kernels (V 3). */
 export function makeModel(memory: Memory): Argument {
     const [slots, hits] = [memory.words(SLOTS), memory.words(HITS)];
-    const weights = memory.ints(WEIGHT_ROWS * LANES, LANES);
-    const scales = memory.ints(SCALES * LANES, LANES);
+    const weights = memory.ints(WEIGHT_ROWS * INPUTS, INPUTS);
+    const scales = memory.ints(2 * SCALES, 2);
     slots.view.fill(2 ** 31);
     hits.view.fill(2 ** 28);
     scales.view.fill(0);
     const numbers = weights.view.fill(0);
     for (let row = 0; row < NODES; row++) {
-        numbers.fill(Math.floor((65536 * 9) / (8 * PREDICTIONS)), row * LANES, row * LANES + PREDICTIONS);
-        numbers.fill(6000, row * LANES + PREDICTIONS, row * LANES + PREDICTIONS + CONTEXTS);
+        numbers.fill(Math.floor((65536 * 9) / (8 * PREDICTIONS)), row * INPUTS, row * INPUTS + PREDICTIONS);
+        numbers.fill(6000, row * INPUTS + PREDICTIONS, (row + 1) * INPUTS - 1);
     }
     return [slots, hits, weights, scales];
 }
@@ -124,13 +123,15 @@ export class Grid {
         decodeChunk(memory, "code_grid", this.state, payload, first, count);
         this.coded += count;
         const vertices = this.order.view.slice(first, first + count);
-        const values = this.values.view;
+        const [values, { corner }] = [this.values.view, header];
         const positions = new Float64Array(3 * count);
-        for (let i = 0; i < 3 * count; i++) {
-            positions[i] = this.spread(values[3 * vertices[Math.floor(i / 3)] + (i % 3)]) + (header.corner[i % 3] ?? 0);
+        for (let i = 0, at = 0; i < count; i++) {
+            for (let j = 0, from = 3 * vertices[i]; j < 3; j++) positions[at++] = this.spread(values[from + j]) + (corner[j] ?? 0);
         }
         inMeshUnits(positions, header);
-        for (let i = 0; i < 3 * count; i++) this.positions[3 * vertices[Math.floor(i / 3)] + (i % 3)] = positions[i];
+        for (let i = 0, at = 0; i < count; i++) {
+            for (let j = 0, to = 3 * vertices[i]; j < 3; j++) this.positions[to + j] = positions[at++];
+        }
         return { vertices, positions, final: new Uint8Array(count).fill(1) };
     }
 
