@@ -102,6 +102,9 @@ class EncodeOptions:
     contract : Contract, optional
         What is promised; the encoder finds the cheapest way to keep it. It says nothing where `grid`, `grid_cell`,
         `target` or any of `CODING` is given: who says how to code gets that.
+    quick : bool
+        Of all ways that keep a contract or reach a target only those that are quick to decode: positions on a grid, which
+        need no dictionaries.
     lock_borders : Fit, optional
         With a contract: how well parts fit that are encoded apart.
     grid : int, optional
@@ -156,6 +159,7 @@ class EncodeOptions:
     doi: tuple[float, float] | None = None
     target: Target | None = None
     contract: Contract | None = BALANCED
+    quick: bool = False
     lock_borders: Fit | None = None
     grid: int | None = None
     attributes: Mapping[str, str] | tuple[tuple[str, str], ...] = ()
@@ -185,6 +189,9 @@ class EncodeOptions:
             raise OptionError("sections exclude a kept order, the partition of METIS, and positions on a grid")
         if self.is_grid and (self.target is not None or self.says_how):
             raise OptionError("a grid excludes a target, and options that say how blocks are coded")
+
+        if self.quick and self.says_how:
+            raise OptionError("what is quick to decode is on a grid; it excludes options that say how blocks are coded")
 
     @property
     def promise(self) -> Contract | None:

@@ -88,6 +88,7 @@ def test_info_adds_up(folder, capsys, mesh):
     ("options", "expected", "absent"),
     [
         (["--grid", "8"], "positions on a grid of ", "blocks"),
+        (["--quick"], "positions on a grid of ", "blocks"),
         (["--step", "0.004"], " blocks of ", "paper"),
         (["--bits", "12"], " by the paper's formula\n", "refinement"),
     ],

@@ -79,17 +79,24 @@ const FLAGS = [
 ];
 
 const LINK = [
-    "-Wl,--no-entry", "-Wl,--gc-sections", "-Wl,--strip-all", "-Wl,--export=__heap_base",
-    "-Wl,-z,stack-size=262144", "-Wl,--stack-first", "-Wl,--max-memory=4294967296",
+    "-Wl,--no-entry", "-Wl,--gc-sections", "-Wl,--strip-all", "-Wl,-z,stack-size=262144", "-Wl,--stack-first", "-Wl,--max-memory=4294967296",
 ];
 
 /** Sources whose functions are copied to where they are called only if that makes them smaller: they are not the slow ones. */
 const LEAN = /connectivity|attributes|fields|codec\/blocks|fronts\.c|geometry/;
 
 /** Kernels of sequences and attributes. */
-const LEFT_OUT = [
+const REST = [
     "code_matrix", "project", "cotangents", "hold", "pull", "follow_rows", "code_edges", "join_corners", "expect_normals",
     "code_scalars", "code_texcoords", "code_normals", "code_faces",
+];
+
+/** Kernels without which positions on grids can do. */
+const BLOCKS = [
+    "learn_beforehand", "add_noise", "points_of_levels", "code_rows", "code_block", "code_labels", "vertex_faces", "bisect", "refine_partition", "group_by_label", "chain_blocks",
+    "order_scratch", "order_block", "add_copies", "collect_edges", "find_fronts", "suspend", "factorize_fronts", "solve_columns",
+    "resize_columns", "iteration_space", "iterate", "cholesky_onorm", "householder", "reconstruct", "look_around", "block_normals",
+    "smooth_all", "find_rings", "filter_rows", "keep_borders", "code_levels", "local_frames", "add_levels",
 ];
 
 /** Name and version of the compiler, of which the bytes are a function; undefined where there is none. */
@@ -180,15 +187,22 @@ function checkTables(clang, objects, priors, target) {
     }
 }
 
-/** Every build: whether with vector instructions, and whether without what only sequences and attributes need. */
+/** Sources of what takes most time where positions are on a grid, or refined. */
+const HOT = /fields|conquest/;
+
+/**
+ * Every build: whether with vector instructions, which kernels it is without, and which sources are compiled for speed,
+ * and not for their size alone.
+ */
 export const KERNEL_BUILDS = {
-    "built/kernels.wasm": { vectors: true, small: false },
-    "built/kernels-scalar.wasm": { vectors: false, small: false },
-    "built/small.wasm": { vectors: true, small: true },
+    "built/kernels.wasm": { vectors: true, fast: HOT },
+    "built/kernels-scalar.wasm": { vectors: false, fast: HOT },
+    "built/small.wasm": { vectors: true, without: REST },
+    "built/quick.wasm": { vectors: true, without: [...REST, ...BLOCKS], fast: HOT },
 };
 
 /** One of them. */
-export function compileKernels({ vectors, small }) {
+export function compileKernels({ vectors, without = [], fast }) {
     const folder = mkdtempSync(join(tmpdir(), "bsm-kernels-"));
     try {
         const data = join(folder, "data.c");
@@ -198,15 +212,17 @@ export function compileKernels({ vectors, small }) {
         const clang = (...args) => execFileSync("clang", args, { cwd: ROOT, env: { ...process.env, PATH: withoutPackages() } });
         const objects = [...SOURCES, data].map((source, i) => {
             const object = join(folder, `${i}.o`);
-            clang(...FLAGS, "-Oz", ...(vectors ? ["-msimd128"] : []), ...(LEAN.test(source) ? ["-DBSM_LEAN"] : []), "-I", ".", "-c", source, "-o", object);
+            const how = fast?.test(source) ? ["-O2"] : LEAN.test(source) ? ["-Oz", "-DBSM_LEAN"] : ["-Oz"];
+            clang(...FLAGS, ...how, ...(vectors ? ["-msimd128"] : []), "-I", ".", "-c", source, "-o", object);
             return object;
         });
         checkTables(clang, objects.slice(-2), priors, target);
-        const kernels = KERNELS.filter((name) => !small || !LEFT_OUT.includes(name));
-        clang(TARGET, "-nostdlib", ...objects, ...LINK, ...kernels.map((name) => `-Wl,--export=${name}`), "-o", target);
+        const exported = ["__heap_base", ...KERNELS].filter((name) => !without.includes(name));
+        clang(TARGET, "-nostdlib", ...objects, ...LINK, ...exported.map((name) => `-Wl,--export=${name}`), "-o", target);
         const features = ["--enable-bulk-memory", "--enable-sign-ext", "--enable-nontrapping-float-to-int", ...(vectors ? ["--enable-simd"] : [])];
+        const limits = fast ? ["--one-caller-inline-max-function-size=100"] : [];
         // The stack grows down to the first address, which it never reaches: so no pointer wraps where a constant is added.
-        execFileSync(join(WEB, "node_modules/.bin/wasm-opt"), [target, "-Oz", "--converge", "--low-memory-unused", ...features, "-o", target]);
+        execFileSync(join(WEB, "node_modules/.bin/wasm-opt"), [target, "-Oz", "--converge", "--low-memory-unused", ...limits, ...features, "-o", target]);
         return readFileSync(target);
     } finally {
         rmSync(folder, { recursive: true });
