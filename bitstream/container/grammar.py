@@ -41,10 +41,11 @@ FOLLOWERS: dict[FrameType | None, frozenset[FrameType]] = {
 }
 """What may follow a frame of each type (None: the preamble), METADATA and skippable frames left aside."""
 
-FOLLOWERS_IN_SECTIONS: dict[FrameType | None, frozenset[FrameType]] = FOLLOWERS | {
-    FrameType.CONNECTIVITY: frozenset({FrameType.BLOCK, FrameType.ATTRIBUTE}),
-    FrameType.ATTRIBUTE: frozenset({FrameType.BLOCK, FrameType.ATTRIBUTE}),
-    FrameType.BLOCK: _TAIL | {FrameType.BLOCK, FrameType.CONNECTIVITY, FrameType.REFINEMENT},
+_NOT_IN_SECTIONS = frozenset({FrameType.PARTITION, FrameType.ORDER, FrameType.GOP, FrameType.GRID})
+FOLLOWERS_IN_SECTIONS: dict[FrameType | None, frozenset[FrameType]] = {
+    frame_type: (followers | {FrameType.CONNECTIVITY} if frame_type is FrameType.BLOCK else followers)
+    - _NOT_IN_SECTIONS
+    for frame_type, followers in FOLLOWERS.items()
 }
 """The same where the mesh comes in sections."""
 
@@ -195,11 +196,15 @@ class Grammar:
                 return (
                     f"section {begun} begins behind {self._next_block} blocks, where there are {blocks.stop} before it"
                 )
-            case Block(index) if index < header.blocks and begun and index not in blocks:
+            case Block(index) if index < header.blocks and begun and self._is_misplaced(index, blocks):
                 return f"block {index} in section {begun - 1} of {count}, which has those from {blocks.start} on"
             case Attribute() | Refinement() | Values() | End() if begun < count and not self._lossy:
                 return f"{FRAME_TYPES[type(packet)].name} may not come before section {begun} of {count}"
         return None
+
+    def _is_misplaced(self, index: int, blocks: range) -> bool:
+        """Whether a block is none of its section; behind damage, it may be one of a section that is missing."""
+        return index < blocks.start if self._lossy else index not in blocks
 
     def _lacks_attributes(self, header: Header) -> bool:
         return len(self._declared) < header.attributes and not self._lossy

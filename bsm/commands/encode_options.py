@@ -78,6 +78,9 @@ ENCODE_FLAGS = (
     EncodeFlag("predict", bool, "", "predict coefficients from blocks already coded (default: yes)"),
     EncodeFlag("keep_order", bool, "", "store the order of vertices and faces (default: no)"),
     EncodeFlag("normals", str, "keep|recompute", "recompute: send none, the decoder makes them (default keep)"),
+    EncodeFlag(
+        "sections", int, "N", "come in so many turns of faces and blocks, to be drawn sooner (default: 2 if large)"
+    ),
     EncodeFlag("limits", str, "default|service|wide", "what decoders may refuse is an error (default: default)"),
     EncodeFlag("threads", int, "N", "threads to use (default: one per core)"),
 )

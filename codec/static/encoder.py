@@ -274,7 +274,13 @@ class Encoder:
     def _prepared(self) -> Prepared:
         options = self.options
         parts = Parts(options.block_size, options.overlap, options.partition == "metis")
-        return prepare(self._joined.mesh, parts, keep_order=options.keep_order, splits=self._joined.splits)
+        return prepare(
+            self._joined.mesh,
+            parts,
+            keep_order=options.keep_order,
+            splits=self._joined.splits,
+            sections=options.sections_wanted,
+        )
 
     @cached_property
     def _spectral(self) -> Spectral:

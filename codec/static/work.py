@@ -74,6 +74,11 @@ def mesh_memory(vertices: int, faces: int) -> float:
     return 200.0 * vertices + 60.0 * faces
 
 
+def section_memory(vertices: int, faces: int) -> float:
+    """Bytes of what stays of a section when the next one has come: graph, partition and what is around vertices."""
+    return 60.0 * vertices + 20.0 * faces
+
+
 def order_memory(vertices: int, faces: int) -> float:
     """Bytes for restoring the order that a mesh had, with copies of its vertices at up to every corner."""
     return 32.0 * vertices + 60.0 * faces
@@ -233,3 +238,21 @@ class Allowance:
     def _has_room(self, memory: float) -> bool:
         most = self._limits.memory_for(self._vertices, self._received)
         return self._kept + self._held + memory <= most
+
+
+class MeshMemory:
+    """What is kept of a mesh that comes in sections, or whole; draws on an allowance."""
+
+    def __init__(self, allowance: Allowance) -> None:
+        self._allowance = allowance
+        self._vertices = 0
+        self._kept = self._of_earlier = 0.0
+
+    def grow(self, vertices: int, faces: int, received: int) -> None:
+        """Take note of one more section, with which there are so many; raises as `Allowance.keep`."""
+        self._allowance.grant(vertices - self._vertices)
+        self._vertices = vertices
+        memory = self._of_earlier + mesh_memory(vertices, faces)
+        self._allowance.keep(memory - self._kept, received)
+        self._kept = memory
+        self._of_earlier += section_memory(vertices, faces)
