@@ -100,7 +100,7 @@ def _options(random: Random, block_size: int) -> dict[str, Any]:
         "prediction": [random.choice((1.0, 8.0))],
         "smoothing": random.choice((0.5, 4.0)),
         "key_seed": 1,
-        "refinements": random.choice(([2.0**-6, 0.0], [2.0**-6, 0.5, 2.0**-9, 0.0])),
+        "refinements": random.choice(([2.0**-10, 0.0], [2.0**-10, 0.5, 2.0**-13, 0.0])),
     }
     chosen = {name: value for name, value in choices.items() if random.random() < 0.25}
     if chosen.get("coding") == 0:
@@ -118,13 +118,13 @@ def _writer(options: dict[str, Any], columns: int, numbers: np.random.Generator)
 
     def write(section: int, number: int) -> bytes:
         width = int(numbers.integers(1, columns + 1))
-        levels = numbers.integers(-SPREAD, SPREAD + 1, (width, 3))
+        levels = numbers.integers(-SPREAD, SPREAD + 1, (width, 3), np.int32)
         if number == 0 or (interval and number % interval == 0):
             models[:] = [CoefficientModel(columns), CoefficientModel(details, detail_experience())]
         if options.get("coding", 1) == 0:
             payload = pack_coefficients(levels.ravel() + (1 << (BITS - 1)), BITS)
         elif details:
-            above = numbers.integers(-SPREAD, SPREAD + 1, (int(numbers.integers(details + 1)), 3))
+            above = numbers.integers(-SPREAD, SPREAD + 1, (int(numbers.integers(details + 1)), 3), np.int32)
             payload = encode_layers(models[0], levels, models[1], above)
         else:
             payload = encode_coefficients(models[0], levels)
