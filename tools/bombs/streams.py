@@ -22,7 +22,6 @@ from bitstream.connectivity.valence_model import RARE_HEADER, code_rare, make_mo
 from bitstream.container import packets
 from bitstream.container.declaration import AS_CODED, FACE, OTHERWISE, RECOMPUTED, Declaration
 from bitstream.container.gop import GopBody, GopMethod, write_gop_body
-from bitstream.container.header import HEADER_DEFAULTS, HEADER_FIELDS
 from bitstream.container.layout import FRAME_TYPES, WRITERS
 from bitstream.container.maps import write_map
 from bitstream.container.splits import Splits, encode_splits
@@ -36,7 +35,7 @@ from codec.geometry.graph import graph_of_faces
 from codec.sequence.gop import level_references
 from codec.static.attributes.pieces import PieceEncoder
 from codec.static.attributes.surface import surface_of
-from tools.surgery import Frames, frames_of, stream_of
+from tools.surgery import Frames, frames_of, header_frame, stream_of
 from tools.vectors.meshes import torus
 
 Faces = npt.NDArray[np.int32]
@@ -135,13 +134,7 @@ SHAPES: dict[str, Callable[..., Faces]] = {
 
 def _header(coded: EncodedConnectivity, **fields: Any) -> tuple[int, bytes]:
     """A header frame of any fields, checked by nobody."""
-    values = {"vertices": len(coded.vertex_order), "faces": len(coded.faces)} | fields
-    entries = [
-        (HEADER_FIELDS[name].key, HEADER_FIELDS[name].normalise(value))
-        for name, value in values.items()
-        if name not in HEADER_DEFAULTS or HEADER_DEFAULTS[name] != value
-    ]
-    return FrameType.HEADER, write_map(sorted(entries))
+    return header_frame(**{"vertices": len(coded.vertex_order), "faces": len(coded.faces)} | fields)
 
 
 def _faces(coded: EncodedConnectivity) -> tuple[int, bytes]:
