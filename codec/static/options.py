@@ -103,8 +103,8 @@ class EncodeOptions:
         What is promised; the encoder finds the cheapest way to keep it. It says nothing where `grid`, `grid_cell`,
         `target` or any of `CODING` is given: who says how to code gets that.
     quick : bool
-        Of all ways that keep a contract or reach a target only those that are quick to decode: positions on a grid, which
-        need no dictionaries.
+        Of all ways that keep a contract or reach a target only what is quick to decode: positions on a grid, without
+        dictionaries.
     lock_borders : Fit, optional
         With a contract: how well parts fit that are encoded apart.
     grid : int, optional

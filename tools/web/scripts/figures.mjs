@@ -209,8 +209,8 @@ const ours = { quick: (stream) => `(async () => {
     const begin = performance.now();
     const compiling = WebAssembly.compileStreaming(fetch("/quick.wasm"));
     const { decode, Decoder, Kernels, NEED_DATA } = await import("/quick.js");
-    const kernels = new Kernels(await compiling);
     const coming = fetch("/${stream}");
+    const kernels = new Kernels(await compiling);
     const decoder = new Decoder(kernels);
     const reader = (await coming).body.getReader();
     const chunks = [];
