@@ -36,12 +36,13 @@ def admit(allowance: Allowance, prepared: Prepared, blocks: Sequence[CodedBlock]
     LimitError
         If that is too much.
     """
-    memory, done = MeshMemory(allowance), 0
+    memory, done, before = MeshMemory(allowance), 0, (0, 0)
     for area, piece, grown in zip(prepared.areas, prepared.pieces, prepared.blocks, strict=True):
         vertices, count = area.graph.size, grown.count
         memory.grow(vertices, len(area.faces), len(piece.data))
-        allowance.spend(mesh_cost(vertices, len(area.faces), len(piece.data)))
-        allowance.spend(partition_cost(area.graph, count, count * min(prepared.size, vertices)))
+        allowance.spend(mesh_cost(vertices, len(area.faces), len(piece.data), before))
+        before = (vertices, len(area.faces))
+        allowance.spend(partition_cost(area.graph, area.first, count, count * min(prepared.size, vertices)))
         own = blocks[done : done + count]
         allowance.afford(max(block.memory for block in own))
         allowance.spend(sum(block.work for block in own))

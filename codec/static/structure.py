@@ -113,7 +113,8 @@ class Growth:
         self._check(number, span, known.vertices)
         first, self._vertices, faces = self._vertices, known.vertices, len(known.faces)
         self._memory.grow(known.vertices, faces, received)
-        allowance.spend(mesh_cost(known.vertices, faces, received), received)
+        before = (first, span.faces.start)
+        allowance.spend(mesh_cost(known.vertices, faces, received, before), received)
         graph = graph_of_faces(known.faces, known.vertices)
         return Section(number, self._count, span, first, known.faces, graph)
 
@@ -186,7 +187,7 @@ class Structure:
         blocks = len(section.span.blocks)
         copies = blocks * min(header.block_size, self.graph.size)
         self.allowance.keep(COPY_MEMORY * copies)
-        self.allowance.spend(partition_cost(self.graph, blocks, copies))
+        self.allowance.spend(partition_cost(self.graph, section.first, blocks, copies))
         partition = self.partition or derive_last_parts(self.graph, section.first, blocks, body.threads)
         largest = int(np.diff(partition.bounds).max())
         if largest > header.block_size:

@@ -3,10 +3,10 @@ import { derivePartition, groupLabels, growBlocks, largestPart, lastOf, makeGrap
 import { chainLength, ChainDecoder, type Allowance, type DecodedBlock, type Surface } from "./chain";
 import { ConnectivityDecoder, decodeLabels } from "./connectivity";
 import { CorruptError, UnsupportedError } from "./errors";
-import { mostCopies, sectionsOf, type Header } from "./header";
+import { sectionsOf, type Header } from "./header";
 import type { Ints, Memory } from "./kernels";
 import type { Limits } from "./limits";
-import { labelsCost, meshCost, partitionCost } from "./work";
+import { labelsCost, meshCost, partitionCost, type Earlier } from "./work";
 
 const CONNECTIVITY_METHOD = 1;
 const PARTITION_METHOD = 0;
@@ -14,7 +14,7 @@ const PARTITION_METHOD = 0;
 export class Structure {
     readonly connectivity: ConnectivityDecoder;
     /** Faces and vertices of sections before the present one. */
-    before = { faces: 0, vertices: 0 };
+    before: Earlier = { faces: 0, vertices: 0 };
     private made?: Graph;
     private partition?: Partition;
     private grown?: Blocks;
@@ -41,7 +41,7 @@ export class Structure {
         connectivity.take(data);
         const { known, vertices } = connectivity;
         allowance.grant(vertices - this.before.vertices);
-        allowance.spend(meshCost(vertices, known, data.length), data.length);
+        allowance.spend(meshCost(vertices, known, data.length, this.before), data.length);
         this.made = this.grown = undefined;
     }
 
@@ -73,10 +73,11 @@ export class Structure {
     get blocks(): Blocks {
         if (this.grown) return this.grown;
         const { memory, header, graph, allowance, connectivity, before } = this;
-        const { size, neighbours } = graph;
+        const { size, offsets, neighbours } = graph;
         const { first, blocks } = connectivity.sections[connectivity.section - 1];
         const count = blocks - first;
-        allowance.spend(partitionCost(size, neighbours.length, count, Math.min(count * header.blockSize, mostCopies(size))));
+        const ends = neighbours.length - offsets.view[before.vertices];
+        allowance.spend(partitionCost(size - before.vertices, ends, size, count, count * Math.min(header.blockSize, size)));
         const partition = this.partition ?? derivePartition(memory, lastOf(memory, graph, before.vertices), count);
         const largest = largestPart(partition);
         if (largest > header.blockSize) throw new CorruptError(`a part of ${largest} vertices in blocks of ${header.blockSize}`);
