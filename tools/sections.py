@@ -100,7 +100,7 @@ def _options(random: Random, block_size: int) -> dict[str, Any]:
         "prediction": [random.choice((1.0, 8.0))],
         "smoothing": random.choice((0.5, 4.0)),
         "key_seed": 1,
-        "refinements": random.choice(([2.0**-10, 0.0], [2.0**-10, 0.5, 2.0**-13, 0.0])),
+        "refinements": random.choice(([2.0**-16, 0.0], [2.0**-16, 0.5, 2.0**-18, 0.0])),
     }
     chosen = {name: value for name, value in choices.items() if random.random() < 0.25}
     if chosen.get("coding") == 0:
