@@ -151,13 +151,22 @@ class Prepared:
         """Where the blocks of each section come from."""
         if not self.cuts:
             return (Area(self.mesh.faces, self.graph, 0, self.parts.cut(self.graph)),)
-        areas: list[Area] = []
-        ends = [*((cut.faces, cut.vertices) for cut in self.cuts), (len(self.mesh.faces), self.graph.size)]
-        for m, n in ends:
-            faces, first = self.mesh.faces[:m], areas[-1].graph.size if areas else 0
-            graph = graph_of_faces(faces, n)
-            areas.append(Area(faces, graph, first, derive_last_parts(graph, first, self.parts.count(n - first))))
-        return tuple(areas)
+        faces = [self.mesh.faces[: cut.faces] for cut in self.cuts]
+        graphs = [graph_of_faces(some, cut.vertices) for some, cut in zip(faces, self.cuts, strict=True)]
+        return tuple(
+            Area(some, graph, own.start, derive_last_parts(graph, own.start, self.parts.count(len(own))))
+            for some, graph, own in zip([*faces, self.mesh.faces], [*graphs, self.graph], self._own, strict=True)
+        )
+
+    @property
+    def block_count(self) -> int:
+        """How many blocks there are, of all sections."""
+        return sum(self.parts.count(len(own)) for own in self._own)
+
+    @property
+    def _own(self) -> list[range]:
+        """The vertices of each section."""
+        return [range(*ends) for ends in pairwise((0, *(cut.vertices for cut in self.cuts), self.graph.size))]
 
     @property
     def size(self) -> int:

@@ -12,8 +12,9 @@ from itertools import pairwise
 from bitstream.connectivity.faces import Cut
 from bitstream.errors import OptionError
 
-PLACES = 256
-"""Where a mesh may be cut: at as many places, evenly spread over its faces."""
+PLACES, BEFORE, BEHIND = 24, 0.15, 0.03
+"""A mesh may be cut at so many places around each share of its faces, from so much of the share before it on: vertices
+come before their faces. Each costs an encoder a look at the whole surface."""
 MANY_VERTICES, MUCH, SECTIONS = 24_000, 1 << 11, 2
 """A mesh of so many vertices, and bytes for its faces, comes in so many sections unless something else is asked for."""
 
@@ -22,7 +23,11 @@ def possible_cuts(faces: int, vertices: int, sections: int | None) -> tuple[int,
     """Numbers of faces behind which a mesh may be cut that is to come in so many sections, see `choose_cuts`."""
     if sections == 1 or (sections is None and vertices < MANY_VERTICES):
         return ()
-    return tuple(sorted({faces * place // PLACES for place in range(1, PLACES)} - {0}))
+    count = sections or SECTIONS
+    shares = [faces * number / count for number in range(1, count)]
+    steps = [1.0 - BEFORE + (BEFORE + BEHIND) * place / (PLACES - 1) for place in range(PLACES)]
+    places = {round(share * step) for share in shares for step in steps}
+    return tuple(sorted(place for place in places if 0 < place < faces))
 
 
 def choose_cuts(places: Sequence[Cut], vertices: int, blocks: int, size: int, sections: int | None) -> tuple[Cut, ...]:

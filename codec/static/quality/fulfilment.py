@@ -140,7 +140,7 @@ class Fulfilment:
     @contextmanager
     def _told(self) -> Iterator[None]:
         """Tell of a trial as of all blocks once more."""
-        blocks = self._prepared.parts.count(self._prepared.graph.size)
+        blocks = self._prepared.block_count
         if self._progress:
             self._progress(0, blocks)
         yield

@@ -217,11 +217,15 @@ def test_an_encoder_is_told_where_a_section_ends_in_the_middle_of_nowhere():
 def test_places_to_cut_at():
     assert possible_cuts(1000, 500, 1) == ()
     assert possible_cuts(1000, MANY_VERTICES - 1, None) == ()
-    assert possible_cuts(4, 4, 2) == (1, 2, 3)
-    assert possible_cuts(1 << 16, MANY_VERTICES, None) == tuple(range(256, 1 << 16, 256))
+    assert possible_cuts(4, 4, 2) == (2,)
+    assert possible_cuts(1, 3, 2) == ()
+    halves = possible_cuts(100_000, MANY_VERTICES, None)
+    assert halves == possible_cuts(100_000, 50_000, 2)
+    assert (len(halves), halves[0], halves[-1]) == (24, 42_500, 51_500)
+    assert len(possible_cuts(100_000, 50_000, 3)) == 48
 
 
-PLACES = [Cut(faces, faces // 2 + 1, faces // 8) for faces in possible_cuts(1 << 16, 1 << 15, 2)]
+PLACES = [Cut(faces, faces // 2 + 1, faces // 8) for faces in range(256, 1 << 16, 256)]
 
 
 def test_sections_have_as_many_blocks():
@@ -341,8 +345,8 @@ def test_a_section_with_fewer_vertices_than_blocks():
 def test_blocks_of_a_section_do_not_overlap_more_than_those_of_a_mesh():
     """A header that claims many vertices grants a first section of few of them no more rows than it has."""
     mesh = torus(100, 100)
-    encoded_faces = encode_connectivity(mesh.faces, 10000, possible_cuts(20000, 10000, 2))
-    cut = encoded_faces.cuts[2]
+    encoded_faces = encode_connectivity(mesh.faces, 10000, [300])
+    (cut,) = encoded_faces.cuts
     pieces = [(FrameType.CONNECTIVITY, b"\x01" + piece) for piece in encoded_faces.pieces([cut])]
     header = with_header(encode(mesh, EncodeOptions(block_size=1000, sections=1, keep=0.01, step=0.02)), blocks=100)
     size = header_of(header).block_size
