@@ -76,7 +76,7 @@ def random_sections(random: Random, mesh: TriangleMesh) -> bytes | None:
     counts = [random.randrange(1, min(size, 4) + 1) for size in sizes]
     rooms = [size * 103 // (100 * count) + 1 for size, count in zip(sizes, counts, strict=True)]
     block_size = min(vertices, int(max(*rooms, -(-vertices // sum(counts))) * random.choice((1.0, 1.15, 2.0))))
-    columns = random.randrange(1, min(block_size, 12) + 1)
+    columns = random.randrange(1, max(1, min(block_size // 2, 12)) + 1)
     numbers = np.random.default_rng(random.randrange(1 << 30))
     options = _options(random, block_size)
     coded = replace(coded, cuts=tuple(kept))
@@ -106,7 +106,7 @@ def _options(random: Random, block_size: int) -> dict[str, Any]:
     if chosen.get("coding") == 0:
         chosen |= {"bits": BITS, "coarser": random.randrange(3)}
     elif random.random() < 0.5:
-        chosen |= {"details": random.randrange(1, min(block_size, 12) + 1), "detail_step": 2.0**-6}
+        chosen |= {"details": random.randrange(1, max(1, min(block_size // 2, 12)) + 1), "detail_step": 2.0**-6}
     return {"step": 2.0**-6} | chosen
 
 
