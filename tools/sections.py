@@ -76,7 +76,7 @@ def random_sections(random: Random, mesh: TriangleMesh) -> bytes | None:
     counts = [random.randrange(1, min(size, 4) + 1) for size in sizes]
     rooms = [size * 103 // (100 * count) + 1 for size, count in zip(sizes, counts, strict=True)]
     block_size = min(vertices, int(max(*rooms, -(-vertices // sum(counts))) * random.choice((1.0, 1.15, 2.0))))
-    columns = random.randrange(1, min(block_size, 12) + 1)
+    columns = random.randrange(1, max(1, min(block_size // 2, 12)) + 1)
     numbers = np.random.default_rng(random.randrange(1 << 30))
     options = _options(random, block_size)
     coded = replace(coded, cuts=tuple(kept))
@@ -100,13 +100,13 @@ def _options(random: Random, block_size: int) -> dict[str, Any]:
         "prediction": [random.choice((1.0, 8.0))],
         "smoothing": random.choice((0.5, 4.0)),
         "key_seed": 1,
-        "refinements": random.choice(([2.0**-10, 0.0], [2.0**-10, 0.5, 2.0**-13, 0.0])),
+        "refinements": random.choice(([2.0**-16, 0.0], [2.0**-16, 0.5, 2.0**-18, 0.0])),
     }
     chosen = {name: value for name, value in choices.items() if random.random() < 0.25}
     if chosen.get("coding") == 0:
         chosen |= {"bits": BITS, "coarser": random.randrange(3)}
     elif random.random() < 0.5:
-        chosen |= {"details": random.randrange(1, min(block_size, 12) + 1), "detail_step": 2.0**-6}
+        chosen |= {"details": random.randrange(1, max(1, min(block_size // 2, 12)) + 1), "detail_step": 2.0**-6}
     return {"step": 2.0**-6} | chosen
 
 

@@ -55,6 +55,20 @@ def uneven() -> Faces:
     return np.concatenate([first, second])
 
 
+def crowded() -> Faces:
+    """All edges between 18 vertices, on a surface with one border that visits all of them.
+
+    The complete graph of 19 vertices triangulates a surface, of which one vertex is left out (G. Ringel, Map Color
+    Theorem, 1974): what is around vertex v, in this order, is what is around vertex 0, plus v.
+    """
+    around = np.array([9, 7, 8, 3, 13, 15, 14, 11, 18, 4, 17, 10, 16, 5, 1, 12, 2, 6])
+    vertex = np.arange(19)[:, None]
+    fans = np.stack([vertex + 0 * around, (vertex + around) % 19, (vertex + np.roll(around, -1)) % 19], -1)
+    faces = fans.reshape(-1, 3)
+    first = (faces[:, 0] < faces[:, 1]) & (faces[:, 0] < faces[:, 2])
+    return np.unique(faces[first & (faces > 0).all(1)] - 1, axis=0).astype(np.int32)
+
+
 def small_sections(faces: Faces, cuts: Sequence[int], counts: Sequence[int], columns: int = 4, **fields: Any) -> Frames:
     """A mesh whose sections end behind these faces and have so many blocks, of small packed levels."""
     coded = encode_connectivity(faces, int(faces.max()) + 1, cuts)
@@ -118,6 +132,10 @@ SECTIONS: dict[str, Good] = {
     "good-sections-empty-piece": Good(
         "a section whose CONNECTIVITY has no data, and zeros where the payload ended before",
         lambda: _sewn(torus(12, 10).faces, [60, 140, 211], [1, 2, 1, 1], block_size=60),
+    ),
+    "good-sections-without-edges": Good(
+        "vertices without neighbours: their faces come with the next section",
+        lambda: _sewn(crowded(), [5, 11], [2, 2, 2], columns=1, block_size=12),
     ),
     "good-sections-among-others": Good("skippable frames between sections, METADATA in the first", _among_others),
     "good-sections-tiny": Good(
