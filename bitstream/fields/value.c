@@ -40,10 +40,10 @@ INLINE int32_t survival(int64_t distance, int64_t inverse) {
     return table[cell] + ((table[cell + 1] - table[cell]) * part >> 5);
 }
 
-/* Entry of ODDS and LESS for d (V 4.2). */
+/* Entry of ODDS and LESS for d (V 4.2): d itself below 32. */
 INLINE int32_t entry(int32_t d) {
-    if (d < 32) return d < 0 ? 0 : d;
-    int32_t exponent = bit_length((uint32_t)d) - 6;
+    d = d < 0 ? 0 : d;
+    int32_t exponent = bit_length((uint32_t)d | 32) - 6;
     return (int32_t)least((exponent << 5) + (d >> exponent), ODDS_SIZE - 1);
 }
 

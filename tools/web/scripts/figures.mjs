@@ -201,15 +201,12 @@ const FINISH = `
     return { cold, fetched, warm };
 `;
 
-/**
- * Ours. Bytes on a grid are decoded as they come, so their decoder is fetched first (this link has no delay that asking one
- * after the other would cost); blocks are decoded in a team of threads, which takes a stream that is complete.
- */
+/** Ours: what is on a grid is decoded as it comes, blocks in a team of threads, which takes a stream that is complete. */
 const ours = { quick: (stream) => `(async () => {
     const begin = performance.now();
     const compiling = WebAssembly.compileStreaming(fetch("/quick.wasm"));
-    const { decode, Decoder, Kernels, NEED_DATA } = await import("/quick.js");
     const coming = fetch("/${stream}");
+    const { decode, Decoder, Kernels, NEED_DATA } = await import("/quick.js");
     const kernels = new Kernels(await compiling);
     const decoder = new Decoder(kernels);
     const reader = (await coming).body.getReader();
