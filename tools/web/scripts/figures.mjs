@@ -272,17 +272,29 @@ const WAYS = {
     smallest: { decoder: ["small.js", "small.wasm"], script: ours.smallest },
 };
 
+/** One run; now and then Chromium does not slow a page down, which bytes that came too early tell: then another. */
+async function overLink(address, script, bytes) {
+    for (let k = 0; k < PAGES; k++) {
+        const run = await fetchInPage(address, script);
+        if (run.fetched >= (8000 * bytes) / LINK) return run;
+    }
+    throw new Error("this Chromium imitates no slow link");
+}
+
 /** The same mesh at the same mean angle of normals, cold, each in pages of its own and in turns: minimum and median. */
 async function race(address, files, { bits, theta }) {
     const runs = Object.fromEntries(Object.keys(WAYS).map((way) => [way, []]));
+    const sizes = Object.fromEntries(Object.entries(WAYS).map(([way, { decoder }]) => [way, [...decoder, `${way}-${bits}`].map((name) => files[name].length)]));
     for (let k = 0; k < PAGES; k++) {
-        for (const way of Object.keys(WAYS)) runs[way].push(await fetchInPage(address, WAYS[way].script(`${way}-${bits}`)));
+        for (const [way, { script }] of Object.entries(WAYS)) {
+            const bytes = sizes[way].reduce((sum, size) => sum + size);
+            runs[way].push(await overLink(address, script(`${way}-${bits}`), bytes));
+        }
     }
     console.log(`bunny over ${LINK / 1e6} Mbit/s, cold, at ${theta.toFixed(2)} degrees (Draco's ${bits} bits):`);
-    for (const [way, { decoder }] of Object.entries(WAYS)) {
-        const bytes = decoder.reduce((sum, name) => sum + files[name].length, 0);
+    for (const [way, [glue, wasm, stream]] of Object.entries(sizes)) {
         const [cold, fetched, warm] = ["cold", "fetched", "warm"].map((name) => runs[way].map((run) => run[name]).sort((a, b) => a - b));
-        console.log(`    ${way.padEnd(8)} ${milliseconds(cold[0])} (median ${milliseconds(cold[PAGES >> 1])}), all fetched after ${milliseconds(fetched[0])}; warm ${milliseconds(warm[0])}; ${bytes} + ${files[`${way}-${bits}`].length} bytes`);
+        console.log(`    ${way.padEnd(8)} ${milliseconds(cold[0])} (median ${milliseconds(cold[PAGES >> 1])}), all fetched after ${milliseconds(fetched[0])}; warm ${milliseconds(warm[0])}; ${glue + wasm} + ${stream} bytes`);
     }
 }
 
