@@ -67,6 +67,14 @@ BSM_ARRAY(Doubles, double)
 #define SHARED INLINE
 #endif
 
+/* Called often, and so not copied to where it is called: what runs WebAssembly compiles a function better from one call to
+ * the next, and never while it runs. A decoder that has to be small copies what is called at one place. */
+#if defined(BSM_DECODER) && !defined(BSM_LEAN)
+#define OFTEN __attribute__((noinline))
+#else
+#define OFTEN
+#endif
+
 /* What a kernel returns that was given arrays which do not fit together: a mistake of its caller, never of a stream. */
 #define MISUSED INT64_MIN
 

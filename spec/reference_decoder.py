@@ -17,6 +17,7 @@ import math
 import struct
 import sys
 import zlib
+from itertools import accumulate
 from pathlib import Path
 
 import msgpack
@@ -34,13 +35,13 @@ from reference_attributes import (
     relief_of,
 )
 from reference_connectivity import (
+    Connectivity,
     CorruptError,
     LimitError,
     Model,
     RangeDecoder,
     TruncatedError,
     arrange,
-    decode_connectivity,
     decode_labels,
     neighbours_of,
     read_signed,
@@ -213,6 +214,7 @@ FIELDS = {
     "borders": (32, "method", 0, 1, 0),
     "attributes": (33, int, 0, 255, 0),
     "corner": (40, [0, 3], -(2**31), COUNT, []),
+    "sections": (41, [0, 14], 1, COUNT, []),
 }
 
 
@@ -280,6 +282,11 @@ def parse_header(payload):
     require(all(ratio == 0 or ratio >= 1 / 16 for ratio in ratios), "a ratio of a refinement is out of range")
     require(not h["refinements"] or not h["gop_frames"], "refinements of a sequence")
     require(h["refinements"] or not h["borders"], "borders without refinements")
+    faces, blocks = h["sections"][::2], h["sections"][1::2]
+    require(len(faces) == len(blocks), "sections are not pairs")
+    require(not faces or sum(faces) < h["faces"], "sections of more faces than there are")
+    require(not blocks or sum(blocks) < h["blocks"], "sections of more blocks than there are")
+    require(not h["sections"] or not h["gop_frames"], "sections of a sequence")
     for name, most in (  # F 4.7
         ("vertices", MOST_VERTICES),
         ("faces", MOST_FACES),
@@ -337,7 +344,8 @@ def read_frames(stream, packets):
             require_limit(len(payload), MOST_METADATA_BYTES, "metadata")
             entries = canonical_map(payload)  # F 5.1
             require(all(type(k) is str and type(v) is not list for k, v in entries), "metadata of a wrong type")
-            require(not metadata_seen and last < order[BLOCK], "METADATA may not come here")  # F 3.9
+            early = last < order[BLOCK] and not packets[BLOCK]
+            require(not metadata_seen and early, "METADATA may not come here")  # F 3.9
             metadata_seen = True
             continue
         if kind == HEADER:
@@ -373,6 +381,9 @@ def read_frames(stream, packets):
         # F 3.8: ascending, CONNECTIVITY is required, and only what comes behind ORDER repeats.
         several = (ATTRIBUTE, BLOCK, GOP, GRID, REFINEMENT, VALUES)
         legal = kind == HEADER if last is None else place > last or (place == last and kind in several)
+        if header and header["sections"] and kind != HEADER:
+            check_section(kind, parsed if kind != END else None, packets, header)
+            legal |= kind == CONNECTIVITY
         require(last != 5 or kind in (END, VALUES) or packets.get(kind), f"frame type {kind} may not come here")
         if header and header["grid"]:
             require(
@@ -388,7 +399,8 @@ def read_frames(stream, packets):
             require(header["gop_frames"] > 0, "a GOP in a static stream")  # F 5.4
             require(header["frames"] == 0 or parsed[0] < header["frames"], "GOP index too large")
         last = place
-        if header and kind in (BLOCK, GOP, GRID, VALUES, END):
+        complete = header and len(packets[CONNECTIVITY]) == len(section_ends(header, 0))
+        if complete and kind in (BLOCK, GOP, GRID, VALUES, END):
             require(len(packets[ATTRIBUTE]) == header["attributes"], "attributes are missing")  # F 3.13
         if kind == HEADER:
             header = parsed
@@ -403,6 +415,26 @@ def read_frames(stream, packets):
             require(int.from_bytes(payload[at:], "little") == zlib.crc32(stream[:offset]), "CRC of the stream is wrong")
         else:
             packets[kind].append(parsed)
+
+
+def section_ends(header, entry):
+    """F 3.16: how many faces (0) or blocks (1) there are behind each section."""
+    return [*accumulate(header["sections"][entry::2]), header["blocks" if entry else "faces"]]
+
+
+def check_section(kind, parsed, packets, header):
+    """F 3.16: what may come where there are sections."""
+    require(kind not in (PARTITION, ORDER, GOP), f"frame type {kind} where there are sections")
+    begun, ends = len(packets[CONNECTIVITY]), section_ends(header, 1)
+    if kind == CONNECTIVITY:
+        require(begun < len(ends), "more sections than were announced")
+        last = packets[BLOCK][-1][0] + 1 if packets[BLOCK] else 0
+        require(last == (ends[begun - 1] if begun else 0), "a section before the one before it is complete")
+    elif kind == BLOCK:
+        require(begun, "a block before CONNECTIVITY")
+        require(([0, *ends])[begun - 1] <= parsed[0] < ends[begun - 1], "a block of another section")
+    else:
+        require(begun == len(ends), f"frame type {kind} before the last section")
 
 
 def declaration_of(payload):
@@ -889,8 +921,8 @@ def smooth(graph, positions, amount):
 class Allowance:
     """M 14.2, M 14.3: what dictionaries may take."""
 
-    def __init__(self, header):
-        self.vertices = header["vertices"]
+    def __init__(self):
+        self.vertices = 0  # that the faces have so far (M 14.8, M 18.6)
         self.shown = 0  # vertices of frames of a sequence
         self.work = 0.0
 
@@ -909,43 +941,67 @@ class Allowance:
         require_limit(self.work, MOST_WORK + 3.2e4 * (self.vertices + self.shown), "work")
 
 
-def data_of(packets, kind, known):
-    """F 5.2: what is behind the method of the only frame of a type."""
-    method, data = packets[kind][0]
+def data_of(packet, known):
+    """F 5.2: what is behind the method."""
+    method, data = packet
     if method not in known:
-        raise UnsupportedError(f"method {method} in a frame of type {kind}")
+        raise UnsupportedError(f"method {method}, and not one of {known}")
     return data
 
 
 class Mesh:
-    """What a stream says before its blocks: header, faces, graph, and the cores of the blocks in their order."""
+    """What a stream says beside its blocks: header, faces, graph, and the cores of the blocks of a section."""
 
     def __init__(self, header, packets):
-        self.header = header
-        self.allowance = Allowance(header)
-        orders = (1,) if header["gop_frames"] else (1, 2)
-        vertices, parts = header["vertices"], header["blocks"]
-        packets.require(packets[CONNECTIVITY], "there is no CONNECTIVITY")
-        coded = data_of(packets, CONNECTIVITY, (1,))
-        self.faces = decode_connectivity(coded, vertices, header["faces"], MOST_VERTICES)
-        self.graph = neighbours_of(self.faces, vertices)
+        self.header, self.packets = header, packets
+        self.allowance = Allowance()
+        self.ends = section_ends(header, 1)
+        self.connectivity = Connectivity(
+            header["vertices"], header["faces"], section_ends(header, 0)[:-1], MOST_VERTICES
+        )
+        self.section, self.begin, self.known = -1, 0, 0
+
+    def next_section(self):
+        """F 3.16: the faces of the next section, its vertices, from `begin` to `known`, and its graph (M 18.1)."""
+        self.section += 1
+        header, packets = self.header, self.packets
+        packets.require(len(packets[CONNECTIVITY]) > self.section, "there is no CONNECTIVITY")
+        begin = self.known
+        coded = data_of(packets[CONNECTIVITY][self.section], (1,))
+        self.faces, self.known = self.connectivity.decode(coded)
+        self.begin, self.allowance.vertices = begin, self.known
+        self.blocks = range(([0, *self.ends])[self.section], self.ends[self.section])
+        if header["sections"]:  # C 4.6
+            require(self.known - begin >= len(self.blocks), "a section with more blocks than vertices")
+            most = 16 * self.known + 65536
+            require(self.blocks.stop * header["block_size"] <= most, "blocks of a section overlap too much")
+        self.graph = neighbours_of(self.faces, self.known)
+
+    def read_order(self):
+        """PARTITION and ORDER, where all faces are known."""
+        packets, vertices = self.packets, self.header["vertices"]
         self.numbers, self.arranged, self.loose = [[v] for v in range(vertices)], self.faces, {}
         self.user_corners = [[3 * f + i for i in range(3)] for f in range(len(self.faces))]
-        self.splits = False
+        self.splits, self.labels = False, None
         if packets[PARTITION]:
-            labels = decode_labels(data_of(packets, PARTITION, (0,)), self.graph, parts)
+            self.labels = decode_labels(data_of(packets[PARTITION][0], (0,)), self.graph, self.header["blocks"])
         if packets[ORDER]:
-            data = data_of(packets, ORDER, orders)
+            data = data_of(packets[ORDER][0], (1,) if self.header["gop_frames"] else (1, 2))
             self.arrange(packets[ORDER][0][0], data)
-        if header["grid"]:
-            return
-        if not (packets[BLOCK] or packets[GOP] or packets[REFINEMENT]):
-            packets.require(False, "a block is missing")  # M 10.3
-        if not packets[PARTITION]:
-            labels = derive_labels(self.graph, parts)
-        cores = [[v for v in range(vertices) if labels[v] == part] for part in range(parts)]
-        require(max(map(len, cores)) <= header["block_size"], "a part is larger than a block")  # M 5.2
-        self.cores = [cores[part] for part in chain_of(self.graph, labels, parts)]
+
+    def own_blocks(self):
+        """Those of the section that have come."""
+        return [block for block in self.packets[BLOCK] if block[0] in self.blocks]
+
+    def cut(self, labels):
+        """M 4, M 5.1, M 18.2, M 18.3: the cores of the section's blocks, in their order."""
+        own = [[w - self.begin for w in row if w >= self.begin] for row in self.graph[self.begin :]]
+        parts = len(self.blocks)
+        if labels is None:
+            labels = derive_labels(own, parts)
+        cores = [[self.begin + v for v, label in enumerate(labels) if label == part] for part in range(parts)]
+        require(max(map(len, cores)) <= self.header["block_size"], "a part is larger than a block")  # M 5.2
+        self.cores = [cores[part] for part in chain_of(own, labels, parts)]
 
     def result(self, positions):
         """M 12.5: positions of n vertices in the unit of the mesh, each under its numbers."""
@@ -1107,15 +1163,19 @@ class Chain:
         return orthogonal_iterations(block.laplacian, start, diagonal, header["power"], header["iterations"])
 
 
-def decode_blocks(mesh, blocks):
-    """M 5 to M 12.1: the blended positions, in BSM units."""
-    header, blended = mesh.header, Known(mesh.header["vertices"])
+def decode_blocks(mesh, blended):
+    """M 5 to M 12.1: the blocks of a section; their copies are added to `blended`, in BSM units."""
+    header, packets = mesh.header, mesh.packets
+    blocks = mesh.own_blocks()
+    if not (blocks or packets[GOP] or packets[REFINEMENT]):
+        packets.require(False, "a block is missing")  # M 10.3
+    mesh.cut(mesh.labels if mesh.section == len(mesh.ends) - 1 else None)
     length = 1 if header["seeding"] == 1 else header["key_interval"] or header["blocks"]
     for expected, (index, width, payload) in enumerate(blocks):
-        require(index == expected, "a block is missing")  # M 10.3
-        if index % length == 0:
+        require(index == mesh.blocks[expected], "a block is missing")  # M 10.3
+        if expected % length == 0:  # M 10.1, M 18.4
             chain = Chain(mesh)
-        core = mesh.cores[index]
+        core = mesh.cores[expected]
         block = Block(mesh.graph, grow(mesh.graph, core, header["block_size"]))
         require(1 <= width <= block.size, "a wrong number of coefficients")  # M 9.9
         positions = chain.decode(block, width, payload)
@@ -1125,7 +1185,7 @@ def decode_blocks(mesh, blocks):
             2: np.isin(block.vertices, core).astype(float),
         }[header["blend"]]
         blended.add(block, positions, weights)
-    return blended
+    packets.require(len(blocks) == len(mesh.blocks), "a block is missing")  # M 10.3
 
 
 # ---------------------------------------------------------------- S: sequences
@@ -1455,9 +1515,14 @@ def decode_all(stream):
     prediction = header["prediction"]
     require(len(prediction) <= 1 and all(0 < k < 2.0**16 for k in prediction), "illegal prediction")  # M 7.5
     require_limit(header["details"], MOST_COLUMNS, "details")  # M 14.1
-    mesh = Mesh(header, packets)
+    mesh, blended = Mesh(header, packets), Known(header["vertices"])
+    mesh.next_section()
+    while mesh.section < len(mesh.ends) - 1:
+        decode_blocks(mesh, blended)
+        mesh.next_section()
+    mesh.read_order()
     attributes = declared_attributes(mesh, packets)
-    if not any(packets[kind] for kind in (BLOCK, GOP, GRID, REFINEMENT)):
+    if not (mesh.own_blocks() or any(packets[kind] for kind in (GOP, GRID, REFINEMENT))):
         packets.require(not packets.fault, "")
     for attribute in attributes:
         attribute.check_rows()
@@ -1467,8 +1532,7 @@ def decode_all(stream):
         arrays = decode_attributes(mesh, packets, attributes, positions, places)
         packets.require(not packets.fault, "")
         return mesh.numbered(positions), faces, arrays
-    blended = decode_blocks(mesh, packets[BLOCK])
-    packets.require(len(packets[BLOCK]) == header["blocks"], "a block is missing")  # M 10.3
+    decode_blocks(mesh, blended)
     positions = blended.sums / blended.weights[:, None]
     if header["gop_frames"]:
         arrays = decode_attributes(mesh, packets, attributes, None, None)

@@ -8,7 +8,7 @@ from typing import Any
 import msgpack
 
 from bitstream.container.declaration import Declaration
-from bitstream.container.header import fields_of
+from bitstream.container.header import HEADER_DEFAULTS, HEADER_FIELDS, fields_of
 from bitstream.container.maps import parse_map, write_map
 from bitstream.container.wire import Cursor, FrameType, parse_frame, write_frame, write_preamble, write_varint
 from bitstream.errors import BsmError
@@ -44,6 +44,16 @@ def stream_of(frames: Frames) -> bytes:
     return body + write_frame(FrameType.END, write_varint(len(frames)) + zlib.crc32(body).to_bytes(4, "little"))
 
 
+def header_frame(**values: Any) -> tuple[int, bytes]:
+    """A header of any fields, by name, but for those that have their default; checked by nobody."""
+    entries = [
+        (HEADER_FIELDS[name].key, HEADER_FIELDS[name].normalise(value))
+        for name, value in values.items()
+        if name not in HEADER_DEFAULTS or HEADER_DEFAULTS[name] != HEADER_FIELDS[name].normalise(value)
+    ]
+    return FrameType.HEADER, write_map(sorted(entries))
+
+
 def header_entries(payload: bytes) -> dict[int, Any]:
     """Key and value of every field that a header stores."""
     return dict(msgpack.unpackb(payload, strict_map_key=False))
@@ -60,8 +70,6 @@ def first_entries(stream: bytes) -> dict[int, Any]:
 
 def with_header(stream: bytes, **changes: Any) -> bytes:
     """The stream with other header fields, by name (None: not stored), unchecked."""
-    from bitstream.container.header import HEADER_FIELDS
-
     frames = frames_of(stream)
     entries = header_entries(frames[0][1])
     for name, value in changes.items():

@@ -83,6 +83,12 @@ _EARLIER = np.arange(9, NEIGHBOURS)
 ChainLevels = list[Levels]
 
 
+def _chain_starts(header: Header) -> set[int]:
+    """Indices of the blocks that begin a chain."""
+    rules = chain_rules(header)
+    return {span.blocks.start + index for span in header.spans for index in rules.chain_starts(len(span.blocks))}
+
+
 def chains_of_stream(data: bytes) -> Iterator[tuple[ChainLevels, ChainLevels]]:
     """Levels of a static stream and of its detail layer (empty if it has none), chain by chain."""
     reader = Reader()
@@ -93,10 +99,10 @@ def chains_of_stream(data: bytes) -> Iterator[tuple[ChainLevels, ChainLevels]]:
     details: ChainLevels = []
     while not isinstance(packet := reader.next_packet(), Signal):
         if isinstance(packet, Header):
-            header, length = packet, chain_rules(packet).chain_length(packet.blocks)
+            header, starts = packet, _chain_starts(packet)
         elif isinstance(packet, packets.Block):
             assert header is not None
-            if packet.index % length == 0:
+            if packet.index in starts:
                 if coarse:
                     yield coarse, details
                 coarse, details = [], []

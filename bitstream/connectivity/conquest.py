@@ -26,10 +26,10 @@ from bitstream.entropy.range_coder import Coder
 
 Ints = npt.NDArray[np.int32]
 
-DONE, NONSENSE, NO_ROOM = range(3)
+DONE, NONSENSE, NO_ROOM, PAUSED = range(4)
 """How a call of `conquer` ends; without room, make some and call again."""
 
-_DUMMIES, _TURNS, _STEPS, _TALLIES = 3, 4, 5, 8
+_REAL, _DUMMIES, _TURNS, _STEPS, _STOP, _TALLIES = 1, 3, 4, 5, 8, 9
 
 TURN_BYTES = 1024
 """More than one triangle can take."""
@@ -75,7 +75,7 @@ class Conquest(NamedTuple):
         Emitted faces.
     tallies : int64 array
         Vertices, real vertices and faces so far; dummies, triangles and steps along the front still allowed; first
-        face that the encoder may have left; label of the latest real vertex.
+        face that the encoder may have left; label of the latest real vertex; faces behind which to pause, 0: none.
     """
 
     front: Front
@@ -118,8 +118,18 @@ def enlarge_conquest(conquest: Conquest) -> Conquest:
     return conquest._replace(front=enlarge_front(conquest.front))
 
 
+def pause_behind(conquest: Conquest, faces: int) -> None:
+    """Let the conquest pause once so many faces are emitted; 0: not at all."""
+    conquest.tallies[_STOP] = faces
+
+
+def fans_of(conquest: Conquest) -> int:
+    """Fans so far."""
+    return int(conquest.tallies[_REAL])
+
+
 def conquer(coder: Coder, models: Models, guide: Guide, conquest: Conquest) -> int:
-    """Code the surface, from where the last call ran out of room.
+    """Code the surface, from where the last call ran out of room or paused.
 
     The encoder's guide tells each third vertex; without one, the coder's payload does.
     """

@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 from bitstream.container.declaration import CORNER, RECOMPUTED, Declaration
+from bitstream.container.header import Span
 from bitstream.container.layout import FRAME_TYPES
 from bitstream.container.packets import (
     Attribute,
     Block,
+    Connectivity,
     End,
     Gop,
     Grid,
@@ -37,20 +41,30 @@ FOLLOWERS: dict[FrameType | None, frozenset[FrameType]] = {
 }
 """What may follow a frame of each type (None: the preamble), METADATA and skippable frames left aside."""
 
+_NOT_IN_SECTIONS = frozenset({FrameType.PARTITION, FrameType.ORDER, FrameType.GOP, FrameType.GRID})
+FOLLOWERS_IN_SECTIONS: dict[FrameType | None, frozenset[FrameType]] = {
+    frame_type: (followers | {FrameType.CONNECTIVITY} if frame_type is FrameType.BLOCK else followers)
+    - _NOT_IN_SECTIONS
+    for frame_type, followers in FOLLOWERS.items()
+}
+"""The same where the mesh comes in sections."""
+
 METADATA_FOLLOWS: frozenset[FrameType | None] = frozenset(
     {FrameType.HEADER, FrameType.CONNECTIVITY, FrameType.PARTITION, FrameType.ORDER, FrameType.ATTRIBUTE}
 )
 
 
-def _reachable(start: FrameType | None) -> frozenset[FrameType]:
+def _reachable(
+    followers: Mapping[FrameType | None, frozenset[FrameType]], start: FrameType | None
+) -> frozenset[FrameType]:
     """Everything that may come at any distance behind a frame of type `start`."""
     found: set[FrameType] = set()
-    pending = list(FOLLOWERS[start])
+    pending = list(followers[start])
     while pending:
         current = pending.pop()
         if current not in found:
             found.add(current)
-            pending.extend(FOLLOWERS[current])
+            pending.extend(followers[current])
     return frozenset(found)
 
 
@@ -66,6 +80,8 @@ class Grammar:
         self._last: FrameType | None = None
         self._allowed = FOLLOWERS[None]
         self._metadata_seen = False
+        self._spans: tuple[Span, ...] = ()
+        self._sections = 0  # of which CONNECTIVITY was there
         self._next_block = 0
         self._next_frame = 0
         self._next_vertex = 0  # of the grid, or of the layer
@@ -83,7 +99,7 @@ class Grammar:
     @property
     def expected(self) -> frozenset[FrameType]:
         """The types of frame that may come next."""
-        metadata = self._last in METADATA_FOLLOWS and not self._metadata_seen
+        metadata = self._last in METADATA_FOLLOWS and self._sections <= 1 and not self._metadata_seen
         return self._allowed | {FrameType.METADATA} if metadata else self._allowed
 
     def announces(self, frame_type: int) -> bool:
@@ -110,7 +126,9 @@ class Grammar:
         """Take note of a packet that has no problem."""
         frame_type = FRAME_TYPES[type(packet)]
         if isinstance(packet, Header):
-            self.header = packet
+            self.header, self._spans = packet, packet.spans
+        if isinstance(packet, Connectivity):
+            self._sections += 1
         if isinstance(packet, Block):
             self._next_block = packet.index + 1
         if isinstance(packet, Gop):
@@ -127,17 +145,24 @@ class Grammar:
             self._metadata_seen = True
         else:
             self._last = frame_type
-            self._allowed = FOLLOWERS[frame_type]
+            self._allowed = self._followers[frame_type]
 
     def lose(self) -> None:
         """Take note that an unknown number of frames is missing here: everything that can come later may come now."""
-        self._allowed = _reachable(self._last)
+        self._allowed = _reachable(self._followers, self._last)
         self._lossy = True
+
+    @property
+    def _followers(self) -> Mapping[FrameType | None, frozenset[FrameType]]:
+        return FOLLOWERS_IN_SECTIONS if len(self._spans) > 1 else FOLLOWERS
 
     def _disagreement(self, packet: Packet) -> str | None:
         if self.header is None:
             return None
-        if isinstance(packet, Block | Gop | Grid | Values | End) and self._lacks_attributes(self.header):
+        if problem := self._section_problem(self.header, packet):
+            return problem
+        last = self._sections >= len(self._spans)
+        if last and isinstance(packet, Block | Gop | Grid | Values | End) and self._lacks_attributes(self.header):
             return f"{len(self._declared)} of {self.header.attributes} attributes are declared"
         match packet:
             case Attribute():
@@ -159,6 +184,27 @@ class Grammar:
             case End() if self.header.grid and self._next_vertex < self.header.vertices and not self._lossy:
                 return f"the positions end at vertex {self._next_vertex} of {self.header.vertices}"
         return None
+
+    def _section_problem(self, header: Header, packet: Packet) -> str | None:
+        """What has no place in its section, or comes where one is not whole."""
+        begun, count = self._sections, len(self._spans)
+        blocks = self._spans[begun - 1].blocks if begun else range(0)
+        match packet:
+            case Connectivity() if begun == count:
+                return f"CONNECTIVITY for section {begun} of {count}"
+            case Connectivity() if self._next_block < blocks.stop and not self._lossy:
+                return (
+                    f"section {begun} begins behind {self._next_block} blocks, where there are {blocks.stop} before it"
+                )
+            case Block(index) if index < header.blocks and begun and self._is_misplaced(index, blocks):
+                return f"block {index} in section {begun - 1} of {count}, which has those from {blocks.start} on"
+            case Attribute() | Refinement() | Values() | End() if begun < count and not self._lossy:
+                return f"{FRAME_TYPES[type(packet)].name} may not come before section {begun} of {count}"
+        return None
+
+    def _is_misplaced(self, index: int, blocks: range) -> bool:
+        """Whether a block is none of its section; behind damage, it may be one of a section that is missing."""
+        return index < blocks.start if self._lossy else index not in blocks
 
     def _lacks_attributes(self, header: Header) -> bool:
         return len(self._declared) < header.attributes and not self._lossy

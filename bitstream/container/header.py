@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import operator
 from dataclasses import MISSING, dataclass, field, fields
+from itertools import accumulate, pairwise
 from typing import Any, TypeAlias, TypeVar
 
 from bitstream.errors import CorruptError, OptionError, UnsupportedError
@@ -17,6 +18,7 @@ MOST_GRID = 2**20 - 1
 MOST_COPIES, FREE_COPIES = 16, 1 << 16
 """Rows of all blocks together, at most: so many for each vertex, and so many more."""
 MOST_ATTRIBUTES = 255
+MOST_SECTIONS = 8
 
 
 @dataclass(frozen=True)
@@ -120,6 +122,14 @@ class Layer:
         return 3 if self.ratio else 1
 
 
+@dataclass(frozen=True)
+class Span:
+    """A section of a mesh: the numbers of the faces and of the blocks that come with it."""
+
+    faces: range
+    blocks: range
+
+
 @dataclass(frozen=True, kw_only=True)
 class Header:
     """What a decoder must know before anything else; a header with illegal or contradictory values cannot be made.
@@ -199,6 +209,8 @@ class Header:
     """How many attributes the mesh has."""
     corner: tuple[int, ...] = integers(40, -(2**31), COUNT, (0, 3), default=())
     """First cell of a grid on each axis, counted from the origin of the mesh's unit; empty: `center` says it."""
+    sections: tuple[int, ...] = integers(41, 1, COUNT, (0, 2 * (MOST_SECTIONS - 1)), default=())
+    """Faces and blocks of each section but the last, one pair after another; see `spans`."""
 
     def __post_init__(self) -> None:
         normalise_fields(self, "header")
@@ -210,6 +222,14 @@ class Header:
     def layers(self) -> tuple[Layer, ...]:
         """The layers of refinement."""
         return tuple(map(Layer, self.refinements[::2], self.refinements[1::2]))
+
+    @property
+    def spans(self) -> tuple[Span, ...]:
+        """The sections that the mesh comes in; one, unless `sections` says otherwise."""
+        faces = accumulate((*self.sections[::2], self.faces - sum(self.sections[::2])), initial=0)
+        blocks = accumulate((*self.sections[1::2], self.blocks - sum(self.sections[1::2])), initial=0)
+        pairs = zip(pairwise(faces), pairwise(blocks), strict=True)
+        return tuple(Span(range(*some), range(*others)) for some, others in pairs)
 
 
 def fields_of(kind: Kind) -> dict[str, Field]:
@@ -283,6 +303,10 @@ def _block_rules(header: Header) -> dict[str, bool]:
             x.ratio == 0 or x.ratio >= 1 / 16 for x in header.layers
         ),
         "borders without refinements": bool(header.borders) and not header.refinements,
+        "sections that are not pairs of faces and blocks": len(header.sections) % 2 == 1,
+        "no faces for the last section": sum(header.sections[::2]) >= header.faces,
+        "no blocks for the last section": sum(header.sections[1::2]) >= header.blocks,
+        "sections of a sequence": bool(header.sections) and header.gop_frames > 0,
         "refinements of a sequence": bool(header.refinements) and header.gop_frames > 0,
     }
 

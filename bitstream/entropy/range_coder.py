@@ -53,6 +53,8 @@ _LOW, _RANGE, _POSITION, _READING, _FULL = range(5)
 _MAX_COUNT = 1023
 _MAX_RATE = 1024
 _SUFFIX_NODES = 24
+_AHEAD = 4
+"""Bytes that a reader holds besides those that a writer is done with."""
 
 
 class Coder(NamedTuple):
@@ -178,7 +180,17 @@ def start_reading(payload: bytes) -> Coder:
     code, width = int.from_bytes(payload[:4].ljust(4, b"\0"), "big"), (1 << 32) - 1
     if code >= width:
         raise CorruptError("an entropy-coded payload cannot begin with ff ff ff ff")
-    return Coder(np.array([code, width, 4, 1, 0], np.int64), data)
+    return Coder(np.array([code, width, _AHEAD, 1, 0], np.int64), data)
+
+
+def read_on(coder: Coder, piece: bytes) -> Coder:
+    """Return a coder that continues `coder`, which reads, where one more piece of its payload has come."""
+    return Coder(coder.state, np.concatenate([coder.data, np.frombuffer(piece, np.uint8)]))
+
+
+def bytes_taken(coder: Coder) -> int:
+    """How many bytes of the payload a reader has taken when it knows what was coded so far (T)."""
+    return int(coder.state[_POSITION]) + (0 if is_reading(coder) else _AHEAD)
 
 
 def finish_writing(coder: Coder) -> bytes:
@@ -212,16 +224,37 @@ def finish_reading(coder: Coder) -> None:
     CorruptError
         If bytes are left over.
     """
-    position, size = int(coder.state[_POSITION]), len(coder.data)
-    if position > size + 4:
+    taken, size = _taken_at_end(coder)
+    if taken < size:
+        raise CorruptError(f"{size - taken} bytes are left over after the last symbol of a payload")
+
+
+def finish_piece(coder: Coder) -> None:
+    """Check that what was read of a payload, of which more will come, is all that has come.
+
+    Raises
+    ------
+    TruncatedError
+        If more was read than can have come.
+    CorruptError
+        If it is not.
+    """
+    taken, size = _taken_at_end(coder)
+    if taken != size:
+        raise CorruptError(f"the pieces of a payload so far have {size} bytes where {taken} belong")
+
+
+def _taken_at_end(coder: Coder) -> tuple[int, int]:
+    """What was read, and what there is."""
+    taken, size = bytes_taken(coder), len(coder.data)
+    if taken > size + _AHEAD:
         raise TruncatedError(f"an entropy-coded payload of {size} bytes ends before its last symbol")
-    if position < size:
-        raise CorruptError(f"{size - position} bytes are left over after the last symbol of a payload")
+    return taken, size
 
 
 def overran(coder: Coder) -> bool:
     """Whether more was read than any complete payload of this length can hold."""
-    return is_reading(coder) and int(coder.state[_POSITION]) > coder.data.size + 4
+    return is_reading(coder) and bytes_taken(coder) > coder.data.size + _AHEAD
 
 
 def code_bit(coder: Coder, probability: int, bit: int) -> int:

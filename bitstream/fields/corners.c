@@ -22,7 +22,7 @@ static void gather_corners(Corners c) {
 /* Pair the corners that face the edges from v to vertices of higher number; where more than two face one, the last
  * that came is paired first. `waiting` holds, by that vertex, the corner that waits for a partner, or -1, and is left
  * as it was; `below` the corner that waited before. */
-static void pair_corners(Corners c, int32_t v, int32_t *waiting, int32_t *below) {
+OFTEN static void pair_corners(Corners c, int32_t v, int32_t *waiting, int32_t *below) {
     const int32_t *vertex = c.faces.data;
     for (int pass = 0; pass < 2; pass++)
         for (int32_t i = c.starts.data[v]; i < c.starts.data[v + 1]; i++)
@@ -92,7 +92,7 @@ static void promote(Waiting *w, int32_t v, bool flap) {
 }
 
 /* What v, just coded, completes. */
-static void complete(const Corners *c, Waiting *w, int32_t v) {
+OFTEN static void complete(const Corners *c, Waiting *w, int32_t v) {
     const int32_t *vertex = c->faces.data, *rank = c->rank.data;
     for (int32_t i = c->starts.data[v]; i < c->starts.data[v + 1]; i++) {
         int32_t k = c->corners.data[i], a = next_corner(k), b = previous_corner(k);

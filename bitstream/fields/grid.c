@@ -169,7 +169,7 @@ static void span_planes(const Grid *g, Place *p) {
     }
 }
 
-static void survey(const Corners *corners, const Grid *g, int32_t v, int32_t last, Place *p) {
+OFTEN static void survey(const Corners *corners, const Grid *g, int32_t v, int32_t last, Place *p) {
     gather_around(corners, v, &p->around);
     sort_flaps(g, &p->around);
     p->flaps = (int32_t)least(p->around.flaps, 3);
@@ -184,8 +184,8 @@ static void survey(const Corners *corners, const Grid *g, int32_t v, int32_t las
 }
 
 /* Code a value; false if it is none (V 9, V 10). */
-static bool code_axis(RangeCoder *coder, const ValueModel *model, Grid *g, int32_t v, int step, Place *p, int32_t *hits,
-    int32_t *first_gap) {
+OFTEN static bool code_axis(RangeCoder *coder, const ValueModel *model, Grid *g, int32_t v, int step, Place *p,
+    int32_t *hits, int32_t *first_gap) {
     const Around *r = &p->around;
     int j = p->axis[step], flaps = p->flaps;
     int32_t most = g->largest.data[j], far = FINE * most, base = p->base[j], mean = p->mean[j];
@@ -253,7 +253,7 @@ static bool code_axis(RangeCoder *coder, const ValueModel *model, Grid *g, int32
     return true;
 }
 
-static bool code_vertex(RangeCoder *coder, const ValueModel *model, const Corners *corners, Grid *g, int32_t v, int32_t last) {
+OFTEN static bool code_vertex(RangeCoder *coder, const ValueModel *model, const Corners *corners, Grid *g, int32_t v, int32_t last) {
     Place p;
     survey(corners, g, v, last, &p);
     int32_t hits = 0, first_gap = 0;

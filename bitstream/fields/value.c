@@ -40,10 +40,10 @@ INLINE int32_t survival(int64_t distance, int64_t inverse) {
     return table[cell] + ((table[cell + 1] - table[cell]) * part >> 5);
 }
 
-/* Entry of ODDS and LESS for d (V 4.2). */
+/* Entry of ODDS and LESS for d (V 4.2): d itself below 32. */
 INLINE int32_t entry(int32_t d) {
-    if (d < 32) return d < 0 ? 0 : d;
-    int32_t exponent = bit_length((uint32_t)d) - 6;
+    d = d < 0 ? 0 : d;
+    int32_t exponent = bit_length((uint32_t)d | 32) - 6;
     return (int32_t)least((exponent << 5) + (d >> exponent), ODDS_SIZE - 1);
 }
 
@@ -51,7 +51,7 @@ INLINE int32_t odds_of(int32_t d) { return ODDS[entry(d)]; }
 INLINE int32_t less_of(int32_t d) { return LESS[entry(d)]; }
 
 /* Mix a decision, code it and learn from it; the inputs of the predictions are set (V 3.2). */
-INLINE int decide(Work *w, int node, int kind, int bit) {
+OFTEN static int decide(Work *w, int node, int kind, int bit) {
     uint32_t *slots[CONTEXTS];
     for (int i = 0; i < CONTEXTS; i++) {
         slots[i] = w->model->slots.data + (i * CONTEXT_SIZE + w->e->context[i]) * VALUE_NODES + node;
@@ -194,7 +194,7 @@ INLINE void learn_errors(const Work *w, int32_t value) {
     }
 }
 
-int32_t code_value(RangeCoder *coder, const ValueModel *model, const Expectation *e, int32_t value) {
+OFTEN int32_t code_value(RangeCoder *coder, const ValueModel *model, const Expectation *e, int32_t value) {
     Work w;
     w.coder = coder, w.model = model, w.e = e;
     int32_t typical = find_scales(&w), asked[MOST_ASKS];

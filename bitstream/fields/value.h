@@ -58,8 +58,8 @@ INLINE int32_t size_class(int32_t x) {
     return (int32_t)least(2 * bits - 2 + (x >> (bits - 2) & 1), 31);
 }
 
-INLINE int32_t signed_class(int32_t x, int32_t unit) { /* 0 .. 6, 3 in the middle */
-    int32_t size = size_of(x), steps = size * 2 < unit ? 0 : size < unit + (unit >> 1) ? 1 : size < 4 * unit ? 2 : 3;
+INLINE int32_t signed_class(int32_t x, int32_t unit) { /* 0 .. 6, 3 in the middle; without branches */
+    int32_t size = size_of(x), steps = (size * 2 >= unit) + (size >= unit + (unit >> 1)) + (size >= 4 * unit);
     return x < 0 ? 3 - steps : 3 + steps;
 }
 

@@ -51,6 +51,7 @@ def summarise(info: StreamInfo) -> dict[str, Any]:
             "framing": info.framing,
             "total": info.total,
         },
+        "sections": [asdict(section) for section in info.sections],
         "frames": info.frames,
         "gops": [asdict(gop) for gop in info.gops],
         "attributes": [asdict(attribute) for attribute in info.attributes],
@@ -77,6 +78,7 @@ def _worded(summary: Facts) -> str:
         *_sequence_lines(summary),
         "bytes:",
         *shares,
+        *_section_lines(summary),
         *_rate_lines(summary),
         *map(_attribute_line, summary["attributes"]),
         *_metadata_lines(summary),
@@ -95,6 +97,22 @@ def _position_lines(summary: dict[str, Any]) -> list[str]:
         f"{summary['blocks']} blocks of {summary['block_size']} vertices, "
         f"{min(coefficients)} to {max(coefficients)} coefficients{refined}"
     ]
+
+
+def _section_lines(summary: dict[str, Any]) -> list[str]:
+    """What there is to say of sections, if there are several."""
+    sections, total = summary["sections"], summary["bytes"]["total"]
+    if len(sections) == 1:
+        return []
+    return [
+        f"section {number}: {one['faces']} faces in {one['connectivity']} bytes, {one['blocks']} blocks in "
+        f"{one['coefficient_bytes']}" + _first_line(one["first_block"], total)
+        for number, one in enumerate(sections, start=1)
+    ]
+
+
+def _first_line(first: int | None, total: int) -> str:
+    return f"; its first block is there after {first} bytes, {100 * first / total:.1f} %" if first else ""
 
 
 def _rate_lines(summary: dict[str, Any]) -> list[str]:

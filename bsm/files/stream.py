@@ -58,6 +58,19 @@ class AttributeInfo:
 
 
 @dataclass(frozen=True)
+class SectionInfo:
+    """A section of a mesh: its faces and blocks, the bytes of both, and how many bytes of the stream it takes until its
+    first block (of a mesh on a grid, its first positions; None: there is none) is whole.
+    """
+
+    faces: int
+    blocks: int
+    connectivity: int
+    coefficient_bytes: int
+    first_block: int | None
+
+
+@dataclass(frozen=True)
 class StreamInfo:
     """What a stream consists of, known without decoding it; sizes in bytes.
 
@@ -71,6 +84,7 @@ class StreamInfo:
     coefficients: tuple[int, ...]
     gops: tuple[GopInfo, ...]
     attributes: tuple[AttributeInfo, ...]
+    sections: tuple[SectionInfo, ...]
     connectivity: int
     partition: int
     order: int
@@ -140,8 +154,11 @@ def inspect_stream(chunks: Iterator[bytes], limits: Limits = DEFAULT_LIMITS) -> 
     sizes: Counter[type] = Counter()
     declared: list[packets.Attribute] = []
     lengths: Counter[int] = Counter()
+    counted = _SectionCount()
     reader = Reader(limits)
     for packet in read_packets(chunks, reader):
+        if reader.last_frame is not None:
+            counted.take(packet, reader.last_frame.offset + reader.last_frame.length)
         if isinstance(packet, packets.Header):
             header = packet
         elif isinstance(packet, packets.Metadata):
@@ -167,6 +184,7 @@ def inspect_stream(chunks: Iterator[bytes], limits: Limits = DEFAULT_LIMITS) -> 
         tuple(coefficients),
         tuple(gops),
         tuple(_attribute_info(packet, lengths[packet.index]) for packet in declared),
+        counted.of(header),
         connectivity=sizes[packets.Connectivity],
         partition=sizes[packets.Partition],
         order=sizes[packets.Order],
@@ -174,6 +192,28 @@ def inspect_stream(chunks: Iterator[bytes], limits: Limits = DEFAULT_LIMITS) -> 
         metadata_bytes=sizes[packets.Metadata],
         total=reader.last_frame.offset + reader.last_frame.length,
     )
+
+
+class _SectionCount:
+    """Counts what a stream's sections consist of."""
+
+    def __init__(self) -> None:
+        self._counted: list[SectionInfo] = []
+
+    def take(self, packet: packets.Packet | packets.Damaged, end: int) -> None:
+        """Count a packet whose frame ends after so many bytes."""
+        match packet:
+            case packets.Connectivity(_, data):
+                self._counted.append(SectionInfo(0, 0, len(data), 0, None))
+            case packets.Block() | packets.Grid():
+                last = self._counted[-1]
+                coded, first = last.coefficient_bytes + len(packet.data), last.first_block or end
+                self._counted[-1] = replace(last, coefficient_bytes=coded, first_block=first)
+
+    def of(self, header: packets.Header) -> tuple[SectionInfo, ...]:
+        """The sections that the header tells of."""
+        counted = zip(self._counted, header.spans, strict=True)
+        return tuple(replace(one, faces=len(span.faces), blocks=len(span.blocks)) for one, span in counted)
 
 
 def _attribute_info(packet: packets.Attribute, size: int) -> AttributeInfo:
@@ -302,8 +342,10 @@ class _Part:
 
         match event:
             case ConnectivityEvent(faces, vertices):
-                self._faces = faces
-                self._positions, self._known = np.zeros((vertices, 3)), np.zeros(vertices, np.bool_)
+                more = vertices - len(self._known)
+                self._faces = np.concatenate([self._faces, faces])
+                self._positions = np.concatenate([self._positions, np.zeros((more, 3))])
+                self._known = np.concatenate([self._known, np.zeros(more, np.bool_)])
             case BlockEvent() | RefinementEvent():
                 self._positions[event.vertices] = event.positions
                 self._known[event.vertices] = True

@@ -149,18 +149,20 @@ bool chain_parts(ConstLongs starts, ConstInts ends, ConstLongs edges, Longs shar
     return true;
 }
 
-/* The graph of the parts, as `chain_parts` takes it: a part's neighbours in ascending order. `counts`, one entry a part, is
- * scratch. False where `ends` and `edges` have no room. */
+/* The graph of the parts, as `chain_parts` takes it: a part's neighbours in ascending order. Vertices before the `first`
+ * are in no part; `labels` are those of the others. `counts`, one entry a part, is scratch. False where `ends` and `edges`
+ * have no room. */
 static bool link_parts(ConstInts offsets, ConstInts neighbours, ConstInts order, ConstInts bounds, ConstInts labels,
                        Longs counts, Longs starts, Ints ends, Longs edges) {
-    int64_t found = 0;
+    int64_t found = 0, first = offsets.size - 1 - labels.size;
     for (int64_t p = 0; p < counts.size; p++) counts.data[p] = 0;
     for (int64_t p = 0; p < counts.size; p++) {
         starts.data[p] = found;
         for (int64_t k = bounds.data[p]; k < bounds.data[p + 1]; k++) {
             int32_t v = order.data[k];
             for (int64_t i = offsets.data[v]; i < offsets.data[v + 1]; i++) {
-                int32_t other = labels.data[neighbours.data[i]];
+                if (neighbours.data[i] < first) continue;
+                int32_t other = labels.data[neighbours.data[i] - first];
                 if (other == p || counts.data[other]++ > 0) continue;
                 if (found == ends.size || found == edges.size) return false;
                 ends.data[found++] = other;
@@ -177,13 +179,14 @@ static bool link_parts(ConstInts offsets, ConstInts neighbours, ConstInts order,
 }
 
 /* The parts in a chain and grown to blocks: `chain_parts` and `grow_blocks`. Block i, in the order of the chain, sees
- * `edges[i]` ends of edges. `links` and `shares` have room for each pair of parts that share an edge, `scratch` has seven
- * entries a part. Returns the number of members. */
+ * `edges[i]` ends of edges. Where there are fewer labels than vertices, these are the last ones' (those of a section, M 18),
+ * and `order` holds only these; blocks grow over all. `links` and `shares` have room for each pair of parts that share an
+ * edge, `scratch` has seven entries a part. Returns the number of members. */
 int64_t chain_blocks(ConstInts offsets, ConstInts neighbours, ConstInts order, ConstInts bounds, ConstInts labels,
                      int64_t size, Ints links, Longs shares, Longs scratch, Ints seen, Ints chain, Longs starts,
                      Longs edges, Ints members) {
     int64_t n = offsets.size - 1, parts = bounds.size - 1;
-    if (!fits_graph(offsets, neighbours) || parts < 1 || order.size != n || labels.size != n || seen.size != n || scratch.size < 7 * parts ||
+    if (!fits_graph(offsets, neighbours) || parts < 1 || order.size != labels.size || labels.size > n || seen.size != n || scratch.size < 7 * parts ||
         chain.size != parts || starts.size != parts + 1 || edges.size != parts)
         return MISUSED;
     int64_t *room = scratch.data;

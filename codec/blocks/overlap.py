@@ -47,12 +47,12 @@ class Block:
 
 @dataclass(frozen=True, eq=False)
 class Blocks:
-    """All blocks of a mesh, in the order of the chain.
+    """All blocks of a mesh, or of a section of one, in the order of the chain.
 
     Parameters
     ----------
     graph : Graph
-        Of the whole mesh.
+        Of the whole mesh, as far as it is known.
     chain : int32 array, shape (k,)
         Part of the partition that each block grew from.
     cores : int32 array, shape (k,)
@@ -116,6 +116,9 @@ def grow_blocks(graph: Graph, partition: Partition, size: int) -> Blocks:
 
     A block does not grow over vertices with more than `size` neighbours, so that no mesh makes it look at many edges.
     A part whose surroundings hold fewer than `size` vertices that it may grow over stays smaller.
+
+    Parts of the last vertices alone, those of a section, are put into a chain as if there were no others, but grow over
+    all of the graph.
     """
     parts, ends = partition.parts, len(graph.neighbours)
     chain, starts, edges = np.empty(parts, np.int32), np.empty(parts + 1, np.int64), np.empty(parts, np.int64)

@@ -10,7 +10,7 @@ from bitstream.errors import DependencyError
 from codec import _kernels
 from codec.arrays import Indices
 from codec.blocks.bisection import bisect
-from codec.geometry.graph import Graph
+from codec.geometry.graph import Graph, graph_behind
 
 REFINEMENT_PASSES = 2
 """How often the derived partition goes over its boundaries; part of the format."""
@@ -18,7 +18,7 @@ REFINEMENT_PASSES = 2
 
 @dataclass(frozen=True, eq=False)
 class Partition:
-    """Disjoint, non-empty parts that cover a graph.
+    """Disjoint, non-empty parts that cover a graph, or the last vertices of one: those of a section.
 
     Parameters
     ----------
@@ -27,7 +27,7 @@ class Partition:
     bounds : int32 array, shape (k + 1,)
         Part p is `order[bounds[p]:bounds[p + 1]]`.
     labels : int32 array, shape (n,)
-        Part of each vertex.
+        Part of each vertex, or of each of the last ones.
     """
 
     order: Indices
@@ -60,6 +60,14 @@ def derive_partition(graph: Graph, parts: int, threads: int | None = 1) -> Parti
     sizes, votes = np.empty(parts, np.int64), np.empty(parts, np.int32)
     _kernels.refine_partition(graph.offsets, graph.neighbours, labels, REFINEMENT_PASSES, sizes, votes)
     return _grouped(labels)
+
+
+def derive_last_parts(graph: Graph, first: int, parts: int, threads: int | None = 1) -> Partition:
+    """`derive_partition` of the vertices from `first` on, with the edges between them alone."""
+    if not first:
+        return derive_partition(graph, parts, threads)
+    own = derive_partition(graph_behind(graph, first), parts, threads)
+    return Partition(own.order + np.int32(first), own.bounds, own.labels)
 
 
 def metis_partition(graph: Graph, parts: int) -> Partition:

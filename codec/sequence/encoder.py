@@ -272,8 +272,8 @@ def open_sequence(prepared: Prepared, options: SequenceOptions, frames: int, pro
     if step < finest:
         raise OptionError(f"first_step = {step:g} is too fine for blocks of {prepared.size}, try {finest:.1e}")
     width, cotangent = max(1, round(options.keep * prepared.size)), options.weights == "cotangent"
-    scheme = Scheme(prepared.blocks, FIRST_FRAME, Adaptive(width, single(step)), "degree")
-    blocks = encode_blocks(scheme, prepared.positions, threads=options.threads, progress=progress)
+    scheme = Scheme(prepared.blocks[0], FIRST_FRAME, Adaptive(width, single(step)), "degree")
+    blocks = encode_blocks([scheme], prepared.positions, threads=options.threads, progress=progress)
     header = Header(
         vertices=prepared.graph.size,
         faces=len(prepared.mesh.faces),

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from codec.arrays import Matrix
@@ -23,19 +25,21 @@ class MeasuredSpectrum:
 
     Parameters
     ----------
-    blocks : Blocks
+    sections : sequence of Blocks
+        All blocks, section by section.
     positions : float64 array, shape (n, 3)
         In the unit of the quantization step.
     shift : float
         delta of the dictionaries.
     """
 
-    def __init__(self, blocks: Blocks, positions: Matrix, *, shift: float) -> None:
-        indices = np.unique(np.linspace(0, blocks.count - 1, SAMPLES + 2).astype(int)[1:-1])
-        self._samples = [blocks.block(int(index)) for index in indices]
+    def __init__(self, sections: Sequence[Blocks], positions: Matrix, *, shift: float) -> None:
+        places = [(blocks, index) for blocks in sections for index in range(blocks.count)]
+        numbers = np.unique(np.linspace(0, len(places) - 1, SAMPLES + 2).astype(int)[1:-1])
+        self._samples = [blocks.block(index) for blocks, index in map(places.__getitem__, numbers)]
         self._positions = positions
         self._shift = shift
-        self._size = int(np.diff(blocks.starts).max())
+        self._size = max(int(np.diff(blocks.starts).max()) for blocks in sections)
         self._magnitudes = self._measure(min(FIRST_LOOK, self._size))
 
     def worthwhile_size(self, step: float, most: int | None = None) -> int:

@@ -12,7 +12,7 @@ from bitstream.limits import NAMED_LIMITS
 from codec.basis.cost import Spend
 from codec.static.layers.block_coder import CodedBlock
 from codec.static.preamble import Prepared
-from codec.static.work import Allowance, mesh_cost, mesh_memory, partition_cost
+from codec.static.work import Allowance, MeshMemory, mesh_cost, partition_cost
 
 PATIENCE = 8.0
 """How many times longer an encoder may take over dictionaries than decoders may over the whole stream: what it tries is
@@ -36,13 +36,17 @@ def admit(allowance: Allowance, prepared: Prepared, blocks: Sequence[CodedBlock]
     LimitError
         If that is too much.
     """
-    vertices, faces = prepared.graph.size, len(prepared.mesh.faces)
-    allowance.grant(vertices)
-    allowance.keep(mesh_memory(vertices, faces), len(prepared.connectivity.data))
-    allowance.spend(mesh_cost(vertices, faces, len(prepared.connectivity.data)))
-    allowance.spend(partition_cost(prepared.graph, len(blocks), len(blocks) * prepared.size))
-    allowance.afford(max(block.memory for block in blocks))
-    allowance.spend(sum(block.work for block in blocks))
+    memory, done, before = MeshMemory(allowance), 0, (0, 0)
+    for area, piece, grown in zip(prepared.areas, prepared.pieces, prepared.blocks, strict=True):
+        vertices, count = area.graph.size, grown.count
+        memory.grow(vertices, len(area.faces), len(piece.data))
+        allowance.spend(mesh_cost(vertices, len(area.faces), len(piece.data), before))
+        before = (vertices, len(area.faces))
+        allowance.spend(partition_cost(area.graph, area.first, count, count * min(prepared.size, vertices)))
+        own = blocks[done : done + count]
+        allowance.afford(max(block.memory for block in own))
+        allowance.spend(sum(block.work for block in own))
+        done += count
 
 
 @contextmanager

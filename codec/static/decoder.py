@@ -9,11 +9,12 @@ from typing import TypeAlias, TypeVar
 from bitstream.container import packets
 from bitstream.container.header import Header
 from bitstream.container.reader import END_OF_STREAM, Signal
+from bitstream.container.wire import FrameType
 from bitstream.errors import BsmError, CorruptError, OptionError, UnsupportedError
 from bitstream.limits import DEFAULT_LIMITS, Limits
 from codec.geometry.mesh import TriangleMesh
 from codec.signal.chain import Rounding, unchanged
-from codec.static.assembly import Assembly, DecodedBlock
+from codec.static.assembly import Assembly, DecodedBlock, Place
 from codec.static.attributes.decoding import PendingValues, ValuesStage, completed
 from codec.static.events import (
     AttributeEvent,
@@ -66,50 +67,62 @@ class Wishes:
 
 
 class BlockStage:
-    """The faces are known; blocks come."""
+    """The faces are known, or those of one section; its blocks come, and then the next section."""
 
     def __init__(self, structure: Structure, wishes: Wishes, lanes: Lanes) -> None:
         self._structure = structure
         self._wishes = wishes
         self._scheme = structure.scheme
         self._lanes = lanes
+        section = structure.section
+        self._blocks = section.span.blocks
         self._assembly = Assembly(
             structure.scheme.blocks,
             structure.header.smoothing,
             structure.units,
             structure.numbering,
             structure.allowance.spend,
+            Place(self._blocks.start, structure.opened.before, section.is_last),
         )
         self._chain = ChainDecoder(self._scheme, 0, structure.allowance)
-        self._next = 0
+        self._next = self._blocks.start
         self._complete: Complete | None = None
 
     def accept(self, arrival: Arrival, queue: deque[Item]) -> Stage[Item]:
+        section = self._structure.section
         match arrival:
-            case packets.Block():
+            case packets.Block(index) if index < self._blocks.stop:
                 self._skip_to(arrival.index, queue)
                 self._decode(arrival, queue)
                 if (
-                    self._next == self._scheme.blocks.count
+                    self._next == self._structure.header.blocks
                     and self._structure.header.layers
                     and not self._wishes.refinements
                 ):
                     complete = completed(self._assembly, self._structure)
                     queue.append(complete)
                     return complete
+            case packets.Connectivity() if not section.is_last:
+                self._skip_to(self._blocks.stop, queue)
+                return self._structure.following(self._assembly).accept(arrival, queue)
+            case packets.Damaged(type=FrameType.CONNECTIVITY) if not section.is_last:
+                raise unreadable(arrival)
+            case packets.Damaged():
+                queue.append(LossEvent(None, unreadable(arrival)))
+            case _ if not section.is_last:
+                # Only behind damage; nothing can be made of what belongs to faces that are not there.
+                raise CorruptError(f"the faces of section {section.number + 1} of {section.count} are missing")
             case packets.Refinement():
-                self._skip_to(self._scheme.blocks.count, queue)
+                self._skip_to(self._blocks.stop, queue)
                 wishes = self._wishes
                 refinement = RefinementStage(
                     self._assembly, self._structure, self._lanes, wishes.refinements, wishes.tolerant
                 )
                 return refinement.accept(arrival, queue)
             case packets.Values():
-                self._skip_to(self._scheme.blocks.count, queue)
+                self._skip_to(self._blocks.stop, queue)
                 values = ValuesStage(self._assembly, self._structure, self._wishes.tolerant)
                 return values.accept(arrival, queue)
-            case packets.Damaged():
-                queue.append(LossEvent(None, unreadable(arrival)))
             case packets.End():
                 self._end(queue)
             case Signal.END_OF_STREAM:
@@ -122,8 +135,8 @@ class BlockStage:
         number = self._scheme.chain_of(packet.index)
         if number != self._chain.number:
             self._chain = ChainDecoder(self._scheme, number, self._structure.allowance)
-        chain = self._chain
-        queue.append(PendingBlock(self._lanes.submit(number, lambda: chain.decode(packet)), self._assembly))
+        chain, lane = self._chain, self._blocks.start + number
+        queue.append(PendingBlock(self._lanes.submit(lane, lambda: chain.decode(packet)), self._assembly))
         self._next = packet.index + 1
 
     def _skip_to(self, index: int, queue: deque[Item]) -> None:
@@ -137,7 +150,7 @@ class BlockStage:
         self._next = index
 
     def _end(self, queue: deque[Item]) -> Complete:
-        self._skip_to(self._scheme.blocks.count, queue)
+        self._skip_to(self._blocks.stop, queue)
         self._complete = completed(self._assembly, self._structure)
         queue.append(self._complete)
         return self._complete
@@ -183,7 +196,7 @@ class Decoder(StreamDecoder[Item]):
         def begin(structure: Structure) -> Stage[Item]:
             if structure.header.grid:
                 return GridStage(structure, tolerant)
-            self._most_ahead = most_ahead(structure.header)
+            self._most_ahead = most_ahead(structure.graph.size, structure.header.block_size)
             return BlockStage(structure, wishes, lanes)
 
         self._allowance = Allowance(limits)
@@ -299,9 +312,9 @@ class Decoder(StreamDecoder[Item]):
         return self._queue.popleft() if self._queue else self._signal()
 
 
-def most_ahead(header: Header) -> int:
+def most_ahead(vertices: int, block_size: int) -> int:
     """How many blocks may be read before the first of them is asked for: as many rows as vertices, and `ROWS_AHEAD`."""
-    return 1 + (header.vertices + ROWS_AHEAD) // header.block_size
+    return 1 + (vertices + ROWS_AHEAD) // block_size
 
 
 def check_header(header: Header, limits: Limits) -> None:

@@ -233,7 +233,7 @@ class Encoder:
         theta = options.target.value if options.target is not None and options.target.kind == "theta_deg" else 0.0
         original = Original(prepared.positions, prepared.mesh.faces, by_area=not theta)
         shaper = Shaper(original, prepared.graph)
-        if prepared.has_low_frequencies:
+        if prepared.has_low_frequencies and not options.quick:
             if not 0.0 < theta < DETAILED_ANGLE:
                 yield Blocks(Spectral(prepared, options, WIDEST), finest, progress)
             for finer in (1.0, FINER) if theta else (1.0,):
@@ -274,7 +274,13 @@ class Encoder:
     def _prepared(self) -> Prepared:
         options = self.options
         parts = Parts(options.block_size, options.overlap, options.partition == "metis")
-        return prepare(self._joined.mesh, parts, keep_order=options.keep_order, splits=self._joined.splits)
+        return prepare(
+            self._joined.mesh,
+            parts,
+            keep_order=options.keep_order,
+            splits=self._joined.splits,
+            sections=options.sections_wanted,
+        )
 
     @cached_property
     def _spectral(self) -> Spectral:

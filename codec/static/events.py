@@ -33,22 +33,36 @@ class Changes:
 
 @dataclass(frozen=True, eq=False)
 class ConnectivityEvent:
-    """The faces have arrived, with all that is needed to decode positions.
+    """The faces have arrived, or those of a section, with all that is needed to decode positions.
 
-    Where the stream stores the order that the mesh had, faces and all vertex numbers are in that order.
+    A mesh in several sections has one event for each, in their order: append the faces to those before. No vertex is
+    final before the last of them. Where the stream stores the order that the mesh had, which it does not in sections,
+    faces and all vertex numbers are in that order.
 
     Parameters
     ----------
     faces : int32 array, shape (m, 3)
+        Those that this section adds. They refer to vertices of earlier sections, too.
     vertices : int
-        How many there are: where the stream stores the vertices as they were given, more than were coded.
+        How many there are so far: where the stream stores the vertices as they were given, more than were coded.
     loose : Changes
         Those that no face uses, which are final.
+    section : int
+        From 0.
+    sections : int
+        How many there are in all.
     """
 
     faces: Faces
     vertices: int
     loose: Changes
+    section: int = 0
+    sections: int = 1
+
+    @property
+    def last(self) -> bool:
+        """Whether the mesh has no more faces than have come."""
+        return self.section == self.sections - 1
 
 
 @dataclass(frozen=True, eq=False)

@@ -36,14 +36,15 @@ class Numbering:
     arrangement: Arrangement | None = None
     splits: bool = False
 
-    def event(self, coded: int) -> ConnectivityEvent:
-        """What a user has to know of it, where so many vertices are coded."""
+    def event(self, coded: int, known: int = 0, section: int = 0, sections: int = 1) -> ConnectivityEvent:
+        """What a user has to know of it, where so many vertices are coded, and so many faces are known already."""
         if self.source is None:
             loose = np.zeros(0, np.int32)
         else:
             loose = np.flatnonzero(self.source < 0).astype(np.int32)
         size = coded if self.source is None else len(self.source)
-        return ConnectivityEvent(self.faces, size, Changes(loose, self.loose, np.ones(len(loose), np.bool_)))
+        changes = Changes(loose, self.loose, np.ones(len(loose), np.bool_))
+        return ConnectivityEvent(self.faces[known:], size, changes, section, sections)
 
     def of(self, vertices: Indices) -> Indices:
         """The user's numbers of coded vertices, of all copies of each."""

@@ -6,6 +6,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+from bitstream.container.header import MOST_SECTIONS
 from bitstream.errors import OptionError
 from bitstream.limits import NAMED_LIMITS
 from codec.choices import check_options
@@ -39,6 +40,7 @@ RANGES: dict[str, tuple[float, float]] = {
     "grid_cell": (1e-300, 1e300),
     "detail": (0.0, 64.0),
     "smoothing": (0.0, 64.0),
+    "sections": (1, MOST_SECTIONS),
     "threads": (1, 256),
 }
 
@@ -100,6 +102,9 @@ class EncodeOptions:
     contract : Contract, optional
         What is promised; the encoder finds the cheapest way to keep it. It says nothing where `grid`, `grid_cell`,
         `target` or any of `CODING` is given: who says how to code gets that.
+    quick : bool
+        Of all ways that keep a contract or reach a target only what is quick to decode: positions on a grid, without
+        dictionaries.
     lock_borders : Fit, optional
         With a contract: how well parts fit that are encoded apart.
     grid : int, optional
@@ -116,6 +121,10 @@ class EncodeOptions:
         encoded apart on the same grid fit bit for bit.
     grid_origin : (float, float, float), optional
         Where that grid has a place; None: where the mesh's unit has its zero.
+    sections : int, optional
+        In how many sections the mesh comes where it comes in blocks: each has faces of its own, and blocks that need
+        no faces of later ones, so that something can be drawn before all faces have come. None: two, of large meshes
+        whose surfaces do not meet in single vertices, unless `keep_order`, `bits` or METIS ask for what that excludes.
     limits : str
         Name of the limits of those who will decode: "default", "service" or "wide"; what they would refuse is an error.
     threads : int, optional
@@ -150,12 +159,14 @@ class EncodeOptions:
     doi: tuple[float, float] | None = None
     target: Target | None = None
     contract: Contract | None = BALANCED
+    quick: bool = False
     lock_borders: Fit | None = None
     grid: int | None = None
     attributes: Mapping[str, str] | tuple[tuple[str, str], ...] = ()
     normals: str = "keep"
     grid_cell: float | None = None
     grid_origin: tuple[float, float, float] | None = None
+    sections: int | None = None
     limits: str = "default"
     threads: int | None = None
 
@@ -174,8 +185,13 @@ class EncodeOptions:
             raise OptionError("a grid with a given origin needs the length of its cells, too: grid_cell")
         if self.grid_origin is not None and not all(map(math.isfinite, self.grid_origin)):
             raise OptionError(f"the origin of a grid must be finite, not {self.grid_origin}")
+        if (self.sections or 1) > 1 and (self.keep_order or self.partition == "metis" or self.is_grid):
+            raise OptionError("sections exclude a kept order, the partition of METIS, and positions on a grid")
         if self.is_grid and (self.target is not None or self.says_how):
             raise OptionError("a grid excludes a target, and options that say how blocks are coded")
+
+        if self.quick and self.says_how:
+            raise OptionError("what is quick to decode is on a grid; it excludes options that say how blocks are coded")
 
     @property
     def promise(self) -> Contract | None:
@@ -183,6 +199,12 @@ class EncodeOptions:
         if self.is_grid or self.target is not None or self.says_how:
             return None
         return self.contract
+
+    @property
+    def sections_wanted(self) -> int | None:
+        """In how many sections blocks are to come; None: as many as are worth it."""
+        whole = self.keep_order or self.partition == "metis" or self.bits is not None
+        return 1 if whole and self.sections is None else self.sections
 
     @property
     def grade(self) -> Grade:

@@ -5,25 +5,29 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
+from itertools import pairwise
 
 import numpy as np
 
-from bitstream.connectivity.faces import encode_connectivity
+from bitstream.connectivity.faces import Cut, encode_connectivity
 from bitstream.connectivity.order import encode_arrangement
 from bitstream.connectivity.partition import encode_labels
 from bitstream.container import packets
 from bitstream.container.header import FREE_COPIES, MOST_COPIES
+from bitstream.container.packets import Packet
 from bitstream.container.splits import Splits, encode_splits
 from bitstream.container.wire import write_varint
 from bitstream.errors import OptionError
 from codec.arrays import Faces, Indices, Matrix, Order
 from codec.blocks.overlap import Blocks, block_size, grow_blocks
-from codec.blocks.partition import Partition, derive_partition, metis_partition
+from codec.blocks.partition import Partition, derive_last_parts, derive_partition, metis_partition
 from codec.geometry.graph import Graph, component_sizes, graph_of_faces
 from codec.geometry.mesh import TriangleMesh
 from codec.signal.bandwidth import MeasuredSpectrum
+from codec.static.sections import choose_cuts, possible_cuts
 from codec.static.units import Units, units_of
 
 CONNECTIVITY_METHOD = 1
@@ -41,6 +45,28 @@ SPLITS_METHOD = 2
 
 
 @dataclass(frozen=True, eq=False)
+class Area:
+    """What the blocks of a section are made on.
+
+    Parameters
+    ----------
+    faces : int32 array, shape (m, 3)
+        Of the section and all before it.
+    graph : Graph
+        Of these.
+    first : int
+        Its first vertex; it has all others.
+    partition : Partition
+        Of its own vertices.
+    """
+
+    faces: Faces
+    graph: Graph
+    first: int
+    partition: Partition
+
+
+@dataclass(frozen=True, eq=False)
 class Prepared:
     """A mesh before its positions are coded.
 
@@ -54,6 +80,11 @@ class Prepared:
         How it is cut, should it be.
     units : Units
     connectivity : packets.Connectivity
+        In one piece.
+    cuts : tuple of Cut
+        Between the sections that it comes in where it comes in blocks.
+    pieces : tuple of packets.Connectivity
+        Those of the sections.
     order : tuple of packets.Order
         One, or none.
     coding_order : int64 array, shape (n,)
@@ -73,6 +104,8 @@ class Prepared:
     parts: Parts
     units: Units
     connectivity: packets.Connectivity
+    cuts: tuple[Cut, ...]
+    pieces: tuple[packets.Connectivity, ...]
     order: tuple[packets.Order, ...]
     coding_order: Order
     vertex_order: Order
@@ -114,9 +147,26 @@ class Prepared:
         return self.graph.size >= FEW_VERTICES and self.component_sizes[large].sum() >= 0.9 * self.graph.size
 
     @cached_property
-    def partition(self) -> Partition:
-        """Where blocks come from."""
-        return self.parts.cut(self.graph)
+    def areas(self) -> tuple[Area, ...]:
+        """Where the blocks of each section come from."""
+        if not self.cuts:
+            return (Area(self.mesh.faces, self.graph, 0, self.parts.cut(self.graph)),)
+        faces = [self.mesh.faces[: cut.faces] for cut in self.cuts]
+        graphs = [graph_of_faces(some, cut.vertices) for some, cut in zip(faces, self.cuts, strict=True)]
+        return tuple(
+            Area(some, graph, own.start, derive_last_parts(graph, own.start, self.parts.count(len(own))))
+            for some, graph, own in zip([*faces, self.mesh.faces], [*graphs, self.graph], self._own, strict=True)
+        )
+
+    @property
+    def block_count(self) -> int:
+        """How many blocks there are, of all sections."""
+        return sum(self.parts.count(len(own)) for own in self._own)
+
+    @property
+    def _own(self) -> list[range]:
+        """The vertices of each section."""
+        return [range(*ends) for ends in pairwise((0, *(cut.vertices for cut in self.cuts), self.graph.size))]
 
     @property
     def size(self) -> int:
@@ -127,20 +177,42 @@ class Prepared:
         OptionError
             If blocks of this size would hold more copies of each vertex than a stream may.
         """
-        size, parts, vertices = block_size(self.partition, self.parts.overlap), self.partition.parts, self.graph.size
-        if parts * size > MOST_COPIES * vertices + FREE_COPIES:
-            raise OptionError(f"{parts} blocks of {size} of {vertices} vertices overlap too much; take a smaller one")
+        size, parts = max(block_size(area.partition, self.parts.overlap) for area in self.areas), 0
+        for area in self.areas:
+            parts, vertices = parts + area.partition.parts, area.graph.size
+            if parts * size > MOST_COPIES * vertices + FREE_COPIES:
+                raise OptionError(
+                    f"{parts} blocks of {size} of {vertices} vertices overlap too much; take a smaller one"
+                )
         return size
 
     @cached_property
-    def blocks(self) -> Blocks:
-        """The blocks that the parts grow to."""
-        return grow_blocks(self.graph, self.partition, self.size)
+    def blocks(self) -> tuple[Blocks, ...]:
+        """The blocks that the parts of each section grow to."""
+        return tuple(grow_blocks(area.graph, area.partition, self.size) for area in self.areas)
+
+    @property
+    def sections(self) -> tuple[int, ...]:
+        """What the header says of them: faces and blocks of each but the last."""
+        ends = pairwise((0, *(cut.faces for cut in self.cuts)))
+        pairs = zip((last - first for first, last in ends), self.blocks[:-1], strict=True)
+        return tuple(number for faces, blocks in pairs for number in (faces, blocks.count))
 
     @property
     def before_blocks(self) -> tuple[packets.Connectivity | packets.Partition | packets.Order, ...]:
-        """What the stream holds between header and blocks."""
-        return (self.connectivity, *self.parts.labels(self.graph, self.partition), *self.order)
+        """What the stream holds between header and blocks, those of the first section."""
+        labels = self.parts.labels(self.graph, self.areas[0].partition)
+        return (self.pieces[0], *labels, *self.order)
+
+    def with_blocks(self, blocks: Sequence[packets.Block]) -> tuple[Packet, ...]:
+        """All of the stream behind the header, up to the last block."""
+        body: list[Packet] = [*self.before_blocks]
+        done = self.blocks[0].count
+        body.extend(blocks[:done])
+        for piece, some in zip(self.pieces[1:], self.blocks[1:], strict=True):
+            body.extend((piece, *blocks[done : done + some.count]))
+            done += some.count
+        return tuple(body)
 
     @property
     def before_grid(self) -> tuple[packets.Connectivity | packets.Order, ...]:
@@ -173,11 +245,32 @@ class Parts:
         return (packets.Partition(PARTITION_METHOD, labels),)
 
 
-def prepare(mesh: TriangleMesh, parts: Parts, *, keep_order: bool, splits: Splits | None = None) -> Prepared:
-    """Code the connectivity of a mesh; `splits` are what a mesh whose order is kept needs to become the given one."""
+def prepare(
+    mesh: TriangleMesh, parts: Parts, *, keep_order: bool, splits: Splits | None = None, sections: int | None = 1
+) -> Prepared:
+    """Code the connectivity of a mesh.
+
+    Parameters
+    ----------
+    mesh : TriangleMesh
+    parts : Parts
+    keep_order : bool
+    splits : Splits, optional
+        What a mesh whose order is kept needs to become the given one.
+    sections : int, optional
+        In how many blocks come; None: as many as are worth it.
+
+    Raises
+    ------
+    OptionError
+        If the mesh cannot come in so many sections.
+    """
     used, kept = mesh.without_isolated_vertices()
     dropped = len(mesh.positions) - len(kept)
-    connectivity = encode_connectivity(used.faces, len(kept))
+    vertices = len(kept)
+    connectivity = encode_connectivity(used.faces, vertices, possible_cuts(len(used.faces), vertices, sections))
+    size = len(connectivity.payload)
+    cuts = choose_cuts(connectivity.cuts, vertices, parts.count(vertices), size, sections)
     coding_order = kept[connectivity.vertex_order]
     ordered = TriangleMesh(mesh.positions[coding_order], connectivity.faces)
     order: tuple[packets.Order, ...] = ()
@@ -194,6 +287,8 @@ def prepare(mesh: TriangleMesh, parts: Parts, *, keep_order: bool, splits: Split
         parts=parts,
         units=units_of(ordered),
         connectivity=packets.Connectivity(CONNECTIVITY_METHOD, connectivity.payload),
+        cuts=cuts,
+        pieces=tuple(packets.Connectivity(CONNECTIVITY_METHOD, piece) for piece in connectivity.pieces(cuts)),
         order=order,
         coding_order=coding_order,
         vertex_order=kept if keep_order else coding_order,

@@ -27,7 +27,7 @@ STIFFNESS = 8.0
 
 @dataclass(frozen=True, eq=False)
 class Scheme:
-    """All that both sides know before the first block.
+    """All that both sides know before the first block of a mesh, or of a section of one.
 
     Parameters
     ----------
@@ -37,21 +37,24 @@ class Scheme:
         As it is where a chain begins.
     blend : str
         One of `BLENDS`.
+    first : int
+        Number of the first block in the stream; here, blocks are counted from there.
     """
 
     blocks: Blocks
     rules: ChainRules
     coding: Coding
     blend: str
+    first: int = 0
 
     @property
     def chains(self) -> list[range]:
         """Indices of the blocks of each chain."""
         return self.rules.chains(self.blocks.count)
 
-    def chain_of(self, index: int) -> int:
-        """The chain that a block belongs to."""
-        return index // self.rules.chain_length(self.blocks.count)
+    def chain_of(self, number: int) -> int:
+        """The chain that the block with a number belongs to."""
+        return (number - self.first) // self.rules.chain_length(self.blocks.count)
 
     def weights(self, index: int, block: Block) -> Matrix:
         """Weight of each row of block `index` in the blend."""
@@ -75,10 +78,10 @@ class Scheme:
         }
 
 
-def scheme_of(header: Header, faces: Faces, blocks: Blocks, rounding: Rounding = unchanged) -> Scheme:
-    """What the header says; `faces`, shape (m, 3), as the decoder numbers them."""
+def scheme_of(header: Header, faces: Faces, blocks: Blocks, rounding: Rounding = unchanged, first: int = 0) -> Scheme:
+    """What the header says; `faces`, shape (m, 3), as the decoder numbers them; see `Scheme`."""
     rules = replace(chain_rules(header), rounding=rounding)
-    return Scheme(blocks, rules, coding_of(header, faces), BLENDS[header.blend])
+    return Scheme(blocks, rules, coding_of(header, faces, blocks.graph.size), BLENDS[header.blend], first)
 
 
 def chain_rules(header: Header) -> ChainRules:

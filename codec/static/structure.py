@@ -1,7 +1,7 @@
 """What a decoder gets before positions, from what `codec.static.preamble` prepares.
 
 It comes in packets, in three stages (`codec.static.stages`): `Beginning` waits for the header, `Opened` for the faces,
-`Connected` for labels and order, until something else comes.
+`Connected` for labels and order, until something else comes. A mesh that comes in sections is `Opened` again for each.
 """
 
 from __future__ import annotations
@@ -14,19 +14,20 @@ from typing import Any
 
 import numpy as np
 
-from bitstream.connectivity.faces import decode_connectivity
+from bitstream.connectivity.faces import ConnectivityDecoder
 from bitstream.connectivity.order import decode_arrangement
 from bitstream.connectivity.partition import decode_labels
 from bitstream.container import packets
-from bitstream.container.header import FREE_COPIES, MOST_COPIES, Header
+from bitstream.container.header import FREE_COPIES, MOST_COPIES, Header, Span
 from bitstream.container.splits import decode_splits
 from bitstream.container.wire import Cursor, FrameType
 from bitstream.errors import BsmError, CorruptError, UnsupportedError
 from codec.arrays import Faces
 from codec.blocks.overlap import grow_blocks
-from codec.blocks.partition import Partition, derive_partition, partition_of_labels
+from codec.blocks.partition import Partition, derive_last_parts, partition_of_labels
 from codec.geometry.graph import Graph, graph_of_faces
 from codec.signal.chain import Rounding, unchanged
+from codec.static.assembly import Assembly
 from codec.static.attributes.decoding import Declarations
 from codec.static.events import HeaderEvent, LossEvent, unreadable
 from codec.static.numbering import Numbering
@@ -37,9 +38,9 @@ from codec.static.units import Units
 from codec.static.work import (
     COPY_MEMORY,
     Allowance,
+    MeshMemory,
     labels_cost,
     mesh_cost,
-    mesh_memory,
     order_cost,
     order_memory,
     partition_cost,
@@ -47,37 +48,126 @@ from codec.static.work import (
 
 
 @dataclass(frozen=True, eq=False)
-class Structure:
-    """What a decoder knows before the first block.
+class Section:
+    """What has come of the mesh with one more section; most have but one.
+
+    Parameters
+    ----------
+    number, count : int
+        From 0, and how many there are in all.
+    span : Span
+        Its own faces and blocks.
+    first : int
+        Vertices of the sections before it.
+    faces : int32 array, shape (m, 3)
+        Of this section and all before, as they were coded.
+    graph : Graph
+        Of these faces, on the vertices so far.
+    """
+
+    number: int
+    count: int
+    span: Span
+    first: int
+    faces: Faces
+    graph: Graph
+
+    @property
+    def is_last(self) -> bool:
+        """Whether the mesh is whole."""
+        return self.number == self.count - 1
+
+
+class Growth:
+    """The mesh, section by section, as CONNECTIVITYs come.
 
     Parameters
     ----------
     header : Header
-    faces : int32 array, shape (m, 3)
-        As they were coded.
-    graph : Graph
+    allowance : Allowance
+        Pays for faces and graphs.
+    """
+
+    def __init__(self, header: Header, allowance: Allowance) -> None:
+        self._header = header
+        self._allowance = allowance
+        self._spans = deque(enumerate(header.spans))
+        self._count = len(self._spans)
+        cuts = [span.faces.stop for span in header.spans[:-1]]
+        self._decoder = ConnectivityDecoder(header.vertices, header.faces, allowance.limits, cuts)
+        self._memory = MeshMemory(allowance)
+        self._vertices = 0
+
+    def take(self, packet: packets.Connectivity) -> Section:
+        """The next section.
+
+        Raises
+        ------
+        BsmError
+            See `ConnectivityDecoder.take`; `CorruptError` also where there are too few vertices for blocks.
+        """
+        _check_method("connectivity", packet.method, CONNECTIVITY_METHOD)
+        allowance, received = self._allowance, len(packet.data)
+        known = self._decoder.take(packet.data)
+        number, span = self._spans.popleft()
+        self._check(number, span, known.vertices)
+        first, self._vertices, faces = self._vertices, known.vertices, len(known.faces)
+        self._memory.grow(known.vertices, faces, received)
+        before = (first, span.faces.start)
+        allowance.spend(mesh_cost(known.vertices, faces, received, before), received)
+        graph = graph_of_faces(known.faces, known.vertices)
+        return Section(number, self._count, span, first, known.faces, graph)
+
+    def _check(self, number: int, span: Span, vertices: int) -> None:
+        """Raise `CorruptError` if a section, with which there are so many vertices, has too few for its blocks."""
+        own, rows = vertices - self._vertices, span.blocks.stop * self._header.block_size
+        if own < len(span.blocks):
+            raise CorruptError(f"{len(span.blocks)} blocks in section {number} of {own} vertices")
+        if rows > MOST_COPIES * vertices + FREE_COPIES:
+            raise CorruptError(f"blocks of {rows} rows at section {number}, where there are {vertices} vertices")
+
+
+@dataclass(frozen=True, eq=False)
+class Structure:
+    """What a decoder knows before the first block, of the mesh or of one more section.
+
+    Parameters
+    ----------
+    opened : Opened
+        Where the decoder stood before; takes the next section.
+    section : Section
     numbering : Numbering
     partition : Partition, optional
         That was sent; None: it is derived.
     declarations : Declarations
         Attributes.
-    allowance : Allowance
-        What may still be done.
-    rounding : callable
-        See `ChainRules`.
-    threads : int, optional
-        For what does not go block by block; None: one per core.
     """
 
-    header: Header
-    faces: Faces
-    graph: Graph
+    opened: Opened
+    section: Section
     numbering: Numbering
     partition: Partition | None
     declarations: Declarations
-    allowance: Allowance
-    rounding: Rounding = unchanged
-    threads: int | None = 1
+
+    @property
+    def header(self) -> Header:
+        """What is said of the whole mesh."""
+        return self.opened.header
+
+    @property
+    def faces(self) -> Faces:
+        """As far as they have come, shape (m, 3), as they were coded."""
+        return self.section.faces
+
+    @property
+    def graph(self) -> Graph:
+        """Of these."""
+        return self.section.graph
+
+    @property
+    def allowance(self) -> Allowance:
+        """What may still be done."""
+        return self.opened.body.allowance
 
     @property
     def units(self) -> Units:
@@ -93,16 +183,21 @@ class Structure:
         CorruptError
             If a part is larger than the header allows for a block.
         """
-        header = self.header
-        copies = min(header.blocks * header.block_size, MOST_COPIES * header.vertices + FREE_COPIES)
+        header, section, body = self.header, self.section, self.opened.body
+        blocks = len(section.span.blocks)
+        copies = blocks * min(header.block_size, self.graph.size)
         self.allowance.keep(COPY_MEMORY * copies)
-        self.allowance.spend(partition_cost(self.graph, header.blocks, copies))
-        partition = self.partition or derive_partition(self.graph, header.blocks, self.threads)
+        self.allowance.spend(partition_cost(self.graph, section.first, blocks, copies))
+        partition = self.partition or derive_last_parts(self.graph, section.first, blocks, body.threads)
         largest = int(np.diff(partition.bounds).max())
         if largest > header.block_size:
             raise CorruptError(f"a part of {largest} vertices in blocks of {header.block_size}")
-        blocks = grow_blocks(self.graph, partition, header.block_size)
-        return scheme_of(header, self.faces, blocks, self.rounding)
+        grown = grow_blocks(self.graph, partition, header.block_size)
+        return scheme_of(header, self.faces, grown, body.rounding, section.span.blocks.start)
+
+    def following(self, assembly: Assembly) -> Opened:
+        """What takes the next section, which is added to `assembly`."""
+        return replace(self.opened, before=assembly)
 
 
 @dataclass(frozen=True)
@@ -130,37 +225,31 @@ class Beginning:
             raise unreadable(arrival) if isinstance(arrival, packets.Damaged) else misplaced(arrival)
         self.body.check(arrival)
         queue.append(HeaderEvent(arrival))
-        return Opened(self.body, arrival)
+        return Opened(self.body, arrival, Growth(arrival, self.body.allowance))
 
 
 @dataclass(frozen=True, eq=False)
 class Opened:
-    """The header is known."""
+    """The header is known; or a section has come, and was put together, and there are more."""
 
     body: Body
     header: Header
+    growth: Growth
+    before: Assembly | None = None
 
     def accept(self, arrival: Arrival, queue: deque[Any]) -> Stage[Any]:
         if not isinstance(arrival, packets.Connectivity):
             raise unreadable(arrival) if isinstance(arrival, packets.Damaged) else misplaced(arrival)
-        _check_method("connectivity", arrival.method, CONNECTIVITY_METHOD)
-        header, allowance, received = self.header, self.body.allowance, len(arrival.data)
-        faces = decode_connectivity(arrival.data, header.vertices, header.faces, allowance.limits)
-        allowance.grant(header.vertices)
-        allowance.keep(mesh_memory(header.vertices, header.faces), received)
-        allowance.spend(mesh_cost(header.vertices, header.faces, received), received)
-        graph, declarations = graph_of_faces(faces, header.vertices), Declarations(faces, header.vertices)
-        return Connected(self.body, header, faces, graph, Numbering(faces), declarations)
+        section = self.growth.take(arrival)
+        return Connected(self, section, Numbering(section.faces), Declarations(section.faces, section.graph.size))
 
 
 @dataclass(frozen=True, eq=False)
 class Connected:
     """The faces are known, and what has come of labels, order and attributes; parts are derived unless labels come."""
 
-    body: Body
-    header: Header
-    faces: Faces
-    graph: Graph
+    opened: Opened
+    section: Section
     numbering: Numbering
     declarations: Declarations
     partition: Partition | None = None
@@ -169,12 +258,13 @@ class Connected:
         match arrival:
             case packets.Partition(method, data):
                 _check_method("partition", method, PARTITION_METHOD)
-                self.body.allowance.spend(labels_cost(self.graph, len(data)), len(data))
-                labels = decode_labels(data, self.graph.offsets, self.graph.neighbours, self.header.blocks)
+                graph = self.section.graph
+                self._body.allowance.spend(labels_cost(graph, len(data)), len(data))
+                labels = decode_labels(data, graph.offsets, graph.neighbours, self.opened.header.blocks)
                 return replace(self, partition=partition_of_labels(labels))
             case packets.Order(method, data):
                 return replace(self, numbering=self._numbering(method, data))
-            case packets.Attribute():
+            case packets.Attribute() if self.section.is_last:
                 return self._declared(arrival, queue)
             case packets.Damaged(type=FrameType.BLOCK | FrameType.ATTRIBUTE):
                 queue.append(LossEvent(None, unreadable(arrival)))
@@ -182,43 +272,39 @@ class Connected:
             case packets.Damaged():
                 raise unreadable(arrival)
             case _:
-                structure = Structure(
-                    self.header,
-                    self.faces,
-                    self.graph,
-                    self.numbering,
-                    self.partition,
-                    self.declarations,
-                    self.body.allowance,
-                    self.body.rounding,
-                    self.body.threads,
-                )
-                if not self.body.tolerant:
+                section = self.section
+                structure = Structure(self.opened, section, self.numbering, self.partition, self.declarations)
+                if not self._body.tolerant:
                     for declared in self.declarations.known:
                         self.declarations.rows_of(declared, self.numbering)
-                following = self.body.begin(structure)
-                queue.append(self.numbering.event(self.header.vertices))
+                following = self._body.begin(structure)
+                known = section.span.faces.start
+                queue.append(self.numbering.event(section.graph.size, known, section.number, section.count))
                 return following.accept(arrival, queue)
+
+    @property
+    def _body(self) -> Body:
+        return self.opened.body
 
     def _declared(self, packet: packets.Attribute, queue: deque[Any]) -> Stage[Any]:
         try:
-            return replace(self, declarations=self.declarations.add(packet, self.body.allowance.limits))
+            return replace(self, declarations=self.declarations.add(packet, self._body.allowance.limits))
         except BsmError as error:
-            if not self.body.tolerant:
+            if not self._body.tolerant:
                 raise
             queue.append(LossEvent(None, error))
             return self
 
     def _numbering(self, method: int, data: bytes) -> Numbering:
-        split = method == SPLITS_METHOD and not self.header.gop_frames
+        header, allowance = self.opened.header, self._body.allowance
+        split = method == SPLITS_METHOD and not header.gop_frames
         if not split:
             _check_method("order", method, ORDER_METHOD)
-        header, allowance = self.header, self.body.allowance
         allowance.keep(order_memory(header.vertices, header.faces), len(data))
         allowance.spend(order_cost(header.vertices, header.faces, len(data)), len(data))
         cursor = Cursor(data)
         arrangement = cursor.take(cursor.varint()) if split else data
-        order = decode_arrangement(arrangement, self.faces, header.vertices)
+        order = decode_arrangement(arrangement, self.section.faces, header.vertices)
         source = np.empty(header.vertices, np.int32)
         source[order.vertex_order] = np.arange(len(source), dtype=np.int32)
         if not split:

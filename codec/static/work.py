@@ -32,10 +32,15 @@ FRESH, MOST_FRESH = 2.0, 4e6
 """Of a vertex of the mesh for each chain, in memory that is fresh; beyond some size that costs nothing."""
 
 
-def mesh_cost(vertices: int, faces: int, received: int) -> float:
-    """Of faces and graph; what meets at more vertices than a closed surface has was cut and is sewn together again."""
+def mesh_cost(vertices: int, faces: int, received: int, before: tuple[int, int] = (0, 0)) -> float:
+    """Of faces and graph; what meets at more vertices than a closed surface has was cut and is sewn together again.
+
+    Of the vertices and faces that there were `before`, in earlier sections, there is the graph again.
+    """
     sewn = max(0.0, faces / 2.0 - vertices)
-    return 140.0 * vertices + 85.0 * faces + 700.0 * sewn + 400.0 * received
+    known, connected = before
+    decoded = 100.0 * known + 55.0 * connected
+    return 140.0 * vertices + 85.0 * faces + 700.0 * sewn + 400.0 * received - decoded
 
 
 def order_cost(vertices: int, faces: int, received: int) -> float:
@@ -43,10 +48,10 @@ def order_cost(vertices: int, faces: int, received: int) -> float:
     return 500.0 * vertices + 750.0 * faces + 100.0 * received
 
 
-def partition_cost(graph: Graph, blocks: int, copies: int) -> float:
-    """Of cutting a mesh into so many parts, and of growing these to so many copies of its vertices together."""
-    ends = len(graph.neighbours)
-    return (graph.size + ends) * (4.0 * blocks.bit_length() + 20.0) + 100.0 * blocks + 30.0 * copies
+def partition_cost(graph: Graph, first: int, blocks: int, copies: int) -> float:
+    """Of cutting vertices from `first` on into so many parts, and of growing these to so many copies together."""
+    cut = graph.size - first + len(graph.neighbours) - int(graph.offsets[first])
+    return cut * (4.0 * blocks.bit_length() + 20.0) + 2.0 * graph.size + 100.0 * blocks + 30.0 * copies
 
 
 def labels_cost(graph: Graph, received: int) -> float:
@@ -72,6 +77,11 @@ def chain_cost(vertices: int) -> float:
 def mesh_memory(vertices: int, faces: int) -> float:
     """Bytes of faces, graph, partition and blended positions."""
     return 200.0 * vertices + 60.0 * faces
+
+
+def section_memory(vertices: int, faces: int) -> float:
+    """Bytes of what stays of a section when the next one has come: graph, partition and what is around vertices."""
+    return 60.0 * vertices + 20.0 * faces
 
 
 def order_memory(vertices: int, faces: int) -> float:
@@ -233,3 +243,21 @@ class Allowance:
     def _has_room(self, memory: float) -> bool:
         most = self._limits.memory_for(self._vertices, self._received)
         return self._kept + self._held + memory <= most
+
+
+class MeshMemory:
+    """What is kept of a mesh that comes in sections, or whole; draws on an allowance."""
+
+    def __init__(self, allowance: Allowance) -> None:
+        self._allowance = allowance
+        self._vertices = 0
+        self._kept = self._of_earlier = 0.0
+
+    def grow(self, vertices: int, faces: int, received: int) -> None:
+        """Take note of one more section, with which there are so many; raises as `Allowance.keep`."""
+        self._allowance.grant(vertices - self._vertices)
+        self._vertices = vertices
+        memory = self._of_earlier + mesh_memory(vertices, faces)
+        self._allowance.keep(memory - self._kept, received)
+        self._kept = memory
+        self._of_earlier += section_memory(vertices, faces)

@@ -53,7 +53,23 @@ REFINED: list[Packet] = [
     Refinement(0, 60, 40, b"more"),
     Refinement(1, 0, 100, b"all"),
 ]
-STREAMS = {"static": STATIC, "bare": BARE, "animated": ANIMATED, "grid": GRID, "refined": REFINED}
+SECTIONED: list[Packet] = [
+    replace(SMALL_HEADER, sections=(60, 2)),
+    Connectivity(1, b"some faces"),
+    Metadata({"creator": "test"}),
+    Block(0, 10, b"coefficients"),
+    Block(1, 7, b"more"),
+    Connectivity(1, b"the other faces"),
+    Block(2, 3, b"the rest"),
+]
+STREAMS = {
+    "static": STATIC,
+    "bare": BARE,
+    "animated": ANIMATED,
+    "grid": GRID,
+    "refined": REFINED,
+    "sectioned": SECTIONED,
+}
 
 
 def encoded(name: str) -> bytes:

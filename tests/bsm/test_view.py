@@ -159,6 +159,8 @@ def told_by_python(data: bytes, kind: type[bsm.Decoder | bsm.SequenceDecoder]) -
 
 def essence(event: Any) -> list[Any]:
     match event:
+        case bsm.ConnectivityEvent():
+            return ["connectivity", event.section, event.sections, len(event.faces), event.vertices]
         case bsm.BlockEvent():
             return ["block", event.index, len(event.vertices)]
         case bsm.RefinementEvent():
@@ -177,6 +179,7 @@ DAMAGED = {
     bsm.Decoder: [
         "labels",
         "keys",
+        "sections",
         "details",
         "layers",
         "refined",

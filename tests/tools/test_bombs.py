@@ -22,6 +22,9 @@ REFUSED = {
     "expander": (LimitError, "entangled"),
     "gop-wide": (LimitError, "memory"),
     "sequence-power": (LimitError, "work"),
+    "sections-claimed": (LimitError, "work"),
+    "sections-claimed-wide": (LimitError, "work"),
+    "sections-claimed-most": (CorruptError, "rows at section 0"),
 }
 """How, and what the message is about."""
 
@@ -34,7 +37,9 @@ def test_what_asks_for_too_much_is_refused(name):
     assert about in taken.outcome
 
 
-@pytest.mark.parametrize("name", ["members", "tiny", "copies", "grid-chunks", "layers-chunks", "gop-still"])
+@pytest.mark.parametrize(
+    "name", ["members", "sections-tiny", "tiny", "copies", "grid-chunks", "layers-chunks", "gop-still"]
+)
 def test_what_is_allowed_is_paid_for(name):
     stream = BOMBS[name].make()
     taken, limits = decode_all(stream, "events", Limits()), Limits()

@@ -103,7 +103,7 @@ def decode_all(data: bytes, how: str, limits: Limits) -> Taken:
                     case HeaderEvent(found):
                         size = found.vertices
                     case ConnectivityEvent():
-                        taken.vertices = size
+                        taken.vertices = size if event.last else event.vertices
                     case LossEvent():
                         losses.append(event)
                     case FrameEvent():

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
 from functools import cache
 from typing import Any
 
@@ -22,7 +22,6 @@ from bitstream.connectivity.valence_model import RARE_HEADER, code_rare, make_mo
 from bitstream.container import packets
 from bitstream.container.declaration import AS_CODED, FACE, OTHERWISE, RECOMPUTED, Declaration
 from bitstream.container.gop import GopBody, GopMethod, write_gop_body
-from bitstream.container.header import HEADER_DEFAULTS, HEADER_FIELDS
 from bitstream.container.layout import FRAME_TYPES, WRITERS
 from bitstream.container.maps import write_map
 from bitstream.container.splits import Splits, encode_splits
@@ -36,7 +35,8 @@ from codec.geometry.graph import graph_of_faces
 from codec.sequence.gop import level_references
 from codec.static.attributes.pieces import PieceEncoder
 from codec.static.attributes.surface import surface_of
-from tools.surgery import Frames, frames_of, stream_of
+from tools.sections import in_sections
+from tools.surgery import Frames, frames_of, header_frame, stream_of
 from tools.vectors.meshes import torus
 
 Faces = npt.NDArray[np.int32]
@@ -135,13 +135,7 @@ SHAPES: dict[str, Callable[..., Faces]] = {
 
 def _header(coded: EncodedConnectivity, **fields: Any) -> tuple[int, bytes]:
     """A header frame of any fields, checked by nobody."""
-    values = {"vertices": len(coded.vertex_order), "faces": len(coded.faces)} | fields
-    entries = [
-        (HEADER_FIELDS[name].key, HEADER_FIELDS[name].normalise(value))
-        for name, value in values.items()
-        if name not in HEADER_DEFAULTS or HEADER_DEFAULTS[name] != value
-    ]
-    return FrameType.HEADER, write_map(sorted(entries))
+    return header_frame(**{"vertices": len(coded.vertex_order), "faces": len(coded.faces)} | fields)
 
 
 def _faces(coded: EncodedConnectivity) -> tuple[int, bytes]:
@@ -166,6 +160,34 @@ def _blocky(
     fields = PACKED | {"coefficients": columns} | fields
     count = count if sent is None else sent
     return stream_of([_header(coded, **fields), _faces(coded), *before, *_blocks(count, columns)])
+
+
+def _sectioned(
+    shape: tuple[Any, ...], shares: Sequence[float], counts: Sequence[int], columns: int = 1, **fields: Any
+) -> bytes:
+    """Packed blocks in sections, of which each but the last ends where a share of all vertices is known."""
+    faces = SHAPES[shape[0]](*shape[1:])
+    vertices = int(faces.max()) + 1
+    coded = encode_connectivity(faces, vertices, range(1, len(faces)) if len(faces) < 5000 else _places(len(faces)))
+    wanted = [min(share if share > 1 else share * vertices, vertices - 1) for share in shares]
+    cuts = tuple(next(cut for cut in coded.cuts if cut.vertices >= most) for most in wanted)
+    zeros = write_varint(columns) + pack_coefficients(np.ones(3 * columns, np.int64), 1)
+    given = PACKED | {"coefficients": columns} | fields
+    return stream_of(in_sections(replace(coded, cuts=cuts), counts, lambda section, number: zeros, **given))
+
+
+def _places(faces: int) -> list[int]:
+    """Where a large mesh may be cut: near its beginning and its end, and a thousand times between."""
+    near = 3000
+    return sorted({*range(1, near), *range(near, faces - near, faces // 1000), *range(faces - near, faces)})
+
+
+def _claimed(blocks: int, size: int, **fields: Any) -> bytes:
+    """A section of a thousand vertices, and a header that says that sixteen million are to come."""
+    claims = {"vertices": 1 << 24, "faces": 1 << 25, "blocks": 1 << 17, "block_size": size}
+    frames = frames_of(_sectioned(("torus", 64, 64), [1000], [blocks, 1], **claims | fields))
+    last = max(place for place, (kind, _) in enumerate(frames) if kind == FrameType.CONNECTIVITY)
+    return stream_of(frames[:last])
 
 
 def _scattered(shape: tuple[Any, ...], parts: int) -> tuple[int, bytes]:
@@ -438,6 +460,59 @@ BOMBS: dict[str, Bomb] = {
         lambda: _blocky(("torus", 1024, 1024), blocks=160, block_size=8192, power=2, columns=8),
     ),
     "copies": Bomb("copies of one vertex in every block", lambda: _copies(64, 64)),
+    "sections": Bomb(
+        "a large mesh, eight times almost all of it",
+        lambda: _sectioned(
+            ("torus", 1024, 1024),
+            [(1 << 20) - left for left in range(8, 1, -1)],
+            [160, *[1] * 7],
+            block_size=8192,
+            power=1,
+            key_iterations=1,
+        ),
+    ),
+    "sections-even": Bomb(
+        "eight sections of a large mesh, as many blocks in each",
+        lambda: _sectioned(
+            ("torus", 512, 512), [k / 8 for k in range(1, 8)], [40] * 8, block_size=1200, power=1, key_iterations=1
+        ),
+    ),
+    "sections-tiny": Bomb(
+        "blocks of one vertex in eight sections",
+        lambda: _sectioned(
+            ("torus", 64, 64), [k / 8 for k in range(1, 8)], [500] * 8, block_size=4, power=1, key_iterations=1
+        ),
+    ),
+    "sections-members": Bomb(
+        "blocks that overlap as much as they may in every section",
+        lambda: _sectioned(
+            ("torus", 256, 256),
+            [k / 8 for k in range(1, 8)],
+            [47, *[31] * 7],
+            block_size=4096,
+            power=1,
+            key_iterations=1,
+        ),
+    ),
+    "sections-wheel": Bomb(
+        "smoothing where everything is near everything, in sections",
+        lambda: _sectioned(
+            ("wheels", 2, 20000),
+            [k / 8 for k in range(1, 8)],
+            [200] * 8,
+            block_size=200,
+            smoothing=1.0,
+            power=1,
+            key_iterations=1,
+        ),
+    ),
+    "sections-claimed": Bomb("blocks for a claim", lambda: _claimed(637, 128, power=64, iterations=64)),
+    "sections-claimed-wide": Bomb(
+        "some of all that came, as wide", lambda: _claimed(78, 1000, columns=1000, power=1, key_iterations=1)
+    ),
+    "sections-claimed-most": Bomb(
+        "as many blocks as a claim allows", lambda: _claimed(1000, 2047, power=1, key_iterations=1)
+    ),
     "grid": Bomb("a grid of a million vertices", lambda: _grid(1024, 1024, 1 << 15)),
     "grid-chunks": Bomb("a grid, vertex by vertex", lambda: _grid(100, 100, 1)),
     "layers": Bomb("four layers of three axes", lambda: _layers(512, 512, 1 << 15)),

@@ -133,7 +133,12 @@ def _value(declared: Field, old: object, random: Random) -> object:
         return random.choice(_NUMBERS)
     if declared.type is float:
         return random.choice(_REALS) if random.random() < 0.7 else random.uniform(0, 100)
-    return [random.choice(_REALS) for _ in range(random.choice((declared.lengths[0], 1, 3)))]
+    part = Field(declared.key, declared.item, declared.low, declared.high)
+    if isinstance(old, list) and old and random.random() < 0.7:
+        place, step = random.randrange(len(old)), random.choice((1, 1, 2))
+        other = [_value(part, item, random) for item in old[place : place + step]]
+        return [*old[:place], *random.choice((other, other, [], 2 * other)), *old[place + step :]]
+    return [_value(part, None, random) for _ in range(random.choice((declared.lengths[0], 1, 2, 3)))]
 
 
 def _change_block(frames: Frames, random: Random, mutate: Mutate) -> None:
@@ -145,6 +150,27 @@ def _change_block(frames: Frames, random: Random, mutate: Mutate) -> None:
         numbers = [payload[0], payload[1]] if len(payload) > 1 else [0, 0]
         numbers[random.randrange(2)] = random.choice(_NUMBERS[:-1])
         frames[place] = (kind, write_varint(numbers[0]) + write_varint(numbers[1]) + payload[2:])
+
+
+def _recut(frames: Frames, random: Random, mutate: Mutate) -> None:
+    """Another cut between two pieces of connectivity, or one more piece."""
+    places = [i for i, (kind, _) in enumerate(frames) if kind == FrameType.CONNECTIVITY]
+    if not places:
+        return
+    which = random.randrange(len(places))
+    place = places[which]
+    data = frames[place][1][1:]
+    if which + 1 == len(places):
+        cut = random.randrange(len(data) + 1)
+        behind = random.randrange(place + 1, len(frames) + 1)
+        frames[place] = (FrameType.CONNECTIVITY, b"\x01" + data[:cut])
+        frames.insert(behind, (FrameType.CONNECTIVITY, b"\x01" + data[cut:]))
+        return
+    other = places[which + 1]
+    whole, cut = data + frames[other][1][1:], len(data) + random.choice((-4, -1, 1, 1, 3, 4, 5, 9))
+    cut = min(max(cut, 0), len(whole))
+    frames[place] = (FrameType.CONNECTIVITY, b"\x01" + whole[:cut])
+    frames[other] = (FrameType.CONNECTIVITY, b"\x01" + whole[cut:])
 
 
 def _move(frames: Frames, random: Random, mutate: Mutate) -> None:
@@ -167,4 +193,5 @@ def _move(frames: Frames, random: Random, mutate: Mutate) -> None:
 _STEPS = (
     *(_change_payload, _change_coded, _change_coded, _change_header, _change_header, _change_block, _move),
     _change_declaration,
+    _recut,
 )

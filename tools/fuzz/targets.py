@@ -14,7 +14,7 @@ from bitstream.attributes.values import Kind, ValueDecoder
 from bitstream.coefficients.adaptive import CoefficientModel, decode_blocks, decode_coefficients, decode_layers
 from bitstream.coefficients.matrices import decode_levels, make_level_bank
 from bitstream.coefficients.packed import unpack_coefficients
-from bitstream.connectivity.faces import decode_connectivity
+from bitstream.connectivity.faces import ConnectivityDecoder, decode_connectivity, encode_connectivity
 from bitstream.connectivity.order import decode_arrangement
 from bitstream.connectivity.partition import decode_labels
 from bitstream.connectivity.permutation import decode_permutation, decode_rotations
@@ -125,6 +125,21 @@ def connectivity(data: bytes) -> None:
     _expect(decoded.shape == (faces, 3), "a wrong number of faces")
     _expect(bool((np.bincount(decoded.ravel(), minlength=vertices) > 0).all()), "a vertex without face")
     _expect(len(np.bincount(decoded.ravel())) == vertices, "a vertex beyond the last")
+
+
+def pieces(data: bytes) -> None:
+    """The same in three pieces; the first numbers tell how long the first two are, and how many faces they make."""
+    vertices, faces, first, more, one, two = (int.from_bytes(data[at : at + 2], "little") for at in range(0, 12, 2))
+    cuts = 1 + first % 1000, 2 + first % 1000 + more % 1000
+    ends, begin, before = (*cuts, cuts[1] + 1 + faces % 2000), 12, 0
+    decoder = ConnectivityDecoder(vertices % 2000, ends[-1], LIMITS, cuts)
+    for expected, size in zip(ends, (one, two, len(data)), strict=True):
+        known = decoder.take(data[begin : begin + size])
+        _expect(known.faces.shape == (expected, 3), "a wrong number of faces")
+        _expect(before <= known.vertices, "vertices that vanish")
+        _expect(bool((known.faces < known.vertices).all() and (known.faces >= 0).all()), "vertices out of range")
+        begin, before = begin + size, known.vertices
+    _expect(before == vertices % 2000, "a wrong number of vertices")
 
 
 _FAN = np.array([[0, k, k + 1] for k in range(1, 40)], np.int32)
@@ -276,6 +291,7 @@ TARGETS: dict[str, Target] = {
         coefficient_layers,
         packed,
         connectivity,
+        pieces,
         arrangement,
         permutation,
         labels,
@@ -309,6 +325,8 @@ def seeds(name: str, vectors: Path) -> list[bytes]:
         return _mesh_seeds()
     if name in ("grid", "levels"):
         return _field_seeds(name)
+    if name == "pieces":
+        return _piece_seeds()
     found: list[bytes] = []
     for data in good:
         frames = frames_of(data)
@@ -338,6 +356,22 @@ def _seed(name: str, kind: int, payload: bytes, header: object) -> bytes:
     if name == "gops" and kind == FrameType.GOP:
         return payload[1:]
     return b""
+
+
+def _piece_seeds() -> list[bytes]:
+    from tools.vectors.good_sections import crowded, uneven
+    from tools.vectors.meshes import torus
+
+    found = []
+    for faces in (crowded(), uneven(), torus(12, 10).faces):
+        vertices = int(faces.max()) + 1
+        for first, more in ((1, 1), (5, 30), (60, 20)):
+            coded = encode_connectivity(faces, vertices, (first, first + more))
+            parts = coded.pieces(coded.cuts)
+            left = len(faces) - first - more
+            numbers = (vertices, left - 1, first - 1, more - 1, len(parts[0]), len(parts[1]))
+            found.append(b"".join(number.to_bytes(2, "little") for number in numbers) + b"".join(parts))
+    return found
 
 
 def _field_seeds(name: str) -> list[bytes]:

@@ -65,8 +65,9 @@ def _by_events(
             while (event := decoder.next_event()) is not NEED_DATA and event is not END_OF_STREAM:
                 match event:
                     case ConnectivityEvent():
-                        faces, vertices = event.faces, event.vertices
-                        positions = [np.full((event.vertices, 3), np.nan)]
+                        faces = np.concatenate([faces, event.faces])
+                        more = np.full((event.vertices - vertices, 3), np.nan)
+                        positions, vertices = [np.concatenate([*positions, more])], event.vertices
                         positions[0][event.loose.vertices] = event.loose.positions
                     case BlockEvent() | RefinementEvent():
                         positions[0][event.vertices] = event.positions

@@ -19,6 +19,7 @@ from codec.static.options import PRESETS, EncodeOptions
 from codec.static.quality.targets import Target
 from tools.fuzz.mutate import mutate_stream
 from tools.fuzz.sweep import mutate
+from tools.sections import random_sections
 from tools.vectors.meshes import hub, patch, shuffled, tangled, tetrahedron, together, torus, triangle
 from tools.vectors.store import FOLDER
 
@@ -28,6 +29,8 @@ ATTRIBUTES = 0.25
 """Share of meshes that have one, and of those that have another."""
 SEQUENCES = 0.25
 """Share of sequences among random streams."""
+SECTIONS = 0.25
+"""Share of meshes that are to come in sections."""
 
 
 def vector_seeds() -> list[bytes]:
@@ -52,6 +55,11 @@ def random_stream(random: Random) -> bytes:
     if random.random() < SEQUENCES:
         return _sequence(random)
     return encode(random_mesh(random), _static_options(random))
+
+
+def unencoded_stream(random: Random) -> bytes | None:
+    """A mesh in sections that no encoder would choose, some of them illegal; None where the mesh cannot be cut."""
+    return random_sections(random, random_mesh(random))
 
 
 def random_mesh(random: Random) -> TriangleMesh:
@@ -163,6 +171,8 @@ def _static_options(random: Random) -> EncodeOptions:
         given["doi"] = (5e-4, 2e-3)
     else:
         given["step"] = 2.0 ** -random.randrange(3, 16)
+    if random.random() < SECTIONS:
+        given["sections"] = random.choice((2, 2, 3, 8))
     return EncodeOptions(**{**_some(random, _static_choices(random), 0.15), **given})
 
 

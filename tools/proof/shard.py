@@ -31,7 +31,7 @@ from bsm.steadiness import check_steadiness
 from tools.fuzz.targets import LIMITS
 from tools.proof.decoding import piecewise, whole
 from tools.proof.encodes import random_streams, stored
-from tools.proof.inputs import mutant, random_stream, vector_seeds
+from tools.proof.inputs import mutant, random_stream, unencoded_stream, vector_seeds
 from tools.proof.places import Place, environments, processors
 from tools.proof.tally import Outcome, Tally
 from tools.vectors.__main__ import try_product
@@ -85,7 +85,8 @@ class Shard:
 
     def seeds(self) -> list[bytes]:
         """The vectors, and a few streams that are like none of them."""
-        return vector_seeds() + [stream for stream in (self.fresh() for _ in range(FRESH)) if stream]
+        fresh = [self.fresh() for _ in range(FRESH)] + [unencoded_stream(self.random) for _ in range(FRESH)]
+        return vector_seeds() + [stream for stream in fresh if stream]
 
     def fresh(self) -> bytes | None:
         """A random stream, or None if the encoder refused."""
@@ -130,7 +131,12 @@ def differential(shard: Shard, number: int, size: int) -> None:
     """Mutants and random streams by this project's decoder and the reference decoder."""
     seeds = shard.seeds()
     for k in range(size):
-        stream = (shard.fresh() or seeds[0]) if k % 10 == 0 else mutant(shard.random, seeds)
+        if k % 10 == 0:
+            stream = shard.fresh() or seeds[0]
+        elif k % 10 == 5:
+            stream = unencoded_stream(shard.random) or seeds[0]
+        else:
+            stream = mutant(shard.random, seeds)
         with shard.watching(stream):
             ours = whole(stream, PATIENT)
         if isinstance(ours, LimitError):

@@ -196,7 +196,8 @@ def with_attributes(
     draft: Draft, prepared: Prepared, carried: tuple[Carried, ...], metadata: Metadata, *, still: bool = True
 ) -> Draft:
     """A draft that carries attributes and metadata, too; where it is not still, none of them leans on positions."""
-    before = sum(isinstance(packet, packets.Connectivity | packets.Partition | packets.Order) for packet in draft.body)
+    shape = packets.Connectivity | packets.Partition | packets.Order
+    before = 1 + max(place for place, packet in enumerate(draft.body) if isinstance(packet, shape))
     head, body = draft.body[:before], draft.body[before:]
     told: tuple[Packet, ...] = (packets.Metadata(dict(metadata)),) if metadata else ()
     declared: list[Packet] = []

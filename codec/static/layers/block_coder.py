@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -69,7 +69,9 @@ class ChainEncoder:
         self._spend(work)
 
     def encode(self, index: int, positions: Matrix) -> CodedBlock:
-        """Encode the chain's next block; `positions`, shape (n, 3), are the whole mesh's, in BSM units."""
+        """Encode the chain's next block, by its index in the scheme; `positions`, shape (n, 3), are those of all
+        vertices, in BSM units.
+        """
         scheme, chain, coding = self._scheme, self._chain, self._coding
         block = scheme.blocks.block(index)
         around = chain.around(block)
@@ -84,8 +86,9 @@ class ChainEncoder:
             + self._work_of(index, around, levels)
         )
         chain.commit(block, np.ascontiguousarray(dictionary[:, : levels.width]), decoded)
-        packet = packets.Block(index, len(levels.coordinates), coding.write(levels))
-        result = DecodedBlock(index, block.vertices, decoded, scheme.weights(index, block))
+        number = scheme.first + index
+        packet = packets.Block(number, len(levels.coordinates), coding.write(levels))
+        result = DecodedBlock(number, block.vertices, decoded, scheme.weights(index, block))
         return CodedBlock(packet, result, work, block_memory(around.laplacian, levels.width))
 
     def _work_of(self, index: int, around: Surroundings, levels: BlockLevels) -> float:
@@ -105,7 +108,7 @@ class ChainDecoder:
         self.number = number
         self._scheme = scheme
         self._allowance = allowance
-        self._next = number * scheme.rules.chain_length(scheme.blocks.count)
+        self._next = scheme.first + number * scheme.rules.chain_length(scheme.blocks.count)
 
     # Made by the first block that is decoded: chains may wait for their turn in any number.
 
@@ -133,10 +136,11 @@ class ChainDecoder:
 
     def _decode(self, packet: packets.Block) -> DecodedBlock:
         scheme, allowance, received = self._scheme, self._allowance, len(packet.data) + FRAME
-        rows, edges = scheme.blocks.size_of(packet.index), scheme.blocks.edges_of(packet.index)
+        index = packet.index - scheme.first
+        rows, edges = scheme.blocks.size_of(index), scheme.blocks.edges_of(index)
         allowance.spend(block_cost(rows, edges, 3 * (packet.coefficients + scheme.coding.detail_rows)), received)
         chain, coding = self._chain, self._coding
-        block = scheme.blocks.block(packet.index)
+        block = scheme.blocks.block(index)
         if not 1 <= packet.coefficients <= block.size:
             raise CorruptError(f"{packet.coefficients} coefficients for a block of {block.size} vertices")
         levels = coding.read(packet.data, packet.coefficients, block.size)
@@ -149,11 +153,11 @@ class ChainDecoder:
             chain.commit(block, dictionary, decoded)
         if not np.isfinite(decoded).all():
             raise NumericError("the coefficients reconstruct to positions that are not finite")
-        return DecodedBlock(packet.index, block.vertices, decoded, scheme.weights(packet.index, block))
+        return DecodedBlock(packet.index, block.vertices, decoded, scheme.weights(index, block))
 
 
 def encode_blocks(
-    scheme: Scheme,
+    schemes: Sequence[Scheme],
     positions: Matrix,
     *,
     threads: int | None,
@@ -165,7 +169,9 @@ def encode_blocks(
 
     Parameters
     ----------
-    scheme, doi, spend
+    schemes : sequence of Scheme
+        One for each section.
+    doi, spend
         See `ChainEncoder`.
     positions : float64 array, shape (n, 3)
     threads : int, optional
@@ -174,13 +180,16 @@ def encode_blocks(
         Told the number of blocks done and of all blocks.
     """
 
-    def encode_chain(indices: range) -> list[CodedBlock]:
+    def encode_chain(place: tuple[Scheme, range]) -> list[CodedBlock]:
+        scheme, indices = place
         chain = ChainEncoder(scheme, doi, spend)
         return [chain.encode(index, positions) for index in indices]
 
     coded: list[CodedBlock] = []
-    for chain in ordered_map(encode_chain, scheme.chains, threads):
+    blocks = sum(scheme.blocks.count for scheme in schemes)
+    places = [(scheme, indices) for scheme in schemes for indices in scheme.chains]
+    for chain in ordered_map(encode_chain, places, threads):
         coded.extend(chain)
         if progress:
-            progress(len(coded), scheme.blocks.count)
+            progress(len(coded), blocks)
     return coded

@@ -274,14 +274,14 @@ class Layered:
         return min(details.size, self.details, size)
 
 
-def coding_of(header: Header, faces: Faces) -> Coding:
-    """The way in which a stream's blocks are coded; `faces`, shape (m, 3), numbered as the decoder numbers them."""
+def coding_of(header: Header, faces: Faces, size: int) -> Coding:
+    """The way in which a stream's blocks are coded; `faces`, shape (m, 3), on `size` vertices, as they are coded."""
     if header.coding == 0:
         return Packed(header.coefficients, header.bits, header.step, header.coarser)
     base = Adaptive(header.coefficients, header.step)
     if not header.details:
         return base
-    return Layered(base, header.details, header.detail_step, make_surface(faces, header.vertices))
+    return Layered(base, header.details, header.detail_step, make_surface(faces, size))
 
 
 def detail_rows(details: int) -> int:

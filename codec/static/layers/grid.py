@@ -25,7 +25,7 @@ from codec.static.stages import Arrival, Stage, misplaced
 from codec.static.structure import Structure
 from codec.static.work import field_cost, grid_chunk_cost, grid_memory
 
-FIRST, CHUNK = 1 << 12, 1 << 15
+FIRST, CHUNK = 1 << 12, 1 << 13
 """Vertices of the first frame, and of each that follows: large meshes are seen while they arrive, from early on."""
 
 

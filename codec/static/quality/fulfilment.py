@@ -140,7 +140,7 @@ class Fulfilment:
     @contextmanager
     def _told(self) -> Iterator[None]:
         """Tell of a trial as of all blocks once more."""
-        blocks = self._prepared.parts.count(self._prepared.graph.size)
+        blocks = self._prepared.block_count
         if self._progress:
             self._progress(0, blocks)
         yield
@@ -151,6 +151,8 @@ class Fulfilment:
 
     def _blocks_may_win(self) -> bool:
         """Whether most of what is worth coding is at low frequencies; or only blocks can be fine at borders."""
+        if self._options.quick:
+            return False
         if self._contract.angle >= ANY_ANGLE and self._reach < FINE_REACH:
             return False
         if self._borders.vertices.any():

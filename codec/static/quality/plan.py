@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from functools import cached_property
 
 import numpy as np
 
 from bitstream.errors import OptionError
 from codec.arrays import Faces, Indices, Matrix
+from codec.blocks.overlap import Blocks
 from codec.geometry.metrics import Reference
 from codec.signal.bandwidth import MeasuredSpectrum
 from codec.signal.chain import Chain, ChainRules, even_interval
@@ -54,8 +56,8 @@ class Planner:
         self._options = options
         self._widest = max(1, int(widest * prepared.size))
 
-    def scheme(self, step: float) -> Scheme:
-        """How blocks are coded at a step.
+    def schemes(self, step: float) -> list[Scheme]:
+        """How the blocks of each section are coded at a step.
 
         Raises
         ------
@@ -63,8 +65,17 @@ class Planner:
             If the step is too fine for levels to hold.
         """
         rules = self._rules()
-        coding = self._coding(step) if self._options.bits is None else self._packed(self._options.bits, rules)
-        return Scheme(self._prepared.blocks, rules, coding, self._options.blend)
+        bits, prepared = self._options.bits, self._prepared
+        if bits is None:
+            codings = self._codings(step)
+        else:
+            codings = [self._packed(bits, rules)] * len(prepared.blocks)
+        schemes: list[Scheme] = []
+        first = 0
+        for blocks, coding in zip(prepared.blocks, codings, strict=True):
+            schemes.append(Scheme(blocks, rules, coding, self._options.blend, first))
+            first += blocks.count
+        return schemes
 
     def is_flat(self, step: float, share: float) -> bool:
         """Whether as large a share of all frequencies, or a larger one, is worth coding at a step."""
@@ -90,7 +101,7 @@ class Planner:
             exact=options.basis == "svd",
             exact_keys=options.exact_keys,
             independent=options.seed == "independent",
-            key_interval=even_interval(options.key_interval, self._prepared.blocks.count),
+            key_interval=max(even_interval(options.key_interval, blocks.count) for blocks in self._prepared.blocks),
             power=options.power,
             iterations=options.iterations,
             key_iterations=options.key_iterations,
@@ -98,15 +109,16 @@ class Planner:
             stiffness=STIFFNESS if predicted else None,
         )
 
-    def _coding(self, step: float) -> Coding:
+    def _codings(self, step: float) -> Sequence[Coding]:
+        """Of each section."""
         size, ratio = self._prepared.size, self._options.detail_ratio
         if step < smallest_step(size):
             raise OptionError(f"step = {step:g} is too fine for blocks of {size}, try {smallest_step(size):.1e}")
         if not ratio:
-            return Adaptive(self._width(step), single(step))
+            return [Adaptive(self._width(step), single(step))] * len(self._prepared.areas)
         details = self._spectrum.worthwhile_size(DETAIL_REACH * step, self._widest)
         base = Adaptive(self._width(BASE_REACH * step), single(step * ratio))
-        return Layered(base, details, single(step), self._surface)
+        return [Layered(base, details, single(step), surface) for surface in self._surfaces]
 
     def _width(self, step: float) -> int:
         """c: what the options say, or as many coefficients as are worth coding at this step."""
@@ -119,12 +131,13 @@ class Planner:
 
     def _packed(self, bits: int, rules: ChainRules) -> Packed:
         """With the step that makes the most of a fixed number of bits: it takes a pass over all blocks."""
-        blocks, positions, size = self._prepared.blocks, self._prepared.positions, self._prepared.size
+        sections, positions, size = self._prepared.blocks, self._prepared.positions, self._prepared.size
         spend = patience(self._options.limits, len(positions))
         width = min(self._options.coefficients or max(1, round((self._options.keep or PAPER_FRACTION) * size)), size)
 
-        def largest(indices: range) -> Matrix:
-            """Largest coefficient in the first row of any block, and in all others."""
+        def largest(place: tuple[Blocks, range]) -> Matrix:
+            """Largest coefficient in the first row of any block of a chain, and in all others."""
+            blocks, indices = place
             chain, found = Chain(rules, blocks.graph, spend), np.zeros(2)
             for index in indices:
                 block = blocks.block(index)
@@ -134,8 +147,8 @@ class Planner:
                 found = np.maximum(found, [coefficients[:1].max(), coefficients[1:].max(initial=0.0)])
             return found
 
-        chains = ordered_map(largest, rules.chains(blocks.count), self._options.threads)
-        first, others = np.max(list(chains), axis=0)
+        places = [(blocks, indices) for blocks in sections for indices in rules.chains(blocks.count)]
+        first, others = np.max(list(ordered_map(largest, places, self._options.threads)), axis=0)
         return Packed(width, bits, *packed_range(first, others, bits))
 
     @property
@@ -143,8 +156,8 @@ class Planner:
         return self._prepared.spectrum(self._options.shift)
 
     @cached_property
-    def _surface(self) -> Surface:
-        return make_surface(self._prepared.mesh.faces, len(self._prepared.positions))
+    def _surfaces(self) -> tuple[Surface, ...]:
+        return tuple(make_surface(area.faces, area.graph.size) for area in self._prepared.areas)
 
     @cached_property
     def _sample(self) -> tuple[Indices, Reference]:

@@ -152,9 +152,9 @@ class Spectral:
             If decoders with the options' limits would refuse these blocks.
         """
         prepared, options = self._prepared, self._options
-        scheme = self._planner.scheme(step)
+        schemes = self._planner.schemes(step)
         blocks = encode_blocks(
-            scheme,
+            schemes,
             prepared.positions,
             threads=options.threads,
             doi=options.doi,
@@ -164,6 +164,7 @@ class Spectral:
         admit(Allowance(NAMED_LIMITS[options.limits]()), prepared, blocks)
         positions = blended(prepared.graph.size, (block.decoded for block in blocks))
         smoothing = options.fixed_smoothing
+        fields = schemes[0].fields() | {"blocks": len(blocks), "sections": prepared.sections}
         header = Header(
             vertices=prepared.graph.size,
             faces=len(prepared.mesh.faces),
@@ -172,8 +173,8 @@ class Spectral:
             center=prepared.units.center,
             scale=prepared.units.scale,
             smoothing=self._planner.smoothing(positions) if smoothing is None else single(smoothing),
-            **scheme.fields(),
+            **fields,
         )
         decoded = smooth(prepared.graph, positions, header.smoothing)
-        body = (*prepared.before_blocks, *(block.packet for block in blocks))
+        body = prepared.with_blocks([block.packet for block in blocks])
         return Base(prepared, Draft(header, body, prepared.units.back(decoded)), np.ascontiguousarray(decoded))

@@ -53,7 +53,7 @@ def legal_value(name):
     return st.lists(number, min_size=least, max_size=most).map(tuple)
 
 
-NOT_ALONE = ("blocks", "block_size", "coefficients", "grid", "lattice", "refinements", "borders", "corner")
+NOT_ALONE = ("blocks", "block_size", "coefficients", "grid", "lattice", "refinements", "borders", "corner", "sections")
 
 
 @given(st.fixed_dictionaries({}, optional={n: legal_value(n) for n in HEADER_DEFAULTS if n not in NOT_ALONE}))
@@ -84,6 +84,40 @@ def test_layers_round_trip(layers):
     assert [layer.axes for layer in header.layers] == [3 if ratio else 1 for _, ratio in layers]
 
 
+@given(st.lists(st.tuples(st.integers(1, 27), st.integers(1, 3)), max_size=7))
+def test_sections_round_trip(pairs):
+    header = replace(SMALL_HEADER, blocks=30, sections=tuple(x for pair in pairs for x in pair))
+    assert parse(write_header(header)) == header
+    assert [(len(span.faces), len(span.blocks)) for span in header.spans[:-1]] == pairs
+    assert [face for span in header.spans for face in span.faces] == list(range(header.faces))
+    assert [block for span in header.spans for block in span.blocks] == list(range(header.blocks))
+
+
+def test_known_bytes_of_sections():
+    # 41: [60, 2]
+    assert write_header(replace(SMALL_HEADER, sections=(60, 2))).hex() == "86016402ccbe0303043c050a29923c02"
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {"sections": (60,)},
+        {"sections": (60, 2, 60)},
+        {"sections": (0, 1)},
+        {"sections": (60, 0)},
+        {"sections": (190, 1)},
+        {"sections": (100, 1, 90, 1)},
+        {"sections": (60, 3)},
+        {"sections": (60, 1, 60, 2)},
+        {"sections": (1, 1) * 8, "blocks": 20},
+        {"sections": (60, 1), "gop_frames": 1},
+    ],
+)
+def test_contradictions_of_sections(changes):
+    with pytest.raises(OptionError):
+        replace(SMALL_HEADER, **changes)
+
+
 @pytest.mark.parametrize(
     "changes",
     [
@@ -100,6 +134,7 @@ def test_layers_round_trip(layers):
         {"smoothing": 1.0},
         {"gop_frames": 1},
         {"refinements": (0.5, 0.0)},
+        {"sections": (60, 1)},
     ],
 )
 def test_contradictions_of_a_grid(changes):

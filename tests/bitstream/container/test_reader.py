@@ -8,7 +8,20 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from bitstream.container import wire
-from bitstream.container.packets import Block, Connectivity, End, Gop, Grid, Metadata, Order, Partition, Refinement
+from bitstream.container.declaration import Declaration
+from bitstream.container.packets import (
+    Attribute,
+    Block,
+    Connectivity,
+    End,
+    Gop,
+    Grid,
+    Metadata,
+    Order,
+    Partition,
+    Refinement,
+    Values,
+)
 from bitstream.container.reader import END_OF_STREAM, NEED_DATA, Reader
 from bitstream.container.wire import write_frame, write_preamble, write_varint
 from bitstream.container.writer import Writer, write_stream
@@ -27,6 +40,7 @@ from tests.bitstream.streams import (
     BARE,
     GRID,
     REFINED,
+    SECTIONED,
     SMALL_HEADER,
     STATIC,
     STREAMS,
@@ -211,7 +225,11 @@ def test_limits_of_the_header():
 
 
 HEADER, CONNECTIVITY, PARTITION, ORDER = SMALL_HEADER, Connectivity(0, b""), Partition(0, b""), Order(0, b"")
-META, B0, B1 = Metadata({}), Block(0, 1, b""), Block(1, 1, b"")
+META, B0, B1, B2 = Metadata({}), Block(0, 1, b""), Block(1, 1, b""), Block(2, 1, b"")
+COLOUR = Attribute(0, Declaration(name="colour", rows=100, largest=(255,)), b"")
+COLOURS = Values(0, 0, 100, b"")
+SECTIONS = SECTIONED[0]
+COLOURED = replace(SECTIONED[0], attributes=1)
 ILLEGAL = [
     [],
     [META],
@@ -250,6 +268,27 @@ ILLEGAL = [
     [REFINED[0], CONNECTIVITY, Refinement(0, 0, 0, b"")],
     [REFINED[0], CONNECTIVITY, Refinement(1, 0, 100, b""), Refinement(0, 0, 100, b"")],
     [REFINED[0], CONNECTIVITY, Refinement(0, 0, 50, b""), Refinement(1, 50, 50, b"")],
+    [SECTIONS, CONNECTIVITY],
+    [SECTIONS, CONNECTIVITY, B0, B1],
+    [SECTIONS, CONNECTIVITY, CONNECTIVITY],
+    [SECTIONS, CONNECTIVITY, CONNECTIVITY, B0, B1, B2],
+    [SECTIONS, CONNECTIVITY, B0, CONNECTIVITY, B2],
+    [SECTIONS, CONNECTIVITY, B0, CONNECTIVITY, B1, B2],
+    [SECTIONS, CONNECTIVITY, B0, B1, B2],
+    [SECTIONS, CONNECTIVITY, B0, B2, CONNECTIVITY],
+    [SECTIONS, CONNECTIVITY, B0, B1, CONNECTIVITY, CONNECTIVITY, B2],
+    [SECTIONS, CONNECTIVITY, B0, B1, CONNECTIVITY, B2, CONNECTIVITY],
+    [SECTIONS, CONNECTIVITY, B0, B1, CONNECTIVITY, META, B2],
+    [SECTIONS, CONNECTIVITY, ORDER, B0, B1, CONNECTIVITY, B2],
+    [SECTIONS, CONNECTIVITY, PARTITION, B0, B1, CONNECTIVITY, B2],
+    [SECTIONS, CONNECTIVITY, B0, B1, CONNECTIVITY, ORDER, B2],
+    [SECTIONS, CONNECTIVITY, B0, B1, CONNECTIVITY, PARTITION, B2],
+    [SECTIONS, CONNECTIVITY, B0, B1, CONNECTIVITY, B2, Gop(0, b"")],
+    [COLOURED, CONNECTIVITY, COLOUR, B0, B1, CONNECTIVITY, B2, COLOURS],
+    [COLOURED, CONNECTIVITY, B0, B1, COLOUR, CONNECTIVITY, B2, COLOURS],
+    [COLOURED, CONNECTIVITY, B0, B1, CONNECTIVITY, B2, COLOUR, COLOURS],
+    [COLOURED, CONNECTIVITY, B0, B1, CONNECTIVITY, B2],
+    [replace(SECTIONS, refinements=(0.5, 1.0)), CONNECTIVITY, B0, B1, Refinement(0, 0, 100, b""), CONNECTIVITY, B2],
 ]
 LEGAL = [
     [GRID[0], CONNECTIVITY, META, ORDER, Grid(0, 1, b""), Grid(1, 99, b"")],
@@ -257,6 +296,12 @@ LEGAL = [
     [REFINED[0], CONNECTIVITY, B0, Refinement(0, 0, 3, b"")],
     [REFINED[0], CONNECTIVITY, B0, Refinement(0, 0, 3, b""), Refinement(0, 3, 2, b""), Refinement(1, 0, 3, b"")],
     [REFINED[0], CONNECTIVITY, Refinement(1, 0, 100, b"")],
+    [SECTIONS, META, CONNECTIVITY, B1, CONNECTIVITY, B2],
+    [SECTIONS, CONNECTIVITY, B0, B1, CONNECTIVITY],
+    [SECTIONS, CONNECTIVITY, META, B0, B1, CONNECTIVITY, B2],
+    [replace(SECTIONS, sections=(60, 1, 60, 1)), CONNECTIVITY, B0, CONNECTIVITY, B1, CONNECTIVITY, B2],
+    [COLOURED, CONNECTIVITY, META, B0, B1, CONNECTIVITY, COLOUR, B2, COLOURS],
+    [replace(SECTIONS, refinements=(0.5, 1.0)), CONNECTIVITY, B1, CONNECTIVITY, B2, Refinement(0, 0, 100, b"")],
 ]
 UNANNOUNCED = [
     [HEADER, CONNECTIVITY, Grid(0, 100, b"")],

@@ -79,6 +79,28 @@ def test_any_bounds_are_kept(seed: int, farthest: float, angle: float) -> None:
     assert got[1] <= angle + 1e-9
 
 
+@pytest.mark.parametrize("preset", ["small", "balanced", "fine", "near-lossless"])
+@pytest.mark.parametrize("mesh", [torus(80, 40), noisy(torus(80, 40), 0.002)], ids=["torus", "noise"])
+def test_what_is_quick_to_decode_is_on_a_grid_and_as_good(mesh: TriangleMesh, preset: str) -> None:
+    contract = PRESETS[preset].contract
+    assert contract is not None
+    encoder = Encoder(mesh, replace(PRESETS[preset], quick=True))
+    assert encoder.draft().header.grid
+    farthest, angle = kept(encoder, encoder.encode())
+    assert farthest <= contract.farthest * (1 + 1e-9)
+    assert angle <= contract.angle + 1e-9
+
+
+def test_the_smallest_is_in_blocks_where_nothing_is_said() -> None:
+    assert not Encoder(torus(80, 40)).draft().header.grid
+
+
+@pytest.mark.parametrize("option", [{"step": 0.01}, {"bits": 12}, {"keep": 0.1}])
+def test_quick_decoding_excludes_options_of_blocks(option: dict[str, float]) -> None:
+    with pytest.raises(OptionError, match="quick"):
+        EncodeOptions(quick=True, **option)
+
+
 def test_a_bound_in_the_unit_of_the_mesh() -> None:
     mesh = TriangleMesh(torus(40, 24).positions * 100.0, torus(40, 24).faces)
     encoder = Encoder(mesh, EncodeOptions(contract=Contract(0.05, absolute=True)))

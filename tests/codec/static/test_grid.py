@@ -3,12 +3,12 @@
 import pytest
 
 import bsm
-from codec.static.layers.grid import FIRST
+from codec.static.layers.grid import CHUNK, FIRST
 from tests.shapes import torus
 
 
-@pytest.mark.parametrize("rows, sizes", [(40, [960]), (200, [FIRST, 200 * 24 - FIRST])])
-def test_the_first_frame_is_small(rows: int, sizes: list[int]) -> None:
+@pytest.mark.parametrize("rows, sizes", [(40, [960]), (200, [FIRST, 704]), (600, [FIRST, CHUNK, 2112])])
+def test_frames_are_small_the_first_most_of_all(rows: int, sizes: list[int]) -> None:
     decoder, found = bsm.Decoder(), []
     decoder.receive_data(bsm.encode(torus(rows), preset="lossless"))
     while isinstance(event := decoder.next_event(), bsm.HeaderEvent | bsm.ConnectivityEvent | bsm.BlockEvent):

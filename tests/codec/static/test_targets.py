@@ -76,6 +76,15 @@ def test_targets_are_met_by_what_the_decoder_sees(kind, value):
     assert reached[kind] >= slack.get(kind, 0.95 * value)
 
 
+@pytest.mark.parametrize("kind, value", [("theta_deg", 4.0), ("max_error_relative", 0.002), ("size", 2500.0)])
+def test_targets_are_met_by_what_is_quick_to_decode(kind, value):
+    mesh = torus(60, 30)
+    attempt = Encoder(mesh, EncodeOptions(quick=True, target=Target(kind, value))).result()
+    assert attempt.header.grid
+    assert getattr(attempt, kind, None) or getattr(attempt.comparison, kind) <= value
+    assert attempt.size <= (value if kind == "size" else math.inf)
+
+
 def test_an_impossible_size_is_an_error():
     with pytest.raises(TargetError, match="10 bytes at most cannot be reached") as refused:
         Encoder(torus(20, 12), EncodeOptions(target=Target("size", 10))).encode()

@@ -156,7 +156,14 @@ def test_every_preset_is_within_the_limits_of_a_service(preset, spent):
 
 
 @pytest.mark.parametrize(
-    "options", [{"bits": 12}, {"bits": 12, "seed": "independent"}, {"step": 0.002}, {"doi": (1e-4, 1e-2)}]
+    "options",
+    [
+        {"bits": 12},
+        {"bits": 12, "seed": "independent"},
+        {"step": 0.002},
+        {"doi": (1e-4, 1e-2)},
+        {"step": 0.002, "sections": 3},
+    ],
 )
 def test_an_encoder_does_the_sums_of_the_decoder(options, spent):
     encoder = Encoder(torus(60, 50), EncodeOptions(block_size=300, key_interval=3, **options))

@@ -1,25 +1,45 @@
 // Everything that is committed as built, from sources: the kernels by `npm run kernels`, the rest by `npm run build`.
 // `npm run build -- --check` writes nothing and fails if what is committed is not what the sources build.
-import { existsSync, mkdirSync, readFileSync, writeFileSync } from "node:fs";
+import { existsSync, mkdirSync, readdirSync, readFileSync, writeFileSync } from "node:fs";
 import { dirname, join, relative } from "node:path";
 import { build } from "esbuild";
 import { compileKernels, compiler, KERNEL_BUILDS, WEB } from "./kernels.mjs";
 
 const VIEWER = join(WEB, "../../bsm/viewer");
 const SOURCES = join(WEB, "src");
-const OPTIONS = { bundle: true, minify: true, format: "esm", target: "es2022", charset: "utf8", loader: { ".wasm": "binary", ".html": "text" }, legalComments: "none", logLevel: "warning", write: false };
+const OPTIONS = { bundle: true, minify: true, format: "esm", target: "es2022", charset: "utf8", loader: { ".wasm": "binary", ".html": "text" }, tsconfigRaw: { compilerOptions: { useDefineForClassFields: false } }, legalComments: "none", logLevel: "warning", write: false };
 const BUNDLED = ["three", "fzstd"];
+
+/** Puts another module in the place of some, where those are imported by `importers`. */
+const instead = (modules, name, importers = /./) => ({
+    name,
+    setup({ onResolve }) {
+        const filter = new RegExp(`^\\./(${modules.join("|")})$`);
+        onResolve({ filter }, ({ importer }) => (importers.test(importer) ? { path: join(SOURCES, name) } : undefined));
+    },
+});
 
 /**
  * Leaves out what most meshes can do without: sequences, attributes, split vertices, damage, packed coefficients, and
  * decoding while the page does something else.
  */
-const SMALL = {
-    name: "small",
-    setup({ onResolve }) {
-        onResolve({ filter: /^\.\/(sequence|attributes|declaration|splits|station|tolerant|zstd)$/ }, () => ({ path: join(SOURCES, "absent.ts") }));
-    },
-};
+const SMALL = instead(["sequence", "attributes", "declaration", "splits", "station", "tolerant", "zstd"], "absent.ts");
+
+/** Leaves out blocks. */
+const GRIDS = instead(["assembly", "blocks", "chain", "fields", "helper"], "blockless.ts", /(decoder|structure)\.ts$/);
+
+/**
+ * Names of private members, which may be shortened: those by which nothing else is called than a member of `this`, so that
+ * neither the platform, nor who uses the decoder, nor a string can mean the same.
+ */
+function privateNames() {
+    const texts = readdirSync(SOURCES).filter((name) => name.endsWith(".ts")).map((name) => readFileSync(join(SOURCES, name), "utf8"));
+    const code = texts.join("\n").replace(/\/\*[^]*?\*\/|\/\/.*$/gm, "");
+    const names = [...code.matchAll(/(?:private|protected)(?: (?:readonly|override|async|get|set))* (\w+)/g)].map(([, name]) => name);
+    const others = code.replace(/(?:private|protected)(?: \w+)* \w+\??: /g, "");
+    const elsewhere = (name) => new RegExp(`(?<!\\bthis)[.]${name}\\b|\\b${name}\\??: |"${name}"`).test(others);
+    return [...new Set(names)].filter((name) => !elsewhere(name)).sort();
+}
 
 async function bundle(entry, options = {}) {
     const result = await build({ ...OPTIONS, ...options, entryPoints: [entry] });
@@ -28,7 +48,7 @@ async function bundle(entry, options = {}) {
 
 /** The decoder as a module inside of one function, `bsm`, whose text threads are made of. */
 async function decoder(entry, plugins = []) {
-    const text = await bundle(join(SOURCES, entry), { plugins });
+    const text = await bundle(join(SOURCES, entry), { plugins, mangleProps: new RegExp(`^(${privateNames().join("|")})$`) });
     const [exports, list] = /export\{([^}]*)\};\s*$/.exec(text);
     const names = list.split(",").map((item) => item.split(" as ").reverse());
     const given = names.map(([name, own]) => (own ? `${name}:${own}` : name));
@@ -56,6 +76,7 @@ async function products() {
     return [
         [join(WEB, "built/bsm.js"), whole],
         [join(WEB, "built/small.js"), await decoder("small.ts", [SMALL])],
+        [join(WEB, "built/quick.js"), await decoder("quick.ts", [SMALL, GRIDS])],
         [join(WEB, "built/three.js"), await bundle(join(SOURCES, "three.ts"), { external: ["three"], plugins: [using({ path: "./bsm.js" })] })],
         [join(WEB, "built/LICENSES.txt"), `${licences(BUNDLED)}\n`],
         [join(VIEWER, "page.html"), readFileSync(join(SOURCES, "viewer/page.html"), "utf8")],

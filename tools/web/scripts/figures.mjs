@@ -1,4 +1,5 @@
-// What a page fetches and how long it takes, in Chromium, beside our Python and Draco: `npm run figures -- MESHES`.
+// What a page fetches and how long it takes, in Chromium, beside our Python and Draco: `npm run figures -- MESHES`; only
+// the race with Draco: `npm run figures -- MESHES race`.
 // MESHES is a folder with static/bunny_34834.ply and dynamic/samba.npz; PYTHON names a Python that has bsm's packages.
 import { execFileSync, execSync } from "node:child_process";
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
@@ -14,32 +15,47 @@ import { WEB } from "./kernels.mjs";
 const ROOT = join(WEB, "../..");
 const PYTHON = process.env.PYTHON ?? "python3";
 const ROUNDS = 9;
+const PAGES = 5;
+const PRESETS = ["small", "balanced", "fine", "near-lossless", "lossless"];
 const LINK = 10e6;
 const FLAGS = ["--no-sandbox", "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update", "--disable-sync", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"];
 
-/** Encodes, compares, and times the decoder on one thread. */
+/** Encodes what is timed. */
 const PREPARE = `
-import json, sys, time
+import sys
 import numpy as np, bsm
-from bsm.evaluation.draco import encode_draco
-from bsm.viewer.content import DRACO_LEVEL, compared
-from codec.geometry.mesh import TriangleMesh
-meshes, folder = sys.argv[1:]
-PRESETS = ["small", "balanced", "fine", "near-lossless", "lossless"]
+meshes, folder, *presets = sys.argv[1:]
 mesh = bsm.load(f"{meshes}/static/bunny_34834.ply")
-data = bsm.encode(mesh)
-content = compared("bunny", data, mesh)
-open(f"{folder}/bunny.bsm", "wb").write(data)
-for preset in PRESETS:
-    open(f"{folder}/bunny-{preset}.bsm", "wb").write(data if preset == "balanced" else bsm.encode(mesh, preset=preset))
-ordered = TriangleMesh(content.original.astype(float), bsm.decode(data).faces)
-open(f"{folder}/bunny.drc", "wb").write(encode_draco(ordered, content.draco.bits, DRACO_LEVEL))
+for preset in presets:
+    open(f"{folder}/bunny-{preset}.bsm", "wb").write(bsm.encode(mesh, preset=preset))
 with np.load(f"{meshes}/dynamic/samba.npz") as arrays:
     frames = bsm.encode_sequence(arrays["positions"], arrays["faces"], frame_rate=30)
     groups = bsm.encode_sequence(arrays["positions"], arrays["faces"], frame_rate=30, gop=25)
 open(f"{folder}/samba.bsm", "wb").write(frames)
 open(f"{folder}/samba-groups.bsm", "wb").write(groups)
-print(json.dumps({"theta": bsm.compare(mesh, data).theta_deg, "draco": content.draco.theta, "bits": content.draco.bits, "presets": PRESETS}))
+print("null")
+`;
+
+/** Draco's files of a mesh, and streams whose normals are as good. */
+const ENTER = `
+import json, sys
+import bsm
+from bsm.evaluation.draco import decode_draco, encode_draco, positions_in_order
+from bsm.viewer.content import DRACO_LEVEL
+from codec.geometry.mesh import TriangleMesh
+from codec.geometry.metrics import Reference
+meshes, folder = sys.argv[1:]
+mesh = bsm.load(f"{meshes}/static/bunny_34834.ply")
+original, races = TriangleMesh(mesh.positions.astype(float), mesh.faces), []
+reference = Reference(original.positions, original.faces)
+for bits in (9, 10, 11, 12, 14):
+    draco = encode_draco(original, bits, DRACO_LEVEL)
+    theta = reference.theta(positions_in_order(original, decode_draco(draco), bits))
+    runners = {"draco": draco, "smallest": bsm.encode(mesh, theta=theta), "quick": bsm.encode(mesh, theta=theta, quick=True)}
+    for way, stream in runners.items():
+        open(f"{folder}/{way}-{bits}", "wb").write(stream)
+    races.append({"bits": bits, "theta": theta})
+print(json.dumps(races))
 `;
 
 const DECODE = `
@@ -62,6 +78,12 @@ const built = (name) => readFileSync(join(WEB, "built", name));
 const draco = (name) => readFileSync(join(WEB, "node_modules/three/examples/jsm/libs/draco", name));
 const milliseconds = (time) => `${time.toFixed(0)} ms`;
 const smallest = (times) => Math.min(...times);
+
+/** What a server has: contents, files that were built, and an empty page. */
+function compressed(contents, names) {
+    const all = { empty: Buffer.from("<!doctype html><title>empty</title>"), ...Object.fromEntries(names.map((name) => [name, built(name)])), ...contents };
+    return Object.fromEntries(Object.entries(all).map(([name, content]) => [name, brotliCompressSync(content)]));
+}
 
 /** A server of the loopback interface; everything comes compressed, as a page would fetch it. */
 async function serve(files) {
@@ -95,7 +117,7 @@ function decodeInPage(address) {
         return page.evaluate(async ([rounds]) => {
             const { decode, Kernels, Team } = await import("/bsm.js");
             const kernels = await Kernels.compile(await (await fetch("/kernels.wasm")).arrayBuffer());
-            const stream = new Uint8Array(await (await fetch("/bunny.bsm")).arrayBuffer());
+            const stream = new Uint8Array(await (await fetch("/bunny-balanced.bsm")).arrayBuffer());
             const team = new Team();
             const [alone, together] = [[], []];
             for (let k = 0; k < rounds; k++) {
@@ -165,20 +187,52 @@ function fetchInPage(address, script) {
     });
 }
 
-const OURS = `(async () => {
+/** What ends each race: when all had been fetched and when the mesh was there, and the least time of later decodings. */
+const FINISH = `
+    const cold = performance.now() - begin;
+    const fetched = Math.max(...performance.getEntriesByType("resource").map(({ responseEnd }) => responseEnd)) - begin;
+    let warm = Infinity;
+    for (let k = 0; k < 5; k++) {
+        await new Promise((rest) => setTimeout(rest, 20));
+        const start = performance.now();
+        await again();
+        warm = Math.min(warm, performance.now() - start);
+    }
+    return { cold, fetched, warm };
+`;
+
+/** Ours: what is on a grid is decoded as it comes, blocks in a team of threads, which takes a stream that is complete. */
+const ours = { quick: (stream) => `(async () => {
     const begin = performance.now();
-    const since = () => performance.now() - begin;
+    const compiling = WebAssembly.compileStreaming(fetch("/quick.wasm"));
+    const coming = fetch("/${stream}");
+    const { decode, Decoder, Kernels, NEED_DATA } = await import("/quick.js");
+    const kernels = new Kernels(await compiling);
+    const decoder = new Decoder(kernels);
+    const reader = (await coming).body.getReader();
+    const chunks = [];
+    for (let part; !(part = await reader.read()).done; ) {
+        chunks.push(part.value);
+        decoder.receiveData(part.value);
+        while (decoder.nextEvent() !== NEED_DATA);
+    }
+    const { faces } = decoder.finish();
+    const whole = new Uint8Array(await new Blob(chunks).arrayBuffer());
+    const again = () => decode(kernels, whole);
+    ${FINISH}
+})()`, smallest: (stream) => `(async () => {
+    const begin = performance.now();
     const wasm = WebAssembly.compileStreaming(fetch("/small.wasm"));
-    const bytes = fetch("/bunny.bsm").then((response) => response.arrayBuffer());
+    const bytes = fetch("/${stream}").then((response) => response.arrayBuffer());
     const { Kernels, Team } = await import("/small.js");
     const team = new Team();
-    const [module, stream] = await Promise.all([wasm, bytes]);
-    const fetched = since();
-    const { faces } = await team.decode(new Kernels(module), new Uint8Array(stream));
-    return { time: since(), fetched, faces: faces.length / 3 };
-})()`;
+    const [module, whole] = await Promise.all([wasm, bytes]);
+    const again = () => team.decode(new Kernels(module), new Uint8Array(whole));
+    await again();
+    ${FINISH}
+})()` };
 
-const DRACO = `(async () => {
+const draconic = (stream) => `(async () => {
     const begin = performance.now();
     const bytes = async (name) => (await fetch(name)).arrayBuffer();
     const script = new Promise((keep) => {
@@ -186,24 +240,63 @@ const DRACO = `(async () => {
         element.onload = keep;
         element.src = "/draco_wasm_wrapper.js";
     });
-    const [wasmBinary, stream] = await Promise.all([bytes("/draco_decoder.wasm"), bytes("/bunny.drc"), script]);
-    const fetched = performance.now() - begin;
+    const [wasmBinary, whole] = await Promise.all([bytes("/draco_decoder.wasm"), bytes("/${stream}"), script]);
     const module = await new Promise((onModuleLoaded) => DracoDecoderModule({ wasmBinary, onModuleLoaded: (module) => onModuleLoaded({ module }) }));
     const draco = module.module;
-    const [decoder, mesh, buffer] = [new draco.Decoder(), new draco.Mesh(), new draco.DecoderBuffer()];
-    buffer.Init(new Int8Array(stream), stream.byteLength);
-    const status = decoder.DecodeBufferToMesh(buffer, mesh);
-    if (!status.ok()) throw new Error(status.error_msg());
-    const faces = mesh.num_faces();
-    const size = 12 * faces;
-    const pointer = draco._malloc(size);
-    decoder.GetTrianglesUInt32Array(mesh, size, pointer);
-    const index = new Uint32Array(draco.HEAPF32.buffer, pointer, 3 * faces).slice();
-    const positions = new draco.DracoFloat32Array();
-    decoder.GetAttributeFloatForAllPoints(mesh, decoder.GetAttribute(mesh, decoder.GetAttributeId(mesh, draco.POSITION)), positions);
-    const values = Float32Array.from({ length: positions.size() }, (_, i) => positions.GetValue(i));
-    return { time: performance.now() - begin, fetched, faces: index.length / 3, values: values.length };
+    const again = () => {
+        const [decoder, mesh, buffer] = [new draco.Decoder(), new draco.Mesh(), new draco.DecoderBuffer()];
+        buffer.Init(new Int8Array(whole), whole.byteLength);
+        const status = decoder.DecodeBufferToMesh(buffer, mesh);
+        if (!status.ok()) throw new Error(status.error_msg());
+        const copied = (count, get) => {
+            const pointer = draco._malloc(4 * count);
+            get(4 * count, pointer);
+            const copy = draco.HEAPF32.slice(pointer / 4, pointer / 4 + count);
+            draco._free(pointer);
+            return copy;
+        };
+        const position = decoder.GetAttribute(mesh, decoder.GetAttributeId(mesh, draco.POSITION));
+        const faces = copied(3 * mesh.num_faces(), (size, pointer) => decoder.GetTrianglesUInt32Array(mesh, size, pointer));
+        const positions = copied(3 * mesh.num_points(), (size, pointer) => decoder.GetAttributeDataArrayForAllPoints(mesh, position, draco.DT_FLOAT32, size, pointer));
+        [decoder, mesh, buffer].forEach((made) => draco.destroy(made));
+        return { faces: new Uint32Array(faces.buffer), positions };
+    };
+    again();
+    ${FINISH}
 })()`;
+
+/** What each way fetches beside its stream, and what its page does. */
+const WAYS = {
+    draco: { decoder: ["draco_wasm_wrapper.js", "draco_decoder.wasm"], script: draconic },
+    quick: { decoder: ["quick.js", "quick.wasm"], script: ours.quick },
+    smallest: { decoder: ["small.js", "small.wasm"], script: ours.smallest },
+};
+
+/** One run; now and then Chromium does not slow a page down, which bytes that came too early tell: then another. */
+async function overLink(address, script, bytes) {
+    for (let k = 0; k < PAGES; k++) {
+        const run = await fetchInPage(address, script);
+        if (run.fetched >= (8000 * bytes) / LINK) return run;
+    }
+    throw new Error("this Chromium imitates no slow link");
+}
+
+/** The same mesh at the same mean angle of normals, cold, each in pages of its own and in turns: minimum and median. */
+async function race(address, files, { bits, theta }) {
+    const runs = Object.fromEntries(Object.keys(WAYS).map((way) => [way, []]));
+    const sizes = Object.fromEntries(Object.entries(WAYS).map(([way, { decoder }]) => [way, [...decoder, `${way}-${bits}`].map((name) => files[name].length)]));
+    for (let k = 0; k < PAGES; k++) {
+        for (const [way, { script }] of Object.entries(WAYS)) {
+            const bytes = sizes[way].reduce((sum, size) => sum + size);
+            runs[way].push(await overLink(address, script(`${way}-${bits}`), bytes));
+        }
+    }
+    console.log(`bunny over ${LINK / 1e6} Mbit/s, cold, at ${theta.toFixed(2)} degrees (Draco's ${bits} bits):`);
+    for (const [way, [glue, wasm, stream]] of Object.entries(sizes)) {
+        const [cold, fetched, warm] = ["cold", "fetched", "warm"].map((name) => runs[way].map((run) => run[name]).sort((a, b) => a - b));
+        console.log(`    ${way.padEnd(8)} ${milliseconds(cold[0])} (median ${milliseconds(cold[PAGES >> 1])}), all fetched after ${milliseconds(fetched[0])}; warm ${milliseconds(warm[0])}; ${glue + wasm} + ${stream} bytes`);
+    }
+}
 
 /** Stops processes three quarters of the time, from a thread of its own. */
 function brake(processes) {
@@ -272,40 +365,22 @@ function playInPage(folder, stream, slow) {
     });
 }
 
-const [meshes] = process.argv.slice(2);
-for (const names of [["small.js", "small.wasm"], ["bsm.js", "kernels.wasm"]]) {
-    const sizes = names.map((name) => brotliCompressSync(built(name)).length);
-    console.log(`to decode: ${names.map((name, i) => `${name} ${sizes[i]}`).join(" + ")} = ${sizes[0] + sizes[1]} bytes in brotli`);
-}
-if (meshes) {
-    const folder = mkdtempSync(join(tmpdir(), "bsm-figures-"));
-    const found = python(PREPARE, meshes, folder);
+/** All figures but the race. */
+async function measure(meshes, folder) {
+    python(PREPARE, meshes, folder, ...PRESETS);
     const read = (name) => readFileSync(join(folder, name));
-    const contents = {
-        empty: Buffer.from("<!doctype html><title>empty</title>"), "bsm.js": built("bsm.js"), "kernels.wasm": built("kernels.wasm"), "bunny.bsm": read("bunny.bsm"), "small.js": built("small.js"), "small.wasm": built("small.wasm"),
-        "bunny.drc": read("bunny.drc"), "draco_wasm_wrapper.js": draco("draco_wasm_wrapper.js"), "draco_decoder.wasm": draco("draco_decoder.wasm"),
-    };
-    for (const name of ["samba.bsm", "samba-groups.bsm", ...found.presets.map((preset) => `bunny-${preset}.bsm`)]) contents[name] = read(name);
-    const files = Object.fromEntries(Object.entries(contents).map(([name, content]) => [name, brotliCompressSync(content)]));
-    const { server, address } = await serve(files);
+    const streams = ["samba.bsm", "samba-groups.bsm", ...PRESETS.map((preset) => `bunny-${preset}.bsm`)];
+    const { server, address } = await serve(compressed(Object.fromEntries(streams.map((name) => [name, read(name)])), ["bsm.js", "kernels.wasm"]));
     try {
-        for (const preset of found.presets) {
+        for (const preset of PRESETS) {
             const { first, bytes, work } = await beginInPage(address, `bunny-${preset}.bsm`);
             console.log(`bunny, ${preset}: the first block is there after ${first} of ${bytes} bytes (${((100 * first) / bytes).toFixed(0)} %) and ${milliseconds(work)} of work`);
         }
-        const [before, inPage, after] = [python(DECODE, join(folder, "bunny.bsm"), String(ROUNDS)), await decodeInPage(address), python(DECODE, join(folder, "bunny.bsm"), String(ROUNDS))];
-        const ours = smallest([...before, ...after]);
+        const balanced = join(folder, "bunny-balanced.bsm");
+        const [before, inPage, after] = [python(DECODE, balanced, String(ROUNDS)), await decodeInPage(address), python(DECODE, balanced, String(ROUNDS))];
+        const inPython = smallest([...before, ...after]);
         const { alone, together, processors } = inPage;
-        console.log(`bunny: decoded in ${milliseconds(smallest(alone))} in Chromium (at first ${milliseconds(alone[0])}), ${milliseconds(ours)} in Python on one thread: ${(smallest(alone) / ours).toFixed(2)} x; in threads on ${processors} processors ${milliseconds(smallest(together))}`);
-        const [bsm, rival] = [[], []];
-        for (let k = 0; k < 5; k++) {
-            bsm.push(await fetchInPage(address, OURS));
-            rival.push(await fetchInPage(address, DRACO));
-        }
-        const [fastest, theirs] = [bsm, rival].map((runs) => runs.reduce((best, run) => (run.time < best.time ? run : best)));
-        const fetched = (...names) => names.reduce((sum, name) => sum + files[name].length, 0);
-        console.log(`bunny over 10 Mbit/s, cold: ${milliseconds(fastest.time)}, ${milliseconds(fastest.fetched)} of them until all is fetched, for ${fetched("small.js", "small.wasm", "bunny.bsm")} bytes at ${found.theta.toFixed(2)} degrees;`);
-        console.log(`    Draco ${milliseconds(theirs.time)}, ${milliseconds(theirs.fetched)} of them until all is fetched, for ${fetched("draco_wasm_wrapper.js", "draco_decoder.wasm", "bunny.drc")} bytes at ${found.draco.toFixed(2)} degrees (${found.bits} bits)`);
+        console.log(`bunny: decoded in ${milliseconds(smallest(alone))} in Chromium (at first ${milliseconds(alone[0])}), ${milliseconds(inPython)} in Python on one thread: ${(smallest(alone) / inPython).toFixed(2)} x; in threads on ${processors} processors ${milliseconds(smallest(together))}`);
         for (const stream of ["samba.bsm", "samba-groups.bsm"]) {
             for (const rate of [1, 4]) {
                 const times = await framesInPage(address, stream, rate);
@@ -321,6 +396,35 @@ if (meshes) {
         }
     } finally {
         server.close();
+    }
+}
+
+/** All races. */
+async function raceAll(meshes, folder) {
+    const races = python(ENTER, meshes, folder);
+    const streams = races.flatMap(({ bits }) => Object.keys(WAYS).map((way) => `${way}-${bits}`));
+    const rivals = Object.fromEntries(WAYS.draco.decoder.map((name) => [name, draco(name)]));
+    const contents = Object.fromEntries(streams.map((name) => [name, readFileSync(join(folder, name))]));
+    const files = compressed({ ...contents, ...rivals }, [...WAYS.quick.decoder, ...WAYS.smallest.decoder]);
+    const { server, address } = await serve(files);
+    try {
+        for (const one of races) await race(address, files, one);
+    } finally {
+        server.close();
+    }
+}
+
+const [meshes, only] = process.argv.slice(2);
+for (const names of [["quick.js", "quick.wasm"], ["small.js", "small.wasm"], ["bsm.js", "kernels.wasm"]]) {
+    const sizes = names.map((name) => brotliCompressSync(built(name)).length);
+    console.log(`to decode: ${names.map((name, i) => `${name} ${sizes[i]}`).join(" + ")} = ${sizes[0] + sizes[1]} bytes in brotli`);
+}
+if (meshes) {
+    const folder = mkdtempSync(join(tmpdir(), "bsm-figures-"));
+    try {
+        await raceAll(meshes, folder);
+        if (only !== "race") await measure(meshes, folder);
+    } finally {
         rmSync(folder, { recursive: true, force: true });
     }
 }

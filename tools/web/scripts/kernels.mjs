@@ -53,13 +53,15 @@ const SOURCES = [
     "codec/signal/smooth.c",
     "codec/signal/transform.simd.c",
     "tools/web/src/memory.c",
+    "tools/web/src/noise.c",
+    "tools/web/src/tables.c",
 ];
 
-/** Tables alone, which are sent as differences. */
+/** Tables that the kernels make for themselves, by `tables.c`. */
 const TABLES = ["bitstream/entropy/tables.c", "bitstream/fields/tables.c"];
 
 const KERNELS = [
-    "make_tables",
+    "make_tables", "learn_beforehand", "add_noise",
     "code_one_unsigned", "match_halfedges", "conquer", "code_fans", "code_degenerate", "code_steps", "code_turns",
     "code_labels", "points_of_levels", "code_rows", "code_block", "vertex_faces", "bisect", "refine_partition",
     "group_by_label", "chain_blocks", "order_scratch", "order_block", "add_copies", "collect_edges",
@@ -77,17 +79,24 @@ const FLAGS = [
 ];
 
 const LINK = [
-    "-Wl,--no-entry", "-Wl,--gc-sections", "-Wl,--strip-all", "-Wl,--export=__heap_base", "-Wl,--export=PRIORS",
-    "-Wl,-z,stack-size=262144", "-Wl,--stack-first", "-Wl,--max-memory=4294967296",
+    "-Wl,--no-entry", "-Wl,--gc-sections", "-Wl,--strip-all", "-Wl,-z,stack-size=262144", "-Wl,--stack-first", "-Wl,--max-memory=4294967296",
 ];
 
 /** Sources whose functions are copied to where they are called only if that makes them smaller: they are not the slow ones. */
 const LEAN = /connectivity|attributes|fields|codec\/blocks|fronts\.c|geometry/;
 
 /** Kernels of sequences and attributes. */
-const LEFT_OUT = [
+const REST = [
     "code_matrix", "project", "cotangents", "hold", "pull", "follow_rows", "code_edges", "join_corners", "expect_normals",
     "code_scalars", "code_texcoords", "code_normals", "code_faces",
+];
+
+/** Kernels without which positions on grids can do. */
+const BLOCKS = [
+    "learn_beforehand", "add_noise", "points_of_levels", "code_rows", "code_block", "code_labels", "vertex_faces", "bisect", "refine_partition", "group_by_label", "chain_blocks",
+    "order_scratch", "order_block", "add_copies", "collect_edges", "find_fronts", "suspend", "factorize_fronts", "solve_columns",
+    "resize_columns", "iteration_space", "iterate", "cholesky_onorm", "householder", "reconstruct", "look_around", "block_normals",
+    "smooth_all", "find_rings", "filter_rows", "keep_borders", "code_levels", "local_frames", "add_levels",
 ];
 
 /** Name and version of the compiler, of which the bytes are a function; undefined where there is none. */
@@ -101,81 +110,120 @@ function withoutPackages() {
     return process.env.PATH.split(delimiter).filter((folder) => !folder.includes("node_modules")).join(delimiter);
 }
 
-const BYTES = { uint16_t: 2, int16_t: 2, int32_t: 4 };
+/** Slots that nothing was learnt for have one of these: they are sent as counts above those of the others. */
+const UNLEARNT = [2048, 409, 3686].map((probability) => probability << 4);
 
 /**
- * The tables of a C file as differences, which are easier to compress; their bytes plane by plane, the least first.
- * `unpack_NAME` makes a table of them.
+ * What coefficients start from (specification, M 9.1), as bytes that are easier to compress: for every slot, by node, bin and
+ * expectation, its count, or which of `UNLEARNT` it is; the probabilities of the others; weights. Those of 16 bits
+ * come as all their low bytes and then the high ones. `learn_beforehand` makes a model of them.
  */
-function packedTables(text) {
-    return [...text.matchAll(/const (\w+) (\w+)\[(\d+)\] = \{([^}]*)\}/g)].map(([, type, name, length, body]) => {
-        const values = body.split(",").map(Number).slice(0, Number(length));
-        const differences = values.map((value, i) => value - (i ? values[i - 1] : 0));
-        const planes = Array.from({ length: BYTES[type] }, (_, k) => differences.map((step) => (step >> (8 * k)) & 255)).flat();
-        return `static const uint8_t PACKED_${name}[] = {${planes}};
-${type} ${name}[${length}];
-void unpack_${name}(void) { unpack_table(PACKED_${name}, ${name}, ${length}, ${BYTES[type]}); }
-`;
-    });
-}
-
-/**
- * What coefficients start from (specification, M 9.1), each of the two sets with its slots not by expectation, bin and
- * node, but by node, bin and expectation: so they are easier to compress.
- */
-function arrangedPriors(bytes) {
+function packedPriors(bytes) {
     const words = new Uint16Array(bytes.buffer, bytes.byteOffset, bytes.length / 2);
-    const [expectations, bins, nodes] = [3, 48, 38];
-    const others = words.length / 2 - expectations * bins * nodes;
-    const arranged = [0, words.length / 2].flatMap((start) => [
-        ...words.subarray(start, start + others),
-        ...Array.from({ length: expectations * bins * nodes }, (_, i) => {
+    const [sets, expectations, bins, nodes] = [2, 3, 48, 38];
+    const slots = expectations * bins * nodes;
+    const others = words.length / sets - slots;
+    const [counts, probabilities, weights] = [[], [], []];
+    for (let start = 0; start < words.length; start += others + slots) {
+        probabilities.before = probabilities.length;
+        weights.push(...words.subarray(start, start + others));
+        for (let i = 0; i < slots; i++) {
             const [node, bin, expectation] = [Math.floor(i / expectations / bins), Math.floor(i / expectations) % bins, i % expectations];
-            return words[start + others + (expectation * bins + bin) * nodes + node];
-        }),
-    ]);
-    return [...new Uint8Array(Uint16Array.from(arranged).buffer)];
+            const word = words[start + others + (expectation * bins + bin) * nodes + node];
+            const unlearnt = UNLEARNT.indexOf(word);
+            counts.push(unlearnt < 0 ? word & 15 : unlearnt && 15 + unlearnt);
+            if (unlearnt < 0 && (word & 15) === 0) throw new Error("a slot that nothing was learnt for has another probability");
+            if (unlearnt < 0) probabilities.push(word >> 4);
+        }
+    }
+    const planes = (numbers) => [...numbers.map((number) => number & 255), ...numbers.map((number) => number >> 8)];
+    return `#include "bitstream/kernel.h"
+static const uint8_t COUNTS[] = {${counts}}, PROBABILITIES[] = {${planes(probabilities)}}, NUMBERS[] = {${planes(weights)}};
+int64_t learn_beforehand(int64_t details, Ints2 expectations, Ints2 weights, Words slots) {
+    int64_t learnt = expectations.rows * expectations.columns, others = learnt + weights.rows * weights.columns;
+    if (others != ${others} || slots.size != ${slots} || details < 0 || details > 1) return MISUSED;
+    static const uint16_t UNLEARNT[] = {${UNLEARNT.map((word) => word >> 4)}};
+    const uint8_t *count = COUNTS + details * slots.size, *probability = PROBABILITIES + details * ${probabilities.before}, *number = NUMBERS + details * others;
+    for (int64_t i = 0; i < others; i++, number++) {
+        int32_t value = number[0] | number[${weights.length}] << 8;
+        if (i < learnt) expectations.data[i] = value;
+        else weights.data[i - learnt] = 16 * (int16_t)value;
+    }
+    for (int node = 0; node < ${nodes}; node++)
+        for (int i = 0; i < ${expectations * bins}; i++, count++) {
+            int known = *count && *count < 16;
+            uint32_t share = known ? probability[0] | probability[${probabilities.length}] << 8 : UNLEARNT[*count ? *count - 15 : 0];
+            probability += known;
+            slots.data[(i % ${expectations} * ${bins} + i / ${expectations}) * ${nodes} + node] = share << 20 | 1 << 19 | (known ? *count << 2 : 0);
+        }
+    return 0;
+}
+`;
 }
 
-const UNPACK = `#include <stdint.h>
-#define unpack_table(packed, table, length, bytes) \\
-    for (int32_t i = 0, value = 0; i < (length); i++) { \\
-        uint32_t step = 0; \\
-        for (int k = 0; k < (bytes); k++) step |= (uint32_t)(packed)[k * (length) + i] << (8 * k); \\
-        value = (int32_t)((uint32_t)value + step); \\
-        (table)[i] = value; \\
+/** Compare the tables and models that the kernels make with those of the repository. */
+function checkTables(clang, objects, priors, target) {
+    const tables = TABLES.flatMap((path) => [...readFileSync(join(ROOT, path), "utf8").matchAll(/const (\w+)_t (\w+)\[(\d+)\] = \{([^}]*)\}/g)]);
+    const exported = ["make_tables", "learn_beforehand", "__heap_base", ...tables.map(([, , name]) => name)].map((name) => `-Wl,--export=${name}`);
+    clang(TARGET, "-nostdlib", ...objects, "-Wl,--no-entry", "-Wl,--initial-memory=1048576", ...exported, "-o", target);
+    const { exports } = new WebAssembly.Instance(new WebAssembly.Module(readFileSync(target)));
+    const { buffer } = exports.memory;
+    const compare = (name, made, values) => {
+        if (values.some((value, i) => made[i] !== value)) throw new Error(`the kernels make other ${name} than the repository has`);
+    };
+    exports.make_tables();
+    for (const [, type, name, length, body] of tables) {
+        const kind = { uint16: Uint16Array, int16: Int16Array, int32: Int32Array }[type];
+        compare(name, new kind(buffer, exports[name].value, Number(length)), body.split(",").map(Number).slice(0, Number(length)));
     }
-`;
+    const [given, sizes] = [exports.__heap_base.value, [[18, 20], [76, 3], [5472]]];
+    const places = sizes.map((_, k) => given + 1024 + 32768 * k);
+    sizes.forEach((shape, k) => new BigInt64Array(buffer, given + 64 * k).set([places[k], ...shape].map(BigInt)));
+    for (const [set, words] of [0, 1].map((set) => [set, new Uint16Array(priors.buffer, 12120 * set, 6060)])) {
+        exports.learn_beforehand(BigInt(set), given, given + 64, given + 128);
+        compare("expectations", new Int32Array(buffer, places[0], 360), words.subarray(0, 360));
+        compare("weights", new Int32Array(buffer, places[1], 228), Array.from(words.subarray(360, 588), (word) => 16 * ((word << 16) >> 16)));
+        compare("slots", new Uint32Array(buffer, places[2], 5472), Array.from(words.subarray(588), (word) => (((word >> 4) << 20) | (1 << 19) | ((word & 15) << 2)) >>> 0));
+    }
+}
 
-/** Every build: whether with vector instructions, and whether without what only sequences and attributes need. */
+/** Sources of what takes most time where positions are on a grid, or refined. */
+const HOT = /fields|conquest/;
+
+/**
+ * Every build: whether with vector instructions, which kernels it is without, and which sources are compiled for speed,
+ * and not for their size alone.
+ */
 export const KERNEL_BUILDS = {
-    "built/kernels.wasm": { vectors: true, small: false },
-    "built/kernels-scalar.wasm": { vectors: false, small: false },
-    "built/small.wasm": { vectors: true, small: true },
+    "built/kernels.wasm": { vectors: true, fast: HOT },
+    "built/kernels-scalar.wasm": { vectors: false, fast: HOT },
+    "built/small.wasm": { vectors: true, without: REST },
+    "built/quick.wasm": { vectors: true, without: [...REST, ...BLOCKS], fast: HOT },
 };
 
 /** One of them. */
-export function compileKernels({ vectors, small }) {
+export function compileKernels({ vectors, without = [], fast }) {
     const folder = mkdtempSync(join(tmpdir(), "bsm-kernels-"));
     try {
         const data = join(folder, "data.c");
         const priors = Uint8Array.from(readFileSync(join(ROOT, "spec/priors.bin")));
-        const tables = TABLES.flatMap((path) => packedTables(readFileSync(join(ROOT, path), "utf8")));
-        const unpackers = tables.map((table) => /unpack_[A-Z]+/.exec(table)[0]);
-        writeFileSync(data, [UNPACK, ...tables, `void make_tables(void) { ${unpackers.map((name) => `${name}();`).join(" ")} }`,
-            `const unsigned char PRIORS[${priors.length}] = {${arrangedPriors(priors)}};`].join("\n"));
+        writeFileSync(data, packedPriors(priors));
         const target = join(folder, "kernels.wasm");
         const clang = (...args) => execFileSync("clang", args, { cwd: ROOT, env: { ...process.env, PATH: withoutPackages() } });
         const objects = [...SOURCES, data].map((source, i) => {
             const object = join(folder, `${i}.o`);
-            clang(...FLAGS, "-Oz", ...(vectors ? ["-msimd128"] : []), ...(LEAN.test(source) ? ["-DBSM_LEAN"] : []), "-I", ".", "-c", source, "-o", object);
+            // Short loops of 64-bit products are slower as vectors.
+            const how = fast?.test(source) ? ["-O2", "-fno-vectorize", "-fno-slp-vectorize"] : LEAN.test(source) ? ["-Oz", "-DBSM_LEAN"] : ["-Oz"];
+            clang(...FLAGS, ...how, ...(vectors ? ["-msimd128"] : []), "-I", ".", "-c", source, "-o", object);
             return object;
         });
-        const kernels = KERNELS.filter((name) => !small || !LEFT_OUT.includes(name));
-        clang(TARGET, "-nostdlib", ...objects, ...LINK, ...kernels.map((name) => `-Wl,--export=${name}`), "-o", target);
+        checkTables(clang, objects.slice(-2), priors, target);
+        const exported = ["__heap_base", ...KERNELS].filter((name) => !without.includes(name));
+        clang(TARGET, "-nostdlib", ...objects, ...LINK, ...exported.map((name) => `-Wl,--export=${name}`), "-o", target);
         const features = ["--enable-bulk-memory", "--enable-sign-ext", "--enable-nontrapping-float-to-int", ...(vectors ? ["--enable-simd"] : [])];
+        const limits = fast ? ["--one-caller-inline-max-function-size=100"] : [];
         // The stack grows down to the first address, which it never reaches: so no pointer wraps where a constant is added.
-        execFileSync(join(WEB, "node_modules/.bin/wasm-opt"), [target, "-Oz", "--converge", "--low-memory-unused", ...features, "-o", target]);
+        execFileSync(join(WEB, "node_modules/.bin/wasm-opt"), [target, "-Oz", "--converge", "--low-memory-unused", ...limits, ...features, "-o", target]);
         return readFileSync(target);
     } finally {
         rmSync(folder, { recursive: true });

@@ -8,7 +8,7 @@ import { chromium } from "playwright-core";
 import { WEB } from "./kernels.mjs";
 
 const FLAGS = ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"];
-const SHARES = [0.6, 0.7, 0.8, 0.9, 1];
+const SHARES = [0.35, 0.42, 0.6, 0.88, 1];
 const SIDE = 220;
 const CONTROLS = 320;
 const ZOOM_STEPS = 4;

@@ -37,29 +37,49 @@ export function inMeshUnits(positions: Float64Array, header: Header): Float64Arr
 
 /** Blends the blocks of one mesh. */
 export class Assembly {
-    private readonly blend: Blend;
-    private readonly missing: Int32Array;
-    private readonly final: Uint8Array;
-    private readonly blended: Doubles;
-    private readonly number: Ints;
-    private readonly rows: Ints;
-    private readonly lost: number[] = [];
+    private blend!: Blend;
+    private blocks!: Blocks;
+    private missing = new Int32Array(0);
+    private final!: Uint8Array;
+    private blended!: Doubles;
+    private number!: Ints;
+    private rows!: Ints;
+    /** Vertices of blocks that were lost. */
+    private readonly lost = new Set<number>();
+    /** Sums and weights, while the memory is given to others. */
+    private kept: Float64Array[] = [];
+    /** Whether all blocks of each vertex are known, and whether that was told for those that have come before. */
+    private whole = true;
+    private told = true;
 
     constructor(
         private readonly memory: Memory,
-        private readonly blocks: Blocks,
         private readonly header: Header,
-    ) {
+    ) {}
+
+    /** Be ready for memory that is given back; `extend` must follow. */
+    leave(): void {
+        this.kept = [this.blend.sums.view.slice(), this.blend.weights.view.slice()];
+    }
+
+    /** Go on with the blocks of another section, which may be the last one. */
+    extend(blocks: Blocks, whole: boolean): void {
+        const { memory, kept, missing } = this;
         const { size } = blocks.graph;
+        this.blocks = blocks;
         this.blend = new Blend(memory, size);
         this.blended = memory.doubles(3 * size, 3);
         this.number = memory.ints(size);
         this.rows = memory.ints(size);
-        this.blended.view.fill(0);
         this.number.view.fill(-1);
         this.final = new Uint8Array(size);
         this.missing = new Int32Array(size);
+        this.missing.set(missing);
         for (const vertex of blocks.members.view) this.missing[vertex]++;
+        kept.forEach((values, i) => [this.blend.sums, this.blend.weights][i].view.set(values));
+        this.settle(upTo(size));
+        this.told = !whole || missing.length === 0;
+        this.whole = whole;
     }
 
     /** Blend one block in. */
@@ -69,12 +89,12 @@ export class Assembly {
 
     /** Take note that a block will not come. */
     lose(index: number): void {
-        this.lost.push(index);
+        for (const vertex of membersOf(this.blocks, index).view) this.lost.add(vertex);
     }
 
     /** Vertices without any copy, and those that lack one or lie in the filter's reach of one that is missing. */
     losses(): { missing: Int32Array; degraded: Int32Array } {
-        const touched = this.touched();
+        const touched = Int32Array.from(this.lost);
         const weights = this.blend.weights.view;
         const missing = touched.filter((vertex) => weights[vertex] === 0);
         const around = touched.length > 0 ? this.around(touched, this.reach) : touched;
@@ -84,20 +104,13 @@ export class Assembly {
 
     /** Vertices whose positions, or those beside them, are not as the encoder had them. */
     spoilt(): Int32Array {
-        const touched = this.touched();
+        const touched = Int32Array.from(this.lost);
         return touched.length > 0 ? this.around(touched, this.reach + 1) : touched;
     }
 
     /** Edges from which the filter sees a vertex. */
     private get reach(): number {
         return this.header.smoothing > 0 ? DEGREE : 0;
-    }
-
-    /** Vertices of blocks that were lost. */
-    private touched(): Int32Array {
-        const found = new Set<number>();
-        for (const index of this.lost) for (const vertex of membersOf(this.blocks, index).view) found.add(vertex);
-        return Int32Array.from(found);
     }
 
     /** All positions in BSM units, once every block is in. */
@@ -113,7 +126,9 @@ export class Assembly {
         const seen = block.vertices.filter((vertex) => weights[vertex] > 0);
         this.settle(seen);
         for (const vertex of block.vertices) this.missing[vertex]--;
-        const finished = this.finished(block.vertices.filter((vertex) => this.missing[vertex] === 0));
+        const among = this.told ? block.vertices : upTo(this.missing.length);
+        this.told = true;
+        const finished = this.finished(among.filter((vertex) => this.whole && this.missing[vertex] === 0));
         for (const vertex of finished) this.final[vertex] = 1;
         const moved = seen.filter((vertex) => !this.final[vertex]);
         const vertices = new Int32Array(moved.length + finished.length);

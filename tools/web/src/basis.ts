@@ -116,8 +116,9 @@ export function firstColumns(memory: Memory, block: Block, width: number, exact:
     return exact || inPieces(block) ? withNoise(memory, start, START_NOISE) : start;
 }
 
-function withNoise(memory: Memory, { view, columns }: Doubles, share: number): Doubles {
-    return memory.copy(view.map((value, i) => value + share * hashEntry(Math.floor(i / columns!), i % columns!)), columns);
+function withNoise(memory: Memory, start: Doubles, share: number): Doubles {
+    memory.run("add_noise", start, share);
+    return start;
 }
 
 /** Whether the graph of a block has several components. */
@@ -213,15 +214,6 @@ export function exactBasis(memory: Memory, block: Block, springs: Float64Array, 
     const factor = factorize(memory, block, springs.map((spring) => spring + EXACT_SHIFT));
     const start = firstColumns(memory, block, width, true);
     return orthogonalIteration(memory, block, factor, start, width, EXACT, allowance);
-}
-
-/** Fixed pseudo-random numbers in [-1, 1) (M 8.6). */
-function hashEntry(row: number, column: number): number {
-    let z = BigInt.asUintN(64, ((BigInt(row) << 32n) + BigInt(column) + 1n) * 0x9e3779b97f4a7c15n);
-    z = BigInt.asUintN(64, (z ^ (z >> 30n)) * 0xbf58476d1ce4e5b9n);
-    z = BigInt.asUintN(64, (z ^ (z >> 27n)) * 0x94d049bb133111ebn);
-    z ^= z >> 31n;
-    return Number(z >> 11n) * 2 ** -52 - 1;
 }
 
 /** U E, shape (rows, width), for coefficients E of so many columns (M 10.2). */

@@ -255,8 +255,8 @@ export class ChainDecoder {
     private copyWeights(index: number, vertices: Int32Array, degrees: Float64Array): Float64Array {
         if (this.header.blend === 0) return degrees;
         if (this.header.blend === 1) return degrees.map(() => 1);
-        const { starts, cores, members } = this.blocks;
-        const core = new Set(members.part(starts[index], cores[index]).view);
+        const { cores, first } = this.blocks;
+        const core = new Set(membersOf(this.blocks, index).view.subarray(0, cores[index - first]));
         return Float64Array.from(vertices, (vertex) => (core.has(vertex) ? 1 : 0));
     }
 }

@@ -15,9 +15,7 @@ const ROWS_UNARY = 8;
 const ROWS_SPAN = unsignedSpan(ROWS_UNARY);
 
 const WEIGHTS = EXPECTATIONS * SITUATIONS * NEIGHBOURS;
-const MIXING = SELECTORS * NODES * EXPECTATIONS;
 const SLOTS = EXPECTATIONS * BINS * NODES;
-const EXPERIENCE_BYTES = 2 * (WEIGHTS + MIXING + SLOTS);
 
 /** Which of the two learnt sets of numbers a model starts from (M 9.1). */
 export type Layer = "coordinates" | "details";
@@ -44,22 +42,7 @@ export class CoefficientModel {
         this.expectations = memory.ints(WEIGHTS, NEIGHBOURS);
         this.past.forEach((place) => (place === blocks ? blocks.view.fill(0n) : (place as Ints).view.fill(0)));
         this.missing.view.fill(0n);
-        this.learnBeforehand(layer);
-    }
-
-    private learnBeforehand(layer: Layer): void {
-        const bytes = this.memory.priors(2 * EXPERIENCE_BYTES);
-        const start = layer === "details" ? EXPERIENCE_BYTES : 0;
-        const numbers = new DataView(bytes.buffer, bytes.byteOffset + start, EXPERIENCE_BYTES);
-        const [weights, mixing, slots] = [this.expectations.view, this.bank[1].view, this.bank[0].view];
-        for (let i = 0; i < WEIGHTS; i++) weights[i] = numbers.getUint16(2 * i, true);
-        for (let i = 0; i < MIXING; i++) mixing[i] = 16 * numbers.getInt16(2 * (WEIGHTS + i), true);
-        for (let i = 0; i < SLOTS; i++) {
-            // They are kept by node, bin and expectation, see `scripts/kernels.mjs`.
-            const [expectation, bin, node] = [Math.floor(i / NODES / BINS), Math.floor(i / NODES) % BINS, i % NODES];
-            const stored = numbers.getUint16(2 * (WEIGHTS + MIXING + (node * BINS + bin) * EXPECTATIONS + expectation), true);
-            slots[i] = ((stored >> 4) << 20) | (1 << 19) | ((stored & 15) << 2);
-        }
+        memory.call("learn_beforehand", layer === "details" ? 1n : 0n, this.expectations, this.bank[1], this.bank[0]);
     }
 
     /** Read a block's levels, `count` rows of three, as points in half steps (M 9.6, M 9.11). */

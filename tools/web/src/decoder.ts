@@ -33,13 +33,17 @@ export interface HeaderEvent {
 
 /**
  * The faces have arrived, three vertices each, in the order that the mesh had if the stream stores that; how many
- * vertices there are, and where those are that no face uses.
+ * vertices there are, and where those are that no face uses. Of a mesh in sections, the faces of one: they come behind those
+ * of the sections before it.
  */
 export interface ConnectivityEvent {
     type: "connectivity";
     faces: Int32Array;
     vertices: number;
     loose: Loose;
+    /** Which section, from 0, and how many there are in all. */
+    section: number;
+    sections: number;
 }
 
 /** A block, or a chunk of a grid, has been decoded: which vertices it moved or finished, and where they are now. */
@@ -324,7 +328,9 @@ export class Decoder {
             if (kind !== "end" || !sequence.lossy) sequence.lose(error);
             return;
         }
-        if (!begun && kind !== "block" && kind !== "attribute") throw error;
+        const { section, whole } = this.structure!.connectivity;
+        const bearable = begun ? kind !== "connectivity" || whole : section > 0 && (kind === "block" || kind === "attribute");
+        if (!bearable) throw error;
         if (this.grid) this.gridBroken = true;
         this.lose(error);
     }
@@ -339,12 +345,20 @@ export class Decoder {
         checkLimit(this.limits, "coefficients", header.details);
         if (header.gopFrames > 0) checkLimit(this.limits, "sequenceBytes", 8 * header.vertices * header.coefficients);
         this.header = header;
+        this.structure = new Structure(this.memory, header, this.limits, this.allowance);
         this.among = 1 + (this.wishes.helpers?.(header) ?? 0);
         this.queue.push({ type: "header", header });
     }
 
     private acceptConnectivity(method: number, data: Uint8Array): void {
-        this.structure = new Structure(this.memory, this.header!, method, data, this.limits, this.allowance);
+        const { connectivity } = this.structure!;
+        if (connectivity.section > 0) {
+            this.built();
+            this.skipTo(connectivity.blocks);
+            this.assembly!.leave();
+        }
+        this.structure!.accept(method, data);
+        this.chains = undefined;
     }
 
     private acceptOrder(method: number, data: Uint8Array): void {
@@ -359,6 +373,7 @@ export class Decoder {
     }
 
     private acceptAttribute(index: number, declaration: Declaration, seams: Uint8Array): void {
+        this.structure!.expectFaces(this.header!.blocks);
         this.attributes ??= new Attributes(this.memory, this.header!, this.structure!.faces, this.limits);
         const { attributes } = this;
         this.tolerating(() => attributes.declare(index, declaration, seams), undefined, true);
@@ -400,6 +415,7 @@ export class Decoder {
 
     private acceptBlock(index: number, coefficients: number, data: Uint8Array): void {
         this.built();
+        this.structure!.expectFaces(index + 1);
         this.skipTo(index);
         this.nextIndex++;
         if (!isMine(this.header!, index, { number: 0, among: this.among })) this.queue.push({ awaited: index });
@@ -483,7 +499,7 @@ export class Decoder {
     }
 
     private acceptEnd(): void {
-        if (!this.structure) throw new CorruptError("the stream ends before its first block");
+        if (!this.structure?.connectivity.section) throw new CorruptError("the stream ends before its first block");
         this.over = true;
         if (this.attributes) {
             const recomputed = this.begunAttributes().recomputed(this.numbering!, () => this.solid());
@@ -520,23 +536,27 @@ export class Decoder {
 
     /** Give up the blocks before `index` that did not come. */
     private skipTo(index: number): void {
+        this.structure!.expectFaces(index);
         for (; this.nextIndex < index; this.nextIndex++) {
             this.tolerating(() => this.expect(index), this.nextIndex);
         }
     }
 
     private announce(): void {
-        this.numbering ??= new Numbering(this.structure!.faces.view.slice(), this.header!.vertices);
+        const { connectivity, before } = this.structure!;
+        const { section, sections, vertices, known } = connectivity;
+        if (!this.numbering || section > 1) this.numbering = new Numbering(connectivity.faces.view.slice(0, 3 * known), vertices);
         if (!this.wishes.tolerant) this.attributes?.check(this.numbering);
         const { faces, size, loose } = this.numbering;
-        this.queue.push({ type: "connectivity", faces, vertices: size, loose });
+        this.queue.push({ type: "connectivity", faces: faces.slice(3 * before.faces), vertices: size, loose, section: section - 1, sections: sections.length });
     }
 
     /** The blocks, built when the first of them is needed. */
     private built(): Blocks {
-        const { blocks } = this.structure!;
+        const { blocks, connectivity } = this.structure!;
         if (this.chains) return blocks;
-        this.assembly = new Assembly(this.memory, blocks, this.header!);
+        this.assembly ??= new Assembly(this.memory, this.header!);
+        this.assembly.extend(blocks, connectivity.whole);
         this.chains = this.structure!.chains;
         this.announce();
         return blocks;

@@ -38,7 +38,7 @@ export function makeBank(memory: Memory, options: BankOptions): Bank {
 
 /** A range decoder of one payload. */
 export class Coder {
-    readonly parts: readonly [state: Longs, data: Bytes];
+    readonly parts: [state: Longs, data: Bytes];
 
     constructor(memory: Memory, payload: Uint8Array) {
         const code = [0, 1, 2, 3].reduce((value, i) => value * 256 + (payload[i] ?? 0), 0);
@@ -51,6 +51,19 @@ export class Coder {
     /** Whether more was read than any payload of this length can hold (C 1.6). */
     get overran(): boolean {
         return this.position > this.size + 4;
+    }
+
+    /** Go on with the next piece of the payload, of which all that came before is read (C 4.5). */
+    readOn(memory: Memory, piece: Uint8Array): void {
+        this.parts[1] = memory.bytes(piece.length);
+        this.parts[1].view.set(piece);
+        this.parts[0].view[POSITION] = 0n;
+    }
+
+    /** Check that nothing is left of a piece, and nothing was read beyond it (C 4.5). */
+    finishPiece(): void {
+        this.finish();
+        if (this.position > this.size) throw new CorruptError("a piece of a payload ends too early");
     }
 
     /** Check that the payload was read exactly to its end (C 1.5). */

@@ -123,13 +123,15 @@ export class Grid {
         decodeChunk(memory, "code_grid", this.state, payload, first, count);
         this.coded += count;
         const vertices = this.order.view.slice(first, first + count);
-        const values = this.values.view;
+        const [values, { corner }] = [this.values.view, header];
         const positions = new Float64Array(3 * count);
-        for (let i = 0; i < 3 * count; i++) {
-            positions[i] = this.spread(values[3 * vertices[Math.floor(i / 3)] + (i % 3)]) + (header.corner[i % 3] ?? 0);
+        for (let i = 0, at = 0; i < count; i++) {
+            for (let j = 0, from = 3 * vertices[i]; j < 3; j++) positions[at++] = this.spread(values[from + j]) + (corner[j] ?? 0);
         }
         inMeshUnits(positions, header);
-        for (let i = 0; i < 3 * count; i++) this.positions[3 * vertices[Math.floor(i / 3)] + (i % 3)] = positions[i];
+        for (let i = 0, at = 0; i < count; i++) {
+            for (let j = 0, to = 3 * vertices[i]; j < 3; j++) this.positions[to + j] = positions[at++];
+        }
         return { vertices, positions, final: new Uint8Array(count).fill(1) };
     }
 

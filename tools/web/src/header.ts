@@ -39,6 +39,24 @@ export interface Header {
     borders: number;
     attributes: number;
     corner: number[];
+    sections: number[];
+}
+
+/** A section of a mesh: its first block, and the blocks and faces that there are with it and those before it. */
+export interface Section {
+    first: number;
+    blocks: number;
+    faces: number;
+}
+
+/** The sections that a mesh comes in, one at least (F 3.16). */
+export function sectionsOf({ blocks, faces, sections }: Header): Section[] {
+    const found: Section[] = [];
+    let [first, known] = [0, 0];
+    for (let i = 0; i < sections.length; i += 2) {
+        found.push({ first, blocks: (first += sections[i + 1]), faces: (known += sections[i]) });
+    }
+    return [...found, { first, blocks, faces }];
 }
 
 const COUNT = 2 ** 31 - 1;
@@ -78,11 +96,13 @@ const FIELDS: Fields<keyof Header> = {
     borders: { key: 32, type: "method", low: 0, high: 1, default: 0 },
     attributes: { key: 33, type: "int", low: 0, high: 255, default: 0 },
     corner: { key: 40, type: "ints", low: -(2 ** 31), high: COUNT, default: [], lengths: [0, 3] },
+    sections: { key: 41, type: "ints", low: 1, high: COUNT, default: [], lengths: [0, 14] },
 };
 
-/** Rows of all blocks together, at most: so many for each vertex, and so many more (F 4.6). */
-const MOST_COPIES = 16;
-const FREE_COPIES = 65536;
+/** Rows of all blocks together that so many vertices may have (F 4.6). */
+export function mostCopies(vertices: number): number {
+    return 16 * vertices + 65536;
+}
 
 const LIMITED = ["vertices", "faces", "blocks", "blockSize", "coefficients", "frames", "gopFrames", "attributes"] as const;
 
@@ -120,8 +140,9 @@ function gridRules(header: Header): [string, boolean][] {
 }
 
 function blockRules(header: Header): [string, boolean][] {
-    const { vertices, faces, blocks, blockSize, coefficients, details, detailStep, frames, gopFrames } = header;
+    const { vertices, faces, blocks, blockSize, coefficients, details, detailStep, frames, gopFrames, sections } = header;
     const steps = header.refinements.filter((_, i) => i % 2 === 0);
+    const before = sectionsOf(header).at(-2) ?? { blocks: 0, faces: 0 };
     const ratios = header.refinements.filter((_, i) => i % 2 === 1);
     return [
         ["neither blocks nor a grid", blocks * blockSize * coefficients === 0],
@@ -131,7 +152,7 @@ function blockRules(header: Header): [string, boolean][] {
         ["more blocks than vertices", blocks > vertices],
         ["blocks larger than the mesh", blockSize > vertices],
         ["blocks too small to cover the mesh", blocks * blockSize < vertices],
-        ["blocks that overlap too much", blocks * blockSize > MOST_COPIES * vertices + FREE_COPIES],
+        ["blocks that overlap too much", blocks * blockSize > mostCopies(vertices)],
         ["more coefficients than a block has vertices", coefficients > blockSize],
         ["more details than a block has vertices", details > blockSize],
         ["details without a step, or a step without details", details > 0 !== detailStep > 0],
@@ -141,5 +162,8 @@ function blockRules(header: Header): [string, boolean][] {
         ["a ratio of a refinement out of its range", !ratios.every((ratio) => ratio === 0 || ratio >= 1 / 16)],
         ["borders without refinements", header.borders > 0 && steps.length === 0],
         ["refinements of a sequence", steps.length > 0 && gopFrames > 0],
+        ["sections that are not pairs of faces and blocks", sections.length % 2 > 0],
+        ["no faces or no blocks for the last section", sections.length > 0 && (before.blocks >= blocks || before.faces >= faces)],
+        ["sections of a sequence", sections.length > 0 && gopFrames > 0],
     ];
 }

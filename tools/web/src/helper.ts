@@ -23,7 +23,7 @@ export interface Share {
 
 /** Whether a block is in a chain of this share. */
 export function isMine(header: Header, index: number, { number, among }: Share): boolean {
-    return chainOf(header, index) % among === number;
+    return chainOf(header, index).number % among === number;
 }
 
 /** Takes the whole stream, as the decoder does, and gives the blocks of its share. */
@@ -76,14 +76,19 @@ export class Helper {
 
     private accept(packet: Packet | Damaged): SharedBlock | undefined {
         const { memory, header, structure, limits, allowance } = this;
-        if (packet.type === "header") this.header = packet.header;
-        else if (packet.type === "connectivity") this.structure = new Structure(memory, header!, packet.method, packet.data, limits, allowance);
-        else if (packet.type === "partition") structure!.acceptPartition(packet.method, packet.data);
+        if (packet.type === "header") {
+            this.header = packet.header;
+            this.structure = new Structure(memory, packet.header, limits, allowance);
+        } else if (packet.type === "connectivity") {
+            structure!.accept(packet.method, packet.data);
+            this.chains = undefined;
+        } else if (packet.type === "partition") structure!.acceptPartition(packet.method, packet.data);
         else if (packet.type === "block" && isMine(header!, packet.index, this.share)) return this.decode(packet);
         return undefined;
     }
 
     private decode({ index, coefficients, data }: Extract<Packet, { type: "block" }>): SharedBlock {
+        this.structure!.expectFaces(index + 1);
         this.chains ??= this.structure!.chains;
         try {
             return { index, block: this.chains.decode(index, coefficients, data) };

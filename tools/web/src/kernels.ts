@@ -107,11 +107,6 @@ export class Memory {
         return this.top;
     }
 
-    /** The numbers that coefficients start from (specification, M 9.1). */
-    priors(length: number): Uint8Array {
-        return new Uint8Array(this.buffer, (this.exports.PRIORS as WebAssembly.Global).value as number, length);
-    }
-
     mark(): number {
         return this.top;
     }

@@ -2,7 +2,7 @@
 import { crc16, crc32 } from "./checksums";
 import { BsmError, CorruptError, FormatError, TruncatedError, UnsupportedError } from "./errors";
 import { CORNER, parseDeclaration, RECOMPUTED, wordsOf, type Declaration } from "./declaration";
-import { parseHeader, type Header } from "./header";
+import { parseHeader, sectionsOf, type Header, type Section } from "./header";
 import { checkLimit, type Limits } from "./limits";
 import { parseMap } from "./maps";
 
@@ -69,6 +69,13 @@ const FOLLOWERS: Record<Kind | "start", Kind[]> = {
     refinement: ["refinement", "values", "end"],
     values: ["values", "gop", "end"],
     end: [],
+};
+
+/** The same in meshes that come in sections (F 3.16). */
+const FOLLOWERS_IN_SECTIONS: typeof FOLLOWERS = {
+    ...FOLLOWERS,
+    connectivity: ["attribute", "block", "refinement", "end"],
+    block: ["connectivity", ...FOLLOWERS.block],
 };
 
 /** Reads a payload from front to back; what it lacks or has too much is a `CorruptError`. */
@@ -169,13 +176,13 @@ function littleEndian(bytes: Uint8Array): number {
 }
 
 /** Everything that may come at any distance behind a packet of a kind. */
-function reachable(kind: Kind | "start"): Kind[] {
+function reachable(followers: typeof FOLLOWERS, kind: Kind | "start"): Kind[] {
     const found = new Set<Kind>();
-    const pending = [...FOLLOWERS[kind]];
+    const pending = [...followers[kind]];
     for (let next; (next = pending.pop()); ) {
         if (found.has(next)) continue;
         found.add(next);
-        pending.push(...FOLLOWERS[next]);
+        pending.push(...followers[next]);
     }
     return [...found];
 }
@@ -187,7 +194,11 @@ class Grammar {
     lossy = false;
     private last: Kind | "start" = "start";
     private allowed = FOLLOWERS.start;
+    private followers = FOLLOWERS;
     private metadataSeen = false;
+    private sections: Section[] = [];
+    /** Sections whose faces were there. */
+    private begun = 0;
     private nextBlock = 0;
     private nextFrame = 0;
     private nextVertex = 0;
@@ -209,13 +220,13 @@ class Grammar {
 
     /** The kinds of packets that may come next. */
     get expected(): Kind[] {
-        const metadata = !this.metadataSeen && ["header", "connectivity", "partition", "order", "attribute"].includes(this.last);
+        const metadata = !this.metadataSeen && this.begun < 2 && ["header", "connectivity", "partition", "order", "attribute"].includes(this.last);
         return metadata ? [...this.allowed, "metadata"] : this.allowed;
     }
 
     /** Take note that an unknown number of frames is missing here: everything that can come later may come now. */
     lose(): void {
-        this.allowed = reachable(this.last);
+        this.allowed = reachable(this.followers, this.last);
         this.lossy = true;
     }
 
@@ -224,7 +235,8 @@ class Grammar {
         if (!this.expected.includes(packet.type)) throw new CorruptError(`${packet.type} may not come here`);
         const { header } = this;
         if (!header) return;
-        if (["block", "gop", "grid", "values", "end"].includes(packet.type) && this.declared.size < header.attributes && !this.lossy) {
+        this.checkSection(packet);
+        if (this.begun === this.sections.length && ["block", "gop", "grid", "values", "end"].includes(packet.type) && this.declared.size < header.attributes && !this.lossy) {
             throw new CorruptError(`${this.declared.size} of ${header.attributes} attributes are declared`);
         }
         if (packet.type === "attribute") this.checkAttribute(packet, header);
@@ -246,7 +258,12 @@ class Grammar {
             this.metadataSeen = true;
             return;
         }
-        if (packet.type === "header") this.header = packet.header;
+        if (packet.type === "header") {
+            this.header = packet.header;
+            this.sections = sectionsOf(packet.header);
+            if (this.sections.length > 1) this.followers = FOLLOWERS_IN_SECTIONS;
+        }
+        if (packet.type === "connectivity") this.begun++;
         if (packet.type === "block") this.nextBlock = packet.index + 1;
         if (packet.type === "gop") this.nextFrame = packet.index + 1;
         if (packet.type === "refinement") this.layer = packet.layer;
@@ -254,7 +271,18 @@ class Grammar {
         if (packet.type === "values") [this.valued, this.nextValue] = [packet.attribute, packet.first + packet.count];
         if (packet.type === "grid" || packet.type === "refinement") this.nextVertex = packet.first + packet.count;
         this.last = packet.type;
-        this.allowed = FOLLOWERS[packet.type];
+        this.allowed = this.followers[packet.type];
+    }
+
+    /** Refuse what has no place in the present section, or comes where one is not whole. */
+    private checkSection(packet: Packet): void {
+        const { begun, sections, lossy } = this;
+        const { first, blocks } = sections[begun - 1] ?? { first: 0, blocks: 0 };
+        const wrong =
+            packet.type === "connectivity" ? begun === sections.length || (this.nextBlock < blocks && !lossy)
+            : packet.type === "block" ? begun > 0 && (packet.index < first || (packet.index >= blocks && !lossy))
+            : begun < sections.length && !lossy && ["attribute", "refinement", "values", "end"].includes(packet.type);
+        if (wrong) throw new CorruptError(`${packet.type} may not come in section ${begun} of ${sections.length}`);
     }
 
     private checkAttribute({ index, declaration, seams }: Extract<Packet, { type: "attribute" }>, header: Header): void {

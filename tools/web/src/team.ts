@@ -1,11 +1,11 @@
 /** Threads that help a decoder: each decodes some of the chains of the stream. */
-import { chainLength } from "./chain";
 import { decode, Decoder, NEED_BLOCK, type Mesh } from "./decoder";
 import type { Header } from "./header";
 import type { SharedBlock } from "./helper";
 import type { Kernels } from "./kernels";
 import type { Limits } from "./limits";
 import type { Answer, Start } from "./desk";
+import { chainOf } from "./structure";
 import { processors, startWorker } from "./workers";
 
 const MOST = 3;
@@ -22,7 +22,7 @@ export interface TeamListener {
 /** How many helpers have something to do; none for fewer vertices than are worthwhile. */
 export function helpersFor(header: Header, worthwhile = WORTHWHILE): number {
     if (header.vertices < worthwhile) return 0;
-    return Math.max(0, Math.min(Math.ceil(header.blocks / chainLength(header)), processors(), MOST + 1) - 1);
+    return Math.max(0, Math.min(chainOf(header, header.blocks - 1).number + 1, processors(), MOST + 1) - 1);
 }
 
 /** Starts its threads at once, and keeps them for one stream after the other. */

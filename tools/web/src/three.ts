@@ -7,7 +7,7 @@ import {
 
 /** What happens to a geometry while it is filled. */
 export interface Progress {
-    /** The faces are there; the geometry draws nothing yet. */
+    /** Faces are there, all or those of one more section; those whose corners have no position yet are not drawn. */
     onConnectivity?: (geometry: BSMGeometry) => void;
     /** A block, a chunk of a grid, or levels of a layer are in the geometry: what they moved, and the geometry. */
     onBlock?: (block: BlockEvent | RefinementEvent, geometry: BSMGeometry) => void;
@@ -19,8 +19,9 @@ export interface Progress {
  * A geometry made of the events of a stream.
  *
  * Attributes are drawn once the mesh is whole: texture coordinates are `uv`, colours `color`, normals `normal`, others have
- * their names, and second ones of a kind a number behind it. The index holds all faces from the beginning, sorted so that those whose corners are known come first, and the
- * draw range ends behind them: a block makes its faces visible, and nothing is copied twice.
+ * their names, and second ones of a kind a number behind it. The index has room for all faces that have come; those whose corners are
+ * known come first, and the draw range ends behind them: a block makes its faces visible. Each section of a mesh makes the
+ * arrays larger, and takes with it what is there.
  */
 export class BSMGeometry extends BufferGeometry {
     /** What the stream says of itself, as soon as that is there. */
@@ -33,6 +34,8 @@ export class BSMGeometry extends BufferGeometry {
     layers = 0;
     /** Blocks, or chunks of a grid, that are there. */
     blocks = 0;
+    /** Sections whose faces are there. */
+    sections = 0;
     /** Attributes that are there, as the stream has them; the geometry has those that it can draw once it is whole. */
     readonly carried: Attribute[] = [];
     /** Positions of the vertices, shape (n, 3). */
@@ -89,21 +92,38 @@ export class BSMGeometry extends BufferGeometry {
         return spread;
     }
 
-    private acceptFaces({ faces, vertices: size, loose }: ConnectivityEvent): void {
+    private acceptFaces({ faces: added, vertices: size, loose, section }: ConnectivityEvent): void {
+        this.sections = section + 1;
+        const [known, before, index] = [this.faces.length, this.origin.length, this.getIndex()];
+        const faces = grown(this.faces, known + added.length);
+        faces.set(added, known);
         this.faces = faces;
-        this.origin = new Int32Array(size).fill(-1);
-        this.depth = new Uint8Array(size);
-        this.touched = new Uint8Array(size);
-        this.waiting = new Uint8Array(faces.length / 3).fill(3);
+        this.origin = grown(this.origin, size).fill(-1, before);
+        this.depth = grown(this.depth, size);
+        this.touched = grown(this.touched, size);
+        this.waiting = grown(this.waiting, faces.length / 3);
         this.facesAround = aroundVertices(faces, size);
-        this.points = new Float32Array(3 * size);
-        this.normals = new Float32Array(3 * size);
+        this.points = grown(this.points, 3 * size);
+        this.normals = grown(this.normals, 3 * size);
         loose.vertices.forEach((vertex, i) => this.points.set(loose.positions.subarray(3 * i, 3 * i + 3), 3 * vertex));
+        if (index) this.dispose(); // what is drawn has no room for more
+        this.deleteAttribute("color");
         this.setAttribute("position", new BufferAttribute(this.points, 3));
         this.setAttribute("normal", new BufferAttribute(this.normals, 3));
-        this.setIndex(new BufferAttribute(new Uint32Array(faces.length), 1));
-        this.setDrawRange(0, 0);
+        this.setIndex(new BufferAttribute(grown((index?.array ?? new Uint32Array(0)) as Uint32Array, faces.length), 1));
+        for (let corner = known; corner < faces.length; corner += 3) this.drawOrWait(corner / 3);
+        this.updateNormals();
+        this.setDrawRange(0, this.drawn);
         this.progress.onConnectivity?.(this);
+    }
+
+    /** Draw a face that has come if all of its corners are there; wait for the others. */
+    private drawOrWait(face: number): void {
+        const corners = this.faces.subarray(3 * face, 3 * face + 3);
+        this.waiting[face] = corners.filter((vertex) => this.origin[vertex] < 0).length;
+        if (this.waiting[face] > 0) return;
+        this.draw(face, this.getIndex()!);
+        for (const vertex of corners) this.touched[vertex] = 1;
     }
 
     private acceptBlock(block: BlockEvent | RefinementEvent): void {
@@ -260,6 +280,13 @@ export class BSMGeometry extends BufferGeometry {
         drawn.forEach((row, i) => spread.set(numbers.subarray(components * row, components * row + components), components * i));
         return spread;
     }
+}
+
+/** Numbers with room for more behind them. */
+function grown<Numbers extends Int32Array | Uint32Array | Uint8Array | Float32Array>(numbers: Numbers, length: number): Numbers {
+    const more = new (numbers.constructor as new (length: number) => Numbers)(length);
+    more.set(numbers);
+    return more;
 }
 
 function aroundVertices(faces: Int32Array, size: number): { starts: Int32Array; members: Int32Array } {

@@ -9,18 +9,27 @@ export const UNCODED = 8e4;
 /** Bytes of a block's frame besides its levels, at least. */
 export const FRAME = 5;
 
-/** Of faces and graph; what meets at more vertices than a closed surface has is sewn together. */
-export function meshCost(vertices: number, faces: number, received: number): number {
-    return 140 * vertices + 85 * faces + 700 * Math.max(0, faces / 2 - vertices) + 400 * received;
+/** Faces and vertices of earlier sections. */
+export interface Earlier {
+    faces: number;
+    vertices: number;
+}
+
+/**
+ * Of faces and graph; what meets at more vertices than a closed surface has is sewn together. Of what there was before, only the
+ * graph is made again.
+ */
+export function meshCost(vertices: number, faces: number, received: number, before: Earlier): number {
+    return 140 * vertices + 85 * faces + 700 * Math.max(0, faces / 2 - vertices) + 400 * received - 100 * before.vertices - 55 * before.faces;
 }
 
 export function orderCost(vertices: number, faces: number, received: number): number {
     return 500 * vertices + 750 * faces + 100 * received;
 }
 
-/** Of cutting a graph of so many vertices and ends of edges into parts, and of growing these to so many copies. */
-export function partitionCost(vertices: number, ends: number, blocks: number, copies: number): number {
-    return (vertices + ends) * (4 * (32 - Math.clz32(blocks)) + 20) + 100 * blocks + 30 * copies;
+/** Of cutting so many vertices and their ends of edges into parts, and of growing these to so many copies, in a graph of `size`. */
+export function partitionCost(vertices: number, ends: number, size: number, blocks: number, copies: number): number {
+    return (vertices + ends) * (4 * (32 - Math.clz32(blocks)) + 20) + 2 * size + 100 * blocks + 30 * copies;
 }
 
 export function labelsCost(vertices: number, ends: number, received: number): number {

@@ -6,8 +6,9 @@ import { basename, join } from "node:path";
 import test, { after, before, describe } from "node:test";
 import { inflateSync } from "node:zlib";
 import { chromium, type BrowserContext, type Page } from "playwright-core";
+import { Decoder } from "../src/index";
 import { readNpz } from "./npz";
-import { base64, savedPage, VECTORS, VIEWER, WEB } from "./shared";
+import { base64, compile, savedPage, VECTORS, VIEWER, WEB } from "./shared";
 
 const CHROMIUM = process.env.CHROMIUM ?? "/usr/bin/chromium";
 const FLAGS = [
@@ -15,6 +16,7 @@ const FLAGS = [
     "--disable-sync", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
 ];
 const STREAM = "good-labels";
+const SECTIONS = "good-sections";
 /** One of the specification, and a real one if it is named. */
 const SEQUENCES = [join(VECTORS, "good-sequence-learnt.bsm"), ...(process.env.BSM_SEQUENCE ? [process.env.BSM_SEQUENCE] : [])];
 
@@ -82,6 +84,32 @@ describe("the page in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromium a
         await state("complete");
         const { share } = silhouette(await page.locator("canvas").screenshot());
         assert.ok(share > 0.05 && share < 0.6, `share ${share}`);
+        await page.goto(savedPage(folder, { whole }));
+        await state("complete");
+    });
+
+    test("draws a section before the faces of the next are there", async () => {
+        const stream = readFileSync(join(VECTORS, `${SECTIONS}.bsm`));
+        const decoder = new Decoder(await compile("kernels.wasm"));
+        const begins: number[] = [];
+        for (let at = 0; at < stream.length; at++) {
+            decoder.receiveData(stream.subarray(at, at + 1));
+            for (let event; typeof (event = decoder.nextEvent()) !== "string"; ) if (event.type === "connectivity") begins.push(at);
+        }
+        assert.ok(begins.length > 1);
+        await page.goto(savedPage(folder, { stream }));
+        await state("complete");
+        await page.getByRole("combobox", { name: "Colour" }).selectOption("blocks");
+        const shares: number[] = [];
+        for (const cut of [...begins.slice(1), stream.length]) {
+            await page.getByLabel("Cut the stream behind byte").fill(String(cut));
+            await page.waitForFunction((cut) => document.body.dataset.taken === String(cut), cut);
+            await page.waitForTimeout(200);
+            shares.push(silhouette(await page.locator("canvas").screenshot()).share);
+        }
+        assert.ok(shares[0] > 0.01 && shares.every((share, i) => i === 0 || share > 1.05 * shares[i - 1]), `${shares}`);
+        await state("complete");
+        assert.deepEqual(complaints, []);
         await page.goto(savedPage(folder, { whole }));
         await state("complete");
     });
@@ -168,7 +196,7 @@ describe("the page in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromium a
     test("fills a geometry of three.js from an address", async () => {
         const script = `
             import { BSMLoader } from "/bsm/three.js";
-            import { Kernels } from "/bsm/bsm.js";
+            import { decode, Kernels } from "/bsm/bsm.js";
             const kernels = Kernels.compile(await (await fetch("/bsm/kernels.wasm")).arrayBuffer());
             const seen = { blocks: 0, frames: 0, bytes: 0 };
             const take = (name) => new Promise((keep, fail) => new BSMLoader(kernels).load(name, keep, (event) => (seen.bytes = event.loaded), fail, {
@@ -181,8 +209,25 @@ describe("the page in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromium a
             const coloured = await take("/stream/good-attribute-colors.bsm");
             const colours = coloured.getAttribute("color");
             const parts = { uv: textured.getAttribute("uv").count, corners: textured.getAttribute("position").count, colours: colours.count / coloured.getAttribute("position").count, brightest: Math.max(...colours.array) };
+            const sections = { begun: [], drawn: [], early: 0 };
+            const look = (geometry) => {
+                const corners = geometry.index.array.subarray(0, geometry.drawRange.count);
+                sections.drawn.push(corners.length);
+                sections.early += corners.filter((vertex) => geometry.origin[vertex] < 0).length;
+            };
+            const parted = await new Promise((keep, fail) => new BSMLoader(kernels).load("/stream/${SECTIONS}.bsm", keep, undefined, fail, {
+                onConnectivity: (geometry) => (sections.begun.push(geometry.index.count), look(geometry)),
+                onBlock: (_, geometry) => look(geometry),
+            }));
+            const sorted = (faces) => Array.from({ length: faces.length / 3 }, (_, i) => faces.slice(3 * i, 3 * i + 3).join()).sort().join(" ");
+            const bytes = new Uint8Array(await (await fetch("/stream/${SECTIONS}.bsm")).arrayBuffer());
+            const mesh = decode(await kernels, bytes);
+            sections.faces = sorted(parted.index.array) === sorted(mesh.faces);
+            sections.positions = parted.points.every((x, i) => Math.abs(x - mesh.positions[i]) < 1e-5);
+            const n = parted.getAttribute("normal").array;
+            sections.normals = Array.from({ length: n.length / 3 }, (_, i) => Math.hypot(n[3 * i], n[3 * i + 1], n[3 * i + 2])).every((length) => Math.abs(length - 1) < 1e-4);
             const problem = await take("/stream/bad-sequence-long.bsm").catch((error) => error.name);
-            window.found = { ...seen, drawn: whole.drawRange.count, faces: whole.index.count, kept: sequence.frames.length, problem, ...parts };`;
+            window.found = { ...seen, drawn: whole.drawRange.count, faces: whole.index.count, kept: sequence.frames.length, problem, sections, ...parts };`;
         const html = `<script type="importmap">{"imports": {"three": "/three/three.module.js"}}</script><script type="module">${script}</script>`;
         await page.route("https://bsm.test/**", (route) => {
             const [, place, name] = /test\/(\w*)\/?(.*)$/.exec(route.request().url())!;
@@ -191,6 +236,11 @@ describe("the page in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromium a
         });
         await page.goto("https://bsm.test/");
         const found = (await (await page.waitForFunction(() => (window as unknown as { found: unknown }).found, undefined, { timeout: 20_000 })).jsonValue()) as Record<string, number | string>;
+        const { begun, drawn, ...sections } = found.sections as unknown as { begun: number[]; drawn: number[] };
+        assert.deepEqual(sections, { early: 0, faces: true, positions: true, normals: true });
+        assert.ok(begun.length > 1 && begun.every((count, i) => i === 0 || count > begun[i - 1]), `${begun}`);
+        assert.ok(drawn[0] === 0 && drawn[1] > 0 && drawn[1] < begun[0] && drawn.every((count, i) => i === 0 || count >= drawn[i - 1]), `${drawn}`);
+        assert.equal(drawn.at(-1), begun.at(-1));
         complaints.splice(0, complaints.length, ...complaints.filter((address) => !address.startsWith("https://bsm.test/")));
         assert.equal(found.drawn, found.faces);
         assert.ok(Number(found.blocks) > 2 && Number(found.bytes) > 0);

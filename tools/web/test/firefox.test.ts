@@ -9,7 +9,7 @@ import { decode } from "../src/index";
 import { base64, BUILDS, compile, savedPage, VECTORS, WEB } from "./shared";
 
 const FIREFOX = process.env.FIREFOX ?? "/usr/bin/firefox-esr";
-const NAMES = ["good-labels", "good-grid", "good-layers", "good-sequence-learnt", "good-attribute-uv-blocks"];
+const NAMES = ["good-labels", "good-grid", "good-layers", "good-sequence-learnt", "good-attribute-uv-blocks", "good-sections"];
 
 describe("Firefox", { skip: !existsSync(FIREFOX) && `no Firefox at ${FIREFOX}`, timeout: 120_000 }, () => {
     const folder = mkdtempSync(join(tmpdir(), "bsm-firefox-"));

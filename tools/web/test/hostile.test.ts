@@ -39,9 +39,11 @@ for (const build of BUILDS) {
 
     test(`${build} every beginning of a stream is truncated`, async () => {
         const compiled = await kernels;
-        const stream = readFileSync(join(VECTORS, "good-details.bsm"));
-        for (let size = 0; size < stream.length; size++) {
-            assert.throws(() => meshOfEvents(eventsOf(compiled, stream.subarray(0, size), stream.length)), TruncatedError);
+        for (const name of ["good-details", "good-sections"]) {
+            const stream = readFileSync(join(VECTORS, `${name}.bsm`));
+            for (let size = 0; size < stream.length; size++) {
+                assert.throws(() => meshOfEvents(eventsOf(compiled, stream.subarray(0, size), stream.length)), TruncatedError);
+            }
         }
     });
 }

@@ -30,6 +30,7 @@ async function told(data: Uint8Array, size: number): Promise<{ events: Event[]; 
 
 /** What is compared of an event. */
 function essence(event: Event): unknown[] {
+    if (event.type === "connectivity") return ["connectivity", event.section, event.sections, event.faces.length / 3, event.vertices];
     if (event.type === "block") return ["block", event.index, event.vertices.length];
     if (event.type === "refinement") return ["refinement", event.layer + 1, event.vertices.length];
     if (event.type === "frame") return ["frame", event.index];

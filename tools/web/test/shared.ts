@@ -11,11 +11,11 @@ export const VECTORS = join(WEB, "../../spec/vectors");
 export const VIEWER = join(WEB, "../../bsm/viewer");
 export const BUILDS = ["kernels.wasm", "kernels-scalar.wasm"];
 
-/** The small build, as the decoder that tests of the sources take. */
-export async function smallDecode(): Promise<(data: Uint8Array) => Mesh> {
-    const small = (await import(pathToFileURL(join(WEB, "built/small.js")).href)) as { decode: typeof decode; Kernels: typeof Kernels };
-    const kernels = await small.Kernels.compile(readFileSync(join(WEB, "built/small.wasm")));
-    return (data) => small.decode(kernels, data);
+/** A build of less than all, as the decoder that tests of the sources take. */
+export async function lesserDecode(build: "small" | "quick"): Promise<(data: Uint8Array) => Mesh> {
+    const lesser = (await import(pathToFileURL(join(WEB, `built/${build}.js`)).href)) as { decode: typeof decode; Kernels: typeof Kernels };
+    const kernels = await lesser.Kernels.compile(readFileSync(join(WEB, `built/${build}.wasm`)));
+    return (data) => lesser.decode(kernels, data);
 }
 
 export function compile(build: string): Promise<Kernels> {
@@ -41,8 +41,10 @@ export function meshOfEvents(events: Iterable<Event>): Mesh {
     const attributes: Attribute[] = [];
     for (const event of events) {
         if (event.type === "connectivity") {
-            faces = Int32Array.from(event.faces);
+            faces = Int32Array.from([...faces, ...event.faces]);
+            const before = positions;
             positions = new Float64Array(3 * event.vertices).fill(NaN);
+            positions.set(before);
             event.loose.vertices.forEach((v, i) => positions.set(event.loose.positions.subarray(3 * i, 3 * i + 3), 3 * v));
         }
         if (event.type === "attribute") attributes.push(event);

@@ -146,7 +146,7 @@ export class View {
     /** Decode from the first byte on; what is shown stays until there is something else. */
     private restart(): void {
         this.thread?.close();
-        const geometry = new BSMGeometry({ onBlock: () => this.drawn(), onFrame: () => this.begin(geometry) });
+        const geometry = new BSMGeometry({ onConnectivity: () => (this.stale = true), onBlock: () => this.drawn(), onFrame: () => this.begin(geometry) });
         this.geometry = geometry;
         this.playback = undefined;
         this.fed = 0;
@@ -301,14 +301,15 @@ export class View {
     }
 
     private statusText(): string {
-        const { header, blocks, layers } = this.geometry;
+        const { header, blocks, layers, sections } = this.geometry;
         if (!header) return "";
+        const turns = header.sections.length > 0 ? `, ${sections} of ${header.sections.length / 2 + 1} sections` : "";
         const parts = header.blocks ? `${blocks} of ${header.blocks} blocks` : `${blocks} chunks of a grid`;
         const most = header.refinements.length / 2;
         const quality = most > 0 ? `, ${layers} of ${most} quality layers` : "";
         const frames = header.gopFrames > 0 ? `, ${header.frames || "any number of"} frames` : "";
         const attributes = header.attributes > 0 ? `, ${this.geometry.carried.length} of ${header.attributes} attributes` : "";
-        return `${parts}${quality}, ${counted(header.vertices)} vertices${frames}${attributes}`;
+        return `${parts}${turns}${quality}, ${counted(header.vertices)} vertices${frames}${attributes}`;
     }
 
     private rivalText(): string {
