@@ -47,7 +47,7 @@ from reference_connectivity import (
     read_signed,
     read_unsigned,
 )
-from reference_fields import GridReader, LevelsReader, place
+from reference_fields import GridReader, LevelsReader, LightReader, place
 from reference_fields import Mesh as Corners
 
 
@@ -1073,7 +1073,7 @@ class Mesh:
 def decode_grid(mesh, grids):
     """V 12: positions in the unit of the mesh, shape (n, 3), and their coded values."""
     header = mesh.header
-    reader = GridReader(mesh.faces, header["vertices"], header["grid"])
+    reader = (LightReader if header["light"] else GridReader)(mesh.faces, header["vertices"], header["grid"])
     for _, _, count, payload in grids:
         reader.read(payload, count)
     positions = [place(x, header) for x in reader.x]
