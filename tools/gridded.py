@@ -8,10 +8,11 @@ from typing import Any
 
 import numpy as np
 import numpy.typing as npt
+from bitstream.fields.light import LightEncoder
 
 from bitstream.connectivity.faces import EncodedConnectivity, decode_connectivity, encode_connectivity
 from bitstream.container.header import HEADER_FIELDS
-from bitstream.container.layout import PARSERS
+from bitstream.container.layout import parse_grid
 from bitstream.container.maps import write_map
 from bitstream.container.wire import FrameType, write_varint
 from bitstream.fields.grid import MOST_LARGEST, GridDecoder, GridEncoder
@@ -49,35 +50,30 @@ def gridded(coded: EncodedConnectivity, values: Ints, counts: Iterable[int], **f
 def grid_frames(faces: Ints, values: Ints, counts: Iterable[int], largest: Sequence[int], light: int) -> Frames:
     """GRID frames of so many vertices each."""
     frames, first = [], 0
-    encoder = GridEncoder(faces, values, largest, light=bool(light))
+    encoder = (LightEncoder if light else GridEncoder)(faces, values, largest)
     for count in counts:
         frames.append((int(FrameType.GRID), write_varint(first) + write_varint(count) + encoder.chunk(count)))
         first += count
     return frames
 
 
-def recoded(stream: bytes, *counts: int, **fields: Any) -> bytes:
-    """A stream on a grid with other fields in its header, its values coded as these say, in frames of so many.
-
-    Without `counts`, frames hold as many as they did.
-    """
+def lightened(stream: bytes, *counts: int) -> bytes:
+    """A stream on a grid with its values coded by the small model instead, in as many frames, or in ones of so many."""
     frames = frames_of(stream)
-    header = header_entries(frames[0][1]) | {HEADER_FIELDS[name].key: value for name, value in fields.items()}
-    vertices, of_faces, largest, light = (
-        header.get(HEADER_FIELDS[name].key, 0) for name in ("vertices", "faces", "grid", "light")
-    )
+    header = header_entries(frames[0][1])
+    vertices, of_faces, largest = (header[HEADER_FIELDS[name].key] for name in ("vertices", "faces", "grid"))
     data = next(payload for kind, payload in frames if kind == FrameType.CONNECTIVITY)
     faces = decode_connectivity(data[1:], vertices, of_faces)
-    chunks = [PARSERS[FrameType.GRID](payload, DEFAULT_LIMITS) for kind, payload in frames if kind == FrameType.GRID]
+    chunks = [parse_grid(payload, DEFAULT_LIMITS) for kind, payload in frames if kind == FrameType.GRID]
     decoder, values = GridDecoder(faces, vertices, largest), np.zeros((vertices, 3), np.int32)
     for chunk in chunks:
         known, coded = decoder.chunk(chunk.data, chunk.count)
         values[known] = coded
+    coded_again = grid_frames(faces, values, counts or [chunk.count for chunk in chunks], largest, light=1)
     place = next(i for i, (kind, _) in enumerate(frames) if kind == FrameType.GRID)
-    others = [frame for frame in frames[1:] if frame[0] != FrameType.GRID]
-    first: Frames = [(FrameType.HEADER, write_map(sorted(header.items())))]
-    grid = grid_frames(faces, values, counts or [chunk.count for chunk in chunks], largest, light)
-    return stream_of([*first, *others[: place - 1], *grid, *others[place - 1 :]])
+    behind = [frame for frame in frames[place:] if frame[0] != FrameType.GRID]
+    changed = write_map(sorted((header | {HEADER_FIELDS["light"].key: 1}).items()))
+    return stream_of([(FrameType.HEADER, changed), *frames[1:place], *coded_again, *behind])
 
 
 def random_grid(random: Random, mesh: TriangleMesh) -> bytes:

@@ -10,7 +10,7 @@ from bitstream.container.wire import FrameType
 from codec.static.decoder import decode
 from codec.static.encoder import encode
 from codec.static.options import EncodeOptions
-from tools.gridded import gridded, random_grid, recoded
+from tools.gridded import gridded, lightened, random_grid
 from tools.proof.decoding import whole
 from tools.proof.inputs import random_mesh
 from tools.proof.shard import reference
@@ -37,7 +37,7 @@ def test_what_is_put_together_decodes_to_the_values_that_were_given(light):
 
 def test_a_stream_is_coded_again_as_its_header_says_then():
     stream = encode(torus(9, 7), EncodeOptions(grid=9, keep_order=True))
-    light = recoded(stream, 3, 60, light=1)
+    light = lightened(stream, 3, 60)
     assert [kind for kind, _ in frames_of(light)] == [
         *(FrameType.HEADER, FrameType.CONNECTIVITY, FrameType.ORDER, FrameType.GRID, FrameType.GRID)
     ]

@@ -12,7 +12,7 @@ from bitstream.fields.grid import MOST_LARGEST
 from codec.geometry.mesh import TriangleMesh
 from codec.static.encoder import encode
 from codec.static.options import EncodeOptions
-from tools.gridded import gridded, recoded
+from tools.gridded import gridded, lightened
 from tools.surgery import stream_of, with_header
 from tools.vectors.good import Good
 from tools.vectors.good_attributes import charts, colors, creases, groups, worn
@@ -22,9 +22,9 @@ from tools.vectors.meshes import hub, patch, shuffled, tangled, tetrahedron, tog
 Faces = npt.NDArray[np.int32]
 
 
-def light(mesh: TriangleMesh, *counts: int, bits: int = 11, keep_order: bool = False, **fields: object) -> bytes:
+def light(mesh: TriangleMesh, *counts: int, bits: int = 11, keep_order: bool = False) -> bytes:
     """Rounded positions, in frames of so many vertices."""
-    return recoded(encode(mesh, EncodeOptions(grid=bits, keep_order=keep_order)), *counts, light=1, **fields)
+    return lightened(encode(mesh, EncodeOptions(grid=bits, keep_order=keep_order)), *counts)
 
 
 def drawn(faces: Faces, largest: tuple[int, int, int], kind: str = "noise", *counts: int) -> bytes:
@@ -79,7 +79,7 @@ LIGHT: dict[str, Good] = {
         lambda: drawn(tangled().faces.astype(np.int32), (MOST_LARGEST,) * 3, "ends"),
     ),
     "good-light-lattice": _good(
-        "a lattice under the grid", lambda: recoded(encode(_exact_lattice(), EncodeOptions(grid=10)), light=1)
+        "a lattice under the grid", lambda: lightened(encode(_exact_lattice(), EncodeOptions(grid=10)))
     ),
     "good-light-corner": _good(
         "a grid that begins at given cells", lambda: with_header(light(small()), center=None, corner=[1, -70000, 0])
