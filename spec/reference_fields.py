@@ -754,7 +754,7 @@ class LightReader(Field):
     """V 15."""
 
     def __init__(self, faces: Iterable[Iterable[int]], vertices: int, largest: list[int]) -> None:
-        super().__init__(Mesh(faces, vertices, traverse=True))
+        super().__init__(Mesh(faces, vertices, traverse=False))
         self.largest = largest
         self.x: list[Triple] = [[0] * 3 for _ in range(vertices)]
         self.gap: list[Triple] = [[0] * 3 for _ in range(vertices)]
@@ -802,20 +802,18 @@ class LightReader(Field):
 
     def start(self, v: int, j: int, flaps: list[tuple[int, int, int, int]], ends: list[int]) -> int:
         """V 15.3."""
-        x, mesh = self.x, self.mesh
+        x = self.x
         if flaps:
-            r, t = sum(x[a][j] + x[b][j] for a, b, _, _ in flaps), sum(x[c][j] for _, _, c, _ in flaps)
-            h = 8 if len(flaps) < 4 else 3
-            return rounded(8 * r + h * (r - 2 * t), len(flaps))
+            return rounded(sum(16 * (x[a][j] + x[b][j] - x[c][j]) for a, b, c, _ in flaps), len(flaps))
         if ends:
-            return rounded(16 * sum(x[u][j] for u in ends), len(ends))
-        return 16 * x[mesh.order[mesh.rank[v] - 1]][j] if mesh.rank[v] > 0 else 0
+            return rounded(sum(16 * x[u][j] for u in ends), len(ends))
+        return 16 * x[v - 1][j] if v > 0 else 0
 
     def spread(self, j: int, flaps: list[tuple[int, int, int, int]], ends: list[int]) -> int:
         """V 15.3."""
         if len(flaps) > 1:
             said = [self.x[a][j] + self.x[b][j] - self.x[c][j] for a, b, c, _ in flaps]
-            return 13 * (max(said) - min(said))
+            return 12 * (max(said) - min(said))
         return sum(self.gap[u][j] for u in ends) // len(ends) if ends else self.largest[j]
 
     def value(self, decoder: RangeDecoder, guess: int, size: int, kind: int) -> int:
