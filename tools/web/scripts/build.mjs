@@ -46,9 +46,14 @@ async function bundle(entry, options = {}) {
     return result.outputFiles[0].text;
 }
 
-/** The decoder as a module inside of one function, `bsm`, whose text threads are made of. */
-async function decoder(entry, plugins = []) {
-    const text = await bundle(join(SOURCES, entry), { plugins, mangleProps: new RegExp(`^(${privateNames().join("|")})$`) });
+/** A decoder as a module. */
+function plain(entry, plugins = []) {
+    return bundle(join(SOURCES, entry), { plugins, mangleProps: new RegExp(`^(${privateNames().join("|")})$`) });
+}
+
+/** The same inside of one function, `bsm`, whose text threads are made of. */
+async function decoder(entry, plugins) {
+    const text = await plain(entry, plugins);
     const [exports, list] = /export\{([^}]*)\};\s*$/.exec(text);
     const names = list.split(",").map((item) => item.split(" as ").reverse());
     const given = names.map(([name, own]) => (own ? `${name}:${own}` : name));
@@ -76,7 +81,7 @@ async function products() {
     return [
         [join(WEB, "built/bsm.js"), whole],
         [join(WEB, "built/small.js"), await decoder("small.ts", [SMALL])],
-        [join(WEB, "built/quick.js"), await decoder("quick.ts", [SMALL, GRIDS])],
+        [join(WEB, "built/quick.js"), await plain("quick.ts", [SMALL, GRIDS])],
         [join(WEB, "built/three.js"), await bundle(join(SOURCES, "three.ts"), { external: ["three"], plugins: [using({ path: "./bsm.js" })] })],
         [join(WEB, "built/LICENSES.txt"), `${licences(BUNDLED)}\n`],
         [join(VIEWER, "page.html"), readFileSync(join(SOURCES, "viewer/page.html"), "utf8")],

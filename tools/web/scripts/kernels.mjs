@@ -54,6 +54,7 @@ const SOURCES = [
     "codec/signal/transform.simd.c",
     "tools/web/src/memory.c",
     "tools/web/src/noise.c",
+    "tools/web/src/places.c",
     "tools/web/src/tables.c",
 ];
 
@@ -67,7 +68,7 @@ const KERNELS = [
     "group_by_label", "chain_blocks", "order_scratch", "order_block", "add_copies", "collect_edges",
     "find_fronts", "suspend", "factorize_fronts", "solve_columns", "resize_columns", "iteration_space", "iterate",
     "cholesky_onorm", "householder", "reconstruct", "look_around", "block_normals", "smooth_all",
-    "find_rings", "filter_rows", "link_corners", "order_vertices", "keep_borders", "code_grid", "code_levels",
+    "find_rings", "filter_rows", "link_corners", "order_vertices", "keep_borders", "code_grid", "place_values", "code_levels",
     "local_frames", "add_levels", "code_matrix", "project", "code_edges", "join_corners",
     "expect_normals", "code_scalars", "code_texcoords", "code_normals", "code_faces", "cotangents", "hold", "pull", "follow_rows",
 ];

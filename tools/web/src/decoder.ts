@@ -407,7 +407,7 @@ export class Decoder {
     /** All positions, if they are as the encoder had them. */
     private solid(): Solid | undefined {
         const { header, grid, refinement, assembly } = this;
-        if (header!.grid.length > 0) return grid && grid.missing.length === 0 ? { positions: grid.positions, places: grid.places } : undefined;
+        if (header!.grid.length > 0) return grid && grid.missing.length === 0 ? { positions: grid.positions, places: grid.coordinates } : undefined;
         if (this.nextIndex < header!.blocks || assembly!.losses().degraded.length > 0 || assembly!.losses().missing.length > 0) return undefined;
         if (this.refinementLossy) return undefined;
         return { positions: refinement?.current ?? assembly!.base() };

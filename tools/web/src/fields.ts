@@ -1,5 +1,5 @@
 /** Fields of integers on a mesh: positions on a grid, and levels that refine what blocks decoded to (specification, V, M 17). */
-import { inMeshUnits, type Changes } from "./assembly";
+import { inMeshUnits, NOT_FINITE, type Changes } from "./assembly";
 import { Coder } from "./entropy";
 import { CorruptError, NumericError } from "./errors";
 import type { Header } from "./header";
@@ -47,22 +47,20 @@ export function makeLearners(memory: Memory, count: number, start: (learner: num
     return learners;
 }
 
-/** The structure Corners of the kernels: corners at each vertex, and those beyond edges. */
-export function linkCorners(memory: Memory, faces: Ints, size: number): Argument {
+/** Vertices in the order of their numbers. */
+function numbered(memory: Memory, size: number): Ints {
+    const rank = memory.ints(size);
+    rank.view.set(upTo(size));
+    return rank;
+}
+
+/** The structure Corners of the kernels: corners at each vertex, and those beyond edges; `rank` may still be filled. */
+export function linkCorners(memory: Memory, faces: Ints, size: number, rank = numbered(memory, size)): Argument {
     const starts = memory.ints(size + 1);
     const corners = memory.ints(faces.length);
     const opposite = memory.ints(faces.length);
-    const rank = memory.ints(size);
-    starts.view.fill(0);
-    corners.view.fill(0);
-    opposite.view.fill(-1);
-    rank.view.set(upTo(size));
     const linked = [faces, starts, corners, opposite, rank];
-    memory.scratch(() => {
-        const scratch = memory.ints(size + faces.length);
-        scratch.view.fill(-1);
-        memory.call("link_corners", linked, scratch);
-    });
+    memory.scratch(() => memory.call("link_corners", linked, memory.ints(size + faces.length)));
     return linked;
 }
 
@@ -83,11 +81,11 @@ export function decodeChunk(memory: Memory, kernel: string, state: Argument[], p
 
 /** Positions on a grid, chunk by chunk, in the order that follows from the faces (V 7 to V 9, V 12). */
 export class Grid {
-    /** In the unit of the mesh, as vertices are numbered in the decoded faces. */
-    readonly positions: Float64Array;
     private readonly state: Argument[];
     private readonly order: Ints;
     private readonly values: Ints;
+    private readonly places: Doubles;
+    private readonly frame: Doubles;
     private coded = 0;
 
     constructor(
@@ -95,15 +93,13 @@ export class Grid {
         faces: Ints,
         private readonly header: Header,
     ) {
-        const size = header.vertices;
-        this.positions = new Float64Array(3 * size);
-        const corners = linkCorners(memory, faces, size);
+        const { vertices: size, corner, center, scale } = header;
+        this.places = memory.doubles(3 * size, 3);
+        this.places.view.fill(0);
+        this.frame = memory.copy([...(corner.length > 0 ? corner : [0, 0, 0]), ...center, scale]);
+        const corners = linkCorners(memory, faces, size, memory.ints(size));
         this.order = memory.ints(size);
-        memory.scratch(() => {
-            const scratch = memory.ints(3 * size, size);
-            scratch.view.fill(-1);
-            memory.call("order_vertices", corners, this.order, scratch);
-        });
+        memory.scratch(() => memory.call("order_vertices", corners, this.order, memory.ints(3 * size, size)));
         const model = makeModel(memory);
         const largest = memory.ints(3);
         largest.view.set(header.grid);
@@ -118,38 +114,33 @@ export class Grid {
     }
 
     decode(first: number, count: number, payload: Uint8Array): Changes {
-        const { header, memory } = this;
+        const { memory, header, places } = this;
         if (first !== this.coded) throw new CorruptError(`positions from number ${this.coded} on are missing; others depend on them`);
         decodeChunk(memory, "code_grid", this.state, payload, first, count);
         this.coded += count;
-        const vertices = this.order.view.slice(first, first + count);
-        const [values, { corner }] = [this.values.view, header];
-        const positions = new Float64Array(3 * count);
-        for (let i = 0, at = 0; i < count; i++) {
-            for (let j = 0, from = 3 * vertices[i]; j < 3; j++) positions[at++] = this.spread(values[from + j]) + (corner[j] ?? 0);
-        }
-        inMeshUnits(positions, header);
-        for (let i = 0, at = 0; i < count; i++) {
-            for (let j = 0, to = 3 * vertices[i]; j < 3; j++) this.positions[to + j] = positions[at++];
-        }
-        return { vertices, positions, final: new Uint8Array(count).fill(1) };
+        return memory.scratch(() => {
+            const [cells, points] = header.lattice.length > 0 ? header.lattice.map(BigInt) : [0n, 0n];
+            const vertices = this.order.part(first, count);
+            const moved = memory.doubles(3 * count, 3);
+            const finite = memory.call("place_values", this.values, vertices, cells, points, this.frame, moved, places);
+            if (!finite) throw new NumericError(NOT_FINITE);
+            return { vertices: vertices.view.slice(), positions: moved.view.slice(), final: new Uint8Array(count).fill(1) };
+        });
+    }
+
+    /** In the unit of the mesh, as vertices are numbered in the decoded faces. */
+    get positions(): Float64Array {
+        return this.places.view.slice();
     }
 
     /** Coded values, as vertices are numbered in the decoded faces. */
-    get places(): Int32Array {
+    get coordinates(): Int32Array {
         return this.values.view.slice();
     }
 
     /** Vertices without a position. */
     get missing(): Int32Array {
         return this.order.view.slice(this.coded);
-    }
-
-    /** The cell of a coded value (V 12), in integers. */
-    private spread(value: number): number {
-        if (this.header.lattice.length === 0) return value;
-        const [cells, points] = this.header.lattice.map(BigInt);
-        return Number((2n * BigInt(value) * cells + points) / (2n * points));
     }
 }
 
