@@ -6,7 +6,8 @@ import { Allowance, type DecodedBlock } from "./chain";
 import { decodeArrangement } from "./connectivity";
 import type { Declaration } from "./declaration";
 import { BsmError, CorruptError, errorLike, UnsupportedError, type Described } from "./errors";
-import { Grid, Refinement } from "./fields";
+import { gridKernel, Refinement } from "./fields";
+import { Grid, lightKernel } from "./grid";
 import type { Header } from "./header";
 import { isMine, type SharedBlock } from "./helper";
 import type { Kernels, Memory } from "./kernels";
@@ -444,7 +445,7 @@ export class Decoder {
         if (this.grid) return this.grid;
         this.announce();
         this.allowance.spend(fieldCost(this.header!.vertices, this.header!.faces, 3));
-        return (this.grid = new Grid(this.memory, this.structure!.faces, this.header!));
+        return (this.grid = new Grid(this.memory, this.structure!.faces, this.header!, this.header!.light ? lightKernel : gridKernel));
     }
 
     private acceptGop(index: number, data: Uint8Array): void {

@@ -1,7 +1,7 @@
 /** Fields of integers on a mesh: positions on a grid, and levels that refine what blocks decoded to (specification, V, M 17). */
-import { inMeshUnits, NOT_FINITE, type Changes } from "./assembly";
-import { Coder } from "./entropy";
+import { inMeshUnits, type Changes } from "./assembly";
 import { CorruptError, NumericError } from "./errors";
+import { decodeChunk, linkCorners, zeros, type GridKernel } from "./grid";
 import type { Header } from "./header";
 import type { Argument, Doubles, Ints, Memory } from "./kernels";
 import { areFinite, rowsOf, upTo } from "./numbers";
@@ -20,6 +20,7 @@ const SUM_LEARNERS = 48;
 
 /** What has been learnt about integers; the structure ValueModel of the kernels (V 3). */
 export function makeModel(memory: Memory): Argument {
+    memory.run("make_value_tables");
     const [slots, hits] = [memory.words(SLOTS), memory.words(HITS)];
     const weights = memory.ints(WEIGHT_ROWS * INPUTS, INPUTS);
     const scales = memory.ints(2 * SCALES, 2);
@@ -47,101 +48,14 @@ export function makeLearners(memory: Memory, count: number, start: (learner: num
     return learners;
 }
 
-/** Vertices in the order of their numbers. */
-function numbered(memory: Memory, size: number): Ints {
-    const rank = memory.ints(size);
-    rank.view.set(upTo(size));
-    return rank;
-}
-
-/** The structure Corners of the kernels: corners at each vertex, and those beyond edges; `rank` may still be filled. */
-export function linkCorners(memory: Memory, faces: Ints, size: number, rank = numbered(memory, size)): Argument {
-    const starts = memory.ints(size + 1);
-    const corners = memory.ints(faces.length);
-    const opposite = memory.ints(faces.length);
-    const linked = [faces, starts, corners, opposite, rank];
-    memory.scratch(() => memory.call("link_corners", linked, memory.ints(size + faces.length)));
-    return linked;
-}
-
-export function zeros(place: Ints): Ints {
-    place.view.fill(0);
-    return place;
-}
-
-/** Decode the next vertices of a field by its kernel. */
-export function decodeChunk(memory: Memory, kernel: string, state: Argument[], payload: Uint8Array, first: number, count: number): void {
-    memory.scratch(() => {
-        const coder = new Coder(memory, payload);
-        const done = memory.call(kernel, coder.parts, ...state, BigInt(first), BigInt(count));
-        if (coder.overran || done < count) throw coder.nonsense(`vertex ${done} of ${count} has a value out of range`);
-        coder.finish();
-    });
-}
-
-/** Positions on a grid, chunk by chunk, in the order that follows from the faces (V 7 to V 9, V 12). */
-export class Grid {
-    private readonly state: Argument[];
-    private readonly order: Ints;
-    private readonly values: Ints;
-    private readonly places: Doubles;
-    private readonly frame: Doubles;
-    private coded = 0;
-
-    constructor(
-        private readonly memory: Memory,
-        faces: Ints,
-        private readonly header: Header,
-    ) {
-        const { vertices: size, corner, center, scale } = header;
-        this.places = memory.doubles(3 * size, 3);
-        this.places.view.fill(0);
-        this.frame = memory.copy([...(corner.length > 0 ? corner : [0, 0, 0]), ...center, scale]);
-        const corners = linkCorners(memory, faces, size, memory.ints(size));
-        this.order = memory.ints(size);
-        memory.scratch(() => memory.call("order_vertices", corners, this.order, memory.ints(3 * size, size)));
-        const model = makeModel(memory);
-        const largest = memory.ints(3);
-        largest.view.set(header.grid);
-        this.values = zeros(memory.ints(3 * size, 3));
-        const words = Math.floor(Math.max(...header.grid) / 64) + 1;
-        const [sums, seen] = [memory.longs(4 * size, 4), memory.longs(3 * words, words)];
-        sums.view.fill(0n);
-        seen.view.fill(0n);
-        const gaps = zeros(memory.ints(3 * size, 3));
-        const learners = makeLearners(memory, SUM_LEARNERS + 12, (k) => (k < SUM_LEARNERS ? [49152] : [49152, 8192]));
-        this.state = [model, corners, [largest, this.order, this.values, gaps, sums, seen, learners]];
-    }
-
-    decode(first: number, count: number, payload: Uint8Array): Changes {
-        const { memory, header, places } = this;
-        if (first !== this.coded) throw new CorruptError(`positions from number ${this.coded} on are missing; others depend on them`);
-        decodeChunk(memory, "code_grid", this.state, payload, first, count);
-        this.coded += count;
-        return memory.scratch(() => {
-            const [cells, points] = header.lattice.length > 0 ? header.lattice.map(BigInt) : [0n, 0n];
-            const vertices = this.order.part(first, count);
-            const moved = memory.doubles(3 * count, 3);
-            const finite = memory.call("place_values", this.values, vertices, cells, points, this.frame, moved, places);
-            if (!finite) throw new NumericError(NOT_FINITE);
-            return { vertices: vertices.view.slice(), positions: moved.view.slice(), final: new Uint8Array(count).fill(1) };
-        });
-    }
-
-    /** In the unit of the mesh, as vertices are numbered in the decoded faces. */
-    get positions(): Float64Array {
-        return this.places.view.slice();
-    }
-
-    /** Coded values, as vertices are numbered in the decoded faces. */
-    get coordinates(): Int32Array {
-        return this.values.view.slice();
-    }
-
-    /** Vertices without a position. */
-    get missing(): Int32Array {
-        return this.order.view.slice(this.coded);
-    }
+/** The kernel of grids that are not light, and all that it learns (V 7 to V 9). */
+export function gridKernel(memory: Memory, header: Header, corners: Argument, [largest, order, values, gaps]: Argument[]): GridKernel {
+    const words = Math.floor(Math.max(...header.grid) / 64) + 1;
+    const [sums, seen] = [memory.longs(4 * header.vertices, 4), memory.longs(3 * words, words)];
+    sums.view.fill(0n);
+    seen.view.fill(0n);
+    const learners = makeLearners(memory, SUM_LEARNERS + 12, (k) => (k < SUM_LEARNERS ? [49152] : [49152, 8192]));
+    return ["code_grid", [makeModel(memory), corners, [largest, order, values, gaps, sums, seen, learners]]];
 }
 
 /** A mesh refined by layers of levels, each in the frames of the base (M 17). */

@@ -1,9 +1,9 @@
-/** A stream of a static mesh on a grid to the mesh, while it arrives: as `decoder.ts` decodes it, without all else. */
+/** A stream of a static mesh on a light grid to the mesh, while it arrives: as `decoder.ts` decodes it, without all else. */
 import { Allowance } from "./chain";
 import { CONNECTIVITY_METHOD, ConnectivityDecoder, decodeArrangement } from "./connectivity";
 import type { BlockEvent, ConnectivityEvent, EndEvent, HeaderEvent, Mesh } from "./decoder";
 import { BsmError, UnsupportedError } from "./errors";
-import { Grid } from "./fields";
+import { Grid, lightKernel } from "./grid";
 import type { Header } from "./header";
 import type { Kernels, Memory } from "./kernels";
 import { DEFAULT_LIMITS, type Limits } from "./limits";
@@ -92,7 +92,7 @@ export class Decoder {
     }
 
     private acceptHeader(header: Header): void {
-        if (header.grid.length === 0) throw new UnsupportedError("this build decodes no blocks, only grids; small.js and bsm.js do");
+        if (!header.light) throw new UnsupportedError("this build decodes light grids alone, which this is not; small.js and bsm.js decode more");
         this.header = header;
         this.connectivity = new ConnectivityDecoder(this.memory, header, this.limits);
         this.queue.push({ type: "header", header });
@@ -126,7 +126,7 @@ export class Decoder {
         const { size, loose } = this.numbering;
         this.queue.push({ type: "connectivity", faces: this.numbering.faces.slice(), vertices: size, loose, section: 0, sections: 1 });
         this.allowance.spend(fieldCost(vertices, faces, 3));
-        return new Grid(this.memory, this.connectivity.faces, this.header);
+        return new Grid(this.memory, this.connectivity.faces, this.header, lightKernel);
     }
 }
 
