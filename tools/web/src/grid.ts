@@ -6,7 +6,7 @@ import type { Header } from "./header";
 import type { Argument, Doubles, Ints, Memory } from "./kernels";
 import { upTo } from "./numbers";
 
-const LIGHT_SLOTS = 32 * 4 * 32;
+const LIGHT_SLOTS = 24 * 151;
 
 /** Vertices in the order of their numbers. */
 function numbered(memory: Memory, size: number): Ints {
