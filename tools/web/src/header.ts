@@ -150,7 +150,7 @@ function blockRules(header: Header): [string, boolean][] {
         ["neither blocks nor a grid", blocks * blockSize * coefficients === 0],
         ["a lattice without a grid", header.lattice.length > 0],
         ["a corner without a grid", header.corner.length > 0],
-        ["a light grid without a grid", header.light > 0],
+        ["light values without a grid", header.light > 0],
         ["more vertices than the corners of its faces", vertices > 3 * faces],
         ["more blocks than vertices", blocks > vertices],
         ["blocks larger than the mesh", blockSize > vertices],
