@@ -49,16 +49,16 @@ INLINE void face(Place *p, const int64_t *normal) {
 }
 
 /* Look around a vertex (V 15.3, V 15.4). */
-OFTEN static void survey(const Corners *c, const Light *g, int32_t v, int32_t last, Place *p) {
-    const int32_t *vertex = c->faces.data, *rank = c->rank.data, *x = g->values.data, *gap = g->gaps.data;
-    int32_t now = rank[v], flaps = 0, ends = 0;
-    int32_t rims[AXES] = {0, 0, 0}, tips[AXES] = {0, 0, 0}, lowest[AXES] = {0, 0, 0}, highest[AXES] = {0, 0, 0};
+OFTEN static void survey(const Corners *c, const Light *g, int32_t v, Place *p) {
+    const int32_t *vertex = c->faces.data, *x = g->values.data, *gap = g->gaps.data;
+    int32_t flaps = 0, ends = 0;
+    int32_t places[AXES] = {0, 0, 0}, lowest[AXES] = {0, 0, 0}, highest[AXES] = {0, 0, 0};
     int32_t sums[AXES] = {0, 0, 0}, gaps[AXES] = {0, 0, 0};
     int64_t normal[AXES] = {0, 0, 0};
     for (int32_t i = c->starts.data[v]; i < c->starts.data[v + 1] && flaps < MOST_FLAPS; i++) {
         int32_t k = c->corners.data[i], end[2] = {vertex[next_corner(k)], vertex[previous_corner(k)]};
         int32_t beyond = c->opposite.data[k];
-        bool known[2] = {rank[end[0]] < now, rank[end[1]] < now};
+        bool known[2] = {end[0] < v, end[1] < v};
         const int32_t *a = x + AXES * (int64_t)end[0], *b = x + AXES * (int64_t)end[1];
         if (flaps == 0)
             for (int side = 0; side < 2; side++) {
@@ -67,7 +67,7 @@ OFTEN static void survey(const Corners *c, const Light *g, int32_t v, int32_t la
                 for (int j = 0; j < AXES; j++) sums[j] += from[j], gaps[j] += at[j];
                 ends++;
             }
-        if (!known[0] || !known[1] || beyond < 0 || rank[vertex[beyond]] >= now) continue;
+        if (!known[0] || !known[1] || beyond < 0 || vertex[beyond] >= v) continue;
         const int32_t *o = x + AXES * (int64_t)vertex[beyond];
         int64_t p0 = b[0] - a[0], p1 = b[1] - a[1], p2 = b[2] - a[2];
         int64_t q0 = o[0] - a[0], q1 = o[1] - a[1], q2 = o[2] - a[2];
@@ -75,9 +75,8 @@ OFTEN static void survey(const Corners *c, const Light *g, int32_t v, int32_t la
         normal[1] += p2 * q0 - p0 * q2;
         normal[2] += p0 * q1 - p1 * q0;
         for (int j = 0; j < AXES; j++) {
-            int32_t rim = a[j] + b[j], across = rim - o[j];
-            rims[j] += rim;
-            tips[j] += o[j];
+            int32_t across = a[j] + b[j] - o[j];
+            places[j] += across;
             lowest[j] = flaps == 0 ? across : (int32_t)least(lowest[j], across);
             highest[j] = flaps == 0 ? across : (int32_t)largest(highest[j], across);
         }
@@ -85,11 +84,10 @@ OFTEN static void survey(const Corners *c, const Light *g, int32_t v, int32_t la
     }
     p->flaps = flaps;
     face(p, normal);
-    int32_t reach = flaps < 4 ? 8 : 3; /* where much is known, the vertex is nearer to it */
     for (int j = 0; j < AXES; j++) {
-        if (flaps > 0) p->guess[j] = divided(8 * rims[j] + reach * (rims[j] - 2 * tips[j]), flaps);
-        else p->guess[j] = ends > 0 ? divided(FINE * sums[j], ends) : last < 0 ? 0 : FINE * x[AXES * (int64_t)last + j];
-        if (flaps > 1) p->size[j] = 13 * (highest[j] - lowest[j]);
+        if (flaps > 0) p->guess[j] = divided(FINE * places[j], flaps);
+        else p->guess[j] = ends > 0 ? divided(FINE * sums[j], ends) : v > 0 ? FINE * x[AXES * (int64_t)(v - 1) + j] : 0;
+        if (flaps > 1) p->size[j] = 12 * (highest[j] - lowest[j]);
         else p->size[j] = ends > 0 ? gaps[j] / ends : g->largest.data[j];
     }
 }
@@ -115,9 +113,9 @@ OFTEN static int32_t code_distance(
     return negative ? -1 - start : 1 + start;
 }
 
-OFTEN static bool code_vertex(RangeCoder *coder, const Corners *corners, const Light *g, int32_t v, int32_t last) {
+OFTEN static bool code_vertex(RangeCoder *coder, const Corners *corners, const Light *g, int32_t v) {
     Place p;
-    survey(corners, g, v, last, &p);
+    survey(corners, g, v, &p);
     int32_t *x = g->values.data + AXES * (int64_t)v, *gap = g->gaps.data + AXES * (int64_t)v, before = 0;
     int64_t square = 0, used = 0, dot = 0;
     for (int j = 0; j < AXES; j++) square += (int64_t)p.normal[j] * p.normal[j];
@@ -140,24 +138,22 @@ OFTEN static bool code_vertex(RangeCoder *coder, const Corners *corners, const L
 
 static bool fits_light(const Corners *corners, const Light *g) {
     int64_t n = corners->rank.size;
-    bool fits = g->largest.size == AXES && g->order.size == n && g->values.rows == n && g->values.columns == AXES
+    bool fits = g->largest.size == AXES && g->values.rows == n && g->values.columns == AXES
         && g->gaps.rows == n && g->gaps.columns == AXES && g->slots.size == LIGHT_SLOTS;
     for (int j = 0; j < AXES && fits; j++) fits = g->largest.data[j] >= 0 && g->largest.data[j] < MOST_SPAN;
     return fits;
 }
 
-/* Code `count` vertices from number `first` of the order on, as far as there is room (writing) or sense (reading).
+/* Code `count` vertices from number `first` on, as far as there is room (writing) or sense (reading).
  * Returns how many. */
 int64_t code_light(Coder given, Corners corners, Light light, int64_t first, int64_t count) {
     RangeCoder coder;
     if (!open_coder(&coder, given) || !fits_corners(&corners) || !fits_light(&corners, &light) || first < 0 || count < 0
-        || first > light.order.size - count)
+        || first > light.values.rows - count)
         return MISUSED;
     int64_t done = 0;
-    for (; done < count && has_room(&coder, AXES * VALUE_BYTES) && !overran(&coder); done++) {
-        int64_t i = first + done;
-        if (!code_vertex(&coder, &corners, &light, light.order.data[i], i > 0 ? light.order.data[i - 1] : -1)) break;
-    }
+    for (; done < count && has_room(&coder, AXES * VALUE_BYTES) && !overran(&coder); done++)
+        if (!code_vertex(&coder, &corners, &light, (int32_t)(first + done))) break;
     close_coder(&coder, given);
     return done;
 }

@@ -1,4 +1,4 @@
-/* Positions on a grid by a small model. See grid.py and light.c. */
+/* Positions on a grid by a small model, vertices as they are numbered. See light.py and light.c. */
 #ifndef BSM_LIGHT_H
 #define BSM_LIGHT_H
 
@@ -16,7 +16,6 @@ enum {
 /* As Python keeps it. */
 typedef struct {
     ConstInts largest; /* 3: values of each axis are 0 .. largest, below 2^20 */
-    ConstInts order;   /* n: vertices as they are coded */
     Ints2 values;      /* n x 3 */
     Ints2 gaps;        /* n x 3: how far values were from guesses, in 1/16 */
     Words slots;       /* LIGHT_SLOTS */

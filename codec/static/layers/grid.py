@@ -15,6 +15,7 @@ from bitstream.container.reader import Signal
 from bitstream.errors import BsmError, CorruptError
 from bitstream.fields.grid import AXES, GridDecoder, GridEncoder
 from bitstream.fields.lattice import spread
+from bitstream.fields.light import LightDecoder, LightEncoder
 from codec.arrays import Indices, Levels, Positions
 from codec.geometry.mesh import TriangleMesh
 from codec.static.attributes.decoding import ValuesStage, completed
@@ -43,6 +44,8 @@ class Grid:
         (cells, points): a coded value k stands for the cell nearest to k * cells / points; (): for itself.
     corner : (int, int, int), or ()
         Cells from the origin on where the values begin; (): there.
+    light : bool
+        Whether values are coded so that they are quick to decode.
     """
 
     origin: tuple[float, ...]
@@ -50,6 +53,7 @@ class Grid:
     largest: tuple[int, ...]
     lattice: tuple[int, ...] = ()
     corner: tuple[int, ...] = ()
+    light: bool = False
 
     def positions(self, coded: Levels) -> Positions:
         """Of coded values, shape (n, 3), in the mesh's unit."""
@@ -60,18 +64,20 @@ class Grid:
     def fields(self) -> dict[str, Any]:
         """Twin of `grid_of`: what the header has to say."""
         return {"center": self.origin, "scale": self.step, "grid": self.largest, "lattice": self.lattice} | {
-            "corner": self.corner
+            "corner": self.corner,
+            "light": int(self.light),
         }
 
 
 def grid_of(header: Header) -> Grid:
     """The grid of a stream."""
-    return Grid(header.center, header.scale, header.grid, header.lattice, header.corner)
+    return Grid(header.center, header.scale, header.grid, header.lattice, header.corner, bool(header.light))
 
 
 def encode_grid(faces: Indices, grid: Grid, coded: Levels) -> list[packets.Grid]:
     """The packets of coded values, shape (n, 3), between 0 and the grid's largest."""
-    encoder, size = GridEncoder(faces, coded, grid.largest), len(coded)
+    kind, size = LightEncoder if grid.light else GridEncoder, len(coded)
+    encoder = kind(faces, coded, grid.largest)
     starts = [*range(0, min(size, 1)), *range(FIRST, size, CHUNK)]
     counts = [end - start for start, end in pairwise([*starts, size])]
     return [packets.Grid(start, count, encoder.chunk(count)) for start, count in zip(starts, counts, strict=True)]
@@ -87,7 +93,8 @@ class GridStage:
         self._structure = structure
         self._tolerant = tolerant
         self._grid = grid_of(structure.header)
-        self._decoder = GridDecoder(structure.faces, size, self._grid.largest, structure.allowance.limits)
+        kind = LightDecoder if self._grid.light else GridDecoder
+        self._decoder = kind(structure.faces, size, self._grid.largest, structure.allowance.limits)
         self._chunks = 0
         self._broken = False
         self._complete: Complete | None = None
