@@ -95,7 +95,7 @@ const REST = [
 
 /** Kernels without which positions on light grids can do. */
 const BLOCKS = [
-    "make_value_tables", "learn_beforehand", "add_noise", "points_of_levels", "code_rows", "code_block", "code_labels", "vertex_faces", "bisect", "refine_partition", "group_by_label", "chain_blocks",
+    "make_value_tables", "learn_beforehand", "add_noise", "order_vertices", "points_of_levels", "code_rows", "code_block", "code_labels", "vertex_faces", "bisect", "refine_partition", "group_by_label", "chain_blocks",
     "order_scratch", "order_block", "add_copies", "collect_edges", "find_fronts", "suspend", "factorize_fronts", "solve_columns",
     "resize_columns", "iteration_space", "iterate", "cholesky_onorm", "householder", "reconstruct", "look_around", "block_normals",
     "smooth_all", "find_rings", "filter_rows", "keep_borders", "code_grid", "code_levels", "local_frames", "add_levels",

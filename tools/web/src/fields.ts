@@ -1,7 +1,7 @@
 /** Fields of integers on a mesh: positions on a grid, and levels that refine what blocks decoded to (specification, V, M 17). */
 import { inMeshUnits, type Changes } from "./assembly";
 import { CorruptError, NumericError } from "./errors";
-import { decodeChunk, linkCorners, zeros, type GridKernel } from "./grid";
+import { decodeChunk, linkCorners, zeros, type Gridded, type GridKernel } from "./grid";
 import type { Header } from "./header";
 import type { Argument, Doubles, Ints, Memory } from "./kernels";
 import { areFinite, rowsOf, upTo } from "./numbers";
@@ -49,13 +49,16 @@ export function makeLearners(memory: Memory, count: number, start: (learner: num
 }
 
 /** The kernel of grids that are not light, and all that it learns (V 7 to V 9). */
-export function gridKernel(memory: Memory, header: Header, corners: Argument, [largest, order, values, gaps]: Argument[]): GridKernel {
-    const words = Math.floor(Math.max(...header.grid) / 64) + 1;
-    const [sums, seen] = [memory.longs(4 * header.vertices, 4), memory.longs(3 * words, words)];
+export function gridKernel(memory: Memory, { vertices, grid }: Header, faces: Ints, [largest, values, gaps]: Gridded): GridKernel {
+    const corners = linkCorners(memory, faces, vertices, memory.ints(vertices));
+    const order = memory.ints(vertices);
+    memory.scratch(() => memory.call("order_vertices", corners, order, memory.ints(3 * vertices, vertices)));
+    const words = Math.floor(Math.max(...grid) / 64) + 1;
+    const [sums, seen] = [memory.longs(4 * vertices, 4), memory.longs(3 * words, words)];
     sums.view.fill(0n);
     seen.view.fill(0n);
     const learners = makeLearners(memory, SUM_LEARNERS + 12, (k) => (k < SUM_LEARNERS ? [49152] : [49152, 8192]));
-    return ["code_grid", [makeModel(memory), corners, [largest, order, values, gaps, sums, seen, learners]]];
+    return { name: "code_grid", state: [makeModel(memory), corners, [largest, order, values, gaps, sums, seen, learners]], order };
 }
 
 /** A mesh refined by layers of levels, each in the frames of the base (M 17). */

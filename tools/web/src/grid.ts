@@ -40,20 +40,28 @@ export function decodeChunk(memory: Memory, kernel: string, state: Argument[], p
     });
 }
 
-/** What decodes values: the name of a kernel, and all that it takes beside a payload. */
-export type GridKernel = [name: string, state: Argument[]];
-
-/** The kernel of light grids, and the little that it learns (V 15). */
-export function lightKernel(memory: Memory, _header: Header, corners: Argument, values: Argument[]): GridKernel {
-    const slots = memory.words(LIGHT_SLOTS);
-    slots.view.fill(2 ** 31);
-    return ["code_light", [corners, [...values, slots]]];
+/** What decodes values: a kernel, all that it takes beside a payload, and the order in which it decodes vertices. */
+export interface GridKernel {
+    name: string;
+    state: Argument[];
+    order: Ints;
 }
 
-/** Positions on a grid, chunk by chunk, in the order that follows from the faces (V 7 to V 9, V 12). */
+/** The arrays that kernels of grids have in common: the largest values, values, and how far these were from guesses. */
+export type Gridded = readonly [largest: Ints, values: Ints, gaps: Ints];
+
+/** The kernel of light grids, and the little that it learns (V 15). */
+export function lightKernel(memory: Memory, { vertices }: Header, faces: Ints, gridded: Gridded): GridKernel {
+    const order = numbered(memory, vertices);
+    const corners = linkCorners(memory, faces, vertices, order);
+    const slots = memory.words(LIGHT_SLOTS);
+    slots.view.fill(2 ** 31);
+    return { name: "code_light", state: [corners, [...gridded, slots]], order };
+}
+
+/** Positions on a grid, chunk by chunk (V 7 to V 9, V 12, V 15). */
 export class Grid {
     private readonly kernel: GridKernel;
-    private readonly order: Ints;
     private readonly values: Ints;
     private readonly places: Doubles;
     private readonly frame: Doubles;
@@ -63,30 +71,26 @@ export class Grid {
         private readonly memory: Memory,
         faces: Ints,
         private readonly header: Header,
-        kernel: (memory: Memory, header: Header, corners: Argument, values: Argument[]) => GridKernel,
+        makeKernel: (memory: Memory, header: Header, faces: Ints, gridded: Gridded) => GridKernel,
     ) {
         const { vertices: size, corner, center, scale } = header;
         this.places = memory.doubles(3 * size, 3);
         this.places.view.fill(0);
         this.frame = memory.copy([...(corner.length > 0 ? corner : [0, 0, 0]), ...center, scale]);
-        const corners = linkCorners(memory, faces, size, memory.ints(size));
-        this.order = memory.ints(size);
-        memory.scratch(() => memory.call("order_vertices", corners, this.order, memory.ints(3 * size, size)));
         const largest = memory.ints(3);
         largest.view.set(header.grid);
         this.values = zeros(memory.ints(3 * size, 3));
-        const gaps = zeros(memory.ints(3 * size, 3));
-        this.kernel = kernel(memory, header, corners, [largest, this.order, this.values, gaps]);
+        this.kernel = makeKernel(memory, header, faces, [largest, this.values, zeros(memory.ints(3 * size, 3))]);
     }
 
     decode(first: number, count: number, payload: Uint8Array): Changes {
-        const { memory, header, places } = this;
+        const { memory, header, places, kernel } = this;
         if (first !== this.coded) throw new CorruptError(`positions from number ${this.coded} on are missing; others depend on them`);
-        decodeChunk(memory, ...this.kernel, payload, first, count);
+        decodeChunk(memory, kernel.name, kernel.state, payload, first, count);
         this.coded += count;
         return memory.scratch(() => {
             const [cells, points] = header.lattice.length > 0 ? header.lattice.map(BigInt) : [0n, 0n];
-            const vertices = this.order.part(first, count);
+            const vertices = kernel.order.part(first, count);
             const moved = memory.doubles(3 * count, 3);
             const finite = memory.call("place_values", this.values, vertices, cells, points, this.frame, moved, places);
             if (!finite) throw new NumericError(NOT_FINITE);
@@ -106,6 +110,6 @@ export class Grid {
 
     /** Vertices without a position. */
     get missing(): Int32Array {
-        return this.order.view.slice(this.coded);
+        return this.kernel.order.view.slice(this.coded);
     }
 }
