@@ -19,6 +19,7 @@ from codec.static.options import PRESETS, EncodeOptions
 from codec.static.quality.targets import Target
 from tools.fuzz.mutate import mutate_stream
 from tools.fuzz.sweep import mutate
+from tools.gridded import random_grid
 from tools.sections import random_sections
 from tools.vectors.meshes import hub, patch, shuffled, tangled, tetrahedron, together, torus, triangle
 from tools.vectors.store import FOLDER
@@ -31,6 +32,8 @@ SEQUENCES = 0.25
 """Share of sequences among random streams."""
 SECTIONS = 0.25
 """Share of meshes that are to come in sections."""
+GRIDS = 0.5
+"""Share of grids among streams that no encoder wrote."""
 
 
 def vector_seeds() -> list[bytes]:
@@ -58,8 +61,9 @@ def random_stream(random: Random) -> bytes:
 
 
 def unencoded_stream(random: Random) -> bytes | None:
-    """A mesh in sections that no encoder would choose, some of them illegal; None where the mesh cannot be cut."""
-    return random_sections(random, random_mesh(random))
+    """A mesh on a grid, or in sections, some illegal, that no encoder would choose; None where it cannot be cut."""
+    mesh = random_mesh(random)
+    return random_grid(random, mesh) if random.random() < GRIDS else random_sections(random, mesh)
 
 
 def random_mesh(random: Random) -> TriangleMesh:
