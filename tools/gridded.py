@@ -8,7 +8,6 @@ from typing import Any
 
 import numpy as np
 import numpy.typing as npt
-from bitstream.fields.light import LightEncoder
 
 from bitstream.connectivity.faces import EncodedConnectivity, decode_connectivity, encode_connectivity
 from bitstream.container.header import HEADER_FIELDS
@@ -16,6 +15,7 @@ from bitstream.container.layout import parse_grid
 from bitstream.container.maps import write_map
 from bitstream.container.wire import FrameType, write_varint
 from bitstream.fields.grid import MOST_LARGEST, GridDecoder, GridEncoder
+from bitstream.fields.light import LightEncoder
 from bitstream.limits import DEFAULT_LIMITS
 from codec.geometry.mesh import TriangleMesh
 from tools.surgery import Frames, frames_of, header_entries, header_frame, stream_of

@@ -522,10 +522,10 @@ BOMBS: dict[str, Bomb] = {
     "light": Bomb("the small model on a million vertices", lambda: _grid(("torus", 1024, 1024), 1 << 15, light=1)),
     "light-chunks": Bomb("the same, vertex by vertex", lambda: _grid(("torus", 100, 100), 1, light=1)),
     "light-hubs": Bomb(
-        "hubs beside everything, by the small model", lambda: _grid(("wheels", 200, 8000), 1 << 15, light=1)
+        "hubs beside everything, by the small model", lambda: _grid(("wheels", 20, 4000), 1 << 15, light=1)
     ),
     "light-repeated": Bomb(
-        "vertices with a million corners, by the small model", lambda: _grid(("repeated", 250_000), 1, light=1)
+        "vertices with very many corners, by the small model", lambda: _grid(("repeated", 15_000), 1, light=1)
     ),
     "light-noise": Bomb(
         "values that nothing foretells, by the small model", lambda: _noisy_grid(("torus", 64, 64), 20, light=1)

@@ -7,7 +7,6 @@ from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
-from bitstream.fields.light import LightDecoder, LightEncoder
 
 from bitstream.attributes.faces import FaceValueDecoder
 from bitstream.attributes.seams import Joins, decode_seams
@@ -29,6 +28,7 @@ from bitstream.fields.chunks import FieldEncoder
 from bitstream.fields.corners import corners_of
 from bitstream.fields.grid import GridDecoder, GridEncoder
 from bitstream.fields.levels import LevelsDecoder, LevelsEncoder
+from bitstream.fields.light import LightDecoder, LightEncoder
 from bitstream.limits import Limits
 from bsm.files.mesh import MESH_FORMATS, read_mesh
 from codec.geometry.graph import graph_of_faces

@@ -13,7 +13,7 @@ from bitstream.container import packets
 from bitstream.container.header import Header
 from bitstream.container.reader import Signal
 from bitstream.errors import BsmError, CorruptError
-from bitstream.fields.grid import AXES, GridDecoder, GridEncoder
+from bitstream.fields.grid import GridDecoder, GridEncoder
 from bitstream.fields.lattice import spread
 from bitstream.fields.light import LightDecoder, LightEncoder
 from codec.arrays import Indices, Levels, Positions
@@ -24,7 +24,7 @@ from codec.static.events import BlockEvent, Changes, Losses, LossEvent, unreadab
 from codec.static.quality.whole import Complete
 from codec.static.stages import Arrival, Stage, misplaced
 from codec.static.structure import Structure
-from codec.static.work import field_cost, grid_chunk_cost, grid_memory
+from codec.static.work import grid_chunk_cost, grid_cost, grid_memory, light_chunk_cost, light_cost
 
 FIRST, CHUNK = 1 << 12, 1 << 13
 """Vertices of the first frame, and of each that follows: large meshes are seen while they arrive, from early on."""
@@ -83,17 +83,22 @@ def encode_grid(faces: Indices, grid: Grid, coded: Levels) -> list[packets.Grid]
     return [packets.Grid(start, count, encoder.chunk(count)) for start, count in zip(starts, counts, strict=True)]
 
 
+FULL = GridDecoder, grid_cost, grid_chunk_cost
+LIGHT = LightDecoder, light_cost, light_chunk_cost
+"""How values are decoded, and what that and each frame cost."""
+
+
 class GridStage:
     """The faces are known; chunks of positions come."""
 
     def __init__(self, structure: Structure, tolerant: bool) -> None:
         size, faces, allowance = structure.header.vertices, len(structure.faces), structure.allowance
         allowance.keep(grid_memory(size, faces))
-        allowance.spend(field_cost(size, faces, AXES))
+        self._grid = grid_of(structure.header)
+        kind, cost, self._chunk_cost = LIGHT if self._grid.light else FULL
+        allowance.spend(cost(size, faces))
         self._structure = structure
         self._tolerant = tolerant
-        self._grid = grid_of(structure.header)
-        kind = LightDecoder if self._grid.light else GridDecoder
         self._decoder = kind(structure.faces, size, self._grid.largest, structure.allowance.limits)
         self._chunks = 0
         self._broken = False
@@ -119,7 +124,7 @@ class GridStage:
     def _decode(self, packet: packets.Grid, queue: deque[Any]) -> None:
         if self._broken:
             return
-        self._structure.allowance.spend(grid_chunk_cost(len(packet.data)), len(packet.data))
+        self._structure.allowance.spend(self._chunk_cost(len(packet.data)), len(packet.data))
         try:
             if packet.first != self._decoder.coded:
                 raise CorruptError(f"positions from number {self._decoder.coded} on are missing; others depend on them")
