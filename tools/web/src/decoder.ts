@@ -18,7 +18,7 @@ import { Sequence } from "./sequence";
 import { split } from "./splits";
 import { Structure, type Chains } from "./structure";
 import { TolerantReader } from "./tolerant";
-import { chunkCost, fieldCost, gridChunkCost, layerCost, orderCost } from "./work";
+import { chunkCost, GRID_COST, layerCost, LIGHT_COST, orderCost, type GridCost } from "./work";
 
 const ORDER_METHOD = 1;
 const SPLITS_METHOD = 2;
@@ -434,17 +434,21 @@ export class Decoder {
     private acceptGrid(first: number, count: number, data: Uint8Array): void {
         this.begunGrid();
         if (this.gridBroken) return;
-        this.allowance.spend(gridChunkCost(data.length), data.length);
+        this.allowance.spend(this.gridCost.frame(data.length), data.length);
         this.gridBroken = !this.tolerating(() => {
             const changes = this.grid!.decode(first, count, data);
             this.queue.push({ type: "block", index: this.chunks++, ...this.numbering!.spread(changes) });
         });
     }
 
+    private get gridCost(): GridCost {
+        return this.header!.light ? LIGHT_COST : GRID_COST;
+    }
+
     private begunGrid(): Grid {
         if (this.grid) return this.grid;
         this.announce();
-        this.allowance.spend(fieldCost(this.header!.vertices, this.header!.faces, 3));
+        this.allowance.spend(this.gridCost.whole(this.header!.vertices, this.header!.faces));
         return (this.grid = new Grid(this.memory, this.structure!.faces, this.header!, this.header!.light ? lightKernel : gridKernel));
     }
 

@@ -9,7 +9,7 @@ import type { Kernels, Memory } from "./kernels";
 import { DEFAULT_LIMITS, type Limits } from "./limits";
 import { Numbering, permuted } from "./numbering";
 import { END_OF_STREAM, NEED_DATA, Reader, type Packet, type Signal } from "./reader";
-import { fieldCost, gridChunkCost, meshCost, orderCost } from "./work";
+import { LIGHT_COST, meshCost, orderCost } from "./work";
 
 const ORDER_METHOD = 1;
 
@@ -115,7 +115,7 @@ export class Decoder {
 
     private acceptGrid(first: number, count: number, data: Uint8Array): void {
         const grid = (this.grid ??= this.begunGrid());
-        this.allowance.spend(gridChunkCost(data.length), data.length);
+        this.allowance.spend(LIGHT_COST.frame(data.length), data.length);
         const changes = grid.decode(first, count, data);
         this.queue.push({ type: "block", index: this.chunks++, ...this.numbering!.spread(changes) });
     }
@@ -125,7 +125,7 @@ export class Decoder {
         this.numbering ??= new Numbering(this.connectivity.faces.view.slice(), vertices);
         const { size, loose } = this.numbering;
         this.queue.push({ type: "connectivity", faces: this.numbering.faces.slice(), vertices: size, loose, section: 0, sections: 1 });
-        this.allowance.spend(fieldCost(vertices, faces, 3));
+        this.allowance.spend(LIGHT_COST.whole(vertices, faces));
         return new Grid(this.memory, this.connectivity.faces, this.header, lightKernel);
     }
 }
