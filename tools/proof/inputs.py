@@ -167,8 +167,8 @@ def _static_options(random: Random) -> EncodeOptions:
         preset = vars(random.choice(list(PRESETS.values())))
         return EncodeOptions(**{**preset, "quick": random.random() < 0.3, "threads": 1})
     if way == 1:
-        chosen = {"keep_order": random.random() < 0.3, "quick": random.random() < 0.5}
-        return EncodeOptions(grid=random.randrange(1, 21), threads=1, **chosen)
+        keep, quick = random.random() < 0.3, random.random() < 0.5
+        return EncodeOptions(grid=random.randrange(1, 21), threads=1, keep_order=keep, quick=quick)
     if way == 2:
         given["target"] = Target(random.choice(Target.KINDS), random.choice((0.01, 1.0, 8.0, 400.0)))
     elif way == 3:
