@@ -164,9 +164,11 @@ def _static_options(random: Random) -> EncodeOptions:
     way = random.randrange(8)
     given: dict[str, Any] = {"block_size": random.choice((12, 30, 30, 60, 100, 750)), "threads": 1}
     if way == 0:
-        return EncodeOptions(**{**vars(random.choice(list(PRESETS.values()))), "threads": 1})
+        preset = vars(random.choice(list(PRESETS.values())))
+        return EncodeOptions(**{**preset, "quick": random.random() < 0.3, "threads": 1})
     if way == 1:
-        return EncodeOptions(grid=random.randrange(1, 21), keep_order=random.random() < 0.3, threads=1)
+        chosen = {"keep_order": random.random() < 0.3, "quick": random.random() < 0.5}
+        return EncodeOptions(grid=random.randrange(1, 21), threads=1, **chosen)
     if way == 2:
         given["target"] = Target(random.choice(Target.KINDS), random.choice((0.01, 1.0, 8.0, 400.0)))
     elif way == 3:
