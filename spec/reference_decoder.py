@@ -47,7 +47,7 @@ from reference_connectivity import (
     read_signed,
     read_unsigned,
 )
-from reference_fields import GridReader, LevelsReader, place
+from reference_fields import GridReader, LevelsReader, LightReader, place
 from reference_fields import Mesh as Corners
 
 
@@ -215,6 +215,7 @@ FIELDS = {
     "attributes": (33, int, 0, 255, 0),
     "corner": (40, [0, 3], -(2**31), COUNT, []),
     "sections": (41, [0, 14], 1, COUNT, []),
+    "light": (42, "method", 0, 1, 0),
 }
 
 
@@ -258,7 +259,7 @@ def parse_header(payload):
     require(h["vertices"] <= 3 * h["faces"], "more vertices than corners")  # F 4.6
     if h["grid"]:
         others = {name for name in FIELDS if h[name] != FIELDS[name][4]}
-        allowed = {"vertices", "faces", "center", "scale", "grid", "lattice", "attributes", "corner"}
+        allowed = {"vertices", "faces", "center", "scale", "grid", "lattice", "attributes", "corner", "light"}
         require(others <= allowed, "a grid, and something else")
         require(len(h["grid"]) == 3, "a grid of other than three axes")
         require(len(h["lattice"]) in (0, 2), "a lattice is not two numbers")
@@ -267,6 +268,7 @@ def parse_header(payload):
         require(not h["lattice"] or max(h["grid"]) <= h["lattice"][1] <= h["lattice"][0], "a lattice that is none")
     else:
         require(not h["lattice"] and not h["corner"], "a lattice or a corner without a grid")
+        require(not h["light"], "light values without a grid")
         require(h["blocks"] and h["block_size"] and h["coefficients"], "no blocks, and no grid")
     require(h["blocks"] <= h["vertices"], "more blocks than vertices")
     require(h["block_size"] <= h["vertices"], "blocks larger than the mesh")
@@ -1071,7 +1073,7 @@ class Mesh:
 def decode_grid(mesh, grids):
     """V 12: positions in the unit of the mesh, shape (n, 3), and their coded values."""
     header = mesh.header
-    reader = GridReader(mesh.faces, header["vertices"], header["grid"])
+    reader = (LightReader if header["light"] else GridReader)(mesh.faces, header["vertices"], header["grid"])
     for _, _, count, payload in grids:
         reader.read(payload, count)
     positions = [place(x, header) for x in reader.x]

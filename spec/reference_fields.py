@@ -9,6 +9,7 @@ It shares no code with the product. Docstrings and comments name the rules (V) o
     5  Chunks                   (V 7.1)
     6  Positions on a grid      (V 7 to V 10, V 12)
     7  Levels                   (V 11)
+    8  Light values             (V 15)
 """
 
 from __future__ import annotations
@@ -430,7 +431,7 @@ class Field:
     """V 7.1: vertices of an order, from frame to frame."""
 
     def __init__(self, mesh: Mesh) -> None:
-        self.mesh, self.model, self.next = mesh, Model(), 0
+        self.mesh, self.next = mesh, 0
 
     def vertex(self, decoder: RangeDecoder, v: int) -> None:
         """Decode a vertex."""
@@ -483,6 +484,10 @@ class Plane:
         self.square = sum(x * x for x in self.n)
         self.dot = self.used = 0
 
+    def axes(self) -> list[int]:
+        """V 8.5."""
+        return sorted(range(3), key=lambda j: (abs(self.n[j]), j))
+
     def tilt(self, j: int) -> int:
         """V 8.6."""
         return clamp(div(-self.n[j] * self.dot, self.square - self.used + (self.square >> 6) + 1), -(1 << 26), 1 << 26)
@@ -493,12 +498,19 @@ class Plane:
         self.used += self.n[j] ** 2
 
 
+def normal(a: Triple, b: Triple, c: Triple) -> Triple:
+    """V 8.5."""
+    s = [b[j] - a[j] for j in range(3)]
+    t = [c[j] - a[j] for j in range(3)]
+    return [s[1] * t[2] - s[2] * t[1], s[2] * t[0] - s[0] * t[2], s[0] * t[1] - s[1] * t[0]]
+
+
 class GridReader(Field):
     """V 7 to V 10."""
 
     def __init__(self, faces: Iterable[Iterable[int]], vertices: int, largest: list[int]) -> None:
         super().__init__(Mesh(faces, vertices, traverse=True))
-        self.largest = largest
+        self.model, self.largest = Model(), largest
         self.x: list[Triple] = [[0] * 3 for _ in range(vertices)]
         self.gap: list[Triple] = [[0] * 3 for _ in range(vertices)]
         self.seen: list[set[int]] = [set(), set(), set()]
@@ -530,11 +542,11 @@ class GridReader(Field):
             base = [rounded(sum(p[j] for p in across), len(flaps)) for j in range(3)]
         shape = self.shape(v, flaps)
         closing = self.closing(near, base)
-        normals = [self.normal(a, b, c) for a, b, c, _ in flaps]  # V 8.5
-        planes = [Plane(normal) for normal in normals[:2]]
-        whole_plane = Plane([sum(normal[j] for normal in normals) for j in range(3)])
+        normals = [normal(x[a], x[b], x[c]) for a, b, c, _ in flaps]  # V 8.5
+        planes = [Plane(one) for one in normals[:2]]
+        whole_plane = Plane([sum(one[j] for one in normals) for j in range(3)])
         hits, first_gap = 0, 0
-        for step, j in enumerate(sorted(range(3), key=lambda j: (abs(whole_plane.n[j]), j))):
+        for step, j in enumerate(whole_plane.axes()):
             far = 16 * self.largest[j]
             f = min(len(flaps), 3)
             tilt = whole_plane.tilt(j)
@@ -626,12 +638,6 @@ class GridReader(Field):
                 total[j] += clamp(balance, -(1 << 26), 1 << 26)
         return [rounded(value, len(found)) for value in total] if len(found) > 1 else total
 
-    def normal(self, a: int, b: int, c: int) -> Triple:
-        """V 8.5."""
-        s = [self.x[b][j] - self.x[a][j] for j in range(3)]
-        t = [self.x[c][j] - self.x[a][j] for j in range(3)]
-        return [s[1] * t[2] - s[2] * t[1], s[2] * t[0] - s[0] * t[2], s[0] * t[1] - s[1] * t[0]]
-
     def near_value(self, j: int, t: int) -> int:
         """V 8.7."""
         block = 64 * (t // 64)
@@ -663,7 +669,7 @@ class LevelsReader(Field):
     def __init__(self, faces: Iterable[Iterable[int]], vertices: int, axes: int, *, borders: bool = False) -> None:
         super().__init__(Mesh(faces, vertices, traverse=False))
         self.passed = self.mesh.keep_borders() if borders else set()
-        self.axes = axes
+        self.model, self.axes = Model(), axes
         self.x = [[0] * axes for _ in range(vertices)]
         self.gap = [[0] * axes for _ in range(vertices)]
         self.ring = [[0] * axes for _ in range(vertices)]
@@ -735,3 +741,104 @@ class LevelsReader(Field):
         self.ring[v][j] = rounded(16 * (value + sum(x[u] for u in near)), len(near) + 1)
         learner.learn(terms, 16 * value, error + 4)
         return abs(value) + own // 2
+
+
+# ---------------------------------------------------------------------------------------------------------------------
+# 8  Light values
+# ---------------------------------------------------------------------------------------------------------------------
+
+Place = tuple[str, int, int]
+
+
+class LightReader(Field):
+    """V 15."""
+
+    def __init__(self, faces: Iterable[Iterable[int]], vertices: int, largest: list[int]) -> None:
+        super().__init__(Mesh(faces, vertices, traverse=False))
+        self.largest = largest
+        self.x: list[Triple] = [[0] * 3 for _ in range(vertices)]
+        self.gap: list[Triple] = [[0] * 3 for _ in range(vertices)]
+        self.slots: dict[tuple[int, str, int, int], tuple[int, int]] = {}
+
+    def bit(self, decoder: RangeDecoder, class_: int, place: Place) -> int:
+        """V 15.2."""
+        slot = self.slots.get((class_, *place), (1 << 21, 0))
+        bit = decoder.bit(clamp(slot[0] >> 6, 1, 65535))
+        self.slots[class_, *place] = learn_slot(slot, bit, 43)
+        return bit
+
+    def ends(self, v: int) -> list[int]:
+        """V 15.3."""
+        mesh, found = self.mesh, []
+        for k in mesh.corners[v]:
+            around = [mesh.vertex[mesh.next(k)], mesh.vertex[mesh.previous(k)]]
+            found += [u for u in around if mesh.rank[u] < mesh.rank[v]]
+            tips = [mesh.vertex[mesh.opposite[k]]] if k in mesh.opposite else []
+            if tips and all(mesh.rank[u] < mesh.rank[v] for u in around + tips):  # the first flap
+                break
+        return found[:16]
+
+    def vertex(self, decoder: RangeDecoder, v: int) -> None:
+        """V 15.3 to V 15.5."""
+        mesh, x = self.mesh, self.x
+        flaps, ends = mesh.flaps(v), self.ends(v)
+        normals = [normal(x[a], x[b], x[c]) for a, b, c, _ in flaps]
+        plane = Plane([sum(one[j] for one in normals) for j in range(3)])  # V 15.4
+        before = 0
+        for step, j in enumerate(plane.axes()):
+            start, spread = self.start(v, j, flaps, ends), self.spread(j, flaps, ends)
+            turn = 0
+            if step:
+                turn = div(-plane.n[j] * plane.dot, plane.square - plane.used + (plane.square >> 1) + 1)
+            guess = clamp(start + turn, 0, 16 * self.largest[j])
+            size = ((8 - step) * spread + before) >> 3
+            value = self.value(decoder, guess, size, 3 * min(len(flaps), 3) + step)
+            if not 0 <= value <= self.largest[j]:  # V 7.2
+                decoder.fail("a value is outside the grid")
+            x[v][j] = value
+            self.gap[v][j] = abs(16 * value - guess)
+            before += self.gap[v][j]
+            plane.pass_axis(j, 16 * value - start)
+
+    def start(self, v: int, j: int, flaps: list[tuple[int, int, int, int]], ends: list[int]) -> int:
+        """V 15.3."""
+        x = self.x
+        if flaps:
+            return rounded(sum(16 * (x[a][j] + x[b][j] - x[c][j]) for a, b, c, _ in flaps), len(flaps))
+        if ends:
+            return rounded(sum(16 * x[u][j] for u in ends), len(ends))
+        return 16 * x[v - 1][j] if v > 0 else 0
+
+    def spread(self, j: int, flaps: list[tuple[int, int, int, int]], ends: list[int]) -> int:
+        """V 15.3."""
+        if len(flaps) > 1:
+            said = [self.x[a][j] + self.x[b][j] - self.x[c][j] for a, b, c, _ in flaps]
+            return 12 * (max(said) - min(said))
+        return sum(self.gap[u][j] for u in ends) // len(ends) if ends else self.largest[j]
+
+    def value(self, decoder: RangeDecoder, guess: int, size: int, kind: int) -> int:
+        """V 15.6."""
+        c = whole(guess)
+        o = guess - 16 * c
+        w = 0 if abs(o) <= 1 else 1 if abs(o) <= 4 else 2
+        class_ = min(size_class(size >> 3), 23)
+
+        def plain(*place: str | int) -> int:
+            return self.bit(decoder, class_, place)
+
+        if plain("kind", kind, w):
+            return c
+        bit = plain("sign", 0, w)
+        r = -1 if (bit and o >= 0) or (not bit and o < 0) else 1
+        k, d, i = max(size.bit_length() - 6, 0), 0, 0
+        while d + (1 << k) < 1 << 21:
+            if not plain("kind", kind, 3 + min(i, 8)):
+                break
+            d, i = d + (1 << k), i + 1
+            if i >= 4:
+                k += 1
+        if k > 0:
+            if plain("halves", 0, min(i, 3)):
+                d += 1 << (k - 1)
+            d += decoder.uniform(1 << (k - 1))
+        return c + r * (1 + d)

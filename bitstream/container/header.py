@@ -211,6 +211,8 @@ class Header:
     """First cell of a grid on each axis, counted from the origin of the mesh's unit; empty: `center` says it."""
     sections: tuple[int, ...] = integers(41, 1, COUNT, (0, 2 * (MOST_SECTIONS - 1)), default=())
     """Faces and blocks of each section but the last, one pair after another; see `spans`."""
+    light: int = method(42, known=2)
+    """1: the values of a grid are quick to decode, and some more bytes."""
 
     def __post_init__(self) -> None:
         normalise_fields(self, "header")
@@ -279,7 +281,7 @@ def _grid_rules(header: Header) -> dict[str, bool]:
     } | {
         f"a grid, and {name}": getattr(header, name) != default
         for name, default in HEADER_DEFAULTS.items()
-        if name not in ("grid", "lattice", "center", "scale", "attributes", "corner")
+        if name not in ("grid", "lattice", "center", "scale", "attributes", "corner", "light")
     }
 
 
@@ -288,6 +290,7 @@ def _block_rules(header: Header) -> dict[str, bool]:
         "neither blocks nor a grid": not (header.blocks and header.block_size and header.coefficients),
         "a lattice without a grid": bool(header.lattice),
         "a corner without a grid": bool(header.corner),
+        "light values without a grid": bool(header.light),
         "more vertices than the corners of its faces": header.vertices > 3 * header.faces,
         "more blocks than vertices": header.blocks > header.vertices,
         "blocks larger than the mesh": header.block_size > header.vertices,

@@ -24,7 +24,8 @@ static void gather_corners(Corners c) {
  * as it was; `below` the corner that waited before. */
 OFTEN static void pair_corners(Corners c, int32_t v, int32_t *waiting, int32_t *below) {
     const int32_t *vertex = c.faces.data;
-    for (int pass = 0; pass < 2; pass++)
+    int32_t alone = 0; /* corners that wait */
+    for (int pass = 0; pass == 0 || (pass == 1 && alone > 0); pass++)
         for (int32_t i = c.starts.data[v]; i < c.starts.data[v + 1]; i++)
             for (int side = 0; side < 2; side++) {
                 int32_t next = next_corner(c.corners.data[i]), previous = previous_corner(c.corners.data[i]);
@@ -36,10 +37,12 @@ OFTEN static void pair_corners(Corners c, int32_t v, int32_t *waiting, int32_t *
                 } else if (other < 0) {
                     below[facing] = other;
                     waiting[u] = facing;
+                    alone++;
                 } else {
                     waiting[u] = below[other];
                     c.opposite.data[facing] = other;
                     c.opposite.data[other] = facing;
+                    alone--;
                 }
             }
 }

@@ -39,15 +39,21 @@ def grid_charge(vertices: int, faces: int) -> int:
     return (BYTES_PER_VERTEX + 60) * vertices + BYTES_PER_FACE * faces + MODEL_BYTES + (1 << 20)
 
 
-def _grid_of(faces: npt.ArrayLike, vertices: int, largest: npt.ArrayLike) -> Field:
-    """What encoder and decoder share."""
+def largest_of(largest: npt.ArrayLike) -> Ints:
+    """The largest values of the axes, checked; raises `OptionError` as `GridEncoder`."""
     top = np.array(largest, np.int64)
     if top.shape != (AXES,) or top.min() < 0 or top.max() > MOST_LARGEST:
         raise OptionError(f"the largest values of a grid must be {AXES} from 0 to {MOST_LARGEST}, not {top.tolist()}")
+    return top.astype(np.int32)
+
+
+def _grid_of(faces: npt.ArrayLike, vertices: int, largest: npt.ArrayLike) -> Field:
+    """What encoder and decoder share."""
+    top = largest_of(largest)
     corners = corners_of(faces, vertices)
     model = make_model()
     grid = _Grid(
-        top.astype(np.int32),
+        top,
         traverse(corners),
         np.zeros((vertices, AXES), np.int32),
         np.zeros((vertices, AXES), np.int32),
@@ -63,7 +69,7 @@ def _grid_of(faces: npt.ArrayLike, vertices: int, largest: npt.ArrayLike) -> Fie
 
 
 class GridEncoder(FieldEncoder):
-    """Codes positions on a grid.
+    """Codes positions on a grid, in as few bytes as can be.
 
     Parameters
     ----------
@@ -82,11 +88,13 @@ class GridEncoder(FieldEncoder):
         If `largest` is.
     """
 
+    _field_of = staticmethod(_grid_of)
+
     def __init__(self, faces: npt.ArrayLike, positions: npt.ArrayLike, largest: npt.ArrayLike) -> None:
         given = np.asarray(positions)
         if given.ndim != 2 or given.shape[1] != AXES or given.dtype.kind not in "iu":
             raise MeshError(f"positions on a grid must be integers of shape (n, {AXES})")
-        field = _grid_of(faces, len(given), largest)
+        field = self._field_of(faces, len(given), largest)
         if ((given < 0) | (given > np.asarray(largest))).any():
             raise MeshError(f"positions are outside their grid, 0 to {np.asarray(largest)}")
         field.values[:] = given
@@ -113,11 +121,13 @@ class GridDecoder(FieldDecoder):
         Before anything is allocated.
     """
 
+    _field_of = staticmethod(_grid_of)
+
     def __init__(
         self, faces: npt.ArrayLike, vertices: int, largest: npt.ArrayLike, limits: Limits = DEFAULT_LIMITS
     ) -> None:
         limits.check("field_bytes", grid_charge(vertices, len(np.asarray(faces))))
-        super().__init__(_grid_of(faces, vertices, largest))
+        super().__init__(self._field_of(faces, vertices, largest))
 
 
 def _start_of_learners() -> npt.NDArray[np.int64]:

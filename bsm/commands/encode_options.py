@@ -57,7 +57,7 @@ ENCODE_FLAGS = (
     EncodeFlag("grid", int, "BITS", "exactly the positions that a grid of so many bits per axis has (1 to 20)"),
     EncodeFlag("grid_cell", float, "H", "exactly the positions of a grid of such cells: parts on one fit exactly"),
     EncodeFlag("grid_origin", point, "X,Y,Z", "a place of that grid (default 0,0,0); =X,Y,Z where X is negative"),
-    EncodeFlag("quick", bool, "", "only what is quick to decode: positions on a grid, no blocks (default: no)"),
+    EncodeFlag("quick", bool, "", "only what is quick to decode: grids, by a small model, no blocks (default: no)"),
     EncodeFlag("keep", float, "FRACTION", "largest c_i, as a fraction of a block's vertices (default: as many as pay)"),
     EncodeFlag("coefficients", int, "C", "coefficients kept per block and coordinate, instead of --keep"),
     EncodeFlag("step", float, "S", "quantisation step, relative to the bounding box's diagonal; instead of a promise"),

@@ -280,6 +280,7 @@ class Encoder:
             keep_order=options.keep_order,
             splits=self._joined.splits,
             sections=options.sections_wanted,
+            light=options.quick,
         )
 
     @cached_property

@@ -104,7 +104,7 @@ class EncodeOptions:
         `target` or any of `CODING` is given: who says how to code gets that.
     quick : bool
         Of all ways that keep a contract or reach a target only what is quick to decode: positions on a grid, without
-        dictionaries.
+        dictionaries. With `grid` and `grid_cell`, too, values are coded by a small model, in some more bytes.
     lock_borders : Fit, optional
         With a contract: how well parts fit that are encoded apart.
     grid : int, optional

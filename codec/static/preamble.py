@@ -97,6 +97,8 @@ class Prepared:
         What was changed.
     joined_faces : int32 array, shape (m, 3)
         The given faces.
+    light : bool
+        Whether positions, if they come on a grid, are to be quick to decode.
     """
 
     mesh: TriangleMesh
@@ -113,6 +115,7 @@ class Prepared:
     coding_faces: Order
     notes: tuple[str, ...]
     joined_faces: Faces
+    light: bool
     _spectra: dict[float, MeasuredSpectrum] = field(default_factory=dict, init=False, repr=False)
 
     def spectrum(self, shift: float) -> MeasuredSpectrum:
@@ -246,7 +249,13 @@ class Parts:
 
 
 def prepare(
-    mesh: TriangleMesh, parts: Parts, *, keep_order: bool, splits: Splits | None = None, sections: int | None = 1
+    mesh: TriangleMesh,
+    parts: Parts,
+    *,
+    keep_order: bool,
+    splits: Splits | None = None,
+    sections: int | None = 1,
+    light: bool = False,
 ) -> Prepared:
     """Code the connectivity of a mesh.
 
@@ -259,6 +268,8 @@ def prepare(
         What a mesh whose order is kept needs to become the given one.
     sections : int, optional
         In how many blocks come; None: as many as are worth it.
+    light : bool
+        Whether positions, if they come on a grid, are to be quick to decode.
 
     Raises
     ------
@@ -296,4 +307,5 @@ def prepare(
         coding_faces=connectivity.face_order.astype(np.int64),
         notes=(f"{dropped} vertices that no face uses were left out",) if dropped else (),
         joined_faces=mesh.faces,
+        light=light,
     )

@@ -94,9 +94,14 @@ def block_memory(laplacian: Laplacian, columns: int) -> int:
     return iteration_memory(laplacian.fronts, columns)
 
 
-def field_cost(vertices: int, faces: int, axes: int) -> float:
-    """Of a grid, with so many values for each vertex, before its bytes are counted."""
-    return vertices * (600.0 + 350.0 * axes) + 150.0 * faces
+def grid_cost(vertices: int, faces: int) -> float:
+    """Of a grid, before its bytes are counted."""
+    return 1650.0 * vertices + 150.0 * faces
+
+
+def light_cost(vertices: int, faces: int) -> float:
+    """Of a light grid, before its bytes are counted."""
+    return 200.0 * vertices + 40.0 * faces
 
 
 def layer_cost(vertices: int, faces: int, axes: int) -> float:
@@ -107,6 +112,11 @@ def layer_cost(vertices: int, faces: int, axes: int) -> float:
 def grid_chunk_cost(received: int) -> float:
     """Of a frame of a grid."""
     return 3.5e4 + CODED * received
+
+
+def light_chunk_cost(received: int) -> float:
+    """Of a frame of a light grid."""
+    return 3.5e4 + 120.0 * received
 
 
 def chunk_cost(received: int) -> float:

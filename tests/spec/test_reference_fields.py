@@ -17,10 +17,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from bitstream.errors import BsmError
+from bitstream.fields.chunks import FieldDecoder
 from bitstream.fields.corners import corners_of, keep_borders
 from bitstream.fields.grid import MOST_LARGEST, GridDecoder, GridEncoder
 from bitstream.fields.lattice import spread
 from bitstream.fields.levels import MOST_LEVEL, LevelsDecoder, LevelsEncoder
+from bitstream.fields.light import LightDecoder, LightEncoder
 from tests.bitstream.fields.fields import KINDS, SOUPS, Chunks, encode, values
 from tools import field_tables
 from tools.grids import rounded, welded
@@ -52,7 +54,7 @@ def outcome(read: Callable[[bytes, int], Any], chunks: Chunks) -> list[Any]:
     return found
 
 
-def product(decoder: GridDecoder | LevelsDecoder) -> Callable[[bytes, int], Any]:
+def product(decoder: FieldDecoder) -> Callable[[bytes, int], Any]:
     return lambda payload, count: [array.tolist() for array in decoder.chunk(payload, count)]
 
 
@@ -97,6 +99,18 @@ def test_grids(reference, mesh, largest, kind, seed, chunk, data):
 
 
 @quick
+@given(SOUPS, st.tuples(*[st.sampled_from([0, 1, 100, MOST_LARGEST])] * 3), KINDS, SEEDS, CHUNKS, st.data())
+def test_light_grids(reference, mesh, largest, kind, seed, chunk, data):
+    faces, vertices = mesh
+    if not vertices:
+        return
+    chunks = encode(LightEncoder(faces, values(vertices, (0, 0, 0), largest, kind, seed), largest), vertices, chunk)
+    for payloads in (chunks, damaged(chunks, data)):
+        expected = outcome(product(LightDecoder(faces, vertices, largest)), payloads)
+        assert outcome(plain(reference.LightReader(faces.tolist(), vertices, list(largest))), payloads) == expected
+
+
+@quick
 @given(
     SOUPS, st.sampled_from([1, 3]), st.sampled_from([1, 9, MOST_LEVEL]), KINDS, SEEDS, CHUNKS, st.booleans(), st.data()
 )
@@ -123,6 +137,9 @@ def test_real_meshes(reference, meshes: Path, name: str, bits: int):
     chunks = encode(GridEncoder(faces, grid, largest), len(grid), 700)[:2]
     expected = outcome(product(GridDecoder(faces, len(grid), largest)), chunks)
     assert outcome(plain(reference.GridReader(faces.tolist(), len(grid), largest)), chunks) == expected
+    light = encode(LightEncoder(faces, grid, largest), len(grid), 700)
+    expected = outcome(product(LightDecoder(faces, len(grid), largest)), light)
+    assert outcome(plain(reference.LightReader(faces.tolist(), len(grid), largest)), light) == expected
     levels = (grid - rounded(positions * np.float32(0.999), bits)) % 5 - 2
     chunks = encode(LevelsEncoder(faces, levels), len(grid), 700)[:2]
     expected = outcome(product(LevelsDecoder(faces, len(grid), 3)), chunks)

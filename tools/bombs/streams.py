@@ -27,7 +27,6 @@ from bitstream.container.maps import write_map
 from bitstream.container.splits import Splits, encode_splits
 from bitstream.container.wire import FrameType, write_frame, write_varint
 from bitstream.entropy.range_coder import finish_writing, make_room, start_writing
-from bitstream.fields.grid import GridEncoder
 from bitstream.fields.levels import LevelsEncoder
 from codec.blocks.overlap import grow_blocks
 from codec.blocks.partition import derive_partition, partition_of_labels
@@ -35,6 +34,7 @@ from codec.geometry.graph import graph_of_faces
 from codec.sequence.gop import level_references
 from codec.static.attributes.pieces import PieceEncoder
 from codec.static.attributes.surface import surface_of
+from tools.gridded import gridded
 from tools.sections import in_sections
 from tools.surgery import Frames, frames_of, header_frame, stream_of
 from tools.vectors.meshes import torus
@@ -205,15 +205,19 @@ def _tiny_blocks(shape: tuple[Any, ...], size: int, **fields: Any) -> bytes:
     return _blocky(shape, blocks=blocks, block_size=size, **fields)
 
 
-def _grid(rows: int, columns: int, chunk: int) -> bytes:
-    coded = _coded("torus", rows, columns)
+def _grid(shape: tuple[Any, ...], chunk: int, **fields: Any) -> bytes:
+    coded = _coded(*shape)
     size = len(coded.vertex_order)
-    encoder = GridEncoder(coded.faces, np.zeros((size, 3), np.int32), (1, 1, 1))
-    frames: Frames = [_header(coded, grid=(1, 1, 1)), _faces(coded)]
-    for first in range(0, size, chunk):
-        count = min(chunk, size - first)
-        frames.append((FrameType.GRID, write_varint(first) + write_varint(count) + encoder.chunk(count)))
-    return stream_of(frames)
+    counts = [min(chunk, size - first) for first in range(0, size, chunk)]
+    return stream_of(gridded(coded, np.zeros((size, 3), np.int32), counts, **{"grid": (1, 1, 1)} | fields))
+
+
+def _noisy_grid(shape: tuple[Any, ...], bits: int, **fields: Any) -> bytes:
+    """Values that nothing foretells."""
+    coded = _coded(*shape)
+    size, largest = len(coded.vertex_order), (1 << bits) - 1
+    values = np.random.default_rng(7).integers(0, largest + 1, (size, 3), np.int32)
+    return stream_of(gridded(coded, values, [size], **{"grid": [largest] * 3} | fields))
 
 
 def _layers(rows: int, columns: int, chunk: int) -> bytes:
@@ -513,8 +517,19 @@ BOMBS: dict[str, Bomb] = {
     "sections-claimed-most": Bomb(
         "as many blocks as a claim allows", lambda: _claimed(1000, 2047, power=1, key_iterations=1)
     ),
-    "grid": Bomb("a grid of a million vertices", lambda: _grid(1024, 1024, 1 << 15)),
-    "grid-chunks": Bomb("a grid, vertex by vertex", lambda: _grid(100, 100, 1)),
+    "grid": Bomb("a grid of a million vertices", lambda: _grid(("torus", 1024, 1024), 1 << 15)),
+    "grid-chunks": Bomb("a grid, vertex by vertex", lambda: _grid(("torus", 100, 100), 1)),
+    "light": Bomb("the small model on a million vertices", lambda: _grid(("torus", 1024, 1024), 1 << 15, light=1)),
+    "light-chunks": Bomb("the same, vertex by vertex", lambda: _grid(("torus", 100, 100), 1, light=1)),
+    "light-hubs": Bomb(
+        "hubs beside everything, by the small model", lambda: _grid(("wheels", 20, 4000), 1 << 15, light=1)
+    ),
+    "light-repeated": Bomb(
+        "vertices with very many corners, by the small model", lambda: _grid(("repeated", 15_000), 1, light=1)
+    ),
+    "light-noise": Bomb(
+        "values that nothing foretells, by the small model", lambda: _noisy_grid(("torus", 64, 64), 20, light=1)
+    ),
     "layers": Bomb("four layers of three axes", lambda: _layers(512, 512, 1 << 15)),
     "layers-chunks": Bomb("the same, vertex by vertex", lambda: _layers(50, 50, 1)),
     "metadata": Bomb("256 names and 100,000 frames to skip", lambda: _metadata(256)),
@@ -537,7 +552,7 @@ BOMBS: dict[str, Bomb] = {
         "a megabyte of rubbish behind the blocks",
         lambda: _torn(one_block(20, 20, 4), _rubbish(1 << 20)),
     ),
-    "torn-chunks": Bomb("half of a stream of tiny frames", lambda: _grid(100, 100, 1)[: 9 * 4000]),
+    "torn-chunks": Bomb("half of a stream of tiny frames", lambda: _grid(("torus", 100, 100), 1)[: 9 * 4000]),
     "worthless": Bomb("blocks that end too early", lambda: _worthless(64, 64, 1000, 100)),
     "sequence": Bomb("dictionaries of all columns", lambda: _sequence(200, 200, [_cosine_gop(1, 0)], width=440)),
     "sequence-large": Bomb(

@@ -15,6 +15,9 @@ from tools.surgery import Frames, frames_of, header_entries, stream_of
 Mutate = Callable[[bytes, int], bytes]
 _KINDS = frozenset(map(int, FrameType))
 
+_KEPT = {FrameType.BLOCK: 2, FrameType.GRID: 2, FrameType.REFINEMENT: 3, FrameType.VALUES: 3}
+"""Bytes before coded data, where numbers are small; 1 for other types."""
+
 _NUMBERS = (
     0,
     1,
@@ -72,7 +75,7 @@ def _change_coded(frames: Frames, random: Random, mutate: Mutate) -> None:
     if coded:
         place = random.choice(coded)
         kind, payload = frames[place]
-        kept = {FrameType.BLOCK: 2, FrameType.VALUES: 3}.get(FrameType(kind), 1) if kind in _KINDS else 1
+        kept = _KEPT.get(FrameType(kind), 1) if kind in _KINDS else 1
         frames[place] = (kind, payload[:kept] + mutate(payload[kept:], len(payload) + 64))
 
 

@@ -24,9 +24,11 @@ from bitstream.container.reader import END_OF_STREAM, NEED_DATA, Reader
 from bitstream.container.tolerant import TolerantReader
 from bitstream.container.wire import FrameType
 from bitstream.errors import BsmError
+from bitstream.fields.chunks import FieldEncoder
 from bitstream.fields.corners import corners_of
 from bitstream.fields.grid import GridDecoder, GridEncoder
 from bitstream.fields.levels import LevelsDecoder, LevelsEncoder
+from bitstream.fields.light import LightDecoder, LightEncoder
 from bitstream.limits import Limits
 from bsm.files.mesh import MESH_FORMATS, read_mesh
 from codec.geometry.graph import graph_of_faces
@@ -178,7 +180,16 @@ _LARGEST = (1000, 3, (1 << 20) - 1)
 
 def grid(data: bytes) -> None:
     """Positions on a grid, in chunks; the first two bytes tell their lengths."""
-    decoder, size = GridDecoder(_SOUP, 46, _LARGEST), 1 + data[0] % 46
+    _on_grid(data, GridDecoder(_SOUP, 46, _LARGEST))
+
+
+def light(data: bytes) -> None:
+    """The same by the small model."""
+    _on_grid(data, LightDecoder(_SOUP, 46, _LARGEST))
+
+
+def _on_grid(data: bytes, decoder: GridDecoder | LightDecoder) -> None:
+    size = 1 + data[0] % 46
     for chunk, count in ((data[2 : 2 + data[1]], size), (data[2 + data[1] :], 46 - size)):
         if count:
             _, positions = decoder.chunk(chunk, count)
@@ -296,6 +307,7 @@ TARGETS: dict[str, Target] = {
         permutation,
         labels,
         grid,
+        light,
         levels,
         seams,
         attribute_values,
@@ -323,7 +335,7 @@ def seeds(name: str, vectors: Path) -> list[bytes]:
         return streams
     if name == "mesh_file":
         return _mesh_seeds()
-    if name in ("grid", "levels"):
+    if name in ("grid", "light", "levels"):
         return _field_seeds(name)
     if name == "pieces":
         return _piece_seeds()
@@ -378,10 +390,11 @@ def _field_seeds(name: str) -> list[bytes]:
     found = []
     for size, spread in ((1, 2), (23, 9), (46, 1000)):
         values = np.arange(46 * 3).reshape(46, 3) * 7 % spread
-        if name == "grid":
-            encoder: GridEncoder | LevelsEncoder = GridEncoder(_SOUP, np.minimum(values, _LARGEST), _LARGEST)
+        if name == "levels":
+            encoder: FieldEncoder = LevelsEncoder(_SOUP, values[:, : 1 + (size - 1) % 2 * 2] - spread // 2)
         else:
-            encoder = LevelsEncoder(_SOUP, values[:, : 1 + (size - 1) % 2 * 2] - spread // 2)
+            coder = LightEncoder if name == "light" else GridEncoder
+            encoder = coder(_SOUP, np.minimum(values, _LARGEST), _LARGEST)
         chunks = [encoder.chunk(count) for count in (size, 46 - size) if count]
         found.append(bytes([size - 1, len(chunks[0])]) + b"".join(chunks))
     return found

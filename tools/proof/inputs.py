@@ -19,6 +19,7 @@ from codec.static.options import PRESETS, EncodeOptions
 from codec.static.quality.targets import Target
 from tools.fuzz.mutate import mutate_stream
 from tools.fuzz.sweep import mutate
+from tools.gridded import random_grid
 from tools.sections import random_sections
 from tools.vectors.meshes import hub, patch, shuffled, tangled, tetrahedron, together, torus, triangle
 from tools.vectors.store import FOLDER
@@ -31,6 +32,8 @@ SEQUENCES = 0.25
 """Share of sequences among random streams."""
 SECTIONS = 0.25
 """Share of meshes that are to come in sections."""
+GRIDS = 0.5
+"""Share of grids among streams that no encoder wrote."""
 
 
 def vector_seeds() -> list[bytes]:
@@ -58,8 +61,9 @@ def random_stream(random: Random) -> bytes:
 
 
 def unencoded_stream(random: Random) -> bytes | None:
-    """A mesh in sections that no encoder would choose, some of them illegal; None where the mesh cannot be cut."""
-    return random_sections(random, random_mesh(random))
+    """A mesh on a grid, or in sections, some illegal, that no encoder would choose; None where it cannot be cut."""
+    mesh = random_mesh(random)
+    return random_grid(random, mesh) if random.random() < GRIDS else random_sections(random, mesh)
 
 
 def random_mesh(random: Random) -> TriangleMesh:
@@ -160,9 +164,11 @@ def _static_options(random: Random) -> EncodeOptions:
     way = random.randrange(8)
     given: dict[str, Any] = {"block_size": random.choice((12, 30, 30, 60, 100, 750)), "threads": 1}
     if way == 0:
-        return EncodeOptions(**{**vars(random.choice(list(PRESETS.values()))), "threads": 1})
+        preset = vars(random.choice(list(PRESETS.values())))
+        return EncodeOptions(**{**preset, "quick": random.random() < 0.3, "threads": 1})
     if way == 1:
-        return EncodeOptions(grid=random.randrange(1, 21), keep_order=random.random() < 0.3, threads=1)
+        keep, quick = random.random() < 0.3, random.random() < 0.5
+        return EncodeOptions(grid=random.randrange(1, 21), threads=1, keep_order=keep, quick=quick)
     if way == 2:
         given["target"] = Target(random.choice(Target.KINDS), random.choice((0.01, 1.0, 8.0, 400.0)))
     elif way == 3:

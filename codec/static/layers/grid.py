@@ -13,8 +13,9 @@ from bitstream.container import packets
 from bitstream.container.header import Header
 from bitstream.container.reader import Signal
 from bitstream.errors import BsmError, CorruptError
-from bitstream.fields.grid import AXES, GridDecoder, GridEncoder
+from bitstream.fields.grid import GridDecoder, GridEncoder
 from bitstream.fields.lattice import spread
+from bitstream.fields.light import LightDecoder, LightEncoder
 from codec.arrays import Indices, Levels, Positions
 from codec.geometry.mesh import TriangleMesh
 from codec.static.attributes.decoding import ValuesStage, completed
@@ -23,7 +24,7 @@ from codec.static.events import BlockEvent, Changes, Losses, LossEvent, unreadab
 from codec.static.quality.whole import Complete
 from codec.static.stages import Arrival, Stage, misplaced
 from codec.static.structure import Structure
-from codec.static.work import field_cost, grid_chunk_cost, grid_memory
+from codec.static.work import grid_chunk_cost, grid_cost, grid_memory, light_chunk_cost, light_cost
 
 FIRST, CHUNK = 1 << 12, 1 << 13
 """Vertices of the first frame, and of each that follows: large meshes are seen while they arrive, from early on."""
@@ -43,6 +44,8 @@ class Grid:
         (cells, points): a coded value k stands for the cell nearest to k * cells / points; (): for itself.
     corner : (int, int, int), or ()
         Cells from the origin on where the values begin; (): there.
+    light : bool
+        Whether values are coded so that they are quick to decode.
     """
 
     origin: tuple[float, ...]
@@ -50,6 +53,7 @@ class Grid:
     largest: tuple[int, ...]
     lattice: tuple[int, ...] = ()
     corner: tuple[int, ...] = ()
+    light: bool = False
 
     def positions(self, coded: Levels) -> Positions:
         """Of coded values, shape (n, 3), in the mesh's unit."""
@@ -60,21 +64,28 @@ class Grid:
     def fields(self) -> dict[str, Any]:
         """Twin of `grid_of`: what the header has to say."""
         return {"center": self.origin, "scale": self.step, "grid": self.largest, "lattice": self.lattice} | {
-            "corner": self.corner
+            "corner": self.corner,
+            "light": int(self.light),
         }
 
 
 def grid_of(header: Header) -> Grid:
     """The grid of a stream."""
-    return Grid(header.center, header.scale, header.grid, header.lattice, header.corner)
+    return Grid(header.center, header.scale, header.grid, header.lattice, header.corner, bool(header.light))
 
 
 def encode_grid(faces: Indices, grid: Grid, coded: Levels) -> list[packets.Grid]:
     """The packets of coded values, shape (n, 3), between 0 and the grid's largest."""
-    encoder, size = GridEncoder(faces, coded, grid.largest), len(coded)
+    kind, size = LightEncoder if grid.light else GridEncoder, len(coded)
+    encoder = kind(faces, coded, grid.largest)
     starts = [*range(0, min(size, 1)), *range(FIRST, size, CHUNK)]
     counts = [end - start for start, end in pairwise([*starts, size])]
     return [packets.Grid(start, count, encoder.chunk(count)) for start, count in zip(starts, counts, strict=True)]
+
+
+FULL = GridDecoder, grid_cost, grid_chunk_cost
+LIGHT = LightDecoder, light_cost, light_chunk_cost
+"""How values are decoded, and what that and each frame cost."""
 
 
 class GridStage:
@@ -83,11 +94,12 @@ class GridStage:
     def __init__(self, structure: Structure, tolerant: bool) -> None:
         size, faces, allowance = structure.header.vertices, len(structure.faces), structure.allowance
         allowance.keep(grid_memory(size, faces))
-        allowance.spend(field_cost(size, faces, AXES))
+        self._grid = grid_of(structure.header)
+        kind, cost, self._chunk_cost = LIGHT if self._grid.light else FULL
+        allowance.spend(cost(size, faces))
         self._structure = structure
         self._tolerant = tolerant
-        self._grid = grid_of(structure.header)
-        self._decoder = GridDecoder(structure.faces, size, self._grid.largest, structure.allowance.limits)
+        self._decoder = kind(structure.faces, size, self._grid.largest, structure.allowance.limits)
         self._chunks = 0
         self._broken = False
         self._complete: Complete | None = None
@@ -112,7 +124,7 @@ class GridStage:
     def _decode(self, packet: packets.Grid, queue: deque[Any]) -> None:
         if self._broken:
             return
-        self._structure.allowance.spend(grid_chunk_cost(len(packet.data)), len(packet.data))
+        self._structure.allowance.spend(self._chunk_cost(len(packet.data)), len(packet.data))
         try:
             if packet.first != self._decoder.coded:
                 raise CorruptError(f"positions from number {self._decoder.coded} on are missing; others depend on them")

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from bitstream.container.header import Header
@@ -23,6 +25,7 @@ MOST_WHOLE = 2.0**52
 
 def grid_draft(prepared: Prepared, grid: Grid, places: Levels) -> Draft:
     """The stream of places on a grid, shape (n, 3), none negative."""
+    grid = replace(grid, light=prepared.light)
     header = Header(vertices=prepared.graph.size, faces=len(prepared.mesh.faces), **grid.fields)
     body = (*prepared.before_grid, *encode_grid(prepared.mesh.faces, grid, places))
     return Draft(header, body, grid.positions(places), places)

@@ -53,7 +53,18 @@ def legal_value(name):
     return st.lists(number, min_size=least, max_size=most).map(tuple)
 
 
-NOT_ALONE = ("blocks", "block_size", "coefficients", "grid", "lattice", "refinements", "borders", "corner", "sections")
+NOT_ALONE = (
+    "blocks",
+    "block_size",
+    "coefficients",
+    "grid",
+    "lattice",
+    "refinements",
+    "borders",
+    "corner",
+    "sections",
+    "light",
+)
 
 
 @given(st.fixed_dictionaries({}, optional={n: legal_value(n) for n in HEADER_DEFAULTS if n not in NOT_ALONE}))
@@ -69,6 +80,12 @@ def test_round_trip(changes):
 
 GRID = Header(vertices=100, faces=190, grid=(1023, 7, 0), center=(1.0, 2.0, 3.0), scale=0.5, lattice=(4095, 1023))
 LAYERS = st.tuples(st.floats(2.0**-40, 1.0), st.just(0.0) | st.floats(1 / 16, 64.0))
+
+
+def test_a_light_grid_comes_back():
+    light = replace(GRID, light=1)
+    assert write_header(light) == b"\x87" + write_header(GRID)[1:] + b"\x2a\x01"
+    assert parse(write_header(light)) == light
 
 
 def test_known_bytes_of_a_grid():
@@ -135,6 +152,7 @@ def test_contradictions_of_sections(changes):
         {"gop_frames": 1},
         {"refinements": (0.5, 0.0)},
         {"sections": (60, 1)},
+        {"light": 2},
     ],
 )
 def test_contradictions_of_a_grid(changes):
@@ -155,6 +173,7 @@ def test_contradictions_of_a_grid(changes):
         {"borders": 1},
         {"refinements": (0.5, 1.0), "borders": 2},
         {"lattice": (9, 3)},
+        {"light": 1},
     ],
 )
 def test_contradictions_of_refinements(changes):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -85,10 +86,19 @@ def test_what_is_quick_to_decode_is_on_a_grid_and_as_good(mesh: TriangleMesh, pr
     contract = PRESETS[preset].contract
     assert contract is not None
     encoder = Encoder(mesh, replace(PRESETS[preset], quick=True))
-    assert encoder.draft().header.grid
+    assert encoder.draft().header.grid and encoder.draft().header.light
     farthest, angle = kept(encoder, encoder.encode())
     assert farthest <= contract.farthest * (1 + 1e-9)
     assert angle <= contract.angle + 1e-9
+
+
+@pytest.mark.parametrize("option", [{"grid": 9}, {"grid_cell": 0.01}])
+def test_quick_grids_are_light_with_the_same_positions(option: dict[str, Any]) -> None:
+    plain, light = (Encoder(torus(80, 40), EncodeOptions(quick=quick, **option)).draft() for quick in (False, True))
+    assert light.header == replace(plain.header, light=1) and not plain.header.light
+    one, other = (decode(b"".join(draft.frames)) for draft in (plain, light))
+    np.testing.assert_array_equal(one.positions, other.positions)
+    np.testing.assert_array_equal(one.faces, other.faces)
 
 
 def test_the_smallest_is_in_blocks_where_nothing_is_said() -> None:

@@ -80,7 +80,7 @@ def test_targets_are_met_by_what_the_decoder_sees(kind, value):
 def test_targets_are_met_by_what_is_quick_to_decode(kind, value):
     mesh = torus(60, 30)
     attempt = Encoder(mesh, EncodeOptions(quick=True, target=Target(kind, value))).result()
-    assert attempt.header.grid
+    assert attempt.header.grid and attempt.header.light
     assert getattr(attempt, kind, None) or getattr(attempt.comparison, kind) <= value
     assert attempt.size <= (value if kind == "size" else math.inf)
 

@@ -10,12 +10,11 @@ const SOURCES = join(WEB, "src");
 const OPTIONS = { bundle: true, minify: true, format: "esm", target: "es2022", charset: "utf8", loader: { ".wasm": "binary", ".html": "text" }, tsconfigRaw: { compilerOptions: { useDefineForClassFields: false } }, legalComments: "none", logLevel: "warning", write: false };
 const BUNDLED = ["three", "fzstd"];
 
-/** Puts another module in the place of some, where those are imported by `importers`. */
-const instead = (modules, name, importers = /./) => ({
+/** Puts another module in the place of some. */
+const instead = (modules, name) => ({
     name,
     setup({ onResolve }) {
-        const filter = new RegExp(`^\\./(${modules.join("|")})$`);
-        onResolve({ filter }, ({ importer }) => (importers.test(importer) ? { path: join(SOURCES, name) } : undefined));
+        onResolve({ filter: new RegExp(`^\\./(${modules.join("|")})$`) }, () => ({ path: join(SOURCES, name) }));
     },
 });
 
@@ -24,9 +23,6 @@ const instead = (modules, name, importers = /./) => ({
  * decoding while the page does something else.
  */
 const SMALL = instead(["sequence", "attributes", "declaration", "splits", "station", "tolerant", "zstd"], "absent.ts");
-
-/** Leaves out blocks. */
-const GRIDS = instead(["assembly", "blocks", "chain", "fields", "helper"], "blockless.ts", /(decoder|structure)\.ts$/);
 
 /**
  * Names of private members, which may be shortened: those by which nothing else is called than a member of `this`, so that
@@ -46,9 +42,14 @@ async function bundle(entry, options = {}) {
     return result.outputFiles[0].text;
 }
 
-/** The decoder as a module inside of one function, `bsm`, whose text threads are made of. */
-async function decoder(entry, plugins = []) {
-    const text = await bundle(join(SOURCES, entry), { plugins, mangleProps: new RegExp(`^(${privateNames().join("|")})$`) });
+/** A decoder as a module. */
+function plain(entry, plugins = []) {
+    return bundle(join(SOURCES, entry), { plugins, mangleProps: new RegExp(`^(${privateNames().join("|")})$`) });
+}
+
+/** The same inside of one function, `bsm`, whose text threads are made of. */
+async function decoder(entry, plugins) {
+    const text = await plain(entry, plugins);
     const [exports, list] = /export\{([^}]*)\};\s*$/.exec(text);
     const names = list.split(",").map((item) => item.split(" as ").reverse());
     const given = names.map(([name, own]) => (own ? `${name}:${own}` : name));
@@ -76,7 +77,7 @@ async function products() {
     return [
         [join(WEB, "built/bsm.js"), whole],
         [join(WEB, "built/small.js"), await decoder("small.ts", [SMALL])],
-        [join(WEB, "built/quick.js"), await decoder("quick.ts", [SMALL, GRIDS])],
+        [join(WEB, "built/quick.js"), await plain("quick.ts", [SMALL])],
         [join(WEB, "built/three.js"), await bundle(join(SOURCES, "three.ts"), { external: ["three"], plugins: [using({ path: "./bsm.js" })] })],
         [join(WEB, "built/LICENSES.txt"), `${licences(BUNDLED)}\n`],
         [join(VIEWER, "page.html"), readFileSync(join(SOURCES, "viewer/page.html"), "utf8")],

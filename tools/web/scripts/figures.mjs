@@ -204,9 +204,10 @@ const FINISH = `
 /** Ours: what is on a grid is decoded as it comes, blocks in a team of threads, which takes a stream that is complete. */
 const ours = { quick: (stream) => `(async () => {
     const begin = performance.now();
+    const script = import("/quick.js");
     const compiling = WebAssembly.compileStreaming(fetch("/quick.wasm"));
     const coming = fetch("/${stream}");
-    const { decode, Decoder, Kernels, NEED_DATA } = await import("/quick.js");
+    const { decode, Decoder, Kernels, NEED_DATA } = await script;
     const kernels = new Kernels(await compiling);
     const decoder = new Decoder(kernels);
     const reader = (await coming).body.getReader();

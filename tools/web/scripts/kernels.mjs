@@ -29,6 +29,7 @@ const SOURCES = [
     "bitstream/fields/corners.c",
     "bitstream/fields/grid.c",
     "bitstream/fields/levels.c",
+    "bitstream/fields/light.c",
     "bitstream/fields/seen.c",
     "bitstream/fields/value.c",
     "codec/basis/cosines.simd.c",
@@ -54,6 +55,7 @@ const SOURCES = [
     "codec/signal/transform.simd.c",
     "tools/web/src/memory.c",
     "tools/web/src/noise.c",
+    "tools/web/src/places.c",
     "tools/web/src/tables.c",
 ];
 
@@ -61,13 +63,13 @@ const SOURCES = [
 const TABLES = ["bitstream/entropy/tables.c", "bitstream/fields/tables.c"];
 
 const KERNELS = [
-    "make_tables", "learn_beforehand", "add_noise",
+    "make_tables", "make_value_tables", "learn_beforehand", "add_noise",
     "code_one_unsigned", "match_halfedges", "conquer", "code_fans", "code_degenerate", "code_steps", "code_turns",
     "code_labels", "points_of_levels", "code_rows", "code_block", "vertex_faces", "bisect", "refine_partition",
     "group_by_label", "chain_blocks", "order_scratch", "order_block", "add_copies", "collect_edges",
     "find_fronts", "suspend", "factorize_fronts", "solve_columns", "resize_columns", "iteration_space", "iterate",
     "cholesky_onorm", "householder", "reconstruct", "look_around", "block_normals", "smooth_all",
-    "find_rings", "filter_rows", "link_corners", "order_vertices", "keep_borders", "code_grid", "code_levels",
+    "find_rings", "filter_rows", "link_corners", "order_vertices", "keep_borders", "code_grid", "code_light", "place_values", "code_levels",
     "local_frames", "add_levels", "code_matrix", "project", "code_edges", "join_corners",
     "expect_normals", "code_scalars", "code_texcoords", "code_normals", "code_faces", "cotangents", "hold", "pull", "follow_rows",
 ];
@@ -91,12 +93,12 @@ const REST = [
     "code_scalars", "code_texcoords", "code_normals", "code_faces",
 ];
 
-/** Kernels without which positions on grids can do. */
+/** Kernels without which positions on light grids can do. */
 const BLOCKS = [
-    "learn_beforehand", "add_noise", "points_of_levels", "code_rows", "code_block", "code_labels", "vertex_faces", "bisect", "refine_partition", "group_by_label", "chain_blocks",
+    "make_value_tables", "learn_beforehand", "add_noise", "order_vertices", "points_of_levels", "code_rows", "code_block", "code_labels", "vertex_faces", "bisect", "refine_partition", "group_by_label", "chain_blocks",
     "order_scratch", "order_block", "add_copies", "collect_edges", "find_fronts", "suspend", "factorize_fronts", "solve_columns",
     "resize_columns", "iteration_space", "iterate", "cholesky_onorm", "householder", "reconstruct", "look_around", "block_normals",
-    "smooth_all", "find_rings", "filter_rows", "keep_borders", "code_levels", "local_frames", "add_levels",
+    "smooth_all", "find_rings", "filter_rows", "keep_borders", "code_grid", "code_levels", "local_frames", "add_levels",
 ];
 
 /** Name and version of the compiler, of which the bytes are a function; undefined where there is none. */
@@ -164,7 +166,7 @@ int64_t learn_beforehand(int64_t details, Ints2 expectations, Ints2 weights, Wor
 /** Compare the tables and models that the kernels make with those of the repository. */
 function checkTables(clang, objects, priors, target) {
     const tables = TABLES.flatMap((path) => [...readFileSync(join(ROOT, path), "utf8").matchAll(/const (\w+)_t (\w+)\[(\d+)\] = \{([^}]*)\}/g)]);
-    const exported = ["make_tables", "learn_beforehand", "__heap_base", ...tables.map(([, , name]) => name)].map((name) => `-Wl,--export=${name}`);
+    const exported = ["make_tables", "make_value_tables", "learn_beforehand", "__heap_base", ...tables.map(([, , name]) => name)].map((name) => `-Wl,--export=${name}`);
     clang(TARGET, "-nostdlib", ...objects, "-Wl,--no-entry", "-Wl,--initial-memory=1048576", ...exported, "-o", target);
     const { exports } = new WebAssembly.Instance(new WebAssembly.Module(readFileSync(target)));
     const { buffer } = exports.memory;
@@ -172,6 +174,7 @@ function checkTables(clang, objects, priors, target) {
         if (values.some((value, i) => made[i] !== value)) throw new Error(`the kernels make other ${name} than the repository has`);
     };
     exports.make_tables();
+    exports.make_value_tables();
     for (const [, type, name, length, body] of tables) {
         const kind = { uint16: Uint16Array, int16: Int16Array, int32: Int32Array }[type];
         compare(name, new kind(buffer, exports[name].value, Number(length)), body.split(",").map(Number).slice(0, Number(length)));

@@ -27,11 +27,13 @@ export function filterPolynomial(amount: number): Float64Array {
     return Float64Array.from(powers);
 }
 
+export const NOT_FINITE = "positions are not finite in the unit of the mesh";
+
 /** Positions in BSM units as the mesh has them (M 12.5), in place. */
 export function inMeshUnits(positions: Float64Array, header: Header): Float64Array {
     const { scale, center } = header;
     for (let i = 0; i < positions.length; i++) positions[i] = positions[i] * scale + center[i % 3];
-    if (!areFinite(positions)) throw new NumericError("positions are not finite in the unit of the mesh");
+    if (!areFinite(positions)) throw new NumericError(NOT_FINITE);
     return positions;
 }
 

@@ -5,6 +5,8 @@ import { mostCopies, sectionsOf, type Header, type Section } from "./header";
 import type { Ints, Longs, Memory } from "./kernels";
 import { checkLimit, type Limits } from "./limits";
 
+/** The one method there is. */
+export const CONNECTIVITY_METHOD = 1;
 const ONE = 65536;
 const VALENCE = { contexts: 14, nodes: 16 };
 const EVENT = { contexts: 3, size: 4096 };

@@ -6,7 +6,8 @@ import { Allowance, type DecodedBlock } from "./chain";
 import { decodeArrangement } from "./connectivity";
 import type { Declaration } from "./declaration";
 import { BsmError, CorruptError, errorLike, UnsupportedError, type Described } from "./errors";
-import { Grid, Refinement } from "./fields";
+import { gridKernel, Refinement } from "./fields";
+import { Grid, lightKernel } from "./grid";
 import type { Header } from "./header";
 import { isMine, type SharedBlock } from "./helper";
 import type { Kernels, Memory } from "./kernels";
@@ -17,7 +18,7 @@ import { Sequence } from "./sequence";
 import { split } from "./splits";
 import { Structure, type Chains } from "./structure";
 import { TolerantReader } from "./tolerant";
-import { chunkCost, fieldCost, gridChunkCost, layerCost, orderCost } from "./work";
+import { chunkCost, GRID_COST, layerCost, LIGHT_COST, orderCost, type GridCost } from "./work";
 
 const ORDER_METHOD = 1;
 const SPLITS_METHOD = 2;
@@ -407,7 +408,7 @@ export class Decoder {
     /** All positions, if they are as the encoder had them. */
     private solid(): Solid | undefined {
         const { header, grid, refinement, assembly } = this;
-        if (header!.grid.length > 0) return grid && grid.missing.length === 0 ? { positions: grid.positions, places: grid.places } : undefined;
+        if (header!.grid.length > 0) return grid && grid.missing.length === 0 ? { positions: grid.positions, places: grid.coordinates } : undefined;
         if (this.nextIndex < header!.blocks || assembly!.losses().degraded.length > 0 || assembly!.losses().missing.length > 0) return undefined;
         if (this.refinementLossy) return undefined;
         return { positions: refinement?.current ?? assembly!.base() };
@@ -433,18 +434,22 @@ export class Decoder {
     private acceptGrid(first: number, count: number, data: Uint8Array): void {
         this.begunGrid();
         if (this.gridBroken) return;
-        this.allowance.spend(gridChunkCost(data.length), data.length);
+        this.allowance.spend(this.gridCost.frame(data.length), data.length);
         this.gridBroken = !this.tolerating(() => {
             const changes = this.grid!.decode(first, count, data);
             this.queue.push({ type: "block", index: this.chunks++, ...this.numbering!.spread(changes) });
         });
     }
 
+    private get gridCost(): GridCost {
+        return this.header!.light ? LIGHT_COST : GRID_COST;
+    }
+
     private begunGrid(): Grid {
         if (this.grid) return this.grid;
         this.announce();
-        this.allowance.spend(fieldCost(this.header!.vertices, this.header!.faces, 3));
-        return (this.grid = new Grid(this.memory, this.structure!.faces, this.header!));
+        this.allowance.spend(this.gridCost.whole(this.header!.vertices, this.header!.faces));
+        return (this.grid = new Grid(this.memory, this.structure!.faces, this.header!, this.header!.light ? lightKernel : gridKernel));
     }
 
     private acceptGop(index: number, data: Uint8Array): void {

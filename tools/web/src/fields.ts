@@ -1,7 +1,7 @@
 /** Fields of integers on a mesh: positions on a grid, and levels that refine what blocks decoded to (specification, V, M 17). */
 import { inMeshUnits, type Changes } from "./assembly";
-import { Coder } from "./entropy";
 import { CorruptError, NumericError } from "./errors";
+import { decodeChunk, linkCorners, zeros, type Gridded, type GridKernel } from "./grid";
 import type { Header } from "./header";
 import type { Argument, Doubles, Ints, Memory } from "./kernels";
 import { areFinite, rowsOf, upTo } from "./numbers";
@@ -20,6 +20,7 @@ const SUM_LEARNERS = 48;
 
 /** What has been learnt about integers; the structure ValueModel of the kernels (V 3). */
 export function makeModel(memory: Memory): Argument {
+    memory.run("make_value_tables");
     const [slots, hits] = [memory.words(SLOTS), memory.words(HITS)];
     const weights = memory.ints(WEIGHT_ROWS * INPUTS, INPUTS);
     const scales = memory.ints(2 * SCALES, 2);
@@ -47,110 +48,17 @@ export function makeLearners(memory: Memory, count: number, start: (learner: num
     return learners;
 }
 
-/** The structure Corners of the kernels: corners at each vertex, and those beyond edges. */
-export function linkCorners(memory: Memory, faces: Ints, size: number): Argument {
-    const starts = memory.ints(size + 1);
-    const corners = memory.ints(faces.length);
-    const opposite = memory.ints(faces.length);
-    const rank = memory.ints(size);
-    starts.view.fill(0);
-    corners.view.fill(0);
-    opposite.view.fill(-1);
-    rank.view.set(upTo(size));
-    const linked = [faces, starts, corners, opposite, rank];
-    memory.scratch(() => {
-        const scratch = memory.ints(size + faces.length);
-        scratch.view.fill(-1);
-        memory.call("link_corners", linked, scratch);
-    });
-    return linked;
-}
-
-export function zeros(place: Ints): Ints {
-    place.view.fill(0);
-    return place;
-}
-
-/** Decode the next vertices of a field by its kernel. */
-export function decodeChunk(memory: Memory, kernel: string, state: Argument[], payload: Uint8Array, first: number, count: number): void {
-    memory.scratch(() => {
-        const coder = new Coder(memory, payload);
-        const done = memory.call(kernel, coder.parts, ...state, BigInt(first), BigInt(count));
-        if (coder.overran || done < count) throw coder.nonsense(`vertex ${done} of ${count} has a value out of range`);
-        coder.finish();
-    });
-}
-
-/** Positions on a grid, chunk by chunk, in the order that follows from the faces (V 7 to V 9, V 12). */
-export class Grid {
-    /** In the unit of the mesh, as vertices are numbered in the decoded faces. */
-    readonly positions: Float64Array;
-    private readonly state: Argument[];
-    private readonly order: Ints;
-    private readonly values: Ints;
-    private coded = 0;
-
-    constructor(
-        private readonly memory: Memory,
-        faces: Ints,
-        private readonly header: Header,
-    ) {
-        const size = header.vertices;
-        this.positions = new Float64Array(3 * size);
-        const corners = linkCorners(memory, faces, size);
-        this.order = memory.ints(size);
-        memory.scratch(() => {
-            const scratch = memory.ints(3 * size, size);
-            scratch.view.fill(-1);
-            memory.call("order_vertices", corners, this.order, scratch);
-        });
-        const model = makeModel(memory);
-        const largest = memory.ints(3);
-        largest.view.set(header.grid);
-        this.values = zeros(memory.ints(3 * size, 3));
-        const words = Math.floor(Math.max(...header.grid) / 64) + 1;
-        const [sums, seen] = [memory.longs(4 * size, 4), memory.longs(3 * words, words)];
-        sums.view.fill(0n);
-        seen.view.fill(0n);
-        const gaps = zeros(memory.ints(3 * size, 3));
-        const learners = makeLearners(memory, SUM_LEARNERS + 12, (k) => (k < SUM_LEARNERS ? [49152] : [49152, 8192]));
-        this.state = [model, corners, [largest, this.order, this.values, gaps, sums, seen, learners]];
-    }
-
-    decode(first: number, count: number, payload: Uint8Array): Changes {
-        const { header, memory } = this;
-        if (first !== this.coded) throw new CorruptError(`positions from number ${this.coded} on are missing; others depend on them`);
-        decodeChunk(memory, "code_grid", this.state, payload, first, count);
-        this.coded += count;
-        const vertices = this.order.view.slice(first, first + count);
-        const [values, { corner }] = [this.values.view, header];
-        const positions = new Float64Array(3 * count);
-        for (let i = 0, at = 0; i < count; i++) {
-            for (let j = 0, from = 3 * vertices[i]; j < 3; j++) positions[at++] = this.spread(values[from + j]) + (corner[j] ?? 0);
-        }
-        inMeshUnits(positions, header);
-        for (let i = 0, at = 0; i < count; i++) {
-            for (let j = 0, to = 3 * vertices[i]; j < 3; j++) this.positions[to + j] = positions[at++];
-        }
-        return { vertices, positions, final: new Uint8Array(count).fill(1) };
-    }
-
-    /** Coded values, as vertices are numbered in the decoded faces. */
-    get places(): Int32Array {
-        return this.values.view.slice();
-    }
-
-    /** Vertices without a position. */
-    get missing(): Int32Array {
-        return this.order.view.slice(this.coded);
-    }
-
-    /** The cell of a coded value (V 12), in integers. */
-    private spread(value: number): number {
-        if (this.header.lattice.length === 0) return value;
-        const [cells, points] = this.header.lattice.map(BigInt);
-        return Number((2n * BigInt(value) * cells + points) / (2n * points));
-    }
+/** The kernel of grids that are not light, and all that it learns (V 7 to V 9). */
+export function gridKernel(memory: Memory, { vertices, grid }: Header, faces: Ints, [largest, values, gaps]: Gridded): GridKernel {
+    const corners = linkCorners(memory, faces, vertices, memory.ints(vertices));
+    const order = memory.ints(vertices);
+    memory.scratch(() => memory.call("order_vertices", corners, order, memory.ints(3 * vertices, vertices)));
+    const words = Math.floor(Math.max(...grid) / 64) + 1;
+    const [sums, seen] = [memory.longs(4 * vertices, 4), memory.longs(3 * words, words)];
+    sums.view.fill(0n);
+    seen.view.fill(0n);
+    const learners = makeLearners(memory, SUM_LEARNERS + 12, (k) => (k < SUM_LEARNERS ? [49152] : [49152, 8192]));
+    return { name: "code_grid", state: [makeModel(memory), corners, [largest, order, values, gaps, sums, seen, learners]], order };
 }
 
 /** A mesh refined by layers of levels, each in the frames of the base (M 17). */

@@ -40,6 +40,7 @@ export interface Header {
     attributes: number;
     corner: number[];
     sections: number[];
+    light: number;
 }
 
 /** A section of a mesh: its first block, and the blocks and faces that there are with it and those before it. */
@@ -97,6 +98,7 @@ const FIELDS: Fields<keyof Header> = {
     attributes: { key: 33, type: "int", low: 0, high: 255, default: 0 },
     corner: { key: 40, type: "ints", low: -(2 ** 31), high: COUNT, default: [], lengths: [0, 3] },
     sections: { key: 41, type: "ints", low: 1, high: COUNT, default: [], lengths: [0, 14] },
+    light: { key: 42, type: "method", low: 0, high: 1, default: 0 },
 };
 
 /** Rows of all blocks together that so many vertices may have (F 4.6). */
@@ -121,7 +123,7 @@ function checkContradictions(header: Header): void {
     if (broken) throw new CorruptError(`the header contradicts itself: ${broken[0]}`);
 }
 
-const OF_A_GRID: (keyof Header)[] = ["vertices", "faces", "center", "scale", "grid", "lattice", "attributes", "corner"];
+const OF_A_GRID: (keyof Header)[] = ["vertices", "faces", "center", "scale", "grid", "lattice", "attributes", "corner", "light"];
 
 function gridRules(header: Header): [string, boolean][] {
     const { vertices, faces, center, corner, grid, lattice } = header;
@@ -148,6 +150,7 @@ function blockRules(header: Header): [string, boolean][] {
         ["neither blocks nor a grid", blocks * blockSize * coefficients === 0],
         ["a lattice without a grid", header.lattice.length > 0],
         ["a corner without a grid", header.corner.length > 0],
+        ["light values without a grid", header.light > 0],
         ["more vertices than the corners of its faces", vertices > 3 * faces],
         ["more blocks than vertices", blocks > vertices],
         ["blocks larger than the mesh", blockSize > vertices],

@@ -2,4 +2,4 @@
 export * from "./errors";
 export { DEFAULT_LIMITS, type Limits } from "./limits";
 export { hasVectors, Kernels } from "./kernels";
-export * from "./decoder";
+export * from "./grids";

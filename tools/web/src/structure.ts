@@ -1,14 +1,13 @@
 /** What all blocks of a mesh share: its faces, their graph, and which vertices each block has (specification, M 2 to M 5). */
 import { derivePartition, groupLabels, growBlocks, largestPart, lastOf, makeGraph, type Blocks, type Graph, type Partition } from "./blocks";
 import { chainLength, ChainDecoder, type Allowance, type DecodedBlock, type Surface } from "./chain";
-import { ConnectivityDecoder, decodeLabels } from "./connectivity";
+import { CONNECTIVITY_METHOD, ConnectivityDecoder, decodeLabels } from "./connectivity";
 import { CorruptError, UnsupportedError } from "./errors";
 import { sectionsOf, type Header } from "./header";
 import type { Ints, Memory } from "./kernels";
 import type { Limits } from "./limits";
 import { labelsCost, meshCost, partitionCost, type Earlier } from "./work";
 
-const CONNECTIVITY_METHOD = 1;
 const PARTITION_METHOD = 0;
 /** Made of the packets in front of the blocks of each section. */
 export class Structure {

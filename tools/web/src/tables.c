@@ -35,7 +35,7 @@ static int32_t rounded(double x) { return (int32_t)__builtin_floor(x + 0.5); }
 
 static int16_t limited(double x) { return (int16_t)rounded(x > 4000 ? 4000 : x < -4000 ? -4000 : x); }
 
-/* All tables that kernels have. */
+/* Those that all kernels have. */
 void make_tables(void) {
     double power = 1 + growth(11.25), step = 1 + growth(-1. / 256);
     for (int i = 0; i < 5760; i++) {
@@ -49,6 +49,10 @@ void make_tables(void) {
         STRETCH[4095 - j] = (int16_t)-x;
     }
     for (int n = 0; n < 1024; n++) RECIPROCAL[n] = (uint16_t)(131072 / (2 * n + 3));
+}
+
+/* Those of what is coded by a model of values. */
+void make_value_tables(void) {
     static const double SCALES[] = {16, 4, 1.5, 1, 1. / 3}, WEIGHTS[] = {1, 2, 4, 1, 1};
     double powers[5], steps[5];
     for (int k = 0; k < 5; k++) {

@@ -41,10 +41,21 @@ export function blockCost(rows: number, edges: number, levels: number): number {
     return BLOCK + ROW * rows + LOOK * edges + LEVEL * levels;
 }
 
-/** Of a grid, with so many values for each vertex, before its bytes are counted. */
-export function fieldCost(vertices: number, faces: number, axes: number): number {
-    return vertices * (600 + 350 * axes) + 150 * faces;
+/** Of a grid before its bytes are counted, and of each of its frames. */
+export interface GridCost {
+    whole(vertices: number, faces: number): number;
+    frame(received: number): number;
 }
+
+export const GRID_COST: GridCost = {
+    whole: (vertices, faces) => 1650 * vertices + 150 * faces,
+    frame: (received) => 3.5e4 + CODED * received,
+};
+
+export const LIGHT_COST: GridCost = {
+    whole: (vertices, faces) => 200 * vertices + 40 * faces,
+    frame: (received) => 3.5e4 + 120 * received,
+};
 
 /** Of a layer of refinement or an attribute, before its bytes are counted. */
 export function layerCost(vertices: number, faces: number, axes: number): number {
@@ -54,11 +65,6 @@ export function layerCost(vertices: number, faces: number, axes: number): number
 /** Of an attribute, besides what it costs as a layer. */
 export function valuesCost(values: number, faces: number): number {
     return 4e5 + 150 * values + 60 * faces;
-}
-
-/** Of a frame of a grid. */
-export function gridChunkCost(received: number): number {
-    return 3.5e4 + CODED * received;
 }
 
 /** Of a frame of a layer or of an attribute. */

@@ -1,0 +1,159 @@
+/* Positions on a grid by a small model: many times quicker to decode than grid.c (specification, V 15). */
+#include "bitstream/fields/light.h"
+
+#include "bitstream/entropy/mixing.h"
+#include "bitstream/fields/value.h"
+
+enum {
+    AXES = 3,
+    MOST_SPAN = 1 << 20,
+    MOST_ENDS = 16,
+    LATEST = 43, /* uses after which a slot learns no slower */
+    /* Slots of a row, and behind the rows of a size. */
+    ZERO = 0,
+    UNARY = 3,
+    UNARY_SLOTS = LIGHT_ROW - UNARY,
+    SIGN = LIGHT_KINDS * LIGHT_ROW,
+    LOW = SIGN + 3,
+    LOW_SLOTS = LIGHT_SPAN - LOW,
+    EVEN_CLASSES = 4, /* of one width; each that follows is twice as wide */
+    MOST_REST = 1 << 21,
+    NORMAL_BITS = 14,
+};
+
+typedef struct { /* what is known of a vertex before its axes */
+    int32_t flaps;
+    int32_t guess[AXES], size[AXES]; /* of values, and of what is expected of the error, in 1/16 */
+    int32_t normal[AXES];
+    int axis[AXES]; /* in the order in which they are coded */
+} Place;
+
+/* Code a decision by one slot (V 15.2). */
+INLINE int code_plain_bit(RangeCoder *coder, uint32_t *slot, int bit) {
+    bit = code_bit(coder, (uint32_t)largest(*slot >> (32 - ONE_BITS), 1), bit);
+    learn_slot(slot, bit, LATEST);
+    return bit;
+}
+
+/* Shorten a normal, and order the axes by it: the one nearest to it comes last (V 8.5). */
+INLINE void face(Place *p, const int64_t *normal) {
+    uint64_t bits = 1;
+    for (int j = 0; j < AXES; j++) bits |= (uint64_t)(normal[j] < 0 ? -normal[j] : normal[j]);
+    int shift = (int)largest(64 - __builtin_clzll(bits) - NORMAL_BITS, 0);
+    for (int j = 0; j < AXES; j++) p->normal[j] = (int32_t)(normal[j] >> shift);
+    int32_t x = size_of(p->normal[0]), y = size_of(p->normal[1]), z = size_of(p->normal[2]);
+    int first = (x > y) + (x > z), second = (y >= x) + (y > z);
+    p->axis[first] = 0;
+    p->axis[second] = 1;
+    p->axis[3 - first - second] = 2;
+}
+
+/* Look around a vertex (V 15.3, V 15.4). */
+OFTEN static void survey(const Corners *c, const Light *g, int32_t v, Place *p) {
+    const int32_t *vertex = c->faces.data, *x = g->values.data, *gap = g->gaps.data;
+    int32_t flaps = 0, ends = 0;
+    int32_t places[AXES] = {0, 0, 0}, lowest[AXES] = {0, 0, 0}, highest[AXES] = {0, 0, 0};
+    int32_t sums[AXES] = {0, 0, 0}, gaps[AXES] = {0, 0, 0};
+    int64_t normal[AXES] = {0, 0, 0};
+    for (int32_t i = c->starts.data[v]; i < c->starts.data[v + 1] && flaps < MOST_FLAPS; i++) {
+        int32_t k = c->corners.data[i], end[2] = {vertex[next_corner(k)], vertex[previous_corner(k)]};
+        int32_t beyond = c->opposite.data[k];
+        bool known[2] = {end[0] < v, end[1] < v};
+        const int32_t *a = x + AXES * (int64_t)end[0], *b = x + AXES * (int64_t)end[1];
+        if (flaps == 0)
+            for (int side = 0; side < 2; side++) {
+                if (!known[side] || ends == MOST_ENDS) continue;
+                const int32_t *at = gap + AXES * (int64_t)end[side], *from = side == 0 ? a : b;
+                for (int j = 0; j < AXES; j++) sums[j] += from[j], gaps[j] += at[j];
+                ends++;
+            }
+        if (!known[0] || !known[1] || beyond < 0 || vertex[beyond] >= v) continue;
+        const int32_t *o = x + AXES * (int64_t)vertex[beyond];
+        int64_t p0 = b[0] - a[0], p1 = b[1] - a[1], p2 = b[2] - a[2];
+        int64_t q0 = o[0] - a[0], q1 = o[1] - a[1], q2 = o[2] - a[2];
+        normal[0] += p1 * q2 - p2 * q1;
+        normal[1] += p2 * q0 - p0 * q2;
+        normal[2] += p0 * q1 - p1 * q0;
+        for (int j = 0; j < AXES; j++) {
+            int32_t across = a[j] + b[j] - o[j];
+            places[j] += across;
+            lowest[j] = flaps == 0 ? across : (int32_t)least(lowest[j], across);
+            highest[j] = flaps == 0 ? across : (int32_t)largest(highest[j], across);
+        }
+        flaps++;
+    }
+    p->flaps = flaps;
+    face(p, normal);
+    for (int j = 0; j < AXES; j++) {
+        if (flaps > 0) p->guess[j] = divided(FINE * places[j], flaps);
+        else p->guess[j] = ends > 0 ? divided(FINE * sums[j], ends) : v > 0 ? FINE * x[AXES * (int64_t)(v - 1) + j] : 0;
+        if (flaps > 1) p->size[j] = 12 * (highest[j] - lowest[j]);
+        else p->size[j] = ends > 0 ? gaps[j] / ends : g->largest.data[j];
+    }
+}
+
+/* Code how far a value is from its guess, `off` being the guess less that level in 1/16 (V 15.6). */
+OFTEN static int32_t code_distance(
+    RangeCoder *coder, uint32_t *slots, int kind, int32_t size, int32_t off, int32_t distance) {
+    uint32_t *all = slots + least(size_class(size >> 3), LIGHT_SIZES - 1) * LIGHT_SPAN, *row = all + kind * LIGHT_ROW;
+    int part = (size_of(off) > 1) + (size_of(off) > 4), width = (int)largest(bit_length((uint32_t)size) - 6, 0);
+    if (code_plain_bit(coder, row + ZERO + part, distance == 0)) return 0;
+    bool below = off < 0, negative = code_plain_bit(coder, all + SIGN + part, (distance < 0) != below) != below;
+    int32_t rest = size_of(distance) - 1, start = 0, i = 0;
+    while (start + (1 << width) < MOST_REST
+        && code_plain_bit(coder, row + UNARY + least(i, UNARY_SLOTS - 1), rest - start >= 1 << width)) {
+        start += 1 << width;
+        width += ++i >= EVEN_CLASSES;
+    }
+    if (width > 0) {
+        int32_t half = 1 << (width - 1);
+        if (code_plain_bit(coder, all + LOW + least(i, LOW_SLOTS - 1), rest - start >= half)) start += half;
+        start += (int32_t)code_uniform(coder, rest - start, half);
+    }
+    return negative ? -1 - start : 1 + start;
+}
+
+OFTEN static bool code_vertex(RangeCoder *coder, const Corners *corners, const Light *g, int32_t v) {
+    Place p;
+    survey(corners, g, v, &p);
+    int32_t *x = g->values.data + AXES * (int64_t)v, *gap = g->gaps.data + AXES * (int64_t)v, before = 0;
+    int64_t square = 0, used = 0, dot = 0;
+    for (int j = 0; j < AXES; j++) square += (int64_t)p.normal[j] * p.normal[j];
+    for (int step = 0; step < AXES; step++) {
+        int j = p.axis[step], kind = (int)least(p.flaps, 3) * AXES + step;
+        int64_t normal = p.normal[j], tilt = step == 0 ? 0 : -normal * dot / (square - used + (square >> 1) + 1);
+        int32_t most = g->largest.data[j], guess = within(p.guess[j] + tilt, 0, FINE * most), level = whole(guess);
+        int32_t size = ((8 - step) * p.size[j] + before) >> 3;
+        int32_t distance = is_reading(coder) ? 0 : x[j] - level;
+        int32_t value = level + code_distance(coder, g->slots.data, kind, size, guess - FINE * level, distance);
+        if (value < 0 || value > most) return false;
+        x[j] = value;
+        gap[j] = size_of(FINE * value - guess);
+        before += gap[j];
+        dot += normal * (FINE * value - p.guess[j]);
+        used += normal * normal;
+    }
+    return true;
+}
+
+static bool fits_light(const Corners *corners, const Light *g) {
+    int64_t n = corners->rank.size;
+    bool fits = g->largest.size == AXES && g->values.rows == n && g->values.columns == AXES
+        && g->gaps.rows == n && g->gaps.columns == AXES && g->slots.size == LIGHT_SLOTS;
+    for (int j = 0; j < AXES && fits; j++) fits = g->largest.data[j] >= 0 && g->largest.data[j] < MOST_SPAN;
+    return fits;
+}
+
+/* Code `count` vertices from number `first` on, as far as there is room (writing) or sense (reading).
+ * Returns how many. */
+int64_t code_light(Coder given, Corners corners, Light light, int64_t first, int64_t count) {
+    RangeCoder coder;
+    if (!open_coder(&coder, given) || !fits_corners(&corners) || !fits_light(&corners, &light) || first < 0 || count < 0
+        || first > light.values.rows - count)
+        return MISUSED;
+    int64_t done = 0;
+    for (; done < count && has_room(&coder, AXES * VALUE_BYTES) && !overran(&coder); done++)
+        if (!code_vertex(&coder, &corners, &light, (int32_t)(first + done))) break;
+    close_coder(&coder, given);
+    return done;
+}

@@ -1,0 +1,54 @@
+"""Streams on a grid that are put together without the encoder."""
+
+from random import Random
+
+import numpy as np
+import pytest
+
+from bitstream.connectivity.faces import encode_connectivity
+from bitstream.container.wire import FrameType
+from codec.static.decoder import decode
+from codec.static.encoder import encode
+from codec.static.options import EncodeOptions
+from tools.gridded import gridded, lightened, random_grid
+from tools.proof.decoding import whole
+from tools.proof.inputs import random_mesh
+from tools.proof.shard import reference
+from tools.proof.tally import Tally
+from tools.surgery import first_entries, frames_of, stream_of
+from tools.vectors.meshes import torus
+
+LIGHT = 42
+"""Header key."""
+
+
+@pytest.mark.parametrize("light", [0, 1])
+def test_what_is_put_together_decodes_to_the_values_that_were_given(light):
+    faces = torus(6, 5).faces
+    coded = encode_connectivity(faces, 30)
+    values = np.random.default_rng(1).integers(0, 50, (30, 3), np.int32)
+    stream = stream_of(gridded(coded, values, [10, 20], light=light))
+    assert first_entries(stream).get(LIGHT, 0) == light
+    assert [kind for kind, _ in frames_of(stream)].count(FrameType.GRID) == 2
+    mesh = decode(stream)
+    assert np.array_equal(mesh.faces, coded.faces)
+    assert np.array_equal(mesh.positions, values)
+
+
+def test_a_stream_is_coded_again_as_its_header_says_then():
+    stream = encode(torus(9, 7), EncodeOptions(grid=9, keep_order=True))
+    light = lightened(stream, 3, 60)
+    assert [kind for kind, _ in frames_of(light)] == [
+        *(FrameType.HEADER, FrameType.CONNECTIVITY, FrameType.ORDER, FrameType.GRID, FrameType.GRID)
+    ]
+    assert np.array_equal(decode(light).positions, decode(stream).positions)
+    assert np.array_equal(decode(light).faces, decode(stream).faces)
+
+
+def test_random_grids_are_treated_alike_by_both_decoders():
+    random, seen = Random(3), set()
+    for _ in range(25):
+        stream = random_grid(random, random_mesh(random))
+        assert Tally().hold(stream, whole(stream), reference(stream)) is None
+        seen.add((first_entries(stream).get(LIGHT, 0), len(frames_of(stream)) > 3))
+    assert len(seen) == 4

@@ -1,0 +1,114 @@
+"""Meshes on grids of any kind, put together without the encoder: for vectors, proof and bombs."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from random import Random
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from bitstream.connectivity.faces import EncodedConnectivity, decode_connectivity, encode_connectivity
+from bitstream.container.header import HEADER_FIELDS
+from bitstream.container.layout import parse_grid
+from bitstream.container.maps import write_map
+from bitstream.container.wire import FrameType, write_varint
+from bitstream.fields.grid import MOST_LARGEST, GridDecoder, GridEncoder
+from bitstream.fields.light import LightEncoder
+from bitstream.limits import DEFAULT_LIMITS
+from codec.geometry.mesh import TriangleMesh
+from tools.surgery import Frames, frames_of, header_entries, header_frame, stream_of
+
+Ints = npt.NDArray[np.int32]
+LARGEST = (0, 1, 2, 9, 100, 4095, 70_000, MOST_LARGEST)
+"""Largest values of an axis that random grids have."""
+
+
+def gridded(coded: EncodedConnectivity, values: Ints, counts: Iterable[int], **fields: Any) -> Frames:
+    """Frames of a mesh on a grid.
+
+    Parameters
+    ----------
+    coded : EncodedConnectivity
+    values : int32, shape (n, 3)
+        Of the vertices as they are coded.
+    counts : integers
+        Vertices of each GRID frame.
+    **fields
+        Of the header; without `grid`, each axis ends with its largest value.
+    """
+    fields = {"grid": values.max(axis=0).tolist()} | fields
+    announced = {"vertices": len(values), "faces": len(coded.faces)}
+    return [
+        header_frame(**announced | fields),
+        (FrameType.CONNECTIVITY, b"\x01" + coded.payload),
+        *grid_frames(coded.faces, values, counts, fields["grid"], fields.get("light", 0)),
+    ]
+
+
+def grid_frames(faces: Ints, values: Ints, counts: Iterable[int], largest: Sequence[int], light: int) -> Frames:
+    """GRID frames of so many vertices each."""
+    frames, first = [], 0
+    encoder = (LightEncoder if light else GridEncoder)(faces, values, largest)
+    for count in counts:
+        frames.append((int(FrameType.GRID), write_varint(first) + write_varint(count) + encoder.chunk(count)))
+        first += count
+    return frames
+
+
+def lightened(stream: bytes, *counts: int) -> bytes:
+    """A stream on a grid with its values coded by the small model instead, in as many frames, or in ones of so many."""
+    frames = frames_of(stream)
+    header = header_entries(frames[0][1])
+    vertices, of_faces, largest = (header[HEADER_FIELDS[name].key] for name in ("vertices", "faces", "grid"))
+    data = next(payload for kind, payload in frames if kind == FrameType.CONNECTIVITY)
+    faces = decode_connectivity(data[1:], vertices, of_faces)
+    chunks = [parse_grid(payload, DEFAULT_LIMITS) for kind, payload in frames if kind == FrameType.GRID]
+    decoder, values = GridDecoder(faces, vertices, largest), np.zeros((vertices, 3), np.int32)
+    for chunk in chunks:
+        known, coded = decoder.chunk(chunk.data, chunk.count)
+        values[known] = coded
+    coded_again = grid_frames(faces, values, counts or [chunk.count for chunk in chunks], largest, light=1)
+    place = next(i for i, (kind, _) in enumerate(frames) if kind == FrameType.GRID)
+    behind = [frame for frame in frames[place:] if frame[0] != FrameType.GRID]
+    changed = write_map(sorted((header | {HEADER_FIELDS["light"].key: 1}).items()))
+    return stream_of([(FrameType.HEADER, changed), *frames[1:place], *coded_again, *behind])
+
+
+def random_grid(random: Random, mesh: TriangleMesh) -> bytes:
+    """A stream with the faces of a mesh, and its positions or any others on any grid."""
+    used, corners = np.unique(mesh.faces, return_inverse=True)
+    faces, size = corners.reshape(-1, 3).astype(np.int32), len(used)
+    coded = encode_connectivity(faces, size)
+    largest = [random.choice(LARGEST) for _ in range(3)]
+    values = _values(random, mesh.positions[used][coded.vertex_order], largest)
+    counts, left = [], size
+    while left:
+        counts.append(random.randrange(1, left + 1) if random.random() < 0.5 else left)
+        left -= counts[-1]
+    return stream_of(gridded(coded, values, counts, **{"grid": largest} | _fields(random, max(largest))))
+
+
+def _values(random: Random, positions: npt.NDArray[np.float64], largest: list[int]) -> Ints:
+    """From 0 to `largest`: rounded positions, noise, ends of the range, or one value."""
+    numbers, shape = np.random.default_rng(random.randrange(1 << 30)), positions.shape
+    low, extent = positions.min(axis=0), np.ptp(positions, axis=0).max() or 1.0
+    kinds = [
+        np.clip(np.rint((positions - low) / extent * max(largest)), 0, largest),
+        numbers.integers(0, np.array(largest) + 1, shape),
+        np.where(numbers.random(shape) < 0.5, 0, largest),
+        np.broadcast_to(numbers.integers(0, np.array(largest) + 1), shape),
+    ]
+    return np.asarray(kinds[random.choice((0, 0, 0, 1, 2, 3))], np.int32)
+
+
+def _fields(random: Random, most: int) -> dict[str, Any]:
+    """Some fields of a header."""
+    fields: dict[str, Any] = {"light": random.choice((0, 1, 1)), "scale": random.choice((1.0, 0.25, 3.0))}
+    if random.random() < 0.25:
+        points = max(1, most) + random.randrange(3)
+        fields["lattice"] = [points + random.randrange(1000), points]
+    if random.random() < 0.25:
+        fields["corner"] = [random.randrange(-(1 << 20), 1 << 20) for _ in range(3)]
+    return fields

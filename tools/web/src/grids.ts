@@ -1,0 +1,140 @@
+/** A stream of a static mesh on a light grid to the mesh, while it arrives: as `decoder.ts` decodes it, without all else. */
+import { Allowance } from "./chain";
+import { CONNECTIVITY_METHOD, ConnectivityDecoder, decodeArrangement } from "./connectivity";
+import type { BlockEvent, ConnectivityEvent, EndEvent, HeaderEvent, Mesh } from "./decoder";
+import { BsmError, UnsupportedError } from "./errors";
+import { Grid, lightKernel } from "./grid";
+import type { Header } from "./header";
+import type { Kernels, Memory } from "./kernels";
+import { DEFAULT_LIMITS, type Limits } from "./limits";
+import { Numbering, permuted } from "./numbering";
+import { END_OF_STREAM, NEED_DATA, Reader, type Packet, type Signal } from "./reader";
+import { LIGHT_COST, meshCost, orderCost } from "./work";
+
+const ORDER_METHOD = 1;
+
+export type Event = HeaderEvent | ConnectivityEvent | BlockEvent | EndEvent;
+
+/** Takes the bytes of a stream as they come, and gives events as soon as they can be known. */
+export class Decoder {
+    private readonly limits: Limits;
+    private readonly reader: Reader;
+    private readonly memory: Memory;
+    private readonly allowance: Allowance;
+    private readonly queue: Event[] = [];
+    private error?: BsmError;
+    private header!: Header;
+    private connectivity!: ConnectivityDecoder;
+    private numbering?: Numbering;
+    private grid?: Grid;
+    private chunks = 0;
+
+    constructor(kernels: Kernels, limits: Partial<Limits> = {}) {
+        this.limits = { ...DEFAULT_LIMITS, ...limits };
+        this.reader = new Reader(this.limits);
+        this.memory = kernels.instantiate(this.limits.memory);
+        this.allowance = new Allowance(this.limits);
+    }
+
+    /** Take more bytes of the stream. */
+    receiveData(data: Uint8Array): void {
+        this.reader.receiveData(data);
+    }
+
+    /** Take note that no more bytes will come. */
+    receiveEof(): void {
+        this.reader.receiveEof();
+    }
+
+    /** Bytes of the stream that the events so far are made of. */
+    get position(): number {
+        return this.reader.position;
+    }
+
+    /** The next event, or `NEED_DATA`; `END_OF_STREAM` after the end and `receiveEof`. */
+    nextEvent(): Event | Signal {
+        for (;;) {
+            const event = this.queue.shift();
+            if (event) return event;
+            if (this.error) throw this.error;
+            try {
+                const packet = this.reader.nextPacket();
+                if (typeof packet === "string") return packet;
+                this.accept(packet as Packet);
+            } catch (error) {
+                if (!(error instanceof BsmError)) throw error;
+                this.error = error.located({ offset: this.reader.position });
+            }
+        }
+    }
+
+    /** Decode the rest of a complete stream. */
+    finish(): Mesh {
+        this.receiveEof();
+        while (this.nextEvent() !== END_OF_STREAM);
+        const { numbering, grid } = this;
+        return { positions: numbering!.arranged(grid!.positions), faces: numbering!.faces, attributes: [] };
+    }
+
+    private accept(packet: Packet): void {
+        switch (packet.type) {
+            case "header":
+                return this.acceptHeader(packet.header);
+            case "connectivity":
+                return this.acceptConnectivity(packet.method, packet.data);
+            case "order":
+                return this.acceptOrder(packet.method, packet.data);
+            case "grid":
+                return this.acceptGrid(packet.first, packet.count, packet.data);
+            case "end":
+                this.queue.push({ type: "end", missing: new Int32Array(0), degraded: new Int32Array(0) });
+        }
+    }
+
+    private acceptHeader(header: Header): void {
+        if (!header.light) throw new UnsupportedError("this build decodes light grids alone, which this is not; small.js and bsm.js decode more");
+        this.header = header;
+        this.connectivity = new ConnectivityDecoder(this.memory, header, this.limits);
+        this.queue.push({ type: "header", header });
+    }
+
+    private acceptConnectivity(method: number, data: Uint8Array): void {
+        const { vertices, faces } = this.header;
+        if (method !== CONNECTIVITY_METHOD) throw new UnsupportedError(`connectivity method ${method} is unknown to this decoder`);
+        this.connectivity.take(data);
+        this.allowance.grant(vertices);
+        this.allowance.spend(meshCost(vertices, faces, data.length, { vertices: 0, faces: 0 }), data.length);
+    }
+
+    private acceptOrder(method: number, data: Uint8Array): void {
+        const { vertices, faces } = this.header;
+        if (method !== ORDER_METHOD) throw new UnsupportedError(`this build decodes no order of method ${method}; bsm.js may`);
+        this.allowance.spend(orderCost(vertices, faces, data.length), data.length);
+        this.numbering = permuted(decodeArrangement(this.memory, data, this.connectivity.faces, vertices));
+    }
+
+    private acceptGrid(first: number, count: number, data: Uint8Array): void {
+        const grid = (this.grid ??= this.begunGrid());
+        this.allowance.spend(LIGHT_COST.frame(data.length), data.length);
+        const changes = grid.decode(first, count, data);
+        this.queue.push({ type: "block", index: this.chunks++, ...this.numbering!.spread(changes) });
+    }
+
+    private begunGrid(): Grid {
+        const { vertices, faces } = this.header;
+        this.numbering ??= new Numbering(this.connectivity.faces.view.slice(), vertices);
+        const { size, loose } = this.numbering;
+        this.queue.push({ type: "connectivity", faces: this.numbering.faces.slice(), vertices: size, loose, section: 0, sections: 1 });
+        this.allowance.spend(LIGHT_COST.whole(vertices, faces));
+        return new Grid(this.memory, this.connectivity.faces, this.header, lightKernel);
+    }
+}
+
+/** Decode a complete stream. */
+export function decode(kernels: Kernels, data: Uint8Array, limits: Partial<Limits> = {}): Mesh {
+    const decoder = new Decoder(kernels, limits);
+    decoder.receiveData(data);
+    return decoder.finish();
+}
+
+export { END_OF_STREAM, NEED_DATA };
