@@ -21,13 +21,13 @@ from bitstream.connectivity.faces import decode_connectivity, encode_connectivit
 from bitstream.connectivity.order import decode_arrangement, encode_arrangement
 from bitstream.connectivity.partition import decode_labels, encode_labels
 from bitstream.entropy import range_coder
-from bitstream.fields import corners, grid, levels
+from bitstream.fields import corners, grid, levels, light
 from codec.geometry.graph import graph_of_faces
 
 MODULES = (
     *(adaptive, contexts, matrices, rate_distortion, trellis),
     *(conquest, faces, halfedges, partition, permutation, seams, range_coder),
-    *(corners, grid, levels),
+    *(corners, grid, levels, light),
     *(attribute_seams, face_values, values),
 )
 
@@ -93,6 +93,9 @@ def test_every_kernel_defends_itself(refusals: dict[str, int]) -> None:
     positions = np.arange(3 * vertices).reshape(vertices, 3) % 7
     payload = grid.GridEncoder(decoded, positions, (6, 6, 6)).chunk(vertices)
     places, found = grid.GridDecoder(decoded, vertices, (6, 6, 6)).chunk(payload, vertices)
+    np.testing.assert_array_equal(found, positions[places])
+    payload = light.LightEncoder(decoded, positions, (6, 6, 6)).chunk(vertices)
+    places, found = light.LightDecoder(decoded, vertices, (6, 6, 6)).chunk(payload, vertices)
     np.testing.assert_array_equal(found, positions[places])
     payload = levels.LevelsEncoder(decoded, positions - 3).chunk(vertices)
     np.testing.assert_array_equal(levels.LevelsDecoder(decoded, vertices, 3).chunk(payload, vertices)[1], positions - 3)
