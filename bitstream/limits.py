@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from bitstream.errors import LimitError
+from bsm.bitstream.errors import LimitError
 
 
 @dataclass(frozen=True)

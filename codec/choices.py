@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import fields
 from typing import Any, TypeVar
 
-from bitstream.errors import OptionError
+from bsm.bitstream.errors import OptionError
 
 Choice = TypeVar("Choice")
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from codec.arrays import Faces, Positions
+from bsm.codec.arrays import Faces, Positions
 from tests.shapes import torus
 
 

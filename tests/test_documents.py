@@ -13,15 +13,15 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from bsm.codec.denoise.noise.gaussian import gaussian_along_normals
+from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.evaluation.sample import knot
 from bsm.files.mesh import write_mesh
-from codec.denoise.noise.gaussian import gaussian_along_normals
-from codec.geometry.mesh import TriangleMesh
 from tests.bsm.test_libraries import painted
 from tests.plugins import declare_entry_points
 
 ROOT = Path(__file__).parents[1]
-DOCUMENTS = ("README.md", "CONTRIBUTING.md", "spec/README.md", "bsm/SERVICE.md")
+DOCUMENTS = ("README.md", "CONTRIBUTING.md", "spec/README.md", "src/bsm/SERVICE.md")
 PROGRAMS = r"(?:bsm|python3?|pytest|ruff|\.ci/run|\.venv|eval|cat)"
 BY_CI = r"\.ci/run|\.venv/bin/|^pytest|^ruff|^bsm --help$|tools\.fuzz|tools\.proof|tools\.bombs"
 """What .ci/run itself does, or is."""

@@ -25,7 +25,7 @@ if [ ! -x "$root/usr/bin/python3" ]; then # A Python for arm64, from Debian; apt
     (cd "$folder/packages" && xargs apt-get "${options[@]}" download < "$folder/names")
     for package in "$folder"/packages/*.deb; do dpkg -x "$package" "$root"; done
 fi
-emulated() { qemu-aarch64-static -L "$root" -E "PYTHONPATH=$folder/source:$folder/site" -E OPENBLAS_NUM_THREADS=1 "$root/usr/bin/python3" "$@"; }
+emulated() { qemu-aarch64-static -L "$root" -E "PYTHONPATH=$folder/source:$folder/source/src:$folder/site" -E OPENBLAS_NUM_THREADS=1 "$root/usr/bin/python3" "$@"; }
 number=$(emulated -c 'import sys; print("%d.%d" % sys.version_info[:2])')
 
 if [ ! -d "$folder/site" ]; then
@@ -48,9 +48,10 @@ END
 cmake -S . -B "$folder/build" -DCMAKE_TOOLCHAIN_FILE="$folder/arm64.cmake" -DPython_EXECUTABLE="$python" \
     -DPython_INCLUDE_DIR="$root/usr/include/python$number" > "$folder/build.log" 2>&1
 cmake --build "$folder/build" -j "$(nproc)" >> "$folder/build.log" 2>&1
-for package in bitstream codec bsm; do cp "$folder/build/$package"/_kernels.*.so "$folder/source/$package/_kernels.so"; done
+cp "$folder"/build/bsm/_kernels.*.so "$folder/source/src/bsm/_kernels.so"
+for package in bitstream codec; do cp "$folder/build/$package"/_kernels.*.so "$folder/source/$package/_kernels.so"; done
 
-PYTHONPATH=. "$python" -c 'import sys, numpy; from bsm.evaluation.sample import knot; mesh = knot(20_000)
+PYTHONPATH=.:src "$python" -c 'import sys, numpy; from bsm.evaluation.sample import knot; mesh = knot(20_000)
 numpy.savez(sys.argv[1], positions=mesh.positions, faces=mesh.faces)' "$folder/sample.npz"
 round='import hashlib, platform, sys, numpy, bsm
 sample = numpy.load(sys.argv[1])
@@ -59,7 +60,7 @@ parts = [bsm.encode(mesh, **options) for options in ({}, {"grid": 12}, {"preset"
 parts += [numpy.ascontiguousarray(bsm.decode(part).positions).tobytes() for part in list(parts)]
 print(platform.machine(), [len(part) for part in parts], file=sys.stderr)
 print(hashlib.sha256(b"".join(parts)).hexdigest())'
-here=$(PYTHONPATH=. "$python" -c "$round" "$folder/sample.npz")
+here=$(PYTHONPATH=.:src "$python" -c "$round" "$folder/sample.npz")
 there=$(emulated -P -c "$round" "$folder/sample.npz")
 [ "$here" = "$there" ] || { echo "the sample comes out differently on arm64" >&2; exit 1; }
 echo "three streams of the sample, and what they decode to: the same bits, sha256 $here"

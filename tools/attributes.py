@@ -20,13 +20,13 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from bsm.codec.geometry.attribute_errors import at_corners, compare_values
+from bsm.codec.geometry.attributes import Attribute
+from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.static.decoder import decode
+from bsm.codec.static.encoder import encode
+from bsm.codec.static.options import EncodeOptions
 from bsm.files.mesh import read_mesh
-from codec.geometry.attribute_errors import at_corners, compare_values
-from codec.geometry.attributes import Attribute
-from codec.geometry.mesh import TriangleMesh
-from codec.static.decoder import decode
-from codec.static.encoder import encode
-from codec.static.options import EncodeOptions
 
 TEXCOORD_BITS, NORMAL_BITS = 12, 8
 SHARE = 1.0

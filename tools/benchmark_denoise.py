@@ -20,17 +20,17 @@ from pathlib import Path
 
 import numpy as np
 
+from bsm.codec.arrays import Faces, Positions
+from bsm.codec.denoise.automatic import denoise_automatically
+from bsm.codec.denoise.coarse import CoarseFilter
+from bsm.codec.denoise.filters.fine import FINE_STEPS
+from bsm.codec.denoise.filters.guided import GuidedFilter, guided_normal_filtering, guided_results
+from bsm.codec.denoise.filters.topology import Topology
+from bsm.codec.denoise.handover import HAND_OVERS
+from bsm.codec.geometry.metrics import Reference, compare, theta
 from bsm.files.formats.npz import read_arrays
 from bsm.files.mesh import read_mesh
 from bsm.paper.sequences import noisy_frames, time_sequence
-from codec.arrays import Faces, Positions
-from codec.denoise.automatic import denoise_automatically
-from codec.denoise.coarse import CoarseFilter
-from codec.denoise.filters.fine import FINE_STEPS
-from codec.denoise.filters.guided import GuidedFilter, guided_normal_filtering, guided_results
-from codec.denoise.filters.topology import Topology
-from codec.denoise.handover import HAND_OVERS
-from codec.geometry.metrics import Reference, compare, theta
 from tools.denoise_trials import TRIALS
 
 # Theta after 20 iterations and seconds of the guided filter's authors' own C++ program (bldeng/GuidedDenoising).

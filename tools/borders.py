@@ -17,12 +17,12 @@ import numpy as np
 import numpy.typing as npt
 
 import bsm
+from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.geometry.welding import weld
+from bsm.codec.static.encoder import Encoder
 from bsm.console import Console, print_json
 from bsm.files.mesh import read_mesh
 from bsm.options import encode_options
-from codec.geometry.mesh import TriangleMesh
-from codec.geometry.welding import weld
-from codec.static.encoder import Encoder
 from tools.command import run_command
 
 GRID_CELL = 2.0**-12

@@ -10,7 +10,7 @@ python=$(command -v "$python")
 python=$(cd "$(dirname "$python")" && pwd)/$(basename "$python")
 cmake -S . -B build/kernels -DPython_EXECUTABLE="$python" "$@" > /dev/null
 cmake --build build/kernels -j 2
-cmake --install build/kernels --prefix . > /dev/null
-for package in bitstream codec bsm; do
-    PYTHONPATH=. "$python" -m nanobind.stubgen -q -m $package._kernels -o $package/_kernels.pyi
+cmake --install build/kernels --prefix src > /dev/null
+for package in bsm bsm/bitstream bsm/codec; do
+    PYTHONPATH=src "$python" -m nanobind.stubgen -q -m "${package//\//.}._kernels" -o src/$package/_kernels.pyi
 done

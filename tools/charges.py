@@ -17,11 +17,11 @@ from typing import Any
 
 import numpy as np
 
-from codec.geometry.attributes import Attribute
-from codec.sequence.encoder import encode_sequence
-from codec.sequence.options import SequenceOptions
-from codec.static.encoder import encode
-from codec.static.options import PRESETS, EncodeOptions
+from bsm.codec.geometry.attributes import Attribute
+from bsm.codec.sequence.encoder import encode_sequence
+from bsm.codec.sequence.options import SequenceOptions
+from bsm.codec.static.encoder import encode
+from bsm.codec.static.options import PRESETS, EncodeOptions
 from tools.bombs.measure import taken_by
 from tools.bombs.streams import BOMBS
 from tools.vectors.meshes import torus

@@ -9,15 +9,15 @@ checking_copy() {
     cmake -S . -B "build/$name-kernels" -DPython_EXECUTABLE="$python" -DBSM_LEVEL="$level" "$@" > /dev/null
     cmake --build "build/$name-kernels" -j 2 > /dev/null
     mkdir -p "$copy"
-    rm -rf "$copy"/{bitstream,codec,bsm,tools,spec}
-    cp -r bitstream codec bsm tools spec "$copy"
+    rm -rf "$copy"/{bitstream,codec,src,tools,spec}
+    cp -r bitstream codec src tools spec "$copy"
     cat > "$copy/sitecustomize.py" << 'END'
 import sys
 
 sys.meta_path[:] = [finder for finder in sys.meta_path if not type(finder).__module__.startswith("_editable_")]
 END
     find "$copy" -name '_kernels.*.so' -delete
-    cmake --install "build/$name-kernels" --prefix "$copy" > /dev/null
+    cmake --install "build/$name-kernels" --prefix "$copy/src" > /dev/null
     cd "$copy"
-    export PYTHONPATH="$PWD"
+    export PYTHONPATH="$PWD:$PWD/src"
 }

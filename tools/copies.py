@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from bitstream import _kernels
+from bsm.bitstream import _kernels
 
 HERE = Path(__file__).parents[1]
 

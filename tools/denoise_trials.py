@@ -13,14 +13,12 @@ from pathlib import Path
 
 import numpy as np
 
-from bitstream.errors import BsmError
-from bsm.files.formats.npz import read_arrays
-from bsm.files.mesh import read_mesh
-from codec.arrays import Faces, Positions
-from codec.denoise import FrameDenoiser, denoise_automatically
-from codec.denoise.coarse import CoarseFilter
-from codec.denoise.filters.topology import Topology
-from codec.denoise.noise.gaussian import (
+from bsm.bitstream.errors import BsmError
+from bsm.codec.arrays import Faces, Positions
+from bsm.codec.denoise import FrameDenoiser, denoise_automatically
+from bsm.codec.denoise.coarse import CoarseFilter
+from bsm.codec.denoise.filters.topology import Topology
+from bsm.codec.denoise.noise.gaussian import (
     correlated_along_normals,
     gaussian_along_axis,
     gaussian_along_normals,
@@ -29,8 +27,10 @@ from codec.denoise.noise.gaussian import (
     impulsive,
     uniform_along_normals,
 )
-from codec.denoise.recipe import Recipe, iterates
-from codec.geometry.metrics import Reference, mean_edge_length, theta
+from bsm.codec.denoise.recipe import Recipe, iterates
+from bsm.codec.geometry.metrics import Reference, mean_edge_length, theta
+from bsm.files.formats.npz import read_arrays
+from bsm.files.mesh import read_mesh
 
 Kind = Callable[[Positions, Faces, float], Positions]
 SEED = 11

@@ -9,15 +9,15 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from bitstream.connectivity.faces import EncodedConnectivity, decode_connectivity, encode_connectivity
-from bitstream.container.header import HEADER_FIELDS
-from bitstream.container.layout import parse_grid
-from bitstream.container.maps import write_map
-from bitstream.container.wire import FrameType, write_varint
-from bitstream.fields.grid import MOST_LARGEST, GridDecoder, GridEncoder
-from bitstream.fields.light import LightEncoder
-from bitstream.limits import DEFAULT_LIMITS
-from codec.geometry.mesh import TriangleMesh
+from bsm.bitstream.connectivity.faces import EncodedConnectivity, decode_connectivity, encode_connectivity
+from bsm.bitstream.container.header import HEADER_FIELDS
+from bsm.bitstream.container.layout import parse_grid
+from bsm.bitstream.container.maps import write_map
+from bsm.bitstream.container.wire import FrameType, write_varint
+from bsm.bitstream.fields.grid import MOST_LARGEST, GridDecoder, GridEncoder
+from bsm.bitstream.fields.light import LightEncoder
+from bsm.bitstream.limits import DEFAULT_LIMITS
+from bsm.codec.geometry.mesh import TriangleMesh
 from tools.surgery import Frames, frames_of, header_entries, header_frame, stream_of
 
 Ints = npt.NDArray[np.int32]

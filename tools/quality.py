@@ -27,19 +27,19 @@ from typing import TypeVar
 
 import numpy as np
 
-from bitstream.errors import BsmError, MeshError
+from bsm.bitstream.errors import BsmError, MeshError
+from bsm.codec.arrays import Positions
+from bsm.codec.geometry.closeness import Original
+from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.geometry.metrics import theta
+from bsm.codec.geometry.surface_distance import surface_distance
+from bsm.codec.static.decoder import decode
+from bsm.codec.static.encoder import Encoder, encode
+from bsm.codec.static.joining import join
+from bsm.codec.static.options import PRESETS, EncodeOptions
+from bsm.codec.static.quality.targets import Target
 from bsm.evaluation.draco import encode_draco
 from bsm.files.mesh import read_mesh
-from codec.arrays import Positions
-from codec.geometry.closeness import Original
-from codec.geometry.mesh import TriangleMesh
-from codec.geometry.metrics import theta
-from codec.geometry.surface_distance import surface_distance
-from codec.static.decoder import decode
-from codec.static.encoder import Encoder, encode
-from codec.static.joining import join
-from codec.static.options import PRESETS, EncodeOptions
-from codec.static.quality.targets import Target
 
 Result = TypeVar("Result")
 

@@ -10,13 +10,13 @@ from typing import Any
 
 import numpy as np
 
-from bitstream.coefficients.adaptive import CoefficientModel, encode_coefficients, encode_layers
-from bitstream.coefficients.packed import pack_coefficients
-from bitstream.coefficients.priors import detail_experience
-from bitstream.connectivity.faces import EncodedConnectivity, encode_connectivity
-from bitstream.container.wire import FrameType, write_varint
-from bitstream.fields.levels import LevelsEncoder
-from codec.geometry.mesh import TriangleMesh
+from bsm.bitstream.coefficients.adaptive import CoefficientModel, encode_coefficients, encode_layers
+from bsm.bitstream.coefficients.packed import pack_coefficients
+from bsm.bitstream.coefficients.priors import detail_experience
+from bsm.bitstream.connectivity.faces import EncodedConnectivity, encode_connectivity
+from bsm.bitstream.container.wire import FrameType, write_varint
+from bsm.bitstream.fields.levels import LevelsEncoder
+from bsm.codec.geometry.mesh import TriangleMesh
 from tools.surgery import Frames, header_frame, stream_of
 
 BITS = 6

@@ -16,16 +16,16 @@ from typing import Any
 
 import numpy as np
 
-from bitstream.container.reader import END_OF_STREAM
+from bsm.bitstream.container.reader import END_OF_STREAM
+from bsm.codec.arrays import Faces, Positions
+from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.sequence.decoder import SequenceDecoder
+from bsm.codec.sequence.encoder import SequenceEncoder
+from bsm.codec.sequence.options import SequenceOptions
+from bsm.codec.sequence.targets import SequenceTarget
 from bsm.evaluation.sequences import Point, draco_point, pca_point
 from bsm.files.formats.npz import read_arrays
 from bsm.files.output import open_output
-from codec.arrays import Faces, Positions
-from codec.geometry.mesh import TriangleMesh
-from codec.sequence.decoder import SequenceDecoder
-from codec.sequence.encoder import SequenceEncoder
-from codec.sequence.options import SequenceOptions
-from codec.sequence.targets import SequenceTarget
 
 DRACO_BITS = (8, 10)
 KG_GOAL = 0.15

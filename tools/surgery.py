@@ -7,12 +7,12 @@ from typing import Any
 
 import msgpack
 
-from bitstream.container.declaration import Declaration
-from bitstream.container.header import HEADER_DEFAULTS, HEADER_FIELDS, fields_of
-from bitstream.container.maps import parse_map, write_map
-from bitstream.container.wire import Cursor, FrameType, parse_frame, write_frame, write_preamble, write_varint
-from bitstream.errors import BsmError
-from bitstream.limits import DEFAULT_LIMITS
+from bsm.bitstream.container.declaration import Declaration
+from bsm.bitstream.container.header import HEADER_DEFAULTS, HEADER_FIELDS, fields_of
+from bsm.bitstream.container.maps import parse_map, write_map
+from bsm.bitstream.container.wire import Cursor, FrameType, parse_frame, write_frame, write_preamble, write_varint
+from bsm.bitstream.errors import BsmError
+from bsm.bitstream.limits import DEFAULT_LIMITS
 
 Frames = list[tuple[int, bytes]]
 

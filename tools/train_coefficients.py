@@ -17,13 +17,13 @@ import numpy as np
 import numpy.typing as npt
 from scipy.optimize import minimize
 
-from bitstream.coefficients.adaptive import (
+from bsm.bitstream.coefficients.adaptive import (
     CoefficientModel,
     decode_coefficients,
     decode_layers,
     encode_coefficients,
 )
-from bitstream.coefficients.contexts import (
+from bsm.bitstream.coefficients.contexts import (
     BINS,
     NEIGHBOURS,
     SITUATIONS,
@@ -33,7 +33,7 @@ from bitstream.coefficients.contexts import (
     look_at_block,
     make_past,
 )
-from bitstream.coefficients.priors import (
+from bsm.bitstream.coefficients.priors import (
     EXPECTATIONS,
     NODES,
     SELECTORS,
@@ -41,16 +41,16 @@ from bitstream.coefficients.priors import (
     detail_experience,
     shipped_experiences,
 )
-from bitstream.coefficients.trellis import Levels
-from bitstream.container import packets
-from bitstream.container.header import Header
-from bitstream.container.reader import Reader, Signal
-from bitstream.entropy.range_coder import Bank, make_bank
+from bsm.bitstream.coefficients.trellis import Levels
+from bsm.bitstream.container import packets
+from bsm.bitstream.container.header import Header
+from bsm.bitstream.container.reader import Reader, Signal
+from bsm.bitstream.entropy.range_coder import Bank, make_bank
+from bsm.codec.static.encoder import encode
+from bsm.codec.static.layers.coding import detail_rows
+from bsm.codec.static.options import EncodeOptions
+from bsm.codec.static.rules import chain_rules
 from bsm.files.mesh import read_mesh
-from codec.static.encoder import encode
-from codec.static.layers.coding import detail_rows
-from codec.static.options import EncodeOptions
-from codec.static.rules import chain_rules
 
 TRAINING_MESHES = (
     "c3d_spot",

@@ -7,14 +7,14 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from bitstream import _kernels
-from bitstream.attributes.ranges import checked_largest, checked_values
-from bitstream.entropy.range_coder import Coder
-from bitstream.errors import MeshError
-from bitstream.fields.chunks import Field, FieldDecoder, FieldEncoder
-from bitstream.fields.corners import BYTES_PER_FACE, BYTES_PER_VERTEX, corners_of
-from bitstream.fields.model import MODEL_BYTES, make_model
-from bitstream.limits import DEFAULT_LIMITS, Limits
+from bsm.bitstream import _kernels
+from bsm.bitstream.attributes.ranges import checked_largest, checked_values
+from bsm.bitstream.entropy.range_coder import Coder
+from bsm.bitstream.errors import MeshError
+from bsm.bitstream.fields.chunks import Field, FieldDecoder, FieldEncoder
+from bsm.bitstream.fields.corners import BYTES_PER_FACE, BYTES_PER_VERTEX, corners_of
+from bsm.bitstream.fields.model import MODEL_BYTES, make_model
+from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 
 Ints = npt.NDArray[np.int32]
 

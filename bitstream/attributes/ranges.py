@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-from bitstream.errors import MeshError, OptionError
+from bsm.bitstream.errors import MeshError, OptionError
 
 Ints = npt.NDArray[np.int32]
 

@@ -8,8 +8,8 @@ from functools import cached_property
 import numpy as np
 import numpy.typing as npt
 
-from bitstream import _kernels
-from bitstream.entropy.range_coder import (
+from bsm.bitstream import _kernels
+from bsm.bitstream.entropy.range_coder import (
     Bank,
     Coder,
     finish_reading,
@@ -18,7 +18,7 @@ from bitstream.entropy.range_coder import (
     start_reading,
     start_writing,
 )
-from bitstream.fields.corners import Corners
+from bsm.bitstream.fields.corners import Corners
 
 Ints = npt.NDArray[np.int32]
 Flags = npt.NDArray[np.uint8]

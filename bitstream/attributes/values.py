@@ -8,15 +8,15 @@ from typing import Literal, NamedTuple, get_args
 import numpy as np
 import numpy.typing as npt
 
-from bitstream import _kernels
-from bitstream.attributes.octahedron import canonical_levels
-from bitstream.attributes.ranges import MOST_COMPONENTS, checked_largest, checked_values
-from bitstream.entropy.range_coder import Coder
-from bitstream.errors import MeshError, OptionError
-from bitstream.fields.chunks import Field, FieldDecoder, FieldEncoder
-from bitstream.fields.corners import BYTES_PER_FACE, BYTES_PER_VERTEX, Corners, corners_of, traverse
-from bitstream.fields.model import MODEL_BYTES, TERMS, ValueModel, make_learners, make_model
-from bitstream.limits import DEFAULT_LIMITS, Limits
+from bsm.bitstream import _kernels
+from bsm.bitstream.attributes.octahedron import canonical_levels
+from bsm.bitstream.attributes.ranges import MOST_COMPONENTS, checked_largest, checked_values
+from bsm.bitstream.entropy.range_coder import Coder
+from bsm.bitstream.errors import MeshError, OptionError
+from bsm.bitstream.fields.chunks import Field, FieldDecoder, FieldEncoder
+from bsm.bitstream.fields.corners import BYTES_PER_FACE, BYTES_PER_VERTEX, Corners, corners_of, traverse
+from bsm.bitstream.fields.model import MODEL_BYTES, TERMS, ValueModel, make_learners, make_model
+from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 
 Ints = npt.NDArray[np.int32]
 Longs = npt.NDArray[np.int64]

@@ -16,11 +16,11 @@ from dataclasses import dataclass, field
 import numpy as np
 import numpy.typing as npt
 
-from bitstream import _kernels
-from bitstream.coefficients.contexts import BINS, NEIGHBOURS, Past, copy_past, make_past
-from bitstream.coefficients.priors import EXPECTATIONS, NODES, SELECTORS, Experience, coordinate_experience
-from bitstream.coefficients.trellis import Levels
-from bitstream.entropy.range_coder import (
+from bsm.bitstream import _kernels
+from bsm.bitstream.coefficients.contexts import BINS, NEIGHBOURS, Past, copy_past, make_past
+from bsm.bitstream.coefficients.priors import EXPECTATIONS, NODES, SELECTORS, Experience, coordinate_experience
+from bsm.bitstream.coefficients.trellis import Levels
+from bsm.bitstream.entropy.range_coder import (
     Bank,
     Coder,
     copy_bank,
@@ -32,7 +32,7 @@ from bitstream.entropy.range_coder import (
     start_writing,
     unsigned_span,
 )
-from bitstream.errors import CorruptError, OptionError
+from bsm.bitstream.errors import CorruptError, OptionError
 
 MAX_LEVEL = (1 << 23) - 1
 """Largest magnitude of a quantized coefficient."""

@@ -13,8 +13,8 @@ from collections.abc import Sequence
 import numpy as np
 import numpy.typing as npt
 
-from bitstream import _kernels
-from bitstream.entropy.range_coder import (
+from bsm.bitstream import _kernels
+from bsm.bitstream.entropy.range_coder import (
     Bank,
     Coder,
     finish_reading,

@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from bitstream.entropy.zstd import compress, decompress
-from bitstream.errors import CorruptError, OptionError
+from bsm.bitstream.entropy.zstd import compress, decompress
+from bsm.bitstream.errors import CorruptError, OptionError
 
 MAX_BITS = 32
 

@@ -13,8 +13,8 @@ from functools import cache, cached_property
 import numpy as np
 import numpy.typing as npt
 
-from bitstream._kernels import priors
-from bitstream.coefficients.contexts import BINS, NEIGHBOURS, SITUATIONS
+from bsm.bitstream._kernels import priors
+from bsm.bitstream.coefficients.contexts import BINS, NEIGHBOURS, SITUATIONS
 
 EXPECTATIONS = 3
 """From everything, from the same block alone, from earlier blocks alone; each is a context of its own."""

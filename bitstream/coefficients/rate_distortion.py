@@ -12,11 +12,11 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from bitstream import _kernels
-from bitstream.coefficients.adaptive import MAX_LEVEL, CoefficientModel
-from bitstream.coefficients.trellis import STATES, Levels
-from bitstream.entropy.range_coder import ONE
-from bitstream.errors import OptionError
+from bsm.bitstream import _kernels
+from bsm.bitstream.coefficients.adaptive import MAX_LEVEL, CoefficientModel
+from bsm.bitstream.coefficients.trellis import STATES, Levels
+from bsm.bitstream.entropy.range_coder import ONE
+from bsm.bitstream.errors import OptionError
 
 TARGET_UNIT = 256
 """Targets are in 1 / TARGET_UNIT of a quantization step."""

@@ -21,7 +21,7 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-from bitstream import _kernels
+from bsm.bitstream import _kernels
 
 Levels = npt.NDArray[np.int32]
 

@@ -18,11 +18,11 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from bitstream import _kernels
-from bitstream.connectivity.front import Front, enlarge_front, make_front
-from bitstream.connectivity.halfedges import Surface
-from bitstream.connectivity.valence_model import Models
-from bitstream.entropy.range_coder import Coder
+from bsm.bitstream import _kernels
+from bsm.bitstream.connectivity.front import Front, enlarge_front, make_front
+from bsm.bitstream.connectivity.halfedges import Surface
+from bsm.bitstream.connectivity.valence_model import Models
+from bsm.bitstream.entropy.range_coder import Coder
 
 Ints = npt.NDArray[np.int32]
 

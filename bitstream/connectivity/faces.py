@@ -15,8 +15,8 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from bitstream import _kernels
-from bitstream.connectivity.conquest import (
+from bsm.bitstream import _kernels
+from bsm.bitstream.connectivity.conquest import (
     NO_ROOM,
     NONSENSE,
     TURN_BYTES,
@@ -30,10 +30,10 @@ from bitstream.connectivity.conquest import (
     no_guide,
     pause_behind,
 )
-from bitstream.connectivity.halfedges import close_surface
-from bitstream.connectivity.seams import code_degenerate, code_seams
-from bitstream.connectivity.valence_model import RARE_HEADER, Models, code_rare, make_models
-from bitstream.entropy.range_coder import (
+from bsm.bitstream.connectivity.halfedges import close_surface
+from bsm.bitstream.connectivity.seams import code_degenerate, code_seams
+from bsm.bitstream.connectivity.valence_model import RARE_HEADER, Models, code_rare, make_models
+from bsm.bitstream.entropy.range_coder import (
     Coder,
     bytes_taken,
     finish_piece,
@@ -45,8 +45,8 @@ from bitstream.entropy.range_coder import (
     start_reading,
     start_writing,
 )
-from bitstream.errors import CorruptError, MeshError, TruncatedError
-from bitstream.limits import DEFAULT_LIMITS, Limits
+from bsm.bitstream.errors import CorruptError, MeshError, TruncatedError
+from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 
 Ints = npt.NDArray[np.int32]
 

@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from bitstream import _kernels
+from bsm.bitstream import _kernels
 
 Ints = npt.NDArray[np.int32]
 

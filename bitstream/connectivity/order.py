@@ -11,10 +11,10 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from bitstream.connectivity.faces import EncodedConnectivity
-from bitstream.connectivity.permutation import code_permutation, code_rotations
-from bitstream.entropy.range_coder import finish_reading, finish_writing, start_reading, start_writing
-from bitstream.errors import CorruptError
+from bsm.bitstream.connectivity.faces import EncodedConnectivity
+from bsm.bitstream.connectivity.permutation import code_permutation, code_rotations
+from bsm.bitstream.entropy.range_coder import finish_reading, finish_writing, start_reading, start_writing
+from bsm.bitstream.errors import CorruptError
 
 Ints = npt.NDArray[np.int32]
 

@@ -9,9 +9,9 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-from bitstream import _kernels
-from bitstream.entropy.range_coder import finish_reading, finish_writing, make_bank, start_reading, start_writing
-from bitstream.errors import CorruptError
+from bsm.bitstream import _kernels
+from bsm.bitstream.entropy.range_coder import finish_reading, finish_writing, make_bank, start_reading, start_writing
+from bsm.bitstream.errors import CorruptError
 
 Indices = npt.NDArray[np.int32]
 

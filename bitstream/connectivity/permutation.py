@@ -9,8 +9,8 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-from bitstream import _kernels
-from bitstream.entropy.range_coder import (
+from bsm.bitstream import _kernels
+from bsm.bitstream.entropy.range_coder import (
     Coder,
     finish_reading,
     finish_writing,
@@ -22,7 +22,7 @@ from bitstream.entropy.range_coder import (
     start_reading,
     start_writing,
 )
-from bitstream.errors import CorruptError, OptionError, TruncatedError
+from bsm.bitstream.errors import CorruptError, OptionError, TruncatedError
 
 Ints = npt.NDArray[np.int32]
 

@@ -12,9 +12,9 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from bitstream import _kernels
-from bitstream.connectivity.halfedges import match_halfedges
-from bitstream.entropy.range_coder import Coder, make_bank
+from bsm.bitstream import _kernels
+from bsm.bitstream.connectivity.halfedges import match_halfedges
+from bsm.bitstream.entropy.range_coder import Coder, make_bank
 
 Ints = npt.NDArray[np.int32]
 

@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from bitstream.entropy.range_coder import ONE, Bank, Coder, code_unsigned, make_bank, unsigned_span
+from bsm.bitstream.entropy.range_coder import ONE, Bank, Coder, code_unsigned, make_bank, unsigned_span
 
 _VALENCE_CONTEXTS = 14
 _VALENCE_NODES = 16

@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from bitstream.container.header import binary, integer, integers, method, normalise_fields, reals, text
-from bitstream.errors import OptionError
+from bsm.bitstream.container.header import binary, integer, integers, method, normalise_fields, reals, text
+from bsm.bitstream.errors import OptionError
 
 VERTEX, CORNER, FACE = range(3)
 """What has a value in the stream."""

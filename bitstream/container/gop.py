@@ -10,8 +10,8 @@ from enum import IntEnum
 import numpy as np
 import numpy.typing as npt
 
-from bitstream.container.wire import Cursor, write_varint
-from bitstream.errors import CorruptError, OptionError, UnsupportedError
+from bsm.bitstream.container.wire import Cursor, write_varint
+from bsm.bitstream.errors import CorruptError, OptionError, UnsupportedError
 
 MAX_EXPONENT = 400
 

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from bitstream.container.declaration import CORNER, RECOMPUTED, Declaration
-from bitstream.container.header import Span
-from bitstream.container.layout import FRAME_TYPES
-from bitstream.container.packets import (
+from bsm.bitstream.container.declaration import CORNER, RECOMPUTED, Declaration
+from bsm.bitstream.container.header import Span
+from bsm.bitstream.container.layout import FRAME_TYPES
+from bsm.bitstream.container.packets import (
     Attribute,
     Block,
     Connectivity,
@@ -20,7 +20,7 @@ from bitstream.container.packets import (
     Refinement,
     Values,
 )
-from bitstream.container.wire import FrameType
+from bsm.bitstream.container.wire import FrameType
 
 _BODY = frozenset({FrameType.BLOCK, FrameType.GOP, FrameType.GRID, FrameType.REFINEMENT, FrameType.END})
 _TAIL = frozenset({FrameType.VALUES, FrameType.END})

@@ -7,7 +7,7 @@ from dataclasses import MISSING, dataclass, field, fields
 from itertools import accumulate, pairwise
 from typing import Any, TypeAlias, TypeVar
 
-from bitstream.errors import CorruptError, OptionError, UnsupportedError
+from bsm.bitstream.errors import CorruptError, OptionError, UnsupportedError
 
 FIRST_IGNORABLE_KEY = 64
 COUNT = 2**31 - 1

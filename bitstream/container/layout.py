@@ -9,10 +9,10 @@ import math
 from collections.abc import Callable
 from typing import Any, TypeVar
 
-from bitstream.container.declaration import Declaration
-from bitstream.container.header import entries_of, header_from_entries, header_to_entries, record_of
-from bitstream.container.maps import MAX_ENTRIES, parse_map, write_map
-from bitstream.container.packets import (
+from bsm.bitstream.container.declaration import Declaration
+from bsm.bitstream.container.header import entries_of, header_from_entries, header_to_entries, record_of
+from bsm.bitstream.container.maps import MAX_ENTRIES, parse_map, write_map
+from bsm.bitstream.container.packets import (
     Attribute,
     Block,
     Connectivity,
@@ -27,9 +27,9 @@ from bitstream.container.packets import (
     Refinement,
     Values,
 )
-from bitstream.container.wire import Cursor, FrameType, write_varint
-from bitstream.errors import CorruptError, OptionError
-from bitstream.limits import Limits
+from bsm.bitstream.container.wire import Cursor, FrameType, write_varint
+from bsm.bitstream.errors import CorruptError, OptionError
+from bsm.bitstream.limits import Limits
 
 LIMITED_FIELDS = ("vertices", "faces", "blocks", "block_size", "coefficients", "frames", "gop_frames", "attributes")
 

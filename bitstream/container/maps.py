@@ -10,7 +10,7 @@ from typing import Any
 
 import msgpack
 
-from bitstream.errors import CorruptError
+from bsm.bitstream.errors import CorruptError
 
 MAX_ENTRIES = 256
 _FLOAT32_MAX = struct.unpack(">f", b"\x7f\x7f\xff\xff")[0]

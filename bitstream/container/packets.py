@@ -6,10 +6,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import TypeAlias
 
-from bitstream.container.declaration import Declaration
-from bitstream.container.header import Header
-from bitstream.container.wire import FrameType
-from bitstream.errors import OptionError
+from bsm.bitstream.container.declaration import Declaration
+from bsm.bitstream.container.header import Header
+from bsm.bitstream.container.wire import FrameType
+from bsm.bitstream.errors import OptionError
 
 MetadataValue: TypeAlias = str | int | float | bytes
 

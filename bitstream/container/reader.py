@@ -8,12 +8,12 @@ from dataclasses import dataclass
 from enum import Enum
 from typing import TypeAlias
 
-from bitstream.container.grammar import Grammar
-from bitstream.container.layout import PARSERS
-from bitstream.container.packets import Damaged, End, Packet
-from bitstream.container.wire import SKIPPABLE_TYPES, Frame, FrameType, parse_frame, parse_preamble, write_preamble
-from bitstream.errors import BsmError, CorruptError, OptionError, TruncatedError, UnsupportedError
-from bitstream.limits import DEFAULT_LIMITS, Limits
+from bsm.bitstream.container.grammar import Grammar
+from bsm.bitstream.container.layout import PARSERS
+from bsm.bitstream.container.packets import Damaged, End, Packet
+from bsm.bitstream.container.wire import SKIPPABLE_TYPES, Frame, FrameType, parse_frame, parse_preamble, write_preamble
+from bsm.bitstream.errors import BsmError, CorruptError, OptionError, TruncatedError, UnsupportedError
+from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 
 
 class Signal(Enum):

@@ -12,9 +12,9 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from bitstream.container.wire import Cursor, write_varint
-from bitstream.errors import CorruptError
-from bitstream.limits import Limits
+from bsm.bitstream.container.wire import Cursor, write_varint
+from bsm.bitstream.errors import CorruptError
+from bsm.bitstream.limits import Limits
 
 Ints = npt.NDArray[np.int32]
 

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from bitstream.container.packets import Damaged, End
-from bitstream.container.reader import END_OF_STREAM, NEED_DATA, Event, FrameSpan, Reader
-from bitstream.container.wire import FrameType, Tag, parse_frame, parse_tag
-from bitstream.errors import BsmError
-from bitstream.limits import DEFAULT_LIMITS, Limits
+from bsm.bitstream.container.packets import Damaged, End
+from bsm.bitstream.container.reader import END_OF_STREAM, NEED_DATA, Event, FrameSpan, Reader
+from bsm.bitstream.container.wire import FrameType, Tag, parse_frame, parse_tag
+from bsm.bitstream.errors import BsmError
+from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 
 SCAN_BYTES = 1 << 20
 SCAN_FACTOR = 64

@@ -7,8 +7,8 @@ import zlib
 from dataclasses import dataclass
 from enum import IntEnum
 
-from bitstream.errors import CorruptError, FormatError, OptionError, UnsupportedError
-from bitstream.limits import Limits
+from bsm.bitstream.errors import CorruptError, FormatError, OptionError, UnsupportedError
+from bsm.bitstream.limits import Limits
 
 MAGIC = b"\x89BSM"
 VERSION = 0

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import zlib
 
-from bitstream.container.grammar import Grammar
-from bitstream.container.layout import FRAME_TYPES, PARSERS, WRITERS
-from bitstream.container.packets import End, Packet
-from bitstream.container.wire import write_frame, write_preamble
-from bitstream.errors import OptionError
-from bitstream.limits import DEFAULT_LIMITS, Limits
+from bsm.bitstream.container.grammar import Grammar
+from bsm.bitstream.container.layout import FRAME_TYPES, PARSERS, WRITERS
+from bsm.bitstream.container.packets import End, Packet
+from bsm.bitstream.container.wire import write_frame, write_preamble
+from bsm.bitstream.errors import OptionError
+from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 
 
 class Writer:

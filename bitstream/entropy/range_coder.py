@@ -40,8 +40,8 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from bitstream import _kernels
-from bitstream.errors import CorruptError, OptionError, TruncatedError
+from bsm.bitstream import _kernels
+from bsm.bitstream.errors import CorruptError, OptionError, TruncatedError
 
 ONE = 1 << 16
 """Probabilities that are coded are integers in 1 .. ONE - 1."""

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from bitstream.errors import CorruptError, DependencyError
+from bsm.bitstream.errors import CorruptError, DependencyError
 
 _MAGIC = b"\x28\xb5\x2f\xfd"
 _LEVEL = 19

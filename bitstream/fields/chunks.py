@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from bitstream.entropy.range_coder import (
+from bsm.bitstream.entropy.range_coder import (
     Coder,
     finish_reading,
     finish_writing,
@@ -17,7 +17,7 @@ from bitstream.entropy.range_coder import (
     start_reading,
     start_writing,
 )
-from bitstream.errors import CorruptError, OptionError, TruncatedError
+from bsm.bitstream.errors import CorruptError, OptionError, TruncatedError
 
 Ints = npt.NDArray[np.int32]
 Kernel = Callable[[Coder, int, int], int]

@@ -7,8 +7,8 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from bitstream import _kernels
-from bitstream.errors import MeshError
+from bsm.bitstream import _kernels
+from bsm.bitstream.errors import MeshError
 
 Ints = npt.NDArray[np.int32]
 

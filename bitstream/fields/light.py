@@ -7,11 +7,11 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from bitstream import _kernels
-from bitstream.entropy.range_coder import Coder
-from bitstream.fields.chunks import Field
-from bitstream.fields.corners import corners_of
-from bitstream.fields.grid import AXES, GridDecoder, GridEncoder, Ints, largest_of
+from bsm.bitstream import _kernels
+from bsm.bitstream.entropy.range_coder import Coder
+from bsm.bitstream.fields.chunks import Field
+from bsm.bitstream.fields.corners import corners_of
+from bsm.bitstream.fields.grid import AXES, GridDecoder, GridEncoder, Ints, largest_of
 
 _SIZES = 24
 _SLOTS_OF_SIZE = 12 * 12 + 3 + 4

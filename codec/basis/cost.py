@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TypeAlias
 
-from codec.basis.solver.fronts import Fronts
+from bsm.codec.basis.solver.fronts import Fronts
 
 ONCE = 5.0
 """Of each number of a dictionary, however often it is iterated."""

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from codec.arrays import Matrix
+from bsm.codec.arrays import Matrix
 
 
 def residual_norms(positions: Matrix, coefficients: Matrix) -> Matrix:

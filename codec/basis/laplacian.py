@@ -13,10 +13,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from codec import _kernels
-from codec.arrays import Matrix
-from codec.basis.solver.fronts import Fronts, find_fronts
-from codec.blocks.overlap import Block
+from bsm.codec import _kernels
+from bsm.codec.arrays import Matrix
+from bsm.codec.basis.solver.fronts import Fronts, find_fronts
+from bsm.codec.blocks.overlap import Block
 
 PADDING = 7
 """Doubles more than a kernel uses of an array that it begins where a cache line does."""

@@ -9,11 +9,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from bitstream.errors import NumericError
-from codec import _kernels
-from codec.arrays import Matrix
-from codec.basis.cost import Spend, careful_dictionary_cost, dictionary_cost, free, reflection_cost
-from codec.basis.laplacian import Factor, Laplacian, check_rows, factorize, solve
+from bsm.bitstream.errors import NumericError
+from bsm.codec import _kernels
+from bsm.codec.arrays import Matrix
+from bsm.codec.basis.cost import Spend, careful_dictionary_cost, dictionary_cost, free, reflection_cost
+from bsm.codec.basis.laplacian import Factor, Laplacian, check_rows, factorize, solve
 
 ONCE, TWICE = 1e-5, 1e-13
 """Independence (`factorize_gram` of solver/cholesky_qr.simd.c) of the columns of a panel from which Cholesky QR is

@@ -17,12 +17,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from bitstream.errors import NumericError
-from codec import _kernels
-from codec.arrays import Faces, Indices, Matrix, Positions
-from codec.basis.laplacian import Laplacian, weighted_laplacian
-from codec.blocks.overlap import Block
-from codec.geometry.graph import Graph
+from bsm.bitstream.errors import NumericError
+from bsm.codec import _kernels
+from bsm.codec.arrays import Faces, Indices, Matrix, Positions
+from bsm.codec.basis.laplacian import Laplacian, weighted_laplacian
+from bsm.codec.blocks.overlap import Block
+from bsm.codec.geometry.graph import Graph
 
 FLATNESS = 2.0**-12
 """Share of the squared sum of squared sides that is added to a triangle's squared doubled area."""

@@ -11,11 +11,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from bitstream.errors import OptionError
-from codec import _kernels
-from codec.arrays import Indices
-from codec.geometry.graph import Graph
-from codec.threads import available_threads, side_by_side
+from bsm.bitstream.errors import OptionError
+from bsm.codec import _kernels
+from bsm.codec.arrays import Indices
+from bsm.codec.geometry.graph import Graph
+from bsm.codec.threads import available_threads, side_by_side
 
 WORTH_A_THREAD = 8192
 """Vertices of a graph from which on a second thread gains more than it costs."""

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from codec import _kernels
-from codec.arrays import Indices, Mask, Matrix
-from codec.blocks.overlap import Block, Blocks
+from bsm.codec import _kernels
+from bsm.codec.arrays import Indices, Mask, Matrix
+from bsm.codec.blocks.overlap import Block, Blocks
 
 
 class Blend:

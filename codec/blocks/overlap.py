@@ -12,10 +12,10 @@ from functools import cached_property
 
 import numpy as np
 
-from codec import _kernels
-from codec.arrays import Indices, Order
-from codec.blocks.partition import Partition
-from codec.geometry.graph import Graph
+from bsm.codec import _kernels
+from bsm.codec.arrays import Indices, Order
+from bsm.codec.blocks.partition import Partition
+from bsm.codec.geometry.graph import Graph
 
 
 @dataclass(frozen=True, eq=False)

@@ -6,11 +6,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from bitstream.errors import DependencyError
-from codec import _kernels
-from codec.arrays import Indices
-from codec.blocks.bisection import bisect
-from codec.geometry.graph import Graph, graph_behind
+from bsm.bitstream.errors import DependencyError
+from bsm.codec import _kernels
+from bsm.codec.arrays import Indices
+from bsm.codec.blocks.bisection import bisect
+from bsm.codec.geometry.graph import Graph, graph_behind
 
 REFINEMENT_PASSES = 2
 """How often the derived partition goes over its boundaries; part of the format."""

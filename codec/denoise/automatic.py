@@ -6,20 +6,20 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from codec.arrays import Faces, Positions
-from codec.choices import named
-from codec.denoise.coarse import CoarseFilter
-from codec.denoise.filters.topology import Topology
-from codec.denoise.noise.estimate import NoiseLevel
-from codec.denoise.noise.finding import Finding, find_noise
-from codec.denoise.noise.outliers import Outliers, find_outliers
-from codec.denoise.noise.probe import Probe
-from codec.denoise.recipe import Recipe, Step, blend, perform
-from codec.denoise.rehearsal import GOALS, MOST_MEMBERS, Rehearsal
-from codec.denoise.safety import Verdict, judge, keep_good, restraint
-from codec.denoise.sample import sample
-from codec.geometry.metrics import mean_edge_length
-from codec.geometry.welding import weld
+from bsm.codec.arrays import Faces, Positions
+from bsm.codec.choices import named
+from bsm.codec.denoise.coarse import CoarseFilter
+from bsm.codec.denoise.filters.topology import Topology
+from bsm.codec.denoise.noise.estimate import NoiseLevel
+from bsm.codec.denoise.noise.finding import Finding, find_noise
+from bsm.codec.denoise.noise.outliers import Outliers, find_outliers
+from bsm.codec.denoise.noise.probe import Probe
+from bsm.codec.denoise.recipe import Recipe, Step, blend, perform
+from bsm.codec.denoise.rehearsal import GOALS, MOST_MEMBERS, Rehearsal
+from bsm.codec.denoise.safety import Verdict, judge, keep_good, restraint
+from bsm.codec.denoise.sample import sample
+from bsm.codec.geometry.metrics import mean_edge_length
+from bsm.codec.geometry.welding import weld
 
 BASE = Recipe("normals", 0.2, "patches", 0.35)
 CANDIDATES = (

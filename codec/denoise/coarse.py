@@ -11,14 +11,14 @@ from collections.abc import Callable, Iterator
 import numpy as np
 import numpy.typing as npt
 
-from bitstream.errors import OptionError
-from codec.arrays import Faces, Indices
-from codec.blocks.blend import degree_weights
-from codec.blocks.overlap import Block, Blocks, block_size, grow_blocks
-from codec.blocks.partition import metis_partition
-from codec.geometry.graph import graph_of_faces
-from codec.signal.chain import Chain, ChainRules
-from codec.threads import ordered_map
+from bsm.bitstream.errors import OptionError
+from bsm.codec.arrays import Faces, Indices
+from bsm.codec.blocks.blend import degree_weights
+from bsm.codec.blocks.overlap import Block, Blocks, block_size, grow_blocks
+from bsm.codec.blocks.partition import metis_partition
+from bsm.codec.geometry.graph import graph_of_faces
+from bsm.codec.signal.chain import Chain, ChainRules
+from bsm.codec.threads import ordered_map
 
 Floats = npt.NDArray[np.float64]
 Weights = Callable[[Indices], Floats]

@@ -9,19 +9,19 @@ from itertools import islice
 import numpy as np
 import numpy.typing as npt
 
-from bitstream.errors import HarmError, MeshError
-from codec.arrays import Faces, Positions
-from codec.denoise.automatic import AutomaticChoice, Patient, choose, treat
-from codec.denoise.coarse import BLOCK_SIZE, KEEP, CoarseFilter
-from codec.denoise.filters.fine import fine_step
-from codec.denoise.handover import hand_over
-from codec.denoise.noise.finding import Finding, find_noise
-from codec.denoise.noise.outliers import find_outliers
-from codec.denoise.options import DenoiseOptions
-from codec.denoise.safety import judge, keep_good
-from codec.denoise.temporal import FEWEST_FRAMES, TemporalFilter
-from codec.geometry.welding import weld
-from codec.threads import ordered_map
+from bsm.bitstream.errors import HarmError, MeshError
+from bsm.codec.arrays import Faces, Positions
+from bsm.codec.denoise.automatic import AutomaticChoice, Patient, choose, treat
+from bsm.codec.denoise.coarse import BLOCK_SIZE, KEEP, CoarseFilter
+from bsm.codec.denoise.filters.fine import fine_step
+from bsm.codec.denoise.handover import hand_over
+from bsm.codec.denoise.noise.finding import Finding, find_noise
+from bsm.codec.denoise.noise.outliers import find_outliers
+from bsm.codec.denoise.options import DenoiseOptions
+from bsm.codec.denoise.safety import judge, keep_good
+from bsm.codec.denoise.temporal import FEWEST_FRAMES, TemporalFilter
+from bsm.codec.geometry.welding import weld
+from bsm.codec.threads import ordered_map
 
 Frames = npt.NDArray[np.float64]
 Pair = tuple[Positions, Positions]

@@ -6,11 +6,11 @@ from typing import Protocol
 
 import numpy as np
 
-from codec.arrays import Positions
-from codec.choices import named
-from codec.denoise.filters.guided import GuidedFilter
-from codec.denoise.filters.topology import Topology
-from codec.denoise.filters.vertex_update import face_geometry
+from bsm.codec.arrays import Positions
+from bsm.codec.choices import named
+from bsm.codec.denoise.filters.guided import GuidedFilter
+from bsm.codec.denoise.filters.topology import Topology
+from bsm.codec.denoise.filters.vertex_update import face_geometry
 
 SIGMA_R = 0.3
 """Width of the range kernel; half or twice of it leaves 0.1 and 1.1 % more of the angle (tools.constants)."""

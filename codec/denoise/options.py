@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from bitstream.errors import OptionError
-from codec.denoise.coarse import BLOCK_SIZE, KEEP
-from codec.denoise.filters.fine import fine_step
-from codec.denoise.handover import hand_over
+from bsm.bitstream.errors import OptionError
+from bsm.codec.denoise.coarse import BLOCK_SIZE, KEEP
+from bsm.codec.denoise.filters.fine import fine_step
+from bsm.codec.denoise.handover import hand_over
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from bitstream.errors import MeshError
-from codec.arrays import Faces
-from codec.denoise.frames import FrameDenoiser, Frames
-from codec.denoise.options import DenoiseOptions
-from codec.geometry.mesh import TriangleMesh
+from bsm.bitstream.errors import MeshError
+from bsm.codec.arrays import Faces
+from bsm.codec.denoise.frames import FrameDenoiser, Frames
+from bsm.codec.denoise.options import DenoiseOptions
+from bsm.codec.geometry.mesh import TriangleMesh
 
 
 def denoise(

@@ -8,13 +8,13 @@ from itertools import islice
 
 import numpy as np
 
-from codec.arrays import Positions
-from codec.choices import named
-from codec.denoise.filters.bilateral_normal import filtered_normals
-from codec.denoise.filters.guidance import patch_guidance
-from codec.denoise.filters.guided import Guide, GuidedFilter, own_normals
-from codec.denoise.filters.topology import Topology
-from codec.denoise.handover import hand_over
+from bsm.codec.arrays import Positions
+from bsm.codec.choices import named
+from bsm.codec.denoise.filters.bilateral_normal import filtered_normals
+from bsm.codec.denoise.filters.guidance import patch_guidance
+from bsm.codec.denoise.filters.guided import Guide, GuidedFilter, own_normals
+from bsm.codec.denoise.filters.topology import Topology
+from bsm.codec.denoise.handover import hand_over
 
 GUIDES: dict[str, Guide] = {"patches": patch_guidance, "own": own_normals}
 LOCAL = "local"

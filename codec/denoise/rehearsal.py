@@ -16,15 +16,15 @@ from itertools import islice
 
 import numpy as np
 
-from codec.arrays import Positions
-from codec.denoise.coarse import CoarseFilter
-from codec.denoise.noise.estimate import NoiseLevel, estimate_noise
-from codec.denoise.noise.finding import Finding
-from codec.denoise.noise.probe import Probe
-from codec.denoise.noise.synthesis import Synthesis
-from codec.denoise.recipe import Recipe, Step, blend, iterates, perform
-from codec.geometry.metrics import Reference, mean_edge_length
-from codec.threads import ordered_map
+from bsm.codec.arrays import Positions
+from bsm.codec.denoise.coarse import CoarseFilter
+from bsm.codec.denoise.noise.estimate import NoiseLevel, estimate_noise
+from bsm.codec.denoise.noise.finding import Finding
+from bsm.codec.denoise.noise.probe import Probe
+from bsm.codec.denoise.noise.synthesis import Synthesis
+from bsm.codec.denoise.recipe import Recipe, Step, blend, iterates, perform
+from bsm.codec.geometry.metrics import Reference, mean_edge_length
+from bsm.codec.threads import ordered_map
 
 MOST_ITERATIONS = 100
 """No recipe has wanted as many; it keeps the work bounded."""

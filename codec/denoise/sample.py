@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-from codec.arrays import Faces
-from codec.blocks.partition import metis_partition
-from codec.denoise.filters.vertex_update import Floats
-from codec.geometry.graph import graph_of_faces
+from bsm.codec.arrays import Faces
+from bsm.codec.blocks.partition import metis_partition
+from bsm.codec.denoise.filters.vertex_update import Floats
+from bsm.codec.geometry.graph import graph_of_faces
 
 LARGEST = 14000
 PIECE = 3500

@@ -17,11 +17,11 @@ from functools import lru_cache
 import numpy as np
 import numpy.typing as npt
 
-from codec.arrays import Faces
-from codec.blocks.overlap import block_size, grow_blocks
-from codec.blocks.partition import metis_partition
-from codec.geometry.graph import graph_of_faces
-from codec.threads import ordered_map
+from bsm.codec.arrays import Faces
+from bsm.codec.blocks.overlap import block_size, grow_blocks
+from bsm.codec.blocks.partition import metis_partition
+from bsm.codec.geometry.graph import graph_of_faces
+from bsm.codec.threads import ordered_map
 
 Frames = npt.NDArray[np.float64]
 Floats = npt.NDArray[np.float64]

@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from codec.arrays import Faces, Matrix
-from codec.geometry.attributes import Attribute
+from bsm.codec.arrays import Faces, Matrix
+from bsm.codec.geometry.attributes import Attribute
 
 
 @dataclass(frozen=True)

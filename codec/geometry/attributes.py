@@ -8,8 +8,8 @@ from typing import Any, Literal, get_args
 import numpy as np
 import numpy.typing as npt
 
-from bitstream.errors import MeshError
-from codec.arrays import Indices, Order
+from bsm.bitstream.errors import MeshError
+from bsm.codec.arrays import Indices, Order
 
 Domain = Literal["vertex", "corner", "face"]
 Semantic = Literal["generic", "color", "normal", "texcoord"]

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from codec import _kernels
-from codec.arrays import Faces, Indices, Mask, Positions
-from codec.geometry.metrics import Floats
+from bsm.codec import _kernels
+from bsm.codec.arrays import Faces, Indices, Mask, Positions
+from bsm.codec.geometry.metrics import Floats
 
 LOST = math.pi
 """Angle of a face without area; no rounding of its vertices can give it a normal that is farther off."""

@@ -9,9 +9,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from codec import _kernels
-from codec.arrays import Faces, Indices, Order
-from codec.geometry.graph import graph_of_faces
+from bsm.codec import _kernels
+from bsm.codec.arrays import Faces, Indices, Order
+from bsm.codec.geometry.graph import graph_of_faces
 
 
 class Rows(NamedTuple):

@@ -11,9 +11,9 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from bitstream.errors import MeshError
-from codec.arrays import Faces, Order, Positions
-from codec.geometry.attributes import Attribute
+from bsm.bitstream.errors import MeshError
+from bsm.codec.arrays import Faces, Order, Positions
+from bsm.codec.geometry.attributes import Attribute
 
 Metadata = Mapping[str, str | int | float | bytes]
 """Whatever an author wants to say of a mesh."""

@@ -11,10 +11,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from bitstream.errors import MeshError
-from codec import _kernels
-from codec.arrays import Faces, Matrix, Positions
-from codec.geometry.incidence import Rows, mesh_edges, vertex_neighbours
+from bsm.bitstream.errors import MeshError
+from bsm.codec import _kernels
+from bsm.codec.arrays import Faces, Matrix, Positions
+from bsm.codec.geometry.incidence import Rows, mesh_edges, vertex_neighbours
 
 Floats = Matrix
 

@@ -8,9 +8,9 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from codec.arrays import Indices
-from codec.geometry.attributes import Attribute
-from codec.geometry.mesh import TriangleMesh
+from bsm.codec.arrays import Indices
+from bsm.codec.geometry.attributes import Attribute
+from bsm.codec.geometry.mesh import TriangleMesh
 
 
 def row_numbers(rows: npt.NDArray[Any]) -> Indices:

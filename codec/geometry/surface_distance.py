@@ -10,8 +10,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from codec import _kernels
-from codec.arrays import Faces, Matrix, Positions
+from bsm.codec import _kernels
+from bsm.codec.arrays import Faces, Matrix, Positions
 
 Floats = Matrix
 

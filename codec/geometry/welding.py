@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from codec.arrays import Faces, Indices, Positions
+from bsm.codec.arrays import Faces, Indices, Positions
 
 
 def weld(positions: Positions, faces: Faces) -> tuple[Positions, Faces, Indices]:

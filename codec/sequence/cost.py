@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from bitstream.container.gop import GopBody, GopMethod
-from codec.basis.cost import solve_cost
-from codec.basis.solver.fronts import Fronts
-from codec.sequence.dictionaries import Site
-from codec.sequence.gop import BATCH
-from codec.static.work import LEVEL
+from bsm.bitstream.container.gop import GopBody, GopMethod
+from bsm.codec.basis.cost import solve_cost
+from bsm.codec.basis.solver.fronts import Fronts
+from bsm.codec.sequence.dictionaries import Site
+from bsm.codec.sequence.gop import BATCH
+from bsm.codec.static.work import LEVEL
 
 FRAME, SHOWN = 2.5e4, 11.0
 """Of a frame, and of a vertex in it."""

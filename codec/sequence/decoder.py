@@ -9,26 +9,26 @@ from typing import TypeAlias, TypeVar
 
 import numpy as np
 
-from bitstream.container import packets
-from bitstream.container.gop import GopBody, GopMethod, parse_gop_body
-from bitstream.container.header import Header
-from bitstream.container.reader import END_OF_STREAM, Signal
-from bitstream.container.wire import FrameType
-from bitstream.errors import BsmError, CorruptError, FormatError, UnsupportedError
-from bitstream.limits import DEFAULT_LIMITS, Limits
-from codec.arrays import Faces, Matrix, Positions
-from codec.blocks.blend import Blend
-from codec.geometry.attributes import Attribute
-from codec.sequence.cost import gop_cost, gop_memory, loop_memory
-from codec.sequence.gop import GopDecoder, make_setting
-from codec.signal.chain import Rounding, unchanged
-from codec.static.attributes.decoding import Carried, without_positions
-from codec.static.events import AttributeEvent, ConnectivityEvent, EndEvent, HeaderEvent, LossEvent, unreadable
-from codec.static.layers.block_coder import FRAME, ChainDecoder
-from codec.static.rules import chain_rules
-from codec.static.stages import Arrival, Ended, Stage, StreamDecoder, misplaced
-from codec.static.structure import Beginning, Body, Structure
-from codec.static.work import Allowance
+from bsm.bitstream.container import packets
+from bsm.bitstream.container.gop import GopBody, GopMethod, parse_gop_body
+from bsm.bitstream.container.header import Header
+from bsm.bitstream.container.reader import END_OF_STREAM, Signal
+from bsm.bitstream.container.wire import FrameType
+from bsm.bitstream.errors import BsmError, CorruptError, FormatError, UnsupportedError
+from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
+from bsm.codec.arrays import Faces, Matrix, Positions
+from bsm.codec.blocks.blend import Blend
+from bsm.codec.geometry.attributes import Attribute
+from bsm.codec.sequence.cost import gop_cost, gop_memory, loop_memory
+from bsm.codec.sequence.gop import GopDecoder, make_setting
+from bsm.codec.signal.chain import Rounding, unchanged
+from bsm.codec.static.attributes.decoding import Carried, without_positions
+from bsm.codec.static.events import AttributeEvent, ConnectivityEvent, EndEvent, HeaderEvent, LossEvent, unreadable
+from bsm.codec.static.layers.block_coder import FRAME, ChainDecoder
+from bsm.codec.static.rules import chain_rules
+from bsm.codec.static.stages import Arrival, Ended, Stage, StreamDecoder, misplaced
+from bsm.codec.static.structure import Beginning, Body, Structure
+from bsm.codec.static.work import Allowance
 
 
 @dataclass(frozen=True, eq=False)

@@ -19,17 +19,17 @@ from typing import TypeVar
 
 import numpy as np
 
-from codec.arrays import Faces, Indices, Matrix, Positions
-from codec.basis.cost import Spend, factor_cost
-from codec.basis.laplacian import Factor
-from codec.basis.solver.fronts import Fronts
-from codec.basis.weighted import Held, binary_weights, cotangent_weights, hold
-from codec.blocks.overlap import Blocks
-from codec.signal.chain import ChainRules, key_dictionary
-from codec.signal.predict import Suspended, continued
-from codec.signal.transform import project, reconstruct
-from codec.static.work import Allowance, block_cost, block_memory
-from codec.threads import ordered_map
+from bsm.codec.arrays import Faces, Indices, Matrix, Positions
+from bsm.codec.basis.cost import Spend, factor_cost
+from bsm.codec.basis.laplacian import Factor
+from bsm.codec.basis.solver.fronts import Fronts
+from bsm.codec.basis.weighted import Held, binary_weights, cotangent_weights, hold
+from bsm.codec.blocks.overlap import Blocks
+from bsm.codec.signal.chain import ChainRules, key_dictionary
+from bsm.codec.signal.predict import Suspended, continued
+from bsm.codec.signal.transform import project, reconstruct
+from bsm.codec.static.work import Allowance, block_cost, block_memory
+from bsm.codec.threads import ordered_map
 
 TETHER = 2.0**-16
 """Stiffness with which every row hangs on the mean of the pulls; it places what no spring reaches."""

@@ -10,35 +10,35 @@ from types import MappingProxyType
 import numpy as np
 import numpy.typing as npt
 
-from bitstream.container import packets
-from bitstream.container.gop import GopBody, write_gop_body
-from bitstream.container.header import Header
-from bitstream.container.writer import Writer
-from bitstream.errors import MeshError, OptionError
-from bitstream.limits import NAMED_LIMITS
-from codec.arrays import Matrix, Order
-from codec.geometry.attributes import Attribute
-from codec.geometry.mesh import Metadata, TriangleMesh
-from codec.sequence.cost import gop_cost, gop_memory, loop_memory
-from codec.sequence.decoder import decode_sequence
-from codec.sequence.gop import GopEncoder, Setting, make_setting
-from codec.sequence.options import SequenceOptions
-from codec.sequence.row_prediction import LARGEST_LEVEL
-from codec.sequence.targets import SequenceComparison, compare_sequences
-from codec.signal.chain import ChainRules
-from codec.signal.quantize import smallest_step
-from codec.static.admission import admit, as_of_decoders
-from codec.static.assembly import blended
-from codec.static.attributes.encoding import carry, place_of_first_frame, with_attributes
-from codec.static.attributes.quality import qualities
-from codec.static.layers.block_coder import FRAME, CodedBlock, Progress, encode_blocks
-from codec.static.layers.coding import Adaptive
-from codec.static.preamble import Parts, Prepared, prepare
-from codec.static.quality.draft import Draft
-from codec.static.quality.targets import search_step
-from codec.static.rules import STIFFNESS, Scheme
-from codec.static.units import single
-from codec.static.work import Allowance
+from bsm.bitstream.container import packets
+from bsm.bitstream.container.gop import GopBody, write_gop_body
+from bsm.bitstream.container.header import Header
+from bsm.bitstream.container.writer import Writer
+from bsm.bitstream.errors import MeshError, OptionError
+from bsm.bitstream.limits import NAMED_LIMITS
+from bsm.codec.arrays import Matrix, Order
+from bsm.codec.geometry.attributes import Attribute
+from bsm.codec.geometry.mesh import Metadata, TriangleMesh
+from bsm.codec.sequence.cost import gop_cost, gop_memory, loop_memory
+from bsm.codec.sequence.decoder import decode_sequence
+from bsm.codec.sequence.gop import GopEncoder, Setting, make_setting
+from bsm.codec.sequence.options import SequenceOptions
+from bsm.codec.sequence.row_prediction import LARGEST_LEVEL
+from bsm.codec.sequence.targets import SequenceComparison, compare_sequences
+from bsm.codec.signal.chain import ChainRules
+from bsm.codec.signal.quantize import smallest_step
+from bsm.codec.static.admission import admit, as_of_decoders
+from bsm.codec.static.assembly import blended
+from bsm.codec.static.attributes.encoding import carry, place_of_first_frame, with_attributes
+from bsm.codec.static.attributes.quality import qualities
+from bsm.codec.static.layers.block_coder import FRAME, CodedBlock, Progress, encode_blocks
+from bsm.codec.static.layers.coding import Adaptive
+from bsm.codec.static.preamble import Parts, Prepared, prepare
+from bsm.codec.static.quality.draft import Draft
+from bsm.codec.static.quality.targets import search_step
+from bsm.codec.static.rules import STIFFNESS, Scheme
+from bsm.codec.static.units import single
+from bsm.codec.static.work import Allowance
 
 FINEST_STEP = 2e-5
 """Below, a search for a target does not look."""

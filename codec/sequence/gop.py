@@ -10,14 +10,14 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from bitstream.coefficients.matrices import decode_levels, encode_levels, make_level_bank
-from bitstream.container.gop import MAX_EXPONENT, GopBody, GopMethod
-from bitstream.entropy.range_coder import Bank
-from bitstream.errors import CorruptError
-from codec.arrays import Faces, Levels, Matrix
-from codec.sequence.dictionaries import Dictionaries, Part, Site, find_sites
-from codec.sequence.options import SequenceOptions
-from codec.sequence.row_prediction import (
+from bsm.bitstream.coefficients.matrices import decode_levels, encode_levels, make_level_bank
+from bsm.bitstream.container.gop import MAX_EXPONENT, GopBody, GopMethod
+from bsm.bitstream.entropy.range_coder import Bank
+from bsm.bitstream.errors import CorruptError
+from bsm.codec.arrays import Faces, Levels, Matrix
+from bsm.codec.sequence.dictionaries import Dictionaries, Part, Site, find_sites
+from bsm.codec.sequence.options import SequenceOptions
+from bsm.codec.sequence.row_prediction import (
     Loop,
     cosine_basis,
     dequantize_basis,
@@ -25,10 +25,10 @@ from codec.sequence.row_prediction import (
     quantize_basis,
     trajectories,
 )
-from codec.sequence.temporal import WORTH, bits_estimate, learn_basis, projection
-from codec.static.layers.block_coder import Progress
-from codec.static.rules import Scheme
-from codec.static.work import Allowance
+from bsm.codec.sequence.temporal import WORTH, bits_estimate, learn_basis, projection
+from bsm.codec.static.layers.block_coder import Progress
+from bsm.codec.static.rules import Scheme
+from bsm.codec.static.work import Allowance
 
 BATCH = 8
 """Frames that are reconstructed at a time."""

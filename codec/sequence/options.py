@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from bitstream.limits import NAMED_LIMITS
-from codec.choices import check_options
-from codec.sequence.targets import SequenceTarget
-from codec.static.attributes.quality import checked_qualities
+from bsm.bitstream.limits import NAMED_LIMITS
+from bsm.codec.choices import check_options
+from bsm.codec.sequence.targets import SequenceTarget
+from bsm.codec.static.attributes.quality import checked_qualities
 
 CHOICES = {
     "mode": ("gop", "low-delay"),

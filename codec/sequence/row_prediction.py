@@ -15,10 +15,10 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-from bitstream.errors import NumericError, OptionError
-from codec import _kernels
-from codec.arrays import Levels, Matrix
-from codec.basis.orthogonal_iteration import cosine_columns
+from bsm.bitstream.errors import NumericError, OptionError
+from bsm.codec import _kernels
+from bsm.codec.arrays import Levels, Matrix
+from bsm.codec.basis.orthogonal_iteration import cosine_columns
 
 LEADING = 24
 """Columns of a row that help to predict the columns behind them."""

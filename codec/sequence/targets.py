@@ -8,9 +8,9 @@ from typing import ClassVar
 
 import numpy as np
 
-from codec.arrays import Faces, Positions
-from codec.geometry.metrics import Reference, kg_error
-from codec.static.quality.targets import Target
+from bsm.codec.arrays import Faces, Positions
+from bsm.codec.geometry.metrics import Reference, kg_error
+from bsm.codec.static.quality.targets import Target
 
 
 @dataclass(frozen=True)

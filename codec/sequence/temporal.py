@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from codec.arrays import Matrix
-from codec.sequence.row_prediction import OCTAVE
+from bsm.codec.arrays import Matrix
+from bsm.codec.sequence.row_prediction import OCTAVE
 
 WORTH = 0.5
 """A component is kept if its energy is above WORTH * 3T * step^2: below, it costs more than it brings. Half of

@@ -6,11 +6,11 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from codec.arrays import Matrix
-from codec.basis.laplacian import factorize, laplacian_of
-from codec.basis.orthogonal_iteration import cosine_columns, orthogonal_iteration
-from codec.blocks.overlap import Blocks
-from codec.signal.transform import project
+from bsm.codec.arrays import Matrix
+from bsm.codec.basis.laplacian import factorize, laplacian_of
+from bsm.codec.basis.orthogonal_iteration import cosine_columns, orthogonal_iteration
+from bsm.codec.blocks.overlap import Blocks
+from bsm.codec.signal.transform import project
 
 SAMPLES = 2
 """Blocks that are measured; one, or four, come to 1 % more bytes, which is chance (tools.constants)."""

@@ -10,10 +10,10 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TypeAlias
 
-from codec.arrays import Matrix
-from codec.basis.cost import Spend, careful_dictionary_cost, dictionary_cost, free
-from codec.basis.laplacian import laplacian_of
-from codec.basis.orthogonal_iteration import (
+from bsm.codec.arrays import Matrix
+from bsm.codec.basis.cost import Spend, careful_dictionary_cost, dictionary_cost, free
+from bsm.codec.basis.laplacian import laplacian_of
+from bsm.codec.basis.orthogonal_iteration import (
     EXACT_ITERATIONS,
     EXACT_POWER,
     exact_basis,
@@ -21,9 +21,9 @@ from codec.basis.orthogonal_iteration import (
     follow_columns,
     orthogonal_iteration,
 )
-from codec.blocks.overlap import Block
-from codec.geometry.graph import Graph, is_connected
-from codec.signal.predict import Known, Surroundings, Suspended, unheld
+from bsm.codec.blocks.overlap import Block
+from bsm.codec.geometry.graph import Graph, is_connected
+from bsm.codec.signal.predict import Known, Surroundings, Suspended, unheld
 
 Rounding: TypeAlias = Callable[[Matrix], Matrix]
 

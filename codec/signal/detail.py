@@ -14,10 +14,10 @@ from typing import TypeVar
 import numpy as np
 import numpy.typing as npt
 
-from codec import _kernels
-from codec.arrays import Faces, Indices, Levels, Matrix, Order
-from codec.blocks.overlap import Block
-from codec.geometry.incidence import vertex_faces
+from bsm.codec import _kernels
+from bsm.codec.arrays import Faces, Indices, Levels, Matrix, Order
+from bsm.codec.blocks.overlap import Block
+from bsm.codec.geometry.incidence import vertex_faces
 
 Number = TypeVar("Number", bound=np.generic)
 

@@ -8,8 +8,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from codec import _kernels
-from codec.arrays import Faces, Levels, Matrix, Positions
+from bsm.codec import _kernels
+from bsm.codec.arrays import Faces, Levels, Matrix, Positions
 
 
 def local_frames(positions: Positions, faces: Faces) -> Matrix:

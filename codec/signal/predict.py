@@ -15,12 +15,12 @@ from functools import cached_property
 
 import numpy as np
 
-from codec import _kernels
-from codec.arrays import Matrix
-from codec.basis.laplacian import Factor, Laplacian, check_rows, factor_room, factorize, solving_space
-from codec.blocks.blend import Blend, degree_weights
-from codec.blocks.overlap import Block
-from codec.geometry.graph import Graph
+from bsm.codec import _kernels
+from bsm.codec.arrays import Matrix
+from bsm.codec.basis.laplacian import Factor, Laplacian, check_rows, factor_room, factorize, solving_space
+from bsm.codec.blocks.blend import Blend, degree_weights
+from bsm.codec.blocks.overlap import Block
+from bsm.codec.geometry.graph import Graph
 
 MAX_STIFFNESS = 2.0**16
 """Largest stiffness that a stream may ask for."""

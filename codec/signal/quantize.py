@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-from codec.arrays import Integers, Matrix
+from bsm.codec.arrays import Integers, Matrix
 
 LARGEST_LEVEL = (1 << 23) - 1
 BIT_WORTH = 0.13

@@ -12,10 +12,10 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from codec import _kernels
-from codec.arrays import Indices, Matrix, Order
-from codec.basis.cost import Spend, free
-from codec.geometry.graph import Graph
+from bsm.codec import _kernels
+from bsm.codec.arrays import Indices, Matrix, Order
+from bsm.codec.basis.cost import Spend, free
+from bsm.codec.geometry.graph import Graph
 
 DEGREE = 5
 NODES = (0.4, 0.9, 1.4, 1.8)

@@ -10,8 +10,8 @@ import math
 
 import numpy as np
 
-from codec import _kernels
-from codec.arrays import Levels, Matrix
+from bsm.codec import _kernels
+from bsm.codec.arrays import Levels, Matrix
 
 
 def project(subspace: Matrix, values: Matrix, count: int) -> Matrix:

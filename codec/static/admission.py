@@ -7,12 +7,12 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
 
-from bitstream.errors import LimitError, OptionError
-from bitstream.limits import NAMED_LIMITS
-from codec.basis.cost import Spend
-from codec.static.layers.block_coder import CodedBlock
-from codec.static.preamble import Prepared
-from codec.static.work import Allowance, MeshMemory, mesh_cost, partition_cost
+from bsm.bitstream.errors import LimitError, OptionError
+from bsm.bitstream.limits import NAMED_LIMITS
+from bsm.codec.basis.cost import Spend
+from bsm.codec.static.layers.block_coder import CodedBlock
+from bsm.codec.static.preamble import Prepared
+from bsm.codec.static.work import Allowance, MeshMemory, mesh_cost, partition_cost
 
 PATIENCE = 8.0
 """How many times longer an encoder may take over dictionaries than decoders may over the whole stream: what it tries is

@@ -8,16 +8,16 @@ from functools import cached_property
 
 import numpy as np
 
-from codec.arrays import Indices, Mask, Matrix, Order
-from codec.basis.cost import Spend, free
-from codec.blocks.blend import Blend
-from codec.blocks.overlap import Blocks
-from codec.geometry.mesh import TriangleMesh
-from codec.signal.smooth import DEGREE, LocalFilter, smooth
-from codec.static.attributes.relief import Solid
-from codec.static.events import Changes, Losses
-from codec.static.numbering import Numbering
-from codec.static.units import Units
+from bsm.codec.arrays import Indices, Mask, Matrix, Order
+from bsm.codec.basis.cost import Spend, free
+from bsm.codec.blocks.blend import Blend
+from bsm.codec.blocks.overlap import Blocks
+from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.signal.smooth import DEGREE, LocalFilter, smooth
+from bsm.codec.static.attributes.relief import Solid
+from bsm.codec.static.events import Changes, Losses
+from bsm.codec.static.numbering import Numbering
+from bsm.codec.static.units import Units
 
 COPY = 90.0
 """Nanoseconds for saying where a vertex is."""

@@ -6,17 +6,17 @@ from collections import deque
 from dataclasses import dataclass, replace
 from typing import TypeAlias, TypeVar
 
-from bitstream.container import packets
-from bitstream.container.header import Header
-from bitstream.container.reader import END_OF_STREAM, Signal
-from bitstream.container.wire import FrameType
-from bitstream.errors import BsmError, CorruptError, OptionError, UnsupportedError
-from bitstream.limits import DEFAULT_LIMITS, Limits
-from codec.geometry.mesh import TriangleMesh
-from codec.signal.chain import Rounding, unchanged
-from codec.static.assembly import Assembly, DecodedBlock, Place
-from codec.static.attributes.decoding import PendingValues, ValuesStage, completed
-from codec.static.events import (
+from bsm.bitstream.container import packets
+from bsm.bitstream.container.header import Header
+from bsm.bitstream.container.reader import END_OF_STREAM, Signal
+from bsm.bitstream.container.wire import FrameType
+from bsm.bitstream.errors import BsmError, CorruptError, OptionError, UnsupportedError
+from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
+from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.signal.chain import Rounding, unchanged
+from bsm.codec.static.assembly import Assembly, DecodedBlock, Place
+from bsm.codec.static.attributes.decoding import PendingValues, ValuesStage, completed
+from bsm.codec.static.events import (
     AttributeEvent,
     BlockEvent,
     ConnectivityEvent,
@@ -26,15 +26,15 @@ from codec.static.events import (
     RefinementEvent,
     unreadable,
 )
-from codec.static.layers.block_coder import ChainDecoder
-from codec.static.layers.grid import GridStage
-from codec.static.layers.refinement import PendingLevels, RefinementStage
-from codec.static.quality.whole import Complete
-from codec.static.rules import chain_rules
-from codec.static.stages import Arrival, Stage, StreamDecoder, misplaced
-from codec.static.structure import Beginning, Body, Structure
-from codec.static.work import Allowance
-from codec.threads import Lanes, Pending
+from bsm.codec.static.layers.block_coder import ChainDecoder
+from bsm.codec.static.layers.grid import GridStage
+from bsm.codec.static.layers.refinement import PendingLevels, RefinementStage
+from bsm.codec.static.quality.whole import Complete
+from bsm.codec.static.rules import chain_rules
+from bsm.codec.static.stages import Arrival, Stage, StreamDecoder, misplaced
+from bsm.codec.static.structure import Beginning, Body, Structure
+from bsm.codec.static.work import Allowance
+from bsm.codec.threads import Lanes, Pending
 
 Result = TypeVar("Result")
 MOST_LAYERS = 4

@@ -8,29 +8,29 @@ from functools import cached_property
 
 import numpy as np
 
-from bitstream.container.header import Header
-from bitstream.errors import OptionError, TargetError
-from codec.arrays import Order
-from codec.geometry.attributes import Attribute
-from codec.geometry.closeness import Original
-from codec.geometry.mesh import TriangleMesh
-from codec.geometry.metrics import Comparison, Reference
-from codec.signal.quantize import smallest_step
-from codec.static.admission import as_of_decoders
-from codec.static.attributes.encoding import Carried, carry, place_of, with_attributes
-from codec.static.attributes.quality import Quality, qualities
-from codec.static.joining import Joined, join
-from codec.static.layers.block_coder import Progress
-from codec.static.options import EncodeOptions
-from codec.static.preamble import Parts, Prepared, prepare
-from codec.static.quality.contract import Contract
-from codec.static.quality.draft import Draft
-from codec.static.quality.fulfilment import Fulfilment
-from codec.static.quality.ladders import FINER, WIDEST, Blocks, Grids, Ladder, Refined
-from codec.static.quality.lattices import rounded, rounded_to_cells
-from codec.static.quality.shaping import Shaper
-from codec.static.quality.spectral import Spectral
-from codec.static.quality.targets import search_step
+from bsm.bitstream.container.header import Header
+from bsm.bitstream.errors import OptionError, TargetError
+from bsm.codec.arrays import Order
+from bsm.codec.geometry.attributes import Attribute
+from bsm.codec.geometry.closeness import Original
+from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.geometry.metrics import Comparison, Reference
+from bsm.codec.signal.quantize import smallest_step
+from bsm.codec.static.admission import as_of_decoders
+from bsm.codec.static.attributes.encoding import Carried, carry, place_of, with_attributes
+from bsm.codec.static.attributes.quality import Quality, qualities
+from bsm.codec.static.joining import Joined, join
+from bsm.codec.static.layers.block_coder import Progress
+from bsm.codec.static.options import EncodeOptions
+from bsm.codec.static.preamble import Parts, Prepared, prepare
+from bsm.codec.static.quality.contract import Contract
+from bsm.codec.static.quality.draft import Draft
+from bsm.codec.static.quality.fulfilment import Fulfilment
+from bsm.codec.static.quality.ladders import FINER, WIDEST, Blocks, Grids, Ladder, Refined
+from bsm.codec.static.quality.lattices import rounded, rounded_to_cells
+from bsm.codec.static.quality.shaping import Shaper
+from bsm.codec.static.quality.spectral import Spectral
+from bsm.codec.static.quality.targets import search_step
 
 DETAILED_ANGLE = 4.5
 """Below this mean angle of normals, blocks alone are larger than refined ones."""

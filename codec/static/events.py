@@ -8,11 +8,11 @@ from typing import Any, ClassVar
 import numpy as np
 import numpy.typing as npt
 
-from bitstream.container.header import Header
-from bitstream.container.packets import Damaged
-from bitstream.errors import BsmError, CorruptError
-from codec.arrays import Faces, Indices, Mask, Positions
-from codec.geometry.attributes import Domain, Semantic
+from bsm.bitstream.container.header import Header
+from bsm.bitstream.container.packets import Damaged
+from bsm.bitstream.errors import BsmError, CorruptError
+from bsm.codec.arrays import Faces, Indices, Mask, Positions
+from bsm.codec.geometry.attributes import Domain, Semantic
 
 
 @dataclass(frozen=True)

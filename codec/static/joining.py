@@ -6,10 +6,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from bitstream.container.splits import Splits
-from codec.arrays import Indices, Mask, Order
-from codec.geometry.mesh import TriangleMesh
-from codec.geometry.welding import weld
+from bsm.bitstream.container.splits import Splits
+from bsm.codec.arrays import Indices, Mask, Order
+from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.geometry.welding import weld
 
 
 @dataclass(frozen=True, eq=False)

@@ -7,9 +7,9 @@ from functools import cached_property
 
 import numpy as np
 
-from bitstream.connectivity.order import Arrangement
-from codec.arrays import Faces, Indices, Order, Positions
-from codec.static.events import Changes, ConnectivityEvent
+from bsm.bitstream.connectivity.order import Arrangement
+from bsm.codec.arrays import Faces, Indices, Order, Positions
+from bsm.codec.static.events import Changes, ConnectivityEvent
 
 
 @dataclass(frozen=True, eq=False)

@@ -6,14 +6,14 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from bitstream.container.header import MOST_SECTIONS
-from bitstream.errors import OptionError
-from bitstream.limits import NAMED_LIMITS
-from codec.choices import check_options
-from codec.static.attributes.quality import Grade, checked_qualities
-from codec.static.quality.contract import ANY_ANGLE, Contract, Fit
-from codec.static.quality.targets import Target
-from codec.static.rules import BASES, BLENDS, KEY_SEEDS, SEEDS
+from bsm.bitstream.container.header import MOST_SECTIONS
+from bsm.bitstream.errors import OptionError
+from bsm.bitstream.limits import NAMED_LIMITS
+from bsm.codec.choices import check_options
+from bsm.codec.static.attributes.quality import Grade, checked_qualities
+from bsm.codec.static.quality.contract import ANY_ANGLE, Contract, Fit
+from bsm.codec.static.quality.targets import Target
+from bsm.codec.static.rules import BASES, BLENDS, KEY_SEEDS, SEEDS
 
 CHOICES = {
     "basis": BASES,

@@ -12,23 +12,23 @@ from itertools import pairwise
 
 import numpy as np
 
-from bitstream.connectivity.faces import Cut, encode_connectivity
-from bitstream.connectivity.order import encode_arrangement
-from bitstream.connectivity.partition import encode_labels
-from bitstream.container import packets
-from bitstream.container.header import FREE_COPIES, MOST_COPIES
-from bitstream.container.packets import Packet
-from bitstream.container.splits import Splits, encode_splits
-from bitstream.container.wire import write_varint
-from bitstream.errors import OptionError
-from codec.arrays import Faces, Indices, Matrix, Order
-from codec.blocks.overlap import Blocks, block_size, grow_blocks
-from codec.blocks.partition import Partition, derive_last_parts, derive_partition, metis_partition
-from codec.geometry.graph import Graph, component_sizes, graph_of_faces
-from codec.geometry.mesh import TriangleMesh
-from codec.signal.bandwidth import MeasuredSpectrum
-from codec.static.sections import choose_cuts, possible_cuts
-from codec.static.units import Units, units_of
+from bsm.bitstream.connectivity.faces import Cut, encode_connectivity
+from bsm.bitstream.connectivity.order import encode_arrangement
+from bsm.bitstream.connectivity.partition import encode_labels
+from bsm.bitstream.container import packets
+from bsm.bitstream.container.header import FREE_COPIES, MOST_COPIES
+from bsm.bitstream.container.packets import Packet
+from bsm.bitstream.container.splits import Splits, encode_splits
+from bsm.bitstream.container.wire import write_varint
+from bsm.bitstream.errors import OptionError
+from bsm.codec.arrays import Faces, Indices, Matrix, Order
+from bsm.codec.blocks.overlap import Blocks, block_size, grow_blocks
+from bsm.codec.blocks.partition import Partition, derive_last_parts, derive_partition, metis_partition
+from bsm.codec.geometry.graph import Graph, component_sizes, graph_of_faces
+from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.signal.bandwidth import MeasuredSpectrum
+from bsm.codec.static.sections import choose_cuts, possible_cuts
+from bsm.codec.static.units import Units, units_of
 
 CONNECTIVITY_METHOD = 1
 """The valence-driven coder of `bitstream.connectivity.faces`."""

@@ -5,14 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import Any
 
-from bitstream.container.header import Header
-from bitstream.errors import CorruptError
-from codec.arrays import Faces, Matrix
-from codec.blocks.blend import copy_weights
-from codec.blocks.overlap import Block, Blocks
-from codec.signal.chain import ChainRules, Rounding, unchanged
-from codec.signal.predict import MAX_STIFFNESS
-from codec.static.layers.coding import Coding, coding_of
+from bsm.bitstream.container.header import Header
+from bsm.bitstream.errors import CorruptError
+from bsm.codec.arrays import Faces, Matrix
+from bsm.codec.blocks.blend import copy_weights
+from bsm.codec.blocks.overlap import Block, Blocks
+from bsm.codec.signal.chain import ChainRules, Rounding, unchanged
+from bsm.codec.signal.predict import MAX_STIFFNESS
+from bsm.codec.static.layers.coding import Coding, coding_of
 
 BASES = ("oi", "svd")
 SEEDS = ("previous", "independent")

@@ -9,8 +9,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from itertools import pairwise
 
-from bitstream.connectivity.faces import Cut
-from bitstream.errors import OptionError
+from bsm.bitstream.connectivity.faces import Cut
+from bsm.bitstream.errors import OptionError
 
 PLACES, BEFORE, BEHIND = 24, 0.15, 0.03
 """A mesh may be cut at so many places around each share of its faces, from so much of the share before it on: vertices

@@ -13,11 +13,11 @@ from dataclasses import dataclass
 from types import TracebackType
 from typing import Any, Generic, Protocol, TypeAlias, TypeVar
 
-from bitstream.container.packets import Damaged, Metadata, MetadataValue, Packet
-from bitstream.container.reader import END_OF_STREAM, NEED_DATA, Reader, Signal
-from bitstream.container.tolerant import TolerantReader
-from bitstream.errors import BsmError, CorruptError
-from bitstream.limits import DEFAULT_LIMITS, Limits
+from bsm.bitstream.container.packets import Damaged, Metadata, MetadataValue, Packet
+from bsm.bitstream.container.reader import END_OF_STREAM, NEED_DATA, Reader, Signal
+from bsm.bitstream.container.tolerant import TolerantReader
+from bsm.bitstream.errors import BsmError, CorruptError
+from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 
 Item = TypeVar("Item")
 Self = TypeVar("Self", bound="StreamDecoder[Any]")

@@ -14,28 +14,28 @@ from typing import Any
 
 import numpy as np
 
-from bitstream.connectivity.faces import ConnectivityDecoder
-from bitstream.connectivity.order import decode_arrangement
-from bitstream.connectivity.partition import decode_labels
-from bitstream.container import packets
-from bitstream.container.header import FREE_COPIES, MOST_COPIES, Header, Span
-from bitstream.container.splits import decode_splits
-from bitstream.container.wire import Cursor, FrameType
-from bitstream.errors import BsmError, CorruptError, UnsupportedError
-from codec.arrays import Faces
-from codec.blocks.overlap import grow_blocks
-from codec.blocks.partition import Partition, derive_last_parts, partition_of_labels
-from codec.geometry.graph import Graph, graph_of_faces
-from codec.signal.chain import Rounding, unchanged
-from codec.static.assembly import Assembly
-from codec.static.attributes.decoding import Declarations
-from codec.static.events import HeaderEvent, LossEvent, unreadable
-from codec.static.numbering import Numbering
-from codec.static.preamble import CONNECTIVITY_METHOD, ORDER_METHOD, PARTITION_METHOD, SPLITS_METHOD
-from codec.static.rules import Scheme, scheme_of
-from codec.static.stages import Arrival, Stage, misplaced
-from codec.static.units import Units
-from codec.static.work import (
+from bsm.bitstream.connectivity.faces import ConnectivityDecoder
+from bsm.bitstream.connectivity.order import decode_arrangement
+from bsm.bitstream.connectivity.partition import decode_labels
+from bsm.bitstream.container import packets
+from bsm.bitstream.container.header import FREE_COPIES, MOST_COPIES, Header, Span
+from bsm.bitstream.container.splits import decode_splits
+from bsm.bitstream.container.wire import Cursor, FrameType
+from bsm.bitstream.errors import BsmError, CorruptError, UnsupportedError
+from bsm.codec.arrays import Faces
+from bsm.codec.blocks.overlap import grow_blocks
+from bsm.codec.blocks.partition import Partition, derive_last_parts, partition_of_labels
+from bsm.codec.geometry.graph import Graph, graph_of_faces
+from bsm.codec.signal.chain import Rounding, unchanged
+from bsm.codec.static.assembly import Assembly
+from bsm.codec.static.attributes.decoding import Declarations
+from bsm.codec.static.events import HeaderEvent, LossEvent, unreadable
+from bsm.codec.static.numbering import Numbering
+from bsm.codec.static.preamble import CONNECTIVITY_METHOD, ORDER_METHOD, PARTITION_METHOD, SPLITS_METHOD
+from bsm.codec.static.rules import Scheme, scheme_of
+from bsm.codec.static.stages import Arrival, Stage, misplaced
+from bsm.codec.static.units import Units
+from bsm.codec.static.work import (
     COPY_MEMORY,
     Allowance,
     MeshMemory,

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from bitstream.errors import NumericError
-from codec.arrays import Matrix, Positions
-from codec.geometry.mesh import TriangleMesh
+from bsm.bitstream.errors import NumericError
+from bsm.codec.arrays import Matrix, Positions
+from bsm.codec.geometry.mesh import TriangleMesh
 
 
 @dataclass(frozen=True)

@@ -10,13 +10,13 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from threading import Condition, RLock
 
-from bitstream.attributes.values import values_charge
-from bitstream.fields.grid import grid_charge
-from bitstream.fields.levels import levels_charge
-from bitstream.limits import Limits
-from codec.basis.cost import factor_cost, iteration_memory, solve_cost
-from codec.basis.laplacian import Laplacian
-from codec.geometry.graph import Graph
+from bsm.bitstream.attributes.values import values_charge
+from bsm.bitstream.fields.grid import grid_charge
+from bsm.bitstream.fields.levels import levels_charge
+from bsm.bitstream.limits import Limits
+from bsm.codec.basis.cost import factor_cost, iteration_memory, solve_cost
+from bsm.codec.basis.laplacian import Laplacian
+from bsm.codec.geometry.graph import Graph
 
 BLOCK = 1.45e5
 """Of a block, whatever its size."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from bitstream.container.packets import (
+from bsm.bitstream.container.packets import (
     Block,
     Connectivity,
     Gop,
@@ -16,8 +16,8 @@ from bitstream.container.packets import (
     Partition,
     Refinement,
 )
-from bitstream.container.reader import Reader, read_packets
-from bitstream.container.writer import write_stream
+from bsm.bitstream.container.reader import Reader, read_packets
+from bsm.bitstream.container.writer import write_stream
 
 SMALL_HEADER = Header(vertices=100, faces=190, blocks=3, block_size=60, coefficients=10)
 

@@ -9,20 +9,20 @@ from typing import Any
 import numpy as np
 import pytest
 
-from bitstream import _kernels
-from bitstream.attributes import faces as face_values
-from bitstream.attributes import seams as attribute_seams
-from bitstream.attributes import values
-from bitstream.attributes.octahedron import octahedral_levels
-from bitstream.coefficients import adaptive, contexts, matrices, rate_distortion, trellis
-from bitstream.coefficients.adaptive import CoefficientModel
-from bitstream.connectivity import conquest, faces, halfedges, partition, permutation, seams
-from bitstream.connectivity.faces import decode_connectivity, encode_connectivity
-from bitstream.connectivity.order import decode_arrangement, encode_arrangement
-from bitstream.connectivity.partition import decode_labels, encode_labels
-from bitstream.entropy import range_coder
-from bitstream.fields import corners, grid, levels, light
-from codec.geometry.graph import graph_of_faces
+from bsm.bitstream import _kernels
+from bsm.bitstream.attributes import faces as face_values
+from bsm.bitstream.attributes import seams as attribute_seams
+from bsm.bitstream.attributes import values
+from bsm.bitstream.attributes.octahedron import octahedral_levels
+from bsm.bitstream.coefficients import adaptive, contexts, matrices, rate_distortion, trellis
+from bsm.bitstream.coefficients.adaptive import CoefficientModel
+from bsm.bitstream.connectivity import conquest, faces, halfedges, partition, permutation, seams
+from bsm.bitstream.connectivity.faces import decode_connectivity, encode_connectivity
+from bsm.bitstream.connectivity.order import decode_arrangement, encode_arrangement
+from bsm.bitstream.connectivity.partition import decode_labels, encode_labels
+from bsm.bitstream.entropy import range_coder
+from bsm.bitstream.fields import corners, grid, levels, light
+from bsm.codec.geometry.graph import graph_of_faces
 
 MODULES = (
     *(adaptive, contexts, matrices, rate_distortion, trellis),

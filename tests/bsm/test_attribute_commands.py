@@ -8,9 +8,9 @@ import pytest
 
 import bsm
 from bsm.cli import main
+from bsm.codec.geometry.attributes import Attribute
+from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.files.mesh import read_mesh, write_mesh
-from codec.geometry.attributes import Attribute
-from codec.geometry.mesh import TriangleMesh
 from tests.bsm.files.test_file_attributes import attribute, dressed, png
 from tests.bsm.test_libraries import painted
 from tests.shapes import tetrahedron, torus

@@ -13,8 +13,8 @@ from functools import partial
 import numpy as np
 import pytest
 
-from bitstream.errors import OptionError
 from bsm.batch import plan
+from bsm.bitstream.errors import OptionError
 from bsm.cli import main
 from bsm.evaluation.sample import knot
 from bsm.files.mesh import read_mesh, write_mesh

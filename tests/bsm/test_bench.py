@@ -3,16 +3,16 @@ import json
 import numpy as np
 import pytest
 
-from bitstream.errors import NumericError
+from bsm.bitstream.errors import NumericError
+from bsm.codec.basis.laplacian import dense_laplacian
+from bsm.codec.basis.orthogonal_iteration import hash_columns, onorm
+from bsm.codec.blocks.overlap import grow_blocks
+from bsm.codec.blocks.partition import derive_partition
+from bsm.codec.geometry.graph import graph_of_faces
 from bsm.evaluation.bench import bench_tables, run_bench, subdivide
 from bsm.evaluation.link import Delivery, break_even
 from bsm.evaluation.solvers import EXACT, POWERS, Solver, check_iteration, check_lowest
 from bsm.files.mesh import format_mesh
-from codec.basis.laplacian import dense_laplacian
-from codec.basis.orthogonal_iteration import hash_columns, onorm
-from codec.blocks.overlap import grow_blocks
-from codec.blocks.partition import derive_partition
-from codec.geometry.graph import graph_of_faces
 from tests.shapes import patch, tetrahedron, torus
 
 

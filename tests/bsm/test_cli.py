@@ -11,11 +11,11 @@ import numpy as np
 import pytest
 
 from bsm.cli import COMMANDS, main
+from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.commands.encode_options import ENCODE_FLAGS
 from bsm.evaluation.sample import knot
 from bsm.exits import EXITS
 from bsm.files.mesh import read_mesh, write_mesh
-from codec.geometry.mesh import TriangleMesh
 from tests.bsm.program import ROOT, bsm
 from tests.shapes import torus
 
@@ -400,7 +400,7 @@ def test_every_command_has_help(capsys):
 
 
 def test_the_flags_are_fields_and_show_their_defaults():
-    from codec.static.options import EncodeOptions
+    from bsm.codec.static.options import EncodeOptions
 
     defaults = {field.name: field.default for field in fields(EncodeOptions)}
     assert MISSING not in defaults.values()

@@ -8,19 +8,19 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from bitstream.errors import CorruptError, FormatError, MeshError
+from bsm.bitstream.errors import CorruptError, FormatError, MeshError
+from bsm.codec.denoise import FINE_STEPS, DenoiseOptions, FrameDenoiser, denoise_automatically
+from bsm.codec.denoise import GOALS as LIBRARY_GOALS
+from bsm.codec.denoise import HAND_OVERS as LIBRARY_HAND_OVERS
+from bsm.codec.denoise.frames import GROUP, OVERLAP, WINDOW
+from bsm.codec.denoise.noise.gaussian import gaussian_along_normals
+from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.geometry.metrics import mnd, rms_over_edge, theta
+from bsm.codec.threads import available_threads
 from bsm.commands.denoise import FINE, GOALS, HAND_OVERS
 from bsm.commands.noise import KINDS
 from bsm.files.formats.npz import npz_frames, npz_shape
 from bsm.files.mesh import read_mesh, write_mesh
-from codec.denoise import FINE_STEPS, DenoiseOptions, FrameDenoiser, denoise_automatically
-from codec.denoise import GOALS as LIBRARY_GOALS
-from codec.denoise import HAND_OVERS as LIBRARY_HAND_OVERS
-from codec.denoise.frames import GROUP, OVERLAP, WINDOW
-from codec.denoise.noise.gaussian import gaussian_along_normals
-from codec.geometry.mesh import TriangleMesh
-from codec.geometry.metrics import mnd, rms_over_edge, theta
-from codec.threads import available_threads
 from tests.shapes import torus
 
 ROOT = Path(__file__).parents[2]

@@ -5,8 +5,8 @@ from pathlib import Path
 
 import pytest
 
-from codec.denoise import denoise_automatically
-from codec.geometry.metrics import theta
+from bsm.codec.denoise import denoise_automatically
+from bsm.codec.geometry.metrics import theta
 from tools import benchmark_denoise, readme_tables
 
 

@@ -6,8 +6,13 @@ import math
 import numpy as np
 import pytest
 
-from bitstream.errors import CorruptError, MeshError
+from bsm.bitstream.errors import CorruptError, MeshError
 from bsm.cli import main
+from bsm.codec.blocks.partition import partition_of_labels
+from bsm.codec.geometry.graph import graph_of_faces
+from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.geometry.metrics import Reference
+from bsm.codec.static.options import EncodeOptions
 from bsm.evaluation.codecs import Curve, Draco, Spectral, paper_options
 from bsm.evaluation.per_block import (
     BlockView,
@@ -24,11 +29,6 @@ from bsm.evaluation.row_order import in_bisection_order, in_breadth_first_order,
 from bsm.evaluation.run import measure, read_results, run_curve, write_result
 from bsm.evaluation.tables import table
 from bsm.files.mesh import read_mesh, write_mesh
-from codec.blocks.partition import partition_of_labels
-from codec.geometry.graph import graph_of_faces
-from codec.geometry.mesh import TriangleMesh
-from codec.geometry.metrics import Reference
-from codec.static.options import EncodeOptions
 from tests.shapes import patch, torus
 
 POINT_KEYS = {

@@ -9,13 +9,13 @@ from pathlib import Path
 
 import pytest
 
-from bitstream import errors
+from bsm.bitstream import errors
 
 SECONDS = 10
 BYTES = 1 << 30
 PROGRAM = f"""
 import json, os, signal, sys
-from bitstream.errors import BsmError
+from bsm.bitstream.errors import BsmError
 from bsm.files.mesh import read_mesh
 for path in sys.argv[1:]:
     child = os.fork()

@@ -10,11 +10,11 @@ import numpy as np
 import pytest
 
 import bsm
+from bsm.codec.geometry.attributes import Attribute
+from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.meshes import as_mesh
-from codec.geometry.attributes import Attribute
-from codec.geometry.mesh import TriangleMesh
 from tests.bsm.files.test_file_attributes import at_corners, attribute, dressed, png
-from tests.plugins import ROOT, declare_entry_points
+from tests.plugins import declare_entry_points
 from tests.shapes import torus
 
 EXACT = {"preset": "lossless", "keep_order": True, "attributes": {"*": "exact"}}
@@ -216,7 +216,7 @@ def test_pyvista_by_its_entry_points(pyvista, tmp_path):
     (tmp_path / "c.bsm").write_bytes(b"nothing")
     done = subprocess.run(
         [sys.executable, "-c", SCRIPT, *(str(tmp_path / f"{name}.bsm") for name in "abc")],
-        env={**os.environ, "PYTHONPATH": f"{site}:{ROOT}"},
+        env={**os.environ, "PYTHONPATH": str(site)},
         capture_output=True,
         text=True,
         timeout=120,

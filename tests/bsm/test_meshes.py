@@ -7,10 +7,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from bitstream.errors import ArgumentError, MeshError
+from bsm.bitstream.errors import ArgumentError, MeshError
+from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.files.mesh import read_mesh, write_mesh
 from bsm.meshes import as_mesh
-from codec.geometry.mesh import TriangleMesh
 from tests.shapes import tetrahedron, torus
 
 SQUARE = np.array([[0.0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]])

@@ -9,10 +9,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from bitstream.errors import BsmError, CorruptError, FormatError, LimitError, MeshError, TruncatedError
-from bitstream.limits import Limits
+from bsm.bitstream.errors import BsmError, CorruptError, FormatError, LimitError, MeshError, TruncatedError
+from bsm.bitstream.limits import Limits
+from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.files.mesh import MESH_FORMATS, format_mesh, read_mesh, write_mesh
-from codec.geometry.mesh import TriangleMesh
 
 TETRAHEDRON = TriangleMesh(
     np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]), np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]])

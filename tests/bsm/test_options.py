@@ -5,15 +5,15 @@ from dataclasses import fields
 import numpy as np
 import pytest
 
-from bitstream.errors import ArgumentError, OptionError
+from bsm.bitstream.errors import ArgumentError, OptionError
+from bsm.codec.denoise import DenoiseOptions
+from bsm.codec.sequence.options import SequenceOptions
+from bsm.codec.sequence.targets import SequenceTarget
+from bsm.codec.static.options import PRESETS, EncodeOptions
+from bsm.codec.static.quality.contract import Contract
+from bsm.codec.static.quality.targets import Target
 from bsm.commands.encode_options import TARGET_FLAGS
 from bsm.options import SEQUENCE_STEPS, TARGETS, denoise_options, encode_options, sequence_options
-from codec.denoise import DenoiseOptions
-from codec.sequence.options import SequenceOptions
-from codec.sequence.targets import SequenceTarget
-from codec.static.options import PRESETS, EncodeOptions
-from codec.static.quality.contract import Contract
-from codec.static.quality.targets import Target
 
 
 def test_without_keywords_everything_is_the_default():

@@ -11,8 +11,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from bitstream.errors import OptionError
+from bsm.bitstream.errors import OptionError
 from bsm.cli import main
+from bsm.codec.geometry.metrics import face_normals
 from bsm.files.mesh import write_mesh
 from bsm.paper import published
 from bsm.paper.coherence import errors, left_out, smallest_on_diagonal
@@ -22,7 +23,6 @@ from bsm.paper.report import report, summary
 from bsm.paper.scoreboard import Score, scores
 from bsm.paper.shapes import ball, box, swaying
 from bsm.paper.study import FULL, QUICK, Study
-from codec.geometry.metrics import face_normals
 
 ROOT = Path(__file__).parents[2]
 

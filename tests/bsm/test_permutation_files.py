@@ -3,13 +3,13 @@
 import numpy as np
 import pytest
 
-from bitstream.errors import FormatError, MeshError
+from bsm.bitstream.errors import FormatError, MeshError
+from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.static.decoder import decode
+from bsm.codec.static.encoder import Encoder
+from bsm.codec.static.options import EncodeOptions
 from bsm.evaluation.sample import knot
 from bsm.files.permutation import in_order_of, read_permutation, reorder, write_permutation
-from codec.geometry.mesh import TriangleMesh
-from codec.static.decoder import decode
-from codec.static.encoder import Encoder
-from codec.static.options import EncodeOptions
 
 SAMPLE = knot(600)
 
@@ -47,8 +47,8 @@ def test_the_permutation_is_used(order):
 
 
 def test_the_numbering_of_the_decoder_is_recognised():
-    from codec.static.encoder import Encoder
-    from codec.static.options import EncodeOptions
+    from bsm.codec.static.encoder import Encoder
+    from bsm.codec.static.options import EncodeOptions
 
     encoder = Encoder(SAMPLE, EncodeOptions(block_size=100, threads=1))
     decoded = TriangleMesh(SAMPLE.positions[encoder.vertex_order], np.argsort(encoder.vertex_order)[SAMPLE.faces])
@@ -57,7 +57,7 @@ def test_the_numbering_of_the_decoder_is_recognised():
 
 @pytest.mark.parametrize("shift", range(4))
 def test_a_symmetric_mesh_is_matched_vertex_by_vertex(shift):
-    from bitstream.connectivity.faces import encode_connectivity
+    from bsm.bitstream.connectivity.faces import encode_connectivity
 
     faces = np.roll(np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]]), shift, axis=0)
     mesh = TriangleMesh(np.array([[0, 0, 0], [1, 0, 0], [0, 2, 0], [0, 0, 3]]), faces)

@@ -6,13 +6,13 @@ import sys
 import numpy as np
 import pytest
 
-from bitstream.errors import CorruptError, FormatError, MeshError, OptionError, TruncatedError
+from bsm.bitstream.errors import CorruptError, FormatError, MeshError, OptionError, TruncatedError
 from bsm.cli import main
+from bsm.codec.geometry.attributes import Attribute
+from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.files.formats.npy import read_npy
 from bsm.files.mesh import read_mesh, write_mesh
 from bsm.files.sequence import open_sequence, sequence_kind, sequence_writer
-from codec.geometry.attributes import Attribute
-from codec.geometry.mesh import TriangleMesh
 from tests.motion import bending
 from tests.shapes import torus
 

@@ -5,10 +5,10 @@ import pytest
 
 import bsm
 from bsm.cli import main
+from bsm.codec.signal import chain
+from bsm.codec.static.encoder import encode
+from bsm.codec.static.options import EncodeOptions
 from bsm.steadiness import NOISE, PEAK, RMS, shaken, unsteadiness
-from codec.signal import chain
-from codec.static.encoder import encode
-from codec.static.options import EncodeOptions
 from tests.shapes import patch, tetrahedron, together, torus
 from tools.vectors.store import read_manifest
 

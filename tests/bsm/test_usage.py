@@ -7,8 +7,8 @@ import pytest
 
 from bsm import __version__
 from bsm.cli import COMMANDS, main, program_parser
+from bsm.codec.static.options import PRESETS
 from bsm.commands.encode_options import PROMISES
-from codec.static.options import PRESETS
 from tests.bsm.test_batch import bsm
 
 

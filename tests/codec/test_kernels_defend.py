@@ -5,14 +5,14 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from codec import _kernels
-from codec.basis.laplacian import laplacian_of
-from codec.basis.orthogonal_iteration import hash_columns
-from codec.basis.solver import fronts
-from codec.blocks import overlap
-from codec.blocks.partition import derive_partition
-from codec.geometry import graph
-from codec.signal import detail, predict, smooth, transform
+from bsm.codec import _kernels
+from bsm.codec.basis.laplacian import laplacian_of
+from bsm.codec.basis.orthogonal_iteration import hash_columns
+from bsm.codec.basis.solver import fronts
+from bsm.codec.blocks import overlap
+from bsm.codec.blocks.partition import derive_partition
+from bsm.codec.geometry import graph
+from bsm.codec.signal import detail, predict, smooth, transform
 from tests.bitstream.test_kernels_defend import copied, shortened
 from tests.shapes import torus
 

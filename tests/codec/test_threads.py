@@ -5,15 +5,15 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from codec.basis.laplacian import factorize, laplacian_of
-from codec.basis.orthogonal_iteration import cosine_columns, orthogonal_iteration
-from codec.blocks.overlap import grow_blocks
-from codec.blocks.partition import derive_partition
-from codec.geometry.graph import graph_of_faces
-from codec.static.decoder import decode
-from codec.static.encoder import encode
-from codec.static.options import EncodeOptions
-from codec.threads import Lanes, ordered_map, side_by_side
+from bsm.codec.basis.laplacian import factorize, laplacian_of
+from bsm.codec.basis.orthogonal_iteration import cosine_columns, orthogonal_iteration
+from bsm.codec.blocks.overlap import grow_blocks
+from bsm.codec.blocks.partition import derive_partition
+from bsm.codec.geometry.graph import graph_of_faces
+from bsm.codec.static.decoder import decode
+from bsm.codec.static.encoder import encode
+from bsm.codec.static.options import EncodeOptions
+from bsm.codec.threads import Lanes, ordered_map, side_by_side
 from tests.shapes import patch
 
 

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from bitstream._kernels import priors
+from bsm.bitstream._kernels import priors
 from tools.vectors.example import NAME, example
 from tools.vectors.store import FOLDER
 

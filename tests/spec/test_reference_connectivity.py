@@ -13,10 +13,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from bitstream.connectivity.faces import decode_connectivity, encode_connectivity
-from bitstream.connectivity.order import decode_arrangement, encode_arrangement
-from bitstream.connectivity.partition import decode_labels, encode_labels
-from bitstream.entropy.range_coder import (
+from bsm.bitstream.connectivity.faces import decode_connectivity, encode_connectivity
+from bsm.bitstream.connectivity.order import decode_arrangement, encode_arrangement
+from bsm.bitstream.connectivity.partition import decode_labels, encode_labels
+from bsm.bitstream.entropy.range_coder import (
     code_signed,
     code_uniform,
     code_unsigned,
@@ -25,9 +25,9 @@ from bitstream.entropy.range_coder import (
     signed_span,
     start_writing,
 )
-from bitstream.errors import BsmError
-from bitstream.limits import DEFAULT_LIMITS
-from codec.geometry.graph import Graph, graph_of_faces
+from bsm.bitstream.errors import BsmError
+from bsm.bitstream.limits import DEFAULT_LIMITS
+from bsm.codec.geometry.graph import Graph, graph_of_faces
 from spec import reference_connectivity as reference
 from tests.bitstream.connectivity.test_faces import SOUPS, compact, read_ply
 from tests.shapes import Faces, grid_faces

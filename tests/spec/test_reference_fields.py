@@ -16,13 +16,13 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from bitstream.errors import BsmError
-from bitstream.fields.chunks import FieldDecoder
-from bitstream.fields.corners import corners_of, keep_borders
-from bitstream.fields.grid import MOST_LARGEST, GridDecoder, GridEncoder
-from bitstream.fields.lattice import spread
-from bitstream.fields.levels import MOST_LEVEL, LevelsDecoder, LevelsEncoder
-from bitstream.fields.light import LightDecoder, LightEncoder
+from bsm.bitstream.errors import BsmError
+from bsm.bitstream.fields.chunks import FieldDecoder
+from bsm.bitstream.fields.corners import corners_of, keep_borders
+from bsm.bitstream.fields.grid import MOST_LARGEST, GridDecoder, GridEncoder
+from bsm.bitstream.fields.lattice import spread
+from bsm.bitstream.fields.levels import MOST_LEVEL, LevelsDecoder, LevelsEncoder
+from bsm.bitstream.fields.light import LightDecoder, LightEncoder
 from tests.bitstream.fields.fields import KINDS, SOUPS, Chunks, encode, values
 from tools import field_tables
 from tools.grids import rounded, welded

@@ -8,14 +8,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from bitstream import errors
-from bitstream.container.reader import END_OF_STREAM, Reader, read_packets
+from bsm.bitstream import errors
+from bsm.bitstream.container.reader import END_OF_STREAM, Reader, read_packets
+from bsm.codec.sequence.decoder import decode_sequence
+from bsm.codec.static.decoder import Decoder, decode
+from bsm.codec.static.encoder import encode
+from bsm.codec.static.events import AttributeEvent
+from bsm.codec.static.options import EncodeOptions
 from bsm.files.mesh import read_mesh
-from codec.sequence.decoder import decode_sequence
-from codec.static.decoder import Decoder, decode
-from codec.static.encoder import encode
-from codec.static.events import AttributeEvent
-from codec.static.options import EncodeOptions
 from tools.vectors.__main__ import try_command, try_product
 from tools.vectors.bad import BAD
 from tools.vectors.bad_attributes import BAD_ATTRIBUTES

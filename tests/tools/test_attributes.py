@@ -8,9 +8,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from codec.geometry.attributes import Attribute
-from codec.geometry.mesh import TriangleMesh
-from codec.static.options import EncodeOptions
+from bsm.codec.geometry.attributes import Attribute
+from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.static.options import EncodeOptions
 from tools import attributes
 
 CUBE = TriangleMesh(

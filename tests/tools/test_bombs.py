@@ -6,9 +6,9 @@ from pathlib import Path
 
 import pytest
 
-from bitstream.errors import CorruptError, LimitError
-from bitstream.limits import Limits
-from codec.static.decoder import Decoder
+from bsm.bitstream.errors import CorruptError, LimitError
+from bsm.bitstream.limits import Limits
+from bsm.codec.static.decoder import Decoder
 from tools.bombs.measure import decode_all, taken_by
 from tools.bombs.streams import BOMBS
 

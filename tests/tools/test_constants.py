@@ -27,8 +27,8 @@ def test_a_changed_constant_is_seen_by_importers_and_defaults():
 import sys
 from tools.constants.changed import change
 change(*sys.argv[1:3], 2.0)
-from codec.denoise.filters import guided
-from codec.static.quality import plan
+from bsm.codec.denoise.filters import guided
+from bsm.codec.static.quality import plan
 print(guided.SIGMA_R, guided.GuidedFilter.step.__defaults__[1], plan.STIFFNESS)
 """
 
@@ -36,9 +36,9 @@ print(guided.SIGMA_R, guided.GuidedFilter.step.__defaults__[1], plan.STIFFNESS)
         command = [sys.executable, "-c", script, *constant]
         return subprocess.run(command, capture_output=True, text=True, check=False, timeout=120)
 
-    assert said("codec.denoise.filters.guided", "SIGMA_R").stdout.split() == ["0.7", "0.7", "8.0"]
-    assert said("codec.static.rules", "STIFFNESS").stdout.split() == ["0.35", "0.35", "16.0"]
-    assert "has no constant MISSING" in said("codec.static.rules", "MISSING").stderr
+    assert said("bsm.codec.denoise.filters.guided", "SIGMA_R").stdout.split() == ["0.7", "0.7", "8.0"]
+    assert said("bsm.codec.static.rules", "STIFFNESS").stdout.split() == ["0.35", "0.35", "16.0"]
+    assert "has no constant MISSING" in said("bsm.codec.static.rules", "MISSING").stderr
 
 
 def test_what_is_imported_cannot_be_changed():
@@ -61,7 +61,7 @@ def test_ratios_are_at_the_same_error():
 def test_a_constant_does_something(tmp_path):
     bsm.save(torus(60, 40), tmp_path / "a.ply")
     (usual,), (other,) = (
-        measured(Constant("blocks", "codec.signal.bandwidth", "WORTHWHILE"), factor, [tmp_path / "a.ply"])
+        measured(Constant("blocks", "bsm.codec.signal.bandwidth", "WORTHWHILE"), factor, [tmp_path / "a.ply"])
         for factor in (1.0, 4.0)
     )
     assert len(usual) == len(other) == 3 and usual != other

@@ -5,12 +5,12 @@ from collections import Counter
 
 import pytest
 
-from bitstream.container.reader import END_OF_STREAM, Reader, read_packets
-from bitstream.container.wire import write_preamble
-from bitstream.errors import BsmError, CorruptError, FormatError
-from bitstream.limits import DEFAULT_LIMITS
+from bsm.bitstream.container.reader import END_OF_STREAM, Reader, read_packets
+from bsm.bitstream.container.wire import write_preamble
+from bsm.bitstream.errors import BsmError, CorruptError, FormatError
+from bsm.bitstream.limits import DEFAULT_LIMITS
+from bsm.codec.static.decoder import Decoder
 from bsm.files.mesh import format_mesh, read_mesh
-from codec.static.decoder import Decoder
 from tools.fuzz.mutate import mutate_stream
 from tools.fuzz.targets import TARGETS, Finding, run, seeds
 from tools.surgery import frames_of, stream_of, with_header

@@ -5,11 +5,11 @@ from random import Random
 import numpy as np
 import pytest
 
-from bitstream.connectivity.faces import encode_connectivity
-from bitstream.container.wire import FrameType
-from codec.static.decoder import decode
-from codec.static.encoder import encode
-from codec.static.options import EncodeOptions
+from bsm.bitstream.connectivity.faces import encode_connectivity
+from bsm.bitstream.container.wire import FrameType
+from bsm.codec.static.decoder import decode
+from bsm.codec.static.encoder import encode
+from bsm.codec.static.options import EncodeOptions
 from tools.gridded import gridded, lightened, random_grid
 from tools.proof.decoding import whole
 from tools.proof.inputs import random_mesh

@@ -8,7 +8,7 @@ from dataclasses import asdict
 import numpy as np
 import pytest
 
-from bitstream.errors import BsmError, CorruptError, TruncatedError
+from bsm.bitstream.errors import BsmError, CorruptError, TruncatedError
 from tools.proof import shard as proof
 from tools.proof.__main__ import Part, cuts, plan, run, table
 from tools.proof.decoding import is_sequence, piecewise, whole

@@ -5,9 +5,9 @@ from random import Random
 import numpy as np
 import pytest
 
-from bitstream.connectivity.faces import encode_connectivity
-from bitstream.container.wire import FrameType
-from codec.static.decoder import decode
+from bsm.bitstream.connectivity.faces import encode_connectivity
+from bsm.bitstream.container.wire import FrameType
+from bsm.codec.static.decoder import decode
 from tools.proof.decoding import whole
 from tools.proof.shard import reference
 from tools.proof.tally import Tally

@@ -12,14 +12,14 @@ import sys
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
-from bitstream.container.reader import END_OF_STREAM, NEED_DATA
-from bitstream.errors import BsmError
-from bitstream.limits import NAMED_LIMITS, Limits
+from bsm.bitstream.container.reader import END_OF_STREAM, NEED_DATA
+from bsm.bitstream.errors import BsmError
+from bsm.bitstream.limits import NAMED_LIMITS, Limits
+from bsm.codec.sequence.decoder import FrameEvent, SequenceDecoder
+from bsm.codec.static.decoder import Decoder
+from bsm.codec.static.encoder import encode
+from bsm.codec.static.events import ConnectivityEvent, HeaderEvent, LossEvent
 from bsm.files.sequence_stream import peek_header
-from codec.sequence.decoder import FrameEvent, SequenceDecoder
-from codec.static.decoder import Decoder
-from codec.static.encoder import encode
-from codec.static.events import ConnectivityEvent, HeaderEvent, LossEvent
 from tools.vectors.meshes import torus
 
 HOWS = ("events", "whole", "tolerant")

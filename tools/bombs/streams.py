@@ -10,30 +10,37 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from bitstream.coefficients.matrices import encode_levels, make_level_bank
-from bitstream.coefficients.packed import pack_coefficients
-from bitstream.connectivity.conquest import NO_ROOM, TURN_BYTES, conquer, enlarge_conquest, make_conquest, make_guide
-from bitstream.connectivity.faces import EncodedConnectivity, _number_by_appearance, encode_connectivity
-from bitstream.connectivity.halfedges import close_surface
-from bitstream.connectivity.order import encode_arrangement
-from bitstream.connectivity.partition import encode_labels
-from bitstream.connectivity.seams import code_seams
-from bitstream.connectivity.valence_model import RARE_HEADER, code_rare, make_models
-from bitstream.container import packets
-from bitstream.container.declaration import AS_CODED, FACE, OTHERWISE, RECOMPUTED, Declaration
-from bitstream.container.gop import GopBody, GopMethod, write_gop_body
-from bitstream.container.layout import FRAME_TYPES, WRITERS
-from bitstream.container.maps import write_map
-from bitstream.container.splits import Splits, encode_splits
-from bitstream.container.wire import FrameType, write_frame, write_varint
-from bitstream.entropy.range_coder import finish_writing, make_room, start_writing
-from bitstream.fields.levels import LevelsEncoder
-from codec.blocks.overlap import grow_blocks
-from codec.blocks.partition import derive_partition, partition_of_labels
-from codec.geometry.graph import graph_of_faces
-from codec.sequence.gop import level_references
-from codec.static.attributes.pieces import PieceEncoder
-from codec.static.attributes.surface import surface_of
+from bsm.bitstream.coefficients.matrices import encode_levels, make_level_bank
+from bsm.bitstream.coefficients.packed import pack_coefficients
+from bsm.bitstream.connectivity.conquest import (
+    NO_ROOM,
+    TURN_BYTES,
+    conquer,
+    enlarge_conquest,
+    make_conquest,
+    make_guide,
+)
+from bsm.bitstream.connectivity.faces import EncodedConnectivity, _number_by_appearance, encode_connectivity
+from bsm.bitstream.connectivity.halfedges import close_surface
+from bsm.bitstream.connectivity.order import encode_arrangement
+from bsm.bitstream.connectivity.partition import encode_labels
+from bsm.bitstream.connectivity.seams import code_seams
+from bsm.bitstream.connectivity.valence_model import RARE_HEADER, code_rare, make_models
+from bsm.bitstream.container import packets
+from bsm.bitstream.container.declaration import AS_CODED, FACE, OTHERWISE, RECOMPUTED, Declaration
+from bsm.bitstream.container.gop import GopBody, GopMethod, write_gop_body
+from bsm.bitstream.container.layout import FRAME_TYPES, WRITERS
+from bsm.bitstream.container.maps import write_map
+from bsm.bitstream.container.splits import Splits, encode_splits
+from bsm.bitstream.container.wire import FrameType, write_frame, write_varint
+from bsm.bitstream.entropy.range_coder import finish_writing, make_room, start_writing
+from bsm.bitstream.fields.levels import LevelsEncoder
+from bsm.codec.blocks.overlap import grow_blocks
+from bsm.codec.blocks.partition import derive_partition, partition_of_labels
+from bsm.codec.geometry.graph import graph_of_faces
+from bsm.codec.sequence.gop import level_references
+from bsm.codec.static.attributes.pieces import PieceEncoder
+from bsm.codec.static.attributes.surface import surface_of
 from tools.gridded import gridded
 from tools.sections import in_sections
 from tools.surgery import Frames, frames_of, header_frame, stream_of

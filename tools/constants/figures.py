@@ -8,14 +8,14 @@ from pathlib import Path
 
 import numpy as np
 
+from bsm.codec.denoise import denoise_automatically
+from bsm.codec.denoise.noise.gaussian import gaussian_along_normals
+from bsm.codec.geometry.metrics import theta
+from bsm.codec.sequence.encoder import SequenceEncoder
+from bsm.codec.sequence.options import SequenceOptions
+from bsm.codec.static.encoder import Encoder, encode
+from bsm.codec.static.options import PRESETS, EncodeOptions
 from bsm.files.formats.npz import read_arrays
-from codec.denoise import denoise_automatically
-from codec.denoise.noise.gaussian import gaussian_along_normals
-from codec.geometry.metrics import theta
-from codec.sequence.encoder import SequenceEncoder
-from codec.sequence.options import SequenceOptions
-from codec.static.encoder import Encoder, encode
-from codec.static.options import PRESETS, EncodeOptions
 from tools.quality import joined
 
 Point = tuple[float, float]

@@ -15,11 +15,11 @@ import numpy as np
 import numpy.typing as npt
 
 import bsm
-from bitstream.errors import OptionError
+from bsm.bitstream.errors import OptionError
+from bsm.codec.geometry.attribute_errors import at_corners
+from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.console import Console
 from bsm.files.formats.materials import as_gltf, images_in, materials_in
-from codec.geometry.attribute_errors import at_corners
-from codec.geometry.mesh import TriangleMesh
 from tools.command import run_command
 
 Pixels = npt.NDArray[np.float64]

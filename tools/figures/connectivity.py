@@ -8,10 +8,10 @@ from typing import TypeVar
 
 import numpy as np
 
-from bitstream.connectivity.faces import decode_connectivity, encode_connectivity
-from bitstream.errors import CorruptError
+from bsm.bitstream.connectivity.faces import decode_connectivity, encode_connectivity
+from bsm.bitstream.errors import CorruptError
+from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.evaluation.draco import decode_draco, encode_draco
-from codec.geometry.mesh import TriangleMesh
 
 Result = TypeVar("Result")
 

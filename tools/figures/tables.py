@@ -10,7 +10,9 @@ from typing import Any
 
 import numpy as np
 
-from bitstream.errors import DependencyError, OptionError
+from bsm.bitstream.errors import DependencyError, OptionError
+from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.geometry.metrics import Reference
 from bsm.evaluation.codecs import Spectral, draco_curve, our_curve, paper_options
 from bsm.evaluation.per_block import (
     block_size_for,
@@ -28,8 +30,6 @@ from bsm.evaluation.run import measure, run_curve, write_result
 from bsm.evaluation.tables import number, percent, table
 from bsm.files.mesh import read_mesh
 from bsm.files.output import open_output
-from codec.geometry.mesh import TriangleMesh
-from codec.geometry.metrics import Reference
 from tools.figures.connectivity import HEADINGS, connectivity_row
 
 BLOCKS = {

@@ -119,7 +119,7 @@ def environment() -> dict[str, str]:
         **os.environ,
         "LD_PRELOAD": f"{Path(atheris.path()) / 'asan_with_fuzzer.so'} {standard}",
         "ASAN_OPTIONS": "detect_leaks=0",
-        "PYTHONPATH": str(FUZZED),
+        "PYTHONPATH": f"{FUZZED}:{FUZZED}/src",
         "OMP_NUM_THREADS": "1",
         "OPENBLAS_NUM_THREADS": "1",
     }

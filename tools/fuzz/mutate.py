@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable
 from random import Random
 
-from bitstream.container.declaration import Declaration
-from bitstream.container.header import HEADER_FIELDS, Field, fields_of
-from bitstream.container.maps import parse_map, write_map
-from bitstream.container.wire import Cursor, FrameType, write_varint
-from bitstream.errors import BsmError
+from bsm.bitstream.container.declaration import Declaration
+from bsm.bitstream.container.header import HEADER_FIELDS, Field, fields_of
+from bsm.bitstream.container.maps import parse_map, write_map
+from bsm.bitstream.container.wire import Cursor, FrameType, write_varint
+from bsm.bitstream.errors import BsmError
 from tools.surgery import Frames, frames_of, header_entries, stream_of
 
 Mutate = Callable[[bytes, int], bytes]

@@ -16,15 +16,15 @@ from random import Random
 import numpy as np
 import numpy.typing as npt
 
-from bitstream.coefficients.adaptive import CoefficientModel, decode_coefficients, encode_coefficients
-from bitstream.coefficients.matrices import decode_levels, encode_levels, make_level_bank
-from bitstream.coefficients.rate_distortion import choose_levels
-from bitstream.connectivity.faces import decode_connectivity, encode_connectivity
-from bitstream.connectivity.order import decode_arrangement, encode_arrangement
-from bitstream.connectivity.partition import decode_labels, encode_labels
-from bitstream.errors import BsmError
+from bsm.bitstream.coefficients.adaptive import CoefficientModel, decode_coefficients, encode_coefficients
+from bsm.bitstream.coefficients.matrices import decode_levels, encode_levels, make_level_bank
+from bsm.bitstream.coefficients.rate_distortion import choose_levels
+from bsm.bitstream.connectivity.faces import decode_connectivity, encode_connectivity
+from bsm.bitstream.connectivity.order import decode_arrangement, encode_arrangement
+from bsm.bitstream.connectivity.partition import decode_labels, encode_labels
+from bsm.bitstream.errors import BsmError
+from bsm.codec.geometry.graph import graph_of_faces
 from bsm.files.mesh import read_mesh
-from codec.geometry.graph import graph_of_faces
 from tools.copies import refuse_other_kernels
 from tools.fuzz.mutate import mutate_stream
 from tools.fuzz.targets import TARGETS, VECTORS, WHOLE_STREAMS, Finding, run, seeds

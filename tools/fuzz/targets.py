@@ -8,33 +8,33 @@ from pathlib import Path
 
 import numpy as np
 
-from bitstream.attributes.faces import FaceValueDecoder
-from bitstream.attributes.seams import Joins, decode_seams
-from bitstream.attributes.values import Kind, ValueDecoder
-from bitstream.coefficients.adaptive import CoefficientModel, decode_blocks, decode_coefficients, decode_layers
-from bitstream.coefficients.matrices import decode_levels, make_level_bank
-from bitstream.coefficients.packed import unpack_coefficients
-from bitstream.connectivity.faces import ConnectivityDecoder, decode_connectivity, encode_connectivity
-from bitstream.connectivity.order import decode_arrangement
-from bitstream.connectivity.partition import decode_labels
-from bitstream.connectivity.permutation import decode_permutation, decode_rotations
-from bitstream.container.gop import GopMethod, parse_gop_body
-from bitstream.container.layout import PARSERS
-from bitstream.container.reader import END_OF_STREAM, NEED_DATA, Reader
-from bitstream.container.tolerant import TolerantReader
-from bitstream.container.wire import FrameType
-from bitstream.errors import BsmError
-from bitstream.fields.chunks import FieldEncoder
-from bitstream.fields.corners import corners_of
-from bitstream.fields.grid import GridDecoder, GridEncoder
-from bitstream.fields.levels import LevelsDecoder, LevelsEncoder
-from bitstream.fields.light import LightDecoder, LightEncoder
-from bitstream.limits import Limits
+from bsm.bitstream.attributes.faces import FaceValueDecoder
+from bsm.bitstream.attributes.seams import Joins, decode_seams
+from bsm.bitstream.attributes.values import Kind, ValueDecoder
+from bsm.bitstream.coefficients.adaptive import CoefficientModel, decode_blocks, decode_coefficients, decode_layers
+from bsm.bitstream.coefficients.matrices import decode_levels, make_level_bank
+from bsm.bitstream.coefficients.packed import unpack_coefficients
+from bsm.bitstream.connectivity.faces import ConnectivityDecoder, decode_connectivity, encode_connectivity
+from bsm.bitstream.connectivity.order import decode_arrangement
+from bsm.bitstream.connectivity.partition import decode_labels
+from bsm.bitstream.connectivity.permutation import decode_permutation, decode_rotations
+from bsm.bitstream.container.gop import GopMethod, parse_gop_body
+from bsm.bitstream.container.layout import PARSERS
+from bsm.bitstream.container.reader import END_OF_STREAM, NEED_DATA, Reader
+from bsm.bitstream.container.tolerant import TolerantReader
+from bsm.bitstream.container.wire import FrameType
+from bsm.bitstream.errors import BsmError
+from bsm.bitstream.fields.chunks import FieldEncoder
+from bsm.bitstream.fields.corners import corners_of
+from bsm.bitstream.fields.grid import GridDecoder, GridEncoder
+from bsm.bitstream.fields.levels import LevelsDecoder, LevelsEncoder
+from bsm.bitstream.fields.light import LightDecoder, LightEncoder
+from bsm.bitstream.limits import Limits
+from bsm.codec.geometry.graph import graph_of_faces
+from bsm.codec.sequence.decoder import FrameEvent, SequenceDecoder
+from bsm.codec.static.decoder import Decoder, decode
+from bsm.codec.static.events import BlockEvent
 from bsm.files.mesh import MESH_FORMATS, read_mesh
-from codec.geometry.graph import graph_of_faces
-from codec.sequence.decoder import FrameEvent, SequenceDecoder
-from codec.static.decoder import Decoder, decode
-from codec.static.events import BlockEvent
 
 Target = Callable[[bytes], None]
 
@@ -401,9 +401,9 @@ def _field_seeds(name: str) -> list[bytes]:
 
 
 def _mesh_seeds() -> list[bytes]:
+    from bsm.codec.geometry.attributes import Attribute
+    from bsm.codec.geometry.mesh import TriangleMesh
     from bsm.files.mesh import format_mesh
-    from codec.geometry.attributes import Attribute
-    from codec.geometry.mesh import TriangleMesh
     from tools.vectors.meshes import patch
 
     bare = patch(4, 3)

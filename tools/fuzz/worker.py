@@ -52,7 +52,7 @@ def instrument() -> None:
     logging.disable(logging.WARNING)
     for name, module in sorted(sys.modules.items()):
         ours = name.split(".")[0] in ("bitstream", "codec") or name.startswith(("bsm.files.mesh", "tools.files"))
-        if ours and name != "codec.basis.solver.simd":
+        if ours and name != "bsm.codec.basis.solver.simd":
             _instrument_module(module)
 
 

@@ -7,13 +7,13 @@ from random import Random
 
 import numpy as np
 
-from bitstream.container.reader import END_OF_STREAM, NEED_DATA
-from bitstream.errors import BsmError
-from bitstream.limits import DEFAULT_LIMITS, Limits
-from codec.geometry.attributes import Attribute
-from codec.sequence.decoder import FrameEvent, SequenceDecoder
-from codec.static.decoder import Decoder, decode
-from codec.static.events import AttributeEvent, BlockEvent, ConnectivityEvent, LossEvent, RefinementEvent
+from bsm.bitstream.container.reader import END_OF_STREAM, NEED_DATA
+from bsm.bitstream.errors import BsmError
+from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
+from bsm.codec.geometry.attributes import Attribute
+from bsm.codec.sequence.decoder import FrameEvent, SequenceDecoder
+from bsm.codec.static.decoder import Decoder, decode
+from bsm.codec.static.events import AttributeEvent, BlockEvent, ConnectivityEvent, LossEvent, RefinementEvent
 from tools.proof.tally import Decoded, Outcome
 from tools.surgery import first_entries
 from tools.vectors.store import arrays_of

@@ -14,7 +14,7 @@ from random import Random
 
 import numpy as np
 
-from bitstream.errors import BsmError
+from bsm.bitstream.errors import BsmError
 from tools.copies import refuse_other_kernels
 from tools.proof.decoding import whole
 from tools.proof.inputs import random_stream

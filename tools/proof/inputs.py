@@ -9,14 +9,14 @@ from typing import Any, get_args
 
 import numpy as np
 
-from codec.arrays import Positions
-from codec.geometry.attributes import Attribute, Domain
-from codec.geometry.mesh import TriangleMesh
-from codec.sequence.encoder import encode_sequence
-from codec.sequence.options import SequenceOptions
-from codec.static.encoder import encode
-from codec.static.options import PRESETS, EncodeOptions
-from codec.static.quality.targets import Target
+from bsm.codec.arrays import Positions
+from bsm.codec.geometry.attributes import Attribute, Domain
+from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.sequence.encoder import encode_sequence
+from bsm.codec.sequence.options import SequenceOptions
+from bsm.codec.static.encoder import encode
+from bsm.codec.static.options import PRESETS, EncodeOptions
+from bsm.codec.static.quality.targets import Target
 from tools.fuzz.mutate import mutate_stream
 from tools.fuzz.sweep import mutate
 from tools.gridded import random_grid

@@ -48,7 +48,8 @@ class Place:
     def run(self, *arguments: str) -> subprocess.CompletedProcess[str]:
         """Run a module there: `python -m ARGUMENTS`."""
         command = [*self.wrapper, sys.executable, *self.flags, "-m", *arguments]
-        there = {**os.environ, "PYTHONPATH": str(self.sources), **self.variables}
+        path = f"{self.sources}{os.pathsep}{self.sources / 'src'}"
+        there = {**os.environ, "PYTHONPATH": path, **self.variables}
         return subprocess.run(
             command, cwd=self.sources, env=there, capture_output=True, text=True, errors="replace", check=False
         )

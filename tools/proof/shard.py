@@ -25,8 +25,8 @@ from typing import Any
 
 import numpy as np
 
-from bitstream import errors
-from bitstream.errors import BsmError, LimitError, NumericError
+from bsm.bitstream import errors
+from bsm.bitstream.errors import BsmError, LimitError, NumericError
 from bsm.steadiness import check_steadiness
 from tools.fuzz.targets import LIMITS
 from tools.proof.decoding import piecewise, whole

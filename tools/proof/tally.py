@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from bitstream.errors import BsmError
+from bsm.bitstream.errors import BsmError
 from tools.vectors.store import PEAK, RMS, Arrays, alike, distance, is_full, scale_of
 
 Decoded = tuple[npt.NDArray[np.float64], npt.NDArray[np.int32], Arrays]

@@ -21,10 +21,10 @@ from pathlib import Path
 
 import numpy as np
 
-from bitstream.container.reader import END_OF_STREAM
-from bitstream.errors import BsmError
-from codec.sequence.decoder import SequenceDecoder, decode_sequence
-from codec.static.decoder import decode
+from bsm.bitstream.container.reader import END_OF_STREAM
+from bsm.bitstream.errors import BsmError
+from bsm.codec.sequence.decoder import SequenceDecoder, decode_sequence
+from bsm.codec.static.decoder import decode
 from tools.vectors.example import example
 from tools.vectors.store import Arrays, Vector, arrays_of, read_manifest, write_vectors
 

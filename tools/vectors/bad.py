@@ -11,14 +11,14 @@ import msgpack
 import numpy as np
 import zstandard
 
-from bitstream.connectivity.faces import decode_connectivity
-from bitstream.connectivity.partition import encode_labels
-from bitstream.container.header import HEADER_FIELDS
-from bitstream.container.maps import write_map
-from bitstream.container.wire import FrameType, write_frame, write_preamble, write_varint
-from codec.geometry.graph import graph_of_faces
-from codec.static.encoder import encode
-from codec.static.options import EncodeOptions
+from bsm.bitstream.connectivity.faces import decode_connectivity
+from bsm.bitstream.connectivity.partition import encode_labels
+from bsm.bitstream.container.header import HEADER_FIELDS
+from bsm.bitstream.container.maps import write_map
+from bsm.bitstream.container.wire import FrameType, write_frame, write_preamble, write_varint
+from bsm.codec.geometry.graph import graph_of_faces
+from bsm.codec.static.encoder import encode
+from bsm.codec.static.options import EncodeOptions
 from tools.bombs.streams import one_block
 from tools.surgery import Frames, frames_of, header_entries, stream_of, with_header, with_payload
 from tools.vectors.good import BASE

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable
 from functools import cache
 
-from bitstream.container.wire import Cursor, FrameType, write_varint
-from codec.static.encoder import encode
-from codec.static.options import EncodeOptions
+from bsm.bitstream.container.wire import Cursor, FrameType, write_varint
+from bsm.codec.static.encoder import encode
+from bsm.codec.static.options import EncodeOptions
 from tools.surgery import frames_of, stream_of, with_header, with_payload
 from tools.vectors.bad import Bad
 from tools.vectors.good import BASE

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from functools import cache
 
-from bitstream.container.wire import FrameType
-from codec.static.encoder import encode
+from bsm.bitstream.container.wire import FrameType
+from bsm.codec.static.encoder import encode
 from tools.surgery import frames_of, stream_of, with_header, with_payload
 from tools.vectors.bad import Bad
 from tools.vectors.good import BASE

@@ -8,12 +8,12 @@ from typing import Any
 
 import numpy as np
 
-from bitstream.coefficients.packed import pack_coefficients
-from bitstream.connectivity.faces import Cut, encode_connectivity
-from bitstream.container.wire import FrameType, write_varint
-from codec.sequence.encoder import encode_sequence
-from codec.static.encoder import encode
-from codec.static.options import EncodeOptions
+from bsm.bitstream.coefficients.packed import pack_coefficients
+from bsm.bitstream.connectivity.faces import Cut, encode_connectivity
+from bsm.bitstream.container.wire import FrameType, write_varint
+from bsm.codec.sequence.encoder import encode_sequence
+from bsm.codec.static.encoder import encode
+from bsm.codec.static.options import EncodeOptions
 from tools.sections import in_sections
 from tools.surgery import Frames, frames_of, stream_of, with_header
 from tools.vectors.bad import Bad

@@ -6,7 +6,7 @@ import struct
 from collections.abc import Callable
 from functools import cache
 
-from bitstream.container.wire import FrameType, write_varint
+from bsm.bitstream.container.wire import FrameType, write_varint
 from tools.surgery import Frames, frames_of, stream_of, with_header
 from tools.vectors.bad import Bad
 from tools.vectors.good_sequences import SEQUENCES

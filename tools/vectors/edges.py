@@ -9,14 +9,14 @@ from typing import Any
 
 import zstandard
 
-from bitstream.container.header import HEADER_FIELDS
-from bitstream.container.maps import write_map
-from bitstream.container.wire import FrameType, write_frame
-from codec.geometry.mesh import TriangleMesh
-from codec.sequence.encoder import encode_sequence
-from codec.sequence.options import SequenceOptions
-from codec.static.encoder import encode
-from codec.static.options import EncodeOptions
+from bsm.bitstream.container.header import HEADER_FIELDS
+from bsm.bitstream.container.maps import write_map
+from bsm.bitstream.container.wire import FrameType, write_frame
+from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.sequence.encoder import encode_sequence
+from bsm.codec.sequence.options import SequenceOptions
+from bsm.codec.static.encoder import encode
+from bsm.codec.static.options import EncodeOptions
 from tools.surgery import frames_of, header_entries, stream_of, with_header, with_payload
 from tools.vectors.bad import Bad
 from tools.vectors.good import BASE, Good

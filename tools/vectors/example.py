@@ -7,19 +7,19 @@ from collections.abc import Iterator
 import numpy as np
 import numpy.typing as npt
 
-from bitstream.coefficients.adaptive import CoefficientModel, decode_coefficients
-from bitstream.coefficients.trellis import points_of_levels
-from bitstream.container.header import HEADER_FIELDS
-from bitstream.container.maps import write_map
-from bitstream.container.packets import Header
-from bitstream.container.reader import Reader
-from bitstream.container.wire import FrameType, write_frame, write_preamble, write_varint
-from codec.blocks.overlap import grow_blocks
-from codec.blocks.partition import derive_partition
-from codec.geometry.graph import graph_of_faces
-from codec.signal.chain import Chain
-from codec.static.decoder import decode
-from codec.static.rules import chain_rules
+from bsm.bitstream.coefficients.adaptive import CoefficientModel, decode_coefficients
+from bsm.bitstream.coefficients.trellis import points_of_levels
+from bsm.bitstream.container.header import HEADER_FIELDS
+from bsm.bitstream.container.maps import write_map
+from bsm.bitstream.container.packets import Header
+from bsm.bitstream.container.reader import Reader
+from bsm.bitstream.container.wire import FrameType, write_frame, write_preamble, write_varint
+from bsm.codec.blocks.overlap import grow_blocks
+from bsm.codec.blocks.partition import derive_partition
+from bsm.codec.geometry.graph import graph_of_faces
+from bsm.codec.signal.chain import Chain
+from bsm.codec.static.decoder import decode
+from bsm.codec.static.rules import chain_rules
 from tools.surgery import frames_of, header_entries
 from tools.vectors.store import FOLDER
 

@@ -7,11 +7,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from bitstream.coefficients.packed import pack_coefficients
-from bitstream.container.wire import FrameType
-from codec.geometry.mesh import TriangleMesh
-from codec.static.encoder import encode
-from codec.static.options import EncodeOptions
+from bsm.bitstream.coefficients.packed import pack_coefficients
+from bsm.bitstream.container.wire import FrameType
+from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.static.encoder import encode
+from bsm.codec.static.options import EncodeOptions
 from tools.surgery import frames_of, stream_of, with_header
 from tools.vectors.meshes import hub, patch, shuffled, tangled, tetrahedron, together, torus, triangle
 

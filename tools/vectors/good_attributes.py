@@ -7,20 +7,20 @@ from dataclasses import replace
 
 import numpy as np
 
-from bitstream.container.packets import Attribute as Declared
-from bitstream.container.packets import Packet, Refinement, Values
-from bitstream.container.writer import write_stream
-from bitstream.fields.levels import LevelsEncoder
-from codec.geometry.attributes import Attribute, Domain
-from codec.geometry.mesh import TriangleMesh
-from codec.geometry.splitting import split_by_attributes
-from codec.sequence.encoder import encode_sequence
-from codec.static.attributes.encoding import ranges
-from codec.static.attributes.relief import Solid
-from codec.static.encoder import Encoder, encode
-from codec.static.options import EncodeOptions
-from codec.static.quality.draft import Draft
-from codec.static.quality.spectral import Spectral
+from bsm.bitstream.container.packets import Attribute as Declared
+from bsm.bitstream.container.packets import Packet, Refinement, Values
+from bsm.bitstream.container.writer import write_stream
+from bsm.bitstream.fields.levels import LevelsEncoder
+from bsm.codec.geometry.attributes import Attribute, Domain
+from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.geometry.splitting import split_by_attributes
+from bsm.codec.sequence.encoder import encode_sequence
+from bsm.codec.static.attributes.encoding import ranges
+from bsm.codec.static.attributes.relief import Solid
+from bsm.codec.static.encoder import Encoder, encode
+from bsm.codec.static.options import EncodeOptions
+from bsm.codec.static.quality.draft import Draft
+from bsm.codec.static.quality.spectral import Spectral
 from tools.vectors.good import BASE, Good
 from tools.vectors.good_fields import ALL_AXES, soup
 from tools.vectors.good_sequences import BASE as MOVING

@@ -6,16 +6,16 @@ from dataclasses import replace
 
 import numpy as np
 
-from bitstream.container.header import Header, Layer
-from bitstream.container.packets import Grid, Packet, Refinement
-from bitstream.container.writer import write_stream
-from bitstream.fields.corners import corners_of, keep_borders
-from bitstream.fields.grid import GridEncoder
-from bitstream.fields.levels import LevelsEncoder
-from codec.geometry.mesh import TriangleMesh
-from codec.static.encoder import Encoder, encode
-from codec.static.options import EncodeOptions
-from codec.static.quality.spectral import Base, Spectral
+from bsm.bitstream.container.header import Header, Layer
+from bsm.bitstream.container.packets import Grid, Packet, Refinement
+from bsm.bitstream.container.writer import write_stream
+from bsm.bitstream.fields.corners import corners_of, keep_borders
+from bsm.bitstream.fields.grid import GridEncoder
+from bsm.bitstream.fields.levels import LevelsEncoder
+from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.static.encoder import Encoder, encode
+from bsm.codec.static.options import EncodeOptions
+from bsm.codec.static.quality.spectral import Base, Spectral
 from tools.surgery import with_header
 from tools.vectors.good import BASE, Good
 from tools.vectors.meshes import hub, patch, shuffled, tangled, tetrahedron, together, torus, triangle
@@ -105,7 +105,7 @@ def _exact_lattice() -> TriangleMesh:
 
 def header_of(stream: bytes) -> Header:
     """The header of a stream."""
-    from bitstream.container.reader import Reader
+    from bsm.bitstream.container.reader import Reader
 
     reader = Reader()
     reader.receive_data(stream)

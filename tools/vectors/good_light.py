@@ -7,11 +7,11 @@ from collections.abc import Callable
 import numpy as np
 import numpy.typing as npt
 
-from bitstream.connectivity.faces import encode_connectivity
-from bitstream.fields.grid import MOST_LARGEST
-from codec.geometry.mesh import TriangleMesh
-from codec.static.encoder import encode
-from codec.static.options import EncodeOptions
+from bsm.bitstream.connectivity.faces import encode_connectivity
+from bsm.bitstream.fields.grid import MOST_LARGEST
+from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.static.encoder import encode
+from bsm.codec.static.options import EncodeOptions
 from tools.gridded import gridded, lightened
 from tools.surgery import stream_of, with_header
 from tools.vectors.good import Good

@@ -9,12 +9,12 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from bitstream.coefficients.packed import pack_coefficients
-from bitstream.connectivity.faces import encode_connectivity
-from bitstream.container.wire import FrameType, write_varint
-from codec.geometry.mesh import TriangleMesh
-from codec.static.encoder import encode
-from codec.static.options import EncodeOptions
+from bsm.bitstream.coefficients.packed import pack_coefficients
+from bsm.bitstream.connectivity.faces import encode_connectivity
+from bsm.bitstream.container.wire import FrameType, write_varint
+from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.static.encoder import encode
+from bsm.codec.static.options import EncodeOptions
 from tools.sections import BITS, in_sections
 from tools.surgery import Frames, frames_of, stream_of
 from tools.vectors.good import BASE, Good

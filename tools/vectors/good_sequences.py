@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from codec.sequence.encoder import encode_sequence
-from codec.sequence.options import SequenceOptions
+from bsm.codec.sequence.encoder import encode_sequence
+from bsm.codec.sequence.options import SequenceOptions
 from tools.vectors.good import Good
 from tools.vectors.meshes import torus
 

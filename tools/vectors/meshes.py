@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-from codec.geometry.mesh import TriangleMesh
+from bsm.codec.geometry.mesh import TriangleMesh
 
 
 def _grid(rows: int, columns: int, closed: bool) -> npt.NDArray[np.int32]:

@@ -12,8 +12,8 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from bitstream.container.header import HEADER_FIELDS
-from codec.geometry.attributes import Attribute
+from bsm.bitstream.container.header import HEADER_FIELDS
+from bsm.codec.geometry.attributes import Attribute
 from tools.surgery import first_entries
 
 FOLDER = Path(__file__).parents[2] / "spec" / "vectors"

@@ -14,8 +14,8 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from bitstream.errors import LimitError
-from codec import _kernels
+from bsm.bitstream.errors import LimitError
+from bsm.codec import _kernels
 
 LEAF = 16
 """Halves of at most so many rows are not cut further."""

@@ -6,10 +6,10 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from codec.arrays import Faces, Positions
-from codec.denoise.filters.kernel import filter_normals
-from codec.denoise.filters.topology import Topology, without_first
-from codec.denoise.filters.vertex_update import FaceGeometry, face_geometry, follow_normals, mean_centroid_distance
+from bsm.codec.arrays import Faces, Positions
+from bsm.codec.denoise.filters.kernel import filter_normals
+from bsm.codec.denoise.filters.topology import Topology, without_first
+from bsm.codec.denoise.filters.vertex_update import FaceGeometry, face_geometry, follow_normals, mean_centroid_distance
 
 SIGMA_R = 0.35
 VERTEX_ITERATIONS = 10

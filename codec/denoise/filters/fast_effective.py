@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from codec import _kernels
-from codec.arrays import Faces, Positions
-from codec.denoise.filters.topology import Topology
-from codec.denoise.filters.vertex_update import face_geometry, follow_normals
+from bsm.codec import _kernels
+from bsm.codec.arrays import Faces, Positions
+from bsm.codec.denoise.filters.topology import Topology
+from bsm.codec.denoise.filters.vertex_update import face_geometry, follow_normals
 
 THRESHOLD = 0.5
 VERTEX_ITERATIONS = 50

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from typing import Protocol
 
-from codec.arrays import Faces, Positions
-from codec.choices import named
-from codec.denoise.filters.bilateral_normal import bilateral_normal_filtering
-from codec.denoise.filters.fast_effective import fast_effective_denoising
-from codec.denoise.filters.guided import guided_normal_filtering
-from codec.denoise.filters.l0 import l0_minimisation
-from codec.denoise.filters.non_iterative import non_iterative_smoothing
-from codec.denoise.filters.vertex_bilateral import bilateral_mesh_denoising
+from bsm.codec.arrays import Faces, Positions
+from bsm.codec.choices import named
+from bsm.codec.denoise.filters.bilateral_normal import bilateral_normal_filtering
+from bsm.codec.denoise.filters.fast_effective import fast_effective_denoising
+from bsm.codec.denoise.filters.guided import guided_normal_filtering
+from bsm.codec.denoise.filters.l0 import l0_minimisation
+from bsm.codec.denoise.filters.non_iterative import non_iterative_smoothing
+from bsm.codec.denoise.filters.vertex_bilateral import bilateral_mesh_denoising
 
 
 class FineStep(Protocol):

@@ -9,9 +9,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from codec import _kernels
-from codec.denoise.filters.topology import Topology
-from codec.denoise.filters.vertex_update import FaceGeometry, Floats
+from bsm.codec import _kernels
+from bsm.codec.denoise.filters.topology import Topology
+from bsm.codec.denoise.filters.vertex_update import FaceGeometry, Floats
 
 
 def patch_guidance(geometry: FaceGeometry, topology: Topology) -> Floats:

@@ -6,12 +6,12 @@ from collections.abc import Callable, Iterator
 
 import numpy as np
 
-from codec.arrays import Faces, Positions
-from codec.denoise.filters.guidance import patch_guidance
-from codec.denoise.filters.kernel import filter_normals
-from codec.denoise.filters.reach import reach, themselves
-from codec.denoise.filters.topology import Topology
-from codec.denoise.filters.vertex_update import (
+from bsm.codec.arrays import Faces, Positions
+from bsm.codec.denoise.filters.guidance import patch_guidance
+from bsm.codec.denoise.filters.kernel import filter_normals
+from bsm.codec.denoise.filters.reach import reach, themselves
+from bsm.codec.denoise.filters.topology import Topology
+from bsm.codec.denoise.filters.vertex_update import (
     FaceGeometry,
     Floats,
     face_geometry,

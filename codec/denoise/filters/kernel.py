@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from codec import _kernels
-from codec.denoise.filters.vertex_update import FaceGeometry, Floats
-from codec.geometry.incidence import Rows
+from bsm.codec import _kernels
+from bsm.codec.denoise.filters.vertex_update import FaceGeometry, Floats
+from bsm.codec.geometry.incidence import Rows
 
 
 def filter_normals(geometry: FaceGeometry, guide: Floats, near: Rows, sigma_s: float, sigma_r: float) -> Floats:

@@ -6,10 +6,10 @@ import numpy as np
 from scipy import sparse
 from scipy.sparse.linalg import splu
 
-from codec.arrays import Faces, Indices, Positions
-from codec.denoise.filters.topology import Topology
-from codec.denoise.filters.vertex_update import Floats, face_geometry
-from codec.geometry.metrics import mean_edge_length
+from bsm.codec.arrays import Faces, Indices, Positions
+from bsm.codec.denoise.filters.topology import Topology
+from bsm.codec.denoise.filters.vertex_update import Floats, face_geometry
+from bsm.codec.geometry.metrics import mean_edge_length
 
 BETA_FIRST = 1e-3
 BETA_LAST = 1e3

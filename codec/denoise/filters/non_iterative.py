@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from codec import _kernels
-from codec.arrays import Faces, Positions
-from codec.denoise.filters.reach import reach
-from codec.denoise.filters.topology import Topology
-from codec.denoise.filters.vertex_update import face_geometry
-from codec.geometry.metrics import mean_edge_length
+from bsm.codec import _kernels
+from bsm.codec.arrays import Faces, Positions
+from bsm.codec.denoise.filters.reach import reach
+from bsm.codec.denoise.filters.topology import Topology
+from bsm.codec.denoise.filters.vertex_update import face_geometry
+from bsm.codec.geometry.metrics import mean_edge_length
 
 SPATIAL = 1.0
 INFLUENCE = 1.0

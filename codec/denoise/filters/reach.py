@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-from codec import _kernels
-from codec.arrays import Positions
-from codec.geometry.incidence import Rows
+from bsm.codec import _kernels
+from bsm.codec.arrays import Positions
+from bsm.codec.geometry.incidence import Rows
 
 Floats = npt.NDArray[np.float64]
 

@@ -8,9 +8,9 @@ from functools import cached_property
 import numpy as np
 import numpy.typing as npt
 
-from codec import _kernels
-from codec.arrays import Faces, Indices
-from codec.geometry.incidence import Rows, vertex_faces, vertex_neighbours
+from bsm.codec import _kernels
+from bsm.codec.arrays import Faces, Indices
+from bsm.codec.geometry.incidence import Rows, vertex_faces, vertex_neighbours
 
 Mask = npt.NDArray[np.bool_]
 

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from codec import _kernels
-from codec.arrays import Faces, Positions
-from codec.denoise.filters.reach import reach, themselves
-from codec.denoise.filters.topology import Topology
-from codec.denoise.filters.vertex_update import Floats, face_geometry, vertex_normals
-from codec.geometry.incidence import Rows
+from bsm.codec import _kernels
+from bsm.codec.arrays import Faces, Positions
+from bsm.codec.denoise.filters.reach import reach, themselves
+from bsm.codec.denoise.filters.topology import Topology
+from bsm.codec.denoise.filters.vertex_update import Floats, face_geometry, vertex_normals
+from bsm.codec.geometry.incidence import Rows
 
 
 def bilateral_mesh_denoising(positions: Positions, faces: Faces, iterations: int = 5) -> Positions:

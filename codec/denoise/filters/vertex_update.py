@@ -7,10 +7,10 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from codec import _kernels
-from codec.arrays import Faces, Indices, Positions
-from codec.denoise.filters.topology import Mask, Topology
-from codec.geometry.incidence import Rows
+from bsm.codec import _kernels
+from bsm.codec.arrays import Faces, Indices, Positions
+from bsm.codec.denoise.filters.topology import Mask, Topology
+from bsm.codec.geometry.incidence import Rows
 
 Floats = npt.NDArray[np.float64]
 

@@ -11,11 +11,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from codec import _kernels
-from codec.arrays import Positions
-from codec.denoise.filters.topology import Topology
-from codec.denoise.filters.vertex_update import Floats, face_geometry, vertex_normals
-from codec.geometry.metrics import mean_edge_length
+from bsm.codec import _kernels
+from bsm.codec.arrays import Positions
+from bsm.codec.denoise.filters.topology import Topology
+from bsm.codec.denoise.filters.vertex_update import Floats, face_geometry, vertex_normals
+from bsm.codec.geometry.metrics import mean_edge_length
 
 ORDER = 4
 IRREGULARITY = 0.15

@@ -12,12 +12,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from codec.arrays import Positions
-from codec.denoise.filters.topology import Mask
-from codec.denoise.filters.vertex_update import Floats
-from codec.denoise.noise.probe import BOUND, SHARE, Probe
-from codec.denoise.noise.windows import FEWEST, Windows
-from codec.geometry.metrics import mean_edge_length
+from bsm.codec.arrays import Positions
+from bsm.codec.denoise.filters.topology import Mask
+from bsm.codec.denoise.filters.vertex_update import Floats
+from bsm.codec.denoise.noise.probe import BOUND, SHARE, Probe
+from bsm.codec.denoise.noise.windows import FEWEST, Windows
+from bsm.codec.geometry.metrics import mean_edge_length
 
 FEWEST_WINDOWS, FEWEST_INNER = 5, 3
 """Windows without which nothing is said; and those wholly inside a noisy part."""

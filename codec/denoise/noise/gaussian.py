@@ -9,11 +9,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from bitstream.errors import OptionError
-from codec.arrays import Faces, Positions
-from codec.denoise.filters.vertex_update import Floats, face_geometry, vertex_normals
-from codec.geometry.incidence import vertex_faces, vertex_neighbours
-from codec.geometry.metrics import mean_edge_length
+from bsm.bitstream.errors import OptionError
+from bsm.codec.arrays import Faces, Positions
+from bsm.codec.denoise.filters.vertex_update import Floats, face_geometry, vertex_normals
+from bsm.codec.geometry.incidence import vertex_faces, vertex_neighbours
+from bsm.codec.geometry.metrics import mean_edge_length
 
 
 def gaussian_along_normals(positions: Positions, faces: Faces, sigma: float, seed: int) -> Positions:

@@ -13,11 +13,11 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.sparse import linalg
 
-from codec.arrays import Positions
-from codec.denoise.filters.vertex_update import Floats
-from codec.denoise.noise.probe import Probe
-from codec.geometry.incidence import Rows
-from codec.geometry.metrics import mean_edge_length
+from bsm.codec.arrays import Positions
+from bsm.codec.denoise.filters.vertex_update import Floats
+from bsm.codec.denoise.noise.probe import Probe
+from bsm.codec.geometry.incidence import Rows
+from bsm.codec.geometry.metrics import mean_edge_length
 
 CLEAR = 0.7
 """Share of the energy around it that a clear outlier explains by itself: no clean mesh tried has more than a few."""

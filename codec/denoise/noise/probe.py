@@ -12,10 +12,10 @@ import numpy as np
 import numpy.typing as npt
 from scipy import sparse
 
-from codec.arrays import Positions
-from codec.denoise.filters.topology import Mask, Topology
-from codec.denoise.filters.vertex_update import Floats, face_geometry, vertex_normals
-from codec.denoise.noise.windows import Windows
+from bsm.codec.arrays import Positions
+from bsm.codec.denoise.filters.topology import Mask, Topology
+from bsm.codec.denoise.filters.vertex_update import Floats, face_geometry, vertex_normals
+from bsm.codec.denoise.noise.windows import Windows
 
 FINE = 2
 FINEST = 6

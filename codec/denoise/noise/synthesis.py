@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from codec.arrays import Positions
-from codec.denoise.filters.topology import Topology
-from codec.denoise.filters.vertex_update import Floats, face_geometry, vertex_normals
-from codec.denoise.noise.finding import Finding
-from codec.denoise.noise.probe import Probe
+from bsm.codec.arrays import Positions
+from bsm.codec.denoise.filters.topology import Topology
+from bsm.codec.denoise.filters.vertex_update import Floats, face_geometry, vertex_normals
+from bsm.codec.denoise.noise.finding import Finding
+from bsm.codec.denoise.noise.probe import Probe
 
 MOST_STEPS = 12
 

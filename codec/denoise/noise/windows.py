@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-from codec.arrays import Indices
-from codec.blocks.partition import metis_partition
-from codec.denoise.filters.topology import Mask, Topology
-from codec.geometry.graph import graph_of_faces
+from bsm.codec.arrays import Indices
+from bsm.codec.blocks.partition import metis_partition
+from bsm.codec.denoise.filters.topology import Mask, Topology
+from bsm.codec.geometry.graph import graph_of_faces
 
 Floats = npt.NDArray[np.float64]
 

@@ -10,20 +10,20 @@ from typing import Any, Protocol
 
 import numpy as np
 
-from bitstream.attributes.seams import Joins, decode_seams
-from bitstream.container import packets
-from bitstream.container.declaration import CORNER, FACE, RECOMPUTED, Declaration
-from bitstream.container.reader import Signal
-from bitstream.errors import BsmError, CorruptError
-from bitstream.fields.corners import Corners, corners_of
-from bitstream.limits import Limits
-from codec.arrays import Faces, Levels
-from codec.geometry.attributes import Attribute, Semantic
-from codec.geometry.mesh import TriangleMesh
-from codec.static.attributes.levels import KINDS, restored
-from codec.static.attributes.pieces import PieceDecoder, from_pieces
-from codec.static.attributes.relief import Solid
-from codec.static.attributes.surface import (
+from bsm.bitstream.attributes.seams import Joins, decode_seams
+from bsm.bitstream.container import packets
+from bsm.bitstream.container.declaration import CORNER, FACE, RECOMPUTED, Declaration
+from bsm.bitstream.container.reader import Signal
+from bsm.bitstream.errors import BsmError, CorruptError
+from bsm.bitstream.fields.corners import Corners, corners_of
+from bsm.bitstream.limits import Limits
+from bsm.codec.arrays import Faces, Levels
+from bsm.codec.geometry.attributes import Attribute, Semantic
+from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.static.attributes.levels import KINDS, restored
+from bsm.codec.static.attributes.pieces import PieceDecoder, from_pieces
+from bsm.codec.static.attributes.relief import Solid
+from bsm.codec.static.attributes.surface import (
     Arrangement,
     Surface,
     arrangement_of,
@@ -31,11 +31,11 @@ from codec.static.attributes.surface import (
     recomputed,
     surface_of,
 )
-from codec.static.events import AttributeEvent, Losses, LossEvent, unreadable
-from codec.static.numbering import Numbering
-from codec.static.quality.whole import Complete
-from codec.static.stages import Arrival, Stage, misplaced
-from codec.static.work import (
+from bsm.codec.static.events import AttributeEvent, Losses, LossEvent, unreadable
+from bsm.codec.static.numbering import Numbering
+from bsm.codec.static.quality.whole import Complete
+from bsm.codec.static.stages import Arrival, Stage, misplaced
+from bsm.codec.static.work import (
     Allowance,
     chunk_cost,
     coding_memory,

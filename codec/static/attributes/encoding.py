@@ -8,9 +8,9 @@ from functools import cached_property
 
 import numpy as np
 
-from bitstream.attributes.seams import Joins, encode_seams, find_seams
-from bitstream.container import packets
-from bitstream.container.declaration import (
+from bsm.bitstream.attributes.seams import Joins, encode_seams, find_seams
+from bsm.bitstream.container import packets
+from bsm.bitstream.container.declaration import (
     AS_CODED,
     CORNER,
     FACE,
@@ -19,20 +19,20 @@ from bitstream.container.declaration import (
     VERTEX,
     Declaration,
 )
-from bitstream.container.packets import Packet
-from bitstream.fields.corners import Corners, corners_of
-from codec.arrays import Indices, Levels, Order
-from codec.geometry.attributes import Attribute
-from codec.geometry.mesh import Metadata, TriangleMesh
-from codec.geometry.splitting import row_numbers
-from codec.static.attributes.levels import KINDS, Words, quantized
-from codec.static.attributes.pieces import PieceEncoder, leans, to_pieces
-from codec.static.attributes.quality import Quality
-from codec.static.attributes.relief import FARTHEST, Solid, relief_exponent
-from codec.static.attributes.surface import Surface, surface_of
-from codec.static.joining import Joined
-from codec.static.preamble import Prepared
-from codec.static.quality.draft import Draft
+from bsm.bitstream.container.packets import Packet
+from bsm.bitstream.fields.corners import Corners, corners_of
+from bsm.codec.arrays import Indices, Levels, Order
+from bsm.codec.geometry.attributes import Attribute
+from bsm.codec.geometry.mesh import Metadata, TriangleMesh
+from bsm.codec.geometry.splitting import row_numbers
+from bsm.codec.static.attributes.levels import KINDS, Words, quantized
+from bsm.codec.static.attributes.pieces import PieceEncoder, leans, to_pieces
+from bsm.codec.static.attributes.quality import Quality
+from bsm.codec.static.attributes.relief import FARTHEST, Solid, relief_exponent
+from bsm.codec.static.attributes.surface import Surface, surface_of
+from bsm.codec.static.joining import Joined
+from bsm.codec.static.preamble import Prepared
+from bsm.codec.static.quality.draft import Draft
 
 CHUNK = 1 << 15
 """Values of a frame."""

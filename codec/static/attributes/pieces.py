@@ -4,16 +4,16 @@ from __future__ import annotations
 
 import numpy as np
 
-from bitstream.attributes.faces import FaceValueDecoder, FaceValueEncoder
-from bitstream.attributes.ranges import MOST_COMPONENTS
-from bitstream.attributes.values import Kind, ValueDecoder, ValueEncoder
-from bitstream.container.declaration import COLOR, FACE, LEVELS, OCTAHEDRAL, TEXCOORD, Declaration
-from bitstream.container.wire import Cursor, write_varint
-from bitstream.errors import CorruptError
-from bitstream.limits import Limits
-from codec.arrays import Indices, Levels
-from codec.static.attributes.levels import Words
-from codec.static.attributes.surface import Surface
+from bsm.bitstream.attributes.faces import FaceValueDecoder, FaceValueEncoder
+from bsm.bitstream.attributes.ranges import MOST_COMPONENTS
+from bsm.bitstream.attributes.values import Kind, ValueDecoder, ValueEncoder
+from bsm.bitstream.container.declaration import COLOR, FACE, LEVELS, OCTAHEDRAL, TEXCOORD, Declaration
+from bsm.bitstream.container.wire import Cursor, write_varint
+from bsm.bitstream.errors import CorruptError
+from bsm.bitstream.limits import Limits
+from bsm.codec.arrays import Indices, Levels
+from bsm.codec.static.attributes.levels import Words
+from bsm.codec.static.attributes.surface import Surface
 
 MOST_WHOLE = (1 << 20) - 1
 """Larger levels are coded in two pieces."""

@@ -7,8 +7,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
-from bitstream.errors import OptionError
-from codec.geometry.attributes import Attribute
+from bsm.bitstream.errors import OptionError
+from bsm.codec.geometry.attributes import Attribute
 
 Way = Literal["exact", "bits", "bound", "share", "angle", "recompute", "none"]
 Grade = Literal["small", "balanced", "fine"]

@@ -13,10 +13,10 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from bitstream.container.declaration import MOST_RELIEF
-from bitstream.container.wire import MAX_VARINT_BYTES, write_varint
-from bitstream.errors import CorruptError
-from codec.arrays import Faces, Levels, Matrix
+from bsm.bitstream.container.declaration import MOST_RELIEF
+from bsm.bitstream.container.wire import MAX_VARINT_BYTES, write_varint
+from bsm.bitstream.errors import CorruptError
+from bsm.codec.arrays import Faces, Levels, Matrix
 
 Ints = npt.NDArray[np.int32]
 

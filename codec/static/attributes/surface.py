@@ -6,11 +6,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from bitstream.attributes.seams import Joins
-from bitstream.container.declaration import FACE, VERTEX, Declaration
-from codec.arrays import Faces, Indices, Levels, Matrix, Order
-from codec.geometry.attributes import Domain
-from codec.static.numbering import Numbering
+from bsm.bitstream.attributes.seams import Joins
+from bsm.bitstream.container.declaration import FACE, VERTEX, Declaration
+from bsm.codec.arrays import Faces, Indices, Levels, Matrix, Order
+from bsm.codec.geometry.attributes import Domain
+from bsm.codec.static.numbering import Numbering
 
 
 @dataclass(frozen=True, eq=False)

@@ -8,18 +8,18 @@ from functools import cached_property
 
 import numpy as np
 
-from bitstream.container import packets
-from bitstream.errors import BsmError, CorruptError, NumericError
-from codec.arrays import Matrix
-from codec.basis.cost import Spend, free
-from codec.basis.dynamic_size import DynamicSize
-from codec.signal.chain import Chain
-from codec.signal.predict import Surroundings
-from codec.static.assembly import DecodedBlock
-from codec.static.layers.coding import BlockLevels, Coding, Ground
-from codec.static.rules import Scheme
-from codec.static.work import Allowance, block_cost, block_memory, chain_cost, ground_cost
-from codec.threads import ordered_map
+from bsm.bitstream.container import packets
+from bsm.bitstream.errors import BsmError, CorruptError, NumericError
+from bsm.codec.arrays import Matrix
+from bsm.codec.basis.cost import Spend, free
+from bsm.codec.basis.dynamic_size import DynamicSize
+from bsm.codec.signal.chain import Chain
+from bsm.codec.signal.predict import Surroundings
+from bsm.codec.static.assembly import DecodedBlock
+from bsm.codec.static.layers.coding import BlockLevels, Coding, Ground
+from bsm.codec.static.rules import Scheme
+from bsm.codec.static.work import Allowance, block_cost, block_memory, chain_cost, ground_cost
+from bsm.codec.threads import ordered_map
 
 FRAME = 5
 """Bytes of a block's frame besides its levels, at least."""

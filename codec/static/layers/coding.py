@@ -16,7 +16,7 @@ from typing import Any, Protocol
 
 import numpy as np
 
-from bitstream.coefficients.adaptive import (
+from bsm.bitstream.coefficients.adaptive import (
     MAX_LEVEL,
     CoefficientModel,
     decode_coefficients,
@@ -24,15 +24,15 @@ from bitstream.coefficients.adaptive import (
     encode_coefficients,
     encode_layers,
 )
-from bitstream.coefficients.packed import pack_coefficients, unpack_coefficients
-from bitstream.coefficients.priors import detail_experience
-from bitstream.coefficients.rate_distortion import TARGET_UNIT, choose_levels
-from bitstream.container.header import Header
-from codec.arrays import Faces, Integers, Levels, Matrix
-from codec.basis.dynamic_size import DynamicSize
-from codec.blocks.overlap import Block
-from codec.signal.detail import Normals, Surface, fold_details, make_surface
-from codec.signal.quantize import (
+from bsm.bitstream.coefficients.packed import pack_coefficients, unpack_coefficients
+from bsm.bitstream.coefficients.priors import detail_experience
+from bsm.bitstream.coefficients.rate_distortion import TARGET_UNIT, choose_levels
+from bsm.bitstream.container.header import Header
+from bsm.codec.arrays import Faces, Integers, Levels, Matrix
+from bsm.codec.basis.dynamic_size import DynamicSize
+from bsm.codec.blocks.overlap import Block
+from bsm.codec.signal.detail import Normals, Surface, fold_details, make_surface
+from bsm.codec.signal.quantize import (
     BIT_WORTH,
     dequantize,
     levels_to_unsigned,
@@ -40,7 +40,7 @@ from codec.signal.quantize import (
     targets,
     unsigned_to_levels,
 )
-from codec.signal.transform import placed, project, reconstruct
+from bsm.codec.signal.transform import placed, project, reconstruct
 
 
 @dataclass(frozen=True, eq=False)

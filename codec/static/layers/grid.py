@@ -9,22 +9,22 @@ from typing import Any
 
 import numpy as np
 
-from bitstream.container import packets
-from bitstream.container.header import Header
-from bitstream.container.reader import Signal
-from bitstream.errors import BsmError, CorruptError
-from bitstream.fields.grid import GridDecoder, GridEncoder
-from bitstream.fields.lattice import spread
-from bitstream.fields.light import LightDecoder, LightEncoder
-from codec.arrays import Indices, Levels, Positions
-from codec.geometry.mesh import TriangleMesh
-from codec.static.attributes.decoding import ValuesStage, completed
-from codec.static.attributes.relief import Solid
-from codec.static.events import BlockEvent, Changes, Losses, LossEvent, unreadable
-from codec.static.quality.whole import Complete
-from codec.static.stages import Arrival, Stage, misplaced
-from codec.static.structure import Structure
-from codec.static.work import grid_chunk_cost, grid_cost, grid_memory, light_chunk_cost, light_cost
+from bsm.bitstream.container import packets
+from bsm.bitstream.container.header import Header
+from bsm.bitstream.container.reader import Signal
+from bsm.bitstream.errors import BsmError, CorruptError
+from bsm.bitstream.fields.grid import GridDecoder, GridEncoder
+from bsm.bitstream.fields.lattice import spread
+from bsm.bitstream.fields.light import LightDecoder, LightEncoder
+from bsm.codec.arrays import Indices, Levels, Positions
+from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.static.attributes.decoding import ValuesStage, completed
+from bsm.codec.static.attributes.relief import Solid
+from bsm.codec.static.events import BlockEvent, Changes, Losses, LossEvent, unreadable
+from bsm.codec.static.quality.whole import Complete
+from bsm.codec.static.stages import Arrival, Stage, misplaced
+from bsm.codec.static.structure import Structure
+from bsm.codec.static.work import grid_chunk_cost, grid_cost, grid_memory, light_chunk_cost, light_cost
 
 FIRST, CHUNK = 1 << 12, 1 << 13
 """Vertices of the first frame, and of each that follows: large meshes are seen while they arrive, from early on."""

@@ -12,23 +12,23 @@ from typing import Any
 
 import numpy as np
 
-from bitstream.container import packets
-from bitstream.container.reader import Signal
-from bitstream.container.wire import FrameType
-from bitstream.errors import CorruptError
-from bitstream.fields.levels import LevelsDecoder, LevelsEncoder
-from codec.arrays import Indices, Levels, Mask, Matrix
-from codec.geometry.mesh import TriangleMesh
-from codec.signal.frames import displaced, local_frames
-from codec.static.assembly import Assembly
-from codec.static.attributes.decoding import ValuesStage, completed
-from codec.static.attributes.relief import Solid
-from codec.static.events import Losses, LossEvent, RefinementEvent, unreadable
-from codec.static.quality.whole import Complete
-from codec.static.stages import Arrival, Stage, misplaced
-from codec.static.structure import Structure
-from codec.static.work import chunk_cost, layer_cost, layer_memory
-from codec.threads import Lanes, Pending
+from bsm.bitstream.container import packets
+from bsm.bitstream.container.reader import Signal
+from bsm.bitstream.container.wire import FrameType
+from bsm.bitstream.errors import CorruptError
+from bsm.bitstream.fields.levels import LevelsDecoder, LevelsEncoder
+from bsm.codec.arrays import Indices, Levels, Mask, Matrix
+from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.signal.frames import displaced, local_frames
+from bsm.codec.static.assembly import Assembly
+from bsm.codec.static.attributes.decoding import ValuesStage, completed
+from bsm.codec.static.attributes.relief import Solid
+from bsm.codec.static.events import Losses, LossEvent, RefinementEvent, unreadable
+from bsm.codec.static.quality.whole import Complete
+from bsm.codec.static.stages import Arrival, Stage, misplaced
+from bsm.codec.static.structure import Structure
+from bsm.codec.static.work import chunk_cost, layer_cost, layer_memory
+from bsm.codec.threads import Lanes, Pending
 
 CHUNK = 1 << 15
 """Vertices of a frame."""

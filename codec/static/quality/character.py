@@ -6,9 +6,9 @@ from functools import cached_property
 
 import numpy as np
 
-from codec import _kernels
-from codec.arrays import Indices, Matrix
-from codec.geometry.closeness import LOST, Original
+from bsm.codec import _kernels
+from bsm.codec.arrays import Indices, Matrix
+from bsm.codec.geometry.closeness import LOST, Original
 
 MOST_FLAPS = 1 << 11
 """Second differences that entropy is measured on."""

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from bitstream.errors import OptionError
-from codec.geometry.closeness import Closeness
+from bsm.bitstream.errors import OptionError
+from bsm.codec.geometry.closeness import Closeness
 
 ANY_ANGLE = 180.0
 

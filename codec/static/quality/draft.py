@@ -6,11 +6,11 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 
-from bitstream.container import packets
-from bitstream.container.header import Header
-from bitstream.container.packets import Packet
-from bitstream.container.writer import Writer
-from codec.arrays import Levels, Positions
+from bsm.bitstream.container import packets
+from bsm.bitstream.container.header import Header
+from bsm.bitstream.container.packets import Packet
+from bsm.bitstream.container.writer import Writer
+from bsm.codec.arrays import Levels, Positions
 
 
 @dataclass(frozen=True, eq=False)

@@ -10,15 +10,15 @@ from functools import cached_property
 
 import numpy as np
 
-from codec.arrays import Levels
-from codec.geometry.closeness import Closeness, Original
-from codec.static.preamble import FEW_VERTICES, Prepared
-from codec.static.quality.borders import ROUND, Borders
-from codec.static.quality.contract import ANY_ANGLE, Contract
-from codec.static.quality.draft import Draft
-from codec.static.quality.lattices import Shaped
-from codec.static.quality.search import Trial, widest_step
-from codec.static.quality.shaping import Aim, Shaper
+from bsm.codec.arrays import Levels
+from bsm.codec.geometry.closeness import Closeness, Original
+from bsm.codec.static.preamble import FEW_VERTICES, Prepared
+from bsm.codec.static.quality.borders import ROUND, Borders
+from bsm.codec.static.quality.contract import ANY_ANGLE, Contract
+from bsm.codec.static.quality.draft import Draft
+from bsm.codec.static.quality.lattices import Shaped
+from bsm.codec.static.quality.search import Trial, widest_step
+from bsm.codec.static.quality.shaping import Aim, Shaper
 
 COARSEST = 0.05
 """Largest step, in BSM units."""

@@ -10,15 +10,15 @@ import math
 from dataclasses import dataclass, replace
 from typing import Protocol
 
-from codec.geometry.closeness import Original
-from codec.static.layers.block_coder import Progress
-from codec.static.options import EncodeOptions
-from codec.static.preamble import Prepared
-from codec.static.quality.draft import Draft
-from codec.static.quality.lattices import Shaped
-from codec.static.quality.shaping import Aim, Shaper
-from codec.static.quality.spectral import Base, Spectral, base_step
-from codec.static.quality.targets import COARSEST_STEP
+from bsm.codec.geometry.closeness import Original
+from bsm.codec.static.layers.block_coder import Progress
+from bsm.codec.static.options import EncodeOptions
+from bsm.codec.static.preamble import Prepared
+from bsm.codec.static.quality.draft import Draft
+from bsm.codec.static.quality.lattices import Shaped
+from bsm.codec.static.quality.shaping import Aim, Shaper
+from bsm.codec.static.quality.spectral import Base, Spectral, base_step
+from bsm.codec.static.quality.targets import COARSEST_STEP
 
 WIDEST = 0.18
 """Columns of a dictionary over the rows of a block."""

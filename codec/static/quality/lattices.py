@@ -6,16 +6,16 @@ from dataclasses import replace
 
 import numpy as np
 
-from bitstream.container.header import Header
-from bitstream.errors import TargetError
-from bitstream.fields.grid import MOST_LARGEST
-from bitstream.fields.lattice import find_lattice
-from codec.arrays import Levels, Mask, Matrix, Positions
-from codec.static.layers.grid import Grid, encode_grid
-from codec.static.preamble import Prepared
-from codec.static.quality.draft import Draft
-from codec.static.quality.shaping import Aim, Shaper
-from codec.static.units import single
+from bsm.bitstream.container.header import Header
+from bsm.bitstream.errors import TargetError
+from bsm.bitstream.fields.grid import MOST_LARGEST
+from bsm.bitstream.fields.lattice import find_lattice
+from bsm.codec.arrays import Levels, Mask, Matrix, Positions
+from bsm.codec.static.layers.grid import Grid, encode_grid
+from bsm.codec.static.preamble import Prepared
+from bsm.codec.static.quality.draft import Draft
+from bsm.codec.static.quality.shaping import Aim, Shaper
+from bsm.codec.static.units import single
 
 MOST_SINGLE = 1e38
 PART_OF_CELL = 1.0 / 64.0

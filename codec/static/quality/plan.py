@@ -7,23 +7,23 @@ from functools import cached_property
 
 import numpy as np
 
-from bitstream.errors import OptionError
-from codec.arrays import Faces, Indices, Matrix
-from codec.blocks.overlap import Blocks
-from codec.geometry.metrics import Reference
-from codec.signal.bandwidth import MeasuredSpectrum
-from codec.signal.chain import Chain, ChainRules, even_interval
-from codec.signal.detail import Surface, make_surface
-from codec.signal.quantize import packed_range, smallest_step
-from codec.signal.smooth import smoothing_spectrum
-from codec.signal.transform import project
-from codec.static.admission import patience
-from codec.static.layers.coding import Adaptive, Coding, Layered, Packed
-from codec.static.options import EncodeOptions
-from codec.static.preamble import Prepared
-from codec.static.rules import STIFFNESS, Scheme
-from codec.static.units import single
-from codec.threads import ordered_map
+from bsm.bitstream.errors import OptionError
+from bsm.codec.arrays import Faces, Indices, Matrix
+from bsm.codec.blocks.overlap import Blocks
+from bsm.codec.geometry.metrics import Reference
+from bsm.codec.signal.bandwidth import MeasuredSpectrum
+from bsm.codec.signal.chain import Chain, ChainRules, even_interval
+from bsm.codec.signal.detail import Surface, make_surface
+from bsm.codec.signal.quantize import packed_range, smallest_step
+from bsm.codec.signal.smooth import smoothing_spectrum
+from bsm.codec.signal.transform import project
+from bsm.codec.static.admission import patience
+from bsm.codec.static.layers.coding import Adaptive, Coding, Layered, Packed
+from bsm.codec.static.options import EncodeOptions
+from bsm.codec.static.preamble import Prepared
+from bsm.codec.static.rules import STIFFNESS, Scheme
+from bsm.codec.static.units import single
+from bsm.codec.threads import ordered_map
 
 PAPER_FRACTION = 0.10
 """Coefficients of a block, as a fraction of its vertices, with a fixed number of bits."""

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Generic, TypeVar
 
-from codec.geometry.closeness import Closeness
+from bsm.codec.geometry.closeness import Closeness
 
 SLACK = 0.03
 """How far below a bound on angles the search for a step may stay."""

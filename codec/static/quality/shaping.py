@@ -12,12 +12,12 @@ from typing import NamedTuple
 
 import numpy as np
 
-from codec import _kernels
-from codec.arrays import Indices, Levels, Matrix, Positions
-from codec.geometry.closeness import Original
-from codec.geometry.graph import Graph
-from codec.geometry.incidence import vertex_faces
-from codec.static.quality.character import Character
+from bsm.codec import _kernels
+from bsm.codec.arrays import Indices, Levels, Matrix, Positions
+from bsm.codec.geometry.closeness import Original
+from bsm.codec.geometry.graph import Graph
+from bsm.codec.geometry.incidence import vertex_faces
+from bsm.codec.static.quality.character import Character
 
 PULL = 0.8
 """A level is expected at so much of the mean of its neighbours'."""

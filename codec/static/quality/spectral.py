@@ -7,21 +7,21 @@ from functools import cached_property
 
 import numpy as np
 
-from bitstream.container.header import Header, Layer
-from bitstream.limits import NAMED_LIMITS
-from codec.arrays import Levels, Matrix
-from codec.signal.frames import displaced, in_frames, local_frames
-from codec.signal.smooth import smooth
-from codec.static.admission import admit, patience
-from codec.static.assembly import blended
-from codec.static.layers.block_coder import Progress, encode_blocks
-from codec.static.layers.refinement import encode_layer
-from codec.static.options import EncodeOptions
-from codec.static.preamble import Prepared
-from codec.static.quality.draft import Draft
-from codec.static.quality.plan import Planner
-from codec.static.units import single
-from codec.static.work import Allowance
+from bsm.bitstream.container.header import Header, Layer
+from bsm.bitstream.limits import NAMED_LIMITS
+from bsm.codec.arrays import Levels, Matrix
+from bsm.codec.signal.frames import displaced, in_frames, local_frames
+from bsm.codec.signal.smooth import smooth
+from bsm.codec.static.admission import admit, patience
+from bsm.codec.static.assembly import blended
+from bsm.codec.static.layers.block_coder import Progress, encode_blocks
+from bsm.codec.static.layers.refinement import encode_layer
+from bsm.codec.static.options import EncodeOptions
+from bsm.codec.static.preamble import Prepared
+from bsm.codec.static.quality.draft import Draft
+from bsm.codec.static.quality.plan import Planner
+from bsm.codec.static.units import single
+from bsm.codec.static.work import Allowance
 
 
 @dataclass(frozen=True, eq=False)

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, ClassVar, Protocol, TypeVar
 
-from bitstream.errors import OptionError, TargetError
+from bsm.bitstream.errors import OptionError, TargetError
 
 SIZES = ("bpv", "bpvf", "size")
 UNITS = {

@@ -5,9 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Protocol
 
-from codec.geometry.mesh import TriangleMesh
-from codec.static.events import Losses
-from codec.static.stages import Ended
+from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.static.events import Losses
+from bsm.codec.static.stages import Ended
 
 
 class Whole(Protocol):

@@ -13,12 +13,12 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from bitstream.attributes.faces import FaceValueDecoder, FaceValueEncoder, face_values_charge
-from bitstream.attributes.octahedron import canonical_levels, octahedral_levels, octahedral_normals
-from bitstream.attributes.ranges import MOST_LARGEST
-from bitstream.attributes.values import Kind, ValueDecoder, ValueEncoder, ring_of_twins, values_charge
-from bitstream.errors import CorruptError, LimitError, MeshError, OptionError, TruncatedError
-from bitstream.limits import DEFAULT_LIMITS
+from bsm.bitstream.attributes.faces import FaceValueDecoder, FaceValueEncoder, face_values_charge
+from bsm.bitstream.attributes.octahedron import canonical_levels, octahedral_levels, octahedral_normals
+from bsm.bitstream.attributes.ranges import MOST_LARGEST
+from bsm.bitstream.attributes.values import Kind, ValueDecoder, ValueEncoder, ring_of_twins, values_charge
+from bsm.bitstream.errors import CorruptError, LimitError, MeshError, OptionError, TruncatedError
+from bsm.bitstream.limits import DEFAULT_LIMITS
 from tests.bitstream.fields.fields import KINDS, SOUPS, decode, encode, values
 from tests.shapes import grid_faces
 from tools.grids import rounded, welded

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from bitstream.coefficients.adaptive import (
+from bsm.bitstream.coefficients.adaptive import (
     MAX_LEVEL,
     CoefficientModel,
     decode_blocks,
@@ -19,9 +19,9 @@ from bitstream.coefficients.adaptive import (
     encode_coefficients,
     encode_layers,
 )
-from bitstream.coefficients.contexts import BINS, NEIGHBOURS, expectation_bin, look_at_block, make_past
-from bitstream.coefficients.priors import Experience, coordinate_experience, detail_experience, shipped_experiences
-from bitstream.errors import BsmError, CorruptError, OptionError, TruncatedError
+from bsm.bitstream.coefficients.contexts import BINS, NEIGHBOURS, expectation_bin, look_at_block, make_past
+from bsm.bitstream.coefficients.priors import Experience, coordinate_experience, detail_experience, shipped_experiences
+from bsm.bitstream.errors import BsmError, CorruptError, OptionError, TruncatedError
 
 HASH = "2a44d8f808d49ca9672132ecc3cc14e6ce99bec020504b7a96d206d4cfc47b34"
 

@@ -4,9 +4,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import array_shapes, arrays
 
-from bitstream.coefficients.matrices import decode_levels, encode_levels, make_level_bank
-from bitstream.container.gop import MAX_EXPONENT, GopBody, GopMethod, parse_gop_body, write_gop_body
-from bitstream.errors import BsmError, CorruptError, OptionError, TruncatedError, UnsupportedError
+from bsm.bitstream.coefficients.matrices import decode_levels, encode_levels, make_level_bank
+from bsm.bitstream.container.gop import MAX_EXPONENT, GopBody, GopMethod, parse_gop_body, write_gop_body
+from bsm.bitstream.errors import BsmError, CorruptError, OptionError, TruncatedError, UnsupportedError
 
 NONE = np.empty(0, np.int32)
 

@@ -6,9 +6,9 @@ import zstandard
 from hypothesis import given
 from hypothesis import strategies as st
 
-from bitstream.coefficients.packed import pack_coefficients, unpack_coefficients
-from bitstream.entropy.zstd import compress, decompress
-from bitstream.errors import CorruptError, OptionError
+from bsm.bitstream.coefficients.packed import pack_coefficients, unpack_coefficients
+from bsm.bitstream.entropy.zstd import compress, decompress
+from bsm.bitstream.errors import CorruptError, OptionError
 
 
 def test_packed_known_bytes():

@@ -9,10 +9,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from bitstream.coefficients.adaptive import MAX_LEVEL, CoefficientModel, encode_coefficients
-from bitstream.coefficients.rate_distortion import TARGET_UNIT, choose_levels
-from bitstream.coefficients.trellis import points_of_levels
-from bitstream.errors import OptionError
+from bsm.bitstream.coefficients.adaptive import MAX_LEVEL, CoefficientModel, encode_coefficients
+from bsm.bitstream.coefficients.rate_distortion import TARGET_UNIT, choose_levels
+from bsm.bitstream.coefficients.trellis import points_of_levels
+from bsm.bitstream.errors import OptionError
 
 UNITS = st.integers(-5, 5) | st.integers(-3000, 3000) | st.sampled_from([MAX_LEVEL * TARGET_UNIT])
 

@@ -11,9 +11,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from bitstream.connectivity.faces import EncodedConnectivity, decode_connectivity, encode_connectivity
-from bitstream.errors import BsmError, CorruptError, LimitError, MeshError, TruncatedError
-from bitstream.limits import DEFAULT_LIMITS
+from bsm.bitstream.connectivity.faces import EncodedConnectivity, decode_connectivity, encode_connectivity
+from bsm.bitstream.errors import BsmError, CorruptError, LimitError, MeshError, TruncatedError
+from bsm.bitstream.limits import DEFAULT_LIMITS
 from tests.shapes import Faces, grid_faces
 
 quick = settings(deadline=None, max_examples=200)

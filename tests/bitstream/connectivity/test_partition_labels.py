@@ -4,8 +4,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 
-from bitstream.connectivity.partition import decode_labels, encode_labels
-from bitstream.errors import BsmError
+from bsm.bitstream.connectivity.partition import decode_labels, encode_labels
+from bsm.bitstream.errors import BsmError
 
 
 def grid(rows, columns):

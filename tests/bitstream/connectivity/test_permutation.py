@@ -9,15 +9,15 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from bitstream.connectivity.faces import decode_connectivity, encode_connectivity
-from bitstream.connectivity.order import decode_arrangement, encode_arrangement
-from bitstream.connectivity.permutation import (
+from bsm.bitstream.connectivity.faces import decode_connectivity, encode_connectivity
+from bsm.bitstream.connectivity.order import decode_arrangement, encode_arrangement
+from bsm.bitstream.connectivity.permutation import (
     decode_permutation,
     decode_rotations,
     encode_permutation,
     encode_rotations,
 )
-from bitstream.errors import CorruptError, OptionError, TruncatedError
+from bsm.bitstream.errors import CorruptError, OptionError, TruncatedError
 from tests.shapes import Faces, grid_faces
 
 quick = settings(deadline=None, max_examples=100)

@@ -11,15 +11,15 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial import Delaunay
 
-from bitstream.connectivity.faces import (
+from bsm.bitstream.connectivity.faces import (
     ConnectivityDecoder,
     EncodedConnectivity,
     Known,
     decode_connectivity,
     encode_connectivity,
 )
-from bitstream.errors import BsmError, CorruptError, LimitError, TruncatedError
-from bitstream.limits import DEFAULT_LIMITS
+from bsm.bitstream.errors import BsmError, CorruptError, LimitError, TruncatedError
+from bsm.bitstream.limits import DEFAULT_LIMITS
 from tests.bitstream.connectivity.test_faces import SOUPS, compact
 from tests.shapes import Faces, grid_faces
 

@@ -6,9 +6,9 @@ from pathlib import Path
 
 import pytest
 
-from bitstream.container.declaration import Declaration
-from bitstream.container.header import FIRST_IGNORABLE_KEY, HEADER_FIELDS, Header, defaults_of, fields_of
-from bitstream.container.wire import SHORT, SKIPPABLE_TYPES, FrameType, checksum
+from bsm.bitstream.container.declaration import Declaration
+from bsm.bitstream.container.header import FIRST_IGNORABLE_KEY, HEADER_FIELDS, Header, defaults_of, fields_of
+from bsm.bitstream.container.wire import SHORT, SKIPPABLE_TYPES, FrameType, checksum
 from tests.bitstream.streams import BARE, encoded, read_all
 
 DOCUMENT = (Path(__file__).parents[3] / "spec" / "format.md").read_text()

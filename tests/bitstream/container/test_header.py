@@ -7,11 +7,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from bitstream.container.header import FIRST_IGNORABLE_KEY, HEADER_DEFAULTS, HEADER_FIELDS, Header
-from bitstream.container.layout import parse_header, write_header
-from bitstream.container.maps import write_map
-from bitstream.errors import BsmError, CorruptError, LimitError, OptionError, UnsupportedError
-from bitstream.limits import DEFAULT_LIMITS, Limits
+from bsm.bitstream.container.header import FIRST_IGNORABLE_KEY, HEADER_DEFAULTS, HEADER_FIELDS, Header
+from bsm.bitstream.container.layout import parse_header, write_header
+from bsm.bitstream.container.maps import write_map
+from bsm.bitstream.errors import BsmError, CorruptError, LimitError, OptionError, UnsupportedError
+from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from tests.bitstream.streams import SMALL_HEADER
 
 SMALL = {1: 100, 2: 190, 3: 3, 4: 60, 5: 10}

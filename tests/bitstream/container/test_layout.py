@@ -2,11 +2,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from bitstream.container.layout import FRAME_TYPES, PARSERS, WRITERS
-from bitstream.container.packets import Block, Connectivity, End, Gop, Metadata, Order, Partition
-from bitstream.container.wire import FrameType
-from bitstream.errors import CorruptError, LimitError, OptionError
-from bitstream.limits import DEFAULT_LIMITS, Limits
+from bsm.bitstream.container.layout import FRAME_TYPES, PARSERS, WRITERS
+from bsm.bitstream.container.packets import Block, Connectivity, End, Gop, Metadata, Order, Partition
+from bsm.bitstream.container.wire import FrameType
+from bsm.bitstream.errors import CorruptError, LimitError, OptionError
+from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 
 CASES = [
     (Metadata({}), "80"),

@@ -7,9 +7,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from bitstream.container import wire
-from bitstream.container.declaration import Declaration
-from bitstream.container.packets import (
+from bsm.bitstream.container import wire
+from bsm.bitstream.container.declaration import Declaration
+from bsm.bitstream.container.packets import (
     Attribute,
     Block,
     Connectivity,
@@ -22,10 +22,10 @@ from bitstream.container.packets import (
     Refinement,
     Values,
 )
-from bitstream.container.reader import END_OF_STREAM, NEED_DATA, Reader
-from bitstream.container.wire import write_frame, write_preamble, write_varint
-from bitstream.container.writer import Writer, write_stream
-from bitstream.errors import (
+from bsm.bitstream.container.reader import END_OF_STREAM, NEED_DATA, Reader
+from bsm.bitstream.container.wire import write_frame, write_preamble, write_varint
+from bsm.bitstream.container.writer import Writer, write_stream
+from bsm.bitstream.errors import (
     BsmError,
     CorruptError,
     FormatError,
@@ -34,7 +34,7 @@ from bitstream.errors import (
     TruncatedError,
     UnsupportedError,
 )
-from bitstream.limits import DEFAULT_LIMITS, Limits
+from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from tests.bitstream.streams import (
     ANIMATED,
     BARE,
@@ -312,7 +312,7 @@ UNANNOUNCED = [
 
 
 def frames_of(packets) -> list[bytes]:
-    from bitstream.container.layout import FRAME_TYPES, WRITERS
+    from bsm.bitstream.container.layout import FRAME_TYPES, WRITERS
 
     return [write_frame(FRAME_TYPES[type(packet)], WRITERS[FRAME_TYPES[type(packet)]](packet)) for packet in packets]
 

@@ -2,13 +2,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from bitstream.container import wire
-from bitstream.container.packets import Block, Connectivity, Damaged, End
-from bitstream.container.reader import Signal
-from bitstream.container.tolerant import SCAN_BYTES, SCAN_FACTOR, TolerantReader
-from bitstream.container.wire import FrameType
-from bitstream.container.writer import write_stream
-from bitstream.errors import BsmError
+from bsm.bitstream.container import wire
+from bsm.bitstream.container.packets import Block, Connectivity, Damaged, End
+from bsm.bitstream.container.reader import Signal
+from bsm.bitstream.container.tolerant import SCAN_BYTES, SCAN_FACTOR, TolerantReader
+from bsm.bitstream.container.wire import FrameType
+from bsm.bitstream.container.writer import write_stream
+from bsm.bitstream.errors import BsmError
 from tests.bitstream.streams import SMALL_HEADER, STATIC, STREAMS, encoded, frame_ends, read_all
 
 LONG = [SMALL_HEADER, Connectivity(1, bytes(range(256)) * 8), *(Block(i, 5, bytes([i]) * 60) for i in range(3))]

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from bitstream.container.wire import (
+from bsm.bitstream.container.wire import (
     MAX_VARINT,
     Cursor,
     parse_frame,
@@ -15,8 +15,8 @@ from bitstream.container.wire import (
     write_preamble,
     write_varint,
 )
-from bitstream.errors import CorruptError, FormatError, LimitError, OptionError, UnsupportedError
-from bitstream.limits import DEFAULT_LIMITS, Limits
+from bsm.bitstream.errors import CorruptError, FormatError, LimitError, OptionError, UnsupportedError
+from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 
 
 @pytest.mark.parametrize(

@@ -9,8 +9,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from bitstream.entropy import range_coder as entropy
-from bitstream.entropy.range_coder import (
+from bsm.bitstream.entropy import range_coder as entropy
+from bsm.bitstream.entropy.range_coder import (
     Bank,
     code_bit,
     code_mixed_bit,
@@ -28,7 +28,7 @@ from bitstream.entropy.range_coder import (
     start_writing,
     unsigned_span,
 )
-from bitstream.errors import CorruptError, OptionError, TruncatedError
+from bsm.bitstream.errors import CorruptError, OptionError, TruncatedError
 from tools import entropy_tables
 
 UNARY = 5

@@ -13,13 +13,13 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from bitstream.connectivity.faces import encode_connectivity
-from bitstream.errors import CorruptError, LimitError, MeshError, OptionError, TruncatedError
-from bitstream.fields.corners import corners_of, traverse
-from bitstream.fields.grid import MOST_LARGEST, GridDecoder, GridEncoder, grid_charge
-from bitstream.fields.lattice import find_lattice, spread
-from bitstream.fields.levels import MOST_LEVEL, LevelsDecoder, LevelsEncoder, levels_charge
-from bitstream.limits import DEFAULT_LIMITS
+from bsm.bitstream.connectivity.faces import encode_connectivity
+from bsm.bitstream.errors import CorruptError, LimitError, MeshError, OptionError, TruncatedError
+from bsm.bitstream.fields.corners import corners_of, traverse
+from bsm.bitstream.fields.grid import MOST_LARGEST, GridDecoder, GridEncoder, grid_charge
+from bsm.bitstream.fields.lattice import find_lattice, spread
+from bsm.bitstream.fields.levels import MOST_LEVEL, LevelsDecoder, LevelsEncoder, levels_charge
+from bsm.bitstream.limits import DEFAULT_LIMITS
 from tests.bitstream.fields.fields import KINDS, SOUPS, decode, encode, values
 from tests.shapes import Faces, grid_faces
 from tools import field_tables

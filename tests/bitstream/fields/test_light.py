@@ -12,13 +12,13 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from bitstream import _kernels
-from bitstream.connectivity.faces import encode_connectivity
-from bitstream.entropy.range_coder import start_writing
-from bitstream.errors import CorruptError, LimitError, MeshError, OptionError, TruncatedError
-from bitstream.fields.grid import MOST_LARGEST, GridEncoder, grid_charge
-from bitstream.fields.light import LightDecoder, LightEncoder
-from bitstream.limits import DEFAULT_LIMITS
+from bsm.bitstream import _kernels
+from bsm.bitstream.connectivity.faces import encode_connectivity
+from bsm.bitstream.entropy.range_coder import start_writing
+from bsm.bitstream.errors import CorruptError, LimitError, MeshError, OptionError, TruncatedError
+from bsm.bitstream.fields.grid import MOST_LARGEST, GridEncoder, grid_charge
+from bsm.bitstream.fields.light import LightDecoder, LightEncoder
+from bsm.bitstream.limits import DEFAULT_LIMITS
 from tests.bitstream.fields.fields import KINDS, SOUPS, decode, encode, values
 from tests.shapes import grid_faces
 from tools.grids import rounded, welded

@@ -10,12 +10,12 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 import bsm
-from bitstream.errors import BsmError
-from bitstream.limits import Limits
+from bsm.bitstream.errors import BsmError
+from bsm.bitstream.limits import Limits
+from bsm.codec.geometry.attributes import Attribute
+from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.files.formats.glb import write_glb
 from bsm.files.mesh import MESH_FORMATS, WRITTEN_FORMATS, format_mesh, read_mesh, write_mesh, written_mesh
-from codec.geometry.attributes import Attribute
-from codec.geometry.mesh import TriangleMesh
 from tests.shapes import patch, tetrahedron, torus
 
 TRIANGLE = "v 0 0 0\nv 1 0 0\nv 0 1 0\n"

@@ -8,7 +8,7 @@ import sys
 import numpy as np
 import pytest
 
-from bitstream.errors import (
+from bsm.bitstream.errors import (
     CorruptError,
     DependencyError,
     FormatError,
@@ -17,10 +17,10 @@ from bitstream.errors import (
     OptionError,
     TruncatedError,
 )
-from bitstream.limits import Limits
+from bsm.bitstream.limits import Limits
+from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.files.mesh import format_mesh, read_mesh, write_mesh
 from bsm.files.sequence import open_sequence
-from codec.geometry.mesh import TriangleMesh
 from tests.shapes import tetrahedron, torus
 
 SQUARE = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n"

@@ -1,12 +1,12 @@
 import numpy as np
 import pytest
 
+from bsm.codec.basis.dynamic_size import dynamic_size, residual_norms
+from bsm.codec.basis.orthogonal_iteration import hash_columns, onorm
+from bsm.codec.static.decoder import decode
+from bsm.codec.static.encoder import Encoder
+from bsm.codec.static.options import EncodeOptions
 from bsm.files.stream import inspect_stream
-from codec.basis.dynamic_size import dynamic_size, residual_norms
-from codec.basis.orthogonal_iteration import hash_columns, onorm
-from codec.static.decoder import decode
-from codec.static.encoder import Encoder
-from codec.static.options import EncodeOptions
 from tests.shapes import torus
 
 

@@ -2,8 +2,8 @@ import numpy as np
 import pytest
 import scipy.linalg
 
-from codec.basis.laplacian import dense_laplacian, factorize, laplacian_of, solve
-from codec.basis.orthogonal_iteration import (
+from bsm.codec.basis.laplacian import dense_laplacian, factorize, laplacian_of, solve
+from bsm.codec.basis.orthogonal_iteration import (
     cosine_columns,
     exact_basis,
     first_columns,
@@ -13,8 +13,8 @@ from codec.basis.orthogonal_iteration import (
     orthogonal_iteration,
     resized,
 )
-from codec.blocks.overlap import Block
-from codec.geometry.graph import graph_of_faces
+from bsm.codec.blocks.overlap import Block
+from bsm.codec.geometry.graph import graph_of_faces
 from tests.shapes import patch, torus
 
 

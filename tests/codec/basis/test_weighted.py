@@ -5,16 +5,16 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from bitstream.errors import NumericError
-from codec.basis.weighted import (
+from bsm.bitstream.errors import NumericError
+from bsm.codec.basis.weighted import (
     LARGEST_WEIGHT,
     SMALLEST_WEIGHT,
     binary_weights,
     cotangent_weights,
     hold,
 )
-from codec.blocks.overlap import Block
-from codec.geometry.graph import graph_of_faces
+from bsm.codec.blocks.overlap import Block
+from bsm.codec.geometry.graph import graph_of_faces
 from tests.shapes import torus
 
 SQUARE = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], float)

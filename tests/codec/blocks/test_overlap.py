@@ -4,10 +4,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 
-from codec.blocks.overlap import block_size, grow_blocks
-from codec.blocks.partition import derive_last_parts, derive_partition
-from codec.geometry.graph import graph_of_faces
-from codec.signal.chain import even_interval
+from bsm.codec.blocks.overlap import block_size, grow_blocks
+from bsm.codec.blocks.partition import derive_last_parts, derive_partition
+from bsm.codec.geometry.graph import graph_of_faces
+from bsm.codec.signal.chain import even_interval
 from tests.shapes import grid_faces, patch, tetrahedron, together, torus
 
 soups = hnp.arrays(np.int32, st.tuples(st.integers(1, 40), st.just(3)), elements=st.integers(0, 19))

@@ -4,8 +4,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 
-from codec.blocks.partition import derive_last_parts, derive_partition, metis_partition, partition_of_labels
-from codec.geometry.graph import Graph, graph_of_faces
+from bsm.codec.blocks.partition import derive_last_parts, derive_partition, metis_partition, partition_of_labels
+from bsm.codec.geometry.graph import Graph, graph_of_faces
 from tests.shapes import patch, together, torus
 
 soups = hnp.arrays(np.int32, st.tuples(st.integers(1, 40), st.just(3)), elements=st.integers(0, 19))

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from codec.geometry.mesh import TriangleMesh
+from bsm.codec.geometry.mesh import TriangleMesh
 from tests.codec.denoise.denoise_shapes import Partners
 
 

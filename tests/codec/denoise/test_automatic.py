@@ -3,13 +3,13 @@
 import numpy as np
 import pytest
 
-from bitstream.errors import OptionError
-from codec.denoise.automatic import CANDIDATES, denoise_automatically
-from codec.denoise.filters.guided import guided_normal_filtering
-from codec.denoise.filters.topology import Topology
-from codec.denoise.noise.estimate import add_noise, estimate_noise
-from codec.denoise.noise.gaussian import gaussian_along_normals, gaussian_isotropic
-from codec.geometry.metrics import mean_edge_length, rms_over_edge, theta
+from bsm.bitstream.errors import OptionError
+from bsm.codec.denoise.automatic import CANDIDATES, denoise_automatically
+from bsm.codec.denoise.filters.guided import guided_normal_filtering
+from bsm.codec.denoise.filters.topology import Topology
+from bsm.codec.denoise.noise.estimate import add_noise, estimate_noise
+from bsm.codec.denoise.noise.gaussian import gaussian_along_normals, gaussian_isotropic
+from bsm.codec.geometry.metrics import mean_edge_length, rms_over_edge, theta
 from tests.codec.denoise.denoise_shapes import Partners, cube, grid, sphere
 
 

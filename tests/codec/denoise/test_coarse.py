@@ -5,14 +5,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from bitstream.errors import OptionError
-from codec.denoise.coarse import RULES, CoarseFilter
-from codec.denoise.filters.topology import Topology
-from codec.denoise.handover import HAND_OVERS, hand_over
-from codec.denoise.noise.gaussian import gaussian_along_normals
-from codec.geometry.graph import graph_of_faces
-from codec.geometry.metrics import theta
-from codec.signal.chain import ChainRules
+from bsm.bitstream.errors import OptionError
+from bsm.codec.denoise.coarse import RULES, CoarseFilter
+from bsm.codec.denoise.filters.topology import Topology
+from bsm.codec.denoise.handover import HAND_OVERS, hand_over
+from bsm.codec.denoise.noise.gaussian import gaussian_along_normals
+from bsm.codec.geometry.graph import graph_of_faces
+from bsm.codec.geometry.metrics import theta
+from bsm.codec.signal.chain import ChainRules
 from tests.codec.denoise.denoise_shapes import Partners, cube, sphere
 
 

@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
-from codec.arrays import Faces, Positions
-from codec.denoise import denoise_automatically
-from codec.denoise.filters.topology import Topology
-from codec.denoise.noise.finding import Finding, find_noise
-from codec.denoise.noise.gaussian import (
+from bsm.codec.arrays import Faces, Positions
+from bsm.codec.denoise import denoise_automatically
+from bsm.codec.denoise.filters.topology import Topology
+from bsm.codec.denoise.noise.finding import Finding, find_noise
+from bsm.codec.denoise.noise.gaussian import (
     correlated_along_normals,
     gaussian_along_axis,
     gaussian_along_normals,
@@ -15,10 +15,10 @@ from codec.denoise.noise.gaussian import (
     impulsive,
     uniform_along_normals,
 )
-from codec.denoise.noise.outliers import find_outliers
-from codec.denoise.noise.probe import Probe
-from codec.denoise.safety import judge, keep_good, restraint
-from codec.geometry.metrics import mean_edge_length
+from bsm.codec.denoise.noise.outliers import find_outliers
+from bsm.codec.denoise.noise.probe import Probe
+from bsm.codec.denoise.safety import judge, keep_good, restraint
+from bsm.codec.geometry.metrics import mean_edge_length
 from tests.codec.denoise.denoise_shapes import cube, sphere
 
 KINDS = {

@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from bitstream.errors import OptionError
-from codec.denoise.filters.fine import FINE_STEPS, FineStep, fine_step
-from codec.denoise.noise.gaussian import gaussian_along_normals
-from codec.geometry.metrics import theta
+from bsm.bitstream.errors import OptionError
+from bsm.codec.denoise.filters.fine import FINE_STEPS, FineStep, fine_step
+from bsm.codec.denoise.noise.gaussian import gaussian_along_normals
+from bsm.codec.geometry.metrics import theta
 from tests.codec.denoise.denoise_shapes import Partners, cube, grid, sphere
 
 every_step = pytest.mark.parametrize("step", FINE_STEPS.values(), ids=FINE_STEPS.keys())

@@ -3,13 +3,13 @@
 import numpy as np
 import pytest
 
-from codec.denoise.filters.guidance import patch_guidance
-from codec.denoise.filters.guided import GuidedFilter, guided_normal_filtering, own_normals
-from codec.denoise.filters.kernel import filter_normals
-from codec.denoise.filters.topology import Topology
-from codec.denoise.filters.vertex_update import face_geometry
-from codec.denoise.noise.gaussian import gaussian_along_normals
-from codec.geometry.metrics import theta
+from bsm.codec.denoise.filters.guidance import patch_guidance
+from bsm.codec.denoise.filters.guided import GuidedFilter, guided_normal_filtering, own_normals
+from bsm.codec.denoise.filters.kernel import filter_normals
+from bsm.codec.denoise.filters.topology import Topology
+from bsm.codec.denoise.filters.vertex_update import face_geometry
+from bsm.codec.denoise.noise.gaussian import gaussian_along_normals
+from bsm.codec.geometry.metrics import theta
 from tests.codec.denoise.denoise_shapes import Partners, cube, grid
 
 

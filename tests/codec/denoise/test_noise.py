@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from bitstream.errors import OptionError
-from codec.denoise.noise.gaussian import (
+from bsm.bitstream.errors import OptionError
+from bsm.codec.denoise.noise.gaussian import (
     correlated_along_normals,
     gaussian_along_axis,
     gaussian_along_normals,
@@ -13,8 +13,8 @@ from codec.denoise.noise.gaussian import (
     impulsive,
     uniform_along_normals,
 )
-from codec.geometry.incidence import mesh_edges
-from codec.geometry.metrics import mean_edge_length
+from bsm.codec.geometry.incidence import mesh_edges
+from bsm.codec.geometry.metrics import mean_edge_length
 from tests.codec.denoise.denoise_shapes import sphere
 
 POSITIONS, FACES = sphere(24)

@@ -3,13 +3,13 @@
 import numpy as np
 import pytest
 
-from bitstream.errors import HarmError, MeshError, OptionError
-from codec.denoise import DenoiseOptions, coarse_frames, denoise, denoise_automatically, denoise_frames
-from codec.denoise.coarse import CoarseFilter
-from codec.denoise.filters.guided import guided_normal_filtering
-from codec.denoise.noise.gaussian import gaussian_along_normals
-from codec.geometry.mesh import TriangleMesh
-from codec.geometry.metrics import theta
+from bsm.bitstream.errors import HarmError, MeshError, OptionError
+from bsm.codec.denoise import DenoiseOptions, coarse_frames, denoise, denoise_automatically, denoise_frames
+from bsm.codec.denoise.coarse import CoarseFilter
+from bsm.codec.denoise.filters.guided import guided_normal_filtering
+from bsm.codec.denoise.noise.gaussian import gaussian_along_normals
+from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.geometry.metrics import theta
 from tests.codec.denoise.denoise_shapes import sphere
 
 CLEAN, FACES = sphere(14)

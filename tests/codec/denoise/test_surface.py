@@ -3,15 +3,15 @@
 import numpy as np
 import pytest
 
-from codec.denoise.filters.reach import reach, themselves
-from codec.denoise.filters.topology import Topology, without_first
-from codec.denoise.filters.vertex_update import (
+from bsm.codec.denoise.filters.reach import reach, themselves
+from bsm.codec.denoise.filters.topology import Topology, without_first
+from bsm.codec.denoise.filters.vertex_update import (
     face_geometry,
     follow_normals,
     mean_centroid_distance,
     vertex_normals,
 )
-from codec.geometry.incidence import Rows, vertex_neighbours
+from bsm.codec.geometry.incidence import Rows, vertex_neighbours
 from tests.codec.denoise.denoise_shapes import cube, grid, sphere
 
 

@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
-from codec.denoise import FrameDenoiser
-from codec.denoise.frames import OVERLAP, WINDOW
-from codec.denoise.noise.gaussian import gaussian_along_normals
-from codec.denoise.temporal import FEWEST_FRAMES, TemporalFilter, noise_deviation, shrunk
-from codec.geometry.metrics import mean_edge_length, theta
+from bsm.codec.denoise import FrameDenoiser
+from bsm.codec.denoise.frames import OVERLAP, WINDOW
+from bsm.codec.denoise.noise.gaussian import gaussian_along_normals
+from bsm.codec.denoise.temporal import FEWEST_FRAMES, TemporalFilter, noise_deviation, shrunk
+from bsm.codec.geometry.metrics import mean_edge_length, theta
 from tests.codec.denoise.denoise_shapes import sphere
 
 CLEAN, FACES = sphere(14)

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from bitstream.errors import MeshError
-from codec.geometry.attributes import Attribute
-from codec.geometry.mesh import TriangleMesh
+from bsm.bitstream.errors import MeshError
+from bsm.codec.geometry.attributes import Attribute
+from bsm.codec.geometry.mesh import TriangleMesh
 
 SQUARE = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [5, 5, 5]], float)
 FACES = [[0, 1, 2], [0, 2, 3]]

@@ -4,8 +4,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 
-from codec.blocks.bisection import WORTH_A_THREAD, bisect
-from codec.geometry.graph import component_sizes, graph_of_faces, is_connected
+from bsm.codec.blocks.bisection import WORTH_A_THREAD, bisect
+from bsm.codec.geometry.graph import component_sizes, graph_of_faces, is_connected
 from tests.shapes import grid_faces
 
 soups = hnp.arrays(np.int32, st.tuples(st.integers(1, 40), st.just(3)), elements=st.integers(0, 19))

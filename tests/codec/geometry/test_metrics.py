@@ -5,9 +5,9 @@ import math
 import numpy as np
 import pytest
 
-from bitstream.errors import MeshError
-from codec.geometry.incidence import vertex_neighbours
-from codec.geometry.metrics import (
+from bsm.bitstream.errors import MeshError
+from bsm.codec.geometry.incidence import vertex_neighbours
+from bsm.codec.geometry.metrics import (
     Reference,
     compare,
     geometric_laplacian,

@@ -5,7 +5,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 
-from codec.geometry.welding import weld
+from bsm.codec.geometry.welding import weld
 
 few_places = hnp.arrays(
     np.float64, st.tuples(st.integers(1, 40), st.just(3)), elements=st.sampled_from([-1.0, 0.0, 2.5])

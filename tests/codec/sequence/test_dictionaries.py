@@ -7,16 +7,16 @@ from typing import Any
 import numpy as np
 import pytest
 
-from bitstream.errors import LimitError
-from bitstream.limits import Limits
-from codec.arrays import Matrix
-from codec.blocks.overlap import Blocks, grow_blocks
-from codec.blocks.partition import derive_partition
-from codec.geometry.graph import graph_of_faces
-from codec.geometry.mesh import TriangleMesh
-from codec.sequence.dictionaries import SPARE, Dictionaries, Part, find_sites
-from codec.sequence.encoder import FIRST_FRAME
-from codec.static.work import Allowance
+from bsm.bitstream.errors import LimitError
+from bsm.bitstream.limits import Limits
+from bsm.codec.arrays import Matrix
+from bsm.codec.blocks.overlap import Blocks, grow_blocks
+from bsm.codec.blocks.partition import derive_partition
+from bsm.codec.geometry.graph import graph_of_faces
+from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.sequence.dictionaries import SPARE, Dictionaries, Part, find_sites
+from bsm.codec.sequence.encoder import FIRST_FRAME
+from bsm.codec.static.work import Allowance
 from tests.shapes import patch, torus
 
 

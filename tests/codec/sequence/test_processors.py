@@ -10,20 +10,20 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from bitstream.container import packets
-from bitstream.container.gop import parse_gop_body
-from bitstream.container.reader import Reader, Signal
-from codec.arrays import Matrix, Positions
-from codec.sequence import encoder
-from codec.sequence.encoder import encode_sequence
-from codec.sequence.gop import GopDecoder, Setting
-from codec.sequence.options import SequenceOptions
+from bsm.bitstream.container import packets
+from bsm.bitstream.container.gop import parse_gop_body
+from bsm.bitstream.container.reader import Reader, Signal
+from bsm.codec.arrays import Matrix, Positions
+from bsm.codec.sequence import encoder
+from bsm.codec.sequence.encoder import encode_sequence
+from bsm.codec.sequence.gop import GopDecoder, Setting
+from bsm.codec.sequence.options import SequenceOptions
 from tests.shapes import torus
 
 ROOT = Path(__file__).parents[3]
 PROCESSORS = ("SkylakeX", "Haswell", "Nehalem", "Prescott")
 DECODE = (
-    "import sys, numpy; from codec.sequence.decoder import decode_sequence;"
+    "import sys, numpy; from bsm.codec.sequence.decoder import decode_sequence;"
     "numpy.savez(sys.argv[1], *(decode_sequence(open(name, 'rb').read())[0] for name in sys.argv[2:]))"
 )
 

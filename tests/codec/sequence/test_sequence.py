@@ -8,10 +8,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from bitstream.container.packets import Gop
-from bitstream.container.reader import END_OF_STREAM, NEED_DATA, Reader, Signal
-from bitstream.container.writer import write_stream
-from bitstream.errors import (
+from bsm.bitstream.container.packets import Gop
+from bsm.bitstream.container.reader import END_OF_STREAM, NEED_DATA, Reader, Signal
+from bsm.bitstream.container.writer import write_stream
+from bsm.bitstream.errors import (
     BsmError,
     CorruptError,
     FormatError,
@@ -21,16 +21,16 @@ from bitstream.errors import (
     TargetError,
     UnsupportedError,
 )
-from bitstream.limits import NAMED_LIMITS, Limits
-from codec.geometry.metrics import kg_error
-from codec.sequence.decoder import FrameEvent, SequenceDecoder, decode_sequence
-from codec.sequence.dictionaries import Site
-from codec.sequence.encoder import SequenceEncoder, encode_sequence
-from codec.sequence.options import SequenceOptions
-from codec.sequence.targets import SequenceTarget, compare_sequences
-from codec.static.decoder import decode
-from codec.static.encoder import encode
-from codec.static.events import ConnectivityEvent, EndEvent, HeaderEvent, LossEvent
+from bsm.bitstream.limits import NAMED_LIMITS, Limits
+from bsm.codec.geometry.metrics import kg_error
+from bsm.codec.sequence.decoder import FrameEvent, SequenceDecoder, decode_sequence
+from bsm.codec.sequence.dictionaries import Site
+from bsm.codec.sequence.encoder import SequenceEncoder, encode_sequence
+from bsm.codec.sequence.options import SequenceOptions
+from bsm.codec.sequence.targets import SequenceTarget, compare_sequences
+from bsm.codec.static.decoder import decode
+from bsm.codec.static.encoder import encode
+from bsm.codec.static.events import ConnectivityEvent, EndEvent, HeaderEvent, LossEvent
 from tests.motion import bending, turning
 from tests.shapes import patch, tetrahedron, together, torus
 from tools.surgery import with_header

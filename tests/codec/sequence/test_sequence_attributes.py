@@ -4,14 +4,14 @@ import numpy as np
 import pytest
 
 import bsm
-from bitstream.container import packets
-from bitstream.container.reader import END_OF_STREAM, Reader, read_packets
-from bitstream.errors import BsmError, OptionError
-from codec.geometry.attributes import Attribute
-from codec.sequence.decoder import FrameEvent, SequenceDecoder, decode_sequence
-from codec.sequence.encoder import encode_sequence
-from codec.sequence.options import SequenceOptions
-from codec.static.events import AttributeEvent, LossEvent
+from bsm.bitstream.container import packets
+from bsm.bitstream.container.reader import END_OF_STREAM, Reader, read_packets
+from bsm.bitstream.errors import BsmError, OptionError
+from bsm.codec.geometry.attributes import Attribute
+from bsm.codec.sequence.decoder import FrameEvent, SequenceDecoder, decode_sequence
+from bsm.codec.sequence.encoder import encode_sequence
+from bsm.codec.sequence.options import SequenceOptions
+from bsm.codec.static.events import AttributeEvent, LossEvent
 from tests.shapes import torus
 
 MESH = torus(24, 16)

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from codec.sequence.row_prediction import OCTAVE
-from codec.sequence.temporal import FINEST_EXPONENT, PRECISION, WORTH, bits_estimate, learn_basis, projection
+from bsm.codec.sequence.row_prediction import OCTAVE
+from bsm.codec.sequence.temporal import FINEST_EXPONENT, PRECISION, WORTH, bits_estimate, learn_basis, projection
 
 ROWS, COLUMNS, STEP = 400, 24, 0.01
 

@@ -5,12 +5,12 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from codec.basis.laplacian import factorize, laplacian_of
-from codec.basis.orthogonal_iteration import cosine_columns, orthogonal_iteration
-from codec.blocks.overlap import Blocks, grow_blocks
-from codec.blocks.partition import derive_partition
-from codec.geometry.graph import graph_of_faces
-from codec.signal.bandwidth import MeasuredSpectrum
+from bsm.codec.basis.laplacian import factorize, laplacian_of
+from bsm.codec.basis.orthogonal_iteration import cosine_columns, orthogonal_iteration
+from bsm.codec.blocks.overlap import Blocks, grow_blocks
+from bsm.codec.blocks.partition import derive_partition
+from bsm.codec.geometry.graph import graph_of_faces
+from bsm.codec.signal.bandwidth import MeasuredSpectrum
 from tests.shapes import patch
 
 SHIFT = 2.0**-5

@@ -1,13 +1,13 @@
 import numpy as np
 import pytest
 
-from bitstream.coefficients.trellis import points_of_levels
-from codec.basis.orthogonal_iteration import hash_columns
-from codec.blocks.overlap import Block
-from codec.geometry.graph import graph_of_faces
-from codec.signal.detail import Normals, fold_details, make_surface
-from codec.static.encoder import Encoder
-from codec.static.options import EncodeOptions
+from bsm.bitstream.coefficients.trellis import points_of_levels
+from bsm.codec.basis.orthogonal_iteration import hash_columns
+from bsm.codec.blocks.overlap import Block
+from bsm.codec.geometry.graph import graph_of_faces
+from bsm.codec.signal.detail import Normals, fold_details, make_surface
+from bsm.codec.static.encoder import Encoder
+from bsm.codec.static.options import EncodeOptions
 from tests.shapes import grid_faces, torus
 
 

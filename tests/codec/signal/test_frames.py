@@ -4,7 +4,7 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from codec.signal.frames import displaced, in_frames, local_frames
+from bsm.codec.signal.frames import displaced, in_frames, local_frames
 from tests.shapes import tetrahedron, torus
 
 

@@ -3,13 +3,13 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from codec.basis.laplacian import dense_laplacian, laplacian_of
-from codec.basis.orthogonal_iteration import exact_basis, first_columns
-from codec.blocks.overlap import Block
-from codec.geometry.graph import graph_of_faces
-from codec.signal.predict import Known, Surroundings, unheld
-from codec.static.encoder import Encoder
-from codec.static.options import EncodeOptions
+from bsm.codec.basis.laplacian import dense_laplacian, laplacian_of
+from bsm.codec.basis.orthogonal_iteration import exact_basis, first_columns
+from bsm.codec.blocks.overlap import Block
+from bsm.codec.geometry.graph import graph_of_faces
+from bsm.codec.signal.predict import Known, Surroundings, unheld
+from bsm.codec.static.encoder import Encoder
+from bsm.codec.static.options import EncodeOptions
 from tests.shapes import patch, torus
 
 

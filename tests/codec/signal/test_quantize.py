@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from codec.signal.quantize import targets
+from bsm.codec.signal.quantize import targets
 
 
 def test_targets_are_coefficients_in_parts_of_a_step() -> None:

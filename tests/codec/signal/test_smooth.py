@@ -3,8 +3,8 @@ import scipy.sparse as sp
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from codec.geometry.graph import graph_of_faces
-from codec.signal.smooth import DEGREE, NODES, LocalFilter, filter_polynomial, smooth, smoothing_spectrum
+from bsm.codec.geometry.graph import graph_of_faces
+from bsm.codec.signal.smooth import DEGREE, NODES, LocalFilter, filter_polynomial, smooth, smoothing_spectrum
 from tests.shapes import patch, torus
 
 

@@ -3,9 +3,9 @@ import math
 import numpy as np
 import pytest
 
-from bitstream.coefficients.trellis import points_of_levels
-from codec.basis.orthogonal_iteration import hash_columns
-from codec.signal.transform import placed, project, reconstruct
+from bsm.bitstream.coefficients.trellis import points_of_levels
+from bsm.codec.basis.orthogonal_iteration import hash_columns
+from bsm.codec.signal.transform import placed, project, reconstruct
 
 
 @pytest.mark.parametrize(("n", "c"), [(1, 1), (2, 2), (5, 0), (9, 2), (50, 7), (574, 57)])

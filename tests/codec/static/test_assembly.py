@@ -5,12 +5,12 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from bitstream.errors import NumericError
-from codec.blocks.overlap import Blocks
-from codec.geometry.graph import graph_of_faces
-from codec.static.assembly import Assembly, DecodedBlock, blended
-from codec.static.numbering import Numbering
-from codec.static.units import Units
+from bsm.bitstream.errors import NumericError
+from bsm.codec.blocks.overlap import Blocks
+from bsm.codec.geometry.graph import graph_of_faces
+from bsm.codec.static.assembly import Assembly, DecodedBlock, blended
+from bsm.codec.static.numbering import Numbering
+from bsm.codec.static.units import Units
 
 FACES = np.array([[0, 1, 2], [1, 2, 3], [2, 3, 4]], np.int32)
 PLAIN = Units((0.0, 0.0, 0.0), 1.0)

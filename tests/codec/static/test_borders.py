@@ -4,15 +4,15 @@ import numpy as np
 import pytest
 
 import bsm
-from bitstream.container.reader import Reader
-from bitstream.errors import ArgumentError, OptionError, TargetError
+from bsm.bitstream.container.reader import Reader
+from bsm.bitstream.errors import ArgumentError, OptionError, TargetError
 from bsm.cli import main
+from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.static.encoder import Encoder, encode
+from bsm.codec.static.options import EncodeOptions
+from bsm.codec.static.quality.contract import Contract, Fit
 from bsm.files.mesh import read_mesh, write_mesh
 from bsm.options import encode_options
-from codec.geometry.mesh import TriangleMesh
-from codec.static.encoder import Encoder, encode
-from codec.static.options import EncodeOptions
-from codec.static.quality.contract import Contract, Fit
 from tests.shapes import curved, patch, torus
 from tools.borders import halves
 

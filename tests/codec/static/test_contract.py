@@ -11,16 +11,16 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from bitstream.errors import MeshError, OptionError, TargetError
+from bsm.bitstream.errors import MeshError, OptionError, TargetError
+from bsm.codec.geometry.closeness import Original
+from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.static.decoder import decode
+from bsm.codec.static.encoder import Encoder
+from bsm.codec.static.options import PRESETS, EncodeOptions
+from bsm.codec.static.quality.contract import Contract
+from bsm.codec.static.quality.fulfilment import Fulfilment
+from bsm.codec.static.quality.targets import Target
 from bsm.files.mesh import read_mesh
-from codec.geometry.closeness import Original
-from codec.geometry.mesh import TriangleMesh
-from codec.static.decoder import decode
-from codec.static.encoder import Encoder
-from codec.static.options import PRESETS, EncodeOptions
-from codec.static.quality.contract import Contract
-from codec.static.quality.fulfilment import Fulfilment
-from codec.static.quality.targets import Target
 from tests.conftest import mesh_folder
 from tests.shapes import patch, tetrahedron, together, torus
 

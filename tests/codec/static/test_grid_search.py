@@ -7,17 +7,17 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from bsm.codec.geometry.closeness import Original
+from bsm.codec.geometry.graph import graph_of_faces
+from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.static.decoder import decode
+from bsm.codec.static.encoder import Encoder, encode
+from bsm.codec.static.joining import join
+from bsm.codec.static.options import PRESETS, EncodeOptions
+from bsm.codec.static.quality.character import Character
+from bsm.codec.static.quality.shaping import Shaper
 from bsm.files.mesh import read_mesh
 from bsm.options import encode_options
-from codec.geometry.closeness import Original
-from codec.geometry.graph import graph_of_faces
-from codec.geometry.mesh import TriangleMesh
-from codec.static.decoder import decode
-from codec.static.encoder import Encoder, encode
-from codec.static.joining import join
-from codec.static.options import PRESETS, EncodeOptions
-from codec.static.quality.character import Character
-from codec.static.quality.shaping import Shaper
 from tests.shapes import curved, grid_faces, patch, torus
 
 

@@ -9,14 +9,14 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from bitstream.container.splits import Splits, decode_splits, encode_splits
-from bitstream.errors import BsmError, CorruptError
-from bitstream.limits import DEFAULT_LIMITS
-from codec.geometry.mesh import TriangleMesh
-from codec.static.decoder import decode
-from codec.static.encoder import Encoder
-from codec.static.joining import join
-from codec.static.options import EncodeOptions
+from bsm.bitstream.container.splits import Splits, decode_splits, encode_splits
+from bsm.bitstream.errors import BsmError, CorruptError
+from bsm.bitstream.limits import DEFAULT_LIMITS
+from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.static.decoder import decode
+from bsm.codec.static.encoder import Encoder
+from bsm.codec.static.joining import join
+from bsm.codec.static.options import EncodeOptions
 from tests.shapes import patch, torus
 
 

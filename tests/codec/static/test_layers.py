@@ -8,15 +8,15 @@ from typing import Any
 import numpy as np
 import pytest
 
-from bitstream.container.reader import END_OF_STREAM, NEED_DATA
-from bitstream.container.wire import FrameType, parse_frame
-from bitstream.errors import BsmError, CorruptError, OptionError, TruncatedError
-from bitstream.limits import DEFAULT_LIMITS
-from codec.geometry.mesh import TriangleMesh
-from codec.static.decoder import Decoder, decode
-from codec.static.encoder import encode
-from codec.static.events import BlockEvent, ConnectivityEvent, EndEvent, LossEvent, RefinementEvent
-from codec.static.options import EncodeOptions
+from bsm.bitstream.container.reader import END_OF_STREAM, NEED_DATA
+from bsm.bitstream.container.wire import FrameType, parse_frame
+from bsm.bitstream.errors import BsmError, CorruptError, OptionError, TruncatedError
+from bsm.bitstream.limits import DEFAULT_LIMITS
+from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.static.decoder import Decoder, decode
+from bsm.codec.static.encoder import encode
+from bsm.codec.static.events import BlockEvent, ConnectivityEvent, EndEvent, LossEvent, RefinementEvent
+from bsm.codec.static.options import EncodeOptions
 from tools.vectors.good import BASE
 from tools.vectors.good_fields import ALL_AXES, HEIGHTS, base, on_grid, refined, soup
 from tools.vectors.meshes import torus

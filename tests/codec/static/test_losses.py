@@ -1,13 +1,13 @@
 import numpy as np
 import pytest
 
-from bitstream.container.packets import Block
-from bitstream.container.reader import END_OF_STREAM, Reader, Signal
-from bitstream.errors import BsmError, CorruptError
-from codec.static.decoder import Decoder, decode
-from codec.static.encoder import encode
-from codec.static.events import BlockEvent, EndEvent, LossEvent
-from codec.static.options import EncodeOptions
+from bsm.bitstream.container.packets import Block
+from bsm.bitstream.container.reader import END_OF_STREAM, Reader, Signal
+from bsm.bitstream.errors import BsmError, CorruptError
+from bsm.codec.static.decoder import Decoder, decode
+from bsm.codec.static.encoder import encode
+from bsm.codec.static.events import BlockEvent, EndEvent, LossEvent
+from bsm.codec.static.options import EncodeOptions
 from tests.shapes import torus
 
 SMALL = {"block_size": 100, "keep": 0.3, "step": 0.003}

@@ -5,15 +5,15 @@ import sys
 import numpy as np
 import pytest
 
-from bitstream.container.reader import END_OF_STREAM, NEED_DATA
-from bitstream.errors import BsmError, CorruptError, LimitError, OptionError, TruncatedError
-from bitstream.limits import Limits
-from codec.geometry.mesh import TriangleMesh
-from codec.geometry.metrics import compare
-from codec.static.decoder import Decoder, decode
-from codec.static.encoder import Encoder, encode
-from codec.static.events import BlockEvent, ConnectivityEvent, EndEvent, HeaderEvent
-from codec.static.options import EncodeOptions
+from bsm.bitstream.container.reader import END_OF_STREAM, NEED_DATA
+from bsm.bitstream.errors import BsmError, CorruptError, LimitError, OptionError, TruncatedError
+from bsm.bitstream.limits import Limits
+from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.geometry.metrics import compare
+from bsm.codec.static.decoder import Decoder, decode
+from bsm.codec.static.encoder import Encoder, encode
+from bsm.codec.static.events import BlockEvent, ConnectivityEvent, EndEvent, HeaderEvent
+from bsm.codec.static.options import EncodeOptions
 from tests.shapes import patch, tetrahedron, together, torus
 
 SMALL = {"block_size": 120, "keep": 0.3, "step": 0.002}
@@ -168,7 +168,7 @@ def test_positions_agree_between_blas_kernels_and_thread_counts(tmp_path):
     stream = tmp_path / "torus.bsm"
     stream.write_bytes(encode(torus(80, 60), EncodeOptions(block_size=400, key_interval=0, power=2)))
     script = (
-        "import sys, numpy; from codec.static.decoder import decode; "
+        "import sys, numpy; from bsm.codec.static.decoder import decode; "
         "numpy.save(sys.argv[2], decode(open(sys.argv[1], 'rb').read()).positions)"
     )
     results = []

@@ -8,22 +8,22 @@ import numpy as np
 import pytest
 from scipy.spatial import Delaunay
 
-from bitstream.connectivity.faces import Cut, encode_connectivity
-from bitstream.container.header import Header
-from bitstream.container.packets import Block, Connectivity
-from bitstream.container.reader import END_OF_STREAM, NEED_DATA, Reader, Signal
-from bitstream.container.wire import FrameType, write_varint
-from bitstream.errors import BsmError, CorruptError, LimitError, OptionError
-from bitstream.limits import Limits
+from bsm.bitstream.connectivity.faces import Cut, encode_connectivity
+from bsm.bitstream.container.header import Header
+from bsm.bitstream.container.packets import Block, Connectivity
+from bsm.bitstream.container.reader import END_OF_STREAM, NEED_DATA, Reader, Signal
+from bsm.bitstream.container.wire import FrameType, write_varint
+from bsm.bitstream.errors import BsmError, CorruptError, LimitError, OptionError
+from bsm.bitstream.limits import Limits
+from bsm.codec.geometry.attributes import Attribute
+from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.static.decoder import Decoder, decode
+from bsm.codec.static.encoder import Encoder, encode
+from bsm.codec.static.events import BlockEvent, ConnectivityEvent, EndEvent, HeaderEvent, LossEvent, RefinementEvent
+from bsm.codec.static.options import PRESETS, EncodeOptions
+from bsm.codec.static.quality.contract import Contract
+from bsm.codec.static.sections import MANY_VERTICES, choose_cuts, possible_cuts
 from bsm.files.mesh import read_mesh
-from codec.geometry.attributes import Attribute
-from codec.geometry.mesh import TriangleMesh
-from codec.static.decoder import Decoder, decode
-from codec.static.encoder import Encoder, encode
-from codec.static.events import BlockEvent, ConnectivityEvent, EndEvent, HeaderEvent, LossEvent, RefinementEvent
-from codec.static.options import PRESETS, EncodeOptions
-from codec.static.quality.contract import Contract
-from codec.static.sections import MANY_VERTICES, choose_cuts, possible_cuts
 from tests.shapes import patch, tetrahedron, together, torus
 from tools.surgery import frames_of, stream_of, with_header
 

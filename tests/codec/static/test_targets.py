@@ -7,12 +7,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from bitstream.errors import OptionError, TargetError
-from codec.geometry.metrics import Comparison, compare
-from codec.static.decoder import decode
-from codec.static.encoder import Encoder
-from codec.static.options import EncodeOptions
-from codec.static.quality.targets import Target, search_step
+from bsm.bitstream.errors import OptionError, TargetError
+from bsm.codec.geometry.metrics import Comparison, compare
+from bsm.codec.static.decoder import decode
+from bsm.codec.static.encoder import Encoder
+from bsm.codec.static.options import EncodeOptions
+from bsm.codec.static.quality.targets import Target, search_step
 from tests.shapes import torus
 
 

@@ -5,19 +5,19 @@ from threading import Event, Thread
 import numpy as np
 import pytest
 
-from bitstream.errors import LimitError, OptionError
-from bitstream.limits import DEFAULT_LIMITS, Limits
-from codec.basis.cost import careful_dictionary_cost, dictionary_cost, reflection_cost, solve_cost
-from codec.basis.laplacian import factorize, laplacian_of
-from codec.basis.orthogonal_iteration import cosine_columns, orthogonal_iteration
-from codec.blocks.overlap import grow_blocks
-from codec.blocks.partition import derive_partition
-from codec.geometry.graph import graph_of_faces
-from codec.geometry.mesh import TriangleMesh
-from codec.static.decoder import Decoder, decode
-from codec.static.encoder import Encoder, encode
-from codec.static.options import PRESETS, EncodeOptions
-from codec.static.work import Allowance
+from bsm.bitstream.errors import LimitError, OptionError
+from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
+from bsm.codec.basis.cost import careful_dictionary_cost, dictionary_cost, reflection_cost, solve_cost
+from bsm.codec.basis.laplacian import factorize, laplacian_of
+from bsm.codec.basis.orthogonal_iteration import cosine_columns, orthogonal_iteration
+from bsm.codec.blocks.overlap import grow_blocks
+from bsm.codec.blocks.partition import derive_partition
+from bsm.codec.geometry.graph import graph_of_faces
+from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.static.decoder import Decoder, decode
+from bsm.codec.static.encoder import Encoder, encode
+from bsm.codec.static.options import PRESETS, EncodeOptions
+from bsm.codec.static.work import Allowance
 from tools.vectors.meshes import torus
 
 NOTHING_ELSE = {"work_per_vertex": 0.0, "work_per_byte": 0.0}

@@ -5,7 +5,7 @@ import { dirname, join, relative } from "node:path";
 import { build } from "esbuild";
 import { compileKernels, compiler, KERNEL_BUILDS, WEB } from "./kernels.mjs";
 
-const VIEWER = join(WEB, "../../bsm/viewer");
+const VIEWER = join(WEB, "../../src/bsm/viewer");
 const SOURCES = join(WEB, "src");
 const OPTIONS = { bundle: true, minify: true, format: "esm", target: "es2022", charset: "utf8", loader: { ".wasm": "binary", ".html": "text" }, tsconfigRaw: { compilerOptions: { useDefineForClassFields: false } }, legalComments: "none", logLevel: "warning", write: false };
 const BUNDLED = ["three", "fzstd"];

@@ -70,7 +70,7 @@ print(json.dumps(times))
 `;
 
 function python(program, ...args) {
-    const environment = { ...process.env, PYTHONPATH: ROOT, OMP_NUM_THREADS: "1" };
+    const environment = { ...process.env, PYTHONPATH: join(ROOT, "src"), OMP_NUM_THREADS: "1" };
     return JSON.parse(execFileSync(PYTHON, ["-c", program, ...args], { cwd: ROOT, env: environment, encoding: "utf8" }));
 }
 

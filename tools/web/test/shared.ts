@@ -8,7 +8,7 @@ import { decode, Decoder, END_OF_STREAM, Kernels, NEED_DATA, type Attribute, typ
 
 export const WEB = process.cwd();
 export const VECTORS = join(WEB, "../../spec/vectors");
-export const VIEWER = join(WEB, "../../bsm/viewer");
+export const VIEWER = join(WEB, "../../src/bsm/viewer");
 export const BUILDS = ["kernels.wasm", "kernels-scalar.wasm"];
 
 /** A build of less than all, as the decoder that tests of the sources take. */

@@ -5,8 +5,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from codec import _kernels
-from codec.basis.orthogonal_iteration import ONCE, hash_columns, householder_orthonormalize
+from bsm.codec import _kernels
+from bsm.codec.basis.orthogonal_iteration import ONCE, hash_columns, householder_orthonormalize
 
 SHAPES = [(1, 1), (5, 3), (9, 8), (40, 31), (64, 32), (65, 33), (90, 90), (200, 97), (200, 121)]
 

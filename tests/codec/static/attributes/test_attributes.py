@@ -7,17 +7,17 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from bitstream.container import packets
-from bitstream.container.reader import Reader, read_packets
-from bitstream.errors import BsmError, OptionError, TargetError
-from codec.geometry.attributes import Attribute
-from codec.geometry.mesh import TriangleMesh
-from codec.geometry.splitting import split_by_attributes
-from codec.static.decoder import Decoder, decode
-from codec.static.encoder import Encoder, encode
-from codec.static.events import AttributeEvent, EndEvent, LossEvent
-from codec.static.options import PRESETS, EncodeOptions
-from codec.static.quality.targets import Target
+from bsm.bitstream.container import packets
+from bsm.bitstream.container.reader import Reader, read_packets
+from bsm.bitstream.errors import BsmError, OptionError, TargetError
+from bsm.codec.geometry.attributes import Attribute
+from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.geometry.splitting import split_by_attributes
+from bsm.codec.static.decoder import Decoder, decode
+from bsm.codec.static.encoder import Encoder, encode
+from bsm.codec.static.events import AttributeEvent, EndEvent, LossEvent
+from bsm.codec.static.options import PRESETS, EncodeOptions
+from bsm.codec.static.quality.targets import Target
 from tests.shapes import curved, patch, tetrahedron, torus
 from tools.surgery import frames_of, stream_of
 

@@ -5,9 +5,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from bitstream.container.wire import write_varint
-from bitstream.errors import CorruptError
-from codec.static.attributes.relief import MARGIN, Solid, relief_exponent
+from bsm.bitstream.container.wire import write_varint
+from bsm.bitstream.errors import CorruptError
+from bsm.codec.static.attributes.relief import MARGIN, Solid, relief_exponent
 
 
 @given(st.integers(0, 2**32 - 1), st.integers(1, 20))

@@ -1,0 +1,349 @@
+"""The functions of `import bsm`: one call each, on whatever is at hand."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, TypeVar
+
+from bsm import options as keywords_to
+from bsm.bitstream.errors import ArgumentError, OptionError
+from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
+from bsm.codec.arrays import Faces, Positions
+from bsm.codec.geometry.attributes import Attribute
+from bsm.codec.geometry.mesh import Metadata, TriangleMesh
+from bsm.files.formats.written import Written
+from bsm.files.mesh import WRITTEN_FORMATS, format_of_name, save_written, written_mesh
+from bsm.files.pipes import Input, Source, read_bytes, read_chunks
+from bsm.files.stream import decode_whole
+from bsm.lengths import LENGTHS, refuse_other_units
+from bsm.meshes import as_mesh, read_any, told_of
+
+if TYPE_CHECKING:
+    import numpy.typing as npt
+
+    from bsm.codec.denoise import DenoiseOptions
+    from bsm.codec.sequence.options import SequenceOptions
+    from bsm.codec.static.options import EncodeOptions
+    from bsm.comparison import MeshComparison
+
+_Options = TypeVar("_Options")
+
+
+def encode(
+    mesh: Any, options: EncodeOptions | None = None, /, *, metadata: Metadata | None = None, **keywords: Any
+) -> bytes:
+    """Compress a mesh.
+
+    Parameters
+    ----------
+    mesh : mesh, pair of arrays, or path
+        A `TriangleMesh`; a mesh of trimesh, pyvista, Open3D or meshio; ``(positions, faces)``; or a file's name.
+    options : EncodeOptions, optional
+        Instead of keywords.
+    metadata : mapping from str to str, int, float or bytes, optional
+        Added to what the mesh says of itself.
+    **keywords
+        As on the command line: `preset` ("small", "balanced", "fine", "near-lossless", "lossless"), one target
+        (`theta`, `nmsve_db`, `max_error`, `bpv`, `size`), and fields of `EncodeOptions` (`step`, `block_size`,
+        `keep_order`, `threads`, ...).
+
+    Returns
+    -------
+    bytes
+        A stream. Vertices and faces are in the coder's order in it unless `keep_order` is true; `Encoder.vertex_order`
+        tells that order.
+
+    Raises
+    ------
+    ArgumentError
+        If this is no mesh, there is no such keyword, or its value is of the wrong type.
+    BsmError
+        `MeshError`, `OptionError`, ...: see what they say.
+    """
+    from bsm.codec.static.encoder import encode as encode_mesh
+    from bsm.codec.static.options import EncodeOptions
+
+    chosen = _chosen(options, EncodeOptions, keywords, keywords_to.encode_options)
+    told = told_of(as_mesh(mesh), chosen, metadata or {})
+    refuse_other_units({name: keywords.get(name) for name in LENGTHS}, told.metadata)
+    return encode_mesh(told, chosen)
+
+
+def encode_many(
+    sources: Iterable[str | os.PathLike[str]],
+    target: str | os.PathLike[str] | None = None,
+    /,
+    *,
+    jobs: int = 1,
+    dask: str | None = None,
+    report: str | os.PathLike[str] | None = None,
+    resume: bool = False,
+    overwrite: bool = False,
+    metadata: Mapping[str, str] | None = None,
+    **keywords: Any,
+) -> list[dict[str, Any]]:
+    """Compress mesh files, as ``bsm encode`` does; one that fails stops no other.
+
+    Parameters
+    ----------
+    sources : iterable of paths
+        Or URLs, where fsspec is installed.
+    target : path, optional
+        A folder, or a URL that ends in a slash; None: beside each source.
+    jobs : int
+        Files to work on at a time, each in a process, which imports the main module of the program again: let that work
+        under ``if __name__ == "__main__"``; 0: one per core.
+    dask : str, optional
+        The scheduler of a Dask cluster, to work there instead.
+    report : path, optional
+        A JSON file to write what came of each file to, while the work goes on.
+    resume : bool
+        Go on from the report: leave what is whole and as it would be made.
+    overwrite : bool
+        Whether files that are there already are replaced.
+    metadata : mapping from str to str, optional
+        Added to what each mesh says of itself.
+    **keywords
+        As `encode` takes them.
+
+    Returns
+    -------
+    list of dict
+        What came of each file, in their order, as ``bsm encode --json`` says it; where it failed, "error" and "exit",
+        the exit code that it would have had.
+
+    Raises
+    ------
+    BsmError, OSError
+        If nothing can be begun: wrong options, outputs that would replace each other, no cluster, ...
+    """
+    from bsm.batch import plan
+    from bsm.cli import command_parser
+    from bsm.commands.encode import encode_one, one_thread_each
+    from bsm.console import Console
+    from bsm.farm.run import run_many
+
+    keywords_to.encode_options(**keywords)
+    args = command_parser("encode").parse_command(["sources"])
+    wishes = {"jobs": jobs, "dask": dask, "report": report and os.fspath(report), "resume": resume, "force": overwrite}
+    kinds = {name: f"target_{kind}" for name, kind in keywords_to.TARGETS.items()}
+    given = {kinds.get(name, name): value for name, value in keywords.items()}
+    meta = [f"{name}={value}" for name, value in (metadata or {}).items()]
+    for name, value in {**wishes, **given, "meta": meta, "quiet": True}.items():
+        setattr(args, name, value)
+    folder = None if target is None else os.fspath(target).rstrip("/") + "/"
+    planned = plan([os.fspath(source) for source in sources], folder, lambda _: ".bsm")
+    one_thread_each(args, planned)
+    return run_many(args, Console(quiet=True), encode_one, planned)
+
+
+def decode(stream: Source, *, limits: Limits = DEFAULT_LIMITS, threads: int | None = None) -> TriangleMesh:
+    """Restore a mesh.
+
+    Parameters
+    ----------
+    stream : bytes, any buffer, path or binary file
+        A file need not be seekable; it is read to its end.
+    limits : Limits
+        What the stream may ask for.
+    threads : int, optional
+        None: one per core.
+
+    Raises
+    ------
+    ArgumentError
+        If this is no stream.
+    BsmError
+        `FormatError`, `UnsupportedError`, `CorruptError`, `TruncatedError`, `LimitError` or `NumericError`, with the
+        place in the stream.
+    """
+    return decode_whole(read_chunks(stream), limits, threads)
+
+
+def encode_sequence(
+    positions: npt.ArrayLike,
+    faces: npt.ArrayLike,
+    options: SequenceOptions | None = None,
+    /,
+    *,
+    metadata: Metadata | None = None,
+    mesh_attributes: Sequence[Attribute] = (),
+    **keywords: Any,
+) -> bytes:
+    """Compress an animated mesh.
+
+    Parameters
+    ----------
+    positions : array_like, shape (T, n, 3)
+    faces : array_like of int, shape (m, 3)
+    options : SequenceOptions, optional
+        Instead of keywords.
+    metadata : mapping from str to str, int, float or bytes, optional
+        What belongs to the whole sequence.
+    mesh_attributes : sequence of Attribute
+        What is the same in all frames; `SequenceDecoder.attributes` gives it back. How well each is kept, the option
+        `attributes` says, as of a mesh.
+    **keywords
+        As on the command line: `preset`, `low_delay`, one target (`kg`, `bpvf`, `theta`, `nmsve_db`), and fields of
+        `SequenceOptions` (`step`, `gop`, `frame_rate`, ...).
+    """
+    from bsm.codec.sequence.encoder import encode_sequence as encode_frames
+    from bsm.codec.sequence.options import SequenceOptions
+
+    chosen = _chosen(options, SequenceOptions, keywords, keywords_to.sequence_options)
+    return encode_frames(positions, faces, chosen, metadata or {}, mesh_attributes)
+
+
+def decode_sequence(
+    stream: Source, *, limits: Limits = DEFAULT_LIMITS, threads: int | None = None
+) -> tuple[Positions, Faces]:
+    """Restore an animated mesh: positions, shape (T, n, 3), and faces, shape (m, 3); arguments as those of `decode`."""
+    from bsm.codec.sequence.decoder import decode_sequence as decode_frames
+
+    return decode_frames(read_bytes(stream), limits, threads)
+
+
+def load(source: Source, *, limits: Limits = DEFAULT_LIMITS, reader: str | None = None) -> TriangleMesh:
+    """Read a mesh, from a mesh file or a stream, whatever it is.
+
+    `read_mesh` also tells what was changed and left out on reading.
+
+    Parameters
+    ----------
+    source : path, or anything else that `decode` takes
+        OBJ, OFF, PLY, STL, npz and BSM; with trimesh installed (``pip install 'bsm-codec[formats]'``) also GLB, glTF,
+        3MF, DAE and others.
+    limits : Limits
+    reader : str, optional
+        "openmesh" or "trimesh": read with that library, instead of ourselves where we know the format.
+    """
+    return read_any(Input(source), limits=limits, reader=reader)
+
+
+def save(mesh: Any, path: str | os.PathLike[str], *, overwrite: bool = True, **keywords: Any) -> tuple[str, ...]:
+    """Write a mesh to a file, as a whole or not at all, in the format of its name.
+
+    Images and, for OBJ, the library of materials are written beside it; their names begin like its own.
+
+    Parameters
+    ----------
+    mesh : mesh, pair of arrays, or path
+        As `encode` takes it.
+    path : path
+        With the suffix .bsm, .glb (with trimesh), .npz, .obj, .off, .ply or .stl.
+    overwrite : bool
+        Whether a file of this name is replaced.
+    **keywords
+        Of `encode`, for .bsm only.
+
+    Returns
+    -------
+    tuple of str
+        The names of attributes and metadata that the format cannot hold.
+
+    Raises
+    ------
+    OptionError
+        If the name tells no format, or one that has no options.
+    FileExistsError
+        If the file exists and `overwrite` is false.
+    """
+    if not isinstance(path, (str, os.PathLike)):
+        raise ArgumentError(f"the path of a file is expected, not {type(path).__name__}")
+    suffix = Path(path).suffix.lower()
+    kind = format_of_name(path)
+    if suffix == ".bsm":
+        written = Written(encode(mesh, **keywords))
+    elif kind is None:
+        raise OptionError(f"{path}: the name tells no format; use one of .bsm, .{', .'.join(WRITTEN_FORMATS)}")
+    elif keywords:
+        raise OptionError(f"{path}: {next(iter(keywords))} is an option of .bsm files only")
+    else:
+        written = written_mesh(as_mesh(mesh), kind, path)
+    return save_written(path, written, overwrite=overwrite)
+
+
+def denoise(
+    mesh: Any,
+    options: DenoiseOptions | None = None,
+    /,
+    *,
+    goal: str = "shading",
+    force: bool = False,
+    **keywords: Any,
+) -> TriangleMesh:
+    """Remove noise from the positions of a mesh; the faces stay.
+
+    Parameters
+    ----------
+    mesh : mesh, pair of arrays, or path
+        As `encode` takes it.
+    options : DenoiseOptions, optional
+        Instead of keywords.
+    **keywords
+        Fields of `DenoiseOptions`; without any of them everything is chosen from the noise of the mesh.
+    goal : str
+        What that strives for: "shading" (normals near the clean ones) or "shape" (vertices).
+    force : bool
+        Let the options have their way even where they do harm.
+
+    Raises
+    ------
+    HarmError
+        If the options would make the mesh worse.
+    """
+    from bsm.codec.denoise import DenoiseOptions
+    from bsm.codec.denoise import denoise as denoise_mesh
+
+    chosen = _chosen(options, DenoiseOptions, keywords, keywords_to.denoise_options)
+    return denoise_mesh(as_mesh(mesh), chosen, goal=goal, force=force)
+
+
+def compare(original: Any, decoded: Any, *, order: npt.ArrayLike | None = None) -> MeshComparison:
+    """How far a mesh is from another of the same faces.
+
+    Parameters
+    ----------
+    original, decoded : mesh, pair of arrays, path, or stream
+        As `encode` takes a mesh, or `decode` a stream. Vertices that no face uses are left out; where only that makes
+        the meshes comparable, vertices at one position are one.
+    order : int array, optional
+        Vertex j of `decoded` is vertex order[j] of `original`: `Encoder.vertex_order`. Without it the order may be the
+        same, or the decoder's.
+
+    Returns
+    -------
+    MeshComparison
+        Errors of positions, and in `attributes` those of each attribute of `original` by its name.
+
+    Raises
+    ------
+    MeshError
+        If they have different faces.
+    """
+    import numpy as np
+
+    from bsm.comparison import compare_meshes, pair
+
+    first, second = (as_mesh(_opened(mesh)).without_isolated_vertices()[0] for mesh in (original, decoded))
+    return compare_meshes(first, second, pair(first, second, None if order is None else np.asarray(order, np.int64)))
+
+
+def _opened(mesh: Any) -> Any:
+    """Streams and files as `Input`; anything else as it is."""
+    return Input(mesh) if isinstance(mesh, (bytes, bytearray, memoryview)) or hasattr(mesh, "read") else mesh
+
+
+def _chosen(
+    options: _Options | None, kind: type[_Options], keywords: dict[str, Any], build: Callable[..., _Options | None]
+) -> _Options | None:
+    """The options that were given, or those that keywords ask for."""
+    if options is None:
+        return build(**keywords)
+    if not isinstance(options, kind):
+        raise ArgumentError(f"{kind.__name__} is expected, not {type(options).__name__}; or give options by keyword")
+    if keywords:
+        raise ArgumentError(f"give {kind.__name__}, or keywords such as {next(iter(keywords))}; not both")
+    return options

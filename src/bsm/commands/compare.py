@@ -1,0 +1,93 @@
+"""bsm compare: how far one mesh is from another of the same faces."""
+
+from __future__ import annotations
+
+import argparse
+from dataclasses import asdict
+
+from bsm.codec.arrays import Positions
+from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.commands.limits import add_limits_flag, limits_of
+from bsm.commands.reader import add_reader_flag
+from bsm.console import Console, finite, print_json
+from bsm.exits import about
+from bsm.files.mesh import read_mesh
+from bsm.files.permutation import read_permutation
+from bsm.files.pipes import read_chunks
+from bsm.files.stream import decode_whole, is_stream
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare what the command takes."""
+    parser.add_argument("original", metavar="A", help="original: mesh file or stream, or a sequence of meshes")
+    parser.add_argument("decoded", metavar="B", help="what became of it, in any of these forms")
+    parser.add_argument("--permutation", metavar="FILE.npy", help="what encode wrote: vertex p[j] of A is j of B")
+    parser.add_argument(
+        "--surface",
+        action="store_true",
+        help="of meshes also the mean normal difference, the rms error over the mean edge, and the Hausdorff distance",
+    )
+    add_reader_flag(parser)
+    add_limits_flag(parser)
+    parser.add_argument("--json", action="store_true", help="print it as JSON")
+
+
+def run(args: argparse.Namespace, console: Console) -> None:
+    """Compare two meshes."""
+    from bsm.commands.sequence_compare import compare_if_sequences
+    from bsm.comparison import compare_meshes, pair
+
+    if compare_if_sequences(args):
+        return
+    original, decoded = (_load(path, args, console) for path in (args.original, args.decoded))
+    paired = pair(original, decoded, read_permutation(args.permutation) if args.permutation else None)
+    if paired.joined:
+        console.note("vertices at one position are compared as one")
+    result = asdict(compare_meshes(original, decoded, paired))
+    attributes = {name: errors and _known(errors) for name, errors in result.pop("attributes").items()}
+    if args.surface:
+        result |= _surface(paired.original, paired.positions)
+    numbers = {name: finite(value) for name, value in result.items()}
+    if args.json:
+        print_json({**numbers, "attributes": attributes} if attributes else numbers)
+    else:
+        print("\n".join(f"{name:<19}{value:.6g}" for name, value in result.items()))
+        print("".join(map(_worded, attributes.items())), end="")
+
+
+def _known(errors: dict[str, float | None]) -> dict[str, float]:
+    return {name: value for name, value in errors.items() if value is not None}
+
+
+def _worded(attribute: tuple[str, dict[str, float] | None]) -> str:
+    name, errors = attribute
+    if errors is None:
+        return f"{name}: not there any more\n"
+    return f"{name}: {', '.join(f'{what} {value:.4g}' for what, value in errors.items())}\n"
+
+
+def _surface(original: TriangleMesh, positions: Positions) -> dict[str, float]:
+    """What the literature on denoising measures."""
+    from bsm.codec.geometry.metrics import mnd, rms_over_edge
+    from bsm.codec.geometry.surface_distance import surface_distance
+
+    faces = original.faces
+    distance = surface_distance(original.positions, faces, positions, faces)
+    return {
+        "mnd": mnd(original.positions, positions, faces),
+        "rms_over_edge": rms_over_edge(original.positions, positions, faces),
+        "hausdorff": distance.hausdorff,
+        "hausdorff_relative": distance.hausdorff / (original.diagonal or 1.0),
+        "surface_distance": distance.mean,
+    }
+
+
+def _load(path: str, args: argparse.Namespace, console: Console) -> TriangleMesh:
+    """A mesh file or a stream, without the vertices that no face uses."""
+    with about(path):
+        if is_stream(path):
+            return decode_whole(read_chunks(path), limits_of(args))
+        source = read_mesh(path, reader=args.reader)
+    for note in source.notes:
+        console.note(f"{path}: {note}")
+    return source.mesh.without_isolated_vertices()[0]

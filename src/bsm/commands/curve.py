@@ -1,0 +1,137 @@
+"""bsm curve: rate against error for several codecs, as JSON first and pictures drawn from it."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from bsm.bitstream.errors import OptionError
+from bsm.console import Console, print_json
+from bsm.files.mesh import read_mesh
+
+if TYPE_CHECKING:
+    from bsm.evaluation.codecs import Curve
+
+GROUPS = ("ours", "paper", "draco")
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare what the command takes."""
+    parser.add_argument(
+        "meshes", metavar="MESH", nargs="*", help="mesh files or sequences; none: only draw what there is"
+    )
+    parser.add_argument("-o", "--output", metavar="FOLDER", required=True, help="where JSON and pictures go")
+    parser.add_argument(
+        "--codecs",
+        metavar="LIST",
+        default=",".join(GROUPS),
+        help="which, with commas: ours, paper (SVD and orthogonal iterations of several kinds, 12 bits), draco, or "
+        "single lines such as svd,oi-r2 (default: all)",
+    )
+    parser.add_argument(
+        "--blocks", type=int, metavar="K", help="blocks of the paper's lines (default: 500 vertices each)"
+    )
+    parser.add_argument("--repeat", type=int, default=1, metavar="N", help="runs per point, the fastest counts")
+    parser.add_argument("--json", action="store_true", help="print the comparison with Draco as JSON")
+
+
+def run(args: argparse.Namespace, console: Console) -> None:
+    """Run, write, read again, compare and draw."""
+    from bsm.commands.sequence_curve import run_sequence
+    from bsm.evaluation.run import read_results, run_curve, write_result
+
+    folder = Path(args.output)
+    sequences = [path for path in args.meshes if run_sequence(path, folder, console)]
+    meshes = [path for path in args.meshes if path not in sequences]
+    if sequences and not meshes:
+        return
+    for path in meshes:
+        mesh = read_mesh(path).mesh.bare  # rates are those of the shape
+        for curve in _chosen(args.codecs, len(mesh.positions), args.blocks):
+            with console.progress(f"{Path(path).stem}, {curve.label}") as progress:
+                result = run_curve(curve, mesh, Path(path).stem, args.repeat, progress)
+            console.note(f"{write_result(result, folder)}")
+    results = list(read_results(folder))
+    if not results:
+        raise OptionError(f"{folder} holds no results; name meshes to run")
+    comparisons = _comparisons(results)
+    if args.json:
+        print_json({"comparisons": comparisons})
+    else:
+        print(_tables(results, comparisons))
+    _draw(results, folder, console)
+
+
+def _chosen(names: str, vertices: int, blocks: int | None) -> list[Curve]:
+    from bsm.evaluation.codecs import draco_curve, our_curve, paper_curves
+
+    paper = paper_curves(round(vertices / blocks) if blocks else 500)
+    groups = {"ours": (our_curve(),), "paper": paper, "draco": (draco_curve(),), **{c.name: (c,) for c in paper}}
+    unknown = [name for name in names.split(",") if name not in groups]
+    if unknown:
+        raise OptionError(f"no codec is called {', '.join(unknown)}; there are {', '.join(groups)}")
+    return [curve for name in names.split(",") for curve in groups[name]]
+
+
+def _comparisons(results: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
+    """Every codec against Draco, mesh by mesh."""
+    from bsm.evaluation.rates import compare_curves
+
+    draco = {result["mesh"]["name"]: result for result in results if result["codec"] == "draco"}
+    return [
+        compare_curves(draco[result["mesh"]["name"]], result)
+        for result in results
+        if result["codec"] != "draco" and result["mesh"]["name"] in draco
+    ]
+
+
+def _tables(results: Sequence[dict[str, Any]], comparisons: Sequence[dict[str, Any]]) -> str:
+    from bsm.evaluation.tables import number, percent, table
+
+    measured = table(
+        ("mesh", "codec", "bpv, file", "bpv, paper", "NMSVE, dB", "theta", "encode, s", "decode, s"),
+        [
+            (
+                result["mesh"]["name"],
+                result["codec"],
+                number(point["bpv_total"], 3),
+                number(point["bpv_paper"], 2),
+                number(point["nmsve_db"], 2),
+                number(point["theta_deg"], 2),
+                number(point["encode_seconds"], 3),
+                number(point["decode_seconds"], 3),
+            )
+            for result in results
+            for point in result["points"]
+        ],
+    )
+    if not comparisons:
+        return measured
+    compared = table(
+        ("mesh", "codec", "bytes at 7°", "bytes at 10°", "BD-rate, theta", "BD-rate, NMSVE"),
+        [
+            (
+                row["mesh"],
+                row["codec"],
+                number(row["bytes_at_theta"]["7"], 3),
+                number(row["bytes_at_theta"]["10"], 3),
+                percent(row["bd_rate_percent"]["theta_deg"]),
+                percent(row["bd_rate_percent"]["nmsve_db"]),
+            )
+            for row in comparisons
+        ],
+    )
+    return f"{measured}\n\nAgainst Draco, whole files:\n\n{compared}"
+
+
+def _draw(results: Sequence[dict[str, Any]], folder: Path, console: Console) -> None:
+    from bsm.bitstream.errors import DependencyError
+    from bsm.evaluation.plots import draw_all
+
+    try:
+        for path in draw_all(results, folder):
+            console.note(str(path))
+    except DependencyError as missing:
+        console.note(f"no pictures: {missing}")

@@ -1,0 +1,135 @@
+"""bsm demo: the whole road of a mesh, on a sample made by formula."""
+
+from __future__ import annotations
+
+import argparse
+import time
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from bsm.bitstream.errors import DependencyError
+from bsm.commands.encode_options import add_encode_flags, encode_options
+from bsm.console import Console, print_json
+from bsm.files.output import open_output, refuse_to_overwrite
+
+if TYPE_CHECKING:
+    from bsm.codec.geometry.mesh import TriangleMesh
+    from bsm.codec.geometry.metrics import Comparison
+
+_PLAIN_BYTES = (12, 12)
+"""Bytes of a vertex and of a face as float32 and int32."""
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare what the command takes."""
+    parser.add_argument("-o", "--output", metavar="FOLDER", default=".", help="where to write (default: here)")
+    parser.add_argument("--vertices", type=int, default=20_000, metavar="N", help="size of the sample (default 20000)")
+    parser.add_argument("--json", action="store_true", help="print the result as JSON")
+    add_encode_flags(parser)
+
+
+def run(args: argparse.Namespace, console: Console) -> None:
+    """Make the sample, encode it, decode it, compare, and draw both."""
+    stream_path, picture_path = Path(args.output, "bsm_demo.bsm"), Path(args.output, "bsm_demo.png")
+    for path in (stream_path, picture_path):
+        refuse_to_overwrite(path, args.force)
+    Path(args.output).mkdir(parents=True, exist_ok=True)
+
+    from bsm.codec.geometry.mesh import TriangleMesh
+    from bsm.codec.geometry.metrics import compare
+    from bsm.codec.static.decoder import decode
+    from bsm.codec.static.encoder import Encoder
+    from bsm.evaluation.sample import knot
+
+    sample = knot(args.vertices)
+    vertices, faces = len(sample.positions), len(sample.faces)
+    plain = _PLAIN_BYTES[0] * vertices + _PLAIN_BYTES[1] * faces
+    console.note(f"sample     a knotted rope: {vertices} vertices, {faces} faces, {plain} bytes as plain arrays")
+
+    begin = time.perf_counter()
+    encoder = Encoder(sample, encode_options(args))
+    with console.progress("encoding") as progress:
+        stream = b"".join(encoder.chunks(progress))
+    encoding = time.perf_counter() - begin
+    console.note(
+        f"encoded    {len(stream)} bytes, {plain / len(stream):.1f} times smaller, "
+        f"{8 * len(stream) / vertices:.2f} bits per vertex, {encoding:.2f} s"
+    )
+
+    begin = time.perf_counter()
+    received = decode(stream)
+    decoding = time.perf_counter() - begin
+    positions = np.empty_like(received.positions)
+    positions[encoder.vertex_order] = received.positions
+    decoded = TriangleMesh(positions, sample.faces)
+    error = compare(sample.positions, decoded.positions, sample.faces)
+    console.note(
+        f"decoded    in {decoding:.2f} s: largest error {100 * error.max_error_relative:.3f} % of the size, "
+        f"{error.nmsve_db:.2f} dB, normals {error.theta_deg:.2f} degrees off on average"
+    )
+
+    with open_output(stream_path, overwrite=args.force) as file:
+        file.write(stream)
+    written = [str(stream_path)]
+    try:
+        _draw(picture_path, sample, decoded, error, 8 * len(stream) / vertices, overwrite=args.force)
+        written.append(str(picture_path))
+    except DependencyError as missing:
+        console.note(f"no picture: {missing}")
+    console.note(f"written    {', '.join(written)}")
+    if args.json:
+        print_json(
+            {
+                "vertices": vertices,
+                "faces": faces,
+                "bytes": len(stream),
+                "bpv_total": 8 * len(stream) / vertices,
+                "encode_seconds": encoding,
+                "decode_seconds": decoding,
+                "nmsve_db": error.nmsve_db,
+                "theta_deg": error.theta_deg,
+                "max_error_relative": error.max_error_relative,
+                "written": written,
+            }
+        )
+
+
+def _draw(
+    path: Path, sample: TriangleMesh, decoded: TriangleMesh, error: Comparison, bpv: float, *, overwrite: bool
+) -> None:
+    """Both meshes side by side, and where they differ."""
+    try:
+        from matplotlib.backends.backend_agg import FigureCanvasAgg
+        from matplotlib.figure import Figure
+    except ImportError as missing:
+        raise DependencyError('pictures are made with matplotlib; run: pip install "bsm-codec[eval]"') from missing
+    from matplotlib import colormaps
+
+    from bsm.evaluation.render import bounds_of, render
+
+    bounds = bounds_of(sample.positions)
+    distance = np.linalg.norm(decoded.positions - sample.positions, axis=1) / sample.diagonal
+    top = float(np.percentile(distance, 99)) or 1.0
+    heat = colormaps["viridis"](np.clip(distance[sample.faces].mean(axis=1) / top, 0, 1))[:, :3]
+    pictures = (
+        (f"original: {len(sample.positions)} vertices", render(sample.positions, sample.faces, bounds=bounds)),
+        (
+            f"decoded: {bpv:.2f} bits per vertex, normals {error.theta_deg:.1f}° off",
+            render(decoded.positions, decoded.faces, bounds=bounds),
+        ),
+        (
+            f"distance, yellow from {100 * top:.2f} % of the size",
+            render(sample.positions, sample.faces, bounds=bounds, colors=heat),
+        ),
+    )
+    figure = Figure(figsize=(15, 5.4), dpi=120)
+    FigureCanvasAgg(figure)
+    for axes, (title, picture) in zip(figure.subplots(1, len(pictures)), pictures):
+        axes.imshow(picture)
+        axes.set_title(title)
+        axes.axis("off")
+    figure.tight_layout()
+    with open_output(path, overwrite=overwrite) as file:
+        figure.savefig(file, format="png")

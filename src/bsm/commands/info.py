@@ -1,0 +1,153 @@
+"""bsm info: what a stream holds, without decoding it."""
+
+from __future__ import annotations
+
+import argparse
+import base64
+from dataclasses import asdict
+from typing import Any
+
+from bsm.batch import Facts, Job, add_inputs, input_names, run_jobs
+from bsm.bitstream.container.wire import VERSION
+from bsm.commands.limits import add_limits_flag, limits_of
+from bsm.console import Console
+from bsm.files.pipes import read_chunks
+from bsm.files.stream import StreamInfo, inspect_stream
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare what the command takes."""
+    add_inputs(parser, "stream, or - for standard input")
+    add_limits_flag(parser)
+
+
+def run(args: argparse.Namespace, console: Console) -> int:
+    """Describe all inputs."""
+    return run_jobs(args, console, info_of_one, [Job(name) for name in input_names(args.inputs)], _worded)
+
+
+def info_of_one(args: argparse.Namespace, console: Console) -> Facts:
+    """Describe one stream."""
+    return {"input": args.input, **summarise(inspect_stream(read_chunks(args.input), limits_of(args)))}
+
+
+def summarise(info: StreamInfo) -> dict[str, Any]:
+    """The facts, ready for JSON."""
+    header = info.header
+    return {
+        "version": VERSION,
+        "vertices": header.vertices,
+        "faces": header.faces,
+        "blocks": header.blocks,
+        "block_size": header.block_size,
+        "coefficients": list(info.coefficients),
+        "bytes": {
+            "connectivity": info.connectivity,
+            "partition": info.partition,
+            "order": info.order,
+            "coefficients": info.coefficient_bytes,
+            "attributes": info.attribute_bytes,
+            "metadata": info.metadata_bytes,
+            "framing": info.framing,
+            "total": info.total,
+        },
+        "sections": [asdict(section) for section in info.sections],
+        "frames": info.frames,
+        "gops": [asdict(gop) for gop in info.gops],
+        "attributes": [asdict(attribute) for attribute in info.attributes],
+        "bpv_total": info.bpv_total,
+        "bpvf_total": info.bpvf_total,
+        "bpv_geometry": info.bpv_geometry,
+        "bpv_paper": info.bpv_paper,
+        "header": {name: getattr(header, name) for name in header.__dataclass_fields__},
+        "metadata": {
+            name: base64.b64encode(value).decode() if isinstance(value, bytes) else value
+            for name, value in info.metadata.entries.items()
+        },
+        "metadata_bytes": {n: len(value) for n, value in info.metadata.entries.items() if isinstance(value, bytes)},
+    }
+
+
+def _worded(summary: Facts) -> str:
+    total = summary["bytes"]["total"]
+    sizes = {("positions" if name == "coefficients" else name): size for name, size in summary["bytes"].items()}
+    shares = [f"  {name:<13}{size:>12}  {100 * size / total:5.1f} %" for name, size in sizes.items()]
+    lines = [
+        f"version {summary['version']}: {summary['vertices']} vertices, {summary['faces']} faces",
+        *_position_lines(summary),
+        *_sequence_lines(summary),
+        "bytes:",
+        *shares,
+        *_section_lines(summary),
+        *_rate_lines(summary),
+        *map(_attribute_line, summary["attributes"]),
+        *_metadata_lines(summary),
+    ]
+    return "\n".join(lines)
+
+
+def _position_lines(summary: dict[str, Any]) -> list[str]:
+    """Of what kind the positions are."""
+    header, coefficients = summary["header"], summary["coefficients"] or [0]
+    if header["grid"]:
+        return [f"positions on a grid of {' x '.join(str(largest + 1) for largest in header['grid'])}"]
+    layers = len(header["refinements"]) // 2
+    refined = f", and {layers} {'layer' if layers == 1 else 'layers'} of refinement" if layers else ""
+    return [
+        f"{summary['blocks']} blocks of {summary['block_size']} vertices, "
+        f"{min(coefficients)} to {max(coefficients)} coefficients{refined}"
+    ]
+
+
+def _section_lines(summary: dict[str, Any]) -> list[str]:
+    """What there is to say of sections, if there are several."""
+    sections, total = summary["sections"], summary["bytes"]["total"]
+    if len(sections) == 1:
+        return []
+    return [
+        f"section {number}: {one['faces']} faces in {one['connectivity']} bytes, {one['blocks']} blocks in "
+        f"{one['coefficient_bytes']}" + _first_line(one["first_block"], total)
+        for number, one in enumerate(sections, start=1)
+    ]
+
+
+def _first_line(first: int | None, total: int) -> str:
+    return f"; its first block is there after {first} bytes, {100 * first / total:.1f} %" if first else ""
+
+
+def _rate_lines(summary: dict[str, Any]) -> list[str]:
+    """Bits per vertex of a mesh; with a fixed number of bits, as the paper counts them, too."""
+    if summary["frames"]:
+        return []
+    rates = f"bits per vertex: {summary['bpv_total']:.3f} in all, {summary['bpv_geometry']:.3f} for positions"
+    packed = summary["blocks"] and summary["header"]["coding"] == 0
+    return [f"{rates}, {summary['bpv_paper']:.3f} by the paper's formula" if packed else rates]
+
+
+def _metadata_lines(summary: dict[str, Any]) -> list[str]:
+    sizes = summary["metadata_bytes"]
+    said = {name: f"{sizes[name]} bytes" if name in sizes else value for name, value in summary["metadata"].items()}
+    return ["metadata:", *(f"  {name}: {value}" for name, value in said.items())] if said else []
+
+
+def _attribute_line(attribute: dict[str, Any]) -> str:
+    what = f"{attribute['components']} x {attribute['kind']} per {attribute['domain']}, {attribute['semantic']}"
+    seams = f", {attribute['seams']} of them for seams" if attribute["seams"] else ""
+    return (
+        f"attribute {attribute['name']}: {what}, {attribute['values']} values, {attribute['coding']}, "
+        f"{attribute['bytes']} bytes{seams}"
+    )
+
+
+def _sequence_lines(summary: dict[str, Any]) -> list[str]:
+    """What there is to say of a sequence; nothing of a mesh."""
+    gops, header = summary["gops"], summary["header"]
+    if not header["gop_frames"]:
+        return []
+    rate = f", {header['frame_rate']:g} per second" if header["frame_rate"] else ""
+    sizes = [gop["bytes"] for gop in gops] or [0]
+    return [
+        f"{summary['frames']} frames{rate}, in {len(gops)} {'GOP' if len(gops) == 1 else 'GOPs'} "
+        f"of {' to '.join(str(size) for size in sorted({min(sizes), max(sizes)}))} bytes, "
+        f"{summary['bpvf_total'] or 0.0:.3f} bits per vertex and frame"
+    ]

@@ -1,0 +1,82 @@
+"""bsm compare, where both sides are sequences."""
+
+from __future__ import annotations
+
+import argparse
+from dataclasses import asdict
+from pathlib import Path
+
+import numpy as np
+
+from bsm.bitstream.errors import MeshError
+from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
+from bsm.codec.arrays import Faces, Positions
+from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.sequence.targets import compare_sequences
+from bsm.commands.limits import limits_of
+from bsm.console import finite, print_json
+from bsm.exits import about
+from bsm.files.permutation import in_order_of, read_permutation
+from bsm.files.pipes import read_chunks
+from bsm.files.sequence import open_sequence
+from bsm.files.sequence_stream import SequenceStream, all_frames, numbered, numbers_of, peek_header
+from bsm.files.stream import is_stream
+
+Sequence = tuple[Positions, Faces]
+
+
+def load_sequence(path: str, reader: str | None = None, limits: Limits = DEFAULT_LIMITS) -> Sequence | None:
+    """The frames, shape (T, n, 3), and faces of a file, folder or stream; None if it is a mesh."""
+    if _is_stream(path):
+        header, chunks = peek_header(read_chunks(path))
+        if header is None or not header.gop_frames:
+            return None
+        stream = SequenceStream(chunks, limits=limits)
+        return all_frames(stream), stream.faces
+    source = open_sequence(path, reader=reader)
+    return None if source is None else (np.array(list(source.frames)), source.faces)
+
+
+def _is_stream(path: str) -> bool:
+    return Path(path).is_file() and is_stream(path)
+
+
+def compare_loaded(args: argparse.Namespace, original: Sequence, decoded: Sequence) -> None:
+    """Print how far one sequence is from the other."""
+    (first, faces), (second, other_faces) = original, decoded
+    if len(first) != len(second):
+        raise MeshError(f"{args.original} has {len(first)} frames and {args.decoded} {len(second)}")
+    mesh, kept = TriangleMesh(first[0], faces).without_isolated_vertices()
+    other, other_kept = TriangleMesh(second[0], other_faces).without_isolated_vertices()
+    order = read_permutation(args.permutation) if args.permutation else None
+    rows = numbers_of(in_order_of(mesh, numbered(other.faces, len(other_kept)), order))
+    result = asdict(compare_sequences(first[:, kept], second[:, other_kept[rows]], mesh.faces))
+    if _is_stream(args.decoded):
+        result["bpvf_total"] = 8 * Path(args.decoded).stat().st_size / second[..., 0].size
+    if args.json:
+        print_json({name: finite(value) for name, value in result.items()})
+    else:
+        print("\n".join(f"{name:<19}{value:.6g}" for name, value in result.items()))
+
+
+def _loaded(path: str, args: argparse.Namespace) -> Sequence | None:
+    with about(path):
+        return load_sequence(path, args.reader, limits_of(args))
+
+
+def compare_if_sequences(args: argparse.Namespace) -> bool:
+    """Compare two sequences; False if neither is one.
+
+    Raises
+    ------
+    MeshError
+        If one is a sequence and the other a mesh.
+    """
+    original, decoded = _loaded(args.original, args), _loaded(args.decoded, args)
+    if original is None and decoded is None:
+        return False
+    if original is None or decoded is None:
+        one, other = (args.decoded, args.original) if original is None else (args.original, args.decoded)
+        raise MeshError(f"{one} is a sequence and {other} one mesh")
+    compare_loaded(args, original, decoded)
+    return True

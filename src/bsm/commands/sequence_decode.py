@@ -1,0 +1,102 @@
+"""bsm decode, where the stream is a sequence."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+import time
+from collections.abc import Iterator
+
+from bsm.batch import Facts, size_of
+from bsm.bitstream.errors import OptionError
+from bsm.commands.limits import limits_of
+from bsm.console import Console
+from bsm.farm.run import may_replace
+from bsm.files.naming import default_output, output_inside
+from bsm.files.output import refuse_to_overwrite
+from bsm.files.permutation import read_permutation, reorder
+from bsm.files.sequence import sequence_kind, sequence_writer
+from bsm.files.sequence_stream import SequenceStream, numbered, numbers_of
+
+
+def add_flags(parser: argparse.ArgumentParser) -> None:
+    """Add what only sequences have."""
+    group = parser.add_argument_group("sequences")
+    group.add_argument("--frames", metavar="A:B", help="frames A to B - 1 only; what they do not need is not decoded")
+
+
+def refuse_flags(args: argparse.Namespace) -> None:
+    """Raise `OptionError` if a flag of `add_flags` was given for a mesh."""
+    if args.frames is not None:
+        raise OptionError("--frames is for sequences, and this is one mesh")
+
+
+def decode_sequence(args: argparse.Namespace, console: Console, chunks: Iterator[bytes]) -> Facts:
+    """Decode one sequence; every frame is written as soon as it is known."""
+    if args.blocks is not None:
+        raise OptionError("--blocks is for meshes, and this is a sequence")
+    output = _output(args)
+    kind = sequence_kind(output, args.format)
+    refuse_to_overwrite(output, may_replace(args, output))
+    begin = time.perf_counter()
+    first, last = _range(args.frames)
+    stream = SequenceStream(chunks, console.note if args.tolerant else None, first, limits_of(args))
+    header, faces = stream.header, stream.faces
+    last = min(last, header.frames or last)
+    expected = max(last - first, 0) if header.frames and not args.tolerant else 0
+    mesh = numbered(faces, header.vertices)
+    if args.permutation:
+        mesh = reorder(mesh, read_permutation(args.permutation))
+    order, faces = numbers_of(mesh.positions), mesh.faces
+    holds = kind not in ("npz", "npy") and not args.permutation
+    count = 0
+    with (
+        sequence_writer(
+            output,
+            kind,
+            faces,
+            expected,
+            overwrite=may_replace(args, output),
+            attributes=lambda: stream.attributes if holds else (),
+        ) as write,
+        console.progress("decoding", "frames") as progress,
+    ):
+        for number, frame in stream.frames():
+            if number >= last:
+                break
+            write(frame[order])
+            count += 1
+            if expected:
+                progress(count, expected)
+        if count == 0:
+            raise OptionError("the stream has none of these frames")
+    if stream.attributes and not holds:
+        names = ", ".join(one.name for one in stream.attributes)
+        console.note(f"{args.input}: left out: {names}; frames in files of their own, in the stream's order, hold them")
+    seconds = time.perf_counter() - begin
+    facts = {"frames": count, "vertices": header.vertices, "faces": header.faces, "frame_rate": header.frame_rate}
+    console.note(
+        f"{args.input} -> {output}: {count} frames of {header.vertices} vertices, {header.faces} faces, {seconds:.2f} s"
+    )
+    sizes = {"input_bytes": size_of(args.input), "output_bytes": size_of(output)}
+    return {"input": args.input, "output": output, **facts, **sizes, "seconds": seconds}
+
+
+def _output(args: argparse.Namespace) -> str:
+    """Where a sequence goes: an npz, or a folder for frames of a format of meshes, if nothing else was said."""
+    suffix = f".{args.format or 'npz'}" if args.format in (None, "npz", "npy") else ""
+    if args.given is None:
+        return default_output(args.input, suffix)
+    return output_inside(args.given, args.input, suffix) if args.many else str(args.output)
+
+
+def _range(text: str | None) -> tuple[int, int]:
+    """First frame, and the one behind the last."""
+    first, colon, last = (text or ":").partition(":")
+    try:
+        chosen = int(first or 0), int(last or sys.maxsize)
+    except ValueError:
+        chosen = -1, -1
+    if not colon or not 0 <= chosen[0] < chosen[1]:
+        raise OptionError(f"--frames {text}: write A:B with 0 <= A < B, or leave one of them out")
+    return chosen

@@ -1,0 +1,107 @@
+"""bsm encode, where the input is a sequence."""
+
+from __future__ import annotations
+
+import argparse
+import math
+import time
+from collections import deque
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from bsm.batch import Facts, came_to, size_of
+from bsm.codec.arrays import Positions
+from bsm.codec.geometry.mesh import Metadata
+from bsm.commands.sequence_options import sequence_options
+from bsm.console import Console, finite
+from bsm.farm.run import may_replace
+from bsm.files.output import open_output
+from bsm.files.permutation import write_permutation
+from bsm.files.sequence import Frames
+
+
+def encode_sequence(args: argparse.Namespace, console: Console, source: Frames, metadata: Metadata) -> Facts:
+    """Encode one sequence; every GOP is written as soon as its frames are there."""
+    from bsm.codec.sequence.encoder import SequenceEncoder
+
+    begin = time.perf_counter()
+    encoder = SequenceEncoder(source.faces, sequence_options(args), source.count, metadata, source.attributes)
+    heard = Echo()
+    size = 0
+    replace = may_replace(args, args.output)
+    with open_output(args.output, overwrite=replace) as file, console.progress("encoding") as progress:
+        for chunk in encoder.chunks(heard.taken(source.frames), progress):
+            size += file.write(chunk)
+            file.flush()
+            if not args.quiet or args.json:
+                heard.compare(chunk, encoder.vertex_order)
+    seconds = time.perf_counter() - begin
+    notes = (*source.notes, *encoder.notes)
+    for note in notes:
+        console.note(f"{args.input}: {note}")
+    if args.permutation:
+        write_permutation(args.permutation, encoder.vertex_order, overwrite=args.force)
+    vertices, faces, frames = len(encoder.vertex_order), len(encoder.face_order), heard.frames
+    bpvf = 8 * size / (vertices * frames)
+    taken = size_of(args.input)
+    console.note(
+        f"{args.input} -> {args.output}: {frames} frames of {vertices} vertices, {faces} faces, "
+        f"{came_to(taken, size)}, {bpvf:.3f} bits per vertex and frame; KG error {heard.kg:.3g} %, {seconds:.2f} s"
+    )
+    return {
+        "input": args.input,
+        "output": args.output,
+        "frames": frames,
+        "vertices": vertices,
+        "faces": faces,
+        "input_bytes": taken,
+        "output_bytes": size,
+        "bytes": size,
+        "bpvf_total": bpvf,
+        "kg": finite(heard.kg),
+        "seconds": seconds,
+        "notes": list(notes),
+    }
+
+
+@dataclass
+class Echo:
+    """Hears what a decoder makes of a stream while it is written, and holds only the frames that are not out yet."""
+
+    frames: int = 0
+    _waiting: deque[Positions] = field(default_factory=deque)
+    _squares: float = 0.0
+    _extent: float = 0.0
+
+    def __post_init__(self) -> None:
+        from bsm.codec.sequence.decoder import SequenceDecoder
+
+        self._decoder = SequenceDecoder()
+
+    def taken(self, frames: Iterator[Positions]) -> Iterator[Positions]:
+        """The frames, which are also kept."""
+        for frame in frames:
+            self.frames += 1
+            self._waiting.append(frame)
+            yield frame
+
+    def compare(self, chunk: bytes, order: np.ndarray) -> None:
+        """Decode a piece of the stream and add up the error of its frames; vertex j of a decoded one is `order[j]`."""
+        from bsm.bitstream.container.reader import Signal
+        from bsm.codec.sequence.decoder import FrameEvent
+
+        self._decoder.receive_data(chunk)
+        while not isinstance(event := self._decoder.next_event(), Signal):
+            if isinstance(event, FrameEvent):
+                frame = self._waiting.popleft()[order]
+                self._squares += float(np.square(event.positions - frame).sum())
+                self._extent += float(np.square(frame - frame.mean(axis=0)).sum())
+
+    @property
+    def kg(self) -> float:
+        """Karni and Gotsman's error so far, in percent, see `codec.geometry.metrics.kg_error`."""
+        if self._squares == 0.0:
+            return 0.0
+        return 100.0 * math.sqrt(self._squares / self._extent) if self._extent else math.inf

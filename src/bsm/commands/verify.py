@@ -1,0 +1,47 @@
+"""bsm verify: whether streams are whole and can be decoded."""
+
+from __future__ import annotations
+
+import argparse
+
+from bsm.batch import Facts, Job, add_inputs, input_names, run_jobs
+from bsm.bitstream.errors import OptionError
+from bsm.commands.limits import add_limits_flag, limits_of
+from bsm.console import Console
+from bsm.files.pipes import read_chunks
+from bsm.files.sequence_stream import decode_through
+from bsm.files.stream import decode_whole, inspect_stream
+from bsm.steadiness import check_steadiness
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare what the command takes."""
+    add_inputs(parser, "stream, or - for standard input")
+    add_limits_flag(parser)
+    parser.add_argument("--quick", action="store_true", help="check structure and checksums only, do not decode")
+    parser.add_argument(
+        "--steady",
+        action="store_true",
+        help="decode twice, once with noise in the last bits, and fail (code 7) where that moves "
+        "positions so far that processors could differ; extreme options of encoding can do that",
+    )
+
+
+def run(args: argparse.Namespace, console: Console) -> int:
+    """Check all inputs; what is wrong is raised."""
+    if args.steady and args.quick:
+        raise OptionError("--steady decodes, which --quick does not")
+    return run_jobs(args, console, verify_one, [Job(name) for name in input_names(args.inputs)])
+
+
+def verify_one(args: argparse.Namespace, console: Console) -> Facts:
+    """Check one stream."""
+    chunks = list(read_chunks(args.input))
+    limits = limits_of(args)
+    info = inspect_stream(iter(chunks), limits)
+    if not args.quick:
+        decode_through(iter(chunks), limits) if info.header.gop_frames else decode_whole(iter(chunks), limits)
+    if args.steady:
+        check_steadiness(b"".join(chunks))
+    console.note(f"{args.input}: whole, {info.header.blocks} blocks, {info.total} bytes")
+    return {"input": args.input, "ok": True, "decoded": not args.quick, "bytes": info.total}

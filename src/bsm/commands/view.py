@@ -1,0 +1,80 @@
+"""bsm view: streams in a browser, as they arrive."""
+
+from __future__ import annotations
+
+import argparse
+import itertools
+import webbrowser
+from pathlib import Path
+
+from bsm.bitstream.container.wire import MAGIC
+from bsm.bitstream.errors import FormatError, OptionError
+from bsm.commands.limits import add_limits_flag, limits_of
+from bsm.commands.reader import add_reader_flag
+from bsm.console import Console
+from bsm.exits import about
+from bsm.files.mesh import read_mesh
+from bsm.files.output import open_output
+from bsm.files.pipes import read_chunks
+from bsm.viewer.content import Content, compared
+from bsm.viewer.page import PageServer, page_with
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare what the command takes."""
+    parser.add_argument("inputs", metavar="IN", nargs="+", help="stream, of a mesh or a sequence, or - for a pipe")
+    parser.add_argument("--original", metavar="MESH", help="mesh file that the stream was made of, to compare it with")
+    add_reader_flag(parser)
+    add_limits_flag(parser)
+    parser.add_argument(
+        "--save",
+        metavar="PAGE.html",
+        help="write one page with the streams in it; it needs no server and no network",
+    )
+    parser.add_argument("--port", type=int, default=0, metavar="N", help="of the server (default: any that is free)")
+    parser.add_argument("--no-open", action="store_true", help="print the address, and leave the browser to you")
+
+
+def run(args: argparse.Namespace, console: Console) -> int:
+    """Write the page, or serve it until interrupted."""
+    contents = _contents(args)
+    if args.save:
+        with open_output(args.save, overwrite=args.force) as file:
+            file.write(page_with(contents).encode())
+        console.note(f"{args.save}: open it in a browser")
+        return 0
+    with PageServer(contents, args.port) as server:
+        address = f"http://{server.host}/"
+        print(address, flush=True)
+        if not args.no_open:
+            webbrowser.open(address)
+        console.note("press Ctrl-C to stop")
+        try:
+            server.serve_forever()
+        except KeyboardInterrupt:
+            console.note("stopped")
+    return 0
+
+
+def _contents(args: argparse.Namespace) -> list[Content]:
+    """All inputs under names of their own; a damaged stream is for the page to tell, unless it is to be compared."""
+    streams: dict[str, bytes] = {}
+    for path in args.inputs:
+        data = b"".join(read_chunks(path))
+        if not data.startswith(MAGIC[: len(data)]):
+            raise FormatError(f"{path} is no BSM stream; make one of it with bsm encode")
+        streams[_free_name(Path(path).name, streams)] = data
+    if args.original is None:
+        return [Content(name, data) for name, data in streams.items()]
+    if len(streams) > 1:
+        raise OptionError("--original is for one input")
+    with about(args.original):
+        mesh = read_mesh(args.original, reader=args.reader).mesh
+    with about(args.inputs[0]):
+        return [compared(name, data, mesh, limits_of(args)) for name, data in streams.items()]
+
+
+def _free_name(name: str, taken: dict[str, bytes]) -> str:
+    if name not in taken:
+        return name
+    return next(other for n in itertools.count(2) if (other := f"{name} ({n})") not in taken)

@@ -1,0 +1,166 @@
+"""Errors block by block: inside blocks and at their boundaries, and along the chain."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from bsm.bitstream.limits import NAMED_LIMITS
+from bsm.codec.blocks.overlap import Blocks, grow_blocks
+from bsm.codec.blocks.partition import Partition, derive_partition
+from bsm.codec.geometry.graph import Graph, graph_of_faces
+from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.static.decoder import decode
+from bsm.codec.static.encoder import Encoder
+from bsm.codec.static.options import EncodeOptions
+from bsm.evaluation.codecs import paper_options
+from bsm.evaluation.tables import number, table
+from bsm.files.stream import StreamInfo, inspect_stream
+
+Floats = npt.NDArray[np.float64]
+
+OVERLAP_CASES: dict[str, dict[str, Any]] = {
+    "no overlap": {"overlap": 1.0, "blend": "own"},
+    "simple average": {"blend": "uniform"},
+    "weighted average": {"blend": "degree"},
+}
+"""The three cases of the paper's box plot (section 6.1)."""
+
+
+@dataclass(frozen=True, eq=False)
+class BlockView:
+    """A mesh coded with derived parts, its error, and the parts, all in the decoder's order of vertices.
+
+    Parameters
+    ----------
+    error : float64 array, shape (n, 3)
+        Decoded minus original, in units of the diagonal.
+    graph : Graph
+    partition : Partition
+    info : StreamInfo
+    """
+
+    error: Floats
+    graph: Graph
+    partition: Partition
+    info: StreamInfo
+
+    def blocks(self) -> Blocks:
+        """The blocks in the order of the stream."""
+        return grow_blocks(self.graph, self.partition, self.info.header.block_size)
+
+
+def view_blocks(mesh: TriangleMesh, options: EncodeOptions) -> BlockView:
+    """Encode a mesh in blocks and decode it, and derive its parts as both sides did."""
+    step = options.step if options.says_how else options.first_step
+    encoder = Encoder(mesh, replace(options, step=step, partition="derived", keep_order=False, sections=1))
+    data = encoder.encode()
+    decoded = decode(data, NAMED_LIMITS[options.limits]())
+    info = inspect_stream(iter([data]))
+    graph = graph_of_faces(decoded.faces, len(decoded.positions))
+    error = (decoded.positions - encoder.mesh.positions) / (encoder.mesh.diagonal or 1.0)
+    return BlockView(error, graph, derive_partition(graph, info.header.blocks), info)
+
+
+def boundary_deviations(view: BlockView) -> dict[str, Floats]:
+    """Standard deviation of the error of each part's vertices, ``inside`` it and at its ``boundary``.
+
+    A vertex is at the boundary if an edge leads from it to another part. The deviation is that of the error vector:
+    the root of the mean squared distance from the mean error. Parts without vertices of a kind are left out there.
+    """
+    labels, parts = view.partition.labels, view.partition.parts
+    tails = np.repeat(np.arange(view.graph.size), np.diff(view.graph.offsets))
+    at_boundary = np.zeros(view.graph.size, dtype=bool)
+    at_boundary[tails[labels[tails] != labels[view.graph.neighbours]]] = True
+    return {
+        name: _deviations(view.error[chosen], labels[chosen], parts)
+        for name, chosen in (("inside", ~at_boundary), ("boundary", at_boundary))
+    }
+
+
+def boundary_table(mesh: TriangleMesh, options: EncodeOptions) -> dict[str, dict[str, Floats]]:
+    """`boundary_deviations` for each of `OVERLAP_CASES`."""
+    return {
+        case: boundary_deviations(view_blocks(mesh, replace(options, **changes)))
+        for case, changes in OVERLAP_CASES.items()
+    }
+
+
+def quartiles(deviations: Floats) -> dict[str, float | None]:
+    """``lower``, ``median`` and ``upper`` quartile over the blocks; None where there are no blocks to speak of."""
+    if len(deviations) == 0:
+        return {"lower": None, "median": None, "upper": None}
+    return dict(zip(("lower", "median", "upper"), map(float, np.percentile(deviations, [25, 50, 75]))))
+
+
+def boundary_rows(rows: Sequence[Mapping[str, Any]]) -> str:
+    """The quartiles of `boundary_table`, one row per ``case`` and ``where``, as a table in thousandths."""
+    names = ("lower", "median", "upper")
+    cells = [
+        (row["case"], row["where"], *(number(None if row[n] is None else 1e3 * row[n], 3) for n in names))
+        for row in rows
+    ]
+    return table(("", "where", "lower quartile", "median", "upper quartile"), cells)
+
+
+def errors_along_chain(view: BlockView) -> list[dict[str, float]]:
+    """For each block in order: mean ``squared_error`` of its own part's vertices, and its ``coefficients`` c_i."""
+    blocks = view.blocks()
+    squared = np.square(view.error).sum(axis=1)
+    return [
+        {"squared_error": float(squared[blocks.core(index)].mean()), "coefficients": float(size)}
+        for index, size in enumerate(view.info.coefficients)
+    ]
+
+
+def spread(rows: list[dict[str, float]]) -> float:
+    """Standard deviation over mean of the blocks' errors (root mean square)."""
+    errors = np.sqrt([row["squared_error"] for row in rows])
+    return float(errors.std() / errors.mean())
+
+
+def _deviations(error: Floats, labels: npt.NDArray[np.int32], parts: int) -> Floats:
+    counts = np.bincount(labels, minlength=parts)
+    present = counts > 0
+    sums = np.stack([np.bincount(labels, error[:, axis], parts) for axis in range(3)], axis=1)
+    means = sums[present] / counts[present, None]
+    number = np.cumsum(present) - 1
+    distance = np.square(error - means[number[labels]]).sum(axis=1)
+    deviations: Floats = np.sqrt(np.bincount(labels, distance, parts)[present] / counts[present])
+    return deviations
+
+
+def block_size_for(mesh: TriangleMesh, blocks: int) -> int:
+    """The option `block_size` that cuts a mesh into so many blocks."""
+    return round(len(mesh.positions) / blocks)
+
+
+def dynamic_comparison(mesh: TriangleMesh, block_size: int, keep: float = 0.10) -> dict[str, list[dict[str, float]]]:
+    """Errors along the chain for a fixed size and for one that follows the error, at about the same rate.
+
+    The thresholds are a narrow band around one residual, found by bisection so that both keep about as many
+    coefficients.
+
+    Returns
+    -------
+    dict
+        ``fixed`` and ``dynamic``: what `errors_along_chain` returns.
+    """
+    settings: dict[str, Any] = {"block_size": block_size, "power": 2}
+    fixed = errors_along_chain(view_blocks(mesh, paper_options(**settings, keep=keep)))
+    wanted = sum(block["coefficients"] for block in fixed)
+    low, high = 1e-4, 10.0
+    dynamic = fixed
+    for _ in range(12):
+        middle = float(np.sqrt(low * high))
+        options = paper_options(**settings, keep=min(1.0, 5 * keep), doi=(0.9 * middle, middle))
+        dynamic = errors_along_chain(view_blocks(mesh, options))
+        kept = sum(block["coefficients"] for block in dynamic)
+        if abs(kept / wanted - 1) < 0.01:
+            break
+        low, high = (middle, high) if kept > wanted else (low, middle)
+    return {"fixed": fixed, "dynamic": dynamic}

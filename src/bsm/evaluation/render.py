@@ -1,0 +1,82 @@
+"""Shaded pictures of meshes without a graphics card: a depth buffer in memory."""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+
+from bsm.codec import _kernels
+from bsm.codec.arrays import Faces, Positions
+
+Image = npt.NDArray[np.float64]
+_LIGHT = np.array([0.35, 0.5, 0.79])
+_BASE = np.array([0.72, 0.76, 0.82])
+_SUPERSAMPLING = 2
+
+
+def view_matrix(azimuth: float, elevation: float) -> npt.NDArray[np.float64]:
+    """Rotation to the camera's axes (right, up, towards the camera); angles in degrees, z is up."""
+    a, e = np.radians(azimuth), np.radians(elevation)
+    right = [-np.sin(a), np.cos(a), 0.0]
+    up = [-np.sin(e) * np.cos(a), -np.sin(e) * np.sin(a), np.cos(e)]
+    towards = [np.cos(e) * np.cos(a), np.cos(e) * np.sin(a), np.sin(e)]
+    return np.array([right, up, towards])
+
+
+DEFAULT_VIEW = view_matrix(-90.0, 60.0)
+
+
+def render(
+    positions: Positions,
+    faces: Faces,
+    size: int = 720,
+    *,
+    view: npt.NDArray[np.float64] | None = None,
+    bounds: tuple[npt.NDArray[np.float64], float] | None = None,
+    colors: npt.NDArray[np.float64] | None = None,
+) -> Image:
+    """Draw a mesh, each face in one shade, on white.
+
+    Parameters
+    ----------
+    positions : ndarray of float64, shape (n, 3)
+    faces : ndarray of int32, shape (m, 3)
+    size : int
+        Pixels of a side.
+    view : ndarray, shape (3, 3), optional
+        From `view_matrix`; by default from the front and above.
+    bounds : (ndarray of shape (3,), float), optional
+        From `bounds_of`: what the picture shows, so that several show the same; by default the mesh.
+    colors : ndarray, shape (m, 3), optional
+        Colour of each face, 0..1.
+
+    Returns
+    -------
+    ndarray of float64, shape (size, size, 3)
+        In 0..1, first row on top.
+    """
+    view = DEFAULT_VIEW if view is None else view
+    center, radius = bounds_of(positions, view) if bounds is None else bounds
+    fine = size * _SUPERSAMPLING
+    placed = (positions - center) @ view.T / radius
+    pixels = (placed * (1.0, -1.0, 1.0) + (1.0, 1.0, 0.0)) * (fine / 2, fine / 2, 1.0)
+    corners = placed[faces]
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    lengths = np.linalg.norm(normals, axis=1)
+    normals /= np.where(lengths > 0, lengths, 1.0)[:, None]
+    shade = 0.25 + 0.75 * np.abs(normals @ _LIGHT)
+    owner, depth = np.empty((fine, fine), np.int32), np.empty((fine, fine))
+    _kernels.nearest_faces(pixels[faces].reshape(-1, 9), owner, depth)
+    table = np.vstack([shade[:, None] * (_BASE if colors is None else colors), np.ones(3)])
+    image = table[owner]
+    blocks = image.reshape(size, _SUPERSAMPLING, size, _SUPERSAMPLING, 3)
+    return np.asarray(blocks.mean(axis=(1, 3)).clip(0.0, 1.0))
+
+
+def bounds_of(
+    positions: Positions, view: npt.NDArray[np.float64] = DEFAULT_VIEW
+) -> tuple[npt.NDArray[np.float64], float]:
+    """The middle of a mesh as the camera sees it, and half the side of a square that holds it with a little air."""
+    seen = positions @ view.T
+    low, high = seen.min(axis=0), seen.max(axis=0)
+    return (low + high) / 2 @ view, 0.515 * float((high - low)[:2].max()) or 1.0

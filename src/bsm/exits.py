@@ -1,0 +1,115 @@
+"""The exit codes of the command line, one table, which the program obeys and its help prints; how errors are told."""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+
+from bsm.bitstream.errors import (
+    ArgumentError,
+    BsmError,
+    CorruptError,
+    DependencyError,
+    FormatError,
+    HarmError,
+    LimitError,
+    MeshError,
+    NumericError,
+    OptionError,
+    TargetError,
+    TruncatedError,
+    UnsupportedError,
+)
+from bsm.console import say
+from bsm.files.output import Terminated
+
+
+@dataclass(frozen=True)
+class Exit:
+    """An exit code, what it means, and the errors that lead to it."""
+
+    code: int
+    meaning: str
+    errors: tuple[type[BaseException], ...] = ()
+
+
+UNEXPECTED = Exit(1, "unexpected error: please report it")
+USAGE = Exit(2, "wrong usage or option", (OptionError, ArgumentError))
+# The first row that fits an error counts.
+EXITS = (
+    Exit(0, "done"),
+    UNEXPECTED,
+    USAGE,
+    Exit(3, "the input is not the kind of file expected, or no triangle mesh", (FormatError, MeshError)),
+    Exit(4, "the input is damaged", (CorruptError,)),
+    Exit(5, "the input is of a version or method that this program does not know", (UnsupportedError,)),
+    Exit(6, "the input asks for more memory or work than allowed", (LimitError, MemoryError)),
+    Exit(7, "the mathematics broke down", (NumericError,)),
+    Exit(8, "an optional package is missing", (DependencyError,)),
+    Exit(10, "the quality or size asked for cannot be reached", (TargetError,)),
+    Exit(11, "the result would be worse than the input; --force writes it nevertheless", (HarmError,)),
+    Exit(12, "the input ends too early", (TruncatedError,)),
+    Exit(130, "interrupted", (KeyboardInterrupt,)),
+    Exit(141, "the reader of a pipe went away", (BrokenPipeError,)),
+    Exit(9, "a file cannot be read or written", (OSError,)),
+    Exit(143, "terminated", (Terminated,)),
+)
+# A compiler or a loader that they hit may raise something else on top of them.
+_SIGNALS = (KeyboardInterrupt, Terminated)
+
+
+def exit_of(error: BaseException) -> Exit:
+    """The row that an error leads to."""
+    return next((row for row in EXITS if isinstance(error, row.errors)), UNEXPECTED)
+
+
+def is_expected(error: BaseException) -> bool:
+    """Whether an error is the user's business and not a fault of the program."""
+    return isinstance(error, BsmError) or exit_of(error) is not UNEXPECTED
+
+
+def exit_table() -> str:
+    """The table as text."""
+    return "\n".join(f"  {row.code:>3}  {row.meaning}" for row in sorted(EXITS, key=lambda row: row.code))
+
+
+def behind(error: BaseException) -> BaseException:
+    """The signal behind an error, if there is one; otherwise the error."""
+    cause: BaseException | None = error
+    while cause is not None:
+        if isinstance(cause, _SIGNALS):
+            return cause
+        cause = cause.__cause__ or cause.__context__
+    return error
+
+
+@contextmanager
+def about(path: str) -> Iterator[None]:
+    """Put the name of the file that it is about before the message of whatever is raised inside."""
+    try:
+        yield
+    except BsmError as error:
+        error.message = f"{path}: {error.message}"
+        raise
+
+
+def tell(error: BaseException) -> None:
+    """Say what went wrong, without a traceback."""
+    if isinstance(error, BrokenPipeError):
+        # Nobody reads what is left in the buffer; flushing it at exit would fail once more.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    elif isinstance(error, _SIGNALS):
+        say(f"bsm: {exit_of(error).meaning}")
+    else:
+        say(f"bsm: {worded(error)}")
+
+
+def worded(error: BaseException) -> str:
+    """What went wrong, for people."""
+    if isinstance(error, OSError):
+        reason = error.strerror or str(error)
+        return f"{error.filename}: {reason}" if error.filename else reason
+    return f"not enough memory: {error}" if isinstance(error, MemoryError) else str(error)

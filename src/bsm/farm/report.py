@@ -1,0 +1,205 @@
+"""What came of many inputs, as a file that a later run goes on from, and as a table."""
+
+from __future__ import annotations
+
+import argparse
+import hashlib
+import json
+import time
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from bsm import __version__
+from bsm.bitstream.errors import FormatError
+from bsm.console import Console
+from bsm.farm.jobs import Facts, Job, Work
+from bsm.files.output import open_output, remove_abandoned
+from bsm.files.pipes import read_bytes, read_chunks
+from bsm.files.state import files_behind, state_of
+
+_ABOUT_THE_RUN = {"inputs", "input", "output", "run", "given", "many", "jobs", "dask", "report", "resume"}
+_ABOUT_ME = {"json", "quiet", "force", "threads", "replaceable", "before"}
+_EVERY = 1.0
+"""Seconds between two versions of a report, at least."""
+_SHARE = 0.02
+"""Of all time that goes into writing them, at most."""
+_ROWS = 60
+
+
+def options_of(args: argparse.Namespace) -> Facts:
+    """What outputs depend on beside their inputs."""
+    given = {name: value for name, value in vars(args).items() if name not in _ABOUT_THE_RUN | _ABOUT_ME}
+    options: Facts = json.loads(json.dumps({"version": __version__, **given}, default=str, sort_keys=True))
+    return options
+
+
+class Report:
+    """The record of a run, rewritten as a whole while it goes on.
+
+    Parameters
+    ----------
+    path : str
+        A file, or a URL.
+    command : str
+    options : dict
+        See `options_of`.
+    jobs : sequence of Job
+    earlier : dict
+        What an earlier report says, by outputs: it stays there until the job is done.
+    """
+
+    def __init__(
+        self, path: str, command: str, options: Facts, jobs: Sequence[Job], earlier: Mapping[str, Facts]
+    ) -> None:
+        self._path = path
+        self._head = {"command": command, "options": options}
+        self._files = [earlier.get(job.output) or {"input": job.input, "output": job.output} for job in jobs]
+        self._open = set(range(len(jobs)))
+        self._begin = time.perf_counter()
+        self._next = 0.0
+        self.write()
+
+    def take(self, number: int, facts: Facts) -> None:
+        """Take note of what came of a job."""
+        self._files[number] = facts
+        self._open.discard(number)
+        if time.perf_counter() >= self._next:
+            self.write()
+
+    def write(self) -> None:
+        """Write what is known."""
+        begin = time.perf_counter()
+        text = json.dumps(
+            {
+                **self._head,
+                "complete": not self._open,
+                "seconds": begin - self._begin,
+                "totals": totals(self._files),
+                "files": self._files,
+            },
+            indent=1,
+            allow_nan=False,
+        )
+        with open_output(self._path, overwrite=True) as file:
+            file.write(text.encode() + b"\n")
+        end = time.perf_counter()
+        self._next = end + max(_EVERY, (end - begin) / _SHARE)
+
+
+@dataclass(frozen=True)
+class Earlier:
+    """What an earlier report says.
+
+    Parameters
+    ----------
+    outputs : frozenset of str
+        Everything that was to be written then: it may be written again.
+    files : dict
+        What came of inputs, by outputs, where the same was asked for as now.
+    """
+
+    outputs: frozenset[str]
+    files: Mapping[str, Facts]
+
+
+NOTHING = Earlier(frozenset(), {})
+
+
+def read_report(path: str, command: str, options: Facts) -> Earlier:
+    """Read a report to go on from; nothing is known where there is none.
+
+    Raises
+    ------
+    FormatError
+        If the file is something else.
+    """
+    try:
+        report = json.loads(read_bytes(path))
+        files = {str(entry["output"]): dict(entry) for entry in report["files"]}
+        same = (report["command"], report["options"]) == (command, options)
+    except FileNotFoundError:
+        return NOTHING
+    except (ValueError, KeyError, TypeError) as error:
+        raise FormatError(f"{path}: this is no report of ours to go on from; name another with --report") from error
+    return Earlier(frozenset(files), files if same else {})
+
+
+def recorded(work: Work, args: argparse.Namespace, console: Console) -> Facts:
+    """Work that says what it read and wrote; it is not done again where both are still as `args.before` says."""
+    state, before = state_of(args.input), args.before
+    if before:
+        remove_abandoned(before["output"])
+    if (
+        before
+        and state
+        and before.get("input_state") == state
+        and before.get("output_sha256") == _digest(before["output"])
+    ):
+        console.note(f"{args.input} -> {before['output']}: as it was")
+        return {**before, "resumed": True}
+    facts = work(args, console)
+    return {**facts, "input_state": state, "output_sha256": _digest(facts["output"])}
+
+
+def _is_whole(before: Facts) -> bool:
+    return "output_sha256" in before and before["output_sha256"] == _digest(before["output"])
+
+
+def _digest(path: str) -> str | None:
+    """SHA-256 of an output; of a folder, of all files in it; None: it is not there."""
+    found = hashlib.sha256()
+    try:
+        for file in files_behind(path):
+            for chunk in read_chunks(file):
+                found.update(chunk)
+    except OSError:
+        return None
+    return found.hexdigest()
+
+
+def totals(files: Sequence[Facts]) -> Facts:
+    """Numbers and bytes of all files together."""
+    done = [facts for facts in files if "output_sha256" in facts]
+    taken, given = (sum(facts.get(key) or 0 for facts in done) for key in ("input_bytes", "output_bytes"))
+    return {
+        "files": len(files),
+        "done": len(done),
+        "resumed": sum("resumed" in facts for facts in done),
+        "failed": sum("error" in facts for facts in files),
+        "input_bytes": taken,
+        "output_bytes": given,
+        "ratio": taken / given if given else None,
+    }
+
+
+def table(files: Sequence[Facts]) -> Iterator[str]:
+    """Bytes, ratio, error and time of each file, failures first; lines of text."""
+    rows = sorted(files, key=lambda facts: "error" not in facts)[:_ROWS]
+    width = max([len(facts["input"]) for facts in rows] + [5])
+    yield f"{'input':{width}} {'bytes':>12} {'to':>12} {'ratio':>7} {'error':>10} {'seconds':>8}"
+    for facts in rows:
+        if "error" in facts:
+            yield f"{facts['input']:{width}} failed: {facts['error'].splitlines()[-1]}"
+        else:
+            yield f"{facts['input']:{width}} {_cells(facts)}"
+    if len(files) > len(rows):
+        yield f"... and {len(files) - len(rows)} more"
+
+
+def _cells(facts: Facts) -> str:
+    taken, given = facts.get("input_bytes"), facts.get("output_bytes")
+    ratio = f"{taken / given:.2f}" if taken and given else ""
+    seconds = "as it was" if "resumed" in facts else f"{facts.get('seconds', 0.0):.2f}"
+    return f"{_said(taken):>12} {_said(given):>12} {ratio:>7} {_error(facts):>10} {seconds:>8}"
+
+
+def _said(value: Any) -> str:
+    return "" if value is None else str(value)
+
+
+def _error(facts: Facts) -> str:
+    """How far off the farthest vertex is, of the diagonal; of sequences, KG error."""
+    if facts.get("max_error_relative") is not None:
+        return f"{100 * facts['max_error_relative']:.3g} %"
+    return f"KG {facts['kg']:.3g} %" if facts.get("kg") is not None else ""

@@ -1,0 +1,118 @@
+"""What files hold beside points and polygons, as they hold it; and what becomes of it: attributes."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Collection, Iterable
+from dataclasses import dataclass
+from itertools import chain, count
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from bsm.bitstream.errors import MeshError
+from bsm.codec.geometry.attributes import MOST_NAME_BYTES, Attribute, Domain, Semantic
+from bsm.files.rows import Ints, single_suffices
+
+Array = npt.NDArray[Any]
+PLURALS = {"color": "colours", "normal": "normals", "texcoord": "texture coordinates"}
+"""Attributes in words, by their names."""
+
+
+@dataclass(frozen=True, eq=False)
+class Column:
+    """A value for each point, each polygon, or each corner of the polygons; it may be wrong.
+
+    Parameters
+    ----------
+    name : str
+        Others of this name get a longer one when they become attributes.
+    values : ndarray, shape (k, c)
+    domain, semantic : str
+        As those of `Attribute`; "face" is a polygon here.
+    indices : ndarray of int64, shape (sum(sizes),), optional
+        For corners: which value each has; None: its own.
+    """
+
+    name: str
+    values: Array
+    domain: Domain = "vertex"
+    semantic: Semantic = "generic"
+    indices: Ints | None = None
+
+    def of_triangles(self, name: str, places: Ints, owner: Ints) -> Attribute:
+        """The attribute of triangles whose corners are the polygons' at `places`, and which are of polygon `owner`."""
+        name = name.encode()[:MOST_NAME_BYTES].decode(errors="ignore") or self.domain
+        if self.domain == "vertex":
+            return Attribute(name, self.values, semantic=self.semantic)
+        if self.domain == "face":
+            return Attribute(name, self.values[owner], "face", self.semantic)
+        indices = np.arange(len(self.values)) if self.indices is None else self.indices
+        used = indices[places]
+        if used.size and not (used.min() >= 0 and used.max() < len(self.values)):
+            raise MeshError(f"a corner refers to value {used[(used < 0) | (used >= len(self.values))][0]}")
+        return Attribute(name, self.values, "corner", self.semantic, used.astype(np.int32))
+
+
+def attributes_of(
+    columns: Iterable[Column], vertices: int, polygons: int, places: Ints, owner: Ints
+) -> tuple[tuple[Attribute, ...], dict[str, str]]:
+    """The attributes that columns are, and why the others are none, by name."""
+    rows = {"vertex": vertices, "face": polygons}
+    found: dict[str, Attribute] = {}
+    refused: dict[str, str] = {}
+    for column in columns:
+        name = unused_name(column.name, column.domain, found)
+        try:
+            if rows.get(column.domain, len(column.values)) != len(column.values):
+                raise MeshError(f"there are {len(column.values)} of them for {rows[column.domain]}")
+            found[name] = column.of_triangles(name, places, owner)
+        except MeshError as error:
+            refused[PLURALS.get(column.name, column.name)] = str(error)
+    return tuple(found.values()), refused
+
+
+def unused_name(name: str, domain: str, taken: Collection[str]) -> str:
+    """`name`, or one like it that is not taken."""
+    longer = name if name.startswith(domain) else f"{domain}_{name}"
+    candidates = chain((name, longer), (f"{name}{number}" for number in count(2)))
+    return next(candidate for candidate in candidates if candidate not in taken)
+
+
+def compact(values: Array) -> Array:
+    """Floats in single precision where that moves none by more than a millionth of their range."""
+    wide = values.dtype == np.float64 and values.size and np.isfinite(values).all() and single_suffices(values)
+    return values.astype(np.float32) if wide else values
+
+
+def color_column(values: Array, domain: Domain, *, written_whole: bool = False) -> Column:
+    """Colours as a file has them: bytes, or floats from 0 to 1; numbers beyond that mean nothing known.
+
+    Parameters
+    ----------
+    values : ndarray, shape (k, 3 or 4)
+    domain : str
+    written_whole : bool
+        They were written without a point, so that 1 is the darkest grey but black.
+    """
+    if values.dtype.kind == "f" and values.size and np.isfinite(values).all():
+        bytes_ = np.rint(values) if written_whole or values.max() > 1 else np.rint(values * 255)
+        exact = values if written_whole or values.max() > 1 else values * 255
+        if bytes_.min() >= 0 and bytes_.max() <= 255 and np.abs(bytes_ - exact).max() <= 255e-6:
+            return Column("color", bytes_.astype(np.uint8), domain, "color")
+        in_range = values.min() >= 0 and values.max() <= 1
+        return Column("color", compact(values), domain, "color" if in_range else "generic")
+    return Column("color", values, domain, "color" if values.dtype in (np.uint8, np.uint16) else "generic")
+
+
+def held_by(attributes: Iterable[Attribute], test: Callable[[Attribute], bool]) -> Attribute | None:
+    """The first attribute that passes a test."""
+    return next((attribute for attribute in attributes if test(attribute)), None)
+
+
+def meaning_of(name: str) -> Semantic:
+    """What the name of an attribute tells of its meaning."""
+    meanings: tuple[Semantic, ...] = ("color", "normal", "texcoord")
+    bare = re.sub(r"^(vertex|corner|face)_", "", name.lower())
+    return next((meaning for meaning in meanings if bare.startswith(meaning)), "generic")

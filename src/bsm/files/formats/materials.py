@@ -1,0 +1,277 @@
+"""Materials and their images in a mesh's metadata, and in the library of an OBJ.
+
+The metadata "material.0.name", "material.0.Kd", ... hold what a file says of its material 0, in the file's own words:
+those of MTL, or of glTF; numbers that belong together are a text of numbers. What refers to an image holds its number:
+the file's name is "image.0.name", its bytes are "image.0.data". Which face has which material is the attribute
+"material".
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Mapping, Sequence
+from pathlib import Path
+from typing import TypeAlias
+
+from bsm.codec.geometry.mesh import Metadata
+
+Value: TypeAlias = "str | int | float | bytes"
+Material: TypeAlias = dict[str, "str | int | float"]
+
+_ENTRY = re.compile(r"(material|image)\.(\d{1,9})\.(.+)", re.DOTALL)
+_MTL_IMAGES = re.compile(r"map_\w+|bump|disp|decal|norm|refl", re.IGNORECASE)
+_MTL_OPTIONS = re.compile(
+    r"((?:-[a-z]+(?:\s+(?:on|off|[lrgbmz]|[-+]?[\d.]+(?:e[-+]?\d+)?))+\s+)*)(\S.*)", re.IGNORECASE
+)
+MOST_ENTRIES = 16
+"""Names that have an entry each; there can be 256 in all."""
+_TO_GLTF = {
+    "map_Kd": "baseColorTexture",
+    "map_Ke": "emissiveTexture",
+    "Ke": "emissiveFactor",
+    "norm": "normalTexture",
+    "map_Bump": "normalTexture",
+    "Pm": "metallicFactor",
+    "Pr": "roughnessFactor",
+}
+_TO_MTL = {theirs: ours for ours, theirs in reversed(_TO_GLTF.items())}
+_SIGNATURES = {
+    b"\x89PNG\r\n\x1a\n": "png",
+    b"\xff\xd8\xff": "jpg",
+    b"GIF8": "gif",
+    b"BM": "bmp",
+    b"II*\0": "tif",
+    b"MM\0*": "tif",
+    b"RIFF": "webp",
+    b"DDS ": "dds",
+    b"\xabKTX": "ktx",
+    b"v/1\x01": "exr",
+    b"#?RADIANCE": "hdr",
+}
+
+
+def without_materials(metadata: Metadata) -> Metadata:
+    """What does not say how the mesh looks."""
+    return {name: value for name, value in metadata.items() if not _ENTRY.fullmatch(name)}
+
+
+def kind_of_image(data: bytes) -> str | None:
+    """The suffix that an image's first bytes tell; None: it is no image that is known."""
+    return next((kind for signature, kind in _SIGNATURES.items() if data.startswith(signature)), None)
+
+
+def refers_to_image(parameter: str) -> bool:
+    """Whether a parameter's value is the number of an image."""
+    return parameter.endswith("Texture") or _MTL_IMAGES.fullmatch(parameter) is not None
+
+
+def named(names: Sequence[str], what: str) -> dict[str, str]:
+    """The metadata that call the things 0, 1, ... so: "<what>.<number>.name", or, of many, one text "<what>.names"."""
+    if len(names) <= MOST_ENTRIES:
+        return {f"{what}.{number}.name": name for number, name in enumerate(names)}
+    return {f"{what}.names": "\n".join(map(one_line, names))}
+
+
+def names_in(metadata: Metadata, what: str) -> dict[int, str]:
+    """What things are called, by their numbers."""
+    together = metadata.get(f"{what}.names")
+    found = dict(enumerate(together.split("\n"))) if isinstance(together, str) else {}
+    for key, name in metadata.items():
+        if match := re.fullmatch(rf"{what}\.(\d{{1,9}})\.name", key):
+            found[int(match[1])] = str(name)
+    return found
+
+
+def materials_in(metadata: Metadata) -> dict[int, Material]:
+    """The materials that metadata speak of, by their numbers."""
+    found: dict[int, Material] = {number: {"name": name} for number, name in names_in(metadata, "material").items()}
+    for kind, number, name, value in _entries(metadata):
+        if kind == "material" and not isinstance(value, bytes):
+            found.setdefault(number, {})[name] = value
+    return dict(sorted(found.items()))
+
+
+def images_in(metadata: Metadata) -> dict[int, tuple[str, bytes]]:
+    """The name and the bytes of every image, by their numbers; empty is what is not known."""
+    found: dict[int, tuple[str, bytes]] = {}
+    for kind, number, name, value in _entries(metadata):
+        if kind == "image":
+            called, data = found.get(number, ("", b""))
+            if name == "name" and isinstance(value, str):
+                found[number] = (value, data)
+            elif name == "data" and isinstance(value, bytes):
+                found[number] = (called, value)
+    return dict(sorted(found.items()))
+
+
+def _entries(metadata: Metadata) -> Iterable[tuple[str, int, str, Value]]:
+    for key, value in metadata.items():
+        if match := _ENTRY.fullmatch(key):
+            yield match[1], int(match[2]), match[3], value
+
+
+def described(materials: Mapping[int, Material]) -> dict[str, Value]:
+    """The metadata of materials."""
+    return {
+        f"material.{number}.{name}": value for number, material in materials.items() for name, value in material.items()
+    }
+
+
+# ------------------------------------------------------------------------------------------------------- MTL and glTF
+
+
+def as_gltf(material: Material) -> Material:
+    """A material in the words of glTF, as far as they go."""
+    renamed: Material = {}
+    for name, value in material.items():
+        if name in _TO_GLTF or not _is_mtl(name):
+            renamed.setdefault(_TO_GLTF.get(name, name), value)
+    color = str(material.get("Kd", "")).split()
+    if len(color) == 3:
+        renamed.setdefault("baseColorFactor", " ".join([*color, str(material.get("d", "1"))]))
+    return renamed
+
+
+def as_mtl(material: Material) -> Material:
+    """A material in the words of MTL, as far as they go."""
+    renamed: Material = {_TO_MTL.get(name, name): value for name, value in material.items()}
+    color = str(renamed.pop("baseColorFactor", "")).split()
+    if len(color) in (3, 4):
+        renamed.setdefault("Kd", " ".join(color[:3]))
+        if len(color) == 4 and color[3] not in ("1", "1.0"):
+            renamed.setdefault("d", color[3])
+    return {name: value for name, value in renamed.items() if _is_mtl(name) or name == "name"}
+
+
+def said_in_mtl(material: Material) -> set[str]:
+    """The parameters of a material that a library can hold."""
+    return {name for name in material if as_mtl({name: material[name]})}
+
+
+def _is_mtl(name: str) -> bool:
+    return re.fullmatch(r"K[adse]|N[is]|d|Tr|Tf|illum|P[rmsc]|Pcr|aniso|anisor|sharpness", name) is not None or (
+        _MTL_IMAGES.fullmatch(name.removesuffix(".options")) is not None
+    )
+
+
+def parse_mtl(text: str) -> tuple[dict[str, Material], list[str]]:
+    """The materials of a library by name, and the names of the files of their images, by number."""
+    materials: dict[str, Material] = {}
+    images: dict[str, int] = {}
+    current: Material = {}
+    for line in text.splitlines():
+        keyword, _, rest = line.split("#")[0].strip().partition(" ")
+        rest = rest.strip()
+        if keyword == "newmtl":
+            current = materials.setdefault(rest, {})
+        elif rest and _MTL_IMAGES.fullmatch(keyword):
+            match = _MTL_OPTIONS.fullmatch(rest)
+            options, name = (match[1].strip(), match[2]) if match else ("", rest)
+            current[keyword] = images.setdefault(name, len(images))
+            if options:
+                current[f"{keyword}.options"] = options
+        elif rest:
+            current[keyword] = rest
+    return materials, list(images)
+
+
+def write_mtl(materials: Mapping[int, Material], names: Mapping[int, str], images: Mapping[int, str]) -> bytes:
+    """A library of materials.
+
+    Parameters
+    ----------
+    materials : mapping from int to dict
+    names : mapping from int to str
+        What they are called there.
+    images : mapping from int to str
+        The names of the files of images.
+    """
+    lines: list[str] = []
+    for number, material in materials.items():
+        lines.append(f"newmtl {names[number]}")
+        said = as_mtl(material)
+        for keyword, value in said.items():
+            if refers_to_image(keyword):
+                options = said.get(f"{keyword}.options")
+                name = images.get(value) if isinstance(value, int) else None
+                lines += [" ".join(filter(None, [keyword, str(options or ""), name]))] if name else []
+            elif keyword != "name" and not keyword.endswith(".options"):
+                lines.append(f"{keyword} {value}")
+    return "".join(one_line(line) + "\n" for line in lines).encode()
+
+
+def one_line(text: str) -> str:
+    """Text without what would end a line or hide in it."""
+    return re.sub(r"[\x00-\x1f\x7f\ud800-\udfff]", " ", text)
+
+
+# --------------------------------------------------------------------------------------------------- the files beside
+
+
+def fetched(metadata: Metadata, folder: Path | None, most: int) -> tuple[dict[str, Value], list[str]]:
+    """Metadata with what stands in the files they name, and notes on those that are not there.
+
+    Only files in the folder of the mesh, or below it, are looked at, and only images are taken: a mesh from somebody
+    else must not carry away what it has no business with.
+
+    Parameters
+    ----------
+    metadata : mapping
+        "mtllib" and "image.<number>.name" name files.
+    folder : Path, optional
+        Where the mesh lies; None: nowhere, nothing can be beside it.
+    most : int
+        Bytes of the largest file that is read.
+    """
+    found = dict(metadata)
+    notes: list[str] = []
+    library = found.get("mtllib")
+    if isinstance(library, str):
+        text = _beside(folder, library, most)
+        if isinstance(text, bytes):
+            _add_library(found, text.decode(errors="replace"))
+        else:
+            notes.append(f"the materials in {library} were left out: {text}")
+    for key in [key for key in found if key.startswith("image.") and key.endswith(".name")]:
+        name, place = str(found[key]), key.removesuffix("name") + "data"
+        if place in found:
+            continue
+        image = _beside(folder, name, most)
+        if isinstance(image, bytes) and kind_of_image(image) is None:
+            image = "it is no image"
+        if isinstance(image, bytes):
+            found[place] = image
+        else:
+            notes.append(f"the image {name} was left out, its name was kept: {image}")
+    return found, notes
+
+
+def _add_library(found: dict[str, Value], text: str) -> None:
+    """Add the materials of a library: what is said of those that are named already, and the others behind them."""
+    library, images = parse_mtl(text)
+    numbers = {material.get("name", ""): number for number, material in materials_in(found).items()}
+    free = max(numbers.values(), default=-1) + 1
+    for name, material in library.items():
+        if name not in numbers:
+            numbers[name] = free
+            free += 1
+        found |= described({numbers[name]: {"name": name, **material}})
+    found |= {f"image.{number}.name": name for number, name in enumerate(images)}
+
+
+def _beside(folder: Path | None, name: str, most: int) -> bytes | str:
+    """The bytes of a file beside the mesh, or why there are none."""
+    if folder is None:
+        return "the mesh did not come from a file"
+    root = folder.resolve()
+    relative = name.replace("\\", "/")
+    try:
+        for candidate in (relative, relative.rpartition("/")[2]):
+            path = Path(root, candidate).resolve()
+            if not path.is_relative_to(root) or not path.is_file():
+                continue
+            size = path.stat().st_size
+            return path.read_bytes() if size <= most else f"its {size} bytes are more than the {most} of all metadata"
+    except (OSError, ValueError) as error:
+        return str(error)
+    return "there is no such file beside the mesh"

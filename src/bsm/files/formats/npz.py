@@ -1,0 +1,272 @@
+"""npz: the arrays `positions` (of a mesh, or of a sequence of them) and `faces`, as numpy saves them.
+
+Attributes are arrays called "vertex/color", "face/material", "corner/texcoord" (with "corner/texcoord/indices"); arrays
+of other names are what their shape tells. What a name begins with tells the meaning. "metadata" is the UTF-8 of a JSON
+object, binary values as {"base64": ...} in it.
+"""
+
+from __future__ import annotations
+
+import base64
+import binascii
+import io
+import json
+import lzma
+import os
+import zipfile
+import zlib
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import Any, BinaryIO, TypeAlias, get_args
+
+import numpy as np
+
+from bsm.bitstream.errors import BsmError, CorruptError, FormatError, LimitError, MeshError
+from bsm.bitstream.limits import Limits
+from bsm.codec.arrays import Faces, Positions
+from bsm.codec.geometry.attributes import MOST_COMPONENTS, Domain
+from bsm.codec.geometry.mesh import Metadata, TriangleMesh
+from bsm.files.formats.columns import Column, meaning_of
+from bsm.files.formats.npy import Array, read_header, size_of
+from bsm.files.formats.polygons import MeshFile, Polygons
+from bsm.files.formats.written import Written
+
+Archive: TypeAlias = "str | os.PathLike[str] | BinaryIO"
+"""A path, or a seekable binary file."""
+
+_MAX_BYTES = 1 << 32
+# A damaged archive may send zipfile to places before the beginning of the file: ValueError.
+_NO_ARCHIVE = (zipfile.BadZipFile, NotImplementedError, RuntimeError, ValueError)
+_DAMAGE = (EOFError, OSError, ValueError, zipfile.BadZipFile, zlib.error, lzma.LZMAError)
+
+
+class NpzArray:
+    """An array of an npz, read from its beginning on; the archive is open until the end of the `with` block.
+
+    Raises
+    ------
+    FormatError
+        If it is no npz, or has no such array.
+    MeshError
+        If the array does not hold numbers.
+    CorruptError
+        If it contradicts its own header; also while reading.
+    """
+
+    def __init__(self, archive: Archive, name: str) -> None:
+        self._name = name
+        try:
+            self._archive = zipfile.ZipFile(archive)
+        except _NO_ARCHIVE as error:
+            raise FormatError(f"this is not an npz file: {error}") from error
+        try:
+            self._entry = self._archive.open(f"{name}.npy")
+            self.shape, self._fortran, self._kind = read_header(self._entry)
+        except BaseException as error:
+            self._archive.close()
+            if isinstance(error, BsmError):
+                raise
+            if isinstance(error, KeyError):
+                raise FormatError(f"the npz file has no array {name}; it needs positions and faces") from None
+            if isinstance(error, _DAMAGE):
+                raise CorruptError(f"the array {name} cannot be read: {error}") from error
+            if isinstance(error, _NO_ARCHIVE):
+                raise FormatError(f"this is not an npz file that can be read: {error}") from error
+            raise
+
+    def __enter__(self) -> NpzArray:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._entry.close()
+        self._archive.close()
+
+    @property
+    def others(self) -> list[str]:
+        """The names of all arrays of the archive."""
+        return [name.removesuffix(".npy") for name in self._archive.namelist()]
+
+    def whole(self) -> Array:
+        """All numbers; `LimitError` beyond 4 GiB. Nothing is allocated for what is only claimed."""
+        size = size_of(self.shape, self._kind)
+        if size > _MAX_BYTES:
+            raise LimitError(f"the array {self._name} takes {size} bytes; the limit is {_MAX_BYTES}")
+        data = self._read(size + 1)
+        if len(data) != size:
+            raise CorruptError(f"the array {self._name} should take {size} bytes, not {len(data)}")
+        return np.frombuffer(data, self._kind).reshape(self.shape, order="F" if self._fortran else "C")
+
+    def frames(self) -> Iterator[Positions]:
+        """The first index' parts one after the other, as float64, without ever holding all of them."""
+        if self._fortran:
+            raise MeshError(f"the array {self._name} is in Fortran's order; save it with numpy.ascontiguousarray")
+        size = size_of(self.shape[1:], self._kind)
+        for number in range(self.shape[0]):
+            data = self._read(size)
+            if len(data) < size:
+                raise CorruptError(f"the array {self._name} ends early, in frame {number} of {self.shape[0]}")
+            yield np.frombuffer(data, self._kind).reshape(self.shape[1:]).astype(np.float64)
+
+    def _read(self, size: int) -> bytes:
+        try:
+            return self._entry.read(size)
+        except _DAMAGE as error:
+            raise CorruptError(f"the array {self._name} cannot be read: {error}") from error
+
+
+def npz_shape(archive: Archive) -> tuple[int, ...]:
+    """Shape of the array `positions`, (T, n, 3) for a sequence; errors as those of `NpzArray`."""
+    with NpzArray(archive, "positions") as positions:
+        return positions.shape
+
+
+def npz_frames(archive: Archive) -> Iterator[Positions]:
+    """The frames of a sequence, shape (n, 3), read as they are asked for; errors as those of `NpzArray`."""
+    with NpzArray(archive, "positions") as positions:
+        yield from positions.frames()
+
+
+def read_arrays(archive: Archive, *names: str) -> tuple[Array, ...]:
+    """The arrays called `names`; errors as those of `NpzArray`, and `LimitError` beyond 4 GiB."""
+    found = []
+    for name in names:
+        with NpzArray(archive, name) as array:
+            found.append(array.whole())
+    return tuple(found)
+
+
+def other_arrays(archive: Archive) -> tuple[str, ...]:
+    """The names of the arrays that neither a mesh nor a sequence needs."""
+    with NpzArray(archive, "positions") as positions:
+        return tuple(name for name in positions.others if name not in ("positions", "faces"))
+
+
+def read_npz(archive: Archive, limits: Limits) -> MeshFile:
+    """Read the npz of a mesh.
+
+    Raises
+    ------
+    MeshError, LimitError
+        If it holds a sequence, or no mesh, or a larger one; and as `NpzArray`.
+    """
+    positions, faces = read_arrays(archive, "positions", "faces")
+    if positions.ndim == 3:
+        raise MeshError(f"this npz file holds a sequence of {len(positions)} frames, not one mesh")
+    limits.check("vertices", positions.size // 3)
+    limits.check("faces", faces.size // 3)
+    mesh = TriangleMesh(positions, faces)
+    columns: list[Column] = []
+    dropped: list[str] = []
+    metadata: Metadata = {}
+    names = other_arrays(archive)
+    for name in names:
+        if name.endswith("/indices") and name.removesuffix("/indices") in names:
+            continue
+        try:
+            (values,) = read_arrays(archive, name)
+            if name == "metadata" and values.dtype == np.uint8:
+                metadata = _parse_metadata(values.tobytes())
+                continue
+            column = _column(archive, name, values, mesh, f"{name}/indices" in names)
+        except (MeshError, FormatError):  # no numbers
+            column = None
+        columns += [column] if column else []
+        dropped += [] if column else [name]
+    sizes, corners = np.full(len(mesh.faces), 3), mesh.faces.astype(np.int64).reshape(-1)
+    ours = Polygons(mesh.positions, sizes, corners, (), tuple(dropped), tuple(columns), metadata)
+    return ours.checked(limits)
+
+
+def _column(archive: Archive, name: str, values: Array, mesh: TriangleMesh, indexed: bool) -> Column | None:
+    """An array as the attribute that its name or its shape tells; None: it is of nothing here."""
+    domain, _, rest = name.partition("/")
+    vertices, faces = len(mesh.positions), len(mesh.faces)
+    if domain not in get_args(Domain) or not rest:
+        domain, rest = _domain_of(values.shape, vertices, faces), name
+    indices = None
+    if domain == "corner" and indexed:
+        (indices,) = read_arrays(archive, f"{name}/indices")
+        if indices.dtype.kind not in "iu" or indices.size != 3 * faces:
+            return None
+        indices = indices.reshape(-1).astype(np.int64)
+    elif domain == "corner" and values.ndim == 3:
+        values = values.reshape(-1, values.shape[2])
+    values = values[:, None] if values.ndim == 1 else values
+    rows = {"vertex": vertices, "face": faces, "corner": 3 * faces if indices is None else len(values)}
+    if values.ndim != 2 or not 1 <= values.shape[1] <= MOST_COMPONENTS or rows.get(domain) != len(values):
+        return None
+    return Column(rest, values.astype(values.dtype.newbyteorder("=")), _DOMAINS[domain], meaning_of(rest), indices)
+
+
+_DOMAINS: dict[str, Domain] = {"vertex": "vertex", "face": "face", "corner": "corner"}
+
+
+def _domain_of(shape: tuple[int, ...], vertices: int, faces: int) -> str:
+    if len(shape) == 3:
+        return "corner"
+    return "vertex" if shape[:1] == (vertices,) else "face"
+
+
+def _parse_metadata(data: bytes) -> Metadata:
+    try:
+        entries = json.loads(data)
+        found: dict[str, str | int | float | bytes] = {}
+        for name, value in entries.items():
+            plain = base64.b64decode(value["base64"], validate=True) if isinstance(value, dict) else value
+            if not isinstance(plain, str | int | float | bytes):
+                raise ValueError(f"{name} is neither a text nor a number")
+            found[name] = plain
+    except (ValueError, AttributeError, KeyError, TypeError, RecursionError, binascii.Error) as error:
+        raise CorruptError(f"the metadata of the npz file make no sense: {error}") from error
+    return found
+
+
+def write_npz(mesh: TriangleMesh, stem: str) -> Written:
+    """The npz of a mesh: `positions` as float64, `faces` as int32, and everything else it has."""
+    arrays: dict[str, Array] = {"positions": mesh.positions, "faces": mesh.faces}
+    for attribute in mesh.attributes:
+        arrays[f"{attribute.domain}/{attribute.name}"] = attribute.values
+        if attribute.indices is not None:
+            arrays[f"corner/{attribute.name}/indices"] = attribute.indices
+    if mesh.metadata:
+        entries: dict[str, Any] = {
+            name: {"base64": base64.b64encode(value).decode()} if isinstance(value, bytes) else value
+            for name, value in mesh.metadata.items()
+        }
+        arrays["metadata"] = np.frombuffer(json.dumps(entries).encode(), np.uint8)
+    buffer = io.BytesIO()
+    np.savez_compressed(buffer, **arrays)  # type: ignore[arg-type]
+    return Written(buffer.getvalue())
+
+
+@contextmanager
+def open_npz_sequence(file: BinaryIO, faces: Faces, count: int) -> Iterator[Callable[[Positions], None]]:
+    """Write an npz of `positions`, shape (T, n, 3), and `faces`; yields what takes frame after frame.
+
+    With `count` > 0 frames, as many must come, and none is kept in memory; with 0, all are.
+    """
+    kept: list[Positions] = []
+    taken = 0
+
+    def write(frame: Positions) -> None:
+        nonlocal taken
+        if taken == 0:
+            header = {"descr": "<f8", "fortran_order": False, "shape": (count, *frame.shape)}
+            np.lib.format.write_array_header_1_0(entry, header)
+        entry.write(np.ascontiguousarray(frame, "<f8").tobytes())
+        taken += 1
+
+    with zipfile.ZipFile(file, "w", zipfile.ZIP_DEFLATED) as archive:
+        with archive.open("faces.npy", "w") as entry:
+            np.lib.format.write_array(entry, faces)
+        known = count > 0
+        if not known:
+            yield kept.append
+            count = len(kept)
+        with archive.open("positions.npy", "w", force_zip64=True) as entry:
+            for frame in kept:
+                write(frame)
+            if known:
+                yield write
+            if taken != count:
+                raise CorruptError(f"{taken} of {count} frames came")

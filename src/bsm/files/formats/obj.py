@@ -1,0 +1,240 @@
+"""OBJ: lines of text, each with a keyword."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from itertools import chain
+from typing import Literal
+
+import numpy as np
+
+from bsm.bitstream.errors import FormatError, MeshError
+from bsm.codec.arrays import Mask
+from bsm.codec.geometry.attributes import Attribute
+from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.files.formats.columns import PLURALS, Column, color_column, compact
+from bsm.files.formats.materials import Value, materials_in, named, names_in, one_line, said_in_mtl, write_mtl
+from bsm.files.formats.polygons import Polygons
+from bsm.files.formats.remarks import parse_remarks, remarks
+from bsm.files.formats.written import Library, Written, face_numbers, first, left_out
+from bsm.files.rows import Doubles, Ints, Rows, as_integers, point_row, text_table, without_comments
+
+STATES = {"material": "usemtl", "group": "g", "object": "o", "smoothing": "s"}
+"""What holds for all faces behind a keyword, and the keyword."""
+_OF_CORNERS: dict[bytes, Literal["texcoord", "normal"]] = {b"vt": "texcoord", b"vn": "normal"}
+_DROPPED = {b"l": "lines", b"p": "points", b"vp": "parameter space", b"curv": "curves", b"surf": "surfaces"}
+_MOST_NUMBERS = 3  # of a texture coordinate or a normal
+
+
+def read_obj(data: bytes) -> Polygons:
+    """Read an OBJ: points and their colours, faces, texture coordinates, normals, materials and groups."""
+    text = without_comments(data)
+    if b"\0" in text:
+        raise FormatError("this is not an OBJ file: it holds binary data")
+    if b"\\" in text:
+        text = re.sub(rb"\\[ \t]*\r?\n", b" ", text)
+    lines = _Lines(text)
+    points = Rows(lines.of(b"v"), "vertex")
+    is_face = lines.are(b"f")
+    polygons = lines.of(b"f")
+    sizes = np.fromiter((len(line.split()) for line in polygons), np.int64, len(polygons))
+    references = _References(polygons)
+    before = np.flatnonzero(is_face)
+
+    def placed(which: int, keyword: bytes) -> Ints:
+        """Indices from 0 on; a negative one counts back from the last line before the face."""
+        seen = np.repeat(np.cumsum(lines.are(keyword))[before], sizes)
+        written = references.of(which)
+        return np.where(written > 0, written - 1, written + seen)
+
+    if (references.of(0) == 0).any():
+        raise MeshError("a face refers to vertex 0, but OBJ files count from 1")
+    columns = list(_vertex_columns(points))
+    notes: list[str] = []
+    for which, (keyword, name) in enumerate(_OF_CORNERS.items(), 1):
+        if rows := lines.of(keyword):
+            column, note = _corner_column(rows, name, references.of(which), placed(which, keyword))
+            columns += column
+            notes += note
+    states, names = _states(lines, is_face)
+    metadata: dict[str, Value] = {**names}
+    metadata |= {"mtllib": library[0].strip().decode(errors="replace")} if (library := lines.of(b"mtllib")) else {}
+    metadata |= parse_remarks(comment.decode(errors="replace") for comment in re.findall(rb"^#([^\r\n]*)", data, re.M))
+    return Polygons(
+        points.columns(0, 3),
+        sizes,
+        placed(0, b"v"),
+        tuple(notes),
+        tuple(name for key, name in _DROPPED.items() if lines.are(key).any()),
+        (*columns, *states),
+        metadata,
+    )
+
+
+class _Lines:
+    """The lines of the file, by their keywords."""
+
+    def __init__(self, text: bytes) -> None:
+        parts = [line.split(None, 1) or [b""] for line in text.splitlines()]
+        self._parts = parts
+        self._keywords = np.array([part[0] for part in parts] or [b""], dtype="S8")
+
+    def are(self, keyword: bytes) -> Mask:
+        """Which lines have a keyword."""
+        found: Mask = self._keywords == keyword
+        return found
+
+    def of(self, keyword: bytes) -> list[bytes]:
+        """What stands behind a keyword, line by line."""
+        return [b"".join(self._parts[i][1:]) for i in np.flatnonzero(self.are(keyword)).tolist()]
+
+
+class _References:
+    """The corners of all faces, each written v, v/vt, v//vn or v/vt/vn."""
+
+    def __init__(self, polygons: list[bytes]) -> None:
+        joined = b" ".join(polygons)
+        if re.search(rb"(?:^|\s)/", joined):
+            raise MeshError("a face has a corner without a vertex")
+        corners = re.sub(rb"/(?=[/\s]|\Z)", b"/0", joined).split()  # 0: what is not there
+        slashes = np.fromiter((corner.count(b"/") for corner in corners), np.int64, len(corners))
+        if slashes.max(initial=0) > 2:
+            raise MeshError("a corner of a face has more than three numbers")
+        numbers = Rows([corner.replace(b"/", b" ") for corner in corners], "face")
+        self._numbers = as_integers(numbers.values, "a vertex index")
+        self._starts, self._slashes = numbers.starts, slashes
+
+    def of(self, which: int) -> Ints:
+        """The number of each corner's vertex (0), texture coordinate (1) or normal (2), as written; 0: none."""
+        last = max(len(self._numbers) - 1, 0)
+        numbers = self._numbers if len(self._numbers) else np.zeros(1, np.int64)
+        there = self._slashes >= which
+        return np.where(there, numbers[np.where(there, self._starts + which, 0).clip(0, last)], 0)
+
+
+def _vertex_columns(points: Rows) -> Iterator[Column]:
+    """Colours behind the coordinates: x y z r g b, or x y z r g b a."""
+    numbers = points.counts.min(initial=100)
+    if 6 <= numbers <= 7 and points.counts.max() == numbers:
+        yield color_column(points.columns(3, int(numbers) - 3), "vertex")
+
+
+def _corner_column(
+    rows: list[bytes], name: Literal["texcoord", "normal"], written: Ints, indices: Ints
+) -> tuple[list[Column], list[str]]:
+    """What the lines `vt` or `vn` hold, for the corners that have them."""
+    present = written != 0
+    if not present.any():
+        return [], []
+    table = Rows(rows, name)
+    values = _filled(table) if name == "texcoord" else table.columns(0, 3)
+    notes = []
+    if not present.all():
+        # Corners without a value share one: zeros, behind all others.
+        indices = np.where(present, indices, len(values))
+        values = np.vstack([values, np.zeros((1, values.shape[1]))])
+        notes = [f"corners without {PLURALS[name]} were given zeros: {int((~present).sum())}"]
+    return [Column(name, compact(values), "corner", name, indices)], notes
+
+
+def _filled(table: Rows) -> Doubles:
+    """Texture coordinates of one to three numbers, those that are not there zero; the third only if it is of use."""
+    table.require(1)
+    values = np.zeros((len(table.counts), _MOST_NUMBERS))
+    for place in range(_MOST_NUMBERS):
+        there = table.counts > place
+        values[there, place] = table.values[table.starts[there] + place]
+    return values if values[:, 2].any() else values[:, :2]
+
+
+def _states(lines: _Lines, is_face: Mask) -> tuple[list[Column], dict[str, str]]:
+    """Materials, groups, objects and smoothing groups of the faces: numbers, and their names as metadata."""
+    columns: list[Column] = []
+    metadata: dict[str, str] = {}
+    for what, keyword in STATES.items():
+        names = ["", *(name.strip().decode(errors="replace") for name in lines.of(keyword.encode()))]
+        changes, of_face = np.unique(np.cumsum(lines.are(keyword.encode()))[is_face], return_inverse=True)
+        used = [names[i] for i in changes.tolist()]
+        numbers = {name: number for number, name in enumerate(dict.fromkeys(used))}
+        if len(numbers) > 1:
+            of_change = np.array([numbers[name] for name in used], np.int32)
+            columns.append(Column(what, of_change[of_face], "face"))
+        if any(numbers):
+            metadata |= named(list(numbers), what)
+    return columns, metadata
+
+
+# ------------------------------------------------------------------------------------------------------------ writing
+
+
+def write_obj(mesh: TriangleMesh, stem: str) -> Written:
+    """The OBJ of a mesh; beside it lie a library of its materials, and their images."""
+    color = first(mesh, "color", (3, 4), "vertex")
+    texcoord = first(mesh, "texcoord", (1, 2, 3), "vertex", "corner")
+    normal = first(mesh, "normal", (3,), "vertex", "corner")
+    numbers = {what: face_numbers(mesh, what) for what in STATES}
+    names = {what: _names(mesh, what, attribute) for what, attribute in numbers.items()}
+    library = Library(mesh, stem)
+    mtl = write_mtl({n: m for n, m in library.materials.items() if len(m) > 1}, names["material"], library.images)
+    library_name = mesh.metadata.get("mtllib")
+    if mtl:
+        library.beside[f"{stem}.mtl"] = mtl
+        library_name = f"{stem}.mtl"
+        library.said |= {f"material.{n}.{key}" for n, m in library.materials.items() for key in said_in_mtl(m)}
+    library.said |= {f"{what}.{number}.name" for what in STATES for number in names[what]}
+    library.said |= {f"{what}.names" for what in STATES if names[what]}
+    lines, unsaid = remarks(mesh.metadata, library.said | {"mtllib"})
+    parts = [
+        "".join(f"# {line}\n" for line in lines),
+        f"mtllib {one_line(str(library_name))}\n" if library_name else "",
+    ]
+    parts.append(_points(mesh, color))
+    indices = [mesh.faces]
+    for keyword, attribute in (("vt", texcoord), ("vn", normal)):
+        if attribute is not None:
+            parts.append(_values(keyword, attribute))
+            indices.append(mesh.faces if attribute.indices is None else attribute.indices)
+    corner = "{}/{}/{}" if texcoord and normal else "{}//{}" if normal else "{}/{}" if texcoord else "{}"
+    columns = np.stack(indices, axis=2).reshape(len(mesh.faces), -1) + 1
+    faces = map(f"f {corner} {corner} {corner}\n".format, *columns.T.tolist())
+    before = np.full(len(mesh.faces), "", dtype=object)
+    for what, attribute in numbers.items():
+        if names[what]:
+            values = np.zeros(len(mesh.faces), np.int64) if attribute is None else attribute.values[:, 0]
+            changes = np.flatnonzero(np.diff(values, prepend=values[0] - 1))
+            before[changes] += [f"{STATES[what]} {names[what][number]}\n" for number in values[changes].tolist()]
+    parts += chain.from_iterable(zip(before.tolist(), faces))
+    held = (color, texcoord, normal, *numbers.values())
+    return Written("".join(parts).encode(), left_out(mesh, held, unsaid), library.beside)
+
+
+def _names(mesh: TriangleMesh, what: str, attribute: Attribute | None) -> dict[int, str]:
+    """What the materials (groups, ...) of the faces are called, by their numbers; nothing where none are known."""
+    names = names_in(mesh.metadata, what)
+    known = {number: names.get(number) for number in _numbers(mesh, what, attribute)}
+    spoken_of = attribute is not None or any(known.values()) or (what == "material" and materials_in(mesh.metadata))
+    if not spoken_of:
+        return {}
+    return {number: one_line(str(f"{what}_{number}" if name is None else name)) for number, name in known.items()}
+
+
+def _numbers(mesh: TriangleMesh, what: str, attribute: Attribute | None) -> list[int]:
+    used = [0] if attribute is None else np.unique(attribute.values).tolist()
+    if what == "material":  # a library may hold some that no face has
+        used = list(dict.fromkeys([*used, *materials_in(mesh.metadata)]))
+    return used
+
+
+def _points(mesh: TriangleMesh, color: Attribute | None) -> str:
+    row = point_row("v ", mesh.positions)
+    if color is None:
+        return text_table(row, mesh.positions).decode()
+    most = np.iinfo(color.values.dtype).max if color.values.dtype.kind == "u" else 1
+    row = row.replace("\n", " {:.6g}" * color.components + "\n")
+    return text_table(row, np.hstack([mesh.positions, color.values / most])).decode()
+
+
+def _values(keyword: str, attribute: Attribute) -> str:
+    number = " {!r}" if attribute.values.dtype == np.float64 else " {:.9g}"
+    return text_table(f"{keyword}{number * attribute.components}\n", attribute.values).decode()

@@ -1,0 +1,108 @@
+"""OFF: a line with the counts, then points, then faces, all as text."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+
+import numpy as np
+
+from bsm.bitstream.errors import FormatError, MeshError
+from bsm.codec.geometry.attributes import Attribute
+from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.files.formats.columns import Column, color_column, compact
+from bsm.files.formats.polygons import Polygons
+from bsm.files.formats.remarks import parse_remarks, remarks
+from bsm.files.formats.written import Written, first, left_out
+from bsm.files.rows import Doubles, Ints, Rows, point_row, require_lines, text_table, without_comments
+
+_OFF_HEADER = re.compile(
+    rb"\s*(?P<extras>(?:ST|C|N)*)(?P<dimension>4?n?)OFF(?P<binary>[ \t]+BINARY)?"
+    rb"\s*(?P<vertices>\d{1,18})\s+(?P<faces>\d{1,18})(?:[ \t]+-?\d+)?[ \t]*(?:[\r\n]|\Z)"
+)
+
+
+def read_off(data: bytes) -> Polygons:
+    """Read a text OFF."""
+    text = without_comments(data)
+    header = _OFF_HEADER.match(text)
+    if header is None:
+        raise FormatError("this is not an OFF file: it does not begin with OFF and the numbers of vertices and faces")
+    if header["dimension"]:
+        raise MeshError("the vertices of this OFF file are not three-dimensional")
+    if header["binary"]:
+        raise MeshError("binary OFF files are not supported; save it as text, or as PLY")
+    vertices, faces = int(header["vertices"]), int(header["faces"])
+    lines = [line for line in text[header.end() :].splitlines() if line.strip()]
+    require_lines(len(lines), vertices + faces)
+    points = Rows(lines[:vertices], "vertex")
+    polygons = Rows(lines[vertices : vertices + faces], "face")
+    sizes, corners = polygons.lists(0)
+    found, dropped = _vertex_columns(header["extras"], points, lines[:vertices])
+    behind = polygons.counts - sizes - 1
+    if (behind >= 3).all() and (behind == behind[:1]).all() and len(behind):
+        first_behind = polygons.starts + sizes + 1
+        colors = polygons.values[first_behind[:, None] + np.arange(min(int(behind[0]), 4))]
+        found.append(color_column(colors, "face", written_whole=_are_whole(colors, lines[vertices : vertices + faces])))
+    elif (behind > 0).any():
+        dropped.append("colours of faces")  # numbers of a map of colours, or of some faces only
+    metadata = parse_remarks(line.decode(errors="replace") for line in re.findall(rb"^#([^\r\n]*)", data, re.M))
+    return Polygons(points.columns(0, 3), sizes, corners, (), tuple(dropped), tuple(found), metadata)
+
+
+def _vertex_columns(extras: bytes, points: Rows, lines: Sequence[bytes]) -> tuple[list[Column], list[str]]:
+    """Normals, colours and texture coordinates, in this order behind the coordinates; and what is not known."""
+    found: list[Column] = []
+    place = 3
+    if b"N" in extras:
+        found.append(Column("normal", compact(points.columns(3, 3)), semantic="normal"))
+        place = 6
+    texcoords = 2 if b"ST" in extras else 0
+    if b"C" in extras.replace(b"ST", b""):
+        least = int(points.counts.min(initial=100))
+        colors = points.columns(place, 4 if least - place - texcoords >= 4 else 3)
+        found.append(color_column(colors, "vertex", written_whole=_are_whole(colors, lines)))
+        place += colors.shape[1]
+    if texcoords:
+        found.append(Column("texcoord", compact(points.columns(place, 2)), semantic="texcoord"))
+        place += 2
+    return found, ["numbers behind the coordinates"] if (points.counts > place).any() else []
+
+
+def _are_whole(colors: Doubles, lines: Sequence[bytes]) -> bool:
+    """Whether colours are written as whole numbers up to 255: where none is above 1, the way of writing tells."""
+    if colors.size == 0 or (colors != np.rint(colors)).any():
+        return False
+    return bool(colors.max() > 1) or not any(b"." in b" ".join(line.split()[-colors.shape[1] :]) for line in lines)
+
+
+def write_off(mesh: TriangleMesh, stem: str) -> Written:
+    """The text OFF of a mesh: with normals, colours and texture coordinates of vertices, and colours of faces."""
+    normal = first(mesh, "normal", (3,), "vertex")
+    color = first(mesh, "color", (3, 4), "vertex")
+    texcoord = first(mesh, "texcoord", (2,), "vertex")
+    of_faces = first(mesh, "color", (3, 4), "face")
+    comments, unsaid = remarks(mesh.metadata)
+    keyword = f"{'ST' if texcoord else ''}{'C' if color else ''}{'N' if normal else ''}OFF"
+    head = "".join([f"{keyword}\n", *(f"# {line}\n" for line in comments)])
+    counts = f"{len(mesh.positions)} {len(mesh.faces)} 0\n"
+    point, behind = _row([normal, color, texcoord])
+    points = text_table(point_row("", mesh.positions)[:-1] + point, np.hstack([mesh.positions, *behind]))
+    face, behind = _row([of_faces])
+    columns = [*mesh.faces.T.tolist(), *(column for table in behind for column in table.T.tolist())]
+    faces = "".join(map(("3 {} {} {}" + face).format, *columns))
+    held = (normal, color, texcoord, of_faces)
+    return Written((head + counts).encode() + points + faces.encode(), left_out(mesh, held, unsaid))
+
+
+def _row(attributes: Sequence[Attribute | None]) -> tuple[str, list[Doubles | Ints]]:
+    """The format of what stands behind the coordinates or indices, and its columns."""
+    row, columns = "", []
+    for attribute in filter(None, attributes):
+        values = attribute.values
+        if values.dtype == np.uint16:
+            values = values / 65535
+        number = " {:.0f}" if values.dtype.kind in "iu" else " {:#.9g}" if values.dtype == np.float32 else " {!r}"
+        row += number * attribute.components
+        columns.append(values)
+    return row + "\n", columns

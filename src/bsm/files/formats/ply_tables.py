@@ -1,0 +1,202 @@
+"""The elements of a PLY file: rows of numbers and lists, binary or as text."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Protocol
+
+import numpy as np
+import numpy.typing as npt
+
+from bsm.bitstream.errors import MeshError, TruncatedError
+from bsm.files.formats.columns import Array
+from bsm.files.formats.ply_header import Element, Header
+from bsm.files.rows import Ints, Rows, as_integers, ranges, require_lines
+
+
+class Table(Protocol):
+    """The rows of an element."""
+
+    element: Element
+
+    def numbers(self, place: int) -> Array:
+        """The property at a place, a number in each row, shape (count,)."""
+
+    def lists(self, place: int) -> tuple[Ints, Array]:
+        """The property at a place, a list in each row: how long they are, and their items one behind the other."""
+
+
+def tables_of(header: Header, body: bytes) -> dict[str, Table]:
+    """The elements of a file by their names; of a text, vertices and faces alone."""
+    return _binary_tables(header, body) if header.order else _text_tables(header, body)
+
+
+# --------------------------------------------------------------------------------------------------------------- text
+
+
+def _text_tables(header: Header, body: bytes) -> dict[str, Table]:
+    """Elements as text: one row, one line."""
+    lines = [line for line in body.splitlines() if line.strip()]
+    require_lines(len(lines), sum(element.count for element in header.elements))
+    ends = np.cumsum([element.count for element in header.elements]).tolist()
+    return {
+        element.name: _TextTable(element, Rows(lines[end - element.count : end], element.name))
+        for element, end in zip(header.elements, ends)
+        if element.name in ("vertex", "face")
+    }
+
+
+@dataclass
+class _TextTable:
+    element: Element
+    rows: Rows
+
+    def numbers(self, place: int) -> Array:
+        return _typed(self.rows.values[self._starts(place)], self.element.properties[place].type)
+
+    def lists(self, place: int) -> tuple[Ints, Array]:
+        starts = self._starts(place)
+        sizes = self._sizes(starts)
+        items = self.rows.values[ranges(starts + 1, sizes)]
+        return sizes, _typed(items, self.element.properties[place].type)
+
+    def _starts(self, place: int) -> Ints:
+        """Where in all numbers those of a property begin; the number, or all of the list, are there."""
+        offsets = np.zeros(len(self.rows.counts), np.int64)
+        for column in self.element.properties[: place + 1]:
+            begin = offsets
+            self.rows.require(offsets + 1)
+            offsets = offsets + 1 + (self._sizes(self.rows.starts + begin) if column.length else 0)
+            self.rows.require(offsets)
+        return self.rows.starts + begin
+
+    def _sizes(self, starts: Ints) -> Ints:
+        sizes = as_integers(self.rows.values[starts], f"the length of a list of a {self.element.name}")
+        if (sizes < 0).any():
+            raise MeshError(f"{self.element.name} {int(np.argmax(sizes < 0))} has a list of negative length")
+        return sizes
+
+
+def _typed(values: Array, kind: str) -> Array:
+    """Numbers of a text in the type that the header declares, where they are of that type."""
+    with np.errstate(all="ignore"):
+        converted = values.astype(kind)
+        same = np.dtype(kind).kind == "f" or np.array_equal(converted, values)
+    return converted if same else values
+
+
+# ------------------------------------------------------------------------------------------------------------- binary
+
+
+def _binary_tables(header: Header, body: bytes) -> dict[str, Table]:
+    """Elements as bytes, one behind the other."""
+    tables: dict[str, Table] = {}
+    offset = 0
+    for element in header.elements:
+        table = _uniform_table(element, header.order, body, offset)
+        tables[element.name] = found = table or _ragged_table(element, header.order, body, offset)
+        offset = found.end
+    return tables
+
+
+@dataclass
+class _UniformTable:
+    """Rows of equal length: without lists, or with lists that are all as long as those of the first row."""
+
+    element: Element
+    rows: Array
+    end: int
+
+    def numbers(self, place: int) -> Array:
+        return _native(self.rows[str(place)])
+
+    def lists(self, place: int) -> tuple[Ints, Array]:
+        items = self.rows[str(place)]
+        return np.full(len(items), items.shape[1], dtype=np.int64), _native(items.reshape(-1))
+
+
+def _native(values: Array) -> Array:
+    return values.astype(values.dtype.newbyteorder("="))
+
+
+def _require_bytes(body: bytes, offset: int, needed: int) -> None:
+    if offset + needed > len(body):
+        missing = offset + needed - len(body)
+        raise TruncatedError(f"the PLY file is cut short: its header claims {missing} bytes more than there are")
+
+
+def _uniform_table(element: Element, order: str, body: bytes, offset: int) -> _UniformTable | None:
+    """The table of an element, if it is one; else None."""
+    fields: list[tuple[str, str] | tuple[str, str, tuple[int]]] = []
+    cursor = offset
+    for i, column in enumerate(element.properties):
+        if column.length is not None:
+            kind = np.dtype(order + column.length)
+            fields.append((f"length{i}", kind.str))
+            if element.count and cursor + kind.itemsize <= len(body):
+                length = int(np.frombuffer(body, kind, 1, cursor)[0])
+            else:
+                length = 0
+            cursor += kind.itemsize
+            if not 0 <= length <= len(body):
+                return None
+            fields.append((str(i), order + column.type, (length,)))
+            cursor += np.dtype(column.type).itemsize * length
+        else:
+            fields.append((str(i), order + column.type))
+            cursor += np.dtype(column.type).itemsize
+    lists = [i for i, column in enumerate(element.properties) if column.length]
+    needed = element.count * (cursor - offset)
+    if not lists:
+        _require_bytes(body, offset, needed)
+    elif offset + needed > len(body):
+        return None
+    rows = np.frombuffer(body, np.dtype(fields), element.count, offset) if needed else np.zeros(0, fields)
+    if any((rows[f"length{i}"] != rows[f"length{i}"][:1]).any() for i in lists):
+        return None
+    return _UniformTable(element, rows, offset + needed)
+
+
+@dataclass
+class _RaggedTable:
+    """Rows whose lists differ in length."""
+
+    element: Element
+    order: str
+    raw: npt.NDArray[np.uint8]
+    begin: int
+    end: int = 0
+
+    def numbers(self, place: int) -> Array:
+        return self.lists(place)[1]
+
+    def lists(self, place: int) -> tuple[Ints, Array]:
+        starts, sizes, _ = self.walk(place)
+        kind = np.dtype(self.order + self.element.properties[place].type)
+        picked: npt.NDArray[np.uint8] = self.raw[ranges(starts, sizes * kind.itemsize)]
+        return sizes, _native(picked.view(kind))
+
+    def walk(self, place: int) -> tuple[Ints, Ints, int]:
+        """Where each row's property begins, how many items it has, and where the last row ends."""
+        from bsm.files.formats.walk import walk_rows
+
+        widths = np.array(_widths(self.element))
+        starts, sizes, end = walk_rows(self.raw, self.begin, self.element.count, widths, place, self.order == ">")
+        if end < 0:
+            raise TruncatedError("the PLY file is cut short: a list runs over its end", offset=-end)
+        return starts, sizes, end
+
+
+def _widths(element: Element) -> list[tuple[int, int]]:
+    """The bytes of the length of each property's lists (0: it is a number), and of an item."""
+    return [
+        (np.dtype(column.length).itemsize if column.length else 0, np.dtype(column.type).itemsize)
+        for column in element.properties
+    ]
+
+
+def _ragged_table(element: Element, order: str, body: bytes, offset: int) -> _RaggedTable:
+    # Every row is at least as long as its numbers and the lengths of its lists.
+    _require_bytes(body, offset, element.count * sum(length or width for length, width in _widths(element)))
+    table = _RaggedTable(element, order, np.frombuffer(body, np.uint8), offset)
+    return replace(table, end=table.walk(0)[2])

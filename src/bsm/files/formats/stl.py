@@ -1,0 +1,91 @@
+"""STL: triangles without common vertices, binary or text."""
+
+from __future__ import annotations
+
+import re
+
+import numpy as np
+
+from bsm.bitstream.errors import FormatError, MeshError, TruncatedError
+from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.files.formats.columns import Column
+from bsm.files.formats.polygons import Polygons
+from bsm.files.formats.written import Written, face_numbers, left_out
+from bsm.files.rows import Doubles, Rows, single_suffices
+
+_RECORD = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
+_ATTRIBUTE = "attribute"
+"""The number of 16 bits that a triangle has beside its corners; some programs keep colours in it."""
+
+
+def read_stl(data: bytes) -> Polygons:
+    """Read a binary or a text STL; corners with exactly equal coordinates are one vertex, in order of appearance."""
+    binary = _is_binary_stl(data)
+    soup = _soup_binary(data) if binary else _soup_text(data)
+    soup = soup + 0.0  # so that -0 equals 0 byte by byte too
+    order = np.lexsort(soup.T)
+    ordered = soup[order]
+    fresh = np.ones(len(soup), dtype=bool)
+    fresh[1:] = (ordered[1:] != ordered[:-1]).any(axis=1)
+    # lexsort is stable, so the first of each group is the one that appears first in the file.
+    first = order[fresh]
+    by_appearance = np.argsort(first)
+    rank = np.empty_like(by_appearance)
+    rank[by_appearance] = np.arange(len(first))
+    corners = np.empty(len(soup), dtype=np.int64)
+    corners[order] = rank[np.cumsum(fresh) - 1]
+    note = f"STL knows no vertices: {len(soup)} corners with equal coordinates were joined to {len(first)} vertices"
+    records = np.frombuffer(data, _RECORD, len(soup) // 3, 84)["attribute"] if binary else np.zeros(0, np.uint16)
+    columns = (Column(_ATTRIBUTE, records[:, None], "face"),) if records.any() else ()
+    return Polygons(soup[first[by_appearance]], np.full(len(soup) // 3, 3), corners, (note,), (), columns)
+
+
+def _is_binary_stl(data: bytes) -> bool:
+    # Binary files may begin with "solid" too; their length tells.
+    claimed = int.from_bytes(data[80:84], "little") if len(data) >= 84 else -1
+    return len(data) == 84 + 50 * claimed or not data.lstrip().startswith(b"solid")
+
+
+def _soup_binary(data: bytes) -> Doubles:
+    if len(data) < 84:
+        raise FormatError("this is not an STL file: it is shorter than the header of one")
+    claimed = int.from_bytes(data[80:84], "little")
+    if len(data) < 84 + 50 * claimed:
+        raise TruncatedError(
+            f"the STL file is cut short (or is none): {claimed} triangles need {84 + 50 * claimed} bytes"
+        )
+    with np.errstate(invalid="ignore"):  # what is not a number is refused later
+        return np.frombuffer(data, _RECORD, claimed, 84)["corners"].reshape(-1, 3).astype(np.float64)
+
+
+def _soup_text(data: bytes) -> Doubles:
+    lines = re.findall(rb"^[ \t]*vertex[ \t]+([^\r\n]*)", data, re.MULTILINE | re.IGNORECASE)
+    facets = len(re.findall(rb"^[ \t]*endfacet", data, re.MULTILINE | re.IGNORECASE))
+    if len(lines) != 3 * facets or (not re.search(rb"endsolid", data, re.IGNORECASE)):
+        raise TruncatedError(f"the STL file is cut short: {len(lines)} corners in {facets} finished triangles")
+    return Rows(lines, "corner").columns(0, 3)
+
+
+def write_stl(mesh: TriangleMesh, stem: str) -> Written:
+    """The binary STL of a mesh.
+
+    Raises
+    ------
+    MeshError
+        If the single precision of the format would move vertices.
+    """
+    if not single_suffices(mesh.positions):
+        raise MeshError("the coordinates need double precision, which STL does not have; write PLY, OBJ or OFF")
+    triangles = np.zeros(len(mesh.faces), _RECORD)
+    corners = mesh.positions[mesh.faces]
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    lengths = np.linalg.norm(normals, axis=1, keepdims=True)
+    triangles["normal"] = np.divide(normals, lengths, out=np.zeros_like(normals), where=lengths > 0)
+    triangles["corners"] = corners
+    attribute = face_numbers(mesh, _ATTRIBUTE)
+    if attribute is not None and attribute.values.dtype == np.uint16:
+        triangles["attribute"] = attribute.values[:, 0]
+    else:
+        attribute = None
+    data = bytes(80) + len(triangles).to_bytes(4, "little") + triangles.tobytes()
+    return Written(data, left_out(mesh, [attribute], tuple(mesh.metadata)))

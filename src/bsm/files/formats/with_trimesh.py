@@ -1,0 +1,305 @@
+"""GLB, glTF, 3MF, DAE and whatever else trimesh reads: the parts of a scene, placed where it has them, as one mesh."""
+
+from __future__ import annotations
+
+import io
+import json
+import re
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from bsm.bitstream.errors import BsmError, DependencyError, FormatError
+from bsm.bitstream.limits import Limits
+from bsm.files.formats.columns import PLURALS, Array, Column, color_column, compact, meaning_of
+from bsm.files.formats.materials import Material, Value, described, kind_of_image, named
+from bsm.files.formats.polygons import Polygons
+from bsm.files.rows import Doubles
+
+_NO_NAMES = re.compile(r"geometry_\d+|GLTF(_\d+)?")
+_KNOWN_TO_TRIMESH = re.compile(r"POSITION|NORMAL|TEXCOORD_0|COLOR_0|_.*")
+_PADDING = re.compile(rb"(?<=IEND\xaeB`\x82)\0{1,3}\Z|(?<=\xff\xd9)\0{1,3}\Z")
+"""What GLB files have behind a PNG or JPEG."""
+_OF_TRIMESH = ("units", "from_gltf_primitive", "gltf_extensions", "file_path", "file_name", "node", "processed")
+"""Metadata that trimesh has added."""
+
+
+def import_trimesh(what: str) -> Any:
+    """The library; `DependencyError` where it is missing."""
+    try:
+        import trimesh
+    except ImportError as error:
+        raise DependencyError(f"{what} with trimesh; run: pip install 'bsm-codec[formats]'") from error
+    return trimesh
+
+
+def read_with_trimesh(data: bytes, path: str | None, kind: str, limits: Limits) -> Polygons:
+    """Read a file with trimesh, which neither merges vertices nor splits them here.
+
+    Parameters
+    ----------
+    data : bytes
+    path : str, optional
+        Where it came from, if that is a file: some formats keep their arrays in files beside it.
+    kind : str
+        The suffix that tells the format.
+    limits : Limits
+        Looked at before the parts are put together; what trimesh takes to read them is not bounded.
+
+    Raises
+    ------
+    DependencyError
+        If trimesh is missing.
+    FormatError
+        If trimesh cannot read it.
+    """
+    trimesh = import_trimesh(f"{f'.{kind}' if kind else 'such'} files are read")
+    if kind not in trimesh.available_formats():
+        raise FormatError(
+            f"{f'.{kind} is' if kind else 'this is'} no mesh format that is known here (trimesh reads more of them, "
+            "3MF and DAE among them, after: pip install 'bsm-codec[formats]')"
+        )
+    try:
+        scene = trimesh.load_scene(path or io.BytesIO(data), file_type=kind, process=False)
+        found = joined(scene, limits)
+        up, unread = _up_axis(data, kind), _unread(data, kind)
+    except (BsmError, MemoryError):
+        raise
+    except Exception as error:  # it promises nothing about what damaged files raise
+        raise FormatError(f"trimesh cannot read this file: {type(error).__name__}: {error}") from error
+    metadata = {**up, **found.metadata}
+    if metadata.get("name") == Path(path or "").name:
+        del metadata["name"]  # trimesh calls it like the file
+    return replace(found, metadata=metadata, dropped=(*found.dropped, *unread))
+
+
+def _up_axis(data: bytes, kind: str) -> dict[str, str]:
+    """The axis that points up, where the format or the file says it."""
+    if kind in ("glb", "gltf"):
+        return {"up": "y"}
+    match = re.search(rb"<up_axis>\s*([XYZ])_UP", data) if kind == "dae" else None
+    return {"up": match[1].decode().lower()} if match else {}
+
+
+def _unread(data: bytes, kind: str) -> list[str]:
+    """What a glTF holds and trimesh does not tell of."""
+    if kind == "glb":
+        data = data[20 : 20 + int.from_bytes(data[12:16], "little")]
+    elif kind != "gltf":
+        return []
+    tree = json.loads(data)
+    found = [name for name in ("animations", "skins", "cameras") if tree.get(name)]
+    for mesh in tree.get("meshes", []):
+        for primitive in mesh["primitives"]:
+            found += [name for name in primitive["attributes"] if not _KNOWN_TO_TRIMESH.fullmatch(name)]
+            found += ["morph targets"] if primitive.get("targets") else []
+    return list(dict.fromkeys(found))
+
+
+def joined(scene: Any, limits: Limits) -> Polygons:
+    """The surfaces of a scene as one, each as often and where the scene has it."""
+    order = {name: place for place, name in enumerate(scene.geometry)}  # that of the file; the graph has none
+    places = sorted((scene.graph[node] for node in scene.graph.nodes_geometry), key=lambda place: order[place[1]])
+    surfaces = [(matrix, scene.geometry[name], name) for matrix, name in places]
+    surfaces = [surface for surface in surfaces if hasattr(surface[1], "faces")]
+    limits.check("vertices", sum(len(part.vertices) for _, part, _ in surfaces))
+    limits.check("faces", sum(len(part.faces) for _, part, _ in surfaces))
+    found = _polygons([_Part(part, name, matrix) for matrix, part, name in surfaces], scene.metadata)
+    lost = len(places) - len(surfaces)
+    notes = [f"curves and point clouds were left out: {lost}"] if lost else []
+    return replace(found, notes=(*found.notes, *notes))
+
+
+def polygons_of(mesh: Any) -> Polygons:
+    """A `trimesh.Trimesh` with what it shows, as ours."""
+    return _polygons([_Part(mesh, "", np.eye(4))], {})
+
+
+@dataclass(frozen=True, eq=False)
+class _Part:
+    """A mesh of trimesh, what it is called, and where it is placed."""
+
+    mesh: Any
+    name: str
+    matrix: Doubles
+
+    @property
+    def positions(self) -> Doubles:
+        moved: Doubles = np.asarray(self.mesh.vertices, np.float64) @ self.matrix[:3, :3].T + self.matrix[:3, 3]
+        return moved
+
+    @property
+    def faces(self) -> Array:
+        mirrored = np.linalg.det(self.matrix[:3, :3]) < 0
+        return np.asarray(self.mesh.faces[:, ::-1] if mirrored else self.mesh.faces)
+
+    def columns(self) -> list[Column]:
+        """What its vertices and faces have."""
+        mesh, visual = self.mesh, self.mesh.visual
+        found = []
+        if "vertex_normals" in mesh._cache:
+            found.append(Column("normal", compact(self._turned(mesh.vertex_normals)), semantic="normal"))
+        if visual.kind == "texture":
+            uv = visual.uv
+            if uv is not None and np.shape(uv) == (len(mesh.vertices), 2):
+                found.append(Column("texcoord", compact(np.asarray(uv, np.float64)), semantic="texcoord"))
+            colors = visual.vertex_attributes.get("color")
+            if colors is not None and np.shape(colors)[0] == len(mesh.vertices):
+                found.append(color_column(np.array(colors), "vertex"))
+        elif visual.kind == "vertex":
+            found.append(color_column(np.array(visual.vertex_colors), "vertex"))
+        elif visual.kind == "face":
+            found.append(color_column(np.array(visual.face_colors), "face"))
+        for name, values in mesh.vertex_attributes.items():
+            found.append(Column(name.removeprefix("_"), _rows(values), "vertex", meaning_of(name.removeprefix("_"))))
+        for name, values in mesh.face_attributes.items():
+            found.append(Column(name, _rows(values), "face", meaning_of(name)))
+        return found
+
+    def _turned(self, normals: Array) -> Doubles:
+        """Normals where the part is placed."""
+        if np.array_equal(self.matrix[:3, :3], np.eye(3)):
+            return np.asarray(normals, np.float64)
+        cofactors = np.linalg.inv(self.matrix[:3, :3]).T * np.linalg.det(self.matrix[:3, :3])
+        turned = np.asarray(normals, np.float64) @ cofactors.T
+        lengths = np.linalg.norm(turned, axis=1, keepdims=True)
+        unit: Doubles = np.divide(turned, lengths, out=np.zeros_like(turned), where=lengths > 0)
+        return unit
+
+    def materials(self) -> tuple[list[Any], Array]:
+        """Its materials, and which of them each face has."""
+        visual = self.mesh.visual
+        none = np.zeros(len(self.mesh.faces), np.int64)
+        if visual.kind != "texture" or visual.material is None:
+            return [], none
+        several = getattr(visual.material, "materials", None)
+        numbers = getattr(visual, "face_materials", None)
+        if several and numbers is not None and np.shape(numbers) == none.shape:
+            return list(several), np.clip(np.asarray(numbers, np.int64), 0, len(several) - 1)
+        return [several[0] if several else visual.material], none
+
+
+def _rows(values: Any) -> Array:
+    table = np.array(values)
+    return table[:, None] if table.ndim == 1 else table
+
+
+def _polygons(parts: list[_Part], of_scene: dict[str, Any]) -> Polygons:
+    """Parts as one: what some have and others do not is zero there (white, for colours)."""
+    positions = np.concatenate([np.empty((0, 3)), *(part.positions for part in parts)])
+    begin = np.cumsum([0, *(len(part.mesh.vertices) for part in parts)])
+    faces = [np.empty((0, 3), np.int64), *(part.faces + first for part, first in zip(parts, begin))]
+    triangles = np.concatenate(faces)
+    columns, notes = _columns(parts)
+    metadata = _metadata(parts, of_scene)
+    of_materials, numbers = _materials(parts)
+    metadata |= of_materials
+    if len(np.unique(numbers)) > 1:
+        columns.append(Column("material", numbers[:, None], "face"))
+    if len(parts) > 1:
+        notes.insert(0, f"{len(parts)} parts were joined to one mesh")
+        owner = np.repeat(np.arange(len(parts), dtype=np.int32), [len(part.mesh.faces) for part in parts])
+        columns.append(Column("part", owner[:, None], "face"))
+        metadata |= named([part.name for part in parts], "part")
+    sizes = np.full(len(triangles), 3)
+    return Polygons(positions, sizes, triangles.reshape(-1), tuple(notes), (), tuple(columns), metadata)
+
+
+def _columns(parts: list[_Part]) -> tuple[list[Column], list[str]]:
+    """The columns of all parts, one behind the other."""
+    of_parts = [{(column.name, column.domain): column for column in part.columns()} for part in parts]
+    found, notes = [], []
+    for key in dict.fromkeys(key for columns in of_parts for key in columns):
+        model = next(columns[key] for columns in of_parts if key in columns)
+        tables, lacking = [], 0
+        for part, columns in zip(parts, of_parts):
+            rows = len(part.mesh.vertices if model.domain == "vertex" else part.mesh.faces)
+            values = columns[key].values if key in columns else None
+            if values is None or values.shape[1:] != model.values.shape[1:]:
+                lacking += 1
+                blank = 255 if model.semantic == "color" and model.values.dtype == np.uint8 else 0
+                values = np.full((rows, *model.values.shape[1:]), blank, model.values.dtype)
+            tables.append(values)
+        if lacking:
+            what = PLURALS.get(model.name, model.name)
+            notes.append(f"parts without {what} were given {'white' if blank else 'zeros'}: {lacking}")
+        found.append(replace(model, values=np.concatenate(tables)))
+    return found, notes
+
+
+def _metadata(parts: list[_Part], of_scene: dict[str, Any]) -> dict[str, Value]:
+    found: dict[str, Value] = {}
+    for source in (of_scene, *(part.mesh.metadata for part in parts)):
+        for name, value in source.items():
+            plain = isinstance(value, str | int | float | bytes)
+            if name and name not in _OF_TRIMESH and plain and not (isinstance(value, str) and not value.strip("\0 ")):
+                found.setdefault(str(name), int(value) if isinstance(value, bool) else value)
+    units = dict.fromkeys(part.mesh.units for part in parts)
+    if len(units) == 1 and isinstance(unit := next(iter(units)), str):
+        found.setdefault("unit", unit)
+    if len(parts) == 1 and parts[0].name and not _NO_NAMES.fullmatch(parts[0].name):
+        found.setdefault("name", parts[0].name)
+    return found
+
+
+def _materials(parts: list[_Part]) -> tuple[dict[str, Value], Array]:
+    """The metadata of all materials and their images, and the number of each face's material.
+
+    Faces without one have a number of which nothing is said.
+    """
+    known: list[Material] = []
+    images: list[bytes] = []
+    numbers = [np.empty(0, np.int32)]
+    for part in parts:
+        several, of_faces = part.materials()
+        places = np.zeros(max(len(several), 1), np.int32)
+        for place, material in enumerate(several or [None]):
+            words = {} if material is None else _words_of(material, images)
+            if words not in known:
+                known.append(words)
+            places[place] = known.index(words)
+        numbers.append(places[of_faces])
+    metadata = described(dict(enumerate(known)))
+    metadata |= {f"image.{number}.data": data for number, data in enumerate(images)}
+    return metadata, np.concatenate(numbers)
+
+
+def _words_of(material: Any, images: list[bytes]) -> Material:
+    """A material of trimesh in the words of glTF, or of MTL; new images are added to `images`."""
+    given = dict(getattr(material, "_data", None) or {})
+    if not given and hasattr(material, "diffuse"):  # one with the words of MTL
+        given = {"Kd": material.diffuse, "Ka": material.ambient, "Ks": material.specular, "Ns": material.glossiness}
+        given |= {"map_Kd": material.image, "name": material.name, **getattr(material, "kwargs", {})}
+    found: Material = {}
+    for name, value in given.items():
+        if hasattr(value, "save"):
+            if value.format is None and value.size == (1, 1):
+                continue  # that of the material that trimesh gives to what has none
+            data = _bytes_of_image(value)
+            if data not in images:
+                images.append(data)
+            found[name] = images.index(data)
+        elif isinstance(value, bool | np.bool_):
+            found[name] = int(value)
+        elif isinstance(value, str | int | float):
+            found[name] = value
+        elif isinstance(value, np.ndarray | list | tuple) and np.asarray(value).dtype.kind in "iuf":
+            numbers = np.asarray(value).reshape(-1)
+            if numbers.dtype == np.uint8:
+                numbers = numbers / 255
+            kept = numbers[:3] if name.startswith("K") else numbers
+            found[name] = " ".join(f"{number:.6g}" for number in kept)
+    said = {name: value for name, value in found.items() if not isinstance(value, float) or np.isfinite(value)}
+    return {} if said == {"doubleSided": 0} else said  # that is what holds where nothing is said
+
+
+def _bytes_of_image(image: Any) -> bytes:
+    """The file that an image was, if it is still there, or else a PNG of it."""
+    behind = getattr(image, "fp", None)
+    if isinstance(behind, io.BytesIO) and not behind.closed and kind_of_image(data := behind.getvalue()):
+        return re.sub(_PADDING, b"", data)
+    buffer = io.BytesIO()
+    image.save(buffer, format="PNG")
+    return buffer.getvalue()

@@ -1,0 +1,74 @@
+"""What comes out when a mesh is written in a format."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable, Mapping
+from dataclasses import dataclass, field
+
+from bsm.codec.geometry.attributes import Attribute, Domain, Semantic
+from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.files.formats import materials
+from bsm.files.formats.materials import Material
+
+
+@dataclass(frozen=True)
+class Written:
+    """A mesh file.
+
+    Parameters
+    ----------
+    data : bytes
+    left_out : tuple of str
+        The names of attributes and metadata that the format cannot hold.
+    beside : mapping from str to bytes
+        Files that it names and that belong into its folder: materials and images.
+    """
+
+    data: bytes
+    left_out: tuple[str, ...] = ()
+    beside: Mapping[str, bytes] = field(default_factory=dict)
+
+
+def left_out(mesh: TriangleMesh, held: Iterable[Attribute | None], metadata: Collection[str]) -> tuple[str, ...]:
+    """The names of the attributes that are not among those held, and of metadata."""
+    names = {attribute.name for attribute in held if attribute is not None}
+    return (*(a.name for a in mesh.attributes if a.name not in names), *metadata)
+
+
+def first(mesh: TriangleMesh, semantic: Semantic, components: Collection[int], *domains: Domain) -> Attribute | None:
+    """The first attribute of a meaning that is of one of the domains, and has one of the numbers of components."""
+    fits = (a for a in mesh.attributes if a.semantic == semantic and a.domain in domains and a.components in components)
+    return next(fits, None)
+
+
+def face_numbers(mesh: TriangleMesh, name: str) -> Attribute | None:
+    """The attribute of this name, if it is a whole number for each face."""
+    fits = (a for a in mesh.attributes if a.name == name and a.domain == "face" and a.components == 1)
+    found = next(fits, None)
+    return found if found is not None and found.values.dtype.kind in "iu" else None
+
+
+class Library:
+    """The materials of a mesh as files beside it; their names begin with that of the mesh.
+
+    Parameters
+    ----------
+    mesh : TriangleMesh
+    stem : str
+        The name of the mesh's file without its suffix.
+    """
+
+    def __init__(self, mesh: TriangleMesh, stem: str) -> None:
+        self.materials: dict[int, Material] = materials.materials_in(mesh.metadata)
+        self.images: dict[int, str] = {}
+        self.beside: dict[str, bytes] = {}
+        self.said: set[str] = set()
+        """The metadata that these files hold."""
+        for number, (name, data) in materials.images_in(mesh.metadata).items():
+            if not data:
+                self.images[number] = materials.one_line(name)
+                self.said.add(f"image.{number}.name")
+            elif kind := materials.kind_of_image(data):
+                self.images[number] = f"{stem}.{number}.{kind}"
+                self.beside[self.images[number]] = data
+                self.said |= {f"image.{number}.data", f"image.{number}.name"}

@@ -1,0 +1,222 @@
+"""Mesh files: OBJ, OFF, PLY, STL and npz by our own readers and writers, everything else through trimesh.
+
+Coordinates come from the file in double precision; vertices, faces and corners keep their order; what a file holds
+beside them becomes attributes and metadata; what was changed or left out on the way is named. Files are hostile until
+they are read: what claims more than it holds is refused before anything is allocated for it.
+"""
+
+from __future__ import annotations
+
+import codecs
+import gzip
+import io
+import os
+import re
+import zlib
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+from typing import BinaryIO, cast
+
+from bsm.bitstream.container.wire import MAGIC
+from bsm.bitstream.errors import CorruptError, FormatError, OptionError, TruncatedError
+from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
+from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.files.formats.glb import write_glb
+from bsm.files.formats.materials import fetched
+from bsm.files.formats.npz import read_npz, write_npz
+from bsm.files.formats.obj import read_obj, write_obj
+from bsm.files.formats.off import read_off, write_off
+from bsm.files.formats.ply import read_ply, write_ply
+from bsm.files.formats.polygons import MeshFile, Polygons
+from bsm.files.formats.stl import read_stl, write_stl
+from bsm.files.formats.with_openmesh import read_with_openmesh
+from bsm.files.formats.with_trimesh import read_with_trimesh
+from bsm.files.formats.written import Written
+from bsm.files.output import can_be_replaced, open_output, refuse_to_overwrite
+from bsm.files.pipes import Input, Source, as_input
+from bsm.files.remote import is_url
+
+_READERS: dict[str, Callable[[bytes], Polygons]] = {
+    "obj": read_obj,
+    "off": read_off,
+    "ply": read_ply,
+    "stl": read_stl,
+}
+_WRITERS: dict[str, Callable[[TriangleMesh, str], Written]] = {
+    "glb": write_glb,
+    "npz": write_npz,
+    "obj": write_obj,
+    "off": write_off,
+    "ply": write_ply,
+    "stl": write_stl,
+}
+MESH_FORMATS = ("npz", *_READERS)
+"""What we read and write ourselves."""
+WRITTEN_FORMATS = tuple(_WRITERS)
+"""What we write; GLB with trimesh."""
+READERS = ("bsm", "openmesh", "trimesh")
+"""Who can be asked to read a file: ourselves, or a library."""
+
+
+def read_mesh(
+    source: Source, file_format: str | None = None, limits: Limits = DEFAULT_LIMITS, reader: str | None = None
+) -> MeshFile:
+    """Read a mesh file.
+
+    Parameters
+    ----------
+    source : path, buffer or binary file
+        "-" reads standard input. Pipes will do, and a file may be compressed by gzip. Materials and images that a file
+        names are read as well where they lie in its folder or below; a buffer has nothing beside it.
+    file_format : str, optional
+        One of `MESH_FORMATS`, or a suffix that trimesh knows; guessed from the name, or else from the first bytes.
+    limits : Limits
+        `vertices` and `faces` bound the mesh.
+    reader : str, optional
+        One of `READERS`; None: ourselves, where we know the format, else trimesh.
+
+    Returns
+    -------
+    MeshFile
+        Vertices and faces in the order of the file. Isolated vertices, degenerate and repeated faces are kept; polygons
+        are cut into triangles.
+
+    Raises
+    ------
+    FormatError, TruncatedError, CorruptError, MeshError, LimitError
+        If the file holds no mesh of triangles or polygons over finite points.
+    DependencyError
+        If a library is needed and missing.
+    OSError
+        If the file cannot be read.
+    """
+    given = as_input(source)
+    path, name = (given.name if given.is_file else None), given.name
+    if reader not in (None, *READERS):
+        raise OptionError(f"a reader must be one of {', '.join(READERS)}, not {reader!r}")
+    data = given.read_all()
+    if data.startswith(b"\x1f\x8b"):
+        path, name, data = None, name.removesuffix(".gz"), _unzipped(data)
+    data = data.removeprefix(codecs.BOM_UTF8)
+    if not data:
+        raise FormatError("the file is empty")
+    if data.startswith(MAGIC):
+        raise FormatError("this is a BSM stream, not a mesh file; decode it first")
+    kind = file_format or format_of_name(name) or format_of_bytes(data) or Path(name).suffix[1:].lower()
+    if (reader == "openmesh" and kind not in _READERS) or (reader == "bsm" and kind not in MESH_FORMATS):
+        raise OptionError(f"{reader} does not read {f'.{kind}' if kind else 'this'}; the default reader may")
+    if reader == "trimesh" or kind not in MESH_FORMATS:
+        return read_with_trimesh(data, path, kind, limits).checked(limits)
+    if kind == "npz":
+        return read_npz(io.BytesIO(data), limits)
+    polygons = _READERS[kind](data)
+    metadata, notes = fetched(polygons.metadata, Path(path).parent if path else None, limits.metadata_bytes)
+    ours = replace(polygons, metadata=metadata, notes=(*polygons.notes, *notes)).checked(limits)
+    if reader == "openmesh":
+        return read_with_openmesh(data, kind, ours.mesh, limits)
+    return ours
+
+
+def _unzipped(data: bytes) -> bytes:
+    """What gzip has compressed; `LimitError` beyond 4 GiB."""
+    try:
+        with gzip.GzipFile(fileobj=io.BytesIO(data)) as file:
+            return Input(cast(BinaryIO, file)).read_all()
+    except EOFError as error:
+        raise TruncatedError("the file is cut short: what gzip has compressed does not end") from error
+    except (gzip.BadGzipFile, zlib.error) as error:
+        raise CorruptError(f"what gzip has compressed is damaged: {error}") from error
+
+
+def format_mesh(mesh: TriangleMesh, file_format: str) -> bytes:
+    """The bytes of a mesh file of one of `WRITTEN_FORMATS`, exact but for float32 where that suffices."""
+    return written_mesh(mesh, file_format).data
+
+
+def written_mesh(mesh: TriangleMesh, file_format: str, path: str | os.PathLike[str] = "mesh") -> Written:
+    """A mesh as a file of one of `WRITTEN_FORMATS`, what that cannot hold, and what lies beside it.
+
+    Parameters
+    ----------
+    mesh : TriangleMesh
+    file_format : str
+    path : path
+        What the file will be called: the names of those beside it begin like its own.
+    """
+    return _WRITERS[file_format](mesh, Path(path).stem)
+
+
+def write_mesh(path: str | os.PathLike[str], mesh: TriangleMesh, *, overwrite: bool = True) -> tuple[str, ...]:
+    """Write a mesh file, as a whole or not at all, in the format of its name, and the files that belong beside it.
+
+    Returns
+    -------
+    tuple of str
+        What the format cannot hold: names of attributes and metadata.
+
+    Raises
+    ------
+    OptionError
+        If the name tells no format.
+    MeshError
+        If the format cannot hold the mesh.
+    OSError
+        If the file cannot be written.
+    """
+    kind = format_of_name(path)
+    if kind not in _WRITERS:
+        raise OptionError(f"{path}: the name tells no mesh format; use one of .{', .'.join(WRITTEN_FORMATS)}")
+    written = written_mesh(mesh, kind, path)
+    return save_written(path, written, overwrite=overwrite)
+
+
+def save_written(
+    path: str | os.PathLike[str], written: Written, *, overwrite: bool, overwrite_beside: bool | None = None
+) -> tuple[str, ...]:
+    """Write a mesh file, and before it what lies beside it; returns what is left out. Beside a pipe nothing can lie.
+
+    What lies beside is replaced if `overwrite_beside` is true; None: if `overwrite` is.
+    """
+    beside = {beside_it: written.beside[name] for name in written.beside if (beside_it := _sibling(path, name))}
+    replace_beside = overwrite if overwrite_beside is None else overwrite_beside
+    refuse_to_overwrite(path, overwrite)
+    for name in beside:
+        refuse_to_overwrite(name, replace_beside)
+    for name, data in beside.items():
+        with open_output(name, overwrite=replace_beside) as file:
+            file.write(data)
+    with open_output(path, overwrite=overwrite) as file:
+        file.write(written.data)
+    return (*written.left_out, *(() if beside else written.beside))
+
+
+def _sibling(path: str | os.PathLike[str], name: str) -> str | None:
+    """A file in the same folder; None if there is no folder."""
+    if isinstance(path, str) and is_url(path):
+        return f"{path.rpartition('/')[0]}/{name}"
+    return str(Path(path).parent / name) if os.fspath(path) != "-" and can_be_replaced(path) else None
+
+
+def format_of_name(path: str | os.PathLike[str]) -> str | None:
+    """The format that a file name's suffix tells, or None."""
+    suffix = Path(path).suffix[1:].lower()
+    return suffix if suffix in _WRITERS else None
+
+
+def format_of_bytes(data: bytes) -> str | None:
+    """The format that the content of a file tells, or None."""
+    head = data[:1024].lstrip()
+    if head.startswith(b"ply"):
+        return "ply"
+    if data.startswith(b"PK\x03\x04") and b"positions.npy" in data:
+        return "npz"
+    if data.startswith(b"glTF"):
+        return "glb"
+    if head.startswith(b"solid") or len(data) == 84 + 50 * int.from_bytes(data[80:84], "little"):
+        return "stl"
+    if b"OFF" in head[:8]:
+        return "off"
+    if re.search(rb"^\s*v[ \t]", data[: 1 << 16], re.MULTILINE):
+        return "obj"
+    return None

@@ -1,0 +1,154 @@
+"""Where bytes come from: files, pipes, memory, open files; opened once, and looked at before they are read."""
+
+from __future__ import annotations
+
+import io
+import os
+from collections.abc import Iterator
+from typing import BinaryIO, TypeAlias, Union, cast
+
+from bsm.bitstream.errors import ArgumentError, FormatError, LimitError
+from bsm.files.remote import is_url, open_remote, without_scheme_of_files
+from bsm.files.standard import standard_input
+
+Source: TypeAlias = Union[str, "os.PathLike[str]", bytes, bytearray, memoryview, BinaryIO, "Input"]
+"""A path ("-" is standard input) or URL, any buffer, or a binary file, which need not be seekable."""
+
+_CHUNK = 1 << 18
+_MAX_BYTES = 1 << 32
+
+
+class Input:
+    """Bytes to be read once, from the beginning to the end.
+
+    Parameters
+    ----------
+    source : path, buffer or binary file
+        A path is opened when the first byte is asked for; an open file is read from where it stands, and left open.
+
+    Attributes
+    ----------
+    name : str
+        The path as it was given, or what an open file says of itself; empty for a buffer.
+
+    Raises
+    ------
+    ArgumentError
+        If it is none of these; also while reading, if the file gives text.
+    FormatError, OSError
+        While reading: if it is a folder, or cannot be opened.
+    """
+
+    def __init__(self, source: Source) -> None:
+        self.name = ""
+        self._file: BinaryIO | None = None
+        self._opened = False
+        self._held = b""
+        if isinstance(source, (str, os.PathLike)):
+            self.name = without_scheme_of_files(os.fsdecode(source))
+        elif hasattr(source, "read"):
+            self._file = cast(BinaryIO, source)
+            self.name = str(getattr(source, "name", ""))
+        else:
+            try:
+                self._file = io.BytesIO(source if isinstance(source, bytes) else memoryview(source).tobytes())
+            except TypeError:
+                raise ArgumentError(
+                    f"bytes, a path or a binary file are expected, not {type(source).__name__}"
+                ) from None
+
+    @property
+    def is_file(self) -> bool:
+        """Whether this is the path of a regular file, which can be opened as often as one likes."""
+        return self._file is None and self.name != "-" and os.path.isfile(self.name)
+
+    def peek(self, size: int) -> bytes:
+        """The first bytes that are still to be read, up to `size` of them; fewer only at the end."""
+        if self.is_file:
+            with open(self.name, "rb") as file:
+                return file.read(size)
+        self._hold(size)
+        return self._held[:size]
+
+    def chunks(self) -> Iterator[bytes]:
+        """All bytes, as they come."""
+        try:
+            while piece := self._held or self._receive():
+                self._held = b""
+                yield piece
+        finally:
+            self.close()
+
+    def read(self, size: int = _MAX_BYTES) -> bytes:
+        """The next `size` bytes; fewer at the end."""
+        self._hold(size)
+        taken, self._held = self._held[:size], self._held[size:]
+        return taken
+
+    def read_all(self) -> bytes:
+        """All bytes; `LimitError` beyond 4 GiB."""
+        pieces: list[bytes] = []
+        size = 0
+        for piece in self.chunks():
+            pieces.append(piece)
+            size += len(piece)
+            if size > _MAX_BYTES:
+                raise LimitError(f"the file is larger than {_MAX_BYTES} bytes")
+        return b"".join(pieces)
+
+    def _hold(self, size: int) -> None:
+        """Wait for `size` bytes, or the end."""
+        pieces, held = [self._held], len(self._held)
+        while held < size and (piece := self._receive()):
+            pieces.append(piece)
+            held += len(piece)
+        self._held = b"".join(pieces)
+
+    def _receive(self) -> bytes:
+        """What comes next, waiting for it if need be; nothing at the end."""
+        if self._file is None:
+            if os.path.isdir(self.name):
+                raise FormatError("this is a folder, not a file")
+            self._opened = self.name != "-"
+            # Closed at its end, or where `chunks` ends.
+            self._file = _opened(self.name) if self._opened else standard_input()
+        read = getattr(self._file, "read1", self._file.read)
+        piece = read(_CHUNK)
+        if isinstance(piece, str):
+            raise ArgumentError("a binary file is expected, not one of text; open it with mode 'rb'")
+        if not piece:
+            self.close()
+        return bytes(piece or b"")
+
+    def close(self) -> None:
+        """Close what was opened here; nothing more is read."""
+        if self._opened and self._file is not None:
+            self._file.close()
+            self._file, self._opened = io.BytesIO(), False
+
+
+def _opened(name: str) -> BinaryIO:
+    return open_remote(name) if is_url(name) else open(name, "rb")
+
+
+def as_input(source: Source) -> Input:
+    """`source` as an `Input`; one that is already being read goes on."""
+    return source if isinstance(source, Input) else Input(source)
+
+
+def is_pipe(source: Source) -> bool:
+    """Whether a path names what can be read once only: standard input ("-"), a named pipe, a socket or a terminal."""
+    if not isinstance(source, (str, os.PathLike)):
+        return False
+    again = os.path.isfile(source) or os.path.isdir(source)
+    return os.fspath(source) == "-" or (os.path.exists(source) and not again)
+
+
+def read_bytes(source: Source) -> bytes:
+    """All bytes of a source; `LimitError` beyond 4 GiB."""
+    return as_input(source).read_all()
+
+
+def read_chunks(source: Source) -> Iterator[bytes]:
+    """The bytes of a source, as they come."""
+    return as_input(source).chunks()

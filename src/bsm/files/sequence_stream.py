@@ -1,0 +1,116 @@
+"""Sequences from streams: told from meshes, and decoded as they come."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from itertools import chain
+
+import numpy as np
+import numpy.typing as npt
+
+from bsm.bitstream.container.packets import Header
+from bsm.bitstream.container.reader import NEED_DATA, Reader
+from bsm.bitstream.errors import BsmError, TruncatedError
+from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
+from bsm.codec.arrays import Faces, Positions
+from bsm.codec.geometry.attributes import Attribute
+from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.files.stream import events
+
+Note = Callable[[str], None]
+
+
+def peek_header(chunks: Iterator[bytes]) -> tuple[Header | None, Iterator[bytes]]:
+    """The header of a stream, and all of its bytes again; None where the stream is too short or no stream at all."""
+    taken: list[bytes] = []
+    reader = Reader()
+    for chunk in chunks:
+        taken.append(chunk)
+        reader.receive_data(chunk)
+        try:
+            packet = reader.next_packet()
+        except BsmError:  # whoever decodes it will say so
+            break
+        if packet is not NEED_DATA:
+            assert isinstance(packet, Header)
+            return packet, chain(taken, chunks)
+    return None, chain(taken, chunks)
+
+
+class SequenceStream:
+    """A stream that is decoded while its frames are asked for.
+
+    Parameters
+    ----------
+    chunks : iterator of bytes
+    note : callable, optional
+        Is told of frames that are lost; None: a loss is an error.
+    start : int
+        First frame to give.
+    limits : Limits
+
+    Attributes
+    ----------
+    header : Header
+    faces : int32 array, shape (m, 3)
+    """
+
+    def __init__(
+        self, chunks: Iterator[bytes], note: Note | None = None, start: int = 0, limits: Limits = DEFAULT_LIMITS
+    ) -> None:
+        from bsm.codec.sequence.decoder import SequenceDecoder
+        from bsm.codec.static.events import ConnectivityEvent, HeaderEvent
+
+        self.header: Header
+        self.faces: Faces
+        self._note = note
+        decoder = SequenceDecoder(limits, tolerant=note is not None, start=start)
+        self._decoder = decoder
+        self._events = events(decoder, chunks)
+        for event in self._events:
+            if isinstance(event, HeaderEvent):
+                self.header = event.header
+            elif isinstance(event, ConnectivityEvent):
+                self.faces = event.faces
+                return
+        raise TruncatedError("the stream ends before its faces")
+
+    @property
+    def attributes(self) -> tuple[Attribute, ...]:
+        """Those that are the same in all frames, once the first frame is known."""
+        return self._decoder.attributes
+
+    def frames(self) -> Iterator[tuple[int, Positions]]:
+        """Number and positions, shape (n, 3), of one frame after the other."""
+        from bsm.codec.sequence.decoder import FrameEvent
+        from bsm.codec.static.events import LossEvent
+
+        for event in self._events:
+            match event:
+                case FrameEvent(index, positions):
+                    yield index, positions
+                case LossEvent(_, error, frames):
+                    assert self._note is not None
+                    first, last = frames.start, frames.stop - 1
+                    what = f"frames {first} to {last} are" if frames else f"what follows frame {first} is"
+                    self._note(f"{what} lost: {error}")
+
+
+def numbered(faces: Faces, vertices: int) -> TriangleMesh:
+    """A mesh whose positions are the numbers of its vertices: what reorders meshes then tells their order."""
+    return TriangleMesh(np.repeat(np.arange(vertices, dtype=np.float64)[:, None], 3, axis=1), faces)
+
+
+def numbers_of(positions: Positions) -> npt.NDArray[np.int64]:
+    """The order that has come upon the positions of `numbered`."""
+    return positions[:, 0].astype(np.int64)
+
+
+def decode_through(chunks: Iterator[bytes], limits: Limits = DEFAULT_LIMITS) -> int:
+    """Decode a sequence to its end and keep nothing; the number of frames."""
+    return sum(1 for _ in SequenceStream(chunks, limits=limits).frames())
+
+
+def all_frames(stream: SequenceStream) -> Positions:
+    """All frames, shape (T, n, 3)."""
+    return np.array([frame for _, frame in stream.frames()]).reshape(-1, stream.header.vertices, 3)

@@ -1,0 +1,64 @@
+"""Lengths as people give them: `0.05mm`, `0.1%`, `0.001`."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from numbers import Real
+from typing import Any
+
+from bsm.bitstream.errors import ArgumentError, OptionError
+
+LENGTH = re.compile(r"([0-9.]+(?:[eE][-+]?[0-9]+)?) *(%|[a-zA-Zµ]*)")
+"""A number, and what it is in: % of the diagonal, or whatever the mesh's unit is called; neither: diagonals."""
+LENGTHS = ("max_error", "lock_borders")
+"""Options that are lengths."""
+IN_METRES = {
+    **dict.fromkeys(("m", "meter", "metre"), 1.0),
+    **dict.fromkeys(("dm", "decimeter", "decimetre"), 0.1),
+    **dict.fromkeys(("cm", "centimeter", "centimetre"), 0.01),
+    **dict.fromkeys(("mm", "millimeter", "millimetre"), 0.001),
+    **dict.fromkeys(("um", "µm", "micron", "micrometer", "micrometre"), 1e-6),
+    **dict.fromkeys(("km", "kilometer", "kilometre"), 1000.0),
+    **dict.fromkeys(("in", "inch", "inche"), 0.0254),
+    **dict.fromkeys(("ft", "foot", "feet"), 0.3048),
+}
+"""Units that are known, plurals aside."""
+
+
+def parse_length(name: str, value: Any) -> tuple[float, bool]:
+    """A length, and whether it is in the mesh's unit and not in diagonals."""
+    number, unit = _parts(name, value)
+    return (number / 100.0, False) if unit == "%" else (number, bool(unit))
+
+
+def refuse_other_units(lengths: Mapping[str, Any], metadata: Mapping[str, Any]) -> None:
+    """Raise `OptionError` where an option's length is in a unit that is not the one that the mesh says it has.
+
+    Units that are not known, and meshes that say nothing, are taken as they are: lengths are in the mesh's own.
+    """
+    own = metadata.get("unit")
+    size = _metres(own) if isinstance(own, str) else None
+    for name, value in lengths.items():
+        number, unit = _parts(name, value) if isinstance(value, str) else (0.0, "")
+        other = _metres(unit)
+        if size is not None and other is not None and other != size:
+            meant = f"{number * other / size:g}{own}"
+            raise OptionError(f"{name} is in {unit}, and the mesh says that its unit is {own}: give it as {meant}")
+
+
+def _parts(name: str, value: Any) -> tuple[float, str]:
+    if isinstance(value, Real) and not isinstance(value, bool):
+        return float(value), ""
+    found = LENGTH.fullmatch(value.strip()) if isinstance(value, str) else None
+    if found is None:
+        raise ArgumentError(f"{name} must be a number, or one with a unit like 0.05mm or 0.1%, not {value!r}")
+    try:
+        return float(found[1]), found[2]
+    except ValueError:
+        raise ArgumentError(f"{name}: {found[1]!r} is no number") from None
+
+
+def _metres(unit: str) -> float | None:
+    name = unit.strip().lower()
+    return IN_METRES.get(name, IN_METRES.get(name.removesuffix("s")))

@@ -1,0 +1,159 @@
+"""What other libraries call a mesh, as ours."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from dataclasses import replace
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import numpy.typing as npt
+
+from bsm.bitstream.errors import ArgumentError, MeshError
+from bsm.bitstream.limits import DEFAULT_LIMITS
+from bsm.codec.geometry.mesh import Metadata, TriangleMesh
+from bsm.files.formats.columns import Column
+from bsm.files.formats.materials import without_materials
+from bsm.files.formats.polygons import MeshFile, Polygons
+from bsm.files.formats.with_trimesh import joined, polygons_of
+from bsm.files.mesh import read_mesh
+from bsm.files.pipes import Input
+from bsm.files.rows import Ints, ranges
+from bsm.files.stream import decode_whole, is_stream
+from bsm.foreign import columns_of, metadata_of
+
+if TYPE_CHECKING:
+    from bsm.codec.static.options import EncodeOptions
+
+_POINTS = ("vertices", "points", "positions")
+_FACES = ("faces", "triangles")
+_SURFACES = ("triangle", "quad", "polygon")
+_NO_SURFACES = ("vertex", "line")
+
+
+def as_mesh(mesh: Any) -> TriangleMesh:
+    """A mesh of any kind as one of triangles.
+
+    Parameters
+    ----------
+    mesh : mesh, pair of arrays, or path
+        A `TriangleMesh`; an object with vertices or points, and faces (trimesh, pyvista, Open3D) or cells (meshio); a
+        scene of trimesh, whose parts are joined; a pair (positions, faces); or the path of a mesh file or stream. Faces
+        are an integer array of shape (m, 3), a larger number of columns or lists of different lengths for polygons,
+        which are cut into triangles, or flat as VTK has them: a count, so many indices, a count, ... What the objects
+        have beside that (visuals, point data and cell data, normals and colours) become attributes.
+
+    Raises
+    ------
+    ArgumentError
+        If it is nothing of all this.
+    MeshError
+        If it is no mesh of triangles or polygons.
+    """
+    if isinstance(mesh, TriangleMesh):
+        return mesh
+    if isinstance(mesh, MeshFile):
+        return mesh.mesh
+    if isinstance(mesh, (str, os.PathLike, Input)):
+        return read_any(mesh if isinstance(mesh, Input) else Input(mesh))
+    if isinstance(mesh, (tuple, list)) and len(mesh) == 2:
+        return _mesh_of_arrays(*mesh)
+    if hasattr(mesh, "visual") and hasattr(mesh, "vertex_attributes"):
+        return polygons_of(mesh).checked(DEFAULT_LIMITS).mesh
+    points, faces = _attribute(mesh, _POINTS), _attribute(mesh, _FACES)
+    if points is not None and faces is not None:
+        return _mesh_of_arrays(points, faces, columns_of(mesh, _SURFACES), metadata_of(mesh))
+    if points is not None and hasattr(mesh, "cells_dict"):
+        return _mesh_of_cells(points, mesh.cells_dict, columns_of(mesh, _SURFACES))
+    if hasattr(mesh, "graph") and hasattr(mesh, "geometry"):
+        return joined(mesh, DEFAULT_LIMITS).checked(DEFAULT_LIMITS).mesh
+    raise ArgumentError(
+        "a mesh is expected: an object with vertices (or points) and faces, a pair of arrays (positions, faces), or a "
+        f"path; not {type(mesh).__name__}"
+    )
+
+
+def told_of(mesh: TriangleMesh, options: EncodeOptions | None, metadata: Metadata) -> TriangleMesh:
+    """The mesh with more metadata; without materials and images where all of its attributes are left out."""
+    qualities = dict(options.attributes) if options else {}
+    bare = qualities.get("*") == "none" and set(qualities.values()) == {"none"}
+    known = without_materials(mesh.metadata) if bare else mesh.metadata
+    return replace(mesh, metadata={**known, **metadata})
+
+
+def read_any(source: Input, **reading: Any) -> TriangleMesh:
+    """The mesh in a stream or a mesh file; `reading` are arguments of `read_mesh`."""
+    if is_stream(source):
+        return decode_whole(source.chunks(), reading.get("limits", DEFAULT_LIMITS))
+    return read_mesh(source, **reading).mesh
+
+
+def _attribute(mesh: Any, names: tuple[str, ...]) -> Any:
+    """The first of the attributes that there is, methods left aside."""
+    values = (getattr(mesh, name, None) for name in names)
+    return next((value for value in values if value is not None and not callable(value)), None)
+
+
+def _mesh_of_arrays(
+    positions: Any, faces: Any, columns: Sequence[Column] = (), metadata: Metadata = MappingProxyType({})
+) -> TriangleMesh:
+    more = (columns, metadata)
+    try:
+        table = np.asarray(faces)
+    except ValueError:  # lists of different lengths
+        rows = [np.asarray(face).reshape(-1) for face in faces]
+        return _mesh_of_polygons(positions, np.array([len(row) for row in rows]), np.concatenate(rows), *more)
+    if table.ndim == 1 and table.size and table.dtype.kind in "iu":
+        return _mesh_of_polygons(positions, *_split(table.astype(np.int64)), *more)
+    if table.ndim == 2 and (table.shape[1] > 3 or (table.shape[1] == 3 and len(table) and any(more))):
+        return _mesh_of_polygons(positions, np.full(len(table), table.shape[1]), table.reshape(-1), *more)
+    return TriangleMesh(positions, table)
+
+
+def _mesh_of_cells(points: Any, cells: dict[str, npt.NDArray[Any]], columns: Sequence[Column]) -> TriangleMesh:
+    """The surface of a meshio mesh; its lines and single vertices are left out."""
+    solid = [name for name in cells if name not in (*_SURFACES, *_NO_SURFACES)]
+    if solid:
+        raise MeshError(f"cells of the type {solid[0]} are not triangles or polygons; take the surface of the mesh")
+    tables = [np.asarray(cells[name]) for name in _SURFACES if name in cells]
+    sizes = [np.full(len(table), table.shape[1]) for table in tables]
+    nothing = np.empty(0, np.int64)
+    corners = [table.reshape(-1) for table in tables]
+    return _mesh_of_polygons(points, np.concatenate([nothing, *sizes]), np.concatenate([nothing, *corners]), columns)
+
+
+def _mesh_of_polygons(
+    positions: Any,
+    sizes: Ints,
+    corners: npt.NDArray[Any],
+    columns: Sequence[Column] = (),
+    metadata: Metadata = MappingProxyType({}),
+) -> TriangleMesh:
+    try:
+        points = np.asarray(positions, np.float64)
+    except (TypeError, ValueError) as error:
+        raise MeshError(f"positions is not an array of numbers: {error}") from error
+    if points.ndim != 2 or points.shape[1] != 3:
+        raise MeshError(f"positions must have shape (n, 3), not {points.shape}")
+    if corners.dtype.kind not in "iu":
+        raise MeshError(f"faces must be integers, not {corners.dtype}")
+    flat = corners.astype(np.int64)
+    polygons = Polygons(points, sizes.astype(np.int64), flat, columns=tuple(columns), metadata=metadata)
+    return polygons.checked(DEFAULT_LIMITS).mesh
+
+
+def _split(flat: Ints) -> tuple[Ints, Ints]:
+    """Sizes and corners of polygons that follow each other, each behind the number of its corners."""
+    # Where the next polygon would begin if one began at each place; twice as many steps in each round.
+    jump = np.append(np.minimum(np.arange(1, len(flat) + 1) + np.maximum(flat, 0), len(flat)), len(flat))
+    starts = np.zeros(1, np.int64)
+    while jump[0] < len(flat):
+        starts = np.append(starts, jump[starts])
+        jump = jump[jump]
+    starts = np.unique(np.append(starts, jump[starts]))[:-1]
+    sizes = flat[starts]
+    if (sizes < 0).any() or starts[-1] + 1 + sizes[-1] != len(flat):
+        raise MeshError("flat faces must be made of a count and so many vertices, again and again")
+    return sizes, flat[ranges(starts + 1, sizes)]

@@ -1,0 +1,88 @@
+"""Whether a stream means the same to all who decode it: what becomes of it where numbers are rounded otherwise.
+
+Decoders agree on every integer; their positions are real numbers, and differ by rounding. Extreme options (a high
+power, many iterations, a tiny shift) can make dictionaries that magnify rounding errors without bound. So a stream is
+decoded twice, the second time with noise in the last seven bits on all that dictionaries and predictions
+start from: if that moves it, another processor may, too (specification, M 15.4).
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from bsm.bitstream.container.header import Header
+from bsm.bitstream.container.reader import END_OF_STREAM, Reader
+from bsm.bitstream.errors import NumericError
+from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
+from bsm.codec.arrays import Matrix, Positions
+from bsm.codec.sequence.decoder import FrameEvent, SequenceDecoder
+from bsm.codec.signal.chain import Rounding, unchanged
+from bsm.codec.static.decoder import Decoder
+
+NOISE = 2.0**-46
+"""Of the greatest number of each column: what rounding does to a dictionary on its way, and room to spare."""
+RMS, PEAK = 1e-9, 1e-8
+"""How far two decoders may be apart, in extents (M 15.2)."""
+
+
+def shaken(values: Matrix) -> Matrix:
+    """The values with noise, the same for the same shape."""
+    size = NOISE * np.abs(values).max(axis=0, initial=0.0)
+    noisy: Matrix = values + size * np.random.default_rng(0).uniform(-1.0, 1.0, values.shape)
+    return noisy
+
+
+def unsteadiness(stream: bytes, *, limits: Limits = DEFAULT_LIMITS, threads: int | None = None) -> tuple[float, float]:
+    """How far noise moves what a stream decodes to.
+
+    Returns
+    -------
+    rms, peak : float
+        Root mean square and greatest distance over all vertices (and frames), in extents: of the scale of the stream,
+        the diagonal of the bounding box, and 2^-20 of the greatest coordinate, the greatest.
+
+    Raises
+    ------
+    BsmError
+        If the stream cannot be decoded.
+    """
+    positions, scale = _decoded(stream, limits, threads, unchanged)
+    moved, _ = _decoded(stream, limits, threads, shaken)
+    if positions.size == 0:
+        return 0.0, 0.0
+    points = positions.reshape(-1, 3)
+    diagonal = float(np.linalg.norm(np.ptp(points / 2, axis=0)) * 2)
+    extent = max(scale, diagonal, 2.0**-20 * float(np.abs(points).max()))
+    apart = np.linalg.norm(moved / extent - positions / extent, axis=-1)
+    return float(np.sqrt((apart**2).mean())), float(apart.max())
+
+
+def check_steadiness(stream: bytes, *, limits: Limits = DEFAULT_LIMITS, threads: int | None = None) -> None:
+    """Raise `NumericError` if two decoders need not agree on a stream; see `unsteadiness`."""
+    rms, peak = unsteadiness(stream, limits=limits, threads=threads)
+    if not (rms <= RMS and peak <= PEAK):
+        raise NumericError(
+            f"rounding errors move the positions of this stream by {peak:.1e} of its extent ({rms:.1e} in the mean), "
+            "so that others may decode something else; take fewer iterations, a lower power or a larger shift"
+        )
+
+
+def _decoded(stream: bytes, limits: Limits, threads: int | None, rounding: Rounding) -> tuple[Positions, float]:
+    """Positions, shape (n, 3) or (T, n, 3), and the header's scale."""
+
+    reader = Reader(limits)
+    reader.receive_data(stream)
+    header = reader.next_packet()
+    if isinstance(header, Header) and header.gop_frames:
+        frames: list[Positions] = []
+        with SequenceDecoder(limits, threads, rounding=rounding) as decoder:
+            decoder.receive_data(stream)
+            decoder.receive_eof()
+            while (event := decoder.next_event()) is not END_OF_STREAM:
+                if isinstance(event, FrameEvent):
+                    frames.append(event.positions)
+        return np.array(frames), header.scale
+    with Decoder(limits, threads, rounding=rounding) as static:
+        static.receive_data(stream)
+        mesh = static.finish()
+    return mesh.positions, header.scale if isinstance(header, Header) else 1.0

@@ -1,0 +1,58 @@
+"""trimesh opens and writes .bsm: ``import bsm.trimesh``, then ``trimesh.load("a.bsm")`` and ``mesh.export("b.bsm")``.
+
+What a mesh shows goes along: texture coordinates, materials and their images as `TextureVisuals`, colours as
+`ColorVisuals`, normals, and other values as `vertex_attributes` and `face_attributes`.
+"""
+
+from __future__ import annotations
+
+from typing import IO, Any
+
+from bsm.api import decode, encode
+from bsm.bitstream.limits import DEFAULT_LIMITS
+from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.files.formats.for_trimesh import arguments_of
+from bsm.files.formats.with_trimesh import import_trimesh, joined, polygons_of
+from bsm.meshes import as_mesh
+
+_library = import_trimesh(".bsm files are opened by trimesh only")
+
+
+def to_trimesh(mesh: Any) -> Any:
+    """A mesh as a `trimesh.Trimesh`.
+
+    Vertices are split where corners differ, in texture coordinates for instance; nothing is merged.
+
+    Parameters
+    ----------
+    mesh : mesh, pair of arrays, or path
+        As `bsm.encode` takes it.
+    """
+    return _library.Trimesh(**arguments_of(as_mesh(mesh)))
+
+
+def from_trimesh(mesh: Any) -> TriangleMesh:
+    """A `trimesh.Trimesh`, or the parts of a `trimesh.Scene` where it shows them, with what they show."""
+    found = joined(mesh, DEFAULT_LIMITS) if isinstance(mesh, _library.Scene) else polygons_of(mesh)
+    return found.checked(DEFAULT_LIMITS).mesh
+
+
+def _load(file_obj: IO[bytes], file_type: str | None = None, **keywords: Any) -> dict[str, Any]:
+    """What trimesh calls to load a stream; `process` is false unless it is asked for."""
+    return arguments_of(decode(file_obj.read())) | {name: keywords[name] for name in ("process",) if name in keywords}
+
+
+def _export(mesh: Any, **keywords: Any) -> bytes:
+    """What trimesh calls to export a mesh; keywords are those of `bsm.encode`."""
+    return encode(from_trimesh(mesh), **keywords)
+
+
+def register() -> None:
+    """Tell trimesh of .bsm; importing this module does it."""
+    from trimesh.exchange import export, load
+
+    load.mesh_loaders["bsm"] = _load
+    export._mesh_exporters["bsm"] = _export
+
+
+register()

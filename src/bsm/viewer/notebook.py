@@ -1,0 +1,76 @@
+"""`bsm.show`: meshes and streams in a notebook."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from bsm.api import encode, encode_sequence
+from bsm.bitstream.errors import DependencyError, OptionError
+from bsm.files.pipes import Input
+from bsm.files.stream import is_stream
+from bsm.meshes import as_mesh
+from bsm.viewer.content import Content, compared
+
+if TYPE_CHECKING:
+    from bsm.viewer.widget import StreamWidget
+
+
+def show(source: Any, *, original: Any = None, height: int = 480, **keywords: Any) -> StreamWidget:
+    """Show a mesh, a sequence or a stream in a notebook, as it arrives and block by block.
+
+    Parameters
+    ----------
+    source : stream, mesh, or pair of arrays
+        Bytes, a file or the path of a stream; a mesh as `encode` takes it; or (positions, faces) of a sequence, with
+        positions of shape (T, n, 3). What is no stream is encoded first.
+    original : mesh, optional
+        What a stream is compared with; a mesh that is encoded here is its own.
+    height : int
+        Of the widget, in pixels.
+    **keywords
+        How a mesh or a sequence is encoded: those of `encode` or `encode_sequence`.
+
+    Returns
+    -------
+    anywidget.AnyWidget
+        A notebook draws it where it is the last value of a cell.
+
+    Raises
+    ------
+    DependencyError
+        If anywidget is missing.
+    BsmError
+        As `encode` and `compare`.
+    """
+    try:
+        from bsm.viewer.widget import StreamWidget
+    except ImportError as error:
+        raise DependencyError("a notebook needs the package anywidget: pip install 'bsm-codec[notebook]'") from error
+
+    return StreamWidget(_content(source, original, keywords), height)
+
+
+def _content(source: Any, original: Any, keywords: dict[str, Any]) -> Content:
+    name = Path(source).name if isinstance(source, (str, os.PathLike)) else "mesh"
+    given = _as_input(source)
+    if isinstance(given, Input) and is_stream(given):
+        if keywords:
+            raise OptionError(f"this is encoded already: {', '.join(keywords)} cannot be chosen any more")
+        data = given.read_all()
+    elif isinstance(source, tuple) and len(source) == 2 and np.ndim(source[0]) == 3:
+        data = encode_sequence(*source, **keywords)
+    else:
+        mesh = as_mesh(given)
+        data = encode(mesh, **keywords)
+        original = mesh if original is None else original
+    return Content(name, data) if original is None else compared(name, data, as_mesh(_as_input(original)))
+
+
+def _as_input(source: Any) -> Any:
+    """Streams and files as `Input`; anything else as it is."""
+    readable = isinstance(source, (bytes, bytearray, memoryview, str, os.PathLike)) or hasattr(source, "read")
+    return Input(source) if readable else source
