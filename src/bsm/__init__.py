@@ -77,7 +77,7 @@ if TYPE_CHECKING:
 __version__ = "0.1.0"
 
 try:
-    from bsm._kernels import version as _built
+    _built = importlib.import_module("bsm._kernels").version
 except ImportError:
     _built = "missing"
 if _built != __version__:
