@@ -33,7 +33,7 @@ extern "C" {
 #include "codec/signal/predict.h"
 #include "codec/signal/smooth.h"
 #include "codec/signal/transform.h"
-#include "codec/static/quality/shaping.h"
+#include "codec/static/choice/shaping.h"
 }
 
 template <>

@@ -20,11 +20,23 @@ FLOORS = {
         ("sequence",),
     ),
     "bsm.bitstream": (
-        ("_kernels", "errors", "limits"),
+        ("_kernels", "errors"),
+        ("limits",),
         ("entropy",),
         ("connectivity", "coefficients", "fields"),
         ("attributes",),
         ("container",),
+    ),
+    "bsm.codec.static": (
+        ("coding", "contract", "draft", "events", "joining", "sections", "stages", "targets", "units", "work"),
+        ("numbering", "preamble", "rules", "whole"),
+        ("attributes",),
+        ("assembly", "options"),
+        ("structure",),
+        ("ways",),
+        ("admission", "decoder"),
+        ("choice",),
+        ("encoder",),
     ),
 }
 BITSTREAM_LIBRARIES = {"numpy", "msgpack", "zstandard"}
@@ -70,12 +82,18 @@ def imports(source: str) -> set[str]:
     return found
 
 
-def floor(name: str) -> int:
-    """On which floor of its package a module stands."""
-    package = room_of(name)
+def floor(name: str, package: str) -> tuple[int, str]:
+    """On which floor of a package a module stands, and in which room of it."""
     rest = name.split(".")[len(package.split(".")) :]
     nouns = {rest[0], ".".join(rest[:2])} if rest else set()
-    return next((level for level, room in enumerate(FLOORS[package]) if nouns & set(room)), len(FLOORS[package]))
+    found = ((level, room) for level, rooms in enumerate(FLOORS[package]) for room in rooms if room in nouns)
+    return next(found, (len(FLOORS[package]), ""))
+
+
+def within(importer: str, imported: str, package: str) -> bool:
+    """Whether the arrow goes down, or stays in a room."""
+    (above, here), (below, there) = floor(importer, package), floor(imported, package)
+    return below < above or here == there or imported == package
 
 
 def allowed(importer: str, imported: str) -> bool:
@@ -83,8 +101,12 @@ def allowed(importer: str, imported: str) -> bool:
     room, library = room_of(importer), room_of(imported)
     if library in sys.stdlib_module_names:
         return True
+    for package in FLOORS:
+        inside = all(f"{name}.".startswith(f"{package}.") for name in (importer, imported))
+        if inside and not within(importer, imported, package):
+            return False
     if room in FLOORS and library == room:
-        return floor(imported) <= floor(importer)
+        return True
     if room == "bsm.bitstream":
         return library in BITSTREAM_LIBRARIES
     if room == "bsm.codec":
@@ -123,6 +145,9 @@ def test_imports_follow_the_arrows(name):
         ("bsm.codec.static.decoder", "from bsm.bitstream.container.reader import Reader", True),
         ("bsm.codec.static.decoder", "from bsm.codec.sequence.decoder import SequenceDecoder", False),
         ("bsm.codec.static.decoder", "import bsm.cli", False),
+        ("bsm.codec.static.ways.grid", "from bsm.codec.static.structure import Structure", True),
+        ("bsm.codec.static.structure", "from bsm.codec.static.ways.grid import GridStage", False),
+        ("bsm.codec.static.choice.plan", "from bsm.codec.static.encoder import encode", False),
         ("bsm.codec.geometry.mesh", "from . import graph", False),
         ("bsm.cli", "import bsm.codec.geometry.mesh, bsm.bitstream.container.reader, matplotlib", True),
         ("bsm.cli", "import tools.fuzz", False),

@@ -37,7 +37,7 @@ from bsm.codec.static.decoder import decode
 from bsm.codec.static.encoder import Encoder, encode
 from bsm.codec.static.joining import join
 from bsm.codec.static.options import PRESETS, EncodeOptions
-from bsm.codec.static.quality.targets import Target
+from bsm.codec.static.targets import Target
 from bsm.evaluation.draco import encode_draco
 from bsm.files.mesh import read_mesh
 

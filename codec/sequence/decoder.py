@@ -24,10 +24,10 @@ from bsm.codec.sequence.gop import GopDecoder, make_setting
 from bsm.codec.signal.chain import Rounding, unchanged
 from bsm.codec.static.attributes.decoding import Carried, without_positions
 from bsm.codec.static.events import AttributeEvent, ConnectivityEvent, EndEvent, HeaderEvent, LossEvent, unreadable
-from bsm.codec.static.layers.block_coder import FRAME, ChainDecoder
 from bsm.codec.static.rules import chain_rules
 from bsm.codec.static.stages import Arrival, Ended, Stage, StreamDecoder, misplaced
 from bsm.codec.static.structure import Beginning, Body, Structure
+from bsm.codec.static.ways.block_coder import FRAME, ChainDecoder
 from bsm.codec.static.work import Allowance
 
 

@@ -31,13 +31,13 @@ from bsm.codec.static.admission import admit, as_of_decoders
 from bsm.codec.static.assembly import blended
 from bsm.codec.static.attributes.encoding import carry, place_of_first_frame, with_attributes
 from bsm.codec.static.attributes.quality import qualities
-from bsm.codec.static.layers.block_coder import FRAME, CodedBlock, Progress, encode_blocks
-from bsm.codec.static.layers.coding import Adaptive
+from bsm.codec.static.coding import Adaptive
+from bsm.codec.static.draft import Draft
 from bsm.codec.static.preamble import Parts, Prepared, prepare
-from bsm.codec.static.quality.draft import Draft
-from bsm.codec.static.quality.targets import search_step
 from bsm.codec.static.rules import STIFFNESS, Scheme
+from bsm.codec.static.targets import search_step
 from bsm.codec.static.units import single
+from bsm.codec.static.ways.block_coder import FRAME, CodedBlock, Progress, encode_blocks
 from bsm.codec.static.work import Allowance
 
 FINEST_STEP = 2e-5

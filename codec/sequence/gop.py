@@ -26,8 +26,8 @@ from bsm.codec.sequence.row_prediction import (
     trajectories,
 )
 from bsm.codec.sequence.temporal import WORTH, bits_estimate, learn_basis, projection
-from bsm.codec.static.layers.block_coder import Progress
 from bsm.codec.static.rules import Scheme
+from bsm.codec.static.ways.block_coder import Progress
 from bsm.codec.static.work import Allowance
 
 BATCH = 8

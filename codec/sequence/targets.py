@@ -10,7 +10,7 @@ import numpy as np
 
 from bsm.codec.arrays import Faces, Positions
 from bsm.codec.geometry.metrics import Reference, kg_error
-from bsm.codec.static.quality.targets import Target
+from bsm.codec.static.targets import Target
 
 
 @dataclass(frozen=True)

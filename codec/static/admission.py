@@ -10,8 +10,8 @@ from dataclasses import replace
 from bsm.bitstream.errors import LimitError, OptionError
 from bsm.bitstream.limits import NAMED_LIMITS
 from bsm.codec.basis.cost import Spend
-from bsm.codec.static.layers.block_coder import CodedBlock
 from bsm.codec.static.preamble import Prepared
+from bsm.codec.static.ways.block_coder import CodedBlock
 from bsm.codec.static.work import Allowance, MeshMemory, mesh_cost, partition_cost
 
 PATIENCE = 8.0

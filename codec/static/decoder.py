@@ -26,13 +26,13 @@ from bsm.codec.static.events import (
     RefinementEvent,
     unreadable,
 )
-from bsm.codec.static.layers.block_coder import ChainDecoder
-from bsm.codec.static.layers.grid import GridStage
-from bsm.codec.static.layers.refinement import PendingLevels, RefinementStage
-from bsm.codec.static.quality.whole import Complete
 from bsm.codec.static.rules import chain_rules
 from bsm.codec.static.stages import Arrival, Stage, StreamDecoder, misplaced
 from bsm.codec.static.structure import Beginning, Body, Structure
+from bsm.codec.static.ways.block_coder import ChainDecoder
+from bsm.codec.static.ways.grid import GridStage
+from bsm.codec.static.ways.refinement import PendingLevels, RefinementStage
+from bsm.codec.static.whole import Complete
 from bsm.codec.static.work import Allowance
 from bsm.codec.threads import Lanes, Pending
 

@@ -19,18 +19,18 @@ from bsm.codec.signal.quantize import smallest_step
 from bsm.codec.static.admission import as_of_decoders
 from bsm.codec.static.attributes.encoding import Carried, carry, place_of, with_attributes
 from bsm.codec.static.attributes.quality import Quality, qualities
+from bsm.codec.static.choice.fulfilment import Fulfilment
+from bsm.codec.static.choice.ladders import FINER, WIDEST, Blocks, Grids, Ladder, Refined
+from bsm.codec.static.choice.lattices import rounded, rounded_to_cells
+from bsm.codec.static.choice.shaping import Shaper
+from bsm.codec.static.choice.spectral import Spectral
+from bsm.codec.static.contract import Contract
+from bsm.codec.static.draft import Draft
 from bsm.codec.static.joining import Joined, join
-from bsm.codec.static.layers.block_coder import Progress
 from bsm.codec.static.options import EncodeOptions
 from bsm.codec.static.preamble import Parts, Prepared, prepare
-from bsm.codec.static.quality.contract import Contract
-from bsm.codec.static.quality.draft import Draft
-from bsm.codec.static.quality.fulfilment import Fulfilment
-from bsm.codec.static.quality.ladders import FINER, WIDEST, Blocks, Grids, Ladder, Refined
-from bsm.codec.static.quality.lattices import rounded, rounded_to_cells
-from bsm.codec.static.quality.shaping import Shaper
-from bsm.codec.static.quality.spectral import Spectral
-from bsm.codec.static.quality.targets import search_step
+from bsm.codec.static.targets import search_step
+from bsm.codec.static.ways.block_coder import Progress
 
 DETAILED_ANGLE = 4.5
 """Below this mean angle of normals, blocks alone are larger than refined ones."""

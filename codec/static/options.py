@@ -11,9 +11,9 @@ from bsm.bitstream.errors import OptionError
 from bsm.bitstream.limits import NAMED_LIMITS
 from bsm.codec.choices import check_options
 from bsm.codec.static.attributes.quality import Grade, checked_qualities
-from bsm.codec.static.quality.contract import ANY_ANGLE, Contract, Fit
-from bsm.codec.static.quality.targets import Target
+from bsm.codec.static.contract import ANY_ANGLE, Contract, Fit
 from bsm.codec.static.rules import BASES, BLENDS, KEY_SEEDS, SEEDS
+from bsm.codec.static.targets import Target
 
 CHOICES = {
     "basis": BASES,

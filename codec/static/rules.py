@@ -12,7 +12,7 @@ from bsm.codec.blocks.blend import copy_weights
 from bsm.codec.blocks.overlap import Block, Blocks
 from bsm.codec.signal.chain import ChainRules, Rounding, unchanged
 from bsm.codec.signal.predict import MAX_STIFFNESS
-from bsm.codec.static.layers.coding import Coding, coding_of
+from bsm.codec.static.coding import Coding, coding_of
 
 BASES = ("oi", "svd")
 SEEDS = ("previous", "independent")

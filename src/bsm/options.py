@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from bsm.codec.denoise import DenoiseOptions
     from bsm.codec.sequence.options import SequenceOptions
     from bsm.codec.static.options import EncodeOptions
-    from bsm.codec.static.quality.targets import Target
+    from bsm.codec.static.targets import Target
 
 TARGETS = {
     "nmsve_db": "nmsve_db",
@@ -25,7 +25,7 @@ TARGETS = {
     "bpv": "bpv",
     "size": "size",
 }
-"""Keyword of each target of a mesh, and its kind, see `codec.static.quality.targets`."""
+"""Keyword of each target of a mesh, and its kind, see `codec.static.targets`."""
 
 SEQUENCE_TARGETS = {"kg": "kg", "bpvf": "bpvf", "theta": "theta_deg", "nmsve_db": "nmsve_db"}
 """The same for sequences."""
@@ -52,7 +52,7 @@ def encode_options(*, preset: str = "balanced", **keywords: Any) -> EncodeOption
         If a value is outside its range, or options exclude each other.
     """
     from bsm.codec.static.options import CODING, PRESETS, EncodeOptions
-    from bsm.codec.static.quality.targets import Target
+    from bsm.codec.static.targets import Target
 
     base: EncodeOptions = _named("preset", PRESETS, preset)
     given = _fields("a mesh", EncodeOptions, _with_lengths(keywords), TARGETS, Target)
@@ -64,7 +64,7 @@ def encode_options(*, preset: str = "balanced", **keywords: Any) -> EncodeOption
 
 def _with_lengths(keywords: Mapping[str, Any]) -> dict[str, Any]:
     """Keywords, a `max_error` with a unit among them as the contract that it is, and `lock_borders` as what it asks."""
-    from bsm.codec.static.quality.contract import Contract, Fit
+    from bsm.codec.static.contract import Contract, Fit
 
     given = dict(keywords)
     locked = given.get("lock_borders")

@@ -9,9 +9,9 @@ from bsm.bitstream.errors import ArgumentError, OptionError
 from bsm.codec.denoise import DenoiseOptions
 from bsm.codec.sequence.options import SequenceOptions
 from bsm.codec.sequence.targets import SequenceTarget
+from bsm.codec.static.contract import Contract
 from bsm.codec.static.options import PRESETS, EncodeOptions
-from bsm.codec.static.quality.contract import Contract
-from bsm.codec.static.quality.targets import Target
+from bsm.codec.static.targets import Target
 from bsm.commands.encode_options import TARGET_FLAGS
 from bsm.options import SEQUENCE_STEPS, TARGETS, denoise_options, encode_options, sequence_options
 

@@ -28,7 +28,7 @@ import sys
 from tools.constants.changed import change
 change(*sys.argv[1:3], 2.0)
 from bsm.codec.denoise.filters import guided
-from bsm.codec.static.quality import plan
+from bsm.codec.static.choice import plan
 print(guided.SIGMA_R, guided.GuidedFilter.step.__defaults__[1], plan.STIFFNESS)
 """
 

@@ -16,7 +16,7 @@ from bsm.codec.sequence.encoder import encode_sequence
 from bsm.codec.sequence.options import SequenceOptions
 from bsm.codec.static.encoder import encode
 from bsm.codec.static.options import PRESETS, EncodeOptions
-from bsm.codec.static.quality.targets import Target
+from bsm.codec.static.targets import Target
 from tools.fuzz.mutate import mutate_stream
 from tools.fuzz.sweep import mutate
 from tools.gridded import random_grid

@@ -17,10 +17,10 @@ from bsm.codec.geometry.splitting import split_by_attributes
 from bsm.codec.sequence.encoder import encode_sequence
 from bsm.codec.static.attributes.encoding import ranges
 from bsm.codec.static.attributes.relief import Solid
+from bsm.codec.static.choice.spectral import Spectral
+from bsm.codec.static.draft import Draft
 from bsm.codec.static.encoder import Encoder, encode
 from bsm.codec.static.options import EncodeOptions
-from bsm.codec.static.quality.draft import Draft
-from bsm.codec.static.quality.spectral import Spectral
 from tools.vectors.good import BASE, Good
 from tools.vectors.good_fields import ALL_AXES, soup
 from tools.vectors.good_sequences import BASE as MOVING

@@ -13,9 +13,9 @@ from bsm.bitstream.fields.corners import corners_of, keep_borders
 from bsm.bitstream.fields.grid import GridEncoder
 from bsm.bitstream.fields.levels import LevelsEncoder
 from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.static.choice.spectral import Base, Spectral
 from bsm.codec.static.encoder import Encoder, encode
 from bsm.codec.static.options import EncodeOptions
-from bsm.codec.static.quality.spectral import Base, Spectral
 from tools.surgery import with_header
 from tools.vectors.good import BASE, Good
 from tools.vectors.meshes import hub, patch, shuffled, tangled, tetrahedron, together, torus, triangle

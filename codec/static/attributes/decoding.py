@@ -33,8 +33,8 @@ from bsm.codec.static.attributes.surface import (
 )
 from bsm.codec.static.events import AttributeEvent, Losses, LossEvent, unreadable
 from bsm.codec.static.numbering import Numbering
-from bsm.codec.static.quality.whole import Complete
 from bsm.codec.static.stages import Arrival, Stage, misplaced
+from bsm.codec.static.whole import Complete
 from bsm.codec.static.work import (
     Allowance,
     chunk_cost,

@@ -30,9 +30,9 @@ from bsm.codec.static.attributes.pieces import PieceEncoder, leans, to_pieces
 from bsm.codec.static.attributes.quality import Quality
 from bsm.codec.static.attributes.relief import FARTHEST, Solid, relief_exponent
 from bsm.codec.static.attributes.surface import Surface, surface_of
+from bsm.codec.static.draft import Draft
 from bsm.codec.static.joining import Joined
 from bsm.codec.static.preamble import Prepared
-from bsm.codec.static.quality.draft import Draft
 
 CHUNK = 1 << 15
 """Values of a frame."""

@@ -13,7 +13,7 @@ from bsm.codec.geometry.metrics import Reference
 from bsm.codec.static.decoder import decode
 from bsm.codec.static.encoder import Encoder
 from bsm.codec.static.options import EncodeOptions
-from bsm.codec.static.quality.targets import Target
+from bsm.codec.static.targets import Target
 from bsm.evaluation.draco import decode_draco, encode_draco, positions_in_order
 
 DRACO_LEVEL = 10

@@ -8,9 +8,9 @@ from bsm.bitstream.container.reader import Reader
 from bsm.bitstream.errors import ArgumentError, OptionError, TargetError
 from bsm.cli import main
 from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.static.contract import Contract, Fit
 from bsm.codec.static.encoder import Encoder, encode
 from bsm.codec.static.options import EncodeOptions
-from bsm.codec.static.quality.contract import Contract, Fit
 from bsm.files.mesh import read_mesh, write_mesh
 from bsm.options import encode_options
 from tests.shapes import curved, patch, torus

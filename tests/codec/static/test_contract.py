@@ -14,12 +14,12 @@ from hypothesis import strategies as st
 from bsm.bitstream.errors import MeshError, OptionError, TargetError
 from bsm.codec.geometry.closeness import Original
 from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.static.choice.fulfilment import Fulfilment
+from bsm.codec.static.contract import Contract
 from bsm.codec.static.decoder import decode
 from bsm.codec.static.encoder import Encoder
 from bsm.codec.static.options import PRESETS, EncodeOptions
-from bsm.codec.static.quality.contract import Contract
-from bsm.codec.static.quality.fulfilment import Fulfilment
-from bsm.codec.static.quality.targets import Target
+from bsm.codec.static.targets import Target
 from bsm.files.mesh import read_mesh
 from tests.conftest import mesh_folder
 from tests.shapes import patch, tetrahedron, together, torus

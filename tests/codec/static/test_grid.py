@@ -3,7 +3,7 @@
 import pytest
 
 import bsm
-from bsm.codec.static.layers.grid import CHUNK, FIRST
+from bsm.codec.static.ways.grid import CHUNK, FIRST
 from tests.shapes import torus
 
 

@@ -10,12 +10,12 @@ import pytest
 from bsm.codec.geometry.closeness import Original
 from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.static.choice.character import Character
+from bsm.codec.static.choice.shaping import Shaper
 from bsm.codec.static.decoder import decode
 from bsm.codec.static.encoder import Encoder, encode
 from bsm.codec.static.joining import join
 from bsm.codec.static.options import PRESETS, EncodeOptions
-from bsm.codec.static.quality.character import Character
-from bsm.codec.static.quality.shaping import Shaper
 from bsm.files.mesh import read_mesh
 from bsm.options import encode_options
 from tests.shapes import curved, grid_faces, patch, torus

@@ -17,11 +17,11 @@ from bsm.bitstream.errors import BsmError, CorruptError, LimitError, OptionError
 from bsm.bitstream.limits import Limits
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.static.contract import Contract
 from bsm.codec.static.decoder import Decoder, decode
 from bsm.codec.static.encoder import Encoder, encode
 from bsm.codec.static.events import BlockEvent, ConnectivityEvent, EndEvent, HeaderEvent, LossEvent, RefinementEvent
 from bsm.codec.static.options import PRESETS, EncodeOptions
-from bsm.codec.static.quality.contract import Contract
 from bsm.codec.static.sections import MANY_VERTICES, choose_cuts, possible_cuts
 from bsm.files.mesh import read_mesh
 from tests.shapes import patch, tetrahedron, together, torus

@@ -12,7 +12,7 @@ from bsm.codec.geometry.metrics import Comparison, compare
 from bsm.codec.static.decoder import decode
 from bsm.codec.static.encoder import Encoder
 from bsm.codec.static.options import EncodeOptions
-from bsm.codec.static.quality.targets import Target, search_step
+from bsm.codec.static.targets import Target, search_step
 from tests.shapes import torus
 
 

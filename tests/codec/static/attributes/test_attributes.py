@@ -17,7 +17,7 @@ from bsm.codec.static.decoder import Decoder, decode
 from bsm.codec.static.encoder import Encoder, encode
 from bsm.codec.static.events import AttributeEvent, EndEvent, LossEvent
 from bsm.codec.static.options import PRESETS, EncodeOptions
-from bsm.codec.static.quality.targets import Target
+from bsm.codec.static.targets import Target
 from tests.shapes import curved, patch, tetrahedron, torus
 from tools.surgery import frames_of, stream_of
 

@@ -18,17 +18,17 @@ from bsm.bitstream.container.header import Layer
 from bsm.bitstream.errors import LimitError, TargetError
 from bsm.codec.arrays import Levels, Matrix
 from bsm.codec.geometry.closeness import Closeness, Original
-from bsm.codec.static.layers.block_coder import Progress
+from bsm.codec.static.choice.borders import borders_of
+from bsm.codec.static.choice.grid_search import COARSEST, GridSearch
+from bsm.codec.static.choice.lattices import rounded
+from bsm.codec.static.choice.search import Trial, widest_step
+from bsm.codec.static.choice.shaping import Aim, Shaper
+from bsm.codec.static.choice.spectral import Base, Spectral, Stack, base_step
+from bsm.codec.static.contract import ANY_ANGLE, Contract
+from bsm.codec.static.draft import Draft
 from bsm.codec.static.options import EncodeOptions
 from bsm.codec.static.preamble import FEW_VERTICES, Prepared
-from bsm.codec.static.quality.borders import borders_of
-from bsm.codec.static.quality.contract import ANY_ANGLE, Contract
-from bsm.codec.static.quality.draft import Draft
-from bsm.codec.static.quality.grid_search import COARSEST, GridSearch
-from bsm.codec.static.quality.lattices import rounded
-from bsm.codec.static.quality.search import Trial, widest_step
-from bsm.codec.static.quality.shaping import Aim, Shaper
-from bsm.codec.static.quality.spectral import Base, Spectral, Stack, base_step
+from bsm.codec.static.ways.block_coder import Progress
 
 FINE_REACH = 0.001
 """Where normals do not matter, grids are smaller than blocks from this distance on, in BSM units."""

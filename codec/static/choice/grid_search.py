@@ -12,13 +12,13 @@ import numpy as np
 
 from bsm.codec.arrays import Levels
 from bsm.codec.geometry.closeness import Closeness, Original
+from bsm.codec.static.choice.borders import ROUND, Borders
+from bsm.codec.static.choice.lattices import Shaped
+from bsm.codec.static.choice.search import Trial, widest_step
+from bsm.codec.static.choice.shaping import Aim, Shaper
+from bsm.codec.static.contract import ANY_ANGLE, Contract
+from bsm.codec.static.draft import Draft
 from bsm.codec.static.preamble import FEW_VERTICES, Prepared
-from bsm.codec.static.quality.borders import ROUND, Borders
-from bsm.codec.static.quality.contract import ANY_ANGLE, Contract
-from bsm.codec.static.quality.draft import Draft
-from bsm.codec.static.quality.lattices import Shaped
-from bsm.codec.static.quality.search import Trial, widest_step
-from bsm.codec.static.quality.shaping import Aim, Shaper
 
 COARSEST = 0.05
 """Largest step, in BSM units."""

@@ -16,7 +16,7 @@ from bsm.codec.basis.dynamic_size import DynamicSize
 from bsm.codec.signal.chain import Chain
 from bsm.codec.signal.predict import Surroundings
 from bsm.codec.static.assembly import DecodedBlock
-from bsm.codec.static.layers.coding import BlockLevels, Coding, Ground
+from bsm.codec.static.coding import BlockLevels, Coding, Ground
 from bsm.codec.static.rules import Scheme
 from bsm.codec.static.work import Allowance, block_cost, block_memory, chain_cost, ground_cost
 from bsm.codec.threads import ordered_map

@@ -18,7 +18,7 @@ from bsm.codec.signal.quantize import packed_range, smallest_step
 from bsm.codec.signal.smooth import smoothing_spectrum
 from bsm.codec.signal.transform import project
 from bsm.codec.static.admission import patience
-from bsm.codec.static.layers.coding import Adaptive, Coding, Layered, Packed
+from bsm.codec.static.coding import Adaptive, Coding, Layered, Packed
 from bsm.codec.static.options import EncodeOptions
 from bsm.codec.static.preamble import Prepared
 from bsm.codec.static.rules import STIFFNESS, Scheme

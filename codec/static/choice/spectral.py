@@ -14,13 +14,13 @@ from bsm.codec.signal.frames import displaced, in_frames, local_frames
 from bsm.codec.signal.smooth import smooth
 from bsm.codec.static.admission import admit, patience
 from bsm.codec.static.assembly import blended
-from bsm.codec.static.layers.block_coder import Progress, encode_blocks
-from bsm.codec.static.layers.refinement import encode_layer
+from bsm.codec.static.choice.plan import Planner
+from bsm.codec.static.draft import Draft
 from bsm.codec.static.options import EncodeOptions
 from bsm.codec.static.preamble import Prepared
-from bsm.codec.static.quality.draft import Draft
-from bsm.codec.static.quality.plan import Planner
 from bsm.codec.static.units import single
+from bsm.codec.static.ways.block_coder import Progress, encode_blocks
+from bsm.codec.static.ways.refinement import encode_layer
 from bsm.codec.static.work import Allowance
 
 

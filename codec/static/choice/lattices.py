@@ -11,11 +11,11 @@ from bsm.bitstream.errors import TargetError
 from bsm.bitstream.fields.grid import MOST_LARGEST
 from bsm.bitstream.fields.lattice import find_lattice
 from bsm.codec.arrays import Levels, Mask, Matrix, Positions
-from bsm.codec.static.layers.grid import Grid, encode_grid
+from bsm.codec.static.choice.shaping import Aim, Shaper
+from bsm.codec.static.draft import Draft
 from bsm.codec.static.preamble import Prepared
-from bsm.codec.static.quality.draft import Draft
-from bsm.codec.static.quality.shaping import Aim, Shaper
 from bsm.codec.static.units import single
+from bsm.codec.static.ways.grid import Grid, encode_grid
 
 MOST_SINGLE = 1e38
 PART_OF_CELL = 1.0 / 64.0

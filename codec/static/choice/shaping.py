@@ -17,7 +17,7 @@ from bsm.codec.arrays import Indices, Levels, Matrix, Positions
 from bsm.codec.geometry.closeness import Original
 from bsm.codec.geometry.graph import Graph
 from bsm.codec.geometry.incidence import vertex_faces
-from bsm.codec.static.quality.character import Character
+from bsm.codec.static.choice.character import Character
 
 PULL = 0.8
 """A level is expected at so much of the mean of its neighbours'."""

@@ -11,14 +11,14 @@ from dataclasses import dataclass, replace
 from typing import Protocol
 
 from bsm.codec.geometry.closeness import Original
-from bsm.codec.static.layers.block_coder import Progress
+from bsm.codec.static.choice.lattices import Shaped
+from bsm.codec.static.choice.shaping import Aim, Shaper
+from bsm.codec.static.choice.spectral import Base, Spectral, base_step
+from bsm.codec.static.draft import Draft
 from bsm.codec.static.options import EncodeOptions
 from bsm.codec.static.preamble import Prepared
-from bsm.codec.static.quality.draft import Draft
-from bsm.codec.static.quality.lattices import Shaped
-from bsm.codec.static.quality.shaping import Aim, Shaper
-from bsm.codec.static.quality.spectral import Base, Spectral, base_step
-from bsm.codec.static.quality.targets import COARSEST_STEP
+from bsm.codec.static.targets import COARSEST_STEP
+from bsm.codec.static.ways.block_coder import Progress
 
 WIDEST = 0.18
 """Columns of a dictionary over the rows of a block."""

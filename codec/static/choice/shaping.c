@@ -3,7 +3,7 @@
  * Coordinate descent, vertex after vertex: of the levels nearby, the one at which the faces around are bent least, by
  * area-weighted angle (as the chord, 2 sin(angle / 2)), and cheap to code. A vertex is looked at again when it or a
  * neighbour has moved. */
-#include "codec/static/quality/shaping.h"
+#include "codec/static/choice/shaping.h"
 
 enum { FAN = 32, MOVES = 32, LANES = 8 }; /* faces of one vertex that are looked at; moves; how many of them at once */
 

@@ -21,9 +21,9 @@ from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.static.attributes.decoding import ValuesStage, completed
 from bsm.codec.static.attributes.relief import Solid
 from bsm.codec.static.events import BlockEvent, Changes, Losses, LossEvent, unreadable
-from bsm.codec.static.quality.whole import Complete
 from bsm.codec.static.stages import Arrival, Stage, misplaced
 from bsm.codec.static.structure import Structure
+from bsm.codec.static.whole import Complete
 from bsm.codec.static.work import grid_chunk_cost, grid_cost, grid_memory, light_chunk_cost, light_cost
 
 FIRST, CHUNK = 1 << 12, 1 << 13
