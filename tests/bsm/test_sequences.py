@@ -55,7 +55,7 @@ def test_info_and_verify(npz, tmp_path, capsys):
     stream = tmp_path / "a.bsm"
     encoded = result(capsys, "encode", npz, "-o", stream, "--gop", 4, "--frame-rate", 25)
     info = result(capsys, "info", stream)
-    assert info["frames"] == FRAMES and info["header"]["frame_rate"] == 25
+    assert info["frames"] == FRAMES and info["metadata"]["frame_rate"] == 25
     assert [(gop["first"], gop["frames"]) for gop in info["gops"]] == [(0, 4), (4, 2)]
     assert all(stream.read_bytes()[gop["offset"]] & 15 == 7 for gop in info["gops"])
     assert info["bpvf_total"] == pytest.approx(encoded["bpvf_total"])

@@ -154,7 +154,7 @@ def _sequence_lines(summary: dict[str, Any]) -> list[str]:
     gops, header = summary["gops"], summary["header"]
     if not header["gop_frames"]:
         return []
-    rate = f", {header['frame_rate']:g} per second" if header["frame_rate"] else ""
+    rate = f", {summary['metadata']['frame_rate']:g} per second" if "frame_rate" in summary["metadata"] else ""
     sizes = [gop["bytes"] for gop in gops] or [0]
     return [
         f"{summary['frames']} frames{rate}, in {len(gops)} {'GOP' if len(gops) == 1 else 'GOPs'} "

@@ -74,7 +74,7 @@ def decode_sequence(args: DecodeJob, console: Console, chunks: Iterator[bytes]) 
         names = ", ".join(one.name for one in stream.attributes)
         console.note(f"{args.input}: left out: {names}; frames in files of their own, in the stream's order, hold them")
     seconds = time.perf_counter() - begin
-    facts = {"frames": count, "vertices": header.vertices, "faces": header.faces, "frame_rate": header.frame_rate}
+    facts = {"frames": count, "vertices": header.vertices, "faces": header.faces}
     console.note(
         f"{args.input} -> {output}: {count} frames of {header.vertices} vertices, {header.faces} faces, {seconds:.2f} s"
     )

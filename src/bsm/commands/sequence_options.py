@@ -21,7 +21,7 @@ def add_sequence_flags(parser: argparse.ArgumentParser) -> None:
     group.add_argument(
         "--low-delay", action="store_true", default=None, help="send each frame as it comes; --gop: every N a key frame"
     )
-    group.add_argument("--frame-rate", type=float, metavar="FPS", help="frames per second, for information")
+    group.add_argument("--frame-rate", type=float, metavar="FPS", help="frames per second, for the metadata")
 
 
 def sequence_wishes(args: argparse.Namespace) -> dict[str, Any]:
