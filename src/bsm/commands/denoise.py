@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from bsm.codec.denoise import AutomaticChoice, DenoiseOptions, Step
 
 FINE = ("guided", "bilateral", "non-iterative", "fast-effective", "bilateral-normal", "l0")
-HAND_OVERS = ("positions", "normals", "none")
+HAND_OVERS = ("positions", "heights", "normals", "none")
 GOALS = ("shading", "shape")
 _OPTIONS = ("fine", "hand_over", "iterations", "keep", "block_size")
 
@@ -69,7 +69,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--hand-over",
         choices=HAND_OVERS,
         default=argparse.SUPPRESS,
-        help="what the fine step gets: coarse positions, noisy ones smoothed along coarse normals, or no coarse step",
+        help="what the fine step gets: coarse positions, noisy ones moved to it along its normals, noisy "
+        "ones smoothed along coarse normals, or no coarse step",
     )
     ways.add_argument(
         "--iterations",
