@@ -13,7 +13,7 @@ FLOORS = {
     "bsm.codec": (
         ("_kernels", "arrays", "choices", "threads"),
         ("geometry",),
-        ("blocks",),
+        ("blocks", "look"),
         ("basis",),
         ("signal",),
         ("static", "denoise"),

@@ -84,10 +84,10 @@ ENCODE_FLAGS = (
 )
 
 
-PRESETS = ("small", "balanced", "fine", "near-lossless", "lossless")
+PRESETS = ("small", "balanced", "fine", "near-lossless", "grid14")
 PROMISES = (
     "how far a vertex may be off, of the diagonal, and normals on average: small 2 %% and 12 degrees, balanced 1 %% "
-    "and 8 (default), fine 0.5 %% and 3, near-lossless 0.05 %%; lossless: exactly as on a grid of 14 bits"
+    "and 8 (default), fine 0.5 %% and 3, near-lossless 0.05 %%; grid14: exactly as on a grid of 14 bits"
 )
 """Of the presets; written out, since importing what they are takes time."""
 
@@ -96,7 +96,7 @@ TARGET_FLAGS = (
     ("theta", "theta_deg", "DEG", "mean angle between the faces' normals before and after at most DEG"),
     (
         "max-error",
-        "max_error_relative",
+        "max_error",
         "REL",
         "no vertex farther off than REL diagonals of the bounding box; with a unit (0.05mm), in the mesh's own",
     ),
