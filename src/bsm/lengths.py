@@ -38,10 +38,10 @@ def refuse_other_units(lengths: Mapping[str, Any], metadata: Mapping[str, Any]) 
     Units that are not known, and meshes that say nothing, are taken as they are: lengths are in the mesh's own.
     """
     own = metadata.get("unit")
-    size = _metres(own) if isinstance(own, str) else None
+    size = metres(own) if isinstance(own, str) else None
     for name, value in lengths.items():
         number, unit = _parts(name, value) if isinstance(value, str) else (0.0, "")
-        other = _metres(unit)
+        other = metres(unit)
         if size is not None and other is not None and other != size:
             meant = f"{number * other / size:g}{own}"
             raise OptionError(f"{name} is in {unit}, and the mesh says that its unit is {own}: give it as {meant}")
@@ -59,6 +59,6 @@ def _parts(name: str, value: Any) -> tuple[float, str]:
         raise ArgumentError(f"{name}: {found[1]!r} is no number") from None
 
 
-def _metres(unit: str) -> float | None:
+def metres(unit: str) -> float | None:
     name = unit.strip().lower()
     return IN_METRES.get(name, IN_METRES.get(name.removesuffix("s")))

@@ -5,19 +5,22 @@ from __future__ import annotations
 import argparse
 import time
 from collections.abc import Sequence
+from pathlib import Path
 
 from bsm.batch import Facts, Job, add_inputs, came_to, plan, refuse_collisions, run_jobs, size_of
 from bsm.bitstream.errors import OptionError
 from bsm.commands.encode_options import add_encode_flags, encode_options, given_options, given_targets
 from bsm.commands.reader import add_reader_flag
-from bsm.commands.sequence_options import add_sequence_flags, refuse_sequence_flags
+from bsm.commands.sequence_options import add_sequence_flags, refuse_sequence_flags, wanted_of
 from bsm.console import Console, finite
 from bsm.farm.run import may_replace
 from bsm.files.mesh import MESH_FORMATS, read_mesh
+from bsm.files.motion.folder import common_name, look_like_frames
+from bsm.files.motion.frames import Frames
 from bsm.files.naming import refuse_terminal
 from bsm.files.output import open_output, refuse_to_overwrite
 from bsm.files.permutation import write_permutation
-from bsm.files.sequence import open_sequence
+from bsm.files.sequence import SEQUENCES_READ, open_frames, open_sequence
 from bsm.lengths import LENGTHS, refuse_other_units
 from bsm.meshes import told_of
 
@@ -26,11 +29,15 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare what the command takes."""
     add_inputs(
         parser,
-        "mesh file (OBJ, OFF, PLY, STL, npz), - for standard input, or a sequence: npz, folder, or quoted pattern",
-        "file, or folder for any number of inputs (default: IN with .bsm; - for a pipe)",
+        "mesh file (OBJ, OFF, PLY, STL, npz), - for standard input, or a sequence: folder, quoted pattern, npz, PC2, "
+        "MDD, USD, GLB with --animation",
+        "file, or folder for any number of inputs (default: IN with .bsm; - for a pipe); many inputs to one .bsm are "
+        "the frames of a sequence",
     )
     parser.add_argument(
-        "--format", choices=(*MESH_FORMATS, "npy"), help="format of the input (default: by its name or content)"
+        "--format",
+        choices=tuple(dict.fromkeys((*MESH_FORMATS, *SEQUENCES_READ))),
+        help="format of the input (default: by its name or content)",
     )
     parser.add_argument(
         "--permutation", metavar="FILE.npy", help="also write which input vertex each decoded vertex is"
@@ -45,10 +52,19 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_reader_flag(parser)
     add_encode_flags(parser)
     add_sequence_flags(parser)
+    parser.set_defaults(members=[])
 
 
 def run(args: argparse.Namespace, console: Console) -> int:
     """Encode all inputs."""
+    args.members = []
+    if is_one_sequence(args.inputs, args.output):
+        args.members, args.inputs = args.inputs, [common_name(args.inputs)]
+    elif args.output is None and len(args.inputs) > 1 and look_like_frames(args.inputs):
+        console.note(
+            f"{len(args.inputs)} inputs are numbered like the frames of one animation; to make one stream of them, "
+            "-o NAME.bsm"
+        )
     jobs = plan(args.inputs, args.output, lambda _: ".bsm")
     if args.permutation:
         if len(jobs) > 1:
@@ -59,6 +75,18 @@ def run(args: argparse.Namespace, console: Console) -> int:
     refuse_terminal(jobs[0].output)
     one_thread_each(args, jobs)
     return run_jobs(args, console, encode_one, jobs)
+
+
+def is_one_sequence(inputs: Sequence[str], output: str | None) -> bool:
+    """Whether many inputs are the frames of one stream."""
+    return len(inputs) > 1 and output is not None and output.lower().endswith(".bsm") and not Path(output).is_dir()
+
+
+def form_of(args: argparse.Namespace) -> str | None:
+    """The format of the input, as far as it was said."""
+    if args.piped_frames and args.format not in (None, "npy"):
+        raise OptionError(f"--frames takes npy arrays, and --format says {args.format}")
+    return "npy" if args.piped_frames else args.format
 
 
 def metadata_of(args: argparse.Namespace) -> dict[str, str]:
@@ -83,7 +111,11 @@ def encode_one(args: argparse.Namespace, console: Console) -> Facts:
 
     from bsm.codec.static.encoder import Encoder
 
-    if sequence := open_sequence(args.input, args.format, args.reader):
+    if args.members:
+        sequence: Frames | None = open_frames(args.members, args.format, args.reader)
+    else:
+        sequence = open_sequence(args.input, form_of(args), args.reader, wanted_of(args))
+    if sequence is not None:
         from bsm.commands.sequence_encode import encode_sequence
 
         return encode_sequence(args, console, sequence, metadata_of(args))

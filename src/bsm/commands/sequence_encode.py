@@ -17,9 +17,9 @@ from bsm.codec.geometry.mesh import Metadata
 from bsm.commands.sequence_options import sequence_options
 from bsm.console import Console, finite
 from bsm.farm.run import may_replace
+from bsm.files.motion.frames import Frames
 from bsm.files.output import open_output
 from bsm.files.permutation import write_permutation
-from bsm.files.sequence import Frames
 
 
 def encode_sequence(args: argparse.Namespace, console: Console, source: Frames, metadata: Metadata) -> Facts:
@@ -27,7 +27,13 @@ def encode_sequence(args: argparse.Namespace, console: Console, source: Frames, 
     from bsm.codec.sequence.encoder import SequenceEncoder
 
     begin = time.perf_counter()
-    encoder = SequenceEncoder(source.faces, sequence_options(args), source.count, metadata, source.attributes)
+    encoder = SequenceEncoder(
+        source.faces,
+        sequence_options(args, source.frame_rate),
+        source.count,
+        {**source.metadata, **metadata},
+        source.attributes,
+    )
     heard = Echo()
     size = 0
     replace = may_replace(args, args.output)
@@ -45,7 +51,8 @@ def encode_sequence(args: argparse.Namespace, console: Console, source: Frames, 
         write_permutation(args.permutation, encoder.vertex_order, overwrite=args.force)
     vertices, faces, frames = len(encoder.vertex_order), len(encoder.face_order), heard.frames
     bpvf = 8 * size / (vertices * frames)
-    taken = size_of(args.input)
+    sizes = [size_of(name) or 0 for name in args.members]
+    taken = sum(sizes) if sizes else size_of(args.input)
     console.note(
         f"{args.input} -> {args.output}: {frames} frames of {vertices} vertices, {faces} faces, "
         f"{came_to(taken, size)}, {bpvf:.3f} bits per vertex and frame; KG error {heard.kg:.3g} %, {seconds:.2f} s"
