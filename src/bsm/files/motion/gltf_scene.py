@@ -185,7 +185,7 @@ class Scene:
             each = 3 if way == "CUBICSPLINE" else 1
             if path == "weights":
                 values = values.reshape(each * len(times), -1)
-            width = {"translation": 3, "rotation": 4, "scale": 3}.get(path, self._targets_of(node))
+            width = {"translation": 3, "rotation": 4, "scale": 3}.get(path) or self._targets_of(node)
             if values.shape[1] != width:
                 raise FormatError(f"the {path} of node {node} is animated by {values.shape[1]} numbers, not {width}")
             found[int(node), path] = Curve(times, values, way, path == "rotation")
