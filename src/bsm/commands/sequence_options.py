@@ -3,15 +3,7 @@
 from __future__ import annotations
 
 import argparse
-from typing import TYPE_CHECKING
-
-from bsm import options
-from bsm.bitstream.errors import OptionError
-from bsm.commands.encode_options import given_options, given_targets
-from bsm.files.motion.frames import Wanted
-
-if TYPE_CHECKING:
-    from bsm.codec.sequence.options import SequenceOptions
+from typing import Any
 
 _OWN = ("kg", "bpvf", "gop", "low_delay", "frame_rate")
 
@@ -34,7 +26,7 @@ def add_sequence_flags(parser: argparse.ArgumentParser) -> None:
         "--frame-rate",
         type=float,
         metavar="FPS",
-        help="frames per second, for information; where an animation is sampled (glTF, USD) the rate of that",
+        help="frames per second, for the metadata; where an animation is sampled (glTF, USD) the rate of that",
     )
     group.add_argument(
         "--animation",
@@ -52,31 +44,6 @@ def add_sequence_flags(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def refuse_sequence_flags(args: argparse.Namespace) -> None:
-    """Raise `OptionError` if a flag of `add_sequence_flags` was given for a mesh."""
-    given = [name for name in _OWN if getattr(args, name) is not None]
-    given += ["animation"] if args.animation is not None else []
-    given += ["mesh"] if args.cache_mesh is not None else []
-    given += ["frames"] if args.piped_frames else []
-    if given:
-        raise OptionError(f"--{given[0].replace('_', '-')} is for sequences, and this is one mesh")
-
-
-def wanted_of(args: argparse.Namespace) -> Wanted | None:
-    """What is asked of the reader; None: nothing that only a sequence has."""
-    if args.animation is None and args.cache_mesh is None and all(getattr(args, name) is None for name in _OWN):
-        return None
-    return Wanted(args.frame_rate or 0.0, args.animation or "", args.cache_mesh)
-
-
-def sequence_options(args: argparse.Namespace, frame_rate: float = 0.0) -> SequenceOptions:
-    """The options that the command line asks for; `frame_rate` is the input's own.
-
-    Raises
-    ------
-    ArgumentError, OptionError
-        If a flag does not go with sequences, or there are two targets.
-    """
-    own = {name: getattr(args, name) for name in _OWN if getattr(args, name) is not None}
-    own.setdefault("frame_rate", frame_rate)
-    return options.sequence_options(preset=args.preset, **given_options(args), **given_targets(args), **own)
+def sequence_wishes(args: argparse.Namespace) -> dict[str, Any]:
+    """What was asked for that only sequences have, as keywords of `bsm.options.sequence_options`."""
+    return {name: getattr(args, name) for name in _OWN if getattr(args, name) is not None}

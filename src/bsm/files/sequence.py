@@ -7,7 +7,7 @@ pipes, npy arrays one behind the other.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -82,7 +82,7 @@ def open_sequence(
     return read_archive(given)
 
 
-def open_frames(names: list[str], file_format: str | None = None, reader: str | None = None) -> Frames:
+def open_frames(names: Sequence[str], file_format: str | None = None, reader: str | None = None) -> Frames:
     """The sequence of these mesh files, in the order of the numbers in their names; errors as of `open_sequence`."""
     return read_files(in_order(names), file_format, reader)
 
@@ -160,7 +160,7 @@ def _cache_writer(
     refuse_to_overwrite(beside, overwrite)
     first: list[Positions] = []
     with open_output(path, overwrite=overwrite) as file:
-        with write_cache(file, kind, count, told.frame_rate) as write:
+        with write_cache(file, kind, count, lambda: told.frame_rate) as write:
 
             def take(frame: Positions) -> None:
                 if not first:

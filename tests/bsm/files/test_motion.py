@@ -104,7 +104,7 @@ def test_there_and_back(tmp_path, kind):
     positions, faces, attributes = painted()
     one_file = sequence_kind(f"a.{kind}", None) if kind not in ("obj", "ply", "off", "stl") else None
     path = tmp_path / (f"a.{kind}" if one_file else f"%02d.{kind}")
-    told = Told(lambda: attributes, lambda: {"unit": "cm", "up": "z"}, 25.0)
+    told = Told(lambda: attributes, lambda: {"unit": "cm", "up": "z", "frame_rate": 25.0})
     with sequence_writer(str(path), kind, faces, COUNT, overwrite=False, told=told) as write:
         for frame in positions:
             write(frame)
@@ -131,7 +131,7 @@ def test_usd_core_reads_what_we_write(tmp_path):
     from pxr import UsdGeom
 
     positions, faces, attributes = painted()
-    told = Told(lambda: attributes, lambda: {"unit": "mm", "up": "z"}, 30.0)
+    told = Told(lambda: attributes, lambda: {"unit": "mm", "up": "z", "frame_rate": 30.0})
     with sequence_writer(str(tmp_path / "a.usdc"), "usdc", faces, COUNT, overwrite=False, told=told) as write:
         for frame in positions:
             write(frame)
@@ -218,7 +218,7 @@ def test_many_files_make_one_stream(tmp_path, capsys):
     positions, faces = bending(12)
     names = written(tmp_path / "run", positions, faces)
     assert names[0].endswith("walk_10.ply"), "as a shell gives them"
-    assert bsm("encode", *names, "-o", tmp_path / "a.bsm", "--step", 1e-5) == 0
+    assert bsm("encode", *names, "-o", tmp_path / "a.bsm", "--preset", "fine") == 0
     assert "12 frames" in capsys.readouterr().err
     assert bsm("decode", tmp_path / "a.bsm", "-o", tmp_path / "back.npz") == 0
     back = np.load(tmp_path / "back.npz")["positions"]
@@ -307,7 +307,7 @@ def test_pc2_and_mdd_byte_by_byte(tmp_path):
     positions = positions[:, :9]
     faces = np.array([[0, 1, 2], [3, 4, 5], [6, 7, 8]])
     for kind in ("pc2", "mdd"):
-        told = Told(frame_rate=4.0)
+        told = Told(metadata=lambda: {"frame_rate": 4.0})
         with sequence_writer(str(tmp_path / f"a.{kind}"), kind, faces, 2, overwrite=True, told=told) as write:
             write(positions[0])
             write(positions[1])

@@ -13,7 +13,9 @@ import { isMine, type SharedBlock } from "./helper";
 import type { Kernels, Memory } from "./kernels";
 import { checkLimit, DEFAULT_LIMITS, type Limits } from "./limits";
 import { Numbering, permuted, type Loose } from "./numbering";
-import { Cursor, END_OF_STREAM, NEED_DATA, Reader, type Damaged, type Packet, type Signal } from "./reader";
+import { Cursor, END_OF_STREAM, NEED_DATA, Reader, type Damaged, type Metadata, type Packet, type Signal } from "./reader";
+
+export type { Metadata };
 import { Sequence } from "./sequence";
 import { split } from "./splits";
 import { Structure, type Chains } from "./structure";
@@ -76,7 +78,10 @@ export interface EndEvent {
     degraded: Int32Array;
 }
 
-export type Event = HeaderEvent | ConnectivityEvent | BlockEvent | RefinementEvent | AttributeEvent | FrameEvent | LossEvent | EndEvent;
+/** What the author says of the stream. */
+export type MetadataEvent = Extract<Packet, { type: "metadata" }>;
+
+export type Event = HeaderEvent | MetadataEvent | ConnectivityEvent | BlockEvent | RefinementEvent | AttributeEvent | FrameEvent | LossEvent | EndEvent;
 
 /** What a decoder is asked for beside the mesh. */
 export interface Wishes {
@@ -276,6 +281,9 @@ export class Decoder {
         switch (packet.type) {
             case "header":
                 return this.acceptHeader(packet.header);
+            case "metadata":
+                this.queue.push(packet);
+                return;
             case "connectivity":
                 return this.acceptConnectivity(packet.method, packet.data);
             case "partition":

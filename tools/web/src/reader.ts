@@ -10,9 +10,12 @@ export const NEED_DATA = "need data";
 export const END_OF_STREAM = "end of stream";
 export type Signal = typeof NEED_DATA | typeof END_OF_STREAM;
 
+/** What the author of a stream says of it, by name (F 5.1). */
+export type Metadata = Record<string, string | number | bigint | Uint8Array>;
+
 export type Packet =
     | { type: "header"; header: Header }
-    | { type: "metadata" }
+    | { type: "metadata"; entries: Metadata }
     | { type: "connectivity" | "partition" | "order"; method: number; data: Uint8Array }
     | { type: "block"; index: number; coefficients: number; data: Uint8Array }
     | { type: "gop"; index: number; data: Uint8Array }
@@ -130,10 +133,12 @@ const PARSERS: Record<Kind, (payload: Cursor, limits: Limits) => Packet> = {
     metadata: (payload, limits) => {
         const data = payload.rest();
         checkLimit(limits, "metadataBytes", data.length);
+        const entries: Metadata = {};
         for (const [key, value] of parseMap(data)) {
             if (key.type !== "string" || value.type === "array") throw new CorruptError("metadata of a wrong type");
+            Object.defineProperty(entries, key.value, { value: value.value, enumerable: true }); // also "__proto__"
         }
-        return { type: "metadata" };
+        return { type: "metadata", entries };
     },
     connectivity: (payload) => ({ type: "connectivity", method: payload.take(1)[0], data: payload.rest() }),
     partition: (payload) => ({ type: "partition", method: payload.take(1)[0], data: payload.rest() }),

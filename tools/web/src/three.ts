@@ -2,7 +2,7 @@
 import { BufferAttribute, BufferGeometry, Loader, type LoadingManager } from "three";
 import {
     checkLimit, DecoderThread, DEFAULT_LIMITS, type Attribute, type BlockEvent, type ConnectivityEvent, type DrawnEvent, type Event, type Header,
-    type Kernels, type Limits, type LossEvent, type RefinementEvent,
+    type Kernels, type Limits, type LossEvent, type Metadata, type RefinementEvent,
 } from "./index";
 
 /** What happens to a geometry while it is filled. */
@@ -47,6 +47,7 @@ export class BSMGeometry extends BufferGeometry {
     private readonly limits: Limits;
     private faces: Int32Array = new Int32Array(0);
     private waiting = new Uint8Array(0);
+    private metadata: Metadata = {};
     private facesAround: { starts: Int32Array; members: Int32Array } = { starts: new Int32Array(1), members: new Int32Array(0) };
     private touched = new Uint8Array(0);
     private normals = new Float32Array(0);
@@ -62,12 +63,14 @@ export class BSMGeometry extends BufferGeometry {
 
     /** Frames per second; 0: the stream is no sequence, or does not say. */
     get frameRate(): number {
-        return this.header?.frameRate ?? 0;
+        const { frame_rate: rate } = this.metadata;
+        return typeof rate === "number" && rate > 0 && rate < Infinity ? rate : 0;
     }
 
     /** Bring the geometry up to an event. */
     accept(event: Event | DrawnEvent): void {
         if (event.type === "header") this.header = event.header;
+        if (event.type === "metadata") this.metadata = event.entries;
         if (event.type === "connectivity") this.acceptFaces(event);
         if (event.type === "block" || event.type === "refinement") this.acceptBlock(event);
         if (event.type === "frame") this.acceptFrame(event.index, event.positions);

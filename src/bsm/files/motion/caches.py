@@ -141,7 +141,9 @@ def _beside(path: str) -> str:
 
 
 @contextmanager
-def write_cache(file: BinaryIO, kind: str, count: int, rate: float) -> Iterator[Callable[[Positions], None]]:
+def write_cache(
+    file: BinaryIO, kind: str, count: int, rate: Callable[[], float]
+) -> Iterator[Callable[[Positions], None]]:
     """Write a cache; yields what takes frame after frame, as many as announced, and keeps none.
 
     Raises
@@ -166,7 +168,7 @@ def write_cache(file: BinaryIO, kind: str, count: int, rate: float) -> Iterator[
             file.write(_PC2.pack(_SIGNATURE, 1, len(frame), 0.0, 1.0, count))
         elif taken == 0:
             file.write(_MDD.pack(count, len(frame)))
-            file.write((np.arange(count) / (rate or 24.0)).astype(">f4").tobytes())
+            file.write((np.arange(count) / (rate() or 24.0)).astype(">f4").tobytes())
         if np.abs(frame).max() > np.finfo(np.float32).max:
             raise MeshError(f"a coordinate of frame {taken} is beyond single precision, which {kind.upper()} has")
         file.write(np.ascontiguousarray(frame, single).tobytes())

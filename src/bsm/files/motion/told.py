@@ -20,16 +20,19 @@ class Told:
         Those of all frames, asked for when the first frame is there.
     metadata : callable
         As that of `TriangleMesh`; asked for then, too.
-    frame_rate : float
-        0: not known.
     left_out : list of str
         What the form cannot hold, known at the end.
     """
 
     attributes: Callable[[], tuple[Attribute, ...]] = tuple
     metadata: Callable[[], Metadata] = dict
-    frame_rate: float = 0.0
     left_out: list[str] = field(default_factory=list)
+
+    @property
+    def frame_rate(self) -> float:
+        """Frames per second; 0: not known."""
+        rate = self.metadata().get("frame_rate")
+        return float(rate) if isinstance(rate, int | float) and 0 < rate < float("inf") else 0.0
 
     def mesh(self, positions: Positions, faces: Faces, *, with_metadata: bool = True) -> TriangleMesh:
         """The mesh of a frame, with everything."""

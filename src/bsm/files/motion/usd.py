@@ -317,7 +317,9 @@ def _begun(pxr: Any, stage: Any, first: TriangleMesh, told: Told) -> Any:
     mesh.CreatePointsAttr()
     mesh.CreateExtentAttr()
     told.loses(one.name for one in first.attributes if not _written(pxr, mesh, one))
-    told.loses(name for name in first.metadata if name not in ("up", "name") and (name != "unit" or size is None))
+    told.loses(
+        name for name in first.metadata if name not in ("up", "name", "frame_rate") and (name != "unit" or size is None)
+    )
     return mesh
 
 

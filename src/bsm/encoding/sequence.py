@@ -1,8 +1,7 @@
-"""bsm encode, where the input is a sequence."""
+"""Sequences to streams: a job of `bsm encode` whose input is one."""
 
 from __future__ import annotations
 
-import argparse
 import math
 import time
 from collections import deque
@@ -11,55 +10,66 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from bsm import options
 from bsm.batch import Facts, came_to, size_of
 from bsm.codec.arrays import Positions
-from bsm.codec.geometry.mesh import Metadata
-from bsm.commands.sequence_options import sequence_options
 from bsm.console import Console, finite
-from bsm.farm.run import may_replace
-from bsm.files.motion.frames import Frames
+from bsm.encoding.job import EncodeJob
+from bsm.files.motion.frames import Frames, Wanted
 from bsm.files.output import open_output
 from bsm.files.permutation import write_permutation
+from bsm.files.sequence import open_frames, open_sequence
+
+_OF_SEQUENCES = ("kg", "bpvf", "gop", "low_delay", "frame_rate")
+"""Wishes that only a sequence can fulfil: a GLB is then one."""
 
 
-def encode_sequence(args: argparse.Namespace, console: Console, source: Frames, metadata: Metadata) -> Facts:
+def sequence_of(job: EncodeJob) -> Frames | None:
+    """The sequence that a job's input is; None: it is perhaps a mesh."""
+    if job.members:
+        return open_frames(job.members, job.format, job.reader)
+    asked = (job.animation, job.cache_mesh, *(job.wishes.get(name) for name in _OF_SEQUENCES))
+    if all(one is None for one in asked):
+        return open_sequence(job.input, job.format, job.reader)
+    wanted = Wanted(job.wishes.get("frame_rate") or 0.0, job.animation or "", job.cache_mesh)
+    return open_sequence(job.input, job.format, job.reader, wanted)
+
+
+def encode_sequence(job: EncodeJob, console: Console, source: Frames) -> Facts:
     """Encode one sequence; every GOP is written as soon as its frames are there."""
     from bsm.codec.sequence.encoder import SequenceEncoder
 
     begin = time.perf_counter()
-    encoder = SequenceEncoder(
-        source.faces,
-        sequence_options(args, source.frame_rate),
-        source.count,
-        {**source.metadata, **metadata},
-        source.attributes,
-    )
+    chosen = options.sequence_options(**job.wishes, threads=job.threads)
+    rate = {"frame_rate": source.frame_rate} if source.frame_rate else {}
+    metadata = {**source.metadata, **rate, **job.metadata}
+    encoder = SequenceEncoder(source.faces, chosen, source.count, metadata, source.attributes)
     heard = Echo()
     size = 0
-    replace = may_replace(args, args.output)
-    with open_output(args.output, overwrite=replace) as file, console.progress("encoding") as progress:
+    replace = job.may_replace(job.output)
+    with open_output(job.output, overwrite=replace) as file, console.progress("encoding") as progress:
         for chunk in encoder.chunks(heard.taken(source.frames), progress):
             size += file.write(chunk)
             file.flush()
-            if not args.quiet or args.json:
+            if job.compared:
                 heard.compare(chunk, encoder.vertex_order)
     seconds = time.perf_counter() - begin
     notes = (*source.notes, *encoder.notes)
     for note in notes:
-        console.note(f"{args.input}: {note}")
-    if args.permutation:
-        write_permutation(args.permutation, encoder.vertex_order, overwrite=args.force)
+        console.note(f"{job.input}: {note}")
+    if job.permutation:
+        write_permutation(job.permutation, encoder.vertex_order, overwrite=job.force)
     vertices, faces, frames = len(encoder.vertex_order), len(encoder.face_order), heard.frames
     bpvf = 8 * size / (vertices * frames)
-    sizes = [size_of(name) or 0 for name in args.members]
-    taken = sum(sizes) if sizes else size_of(args.input)
+    sizes = [size_of(name) or 0 for name in job.members]
+    taken = sum(sizes) if sizes else size_of(job.input)
     console.note(
-        f"{args.input} -> {args.output}: {frames} frames of {vertices} vertices, {faces} faces, "
+        f"{job.input} -> {job.output}: {frames} frames of {vertices} vertices, {faces} faces, "
         f"{came_to(taken, size)}, {bpvf:.3f} bits per vertex and frame; KG error {heard.kg:.3g} %, {seconds:.2f} s"
     )
     return {
-        "input": args.input,
-        "output": args.output,
+        "input": job.input,
+        "output": job.output,
         "frames": frames,
         "vertices": vertices,
         "faces": faces,
