@@ -13,7 +13,8 @@ FLOORS = {
     "bsm": (
         ("bitstream", "__version__", "_kernels"),
         ("codec",),
-        ("console", "files", "lengths", "steadiness", "usage"),
+        ("console", "lengths", "steadiness", "usage"),
+        ("files",),
         ("comparison", "evaluation", "exits", "foreign", "options"),
         ("farm", "meshes"),
         ("batch",),

@@ -19,7 +19,7 @@ import numpy as np
 
 from bsm.bitstream.errors import CorruptError, FormatError, MeshError, OptionError, TruncatedError
 from bsm.codec.arrays import Positions
-from bsm.exits import about
+from bsm.files.about import about
 from bsm.files.mesh import read_mesh
 from bsm.files.motion.frames import Frames, Wanted, checked_frames, rate_of_times
 

@@ -16,7 +16,7 @@ from bsm.bitstream.errors import FormatError, MeshError, OptionError
 from bsm.codec.arrays import Positions
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.exits import about
+from bsm.files.about import about
 from bsm.files.mesh import WRITTEN_FORMATS, format_of_name, read_mesh, save_written, written_mesh
 from bsm.files.motion.frames import Frames
 
