@@ -20,7 +20,7 @@ FLOORS = {
         ("batch",),
         ("encoding",),
         ("api",),
-        ("pyvista", "trimesh", "viewer"),
+        ("blender", "pyvista", "trimesh", "viewer"),
         # Finds the module of a command by its name.
         ("cli",),
         ("commands",),

@@ -48,7 +48,7 @@ def encode_sequence(job: EncodeJob, console: Console, source: Frames) -> Facts:
     size = 0
     replace = job.may_replace(job.output)
     with open_output(job.output, overwrite=replace) as file, console.progress("encoding") as progress:
-        for chunk in encoder.chunks(heard.taken(source.frames), progress):
+        for chunk in encoder.chunks(heard.taken(source.frames, job.compared), progress):
             size += file.write(chunk)
             file.flush()
             if job.compared:
@@ -97,11 +97,12 @@ class Echo:
 
         self._decoder = SequenceDecoder()
 
-    def taken(self, frames: Iterator[Positions]) -> Iterator[Positions]:
-        """The frames, which are also kept."""
+    def taken(self, frames: Iterator[Positions], kept: bool) -> Iterator[Positions]:
+        """The frames, which are also kept until they have been compared."""
         for frame in frames:
             self.frames += 1
-            self._waiting.append(frame)
+            if kept:
+                self._waiting.append(frame)
             yield frame
 
     def compare(self, chunk: bytes, order: np.ndarray) -> None:

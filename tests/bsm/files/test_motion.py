@@ -122,6 +122,10 @@ def test_there_and_back(tmp_path, kind):
         "color" * (kind == "off")
     }
     assert source.frame_rate == (25 if kind in ("mdd", "glb", "usda", "usdc", "usdz") else 0)
+    texcoord = next((one for one in source.attributes if one.semantic == "texcoord"), None)
+    if texcoord is not None:
+        shown = texcoord.values[texcoord.indices] if texcoord.indices is not None else texcoord.values[source.faces]
+        assert np.allclose(shown, positions[0][same[source.faces]][:, :, :2] * 0.3 + 0.5, atol=1e-5)
     if kind.startswith("usd"):
         assert (source.metadata["unit"], source.metadata["up"]) == ("centimeters", "z")
 

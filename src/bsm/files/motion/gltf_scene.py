@@ -288,7 +288,9 @@ class Scene:
                 one = color_column(values, "vertex")
                 found.append(Column(f"color{later}", one.values, "vertex", one.semantic))
             elif kind == "TEXCOORD":
-                found.append(Column(f"texcoord{later}", values.astype(np.float32), "vertex", "texcoord"))
+                upright = values.astype(np.float32)
+                upright[:, 1] = 1 - upright[:, 1]  # glTF counts from the top, we from the bottom
+                found.append(Column(f"texcoord{later}", upright, "vertex", "texcoord"))
             else:
                 found.append(Column(number.lower(), values, "vertex", meaning_of(number)))
         return tuple(found)
