@@ -1,0 +1,95 @@
+"""Levels chosen by what errors cost where they are seen, which is measured in pictures. Encoder only.
+
+Errors show where there are contours, creases and reflections, and hardly where a surface is rough anyway, hidden, or
+flat and moved in its plane. How much, two pictures of a noisy mesh tell for every vertex, along its normal and across;
+what is cheap to code is taken where it costs little.
+"""
+
+from __future__ import annotations
+
+from functools import cached_property
+
+import numpy as np
+
+from bsm.codec import _kernels
+from bsm.codec.arrays import Levels, Matrix, Positions
+from bsm.codec.geometry.graph import Graph
+from bsm.codec.look.measure import Looker
+from bsm.codec.signal.frames import local_frames
+
+PULL = 0.8
+"""A level is expected at so much of the mean of its neighbours'."""
+RATES = np.log2(1.0 + np.arange(4096) / 16.0)
+"""Bits, but for a factor, of a level that is so many sixteenths of the mean size from where it is expected."""
+UNIT = 0.25
+"""The least mean size that counts."""
+LEAST = 0.1
+"""What errors cost at least, of their mean cost: nothing is hidden from all sides that somebody may look from."""
+SWEEPS = 8
+
+
+class Sensitivity:
+    """What errors of each vertex cost in pictures.
+
+    Parameters
+    ----------
+    positions : float64 array, shape (n, 3)
+        Of the original, in BSM units, as `looker` has them.
+    graph : Graph
+        Of its faces.
+    looker : Looker
+    faces : int32 array, shape (m, 3)
+    steps : (float, float)
+        Errors that are about those to come, along normals and across, in BSM units.
+    """
+
+    def __init__(
+        self, positions: Positions, faces: Levels, graph: Graph, looker: Looker, steps: tuple[float, float]
+    ) -> None:
+        self._positions, self._faces, self._graph = positions, faces, graph
+        self._looker, self._steps = looker, steps
+
+    @cached_property
+    def costs(self) -> tuple[Matrix, Matrix]:
+        """What pictures differ by per square of an error, along the normal and along a tangent, shapes (n,)."""
+        frames = local_frames(self._positions, self._faces).reshape(-1, 3, 3)
+        noise = np.random.default_rng(0).uniform(-0.5, 0.5, self._positions.shape)
+        along, across = self._steps
+        upright = self._positions + noise[:, :1] * along * frames[:, 0]
+        aside = self._positions + np.einsum("na,nad->nd", noise[:, 1:] * across, frames[:, 1:])
+        first, second = self._looker.blame(upright, aside)
+        return self._spread(12.0 * first / along**2), self._spread(6.0 * second / across**2)
+
+    def levels(self, offsets: Matrix, steps: Matrix, worth: float, reach: Matrix) -> Levels:
+        """Levels that are worth their bits, shape (n, axes).
+
+        Parameters
+        ----------
+        offsets : float64 array, shape (n, axes)
+            What is wanted, along normals and, if there are three axes, along tangents.
+        steps : float64 array, shape (axes,)
+        worth : float
+            What a bit costs, over the mean cost of an error of one step along the normal.
+        reach : float64 array, shape (n,)
+            How far a vertex may come to lie from its place, but for rounding.
+        """
+        normal, tangent = self.costs
+        costs = np.column_stack([normal, tangent, tangent][: len(steps)]) * np.square(steps)
+        levels = np.empty(offsets.shape, np.int32)
+        rates = RATES * (worth * float(normal.mean()) * float(steps[0]) ** 2)
+        _kernels.settle_levels(
+            np.ascontiguousarray(offsets / steps), np.ascontiguousarray(costs), np.ascontiguousarray(steps, np.float64),
+            np.ascontiguousarray(reach, np.float64), self._graph.offsets, self._graph.neighbours,
+            rates, PULL, UNIT, SWEEPS, levels,
+        )  # fmt: skip
+        return levels
+
+    def _spread(self, blame: Matrix) -> Matrix:
+        """From faces to vertices, half of it to their neighbours."""
+        graph, count = self._graph, len(self._positions)
+        own = np.bincount(self._faces.ravel(), np.repeat(blame / 3.0, 3), count)
+        degree = np.diff(graph.offsets)
+        rows = np.repeat(np.arange(count), degree)
+        around = np.bincount(rows, own[graph.neighbours], count) / np.maximum(degree, 1)
+        cost = (own + around) / 2.0
+        return np.maximum(cost, max(LEAST * float(cost.mean()), 1e-300))
