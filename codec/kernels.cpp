@@ -173,7 +173,7 @@ NB_MODULE(_kernels, m) {
     m.def("shape_levels", checked<&shape_levels>, "wanted"_a, "aim"_a, "moved"_a, "levels"_a, "directions"_a,
           "scales"_a, "pull"_a, "open"_a, Unlocked());
     m.def("settle_levels", checked<&settle_levels>, "wanted"_a, "losses"_a, "steps"_a, "reach"_a, "starts"_a, "members"_a,
-          "rates"_a, "pull"_a, "unit"_a, "sweeps"_a, "levels"_a, Unlocked());
+          "rates"_a, "pull"_a, "levels"_a, "counts"_a, Unlocked());
     m.def("shape_grid", checked<&shape_grid>, "wanted"_a, "aim"_a, "moved"_a, "places"_a, "step"_a, "flaps"_a,
           "starts"_a, "members"_a, "bends"_a, "rates"_a, "axes"_a, "open"_a, Unlocked());
 }

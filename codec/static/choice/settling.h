@@ -5,6 +5,6 @@
 #include "bitstream/kernel.h"
 
 int64_t settle_levels(ConstDoubles2 wanted, ConstDoubles2 losses, ConstDoubles steps, ConstDoubles reach, ConstInts starts,
-                      ConstInts members, ConstDoubles rates, double pull, double unit, int64_t sweeps, Ints2 levels);
+                      ConstInts members, ConstDoubles2 rates, double pull, Ints2 levels, Doubles2 counts);
 
 #endif

@@ -19,13 +19,16 @@ from bsm.codec.signal.frames import local_frames
 
 PULL = 0.8
 """A level is expected at so much of the mean of its neighbours'."""
-RATES = np.log2(1.0 + np.arange(4096) / 16.0)
-"""Bits, but for a factor, of a level that is so many sixteenths of the mean size from where it is expected."""
-UNIT = 0.25
-"""The least mean size that counts."""
+AROUND, SIZES = 10, 16
+"""Classes of the neighbours' mean size, and sizes of what is left of a level, that bits are estimated for."""
+BITS = 2.0 * np.log2(1.0 + np.arange(SIZES)) + 0.5
+"""What they are before any is counted."""
+TRUST = 1.0
+"""Levels that each size is counted with from the start."""
 LEAST = 0.1
 """What errors cost at least, of their mean cost: nothing is hidden from all sides that somebody may look from."""
 SWEEPS = 8
+_MOST = 1 << 30
 
 
 class Sensitivity:
@@ -69,19 +72,25 @@ class Sensitivity:
             What is wanted, along normals and, if there are three axes, along tangents.
         steps : float64 array, shape (axes,)
         worth : float
-            What a bit costs, over the mean cost of an error of one step along the normal.
+            What a bit is worth, over the mean cost of an error of one step along the normal.
         reach : float64 array, shape (n,)
             How far a vertex may come to lie from its place, but for rounding.
         """
         normal, tangent = self.costs
-        costs = np.column_stack([normal, tangent, tangent][: len(steps)]) * np.square(steps)
-        levels = np.empty(offsets.shape, np.int32)
-        rates = RATES * (worth * float(normal.mean()) * float(steps[0]) ** 2)
-        _kernels.settle_levels(
-            np.ascontiguousarray(offsets / steps), np.ascontiguousarray(costs), np.ascontiguousarray(steps, np.float64),
-            np.ascontiguousarray(reach, np.float64), self._graph.offsets, self._graph.neighbours,
-            rates, PULL, UNIT, SWEEPS, levels,
-        )  # fmt: skip
+        losses = np.column_stack([normal, tangent, tangent][: len(steps)]) * np.square(steps)
+        losses /= max(worth * float(normal.mean()) * float(steps[0]) ** 2, 1e-300)
+        wanted = np.ascontiguousarray(offsets / steps)
+        levels = np.rint(wanted).clip(-_MOST, _MOST).astype(np.int32)
+        rates, counts = np.tile(BITS, (AROUND * len(steps), 1)), np.empty((AROUND * len(steps), SIZES))
+        for _ in range(SWEEPS):
+            moved = _kernels.settle_levels(
+                wanted, np.ascontiguousarray(losses), np.ascontiguousarray(steps, np.float64),
+                np.ascontiguousarray(reach, np.float64), self._graph.offsets, self._graph.neighbours,
+                rates, PULL, levels, counts,
+            )  # fmt: skip
+            if not moved:
+                break
+            rates = _bits(counts)
         return levels
 
     def _spread(self, blame: Matrix) -> Matrix:
@@ -93,3 +102,11 @@ class Sensitivity:
         around = np.bincount(rows, own[graph.neighbours], count) / np.maximum(degree, 1)
         cost = (own + around) / 2.0
         return np.maximum(cost, max(LEAST * float(cost.mean()), 1e-300))
+
+
+def _bits(counts: Matrix) -> Matrix:
+    """Of sizes that come so often, in each class; one of any sign has a bit more than none."""
+    trusted = counts + TRUST * np.exp2(-BITS)
+    bits = np.log2(trusted.sum(axis=1, keepdims=True) / trusted)
+    bits[:, 1:] += 1.0
+    return np.ascontiguousarray(bits)

@@ -7,7 +7,7 @@ from bsm.codec import _kernels
 from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.look.measure import Looker
-from bsm.codec.static.choice.settling import RATES, Sensitivity
+from bsm.codec.static.choice.settling import AROUND, SIZES, Sensitivity
 from tests.shapes import patch, together, torus
 
 MESH = torus(40, 30)
@@ -83,16 +83,15 @@ def test_one_axis_will_do(sensitivity):
 
 def test_the_kernel_refuses_what_does_not_fit():
     count = len(MESH.positions)
-    wanted, losses = np.zeros((count, 3)), np.ones((count, 3))
+    rates = np.ones((3 * AROUND, SIZES))
     given = [
-        wanted, losses, np.ones(3), ANYWHERE, GRAPH.offsets, GRAPH.neighbours, RATES, 0.8, 0.25, 2,
-        np.zeros((count, 3), np.int32),
+        np.zeros((count, 3)), np.ones((count, 3)), np.ones(3), ANYWHERE, GRAPH.offsets, GRAPH.neighbours, rates, 0.8,
+        np.zeros((count, 3), np.int32), np.empty_like(rates),
     ]  # fmt: skip
     assert _kernels.settle_levels(*given) == 0
-    for place in (0, 1, 2, 3, 4, 5, 10):
+    for place in (0, 1, 2, 3, 4, 5, 6, 8, 9):
         with pytest.raises(ValueError, match="fit together"):
             _kernels.settle_levels(*(value[:-1] if k == place else value for k, value in enumerate(given)))
-    huge = [np.full((count, 3), 1e300), *given[1:]]
-    _kernels.settle_levels(*huge)
+    _kernels.settle_levels(np.full((count, 3), 1e300), *given[1:])
     with pytest.raises(ValueError, match="fit together"):
         _kernels.settle_levels(*given[:5], GRAPH.neighbours + count, *given[6:])
