@@ -11,7 +11,7 @@ from bsm.bitstream.errors import OptionError
 from bsm.bitstream.limits import NAMED_LIMITS
 from bsm.codec.choices import check_options
 from bsm.codec.static.attributes.quality import Grade, checked_qualities
-from bsm.codec.static.contract import ANY_ANGLE, Contract, Fit
+from bsm.codec.static.contract import Contract, Fit
 from bsm.codec.static.rules import BASES, BLENDS, KEY_SEEDS, SEEDS
 from bsm.codec.static.targets import Target
 
@@ -45,7 +45,7 @@ RANGES: dict[str, tuple[float, float]] = {
 }
 
 
-BALANCED = Contract(0.01, 8.0)
+BALANCED = Contract(0.01, look=1.0, by_part=True)
 """What is promised unless something else is asked for."""
 
 
@@ -226,7 +226,7 @@ class EncodeOptions:
         """The step, or where it is left open that of blocks with a detail layer."""
         if self.step is not None:
             return self.step
-        return COARSE_STEP if self.contract is not None and self.contract.angle > COARSE_ANGLE else STEP
+        return STEP
 
     @property
     def says_how(self) -> bool:
@@ -259,14 +259,16 @@ CODING = ("step", "keep", "coefficients", "detail", "bits", "doi", "smoothing")
 """Options that say how blocks are coded, and not what shall come of it."""
 FINE, SMALL = 0.001, 0.02
 """Promises of positions, from which on attributes are kept better, or less well."""
-STEP, COARSE_STEP, COARSE_ANGLE = 0.004, 0.006, 10.0
-"""Of blocks with a detail layer, and of those beyond an angle."""
+STEP = 0.004
+"""Of blocks with a detail layer."""
 
 PRESETS: dict[str, EncodeOptions] = {
-    "small": EncodeOptions(block_size=1500, overlap=1.0, key_interval=0, contract=Contract(0.02, 12.0)),
+    "small": EncodeOptions(
+        block_size=1500, overlap=1.0, key_interval=0, contract=Contract(0.02, look=3.0, by_part=True)
+    ),
     "balanced": EncodeOptions(),
-    "fine": EncodeOptions(contract=Contract(0.005, 3.0)),
-    "near-lossless": EncodeOptions(contract=Contract(0.0005, ANY_ANGLE)),
+    "fine": EncodeOptions(contract=Contract(0.005, look=0.5, by_part=True)),
+    "near-lossless": EncodeOptions(contract=Contract(0.0005)),
     "grid14": EncodeOptions(grid=14),
 }
 """Names for what most users want, each a promise; "balanced" is the default. Larger blocks are smaller files and slower

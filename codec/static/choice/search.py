@@ -7,28 +7,40 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Generic, TypeVar
 
-from bsm.codec.geometry.closeness import Closeness
-
 SLACK = 0.03
-"""How far below a bound on angles the search for a step may stay."""
+"""How far below a bound the search for a step may stay."""
 
 Found = TypeVar("Found")
 
 
 @dataclass(frozen=True)
 class Trial(Generic[Found]):
-    """What a step came to."""
+    """What a step came to.
+
+    Parameters
+    ----------
+    step : float
+    excess : float
+        Logarithm of what came over what may, of normals or pictures: above 0 they are too far off.
+    near : bool
+        Whether every vertex is near enough.
+    found : object
+    """
 
     step: float
-    closeness: Closeness
+    excess: float
+    near: bool
     found: Found
+
+    @property
+    def kept(self) -> bool:
+        """Whether all bounds are kept."""
+        return self.near and self.excess <= 0.0
 
 
 def widest_step(
     measure: Callable[[float], Trial[Found]],
     first: float,
-    angle: float,
-    reach: float,
     *,
     tries: int,
     most: float,
@@ -43,18 +55,15 @@ def widest_step(
         Tries a step.
     first : float
         To begin with.
-    angle : float
-        Degrees; the search ends where the trial's is at most `slack` below (a share of it).
-    reach : float
-        How far a vertex may be from its place.
     tries : int
     most : float
         The largest step that may be tried.
     slack : float
+        The search ends where a trial is below its bound by at most this share of it.
     slopes : (float, float)
-        How the angle grows with the step, in their logarithms, at least and at most; at most as long as nobody knows.
+        How the excess grows with the step's logarithm, at least and at most; at most as long as nobody knows.
     """
-    aim = math.log(angle * (1.0 - slack / 2.0))
+    aim = math.log(1.0 - slack / 2.0)
     best: Trial[Found] | None = None
     good: tuple[float, float] | None = None
     bad: tuple[float, float] | None = None
@@ -62,29 +71,28 @@ def widest_step(
     before: tuple[float, float] | None = None
     for _ in range(tries):
         trial = measure(step)
-        kept = trial.closeness.angle <= angle
-        near = trial.closeness.farthest <= reach
-        at = math.log(step), math.log(max(trial.closeness.angle, 1e-6))
+        within = trial.excess <= 0.0
+        at = math.log(step), trial.excess
         if before is not None and at[0] != before[0]:
             slope = min(max((at[1] - before[1]) / (at[0] - before[0]), slopes[0]), slopes[1])
         before = at
-        if kept and near:
+        if trial.kept:
             if best is None or step > best.step:
                 best, good = trial, at
-            if trial.closeness.angle > angle * (1.0 - slack) or step >= most:
+            if trial.excess > math.log(1.0 - slack) or step >= most:
                 break
         elif bad is None or at[0] < bad[0]:
-            bad = at[0], math.log(1.05 * angle) if kept else at[1]
+            bad = at[0], math.log(1.05) if within else at[1]
         if good is not None and bad is not None:
             if bad[0] - good[0] < slack:
                 break
             share = (aim - good[1]) / max(bad[1] - good[1], 1e-9)
             step = math.exp(good[0] + min(max(share, 0.15), 0.85) * (bad[0] - good[0]))
-        elif kept and not near:
+        elif within and not trial.near:
             step *= 0.8
         else:
             # Too fine a step can be coarser next time; too coarse ones come to nothing.
-            gentle = slope if kept else math.sqrt(slopes[0] * slope)
+            gentle = slope if within else math.sqrt(slopes[0] * slope)
             step *= math.exp(min(max((aim - at[1]) / gentle, -1.2), 1.2))
         step = min(step, most)
     return best

@@ -1,0 +1,116 @@
+"""Whether a decoded mesh keeps a contract: cheap questions while steps are searched, all of them in the end."""
+
+from __future__ import annotations
+
+import math
+from functools import cached_property
+
+import numpy as np
+
+from bsm.bitstream.errors import MeshError
+from bsm.codec.arrays import Mask, Matrix
+from bsm.codec.geometry.closeness import Original
+from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.look.measure import Looker
+from bsm.codec.static.choice.borders import Borders
+from bsm.codec.static.choice.search import Found, Trial
+from bsm.codec.static.contract import Contract
+from bsm.codec.static.preamble import Prepared
+
+FEW_SIDES = 5
+"""While steps are searched, one of so many sides is looked at."""
+SURE = 1.03
+"""What all sides may say more than these, as long as nobody knows."""
+
+
+class Judge:
+    """Says how well decoded positions keep a contract.
+
+    Parameters
+    ----------
+    prepared : Prepared
+    original : Original
+        In BSM units.
+    contract : Contract
+    reach : float64 array, shape (n,)
+        How far each vertex may come to lie from its place, in BSM units.
+    borders : Borders
+    threads : int, optional
+    """
+
+    def __init__(
+        self,
+        prepared: Prepared,
+        original: Original,
+        contract: Contract,
+        reach: Matrix,
+        borders: Borders,
+        threads: int | None,
+    ) -> None:
+        self._prepared = prepared
+        self._original = original
+        self._contract = contract
+        self._reach = reach
+        self._borders = borders
+        self._threads = threads
+        self._rest = SURE
+        self._best: tuple[float, float, float] | None = None
+
+    def out(self, positions: Matrix) -> Mask:
+        """Vertices that are out of reach, borders aside."""
+        out = np.square(positions - self._prepared.positions).sum(axis=1) > self._reach**2
+        return np.asarray(out & ~self._borders.vertices)
+
+    def excess(self, positions: Matrix) -> float:
+        """Logarithm of how bad normals and pictures are over what they may be, about: few sides are looked at."""
+        contract = self._contract
+        if not contract.shades:
+            return -math.inf
+        excess = math.log(max(self._original.angle(positions), 1e-6) / contract.angle)
+        if self._looker is not None:
+            distance = self._rest * self._looker.look(positions, every=FEW_SIDES).distance
+            excess = max(excess, math.log(max(distance, 1e-6) / contract.look))
+        return excess
+
+    def trial(self, step: float, positions: Matrix, found: Found) -> Trial[Found]:
+        """A trial of a step that came to these positions."""
+        near = bool((np.square(positions - self._prepared.positions).sum(axis=1) <= self._reach**2).all())
+        return Trial(step, self.excess(positions), near, found)
+
+    def keeps(self, positions: Matrix) -> bool:
+        """Whether what is decoded keeps the contract, by all that it says."""
+        moved = np.sqrt(np.square(positions - self._prepared.positions).sum(axis=1))
+        farther = float((moved / self._reach).max())
+        angle = self._original.angle(positions)
+        kept = farther <= 1.0 and angle <= self._contract.angle
+        look = self._look(positions) if kept and self._looker is not None else 0.0
+        if self._best is None or (farther, look, angle) < self._best:
+            self._best = farther, look, angle
+        return kept and look <= self._contract.look and self._borders.kept(self._prepared.positions, positions)
+
+    @property
+    def had(self) -> str:
+        """The bounds that the best one broke that was seen; empty: none but those of borders."""
+        if self._best is None:
+            return "nothing"
+        farther, look, angle = self._best
+        return self._contract.worded(farther, angle, look)
+
+    def _look(self, positions: Matrix) -> float:
+        """By all sides; where these say more than the few did, that is remembered."""
+        assert self._looker is not None
+        distance = self._looker.look(positions).distance
+        if distance > self._contract.look:
+            few = self._looker.look(positions, every=FEW_SIDES).distance
+            self._rest = max(self._rest, SURE * distance / max(few, 1e-6))
+        return distance
+
+    @cached_property
+    def _looker(self) -> Looker | None:
+        """None: no look is asked for, or nothing of the mesh can be seen."""
+        if self._contract.look == math.inf:
+            return None
+        try:
+            return Looker(TriangleMesh(self._prepared.positions, self._prepared.mesh.faces), threads=self._threads)
+        except MeshError:
+            return None

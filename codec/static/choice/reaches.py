@@ -1,0 +1,38 @@
+"""How far each vertex may come to lie from its place, so that small parts keep their shape, and near ones their order."""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.sparse import csr_matrix
+from scipy.sparse.csgraph import connected_components
+
+from bsm.codec.arrays import Matrix
+from bsm.codec.static.contract import Contract
+from bsm.codec.static.preamble import Prepared
+
+FINEST_PART = 0.1
+"""No part is bound more tightly than this, of the bound of the whole: it is half a pixel in a picture of 512 where 1 % of
+the diagonal is promised."""
+
+
+def reaches(prepared: Prepared, contract: Contract) -> Matrix:
+    """In BSM units, shape (n,)."""
+    whole = contract.reach(prepared.mesh.diagonal, prepared.units.scale)
+    found = np.full(len(prepared.positions), whole)
+    if not contract.by_part:
+        return found
+    count, part = _parts(prepared)
+    if count > 1:
+        low, high = np.full((count, 3), np.inf), np.full((count, 3), -np.inf)
+        np.minimum.at(low, part, prepared.positions)
+        np.maximum.at(high, part, prepared.positions)
+        diagonals = np.sqrt(np.square(high - low).sum(axis=1)) * prepared.units.scale / prepared.mesh.diagonal
+        found *= np.maximum(diagonals, FINEST_PART)[part].clip(max=1.0)
+    return found
+
+
+def _parts(prepared: Prepared) -> tuple[int, Matrix]:
+    """How many connected parts there are, and the one of each vertex, shape (n,)."""
+    graph = prepared.graph
+    ones = np.ones(len(graph.neighbours), np.bool_)
+    return connected_components(csr_matrix((ones, graph.neighbours, graph.offsets), (graph.size, graph.size)))
