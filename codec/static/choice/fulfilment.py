@@ -23,7 +23,7 @@ from bsm.codec.static.choice.grid_search import COARSEST, GridSearch
 from bsm.codec.static.choice.judge import Judge
 from bsm.codec.static.choice.lattices import rounded
 from bsm.codec.static.choice.reaches import reaches
-from bsm.codec.static.choice.search import Trial, widest_step
+from bsm.codec.static.choice.search import Trial, looked_for, widest_step
 from bsm.codec.static.choice.shaping import Aim, Shaper
 from bsm.codec.static.choice.spectral import Base, Spectral, Stack, base_step
 from bsm.codec.static.contract import Contract
@@ -73,8 +73,6 @@ LOOK_BASE, AXES_OF_LOOK, WORTH_OF_LOOK, STEEP_LOOK = 0.012, 4.0, 0.6, (0.9, 1.8)
 normals, over what is best for angles; and how pictures get worse with the step, in their logarithms."""
 NEAR = 8.0
 """How far shaping may bring a vertex from its place, in steps of the layer."""
-ROUNDS = 4
-"""Of the search, where all sides of the mesh say otherwise than the few that are looked at meanwhile."""
 MARGIN = 1e-9
 """Of a bound on distances, for what rounding may add."""
 
@@ -119,8 +117,8 @@ class Fulfilment:
         """
         if not self._prepared.mesh.diagonal > 0.0:
             return rounded(self._prepared, 1)  # a point
-        for round_ in range(ROUNDS):
-            for draft in sorted(self._drafts(every=round_ > 0), key=lambda draft: draft.size):
+        for every in (False, True):
+            for draft in sorted(self._drafts(every=every), key=lambda draft: draft.size):
                 if self._judge.keeps(self._prepared.units.into(draft.decoded)):
                     return draft
         raise TargetError(self._refusal())
@@ -129,12 +127,12 @@ class Fulfilment:
         """Those that may be smallest; with `every`, grids even where they should be larger."""
         found: list[Draft] = []
         try:
-            if self._blocks_may_win():
+            if not every and self._blocks_may_win():
                 found.extend(self._spectral())
         except LimitError:
             pass  # blocks that decoders would refuse: a grid asks for little
         smallest = min((draft.size for draft in found), default=None)
-        if every or smallest is None or len(self._prepared.connectivity.data) + self._grids.bytes < smallest:
+        if smallest is None or len(self._prepared.connectivity.data) + self._grids.bytes < smallest:
             found.extend(self._grids.drafts())
         return found
 
@@ -268,7 +266,10 @@ class Fulfilment:
         lock, still = self._lock(base), self._borders.vertices
         start = base.positions if lock is None else base.moved(*lock)
 
-        def measure(step: float) -> Trial[tuple[Layer, Levels]]:
+        looks = self._contract.look < math.inf
+        worth = WORTH_OF_LOOK if looks else 1.0
+
+        def measure(step: float, whole: bool = False) -> Trial[tuple[Layer, Levels]]:
             layer = base.layer(step, ratio)
             wanted, directions = base.wanted(layer)
             wanted[still] = 0
@@ -277,18 +278,13 @@ class Fulfilment:
                 levels = self._shaper.levels(start, wanted, directions, aim)
                 levels[still] = 0
                 moved = self._brought_back(base, base.moved(layer, levels, start))
-                return self._judge.trial(step, moved, (layer, levels))
+                return self._judge.trial(step, moved, (layer, levels), whole=whole)
 
-        worth, steep = 1.0, (FLATTER * STEEP, STEEP) if ratio else (FLATTER * STEEP_HEIGHTS, STEEP_HEIGHTS)
-        if self._contract.look < math.inf:
-            worth, steep = WORTH_OF_LOOK, STEEP_LOOK
-        return widest_step(
-            measure,
-            self._first_layer(ratio),
-            tries=2 if self._shaper.character.is_model else 3,
-            most=COARSEST,
-            slopes=steep,
-        )
+        first, tries = self._first_layer(ratio), 2 if self._shaper.character.is_model else 3
+        if not looks:
+            steep = STEEP if ratio else STEEP_HEIGHTS
+            return widest_step(measure, first, tries=tries, most=COARSEST, slopes=(FLATTER * steep, steep))
+        return looked_for(measure, first, most=COARSEST, slopes=STEEP_LOOK)
 
     @property
     def _ratio(self) -> float:

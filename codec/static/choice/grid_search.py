@@ -14,7 +14,7 @@ from bsm.codec.arrays import Levels
 from bsm.codec.static.choice.borders import ROUND, Borders
 from bsm.codec.static.choice.judge import Judge
 from bsm.codec.static.choice.lattices import Shaped
-from bsm.codec.static.choice.search import Trial, widest_step
+from bsm.codec.static.choice.search import Trial, looked_for, widest_step
 from bsm.codec.static.choice.shaping import Aim, Shaper
 from bsm.codec.static.contract import Contract
 from bsm.codec.static.draft import Draft
@@ -172,20 +172,17 @@ class GridSearch:
         else:
             worth, few = self._worth, self._prepared.graph.size < QUICK_VERTICES
 
-            def measure(step: float) -> Trial[Placed]:
-                trials.append(self._trial(shaped, step, worth))
+            def measure(step: float, whole: bool = True) -> Trial[Placed]:
+                trials.append(self._trial(shaped, step, worth, whole=whole))
                 return trials[-1]
 
-            steep = self._steepness(first)
-            slopes = STEEP_LOOK if self._looks else (FLATTER * steep, steep)
-            widest_step(
-                measure,
-                first,
-                tries=TRIES[few],
-                most=self._most,
-                slack=SLACK[few],
-                slopes=slopes,
-            )
+            if self._looks:
+                found = looked_for(measure, first, most=self._most, slopes=STEEP_LOOK)
+                trials = [] if found is None else [found]
+            else:
+                steep = self._steepness(first)
+                slopes = FLATTER * steep, steep
+                widest_step(measure, first, tries=TRIES[few], most=self._most, slack=SLACK[few], slopes=slopes)
         kept = [trial for trial in trials if trial.kept]
         for finer in range(1, LAST_RESORTS + 1):
             if not kept:
@@ -236,12 +233,16 @@ class GridSearch:
                         step, places = trial.found.step, trial.found.places
                         yield grid.draft(step, places) if grid is shaped else grid.draft_from_origin(step, places)
 
-    def _trial(self, shaped: Shaped, step: float, worth: float, *, axes: int = 2, sweeps: int = 3) -> Trial[Placed]:
+    def _trial(
+        self, shaped: Shaped, step: float, worth: float, *, axes: int = 2, sweeps: int = 3, whole: bool = True
+    ) -> Trial[Placed]:
         step = max(step, shaped.finest)
         with self._told():
             aim = Aim(worth * step / self._edge, self._reach, sweeps)
             held, places, decoded, estimate = shaped.places(step, aim, axes)
-            return self._judge.trial(step, self._prepared.units.into(decoded), Placed(held, places, estimate))
+            return self._judge.trial(
+                step, self._prepared.units.into(decoded), Placed(held, places, estimate), whole=whole
+            )
 
     @property
     def _worth(self) -> float:

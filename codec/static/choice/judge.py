@@ -18,9 +18,7 @@ from bsm.codec.static.contract import Contract
 from bsm.codec.static.preamble import Prepared
 
 FEW_SIDES = 5
-"""While steps are searched, one of so many sides is looked at."""
-SURE = 1.03
-"""What all sides may say more than these, as long as nobody knows."""
+"""While steps are searched, the mesh is looked at from one of so many sides."""
 
 
 class Judge:
@@ -53,29 +51,18 @@ class Judge:
         self._reach = reach
         self._borders = borders
         self._threads = threads
-        self._rest = SURE
         self._best: tuple[float, float, float] | None = None
+        self._seen: tuple[Matrix, float] | None = None
 
     def out(self, positions: Matrix) -> Mask:
         """Vertices that are out of reach, borders aside."""
         out = np.square(positions - self._prepared.positions).sum(axis=1) > self._reach**2
         return np.asarray(out & ~self._borders.vertices)
 
-    def excess(self, positions: Matrix) -> float:
-        """Logarithm of how bad normals and pictures are over what they may be, about: few sides are looked at."""
-        contract = self._contract
-        if not contract.shades:
-            return -math.inf
-        excess = math.log(max(self._original.angle(positions), 1e-6) / contract.angle)
-        if self._looker is not None:
-            distance = self._rest * self._looker.look(positions, every=FEW_SIDES).distance
-            excess = max(excess, math.log(max(distance, 1e-6) / contract.look))
-        return excess
-
-    def trial(self, step: float, positions: Matrix, found: Found) -> Trial[Found]:
-        """A trial of a step that came to these positions."""
+    def trial(self, step: float, positions: Matrix, found: Found, *, whole: bool = False) -> Trial[Found]:
+        """A trial of a step that came to these positions; with `whole`, seen from all sides."""
         near = bool((np.square(positions - self._prepared.positions).sum(axis=1) <= self._reach**2).all())
-        return Trial(step, self.excess(positions), near, found)
+        return Trial(step, self._excess(positions, whole), near, found)
 
     def keeps(self, positions: Matrix) -> bool:
         """Whether what is decoded keeps the contract, by all that it says."""
@@ -83,7 +70,7 @@ class Judge:
         farther = float((moved / self._reach).max())
         angle = self._original.angle(positions)
         kept = farther <= 1.0 and angle <= self._contract.angle
-        look = self._look(positions) if kept and self._looker is not None else 0.0
+        look = self._distance(positions, whole=True) if kept else math.inf
         if self._best is None or (farther, look, angle) < self._best:
             self._best = farther, look, angle
         return kept and look <= self._contract.look and self._borders.kept(self._prepared.positions, positions)
@@ -96,14 +83,25 @@ class Judge:
         farther, look, angle = self._best
         return self._contract.worded(farther, angle, look)
 
-    def _look(self, positions: Matrix) -> float:
-        """By all sides; where these say more than the few did, that is remembered."""
-        assert self._looker is not None
-        distance = self._looker.look(positions).distance
-        if distance > self._contract.look:
-            few = self._looker.look(positions, every=FEW_SIDES).distance
-            self._rest = max(self._rest, SURE * distance / max(few, 1e-6))
-        return distance
+    def _excess(self, positions: Matrix, whole: bool) -> float:
+        """Logarithm of how bad normals and pictures are over what they may be."""
+        contract = self._contract
+        if not contract.shades:
+            return -math.inf
+        angle = math.log(max(self._original.angle(positions), 1e-6) / contract.angle)
+        return max(angle, math.log(max(self._distance(positions, whole), 1e-6) / contract.look))
+
+    def _distance(self, positions: Matrix, whole: bool) -> float:
+        """In pictures, from all sides or a few; 0 where nothing is asked of these, or to be seen."""
+        if self._looker is None:
+            return 0.0
+        if not whole:
+            return self._looker.look(positions, every=FEW_SIDES).distance
+        # As a decoder has them; the same positions may be asked for again as a draft's.
+        seen = np.ascontiguousarray(self._prepared.units.into(self._prepared.units.back(positions)))
+        if self._seen is None or not np.array_equal(self._seen[0], seen):
+            self._seen = seen, self._looker.look(seen).distance
+        return self._seen[1]
 
     @cached_property
     def _looker(self) -> Looker | None:

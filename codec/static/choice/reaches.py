@@ -1,4 +1,4 @@
-"""How far each vertex may come to lie from its place, so that small parts keep their shape, and near ones their order."""
+"""How far each vertex may come to lie from its place: small parts keep their shape, near ones their order."""
 
 from __future__ import annotations
 
@@ -6,13 +6,13 @@ import numpy as np
 from scipy.sparse import csr_matrix
 from scipy.sparse.csgraph import connected_components
 
-from bsm.codec.arrays import Matrix
+from bsm.codec.arrays import Indices, Matrix
 from bsm.codec.static.contract import Contract
 from bsm.codec.static.preamble import Prepared
 
 FINEST_PART = 0.1
-"""No part is bound more tightly than this, of the bound of the whole: it is half a pixel in a picture of 512 where 1 % of
-the diagonal is promised."""
+"""No part is bound more tightly than this, over the bound of the whole: where that is 1 % of the diagonal, it is half a
+pixel in a picture of 512."""
 
 
 def reaches(prepared: Prepared, contract: Contract) -> Matrix:
@@ -31,8 +31,10 @@ def reaches(prepared: Prepared, contract: Contract) -> Matrix:
     return found
 
 
-def _parts(prepared: Prepared) -> tuple[int, Matrix]:
+def _parts(prepared: Prepared) -> tuple[int, Indices]:
     """How many connected parts there are, and the one of each vertex, shape (n,)."""
     graph = prepared.graph
     ones = np.ones(len(graph.neighbours), np.bool_)
-    return connected_components(csr_matrix((ones, graph.neighbours, graph.offsets), (graph.size, graph.size)))
+    links = csr_matrix((ones, graph.neighbours, graph.offsets), (graph.size, graph.size))
+    count, part = connected_components(links)
+    return int(count), np.asarray(part, np.int32)

@@ -9,6 +9,10 @@ from typing import Generic, TypeVar
 
 SLACK = 0.03
 """How far below a bound the search for a step may stay."""
+ROOM = 0.08
+"""How far below a look its pictures may stay, in logarithms; half of it is aimed at."""
+GLANCES, CONFIRMATIONS = 2, 5
+"""Steps that are looked at from a few sides, and from all."""
 
 Found = TypeVar("Found")
 
@@ -95,4 +99,41 @@ def widest_step(
             gentle = slope if within else math.sqrt(slopes[0] * slope)
             step *= math.exp(min(max((aim - at[1]) / gentle, -1.2), 1.2))
         step = min(step, most)
+    return best
+
+
+def looked_for(
+    measure: Callable[[float, bool], Trial[Found]], first: float, *, most: float, slopes: tuple[float, float]
+) -> Trial[Found] | None:
+    """About the widest step that keeps a look: from a few sides first, and from all of them in the end.
+
+    Parameters
+    ----------
+    measure : callable
+        Tries a step, and looks at what it comes to; from all sides if its second argument is true.
+    first, most, slopes
+        As of `widest_step`.
+    """
+    trials = list[Trial[Found]]()
+
+    def glance(step: float) -> Trial[Found]:
+        trials.append(measure(step, False))
+        return trials[-1]
+
+    slope = math.sqrt(slopes[0] * slopes[1])
+
+    def following(trial: Trial[Found]) -> float:
+        more = trial.excess + ROOM / 2.0 if trial.near else max(trial.excess, 0.3)
+        return min(trial.step * math.exp(min(max(-more / slope, -1.2), 1.2)), most)
+
+    widest_step(glance, first, tries=GLANCES, most=most, slopes=slopes, slack=ROOM)
+    step = following(min(trials, key=lambda trial: abs(trial.excess + ROOM / 2.0)))
+    best: Trial[Found] | None = None
+    for number in range(CONFIRMATIONS):
+        trial = measure(step, True)
+        if trial.kept and (best is None or trial.step > best.step):
+            best = trial
+        if best is not None and (number or trial.excess > -2.0 * ROOM or step >= most):
+            break
+        step = following(trial)
     return best
