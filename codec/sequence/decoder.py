@@ -287,7 +287,7 @@ class SequenceDecoder(StreamDecoder[Item]):
 
     @property
     def attributes(self) -> tuple[Attribute, ...]:
-        """Those of the mesh that are the same in all frames, as far as they are whole; all when the first frame is."""
+        """Attributes that are the same in all frames and whole; all of them when the first frame is."""
         return tuple(self._attributes)
 
     @property

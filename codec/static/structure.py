@@ -161,7 +161,7 @@ class Structure:
 
     @property
     def graph(self) -> Graph:
-        """Of these."""
+        """The graph of the decoded faces."""
         return self.section.graph
 
     @property

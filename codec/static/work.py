@@ -33,7 +33,7 @@ FRESH, MOST_FRESH = 2.0, 4e6
 
 
 def mesh_cost(vertices: int, faces: int, received: int, before: tuple[int, int] = (0, 0)) -> float:
-    """Of faces and graph; what meets at more vertices than a closed surface has was cut and is sewn together again.
+    """Work of faces and graph; what meets at more vertices than a closed surface has was cut and is sewn again.
 
     Of the vertices and faces that there were `before`, in earlier sections, there is the graph again.
     """
@@ -44,33 +44,33 @@ def mesh_cost(vertices: int, faces: int, received: int, before: tuple[int, int] 
 
 
 def order_cost(vertices: int, faces: int, received: int) -> float:
-    """Of the order that a mesh had."""
+    """Work of restoring the order that a mesh had."""
     return 500.0 * vertices + 750.0 * faces + 100.0 * received
 
 
 def partition_cost(graph: Graph, first: int, blocks: int, copies: int) -> float:
-    """Of cutting vertices from `first` on into so many parts, and of growing these to so many copies together."""
+    """Work of cutting vertices from `first` on into so many parts, and of growing these to so many copies together."""
     cut = graph.size - first + len(graph.neighbours) - int(graph.offsets[first])
     return cut * (4.0 * blocks.bit_length() + 20.0) + 2.0 * graph.size + 100.0 * blocks + 30.0 * copies
 
 
 def labels_cost(graph: Graph, received: int) -> float:
-    """Of labels of parts."""
+    """Work of decoding the labels of parts."""
     return 300.0 * graph.size + 30.0 * len(graph.neighbours) + 100.0 * received
 
 
 def block_cost(rows: int, edges: int, levels: int) -> float:
-    """Of all of a block but its dictionary."""
+    """Work of a block, except its dictionary."""
     return BLOCK + ROW * rows + LOOK * edges + LEVEL * levels
 
 
 def ground_cost(laplacian: Laplacian, columns: int) -> float:
-    """Of extending what is known around a block, and of putting its coefficients on that."""
+    """Work of extending what is known around a block, and of putting its coefficients on that."""
     return factor_cost(laplacian.fronts) + solve_cost(laplacian.fronts, 3) + 1.5 * len(laplacian.diagonal) * columns
 
 
 def chain_cost(vertices: int) -> float:
-    """Of beginning a chain that knows where vertices are."""
+    """Work of beginning a chain that knows where vertices are."""
     return min(FRESH * vertices, MOST_FRESH)
 
 
@@ -95,32 +95,32 @@ def block_memory(laplacian: Laplacian, columns: int) -> int:
 
 
 def grid_cost(vertices: int, faces: int) -> float:
-    """Of a grid, before its bytes are counted."""
+    """Work of a grid, before its bytes are counted."""
     return 1650.0 * vertices + 150.0 * faces
 
 
 def light_cost(vertices: int, faces: int) -> float:
-    """Of a light grid, before its bytes are counted."""
+    """Work of a light grid, before its bytes are counted."""
     return 200.0 * vertices + 40.0 * faces
 
 
 def layer_cost(vertices: int, faces: int, axes: int) -> float:
-    """Of a layer of refinement or an attribute, before its bytes are counted."""
+    """Work of a layer of refinement or an attribute, before its bytes are counted."""
     return vertices * (400.0 + 230.0 * axes) + 100.0 * faces
 
 
 def grid_chunk_cost(received: int) -> float:
-    """Of a frame of a grid."""
+    """Work of a frame of a grid."""
     return 3.5e4 + CODED * received
 
 
 def light_chunk_cost(received: int) -> float:
-    """Of a frame of a light grid."""
+    """Work of a frame of a light grid."""
     return 3.5e4 + 120.0 * received
 
 
 def chunk_cost(received: int) -> float:
-    """Of a frame of a layer or of an attribute."""
+    """Work of a frame of a layer or of an attribute."""
     return 8e4 + CODED * received
 
 
@@ -145,7 +145,7 @@ def recomputing_memory(values: int, faces: int) -> float:
 
 
 def values_cost(values: int, faces: int) -> float:
-    """Of arranging the values of an attribute, or of making normals again."""
+    """Work of arranging the values of an attribute, or of making normals again."""
     return ATTRIBUTE + 150.0 * values + 60.0 * faces
 
 

@@ -67,7 +67,7 @@ def taken_by(path: Path, how: str, limits: str) -> Taken:
 
 
 def seconds_of_cpu() -> float:
-    """That this process has taken, all threads together."""
+    """CPU seconds that this process has taken, all threads together."""
     usage = resource.getrusage(resource.RUSAGE_SELF)
     return usage.ru_utime + usage.ru_stime
 

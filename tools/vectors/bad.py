@@ -164,7 +164,7 @@ def _zstd(content: bytes, size: bool = True) -> bytes:
 
 
 def _zstd_window(size: int) -> bytes:
-    """The same of `size` zeros, with a window of 2^24 bytes: descriptor, window, size, one repeated byte."""
+    """A zstd frame of `size` zeros, with a window of 2^24 bytes: descriptor, window, size, one repeated byte."""
     return b"\x80\x70" + size.to_bytes(4, "little") + (size << 3 | 3).to_bytes(3, "little") + b"\0"
 
 

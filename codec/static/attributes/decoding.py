@@ -271,7 +271,7 @@ class Carried:
             raise type(error)(f"attribute {valued.declaration.name!r}: {error.message}") from error
 
     def attributes(self, solid: Solid | None) -> tuple[Attribute, ...]:
-        """Those that are whole; `solid` for those that are recomputed."""
+        """Attributes that are whole; `solid` for those that are recomputed."""
         found = [one.attribute(solid) for one in self._valued.values()]
         return tuple(one for one in found if one is not None)
 
