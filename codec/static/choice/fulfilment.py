@@ -17,14 +17,13 @@ import numpy as np
 from bsm.bitstream.container.header import Layer
 from bsm.bitstream.errors import LimitError, TargetError
 from bsm.codec.arrays import Levels, Matrix
-from bsm.codec.geometry.closeness import Original
 from bsm.codec.static.choice.borders import borders_of
 from bsm.codec.static.choice.grid_search import COARSEST, GridSearch
-from bsm.codec.static.choice.judge import Judge
+from bsm.codec.static.choice.judge import Judge, Sight
 from bsm.codec.static.choice.lattices import rounded
 from bsm.codec.static.choice.reaches import reaches
 from bsm.codec.static.choice.search import Trial, looked_for, widest_step
-from bsm.codec.static.choice.shaping import Aim, Shaper
+from bsm.codec.static.choice.shaping import Aim
 from bsm.codec.static.choice.spectral import Base, Spectral, Stack, base_step
 from bsm.codec.static.contract import Contract
 from bsm.codec.static.draft import Draft
@@ -73,6 +72,12 @@ LOOK_BASE, AXES_OF_LOOK, WORTH_OF_LOOK, STEEP_LOOK = 0.012, 4.0, 0.6, (0.9, 1.8)
 normals, over what is best for angles; and how pictures get worse with the step, in their logarithms."""
 NEAR = 8.0
 """How far shaping may bring a vertex from its place, in steps of the layer."""
+FEW_LOOKS = 4000
+"""Meshes of more vertices are looked at in one way to code alone, the one that is likely to be smaller."""
+DENSE, PREVIEW = 0.0062, 2.0
+"""Below this look, meshes with sharp edges, or with edges shorter than so many diagonals on average, are smaller on
+grids:
+where faces are as small as pixels, errors that have nothing to do with each other average out."""
 MARGIN = 1e-9
 """Of a bound on distances, for what rounding may add."""
 
@@ -85,24 +90,31 @@ class Fulfilment:
     prepared : Prepared
     options : EncodeOptions
     contract : Contract
+    sight : Sight
+        Of the same mesh.
     progress : callable, optional
         Called with the number of blocks done and of all blocks, and with none and all of them around every other trial.
     """
 
     def __init__(
-        self, prepared: Prepared, options: EncodeOptions, contract: Contract, progress: Progress | None = None
+        self,
+        prepared: Prepared,
+        options: EncodeOptions,
+        contract: Contract,
+        sight: Sight,
+        progress: Progress | None = None,
     ) -> None:
         self._prepared = prepared
         self._options = options
         self._contract = contract
         self._progress = progress
-        self._original = Original(prepared.positions, prepared.mesh.faces)
-        self._shaper = Shaper(self._original, prepared.graph)
+        self._original = sight.original
+        self._shaper = sight.shaper
         self._reaches = reaches(prepared, contract) * (1.0 - MARGIN)
         self._reach = float(self._reaches.max())
         self._borders = borders_of(prepared, options.lock_borders, float(self._reaches.min()))
         self._edge = self._shaper.mean_edge or 1.0
-        self._judge = Judge(prepared, self._original, contract, self._reaches, self._borders, options.threads)
+        self._judge = Judge(prepared, sight, contract, self._reaches, self._borders)
         self._grids = GridSearch(
             prepared, self._shaper, contract, float(self._reaches.min()), self._borders, self._judge, self._told
         )
@@ -119,9 +131,13 @@ class Fulfilment:
             return rounded(self._prepared, 1)  # a point
         for every in (False, True):
             for draft in sorted(self._drafts(every=every), key=lambda draft: draft.size):
-                if self._judge.keeps(self._prepared.units.into(draft.decoded)):
+                if self.keeps(draft):
                     return draft
         raise TargetError(self._refusal())
+
+    def keeps(self, draft: Draft) -> bool:
+        """Whether what its decoder makes of a draft keeps the contract."""
+        return self._judge.keeps(self._prepared.units.into(draft.decoded))
 
     def _drafts(self, *, every: bool) -> list[Draft]:
         """Those that may be smallest; with `every`, grids even where they should be larger."""
@@ -132,9 +148,14 @@ class Fulfilment:
         except LimitError:
             pass  # blocks that decoders would refuse: a grid asks for little
         smallest = min((draft.size for draft in found), default=None)
-        if smallest is None or len(self._prepared.connectivity.data) + self._grids.bytes < smallest:
+        few = len(self._prepared.positions) < FEW_LOOKS
+        if smallest is None or ((few or self._contract.look == math.inf) and self._grid_bytes < smallest):
             found.extend(self._grids.drafts())
         return found
+
+    @property
+    def _grid_bytes(self) -> float:
+        return len(self._prepared.connectivity.data) + self._grids.bytes
 
     def _refusal(self) -> str:
         had = self._judge.had
@@ -163,6 +184,8 @@ class Fulfilment:
         if self._borders.vertices.any():
             return self._prepared.graph.size >= FEW_VERTICES
         if self._grids.fits_model or (self._contract.about_angle <= MODEL_ANGLE and self._shaper.character.is_model):
+            return False
+        if self._contract.look < PREVIEW and (self._edge < DENSE or self._shaper.character.is_sharp):
             return False
         return self._prepared.has_low_frequencies and not self._blocks.is_flat(COARSE, FLAT)
 

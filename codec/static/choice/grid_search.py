@@ -14,7 +14,7 @@ from bsm.codec.arrays import Levels
 from bsm.codec.static.choice.borders import ROUND, Borders
 from bsm.codec.static.choice.judge import Judge
 from bsm.codec.static.choice.lattices import Shaped
-from bsm.codec.static.choice.search import Trial, looked_for, widest_step
+from bsm.codec.static.choice.search import GLANCES, Trial, looked_for, widest_step
 from bsm.codec.static.choice.shaping import Aim, Shaper
 from bsm.codec.static.contract import Contract
 from bsm.codec.static.draft import Draft
@@ -177,7 +177,8 @@ class GridSearch:
                 return trials[-1]
 
             if self._looks:
-                found = looked_for(measure, first, most=self._most, slopes=STEEP_LOOK)
+                tiny = self._prepared.graph.size < FEW_VERTICES
+                found = looked_for(measure, first, most=self._most, slopes=STEEP_LOOK, glances=0 if tiny else GLANCES)
                 trials = [] if found is None else [found]
             else:
                 steep = self._steepness(first)
@@ -227,7 +228,7 @@ class GridSearch:
             left = COARSEST_GRIDS
             for parts in range(1, MOST_PARTS):
                 if left and grid.fits(self._extent / parts, min(self._reach, self._borders.cell / ROUND)):
-                    trial = self._trial(grid, self._extent / parts, 0.8)
+                    trial = self._trial(grid, self._extent / parts, 0.8, whole=False)
                     if trial.kept:
                         left -= 1
                         step, places = trial.found.step, trial.found.places

@@ -103,7 +103,12 @@ def widest_step(
 
 
 def looked_for(
-    measure: Callable[[float, bool], Trial[Found]], first: float, *, most: float, slopes: tuple[float, float]
+    measure: Callable[[float, bool], Trial[Found]],
+    first: float,
+    *,
+    most: float,
+    slopes: tuple[float, float],
+    glances: int = GLANCES,
 ) -> Trial[Found] | None:
     """About the widest step that keeps a look: from a few sides first, and from all of them in the end.
 
@@ -113,6 +118,8 @@ def looked_for(
         Tries a step, and looks at what it comes to; from all sides if its second argument is true.
     first, most, slopes
         As of `widest_step`.
+    glances : int
+        Steps that are looked at from a few sides.
     """
     trials = list[Trial[Found]]()
 
@@ -126,8 +133,9 @@ def looked_for(
         more = trial.excess + ROOM / 2.0 if trial.near else max(trial.excess, 0.3)
         return min(trial.step * math.exp(min(max(-more / slope, -1.2), 1.2)), most)
 
-    widest_step(glance, first, tries=GLANCES, most=most, slopes=slopes, slack=ROOM)
-    step = following(min(trials, key=lambda trial: abs(trial.excess + ROOM / 2.0)))
+    widest_step(glance, first, tries=glances, most=most, slopes=slopes, slack=ROOM)
+    near = min(trials, key=lambda trial: abs(trial.excess + ROOM / 2.0), default=None)
+    step = min(first, most) if near is None else following(near)
     best: Trial[Found] | None = None
     for number in range(CONFIRMATIONS):
         trial = measure(step, True)
