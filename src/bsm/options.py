@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import difflib
-import math
 import types
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
@@ -70,7 +69,7 @@ def _with_bounds(base: EncodeOptions, keywords: Mapping[str, Any]) -> dict[str, 
     """Keywords, `max_error` and `look` among them as the contract that they are beside that of a preset, and
     `lock_borders` as what it asks.
     """
-    from bsm.codec.static.contract import Contract, Fit
+    from bsm.codec.static.contract import WIDEST, Contract, Fit
     from bsm.codec.static.options import BALANCED
 
     given = dict(keywords)
@@ -91,11 +90,10 @@ def _with_bounds(base: EncodeOptions, keywords: Mapping[str, Any]) -> dict[str, 
     if farthest is not None:
         number, absolute = parse_length("max_error", farthest)
         least = number if absolute or contract is None or contract.absolute else min(number, contract.farthest)
-        contract = Contract(least) if contract is None else replace(contract, farthest=least)
-        contract = replace(contract, absolute=absolute)
+        contract = replace(contract or Contract(WIDEST), farthest=least, absolute=absolute)
     if look is not None:
-        contract = contract or replace(BALANCED, look=math.inf)
-        contract = replace(contract, look=min(contract.look, _checked("look", look, float)))
+        asked = replace(contract or BALANCED, look=_checked("look", look, float))
+        contract = asked if contract is None else replace(asked, look=min(contract.look, asked.look))
     given["contract"] = contract
     return given
 

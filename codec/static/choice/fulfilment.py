@@ -57,6 +57,8 @@ COARSE = 0.016
 """A step, in BSM units, at which blocks carry nothing but what they are for."""
 FINEST = 2.0**-38
 """Smallest step, in BSM units."""
+FINEST_BITS = 20
+"""Of the grid that is tried where nothing else will do."""
 ALL_AXES = 6.0
 """How much coarser levels in the plane are than those along the normal."""
 HEIGHTS, HEIGHTS_OF_MODELS = 1.34, 2.6
@@ -133,6 +135,9 @@ class Fulfilment:
             for draft in sorted(self._drafts(every=every), key=lambda draft: draft.size):
                 if self.keeps(draft):
                     return draft
+        finest = rounded(self._prepared, FINEST_BITS)
+        if self.keeps(finest):
+            return finest
         raise TargetError(self._refusal())
 
     def keeps(self, draft: Draft) -> bool:

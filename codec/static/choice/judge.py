@@ -20,7 +20,8 @@ from bsm.codec.static.contract import Contract
 from bsm.codec.static.preamble import Prepared
 
 FEW_SIDES, MANY_PIXELS = 5, 1024
-"""While steps are searched, the mesh is looked at from one of so many sides; from one alone where pictures are larger."""
+"""While steps are searched, the mesh is looked at from one of so many sides; from one alone where pictures have more
+pixels than this on a side."""
 
 
 class Sight:
