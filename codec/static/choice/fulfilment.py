@@ -153,14 +153,15 @@ class Fulfilment:
         except LimitError:
             pass  # blocks that decoders would refuse: a grid asks for little
         smallest = min((draft.size for draft in found), default=None)
-        few = len(self._prepared.positions) < FEW_LOOKS
-        if smallest is None or ((few or self._contract.look == math.inf) and self._grid_bytes < smallest):
+        if smallest is None or self._grids_may_win(smallest):
             found.extend(self._grids.drafts())
         return found
 
-    @property
-    def _grid_bytes(self) -> float:
-        return len(self._prepared.connectivity.data) + self._grids.bytes
+    def _grids_may_win(self, smallest: int) -> bool:
+        """Whether grids may take fewer bytes than blocks did."""
+        if self._contract.look < math.inf:
+            return self._prepared.graph.size < FEW_LOOKS
+        return len(self._prepared.connectivity.data) + self._grids.bytes < smallest
 
     def _refusal(self) -> str:
         had = self._judge.had

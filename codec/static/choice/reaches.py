@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy.sparse import csr_matrix
-from scipy.sparse.csgraph import connected_components
 
 from bsm.codec.arrays import Indices, Matrix
+from bsm.codec.geometry.graph import component_sizes
 from bsm.codec.static.contract import Contract
 from bsm.codec.static.preamble import Prepared
 
@@ -33,8 +32,17 @@ def reaches(prepared: Prepared, contract: Contract) -> Matrix:
 
 def _parts(prepared: Prepared) -> tuple[int, Indices]:
     """How many connected parts there are, and the one of each vertex, shape (n,)."""
-    graph = prepared.graph
-    ones = np.ones(len(graph.neighbours), np.bool_)
-    links = csr_matrix((ones, graph.neighbours, graph.offsets), (graph.size, graph.size))
-    count, part = connected_components(links)
-    return int(count), np.asarray(part, np.int32)
+    size, faces = prepared.graph.size, prepared.mesh.faces
+    if len(component_sizes(prepared.graph)) == 1:
+        return 1, np.zeros(size, np.int32)
+    least = np.arange(size)
+    while True:
+        # Every corner of a face hooks what it hangs on to the least that one of them hangs on.
+        hangs = least[faces]
+        np.minimum.at(least, hangs.ravel(), np.repeat(hangs.min(axis=1), 3))
+        while (least[least] != least).any():
+            least = least[least]
+        if (least[faces] == least[faces[:, :1]]).all():
+            break
+    names, part = np.unique(least, return_inverse=True)
+    return len(names), part.astype(np.int32)
