@@ -94,13 +94,15 @@ class Looker:
         if not any((picture < BACKGROUND).any() for picture in self._pictures):
             raise MeshError("the mesh cannot be looked at: its faces have no area")
 
-    def look(self, positions: Positions) -> Look:
+    def look(self, positions: Positions, *, every: int = 1) -> Look:
         """How these positions look on the faces of the original, with normals that follow from them.
 
         Parameters
         ----------
         positions : ndarray of float64, shape (n, 3)
             As many as the original has, in its order.
+        every : int
+            Look from the first of so many sides alone: quicker, and about the same.
 
         Raises
         ------
@@ -113,7 +115,7 @@ class Looker:
         if not np.isfinite(positions).all():
             raise MeshError("a position is not finite")
         placed = self._placed(positions)
-        return self._seen(self._pictures, placed, self._shape.faces, self._shape.normals(placed))
+        return self._seen(self._pictures, placed, self._shape.faces, self._shape.normals(placed), every)
 
     def distance(self, positions: Positions) -> float:
         """The distance alone of `look`."""
@@ -177,12 +179,14 @@ class Looker:
 
         return list(ordered_map(drawn, self._cameras, self._threads))
 
-    def _seen(self, pictures: Sequence[Picture], placed: Positions, faces: Faces, normals: Normals) -> Look:
+    def _seen(
+        self, pictures: Sequence[Picture], placed: Positions, faces: Faces, normals: Normals, every: int = 1
+    ) -> Look:
         def sums(side: tuple[Picture, Matrix]) -> Matrix:
             picture, camera = side
             return difference(picture, draw(placed, faces, normals, camera, self.pixels))
 
-        sides = zip(pictures, self._cameras, strict=True)
+        sides = list(zip(pictures, self._cameras, strict=True))[::every]
         found = np.array(list(ordered_map(sums, sides, self._threads)))
         dissimilar, visible, covered, _ = (float(sum(column)) for column in found.T)
         return judged(dissimilar / covered, visible / covered, float(found[:, 3].max()) / SQUARE)

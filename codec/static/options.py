@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
 from bsm.bitstream.container.header import MOST_SECTIONS
@@ -11,15 +11,12 @@ from bsm.bitstream.errors import OptionError
 from bsm.bitstream.limits import NAMED_LIMITS
 from bsm.codec.choices import check_options
 from bsm.codec.static.attributes.quality import Grade, checked_qualities
-from bsm.codec.static.contract import ANY_ANGLE, Contract, Fit
-from bsm.codec.static.rules import BASES, BLENDS, KEY_SEEDS, SEEDS
+from bsm.codec.static.contract import Contract, Fit
+from bsm.codec.static.rules import KEY_SEEDS
 from bsm.codec.static.targets import Target
 
 CHOICES = {
-    "basis": BASES,
-    "seed": SEEDS,
     "key_seed": KEY_SEEDS,
-    "blend": BLENDS,
     "partition": ("derived", "metis"),
     "normals": ("keep", "recompute"),
     "limits": tuple(NAMED_LIMITS),
@@ -45,7 +42,7 @@ RANGES: dict[str, tuple[float, float]] = {
 }
 
 
-BALANCED = Contract(0.01, 8.0)
+BALANCED = Contract(0.01, look=1.0, by_part=True)
 """What is promised unless something else is asked for."""
 
 
@@ -66,14 +63,12 @@ class EncodeOptions:
         n_d as a multiple of the largest part.
     partition : str
         "derived": both sides compute it; "metis": the paper's, its labels are sent.
-    basis, seed : str
-        "oi" (orthogonal iterations) or "svd" (exact eigenbasis); "previous" (start from the block before, predict
-        from the vertices shared with it) or "independent" (every block on its own).
     key_seed : str, optional
         Where a block that follows none begins: "cosines", or "svd", the exact lowest subspace, as the paper seeds its
         first block. None: "svd" with `bits`, the paper's mode, and cosines otherwise.
     key_interval : int
-        Every so many blocks, at most, one depends on nothing before it; 0: only the first.
+        Every so many blocks, at most, one depends on nothing before it; 0: only the first; 1: every block is on its
+        own, with exact bases throughout if `key_seed` is "svd".
     power, iterations, key_iterations : int
         z, t_max and t_max of a key block.
     shift : float, optional
@@ -87,21 +82,20 @@ class EncodeOptions:
         How many times coarser x, y and z are quantized than the detail layer, which keeps what they leave out along
         the normal alone; 0: no detail layer. None: 3, and 0 with `bits`, `doi` and targets of distance.
     predict : bool
-        Predict coefficients from overlapping vertices that are known already ("previous" only).
+        Predict coefficients from overlapping vertices that are known already.
     smoothing : float, optional
         Amount alpha of smoothing in the decoder; None: chosen by trying.
-    blend : str
-        Weights of a vertex's copies: "degree" (the paper's), "uniform", or "own" (only the copy in its part counts).
     keep_order : bool
         Store the order of vertices and faces, and the first corner of each face.
     doi : (float, float), optional
         eps_l and eps_h of dynamic orthogonal iterations, in units of the bounding box's diagonal: c_i follows the
         error of each block.
     target : Target, optional
-        Quality or size to reach, in place of the contract.
+        Quality or size to reach.
     contract : Contract, optional
-        What is promised; the encoder finds the cheapest way to keep it. It says nothing where `grid`, `grid_cell`,
-        `target` or any of `CODING` is given: who says how to code gets that.
+        What is promised, beside the target if there is one; the encoder finds the cheapest way to keep it. None:
+        `BALANCED`, or nothing but the target. It says nothing where `grid`, `grid_cell` or any of `CODING` is given:
+        who says how to code gets that.
     quick : bool
         Of all ways that keep a contract or reach a target only what is quick to decode: positions on a grid, without
         dictionaries. With `grid` and `grid_cell`, too, values are coded by a small model, in some more bytes.
@@ -141,8 +135,6 @@ class EncodeOptions:
     block_size: int = 750
     overlap: float = 1.15
     partition: str = "derived"
-    basis: str = "oi"
-    seed: str = "previous"
     key_seed: str | None = None
     key_interval: int = 32
     power: int = 3
@@ -154,11 +146,10 @@ class EncodeOptions:
     detail: float | None = None
     predict: bool = True
     smoothing: float | None = None
-    blend: str = "degree"
     keep_order: bool = False
     doi: tuple[float, float] | None = None
     target: Target | None = None
-    contract: Contract | None = BALANCED
+    contract: Contract | None = None
     quick: bool = False
     lock_borders: Fit | None = None
     grid: int | None = None
@@ -196,9 +187,9 @@ class EncodeOptions:
     @property
     def promise(self) -> Contract | None:
         """The contract, where it counts."""
-        if self.is_grid or self.target is not None or self.says_how:
+        if self.is_grid or self.says_how:
             return None
-        return self.contract
+        return BALANCED if self.contract is None and self.target is None else self.contract
 
     @property
     def sections_wanted(self) -> int | None:
@@ -226,7 +217,7 @@ class EncodeOptions:
         """The step, or where it is left open that of blocks with a detail layer."""
         if self.step is not None:
             return self.step
-        return COARSE_STEP if self.contract is not None and self.contract.angle > COARSE_ANGLE else STEP
+        return STEP
 
     @property
     def says_how(self) -> bool:
@@ -243,9 +234,8 @@ class EncodeOptions:
 
     @property
     def exact_keys(self) -> bool:
-        """Whether chains begin with the exact basis, which is no question where every block has it."""
-        chosen = self.key_seed or ("cosines" if self.bits is None or self.seed == "independent" else "svd")
-        return chosen == "svd" and self.basis == "oi"
+        """Whether chains begin with the exact basis."""
+        return (self.key_seed or ("cosines" if self.bits is None else "svd")) == "svd"
 
     @property
     def fixed_smoothing(self) -> float | None:
@@ -259,15 +249,24 @@ CODING = ("step", "keep", "coefficients", "detail", "bits", "doi", "smoothing")
 """Options that say how blocks are coded, and not what shall come of it."""
 FINE, SMALL = 0.001, 0.02
 """Promises of positions, from which on attributes are kept better, or less well."""
-STEP, COARSE_STEP, COARSE_ANGLE = 0.004, 0.006, 10.0
-"""Of blocks with a detail layer, and of those beyond an angle."""
+STEP = 0.004
+"""Of blocks with a detail layer."""
 
 PRESETS: dict[str, EncodeOptions] = {
-    "small": EncodeOptions(block_size=1500, overlap=1.0, key_interval=0, contract=Contract(0.02, 12.0)),
-    "balanced": EncodeOptions(),
-    "fine": EncodeOptions(contract=Contract(0.005, 3.0)),
-    "near-lossless": EncodeOptions(contract=Contract(0.0005, ANY_ANGLE)),
+    "small": EncodeOptions(
+        block_size=1500, overlap=1.0, key_interval=0, contract=Contract(0.02, look=3.0, by_part=True)
+    ),
+    "balanced": EncodeOptions(contract=BALANCED),
+    "fine": EncodeOptions(contract=Contract(0.005, look=0.5, by_part=True)),
+    "near-lossless": EncodeOptions(contract=Contract(0.0005)),
     "grid14": EncodeOptions(grid=14),
 }
 """Names for what most users want, each a promise; "balanced" is the default. Larger blocks are smaller files and slower
 to decode."""
+
+
+def finer_promises(promise: Contract) -> Iterator[Contract]:
+    """What presets promise that are finer than the one with this promise, from coarse to fine; none of other ones."""
+    promises = [options.contract for options in PRESETS.values() if options.contract is not None]
+    if promise in promises:
+        yield from promises[promises.index(promise) + 1 :]
