@@ -7,6 +7,7 @@ what is cheap to code is taken where it costs little.
 
 from __future__ import annotations
 
+import math
 from functools import cached_property
 
 import numpy as np
@@ -14,7 +15,7 @@ import numpy as np
 from bsm.codec import _kernels
 from bsm.codec.arrays import Levels, Matrix, Positions
 from bsm.codec.geometry.graph import Graph
-from bsm.codec.look.measure import Looker
+from bsm.codec.look.measure import DISSIMILAR, POWER, Looker
 from bsm.codec.signal.frames import local_frames
 
 PULL = 0.8
@@ -62,6 +63,12 @@ class Sensitivity:
         aside = self._positions + np.einsum("na,nad->nd", noise[:, 1:] * across, frames[:, 1:])
         first, second = self._looker.blame(upright, aside)
         return self._spread(12.0 * first / along**2), self._spread(6.0 * second / across**2)
+
+    def step_for(self, distance: float, ratio: float) -> float:
+        """The step, in BSM units, at which rounding, `ratio` times as wide across, is about as bad."""
+        normal, tangent = self.costs
+        unlike = DISSIMILAR * distance ** (1.0 / POWER)
+        return math.sqrt(12.0 * unlike / float(normal.sum() + 2.0 * ratio**2 * tangent.sum()))
 
     def levels(self, offsets: Matrix, steps: Matrix, worth: float, reach: Matrix) -> Levels:
         """Levels that are worth their bits, shape (n, axes).

@@ -7,6 +7,7 @@ from bsm.codec import _kernels
 from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.look.measure import Looker
+from bsm.codec.signal.frames import local_frames
 from bsm.codec.static.choice.settling import AROUND, SIZES, Sensitivity
 from tests.shapes import patch, together, torus
 
@@ -74,6 +75,15 @@ def test_what_is_hidden_costs_little():
     normal, _ = measured.costs
     outside, hidden = normal[: len(shell.positions)], normal[len(shell.positions) :]
     assert np.median(hidden) < 0.5 * np.median(outside)
+
+
+def test_the_step_for_a_look_is_about_right(sensitivity):
+    step = sensitivity.step_for(1.0, 4.0)
+    assert sensitivity.step_for(2.0, 4.0) == pytest.approx(step * 2 ** (0.5 / 0.8))
+    frames = local_frames(MESH.positions, MESH.faces).reshape(-1, 3, 3)
+    noise = np.random.default_rng(1).uniform(-0.5, 0.5, MESH.positions.shape) * step * (1, 4, 4)
+    seen = Looker(MESH).distance(MESH.positions + np.einsum("na,nad->nd", noise, frames))
+    assert 0.4 < seen < 2.5
 
 
 def test_one_axis_will_do(sensitivity):
