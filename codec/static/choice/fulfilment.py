@@ -84,8 +84,9 @@ NEAR = 8.0
 """How far shaping may bring a vertex from its place, in steps of the layer."""
 FEW_LOOKS = 4000
 """Meshes of more vertices are looked at in one way to code alone, the one that is likely to be smaller."""
-DENSE, PREVIEW = 0.0062, 2.0
-"""Below this look, meshes with sharp edges are smaller on grids, unless the mean edge is shorter than so much."""
+DENSE, TINY, PREVIEW = 0.0062, 0.0012, 2.0
+"""Below this look, meshes with sharp edges are smaller on grids, unless the mean edge is shorter than the first; and so are
+all where it is shorter than the second: pictures do not show their faces."""
 MARGIN = 1e-9
 """Of a bound on distances, for what rounding may add."""
 
@@ -198,7 +199,8 @@ class Fulfilment:
             return self._prepared.graph.size >= FEW_VERTICES
         if self._grids.fits_model or (self._contract.about_angle <= MODEL_ANGLE and self._shaper.character.is_model):
             return False
-        if self._contract.look < PREVIEW and self._edge >= DENSE and self._shaper.character.is_sharp:
+        sharp = self._shaper.character.is_sharp and self._edge >= DENSE
+        if self._contract.look < PREVIEW and (sharp or self._edge < TINY):
             return False
         return self._prepared.has_low_frequencies and not self._blocks.is_flat(COARSE, FLAT)
 
