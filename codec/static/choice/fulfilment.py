@@ -85,8 +85,8 @@ NEAR = 8.0
 FEW_LOOKS = 4000
 """Meshes of more vertices are looked at in one way to code alone, the one that is likely to be smaller."""
 DENSE, TINY, PREVIEW = 0.0062, 0.0012, 2.0
-"""Below this look, meshes with sharp edges are smaller on grids, unless the mean edge is shorter than the first; and so are
-all where it is shorter than the second: pictures do not show their faces."""
+"""Below this look, meshes with sharp edges are smaller on grids, unless the mean edge is shorter than the first; and so
+are all where it is shorter than the second: pictures do not show their faces."""
 MARGIN = 1e-9
 """Of a bound on distances, for what rounding may add."""
 
