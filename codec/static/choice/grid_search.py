@@ -55,6 +55,8 @@ SHARE, SHARE_VERTICES, SHARE_OF_FEWER, SHARE_OF_BITS, MEAN_BITS = 0.575, 50_000,
 when vertices are half as many as so many, and with bits of a vertex above the mean."""
 MOST_EXTENTS = 256.0
 """How many times its diagonal a model may be from the origin, for its places to be counted from there."""
+COARSEST_LOOKS, FITS_LOOK = 6, 0.002
+"""Of these, so many are looked at; and how far off vertices may be on them, in BSM units, over the look."""
 MOST_PARTS, COARSEST_GRIDS = 256, 3
 """Of models of few vertices: cells along the longest side, and how many of the coarsest grids that fit are tried."""
 
@@ -108,7 +110,7 @@ class GridSearch:
         self._character = shaper.character
         self._angle = contract.about_angle
         self._shades = contract.shades
-        self._looks = contract.look < math.inf
+        self._look, self._looks = contract.look, contract.look < math.inf
         self._judge = judge
         self._reach = reach
         self._borders = borders
@@ -223,12 +225,14 @@ class GridSearch:
         """
         from_origin = Shaped(self._prepared, self._shaper, np.zeros(3), still=self._borders.vertices)
         farthest = float(np.abs(self._prepared.mesh.positions).max())
+        reach = min(self._reach, self._borders.cell / ROUND, FITS_LOOK * self._look)
         grids = [shaped, from_origin] if farthest < MOST_EXTENTS * self._prepared.mesh.diagonal else [shaped]
         for grid in grids:
-            left = COARSEST_GRIDS
+            left, tries = COARSEST_GRIDS, COARSEST_LOOKS if self._looks else MOST_PARTS
             for parts in range(1, MOST_PARTS):
-                if left and grid.fits(self._extent / parts, min(self._reach, self._borders.cell / ROUND)):
+                if left and tries and grid.fits(self._extent / parts, reach):
                     trial = self._trial(grid, self._extent / parts, 0.8, whole=False)
+                    tries -= 1
                     if trial.kept:
                         left -= 1
                         step, places = trial.found.step, trial.found.places

@@ -258,6 +258,21 @@ def test_small_parts_keep_their_shape() -> None:
         assert moved[part].max() <= 0.02 * 0.1 * (1 + 1e-9) and moved.max() <= 0.02 * (1 + 1e-9)
 
 
+@pytest.mark.parametrize("preset", ["small", "balanced"])
+def test_a_label_does_not_sink_into_its_wall(preset: str) -> None:
+    wall = patch(8, 8)
+    label = TriangleMesh([(0.3, 0.3, 0), (0.7, 0.3, 0), (0.7, 0.6, 0), (0.3, 0.6, 0)], [(0, 1, 2), (0, 2, 3)])
+    low, size = wall.positions.min(axis=0), np.ptp(wall.positions, axis=0).max()
+    above = low + size * (label.positions + np.array([0.0, 0.0, 0.002]))
+    flat = wall.positions * (1.0, 1.0, 0.0) + low * (0.0, 0.0, 1.0)
+    random = np.random.default_rng(0).normal(size=flat.shape) * (1e-3, 1e-3, 0.0)
+    mesh = TriangleMesh(np.concatenate([flat + random, above]), np.concatenate([wall.faces, label.faces + len(flat)]))
+    encoder = Encoder(mesh, PRESETS[preset])
+    decoded = decode(encoder.encode()).positions
+    part = encoder.vertex_order >= len(flat)
+    assert decoded[part, 2].min() > decoded[~part, 2].max()
+
+
 def test_a_look_that_cannot_be_had_says_what_can() -> None:
     with pytest.raises(TargetError, match=r"a look of 1e-09 cannot be kept .* can be had is .*a look of "):
         Encoder(noisy(torus(20, 12), 0.01), EncodeOptions(contract=Contract(0.01, look=1e-9))).encode()
