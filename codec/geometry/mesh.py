@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from bsm.bitstream.errors import MeshError
+from bsm.bitstream.errors import ArgumentError, MeshError
 from bsm.codec.arrays import Faces, Order, Positions
 from bsm.codec.geometry.attributes import Attribute
 
@@ -48,6 +48,11 @@ class TriangleMesh:
     metadata: Metadata = field(default_factory=dict)
 
     def __post_init__(self) -> None:
+        attributes: object = self.attributes
+        if not isinstance(attributes, (tuple, list)) or not all(isinstance(one, Attribute) for one in attributes):
+            raise ArgumentError("the attributes of a mesh must be a list of Attribute")
+        if not isinstance(self.metadata, Mapping):
+            raise ArgumentError(f"metadata must be a mapping from names, not {type(self.metadata).__name__}")
         positions = _as_array(self.positions, "positions", np.float64)
         faces = _as_array(self.faces, "faces")
         if positions.ndim != 2 or positions.shape[1] != 3:
@@ -77,6 +82,10 @@ class TriangleMesh:
             raise MeshError(f"two attributes have the same name, of {', '.join(names)}")
         for attribute in self.attributes:
             attribute.check(len(positions), len(faces))
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """For pickles and deep copies: made again, and so checked again."""
+        return type(self), (self.positions, self.faces, self.attributes, dict(self.metadata))
 
     @property
     def diagonal(self) -> float:

@@ -14,9 +14,10 @@ from bsm.bitstream.container import packets
 from bsm.bitstream.container.gop import GopBody, write_gop_body
 from bsm.bitstream.container.header import Header
 from bsm.bitstream.container.writer import Writer
-from bsm.bitstream.errors import MeshError, OptionError
+from bsm.bitstream.errors import ArgumentError, MeshError, OptionError
 from bsm.bitstream.limits import NAMED_LIMITS
 from bsm.codec.arrays import Matrix, Order
+from bsm.codec.choices import check_mapping
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
 from bsm.codec.sequence.cost import gop_cost, gop_memory, loop_memory
@@ -120,6 +121,9 @@ class SequenceEncoder:
         self.notes: tuple[str, ...] = ()
         self._faces = faces
         self._count = frames
+        if not isinstance(attributes, Sequence) or not all(isinstance(one, Attribute) for one in attributes):
+            raise ArgumentError("the attributes of a sequence must be a list of Attribute")
+        check_mapping("metadata", metadata)
         self._attributes = tuple(attributes)
         self._metadata = metadata
         if self.options.frame_rate:
@@ -339,7 +343,10 @@ def encode_sequence(
     attributes: Sequence[Attribute] = (),
 ) -> bytes:
     """Encode frames, `positions` of shape (T, n, 3), to a complete stream; other arguments as of `SequenceEncoder`."""
-    frames = np.asarray(positions, np.float64)
+    try:
+        frames = np.asarray(positions, np.float64)
+    except (TypeError, ValueError) as error:
+        raise MeshError(f"the positions of a sequence are not an array of numbers: {error}") from error
     if frames.ndim != 3 or frames.shape[2] != 3 or len(frames) == 0:
         raise MeshError(f"the positions of a sequence must have shape (T, n, 3), T > 0, not {frames.shape}")
     return b"".join(SequenceEncoder(faces, options, len(frames), metadata, attributes).chunks(frames))

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
-from functools import cached_property
 
 import numpy as np
 
 from bsm.bitstream.container.header import Header
 from bsm.bitstream.errors import OptionError, TargetError
+from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Order
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.closeness import Original

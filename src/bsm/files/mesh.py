@@ -20,7 +20,7 @@ from typing import BinaryIO, cast
 
 from bsm.bitstream.container.wire import MAGIC
 from bsm.bitstream.errors import CorruptError, FormatError, OptionError, TruncatedError
-from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
+from bsm.bitstream.limits import DEFAULT_LIMITS, Limits, as_limits
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.files.formats.glb import write_glb
 from bsm.files.formats.materials import fetched
@@ -91,7 +91,7 @@ def read_mesh(
     OSError
         If the file cannot be read.
     """
-    given = as_input(source)
+    given, limits = as_input(source), as_limits(limits)
     path, name = (given.name if given.is_file else None), given.name
     if reader not in (None, *READERS):
         raise OptionError(f"a reader must be one of {', '.join(READERS)}, not {reader!r}")
@@ -217,6 +217,6 @@ def format_of_bytes(data: bytes) -> str | None:
         return "stl"
     if b"OFF" in head[:8]:
         return "off"
-    if re.search(rb"^\s*v[ \t]", data[: 1 << 16], re.MULTILINE):
+    if re.search(rb"(?:\A|[\r\n])[ \t]*v[ \t]", data[: 1 << 16]):
         return "obj"
     return None
