@@ -15,6 +15,8 @@ from bsm.bitstream.errors import ArgumentError, MeshError
 from bsm.codec.arrays import Faces, Order, Positions
 from bsm.codec.geometry.attributes import Attribute
 
+SMALLEST, LARGEST = 1e-30, 1e30
+"""Of the sides of a mesh, and of its coordinates, in its own unit."""
 Metadata = Mapping[str, str | int | float | bytes]
 """Whatever an author wants to say of a mesh."""
 
@@ -91,6 +93,18 @@ class TriangleMesh:
     def diagonal(self) -> float:
         """Length of the bounding box's diagonal."""
         return math.hypot(*np.ptp(self.positions, axis=0))
+
+    def require_ordinary_size(self) -> None:
+        """Raise `MeshError` where squares of lengths would not fit numbers of single precision: another unit helps."""
+        with np.errstate(over="ignore"):
+            farthest = float(np.abs(self.positions).max(initial=0.0))
+            sides = np.ptp(self.positions, axis=0) if len(self.positions) else np.zeros(3)
+        extent = float(sides.max(initial=0.0))
+        if farthest > LARGEST or 0.0 < extent < SMALLEST:
+            raise MeshError(
+                f"the mesh is {extent:.3g} across, {farthest:.3g} from the origin; what is from {SMALLEST:g} to "
+                f"{LARGEST:g} can be encoded: scale it, and say the unit in its metadata"
+            )
 
     def moved(self, positions: Positions) -> tuple[TriangleMesh, tuple[str, ...]]:
         """The mesh with its vertices elsewhere; normals are not of it any more: the names of those left out."""

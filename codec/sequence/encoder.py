@@ -178,6 +178,7 @@ class SequenceEncoder:
         gops = -(-self._count // (options.gop if options.mode == "gop" else 1))
         tell = _Rounds(progress if gops else None, 1 + gops)
         given = TriangleMesh(np.asarray(first), np.asarray(self._faces), self._attributes)
+        given.require_ordinary_size()
         parts = Parts(options.block_size, options.overlap)
         prepared = prepare(given, parts, keep_order=options.keep_order)
         self.vertex_order, self.face_order = prepared.vertex_order, prepared.face_order

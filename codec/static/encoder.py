@@ -94,6 +94,7 @@ class Encoder:
                 "borders are locked where there is a promise: a preset but grid14, or max_error; parts on one grid, "
                 "grid_cell, fit anyway"
             )
+        mesh.require_ordinary_size()
         self._given = mesh
 
     @property
