@@ -15,8 +15,6 @@ from bsm.bitstream.errors import ArgumentError, MeshError
 from bsm.codec.arrays import Faces, Order, Positions
 from bsm.codec.geometry.attributes import Attribute
 
-SMALLEST, LARGEST = 1e-30, 1e30
-"""Of the sides of a mesh, and of its coordinates, in its own unit."""
 Metadata = Mapping[str, str | int | float | bytes]
 """Whatever an author wants to say of a mesh."""
 
@@ -94,16 +92,15 @@ class TriangleMesh:
         """Length of the bounding box's diagonal."""
         return math.hypot(*np.ptp(self.positions, axis=0))
 
-    def require_ordinary_size(self) -> None:
-        """Raise `MeshError` where squares of lengths would not fit numbers of single precision: another unit helps."""
+    def require_sizes(self, smallest: float, largest: float) -> None:
+        """Raise `MeshError` where it is smaller, or goes farther from the origin, than what is to be done can bear."""
+        farthest = float(np.abs(self.positions).max(initial=0.0))
         with np.errstate(over="ignore"):
-            farthest = float(np.abs(self.positions).max(initial=0.0))
-            sides = np.ptp(self.positions, axis=0) if len(self.positions) else np.zeros(3)
-        extent = float(sides.max(initial=0.0))
-        if farthest > LARGEST or 0.0 < extent < SMALLEST:
+            extent = float(np.ptp(self.positions, axis=0).max()) if len(self.positions) else 0.0
+        if farthest > largest or 0.0 < extent < smallest:
             raise MeshError(
-                f"the mesh is {extent:.3g} across, {farthest:.3g} from the origin; what is from {SMALLEST:g} to "
-                f"{LARGEST:g} can be encoded: scale it, and say the unit in its metadata"
+                f"the mesh is {extent:.3g} across, and {farthest:.3g} from the origin; what is from {smallest:g} to "
+                f"{largest:g} can be encoded so: scale it, and say the unit in its metadata"
             )
 
     def moved(self, positions: Positions) -> tuple[TriangleMesh, tuple[str, ...]]:

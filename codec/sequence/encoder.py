@@ -34,6 +34,7 @@ from bsm.codec.static.attributes.encoding import carry, place_of_first_frame, wi
 from bsm.codec.static.attributes.quality import qualities
 from bsm.codec.static.coding import Adaptive
 from bsm.codec.static.draft import Draft
+from bsm.codec.static.encoder import PROMISED_SIZES
 from bsm.codec.static.preamble import Parts, Prepared, prepare
 from bsm.codec.static.rules import STIFFNESS, Scheme
 from bsm.codec.static.targets import search_step
@@ -178,7 +179,7 @@ class SequenceEncoder:
         gops = -(-self._count // (options.gop if options.mode == "gop" else 1))
         tell = _Rounds(progress if gops else None, 1 + gops)
         given = TriangleMesh(np.asarray(first), np.asarray(self._faces), self._attributes)
-        given.require_ordinary_size()
+        given.require_sizes(*PROMISED_SIZES)
         parts = Parts(options.block_size, options.overlap)
         prepared = prepare(given, parts, keep_order=options.keep_order)
         self.vertex_order, self.face_order = prepared.vertex_order, prepared.face_order

@@ -76,6 +76,11 @@ class Attempt:
         return 8.0 * self.size / self.header.vertices
 
 
+SIZES, PROMISED_SIZES = (1e-290, 1e290), (1e-30, 1e30)
+"""Of meshes, in their own unit: what numbers of the format hold; and where errors, squared, are numbers of single
+precision."""
+
+
 class Encoder:
     """Encodes one mesh; the work begins with the first thing asked for.
 
@@ -94,7 +99,7 @@ class Encoder:
                 "borders are locked where there is a promise: a preset but grid14, or max_error; parts on one grid, "
                 "grid_cell, fit anyway"
             )
-        mesh.require_ordinary_size()
+        mesh.require_sizes(*(SIZES if self.options.promise is None else PROMISED_SIZES))
         self._given = mesh
 
     @property
