@@ -10,12 +10,12 @@ import math
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import replace
-from functools import cached_property
 
 import numpy as np
 
 from bsm.bitstream.container.header import Layer
 from bsm.bitstream.errors import LimitError, TargetError
+from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Levels, Matrix
 from bsm.codec.static.choice.borders import borders_of
 from bsm.codec.static.choice.grid_search import COARSEST, GridSearch

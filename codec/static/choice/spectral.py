@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from functools import cached_property
 
 import numpy as np
 
 from bsm.bitstream.container.header import Header, Layer
 from bsm.bitstream.limits import NAMED_LIMITS
+from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Levels, Matrix
 from bsm.codec.signal.frames import displaced, in_frames, local_frames
 from bsm.codec.signal.smooth import smooth
