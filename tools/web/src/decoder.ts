@@ -13,7 +13,7 @@ import { isMine, type SharedBlock } from "./helper";
 import type { Kernels, Memory } from "./kernels";
 import { checkLimit, DEFAULT_LIMITS, type Limits } from "./limits";
 import { Numbering, permuted, type Loose } from "./numbering";
-import { Cursor, END_OF_STREAM, NEED_DATA, Reader, type Damaged, type Packet, type Signal } from "./reader";
+import { Cursor, END_OF_STREAM, NEED_DATA, Reader, type Damaged, type Metadata, type Packet, type Signal } from "./reader";
 import { Sequence } from "./sequence";
 import { split } from "./splits";
 import { Structure, type Chains } from "./structure";
@@ -30,6 +30,12 @@ export const NEED_BLOCK = "need block";
 export interface HeaderEvent {
     type: "header";
     header: Header;
+}
+
+/** Metadata have arrived; nothing that is decoded depends on them. */
+export interface MetadataEvent {
+    type: "metadata";
+    entries: Metadata;
 }
 
 /**
@@ -76,7 +82,7 @@ export interface EndEvent {
     degraded: Int32Array;
 }
 
-export type Event = HeaderEvent | ConnectivityEvent | BlockEvent | RefinementEvent | AttributeEvent | FrameEvent | LossEvent | EndEvent;
+export type Event = HeaderEvent | MetadataEvent | ConnectivityEvent | BlockEvent | RefinementEvent | AttributeEvent | FrameEvent | LossEvent | EndEvent;
 
 /** What a decoder is asked for beside the mesh. */
 export interface Wishes {
@@ -276,6 +282,8 @@ export class Decoder {
         switch (packet.type) {
             case "header":
                 return this.acceptHeader(packet.header);
+            case "metadata":
+                return void this.queue.push(packet);
             case "connectivity":
                 return this.acceptConnectivity(packet.method, packet.data);
             case "partition":
@@ -575,4 +583,4 @@ export function decode(kernels: Kernels, data: Uint8Array, limits: Partial<Limit
     return decoder.finish();
 }
 
-export { END_OF_STREAM, NEED_DATA };
+export { END_OF_STREAM, NEED_DATA, type Metadata };

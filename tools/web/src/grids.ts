@@ -1,7 +1,7 @@
 /** A stream of a static mesh on a light grid to the mesh, while it arrives: as `decoder.ts` decodes it, without all else. */
 import { Allowance } from "./chain";
 import { CONNECTIVITY_METHOD, ConnectivityDecoder, decodeArrangement } from "./connectivity";
-import type { BlockEvent, ConnectivityEvent, EndEvent, HeaderEvent, Mesh } from "./decoder";
+import type { BlockEvent, ConnectivityEvent, EndEvent, HeaderEvent, Mesh, MetadataEvent } from "./decoder";
 import { BsmError, UnsupportedError } from "./errors";
 import { Grid, lightKernel } from "./grid";
 import type { Header } from "./header";
@@ -13,7 +13,7 @@ import { LIGHT_COST, meshCost, orderCost } from "./work";
 
 const ORDER_METHOD = 1;
 
-export type Event = HeaderEvent | ConnectivityEvent | BlockEvent | EndEvent;
+export type Event = HeaderEvent | MetadataEvent | ConnectivityEvent | BlockEvent | EndEvent;
 
 /** Takes the bytes of a stream as they come, and gives events as soon as they can be known. */
 export class Decoder {
@@ -80,6 +80,8 @@ export class Decoder {
         switch (packet.type) {
             case "header":
                 return this.acceptHeader(packet.header);
+            case "metadata":
+                return void this.queue.push(packet);
             case "connectivity":
                 return this.acceptConnectivity(packet.method, packet.data);
             case "order":

@@ -1,9 +1,10 @@
 /** A stream as it arrives, cut at any byte, over a link of any speed; sequences play. */
 import { BufferAttribute } from "three";
-import { DecoderThread, errorLike, type Header, type Kernels, type LossEvent } from "../index";
-import { BSMGeometry } from "../three";
+import { BSMGeometry } from "../geometry";
+import { errorLike, type Header, type LossEvent } from "../index";
+import type { Pool, StreamDecoding } from "../pool";
 import { coloursOf, errorsOf, LEGENDS, type Errors, type Scheme } from "./colours";
-import { Playback } from "./playback";
+import { Playback } from "../playback";
 import { Stage } from "./stage";
 import template from "./view.html";
 
@@ -50,7 +51,7 @@ export class View {
     private readonly play: HTMLButtonElement;
     private content: Content = { name: "", stream: new Uint8Array(0) };
     private geometry = new BSMGeometry();
-    private thread?: DecoderThread;
+    private decoding?: StreamDecoding;
     private playback?: Playback;
     private errors?: Errors;
     private ownColours?: BufferAttribute;
@@ -67,7 +68,7 @@ export class View {
 
     constructor(
         private readonly root: HTMLElement,
-        private readonly kernels: Kernels,
+        private readonly pool: Pool,
         licences: string,
     ) {
         root.classList.add("bsm");
@@ -131,7 +132,7 @@ export class View {
     /** Stop, and give back what it holds. */
     close(): void {
         this.closed = true;
-        this.thread?.close();
+        this.decoding?.close();
         this.stage.dispose();
     }
 
@@ -145,7 +146,7 @@ export class View {
 
     /** Decode from the first byte on; what is shown stays until there is something else. */
     private restart(): void {
-        this.thread?.close();
+        this.decoding?.close();
         const geometry = new BSMGeometry({ onConnectivity: () => (this.stale = true), onBlock: () => this.drawn(), onFrame: () => this.begin(geometry) });
         this.geometry = geometry;
         this.playback = undefined;
@@ -160,18 +161,21 @@ export class View {
         this.started = performance.now();
         this.part("problem").textContent = "";
         this.root.dataset.state = "loading";
-        this.thread = new DecoderThread(this.kernels, {
-            onEvent: (event) => {
-                geometry.accept(event);
-                if (event.type === "loss") this.lose(event);
-                if (event.type === "end") this.end();
+        this.decoding = this.pool.open(
+            {
+                onPicture: (picture) => {
+                    geometry.accept(picture);
+                    if (picture.type === "loss") this.lose(picture);
+                    if (picture.type === "end") this.end();
+                },
+                onError: (error) => this.fail(`This stream cannot be decoded further. ${error.name}: ${error.message}`),
+                onTaken: (bytes) => {
+                    this.root.dataset.taken = String(bytes);
+                    if (bytes === this.fed) this.show();
+                },
             },
-            onError: (error) => this.fail(`This stream cannot be decoded further. ${error.name}: ${error.message}`),
-            onTaken: (bytes) => {
-                this.root.dataset.taken = String(bytes);
-                if (bytes === this.fed) this.show();
-            },
-        }, {}, { tolerant: true });
+            { tolerant: true, drawing: "growing" },
+        );
     }
 
     /** Go on for one picture. */
@@ -179,9 +183,9 @@ export class View {
         if (Number(this.cut.value) < this.fed) this.restart();
         const allowed = this.allowed();
         if (!this.over && this.fed < allowed) {
-            this.thread!.receiveData(this.content.stream.subarray(this.fed, allowed));
+            this.decoding?.receiveData(this.content.stream.subarray(this.fed, allowed));
             this.fed = allowed;
-            if (allowed === this.content.stream.length) this.thread!.receiveEof();
+            if (allowed === this.content.stream.length) this.decoding?.receiveEof();
         }
         this.playOn(now);
         if (this.stale && this.shown) this.paint();
