@@ -34,6 +34,7 @@ BSM_ARRAY(Halves, uint16_t)
 BSM_ARRAY(Ints, int32_t)
 BSM_ARRAY(Words, uint32_t)
 BSM_ARRAY(Longs, int64_t)
+BSM_ARRAY(Singles, float)
 BSM_ARRAY(Doubles, double)
 
 /* KERNEL before a function compiles it once per instruction set; the loader picks the best that the processor has. (By

@@ -88,6 +88,7 @@ BSM_CASTERS(Halves, uint16_t)
 BSM_CASTERS(Ints, int32_t)
 BSM_CASTERS(Words, uint32_t)
 BSM_CASTERS(Longs, int64_t)
+BSM_CASTERS(Singles, float)
 BSM_CASTERS(Doubles, double)
 
 // A struct of arrays, structs and numbers that Python keeps as a NamedTuple, member for member.

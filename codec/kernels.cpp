@@ -26,6 +26,9 @@ extern "C" {
 #include "codec/geometry/metrics.h"
 #include "codec/geometry/raster.h"
 #include "codec/geometry/surface_distance.h"
+#include "codec/look/likeness.h"
+#include "codec/look/normals.h"
+#include "codec/look/shade.h"
 #include "codec/sequence/row_prediction.h"
 #include "codec/signal/detail.h"
 #include "codec/signal/frames.h"
@@ -59,6 +62,12 @@ NB_MODULE(_kernels, m) {
     m.def("nearest_distances", &nearest_distances, "points"_a, "triangles"_a, "low"_a, "high"_a, "first"_a, "count"_a,
           "distances"_a, Unlocked());
     m.def("nearest_faces", &nearest_faces, "corners"_a, "owner"_a, "depth"_a, Unlocked());
+    m.def("shown_normals", checked<&shown_normals>, "positions"_a, "faces"_a, "joined"_a, "starts"_a, "around"_a,
+          "cosine"_a, "most"_a, "crosses"_a, "normals"_a, Unlocked());
+    m.def("draw_shaded", checked<&draw_shaded>, "positions"_a, "faces"_a, "normals"_a, "camera"_a, "placed"_a,
+          "depth"_a, "lengths"_a, "picture"_a, Unlocked());
+    m.def("likeness", checked<&likeness>, "first"_a, "second"_a, "wide"_a, "narrow"_a, "visible"_a, "plain"_a,
+          "scratch"_a, "sums"_a, Unlocked());
     m.def("bisection_scratch", &bisection_scratch, "size"_a);
     m.def("bisect", &bisect, "offsets"_a, "neighbours"_a, "order"_a, "bounds"_a, "scratch"_a, Unlocked());
     m.def("bisect_once", &bisect_once, "offsets"_a, "neighbours"_a, "order"_a, "bounds"_a, "scratch"_a, "second"_a,

@@ -201,9 +201,7 @@ FIELDS = {
     "prediction": (19, (0, 16), -1e30, 1e30, []),
     "smoothing": (20, float, 0.0, 1e6, 0.0),
     "frames": (21, int, 0, COUNT, 0),
-    "frame_rate": (22, float, 0.0, 1e6, 0.0),
     "gop_frames": (23, int, 0, COUNT, 0),
-    "weights": (24, "method", 0, 1, 0),
     "detail_step": (25, float, 0.0, 2.0**20, 0.0),
     "details": (26, int, 0, COUNT, 0),
     "coarser": (27, int, 0, 30, 0),
@@ -1199,18 +1197,17 @@ class Gop:
     def __init__(self, data, longest):
         require(len(data) >= 1, "a GOP without method")
         self.method = data[0]
-        if self.method > 3:
+        if self.method > 2:
             raise UnsupportedError(f"GOP method {self.method}")  # S 2.2
         self.frames, at = payload_varint(data, 1)
-        require(1 <= self.frames <= (longest if self.method <= 1 else 1), "a wrong number of frames")  # S 2.3
+        require(1 <= self.frames <= (longest if self.method == 0 else 1), "a wrong number of frames")  # S 2.3
         require(at + 4 <= len(data), "a GOP ends inside its step")
         self.step, at = struct.unpack("<f", data[at : at + 4])[0], at + 4
         require(0.0 < self.step < math.inf, "a step that is not finite and above 0")  # S 2.1
         self.columns, self.exponents, self.basis = 3, [], b""
-        if self.method <= 1:
+        if self.method == 0:
             self.columns, at = payload_varint(data, at)
             require(self.columns <= 3 * self.frames, "too many components")
-        if self.method == 0:
             for _ in range(self.columns):  # S 2.4
                 code, at = payload_varint(data, at)
                 before = self.exponents[-1] if self.exponents else 0
@@ -1296,11 +1293,6 @@ def cosines_over_time(frames):
 def temporal_basis(gop):
     """S 5: 3 T rows, r columns."""
     single = cosines_over_time(gop.frames)
-    if gop.method == 1:
-        basis = np.zeros((3, gop.frames, gop.frames, 3))
-        for d in range(3):
-            basis[d, :, :, d] = single
-        return basis.reshape(3 * gop.frames, 3 * gop.frames)[:, : gop.columns]
     matrices = LevelModel().decode(gop.basis, [(gop.frames, gop.columns)] * 3, [None] * 3)
     steps = 2.0 ** (-np.array(gop.exponents, float) / 4)
     return np.concatenate([single @ (matrix * steps) for matrix in matrices])
@@ -1381,8 +1373,6 @@ class Part:
 
 def edge_weights(mesh, positions):
     """S 3.1: of both directions of every edge."""
-    if mesh.header["weights"] == 0:
-        return {(v, w): 1.0 for v, row in enumerate(mesh.graph) for w in row}
     sums = {(v, w): 0.0 for v, row in enumerate(mesh.graph) for w in row}
     for face in mesh.faces:
         if len(set(face)) < 3:
@@ -1418,7 +1408,7 @@ def decode_frames(mesh, gops, first_frame):
         require(not 0 < mesh.header["frames"] < index + gop.frames, "more frames than announced")
         shapes = [(part.basis.shape[1], gop.columns) for part in parts]
         field = np.zeros((mesh.header["vertices"], gop.columns))
-        if gop.method <= 1:  # S 7.1
+        if gop.method == 0:  # S 7.1
             basis, history = temporal_basis(gop), None
             matrices = LevelModel().decode(gop.levels, shapes, [None] * len(parts))
             for part, matrix, known in zip(parts, matrices, first):
@@ -1426,7 +1416,7 @@ def decode_frames(mesh, gops, first_frame):
             wide = (field @ basis.T).reshape(len(field), 3, gop.frames)
             frames += [mesh.result(wide[:, :, t]) for t in range(gop.frames)]
             continue
-        if gop.method == 2:  # S 7.2
+        if gop.method == 1:  # S 7.2
             zeros = [np.zeros(shape, int) for shape in shapes]
             history = [LevelModel(), [Loop(9, 3) for _ in parts], zeros, first, first]
         require(history is not None, "a frame refers to one that is not there")

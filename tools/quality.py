@@ -3,7 +3,7 @@
     python -m tools.quality theta MESH [MESH ...] [--theta 3 7 10] [--draco-bits 11]
     python -m tools.quality grid MESH [MESH ...] [--bits 11 12 14]
     python -m tools.quality contract MESH [MESH ...] [--preset balanced]
-    python -m tools.quality time MESH [MESH ...] [--preset balanced fine near-lossless lossless]
+    python -m tools.quality time MESH [MESH ...] [--preset balanced fine near-lossless grid14]
 
 `theta`: bytes at a mean angle between corresponding normals, over those of Draco (level 10, its bits interpolated) at
 the angle that was reached; Draco's own angle at `--draco-bits` is one more. `grid`: bytes of the positions on a grid,

@@ -23,7 +23,7 @@ from bsm.codec.sequence.decoder import SequenceDecoder
 from bsm.codec.sequence.encoder import SequenceEncoder
 from bsm.codec.sequence.options import SequenceOptions
 from bsm.codec.sequence.targets import SequenceTarget
-from bsm.evaluation.sequences import Point, draco_point, pca_point
+from bsm.evaluation.sequences import Point, draco_point, pca_point, temporal_bits
 from bsm.files.formats.npz import read_arrays
 from bsm.files.output import open_output
 
@@ -72,6 +72,7 @@ def measure(path: Path, every: int) -> dict[str, Any]:
         pca = pca_point(frames, faces, draco["kg"])
         result["at_draco"].append({"draco": draco, "ours": ours, "low_delay": low_delay, "pca": pca})
         _say(path.stem, draco, ours, low_delay, pca)
+    result["temporal"] = temporal_bits(frames, 0.002)
     result["goal"] = our_point(frames, faces, options, KG_GOAL)
     result["speed"] = speed(frames, faces, options)
     _say(path.stem, result["goal"])

@@ -17,15 +17,13 @@ MAX_EXPONENT = 400
 
 
 class GopMethod(IntEnum):
-    """How the frames of a GOP were transformed and predicted."""
+    """How the frames of a GOP were predicted."""
 
     LEARNT = 0
     """Temporal basis learnt from the frames, and sent."""
-    COSINES = 1
-    """Cosines over time."""
-    KEY_FRAME = 2
+    KEY_FRAME = 1
     """One frame, predicted from the sequence's first frame."""
-    NEXT_FRAME = 3
+    NEXT_FRAME = 2
     """One frame, predicted from the two before it as well."""
 
 
@@ -60,16 +58,15 @@ class GopBody:
 
 
 def write_gop_body(body: GopBody) -> bytes:
-    """Method (a byte), T, step (float 32), r; of a learnt basis the exponents and its coded length; all coded levels.
+    """Method (a byte), T, step (float 32), of a learnt basis r, the exponents and its coded length; all coded levels.
 
     Counts are varints; an exponent is the zigzag of its difference to the one before.
     """
     if not (0 < body.step < math.inf and float(np.float32(body.step)) == body.step):
         raise OptionError(f"a GOP cannot have the step {body.step}")
     parts = [bytes([body.method]), write_varint(body.frames), struct.pack("<f", body.step)]
-    if body.method <= GopMethod.COSINES:
-        parts.append(write_varint(body.components))
     if body.method is GopMethod.LEARNT:
+        parts.append(write_varint(body.components))
         differences = np.diff(body.exponents, prepend=0).tolist()
         parts += [write_varint(2 * d if d >= 0 else -2 * d - 1) for d in differences]
         parts += [write_varint(len(body.basis)), body.basis]
@@ -91,13 +88,13 @@ def parse_gop_body(data: bytes, longest: int) -> GopBody:
     if number not in set(GopMethod):
         raise UnsupportedError(f"GOP method {number} is unknown to this decoder")
     method, frames = GopMethod(number), cursor.varint()
-    most = longest if method <= GopMethod.COSINES else 1
+    most = longest if method is GopMethod.LEARNT else 1
     if not 1 <= frames <= most:
         raise CorruptError(f"a GOP of {frames} frames where 1 to {most} are legal")
     step = float(struct.unpack("<f", cursor.take(4))[0])
     if not 0.0 < step < math.inf:
         raise CorruptError(f"a GOP with the step {step}")
-    components = cursor.varint() if method <= GopMethod.COSINES else 3
+    components = cursor.varint() if method is GopMethod.LEARNT else 3
     if components > 3 * frames:
         raise CorruptError(f"{components} components for {frames} frames")
     exponents, basis = np.empty(0, np.int32), b""

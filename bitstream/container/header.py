@@ -183,12 +183,8 @@ class Header:
     """Amount of smoothing after reconstruction, alpha."""
     frames: int = integer(21, 0, COUNT, default=0)
     """Frames of a sequence; 0: a static mesh, or a sequence whose end was not known when it began."""
-    frame_rate: float = real(22, 0.0, 1e6, default=0.0)
-    """Frames per second; 0: unknown."""
     gop_frames: int = integer(23, 0, COUNT, default=0)
     """Frames of the longest GOP; 0: a static mesh."""
-    weights: int = method(24, known=2)
-    """Edge weights in the dictionary of a sequence: 0: all one; 1: cotangents of the decoded first frame."""
     detail_step: float = real(25, 0.0, 2.0**20, default=0.0)
     """Quantization step of the detail layer, in BSM units; 0: there is none."""
     details: int = integer(26, 0, COUNT, default=0)

@@ -60,11 +60,6 @@ def cotangent_weights(graph: Graph, faces: Faces, positions: Positions) -> Matri
     return SMALLEST_WEIGHT + LARGEST_WEIGHT * positive / (LARGEST_WEIGHT + positive)
 
 
-def binary_weights(graph: Graph) -> Matrix:
-    """Weight one for every entry of `graph.neighbours`."""
-    return np.ones(len(graph.neighbours))
-
-
 @dataclass(frozen=True, eq=False)
 class Held:
     """A part that hangs, by springs, on what is known before it: its edges to those parts.

@@ -183,7 +183,6 @@ class Gops:
                 structure.faces,
                 self._first_frame,
                 width=header.coefficients,
-                cotangent=header.weights == 1,
                 threads=self._wishes.threads,
                 allowance=structure.allowance,
             )

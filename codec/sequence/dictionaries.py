@@ -23,7 +23,7 @@ from bsm.codec.arrays import Faces, Indices, Matrix, Positions
 from bsm.codec.basis.cost import Spend, factor_cost
 from bsm.codec.basis.laplacian import Factor
 from bsm.codec.basis.solver.fronts import Fronts
-from bsm.codec.basis.weighted import Held, binary_weights, cotangent_weights, hold
+from bsm.codec.basis.weighted import Held, cotangent_weights, hold
 from bsm.codec.blocks.overlap import Blocks
 from bsm.codec.signal.chain import ChainRules, key_dictionary
 from bsm.codec.signal.predict import Suspended, continued
@@ -253,7 +253,6 @@ def find_sites(
     first_frame: Positions,
     *,
     width: int,
-    cotangent: bool,
     threads: int | None,
     allowance: Allowance,
 ) -> tuple[Site, ...]:
@@ -267,8 +266,6 @@ def find_sites(
         As the decoder has it.
     width : int
         Columns of each dictionary, at most; a part has no more of them than vertices.
-    cotangent : bool
-        Cotangent weights; otherwise all weights are one and `first_frame` is not looked at.
     threads : int, optional
     allowance : Allowance
         What a decoder may still do.
@@ -279,7 +276,7 @@ def find_sites(
         If this is more than that.
     """
     graph = blocks.graph
-    weights = cotangent_weights(graph, faces, first_frame) if cotangent else binary_weights(graph)
+    weights = cotangent_weights(graph, faces, first_frame)
     rank = np.empty(graph.size, np.int32)
     for index in range(blocks.count):
         rank[blocks.core(index)] = index

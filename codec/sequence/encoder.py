@@ -122,6 +122,8 @@ class SequenceEncoder:
         self._count = frames
         self._attributes = tuple(attributes)
         self._metadata = metadata
+        if self.options.frame_rate:
+            self._metadata = {**metadata, "frame_rate": float(self.options.frame_rate)}
 
     def chunks(self, frames: Iterable[npt.ArrayLike], progress: Progress | None = None) -> Iterator[bytes]:
         """The stream, stream frame by stream frame; each GOP is given as soon as its frames are there.
@@ -271,7 +273,7 @@ def open_sequence(prepared: Prepared, options: SequenceOptions, frames: int, pro
     step = options.first_step or max(options.step / 2, finest)
     if step < finest:
         raise OptionError(f"first_step = {step:g} is too fine for blocks of {prepared.size}, try {finest:.1e}")
-    width, cotangent = max(1, round(options.keep * prepared.size)), options.weights == "cotangent"
+    width = max(1, round(options.keep * prepared.size))
     scheme = Scheme(prepared.blocks[0], FIRST_FRAME, Adaptive(width, single(step)), "degree")
     blocks = encode_blocks([scheme], prepared.positions, threads=options.threads, progress=progress)
     header = Header(
@@ -282,9 +284,7 @@ def open_sequence(prepared: Prepared, options: SequenceOptions, frames: int, pro
         center=prepared.units.center,
         scale=prepared.units.scale,
         frames=frames,
-        frame_rate=single(options.frame_rate),
         gop_frames=options.gop if options.mode == "gop" else 1,
-        weights=int(cotangent),
         **scheme.fields(),
     )
     positions = blended(prepared.graph.size, (block.decoded for block in blocks))
@@ -299,7 +299,6 @@ def open_sequence(prepared: Prepared, options: SequenceOptions, frames: int, pro
             prepared.mesh.faces,
             positions,
             width=width,
-            cotangent=cotangent,
             threads=options.threads,
             allowance=allowance,
         )

@@ -19,13 +19,12 @@ from bsm.codec.sequence.dictionaries import Dictionaries, Part, Site, find_sites
 from bsm.codec.sequence.options import SequenceOptions
 from bsm.codec.sequence.row_prediction import (
     Loop,
-    cosine_basis,
     dequantize_basis,
     frames_of,
     quantize_basis,
     trajectories,
 )
-from bsm.codec.sequence.temporal import WORTH, bits_estimate, learn_basis, projection
+from bsm.codec.sequence.temporal import learn_basis, projection
 from bsm.codec.static.rules import Scheme
 from bsm.codec.static.ways.block_coder import Progress
 from bsm.codec.static.work import Allowance
@@ -74,14 +73,11 @@ def make_setting(
     first_frame: Matrix,
     *,
     width: int,
-    cotangent: bool,
     threads: int | None,
     allowance: Allowance,
 ) -> Setting:
     """Make the dictionaries from the decoded first frame, shape (n, 3); see `find_sites`."""
-    sites = find_sites(
-        scheme.blocks, faces, first_frame, width=width, cotangent=cotangent, threads=threads, allowance=allowance
-    )
+    sites = find_sites(scheme.blocks, faces, first_frame, width=width, threads=threads, allowance=allowance)
     dictionaries = Dictionaries(sites, scheme.rules, allowance, threads)
     dictionaries.reserve()
     first = list(dictionaries.each(lambda _, part: part.difference(first_frame, first_frame)))
@@ -95,8 +91,6 @@ def level_references(matrices: list[Levels], columns: int) -> list[Levels]:
 
 def decode_basis(body: GopBody) -> Matrix:
     """Temporal basis of a GOP, shape (3T, r)."""
-    if body.method is GopMethod.COSINES:
-        return cosine_basis(body.frames, body.components)
     levels = np.zeros((3, body.frames, body.components), np.int32)
     decode_levels(make_level_bank(), body.basis, list(levels), level_references(list(levels), body.components))
     return dequantize_basis(levels, body.exponents)
@@ -172,34 +166,7 @@ class GopEncoder:
 
     def _transformed(self, motion: Matrix, progress: Progress) -> GopBody:
         """Encode trajectories, shape (n, 3T)."""
-        candidates = []
-        if self._options.transform != "cosine":
-            candidates.append(self._learnt(motion))
-        if self._options.transform != "learnt":
-            candidates.append(self._cosines(motion))
-        body = min(candidates, key=lambda candidate: self._cost(motion, candidate)) if candidates[1:] else candidates[0]
-        return self._coded(motion, body, progress)
-
-    def _learnt(self, motion: Matrix) -> GopBody:
-        basis = learn_basis(motion, self._step, MAX_EXPONENT)
-        levels = quantize_basis(basis.columns, basis.exponents, self._options.rounding)
-        columns = basis.columns.shape[1]
-        coded = encode_levels(make_level_bank(), list(levels), level_references(list(levels), columns))
-        return GopBody(GopMethod.LEARNT, levels.shape[1], self._step, columns, basis.exponents, coded, b"")
-
-    def _cosines(self, motion: Matrix) -> GopBody:
-        frames = motion.shape[1] // 3
-        energies = np.square(motion @ cosine_basis(frames)).sum(axis=0)
-        worth = np.flatnonzero(energies > WORTH * self._step**2)
-        columns = int(np.max(worth, initial=0)) + 1
-        return GopBody(GopMethod.COSINES, frames, self._step, columns, np.empty(0, np.int32), b"", b"")
-
-    def _cost(self, motion: Matrix, body: GopBody) -> float:
-        components = motion @ projection(decode_basis(body))
-        return bits_estimate(components, self._step) + 8.0 * len(body.basis)
-
-    def _coded(self, motion: Matrix, body: GopBody, progress: Progress) -> GopBody:
-        """The GOP with the levels of its blocks."""
+        body = self._learnt(motion)
         wanted = motion @ projection(decode_basis(body))
         field = np.zeros_like(wanted)
         levels = []
@@ -211,6 +178,14 @@ class GopEncoder:
             progress(len(levels), len(self._parts))
         payload = encode_levels(make_level_bank(), levels, level_references(levels, body.components))
         return replace(body, levels=payload)
+
+    def _learnt(self, motion: Matrix) -> GopBody:
+        """The temporal basis of trajectories, shape (n, 3T), without the levels of parts."""
+        basis = learn_basis(motion, self._step, MAX_EXPONENT)
+        levels = quantize_basis(basis.columns, basis.exponents, self._options.rounding)
+        columns = basis.columns.shape[1]
+        coded = encode_levels(make_level_bank(), list(levels), level_references(list(levels), columns))
+        return GopBody(GopMethod.LEARNT, levels.shape[1], self._step, columns, basis.exponents, coded, b"")
 
 
 class GopDecoder:
@@ -226,7 +201,7 @@ class GopDecoder:
 
     def decode(self, body: GopBody) -> Iterator[Matrix]:
         """The frames of a GOP, shape (n, 3); all that its levels can have wrong is raised before the first of them."""
-        if body.method <= GopMethod.COSINES:
+        if body.method is GopMethod.LEARNT:
             self.forget()
             return self._transformed(body)
         return iter([self._single(body)])

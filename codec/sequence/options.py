@@ -12,8 +12,6 @@ from bsm.codec.static.attributes.quality import checked_qualities
 
 CHOICES = {
     "mode": ("gop", "low-delay"),
-    "transform": ("auto", "learnt", "cosine"),
-    "weights": ("cotangent", "binary"),
     "limits": tuple(NAMED_LIMITS),
 }
 RANGES: dict[str, tuple[float, float]] = {
@@ -43,16 +41,12 @@ class SequenceOptions:
         That of the first frame, which all others are predicted from; None: half of `step`.
     gop : int
         Frames of a GOP at most, or between key frames: what a loss costs at most, and what the encoder holds.
-    transform : str
-        Of a GOP: "learnt", "cosine", or what seems to cost less ("auto").
-    weights : str
-        Dictionary: "cotangent" weights taken from the decoded first frame, or "binary" ones.
     keep : float
         Columns of the dictionary as a fraction of the block size; below 1, fine detail is lost.
     block_size, overlap
         Vertices of a part, about, and size of a block as a multiple of the largest part.
     frame_rate : float
-        Frames per second, for information; 0: unknown.
+        Frames per second, written to the metadata as `frame_rate`; 0: unknown.
     rounding : float
         Fraction added before a magnitude is cut to an integer; below 0.5 it widens the dead zone.
     keep_order : bool
@@ -76,8 +70,6 @@ class SequenceOptions:
     step: float = 0.002
     first_step: float | None = None
     gop: int = 256
-    transform: str = "auto"
-    weights: str = "cotangent"
     keep: float = 1.0
     block_size: int = 400
     overlap: float = 1.0

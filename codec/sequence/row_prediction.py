@@ -2,7 +2,7 @@
 
 A sequence of T frames of n vertices is a matrix of n rows and 3T columns, the x of all frames, then y, then z. In
 space it is transformed by the dictionaries of the blocks, which makes its rows frequencies; in time by a temporal basis
-B of r columns (components), learnt from the frames and sent, or cosines. What is left is a small matrix per block,
+B of r columns (components), learnt from the frames and sent. What is left is a small matrix per block,
 one row per spatial frequency, one column per component.
 
 The columns of such a row are predicted from what the decoder knows: the same row of the first frame, whose shape
@@ -47,24 +47,11 @@ def frames_of(matrix: Matrix) -> Matrix:
     return np.ascontiguousarray(matrix.reshape(len(matrix), 3, -1).transpose(2, 0, 1))
 
 
-def _cosines(frames: int, count: int | None = None) -> Matrix:
-    """The orthonormal cosine transform (DCT-II), shape (T, T): row t, column frequency; or its first columns."""
-    columns = cosine_columns(frames, 0, frames if count is None else count) * np.sqrt(2.0 / frames)
+def time_cosines(frames: int) -> Matrix:
+    """The orthonormal cosine transform (DCT-II), shape (T, T): row t, column frequency."""
+    columns = cosine_columns(frames, 0, frames) * np.sqrt(2.0 / frames)
     columns[:, :1] = np.sqrt(1.0 / frames)
     return np.asarray(columns)
-
-
-def cosine_basis(frames: int, components: int | None = None) -> Matrix:
-    """The cosine transform of each coordinate, shape (3T, 3T): frequencies ascend, x, y and z of each side by side.
-
-    Or its first columns, shape (3T, r).
-    """
-    components = 3 * frames if components is None else components
-    single = _cosines(frames, -(-components // 3))
-    basis = np.zeros((3, frames, *single.shape[1:], 3))
-    for axis in range(3):
-        basis[axis, :, :, axis] = single
-    return np.ascontiguousarray(basis.reshape(3 * frames, 3 * single.shape[1])[:, :components])
 
 
 def basis_steps(exponents: npt.NDArray[np.int32]) -> Matrix:
@@ -75,7 +62,7 @@ def basis_steps(exponents: npt.NDArray[np.int32]) -> Matrix:
 def quantize_basis(basis: Matrix, exponents: npt.NDArray[np.int32], rounding: float) -> Levels:
     """Levels of a basis, shape (3T, r), as cosines over time: shape (3, T, r)."""
     rows, components = basis.shape
-    spectrum = _cosines(rows // 3).T @ basis.reshape(3, rows // 3, components) / basis_steps(exponents)
+    spectrum = time_cosines(rows // 3).T @ basis.reshape(3, rows // 3, components) / basis_steps(exponents)
     magnitude = np.minimum(np.floor(np.abs(spectrum) + rounding), LARGEST_LEVEL)
     return np.ascontiguousarray(np.copysign(magnitude, spectrum).astype(np.int32))
 
@@ -83,7 +70,7 @@ def quantize_basis(basis: Matrix, exponents: npt.NDArray[np.int32], rounding: fl
 def dequantize_basis(levels: Levels, exponents: npt.NDArray[np.int32]) -> Matrix:
     """The basis of `quantize_basis`, shape (3T, r), as the decoder has it; its columns are nearly orthonormal."""
     _, frames, components = levels.shape
-    basis = _cosines(frames) @ (levels * basis_steps(exponents))
+    basis = time_cosines(frames) @ (levels * basis_steps(exponents))
     return np.ascontiguousarray(basis.reshape(3 * frames, components))
 
 

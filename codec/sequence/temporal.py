@@ -60,8 +60,3 @@ def learn_basis(motion: Matrix, step: float, limit: int) -> LearntBasis:
 def projection(basis: Matrix) -> Matrix:
     """Pseudo-inverse of a decoded basis, transposed: coefficients times this are the components that fit best."""
     return np.ascontiguousarray(np.linalg.pinv(basis).T)
-
-
-def bits_estimate(components: Matrix, step: float) -> float:
-    """About what components cost when quantized with `step`."""
-    return float(np.log2(1.0 + np.abs(components) / step).sum())

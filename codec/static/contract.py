@@ -8,6 +8,16 @@ from bsm.bitstream.errors import OptionError
 from bsm.codec.geometry.closeness import Closeness
 
 ANY_ANGLE = 180.0
+WIDEST = 0.1
+"""Of the diagonal: who asks for a wider bound took one unit for another."""
+
+
+def _refuse_wide(what: str, share: float) -> None:
+    if share > WIDEST:
+        raise OptionError(
+            f"{what} may be at most {WIDEST:.0%} of the bounding box's diagonal away, not {share:.4g} times it; a "
+            "number without a unit is a share of the diagonal: 0.001 is 0.1%"
+        )
 
 
 @dataclass(frozen=True)
@@ -34,13 +44,23 @@ class Contract:
     absolute: bool = False
 
     def __post_init__(self) -> None:
-        if not 0.0 < self.farthest < float("inf") or (self.farthest > 1.0 and not self.absolute):
-            raise OptionError(f"the farthest vertex must be within 0 to 1 diagonals, not {self.farthest:g}")
+        if not 0.0 < self.farthest < float("inf"):
+            raise OptionError(f"a bound on the farthest vertex must be above 0, not {self.farthest:g}")
+        if not self.absolute:
+            _refuse_wide("the farthest vertex", self.farthest)
         if not 0.0 < self.angle <= ANY_ANGLE:
             raise OptionError(f"a mean angle must be within 0 to {ANY_ANGLE:g} degrees, not {self.angle:g}")
 
     def reach(self, diagonal: float, unit: float) -> float:
-        """How far a vertex of a mesh of this diagonal may come to lie from its place, in multiples of `unit`."""
+        """How far a vertex of a mesh of this diagonal may come to lie from its place, in multiples of `unit`.
+
+        Raises
+        ------
+        OptionError
+            If that is so far that nothing of the mesh would be left to be recognised.
+        """
+        if self.absolute and diagonal > 0.0:
+            _refuse_wide(f"a bound of {self.farthest:g}", self.farthest / diagonal)
         return (self.farthest if self.absolute else self.farthest * diagonal) / unit
 
     def worded(self, closeness: Closeness, reach: float) -> str:

@@ -24,7 +24,6 @@ from bsm.codec.static.choice.ladders import FINER, WIDEST, Blocks, Grids, Ladder
 from bsm.codec.static.choice.lattices import rounded, rounded_to_cells
 from bsm.codec.static.choice.shaping import Shaper
 from bsm.codec.static.choice.spectral import Spectral
-from bsm.codec.static.contract import Contract
 from bsm.codec.static.draft import Draft
 from bsm.codec.static.joining import Joined, join
 from bsm.codec.static.options import EncodeOptions
@@ -92,7 +91,7 @@ class Encoder:
         self.options = options or EncodeOptions()
         if self.options.lock_borders is not None and self.options.promise is None:
             raise OptionError(
-                "borders are locked where there is a promise: a preset but lossless, or max_error; parts on one grid, "
+                "borders are locked where there is a promise: a preset but grid14, or max_error; parts on one grid, "
                 "grid_cell, fit anyway"
             )
         self._given = mesh
@@ -197,12 +196,6 @@ class Encoder:
                 climb = self._climb(ladder, dressed=target.shrinks_with_step)
                 with as_of_decoders(self.options.limits):
                     found.append(search_step(climb, target, self.options.first_step, ladder.finest))
-            except TargetError as error:
-                refused.append(error)
-        if target.kind == "max_error_relative":
-            try:
-                ways = Fulfilment(self._prepared, self.options, Contract(min(target.value, 1.0)), progress)
-                found.append(self._judged(ways.draft()))
             except TargetError as error:
                 refused.append(error)
         if not found:

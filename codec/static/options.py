@@ -238,7 +238,7 @@ class EncodeOptions:
         """Step of x, y and z over that of the detail layer; 0: no detail layer."""
         if self.detail is not None:
             return self.detail
-        distance = self.target is not None and self.target.kind in ("nmsve_db", "max_error_relative")
+        distance = self.target is not None and self.target.kind == "nmsve_db"
         return 0.0 if distance or self.bits is not None or self.doi is not None else DETAIL_RATIO
 
     @property
@@ -267,7 +267,7 @@ PRESETS: dict[str, EncodeOptions] = {
     "balanced": EncodeOptions(),
     "fine": EncodeOptions(contract=Contract(0.005, 3.0)),
     "near-lossless": EncodeOptions(contract=Contract(0.0005, ANY_ANGLE)),
-    "lossless": EncodeOptions(grid=14),
+    "grid14": EncodeOptions(grid=14),
 }
 """Names for what most users want, each a promise; "balanced" is the default. Larger blocks are smaller files and slower
 to decode."""

@@ -13,7 +13,6 @@ SIZES = ("bpv", "bpvf", "size")
 UNITS = {
     "nmsve_db": "a visual error of {:.6g} dB",
     "theta_deg": "a mean angle of {:.6g} degrees",
-    "max_error_relative": "a largest error of {:.6g} diagonals",
     "bpv": "{:.6g} bits per vertex",
     "size": "{:.0f} bytes",
     "kg": "a KG error of {:.6g} %",
@@ -41,8 +40,8 @@ class Target:
     Parameters
     ----------
     kind : str
-        "nmsve_db", "theta_deg", "max_error_relative" (at most so much error), "bpv" or "size" (at most so many bits
-        per vertex, or bytes, of the whole file).
+        "nmsve_db", "theta_deg" (at most so much error), "bpv" or "size" (at most so many bits per vertex, or bytes, of
+        the whole file).
     value : float
 
     Raises
@@ -51,7 +50,7 @@ class Target:
         If there is no such target.
     """
 
-    KINDS: ClassVar[tuple[str, ...]] = ("nmsve_db", "theta_deg", "max_error_relative", "bpv", "size")
+    KINDS: ClassVar[tuple[str, ...]] = ("nmsve_db", "theta_deg", "bpv", "size")
 
     kind: str
     value: float

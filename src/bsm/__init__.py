@@ -47,7 +47,7 @@ if TYPE_CHECKING:
     from bsm.bitstream.limits import Limits as Limits
     from bsm.api import (
         compare as compare, decode as decode, decode_sequence as decode_sequence, denoise as denoise, encode as encode,
-        encode_many as encode_many, encode_sequence as encode_sequence, load as load, save as save,
+        encode_many as encode_many, encode_sequence as encode_sequence, load as load, look as look, save as save,
     )
     from bsm.comparison import MeshComparison as MeshComparison
     from bsm.files.mesh import read_mesh as read_mesh
@@ -58,6 +58,7 @@ if TYPE_CHECKING:
     from bsm.codec.geometry.attributes import Attribute as Attribute
     from bsm.codec.geometry.mesh import TriangleMesh as TriangleMesh
     from bsm.codec.geometry.metrics import Comparison as Comparison
+    from bsm.codec.look.measure import Look as Look
     from bsm.codec.sequence.decoder import FrameEvent as FrameEvent, SequenceDecoder as SequenceDecoder
     from bsm.codec.sequence.encoder import SequenceEncoder as SequenceEncoder
     from bsm.codec.sequence.options import SequenceOptions as SequenceOptions
@@ -94,7 +95,7 @@ _ROOMS = {
         "OptionError TargetError TruncatedError UnsupportedError"
     ),
     "bsm.bitstream.limits": "Limits",
-    "bsm.api": "compare decode decode_sequence denoise encode encode_many encode_sequence load save",
+    "bsm.api": "compare decode decode_sequence denoise encode encode_many encode_sequence load look save",
     "bsm.comparison": "MeshComparison",
     "bsm.files.mesh": "read_mesh",
     "bsm.steadiness": "check_steadiness unsteadiness",
@@ -104,6 +105,7 @@ _ROOMS = {
     "bsm.codec.geometry.attributes": "Attribute",
     "bsm.codec.geometry.mesh": "TriangleMesh",
     "bsm.codec.geometry.metrics": "Comparison",
+    "bsm.codec.look.measure": "Look",
     "bsm.codec.sequence.decoder": "FrameEvent SequenceDecoder",
     "bsm.codec.sequence.encoder": "SequenceEncoder",
     "bsm.codec.sequence.options": "SequenceOptions",

@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     import numpy.typing as npt
 
     from bsm.codec.denoise import DenoiseOptions
+    from bsm.codec.look.measure import Look
     from bsm.codec.sequence.options import SequenceOptions
     from bsm.codec.static.options import EncodeOptions
     from bsm.comparison import MeshComparison
@@ -45,7 +46,7 @@ def encode(
     metadata : mapping from str to str, int, float or bytes, optional
         Added to what the mesh says of itself.
     **keywords
-        As on the command line: `preset` ("small", "balanced", "fine", "near-lossless", "lossless"), one target
+        As on the command line: `preset` ("small", "balanced", "fine", "near-lossless", "grid14"), one target
         (`theta`, `nmsve_db`, `max_error`, `bpv`, `size`), and fields of `EncodeOptions` (`step`, `block_size`,
         `keep_order`, `threads`, ...).
 
@@ -120,23 +121,20 @@ def encode_many(
         If nothing can be begun: wrong options, outputs that would replace each other, no cluster, ...
     """
     from bsm.batch import plan
-    from bsm.cli import command_parser
-    from bsm.commands.encode import encode_one, one_thread_each
     from bsm.console import Console
+    from bsm.encoding.job import EncodeJob
+    from bsm.encoding.mesh import encode_one
+    from bsm.farm.jobs import Run
     from bsm.farm.run import run_many
 
     keywords_to.encode_options(**keywords)
-    args = command_parser("encode").parse_command(["sources"])
-    wishes = {"jobs": jobs, "dask": dask, "report": report and os.fspath(report), "resume": resume, "force": overwrite}
-    kinds = {name: f"target_{kind}" for name, kind in keywords_to.TARGETS.items()}
-    given = {kinds.get(name, name): value for name, value in keywords.items()}
-    meta = [f"{name}={value}" for name, value in (metadata or {}).items()]
-    for name, value in {**wishes, **given, "meta": meta, "quiet": True}.items():
-        setattr(args, name, value)
+    run = Run(jobs=jobs, dask=dask, report=os.fspath(report) if report else None, resume=resume)
     folder = None if target is None else os.fspath(target).rstrip("/") + "/"
     planned = plan([os.fspath(source) for source in sources], folder, lambda _: ".bsm")
-    one_thread_each(args, planned)
-    return run_many(args, Console(quiet=True), encode_one, planned)
+    threads = keywords.pop("threads", 1 if run.side_by_side and len(planned) > 1 else None)
+    told = metadata or {}
+    job = EncodeJob(force=overwrite, quiet=True, metadata=told, wishes=keywords, threads=threads, compared=False)
+    return run_many(run, job, Console(quiet=True), encode_one, planned)
 
 
 def decode(stream: Source, *, limits: Limits = DEFAULT_LIMITS, threads: int | None = None) -> TriangleMesh:
@@ -329,6 +327,32 @@ def compare(original: Any, decoded: Any, *, order: npt.ArrayLike | None = None) 
 
     first, second = (as_mesh(_opened(mesh)).without_isolated_vertices()[0] for mesh in (original, decoded))
     return compare_meshes(first, second, pair(first, second, None if order is None else np.asarray(order, np.int64)))
+
+
+def look(original: Any, other: Any, *, threads: int | None = None) -> Look:
+    """How much alike two meshes look in pictures, of whatever vertices and faces: distance 1 is what nobody can tell.
+
+    Parameters
+    ----------
+    original, other : mesh, pair of arrays, path, or stream
+        As `encode` takes a mesh, or `decode` a stream.
+    threads : int, optional
+        None: one per core. The result does not depend on it.
+
+    Returns
+    -------
+    Look
+        `distance`, and what it is made of: `dissimilarity` (1 - SSIM) and `visible` (share of pixels).
+
+    Raises
+    ------
+    MeshError
+        If nothing of the original can be seen, since it has no area.
+    """
+    from bsm.codec.look.measure import look as look_at
+
+    first, second = (as_mesh(_opened(mesh)) for mesh in (original, other))
+    return look_at(first, second, threads=threads)
 
 
 def _opened(mesh: Any) -> Any:

@@ -33,14 +33,22 @@ def parse_length(name: str, value: Any) -> tuple[float, bool]:
 
 
 def refuse_other_units(lengths: Mapping[str, Any], metadata: Mapping[str, Any]) -> None:
-    """Raise `OptionError` where an option's length is in a unit that is not the one that the mesh says it has.
+    """Raise `OptionError` where an option's length is in a unit, and the mesh has no unit or another one.
 
-    Units that are not known, and meshes that say nothing, are taken as they are: lengths are in the mesh's own.
+    A unit that is not known counts as the mesh's own if the mesh says that it has one.
     """
     own = metadata.get("unit")
-    size = _metres(own) if isinstance(own, str) else None
+    own = own if isinstance(own, str) else ""
+    size = _metres(own)
     for name, value in lengths.items():
         number, unit = _parts(name, value) if isinstance(value, str) else (0.0, "")
+        if unit in ("", "%"):
+            continue
+        if not own:
+            raise OptionError(
+                f"{name} is in {unit}, but the mesh does not say what its unit is: add unit={unit} to its metadata "
+                f"(--meta unit={unit}) if it is that, or give {name} in percent of the diagonal, such as 0.1%"
+            )
         other = _metres(unit)
         if size is not None and other is not None and other != size:
             meant = f"{number * other / size:g}{own}"

@@ -21,7 +21,6 @@ if TYPE_CHECKING:
 TARGETS = {
     "nmsve_db": "nmsve_db",
     "theta": "theta_deg",
-    "max_error": "max_error_relative",
     "bpv": "bpv",
     "size": "size",
 }
@@ -40,9 +39,9 @@ def encode_options(*, preset: str = "balanced", **keywords: Any) -> EncodeOption
     Parameters
     ----------
     preset : str
-        "small", "balanced", "fine", "near-lossless" or "lossless": what everything has that is not given.
+        "small", "balanced", "fine", "near-lossless" or "grid14": what everything has that is not given.
     **keywords
-        Fields of `EncodeOptions`, and at most one of `TARGETS`.
+        Fields of `EncodeOptions`, and at most one of `max_error` and `TARGETS`.
 
     Raises
     ------
@@ -63,7 +62,7 @@ def encode_options(*, preset: str = "balanced", **keywords: Any) -> EncodeOption
 
 
 def _with_lengths(keywords: Mapping[str, Any]) -> dict[str, Any]:
-    """Keywords, a `max_error` with a unit among them as the contract that it is, and `lock_borders` as what it asks."""
+    """Keywords, `max_error` among them as the contract that it is, and `lock_borders` as what it asks."""
     from bsm.codec.static.contract import Contract, Fit
 
     given = dict(keywords)
@@ -78,10 +77,6 @@ def _with_lengths(keywords: Mapping[str, Any]) -> dict[str, Any]:
     if given.get("max_error") is None:
         return given
     farthest, absolute = parse_length("max_error", given["max_error"])
-    relative = not absolute and not str(given["max_error"]).strip().endswith("%")
-    if relative and given.get("lock_borders") is None:
-        given["max_error"] = farthest  # a target: every way to code is open to it
-        return given
     del given["max_error"]
     taken = [name for name in (*TARGETS, "target", "contract") if given.get(name) is not None]
     if taken:

@@ -33,7 +33,7 @@ STATIC: list[Packet] = [
 ]
 BARE: list[Packet] = [SMALL_HEADER, Connectivity(0, b"\x01")]
 ANIMATED: list[Packet] = [
-    Header(vertices=4, faces=4, blocks=1, block_size=4, coefficients=2, frames=50, frame_rate=25.0, gop_frames=8),
+    Header(vertices=4, faces=4, blocks=1, block_size=4, coefficients=2, frames=50, gop_frames=8),
     Connectivity(0, b"x"),
     Gop(0, b"first"),
     Gop(1, b"second"),

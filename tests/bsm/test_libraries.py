@@ -17,7 +17,7 @@ from tests.bsm.files.test_file_attributes import at_corners, attribute, dressed,
 from tests.plugins import declare_entry_points
 from tests.shapes import torus
 
-EXACT = {"preset": "lossless", "keep_order": True, "attributes": {"*": "exact"}}
+EXACT = {"preset": "grid14", "keep_order": True, "attributes": {"*": "exact"}}
 SQUARE = np.array([[0.0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]])
 
 

@@ -47,7 +47,10 @@ def test_targets(keyword, kind):
 
 
 def test_the_command_line_has_the_same_targets():
-    assert {name.replace("-", "_"): kind for name, kind, _, _ in TARGET_FLAGS} == TARGETS
+    assert {name.replace("-", "_"): kind for name, kind, _, _ in TARGET_FLAGS} == {
+        **TARGETS,
+        "max_error": "max_error",
+    }
 
 
 def test_sequences():
@@ -92,7 +95,10 @@ def test_a_sequence_has_fewer_options():
 def test_a_largest_error_may_have_a_unit():
     assert encode_options(max_error="0.1%").contract == Contract(0.001)
     assert encode_options(max_error="0.05mm").contract == Contract(0.05, absolute=True)
-    assert encode_options(max_error="0.002").target == Target("max_error_relative", 0.002)
+    assert encode_options(max_error="0.002").contract == encode_options(max_error=0.002).contract == Contract(0.002)
+    assert encode_options(max_error=0.002).target is None
+    with pytest.raises(OptionError, match=r"at most 10% of .* a share of the diagonal"):
+        encode_options(max_error=2)
     with pytest.raises(ArgumentError, match="with a unit"):
         encode_options(max_error="wide")
     with pytest.raises(OptionError, match="one target at a time"):
@@ -100,5 +106,5 @@ def test_a_largest_error_may_have_a_unit():
 
 
 def test_a_preset_that_is_a_grid_gives_way_to_a_target():
-    options = encode_options(preset="lossless", theta=3)
+    options = encode_options(preset="grid14", theta=3)
     assert (options.grid, options.target) == (None, Target("theta_deg", 3.0))

@@ -55,7 +55,7 @@ def test_info_and_verify(npz, tmp_path, capsys):
     stream = tmp_path / "a.bsm"
     encoded = result(capsys, "encode", npz, "-o", stream, "--gop", 4, "--frame-rate", 25)
     info = result(capsys, "info", stream)
-    assert info["frames"] == FRAMES and info["header"]["frame_rate"] == 25
+    assert info["frames"] == FRAMES and info["metadata"]["frame_rate"] == 25
     assert [(gop["first"], gop["frames"]) for gop in info["gops"]] == [(0, 4), (4, 2)]
     assert all(stream.read_bytes()[gop["offset"]] & 15 == 7 for gop in info["gops"])
     assert info["bpvf_total"] == pytest.approx(encoded["bpvf_total"])
@@ -136,7 +136,7 @@ def test_targets(npz, tmp_path, capsys, flag, name, value):
     assert result(capsys, "compare", npz, tmp_path / "a.bsm")[name] <= value * 1.001
 
 
-@pytest.mark.parametrize("words", [["--kg", 1, "--bpvf", 2], ["--smoothing", 1], ["--bpv", 2], ["--gop", 0]])
+@pytest.mark.parametrize("words", [["--kg", 1, "--bpvf", 2], ["--set", "smoothing=1"], ["--bpv", 2], ["--gop", 0]])
 def test_options_that_do_not_go_with_a_sequence(npz, tmp_path, words):
     assert bsm("encode", npz, "-o", tmp_path / "a.bsm", *words) != 0
     assert not (tmp_path / "a.bsm").exists()

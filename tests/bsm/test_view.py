@@ -191,7 +191,7 @@ DAMAGED = {
         "attribute-split",
         "skippable",
     ],
-    bsm.SequenceDecoder: ["sequence-cosines", "sequence-learnt", "sequence-low-delay"],
+    bsm.SequenceDecoder: ["sequence-overlap", "sequence-learnt", "sequence-low-delay"],
 }
 
 

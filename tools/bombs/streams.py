@@ -302,8 +302,11 @@ def _still(rows: int, columns: int, width: int, components: int, part: int = 400
     return encode_levels(make_level_bank(), levels, level_references(levels, components))
 
 
-def _cosine_gop(frames: int, components: int, levels: bytes = b"") -> GopBody:
-    return GopBody(GopMethod.COSINES, frames, 1.0, components, np.empty(0, np.int32), b"", levels)
+def _learnt_gop(frames: int, components: int, levels: bytes = b"") -> GopBody:
+    """A GOP whose temporal basis is nothing but zeros, which take next to no bytes."""
+    spectrum = [np.zeros((frames, components), np.int32)] * 3
+    basis = encode_levels(make_level_bank(), spectrum, level_references(spectrum, components))
+    return GopBody(GopMethod.LEARNT, frames, 1.0, components, np.zeros(components, np.int32), basis, levels)
 
 
 def _key_gops(count: int, levels: bytes) -> list[GopBody]:
@@ -561,20 +564,20 @@ BOMBS: dict[str, Bomb] = {
     ),
     "torn-chunks": Bomb("half of a stream of tiny frames", lambda: _grid(("torus", 100, 100), 1)[: 9 * 4000]),
     "worthless": Bomb("blocks that end too early", lambda: _worthless(64, 64, 1000, 100)),
-    "sequence": Bomb("dictionaries of all columns", lambda: _sequence(200, 200, [_cosine_gop(1, 0)], width=440)),
+    "sequence": Bomb("dictionaries of all columns", lambda: _sequence(200, 200, [_learnt_gop(1, 0)], width=440)),
     "sequence-large": Bomb(
         "the same of many vertices",
-        lambda: _sequence(600, 600, [_cosine_gop(1, 0)], width=440, power=1, key_iterations=1),
+        lambda: _sequence(600, 600, [_learnt_gop(1, 0)], width=440, power=1, key_iterations=1),
     ),
     "sequence-power": Bomb(
         "the same by iterations without end",
-        lambda: _sequence(40, 40, [_cosine_gop(1, 0)], width=8, power=64, key_iterations=1024),
+        lambda: _sequence(40, 40, [_learnt_gop(1, 0)], width=8, power=64, key_iterations=1024),
     ),
     "sequence-tiny": Bomb(
-        "parts of one vertex", lambda: _sequence(256, 256, [_cosine_gop(1, 0)], width=8, part=1, power=1)
+        "parts of one vertex", lambda: _sequence(256, 256, [_learnt_gop(1, 0)], width=8, part=1, power=1)
     ),
     "sequence-small": Bomb(
-        "parts of ten vertices", lambda: _sequence(256, 256, [_cosine_gop(1, 0)], width=10, part=10, power=1)
+        "parts of ten vertices", lambda: _sequence(256, 256, [_learnt_gop(1, 0)], width=10, part=10, power=1)
     ),
     "sequence-again": Bomb(
         "more dictionaries than there is room for, frame after frame",
@@ -582,23 +585,23 @@ BOMBS: dict[str, Bomb] = {
     ),
     "gop-part": Bomb(
         "many components of one part",
-        lambda: _sequence(70, 70, [_cosine_gop(300, 160, _still(70, 70, 4, 160, 4900))], width=4, part=4900, power=1),
+        lambda: _sequence(70, 70, [_learnt_gop(300, 160, _still(70, 70, 4, 160, 4900))], width=4, part=4900, power=1),
     ),
     "gop-components": Bomb(
         "as many components as there is room for",
-        lambda: _sequence(250, 200, [_cosine_gop(64, 75, _still(250, 200, 20, 75))] * 3, width=20),
+        lambda: _sequence(250, 200, [_learnt_gop(64, 75, _still(250, 200, 20, 75))] * 3, width=20),
     ),
     "gop-wide": Bomb(
         "a GOP of 1,024 frames and 3,072 components",
-        lambda: _sequence(20, 20, [_cosine_gop(1024, 3072, _still(20, 20, 50, 3072))], width=50),
+        lambda: _sequence(20, 20, [_learnt_gop(1024, 3072, _still(20, 20, 50, 3072))], width=50),
     ),
     "gop-still": Bomb(
         "1,024 frames of nothing, again and again",
-        lambda: _sequence(100, 100, [_cosine_gop(1024, 0, _still(100, 100, 10, 0))] * 20, width=10),
+        lambda: _sequence(100, 100, [_learnt_gop(1024, 0, _still(100, 100, 10, 0))] * 20, width=10),
     ),
     "gop-300": Bomb(
         "1,024 frames of 300 components",
-        lambda: _sequence(50, 50, [_cosine_gop(1024, 300, _still(50, 50, 400, 300))] * 2, width=400),
+        lambda: _sequence(50, 50, [_learnt_gop(1024, 300, _still(50, 50, 400, 300))] * 2, width=400),
     ),
     "gop-keys": Bomb(
         "frames of nothing, one by one", lambda: _sequence(100, 100, _key_gops(1000, _still(100, 100, 10, 3)), width=10)

@@ -213,8 +213,6 @@ def _sequence(random: Random) -> bytes:
     choices: dict[str, Callable[[], Any]] = {
         "mode": lambda: "low-delay",
         "gop": lambda: random.choice((1, 2, 3)),
-        "transform": lambda: random.choice(("learnt", "cosine")),
-        "weights": lambda: "binary",
         "keep": lambda: random.choice((0.005, 0.05, 0.5)),
         "overlap": lambda: 1.3,
         "keep_order": lambda: True,

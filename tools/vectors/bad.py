@@ -317,7 +317,7 @@ HEADERS: dict[str, Bad] = {
         f"unsupported-{name}": Bad(
             f"a {name} that is not known", "unsupported", _entries(**{name: int(HEADER_FIELDS[name].high) + 1})
         )
-        for name in ("basis", "seeding", "blend", "coding", "weights", "key_seed")
+        for name in ("basis", "seeding", "blend", "coding", "key_seed")
     },
     "bad-not-finite": Bad(
         "positions beyond the greatest double",

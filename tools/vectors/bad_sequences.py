@@ -66,7 +66,7 @@ def _step(value: float) -> Edit:
 
 
 BAD_SEQUENCES: dict[str, Bad] = {
-    "unsupported-sequence-method": Bad("a GOP of method 4", "unsupported", _gop(lambda d: b"\x04" + d[1:])),
+    "unsupported-sequence-method": Bad("a GOP of method 3", "unsupported", _gop(lambda d: b"\x03" + d[1:])),
     "bad-sequence-prediction-zero": Bad(
         "a first frame on springs without stiffness", "corrupt", lambda: with_header(_base("learnt"), prediction=[0.0])
     ),
@@ -95,22 +95,18 @@ BAD_SEQUENCES: dict[str, Bad] = {
     "bad-sequence-step-negative": Bad("a step below 0", "corrupt", _gop(_step(-1.0))),
     "bad-sequence-step-infinite": Bad("an infinite step", "corrupt", _gop(_step(float("inf")))),
     "bad-sequence-step-nan": Bad("a step that is no number", "corrupt", _gop(_step(float("nan")))),
-    "bad-sequence-components": Bad(
-        "more components than 3 T", "corrupt", _gop(lambda d: d[:6] + b"\x13" + d[7:], base="cosines")
-    ),
+    "bad-sequence-components": Bad("more components than 3 T", "corrupt", _gop(lambda d: d[:6] + b"\x13" + d[7:])),
     "bad-sequence-exponent": Bad("an exponent of 401", "corrupt", _gop(lambda d: d[:7] + write_varint(802) + d[8:])),
     "bad-sequence-exponent-negative": Bad("an exponent below 0", "corrupt", _gop(lambda d: d[:7] + b"\x01" + d[9:])),
-    "bad-sequence-levels-short": Bad("levels that end too early", "truncated", _gop(lambda d: d[:-9], base="cosines")),
-    "bad-sequence-levels-long": Bad(
-        "bytes behind the levels", "corrupt", _gop(lambda d: d + b"\x55" * 9, base="cosines")
-    ),
+    "bad-sequence-levels-short": Bad("levels that end too early", "truncated", _gop(lambda d: d[:-9])),
+    "bad-sequence-levels-long": Bad("bytes behind the levels", "corrupt", _gop(lambda d: d + b"\x55" * 9)),
     "bad-sequence-next-first": Bad(
         "a frame that refers to one before the first", "corrupt", _frames(_without(0), base="low-delay")
     ),
     "bad-sequence-next-after-gop": Bad(
         "a first frame that refers to the one before it",
         "corrupt",
-        _gop(lambda d: b"\x03" + d[1:], base="low-delay"),
+        _gop(lambda d: b"\x02" + d[1:], base="low-delay"),
     ),
     "bad-sequence-not-finite": Bad(
         "frames beyond the greatest double", "numeric", lambda: with_header(_gop(_step(3e38))(), scale=1e300)

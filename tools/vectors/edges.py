@@ -153,7 +153,9 @@ EDGES: dict[str, Good] = {
     ),
     "good-sequence-narrow": _sequence("dictionaries of few columns", 4, keep=0.05),
     "good-sequence-narrow-frames": _sequence("frames as they come, by few columns", 4, keep=0.1, mode="low-delay"),
-    "good-sequence-ordered": _sequence("ORDER of a sequence, and a frame rate", 3, keep_order=True, frame_rate=12.5),
+    "good-sequence-ordered": _sequence(
+        "ORDER of a sequence, and a frame rate in METADATA", 3, keep_order=True, frame_rate=12.5
+    ),
     "good-sequence-key-seed": Good(
         "parts with exact bases", lambda: with_header(_sequence("", 3, keep=0.3).make(), key_seed=1)
     ),

@@ -23,9 +23,7 @@ def _sequence(probes: str, frames: int, **options: object) -> Good:
 
 SEQUENCES: dict[str, Good] = {
     "good-sequence-one": _sequence("a sequence of one frame", 1),
-    "good-sequence-learnt": _sequence("GOPs with learnt bases, the last one shorter", 8, transform="learnt"),
-    "good-sequence-cosines": _sequence("GOPs of cosines", 8, transform="cosine"),
+    "good-sequence-learnt": _sequence("GOPs with learnt bases, the last one shorter", 8),
     "good-sequence-low-delay": _sequence("frames as they come, with key frames", 7, mode="low-delay", gop=3),
-    "good-sequence-binary": _sequence("binary weights in the dictionaries", 4, weights="binary"),
     "good-sequence-overlap": _sequence("overlapping blocks of the first frame", 3, overlap=1.3, keep=0.5),
 }

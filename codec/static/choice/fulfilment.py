@@ -45,6 +45,11 @@ MANY_OUTLIERS = 0.01
 """Of this many vertices out of reach, more are cheaper to bring back along all axes of a layer that all have."""
 ROUGH, ROUGHEST = 1.57, 13.3
 """Up to these mean angles between adjacent faces, over what is asked for, and at most, blocks alone are tried."""
+PLAIN_STEP, PLAIN_SLOPES = 0.0008, (0.35, 0.55)
+"""Step of blocks with details that is about right, over the angle that is asked for; and how angles grow with it, in
+their logarithms."""
+PLAIN_STRIDE = 1.4
+"""The widest such step that keeps a bound may not be the cheapest; one so many times as wide is tried, too."""
 SHEET, SHEET_STEP = 1.0 / 16.0, 0.024
 """Where they are so small, the surface is a flat sheet, which coarser blocks without details are enough for."""
 COARSE = 0.016
@@ -169,19 +174,35 @@ class Fulfilment:
         angle = self._contract.angle
         coarse = Spectral(self._prepared, replace(self._options, detail=0.0), WIDEST)
         if angle >= PLAIN_ANGLE and self._is_smooth:
-            sheet = self._shaper.character.roughness < SHEET * angle
-            base = (
-                coarse.base(SHEET_STEP, self._progress)
-                if sheet
-                else self._blocks.base(self._options.first_step, self._progress)
-            )
-            plain = self._with_outliers(base, [])
-            if self._original.angle(plain.positions) <= angle:
-                yield plain.draft()
+            plain = self._plain(coarse if self._shaper.character.roughness < SHEET * angle else self._blocks)
+            if plain is not None:
+                yield plain
                 return
         stack = self._refined(coarse.base(base_step(angle), self._progress))
         if stack is not None:
             yield stack.draft()
+
+    def _plain(self, blocks: Spectral) -> Draft | None:
+        """The smallest of a few steps without refinement, except for vertices out of reach: these cost more at coarser
+        ones.
+        """
+        sheet = blocks is not self._blocks
+        found: list[Draft] = []
+
+        def measure(step: float) -> Trial[Stack]:
+            plain = self._with_outliers(blocks.base(step, self._progress), [])
+            closeness = self._original.closeness(plain.positions)
+            if closeness.angle <= self._contract.angle:
+                found.append(plain.draft())
+            return Trial(step, closeness, plain)
+
+        first = SHEET_STEP if sheet else PLAIN_STEP * self._contract.angle
+        widest = widest_step(
+            measure, first, self._contract.angle, math.inf, tries=3, most=COARSEST, slopes=PLAIN_SLOPES
+        )
+        if widest is not None:
+            measure(math.sqrt(first * widest.step) if widest.step > first else PLAIN_STRIDE * first)
+        return min(found, key=lambda draft: draft.size, default=None)
 
     @property
     def _is_smooth(self) -> bool:

@@ -26,7 +26,7 @@ NOMINAL = 2000.0
 """Degrees that a step comes to, about, times which."""
 HEIGHTS_SHARE = 0.93
 """Levels along normals alone are enough where exact ones would leave at most so much of the angle that is asked for."""
-RATIOS = {"max_error_relative": 1.0, "nmsve_db": 3.0}
+RATIOS = {"nmsve_db": 3.0}
 """How much coarser levels in the plane are than those along the normal, by what is asked for; 6, or none at all, where
 it is about normals."""
 

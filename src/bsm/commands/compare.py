@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import argparse
 from dataclasses import asdict
+from typing import TYPE_CHECKING, Any
 
+from bsm.bitstream.errors import MeshError
 from bsm.codec.arrays import Positions
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.commands.limits import add_limits_flag, limits_of
@@ -12,9 +14,13 @@ from bsm.commands.reader import add_reader_flag
 from bsm.console import Console, finite, print_json
 from bsm.exits import about
 from bsm.files.mesh import read_mesh
+from bsm.files.output import open_output, refuse_to_overwrite
 from bsm.files.permutation import read_permutation
 from bsm.files.pipes import read_chunks
 from bsm.files.stream import decode_whole, is_stream
+
+if TYPE_CHECKING:
+    from bsm.codec.look.measure import Look
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -27,6 +33,17 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         action="store_true",
         help="of meshes also the mean normal difference, the rms error over the mean edge, and the Hausdorff distance",
     )
+    parser.add_argument(
+        "--look",
+        action="store_true",
+        help="of meshes, whose faces may differ, also how much alike they look in pictures: nobody can tell them "
+        "apart at a distance of 1",
+    )
+    parser.add_argument(
+        "--picture",
+        metavar="FILE.png",
+        help="write a picture of both and of their difference, from the side where that is largest (implies --look)",
+    )
     add_reader_flag(parser)
     add_limits_flag(parser)
     parser.add_argument("--json", action="store_true", help="print it as JSON")
@@ -35,11 +52,36 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(args: argparse.Namespace, console: Console) -> None:
     """Compare two meshes."""
     from bsm.commands.sequence_compare import compare_if_sequences
-    from bsm.comparison import compare_meshes, pair
 
     if compare_if_sequences(args):
         return
     original, decoded = (_load(path, args, console) for path in (args.original, args.decoded))
+    seen = _look(original, decoded, args) if args.look or args.picture else None
+    try:
+        compared = _compared(original, decoded, args, console)
+    except MeshError:
+        if seen is None:
+            raise
+        console.note("the meshes have different faces, so that only their look is compared")
+        compared = {}
+    attributes = compared.pop("attributes", {})
+    if args.json:
+        shown = {"look": asdict(seen)} if seen else {}
+        print_json({**compared, **shown, **({"attributes": attributes} if attributes else {})})
+        return
+    lines = [f"{name:<19}{'-inf' if value is None else f'{value:.6g}'}\n" for name, value in compared.items()]
+    if seen:
+        parts = f"1 - SSIM {seen.dissimilarity:.4g}, {100 * seen.visible:.3g} % of pixels differ visibly"
+        lines.append(f"{'look':<19}{seen.distance:.4g} ({parts})\n")
+    print("".join((*lines, *map(_worded, attributes.items()))), end="")
+
+
+def _compared(
+    original: TriangleMesh, decoded: TriangleMesh, args: argparse.Namespace, console: Console
+) -> dict[str, Any]:
+    """Numbers by name, and errors of attributes."""
+    from bsm.comparison import compare_meshes, pair
+
     paired = pair(original, decoded, read_permutation(args.permutation) if args.permutation else None)
     if paired.joined:
         console.note("vertices at one position are compared as one")
@@ -47,12 +89,23 @@ def run(args: argparse.Namespace, console: Console) -> None:
     attributes = {name: errors and _known(errors) for name, errors in result.pop("attributes").items()}
     if args.surface:
         result |= _surface(paired.original, paired.positions)
-    numbers = {name: finite(value) for name, value in result.items()}
-    if args.json:
-        print_json({**numbers, "attributes": attributes} if attributes else numbers)
-    else:
-        print("\n".join(f"{name:<19}{value:.6g}" for name, value in result.items()))
-        print("".join(map(_worded, attributes.items())), end="")
+    return {**{name: finite(value) for name, value in result.items()}, "attributes": attributes}
+
+
+def _look(original: TriangleMesh, decoded: TriangleMesh, args: argparse.Namespace) -> Look:
+    from bsm.codec.look.measure import Looker
+
+    if args.picture:
+        refuse_to_overwrite(args.picture, args.force)
+    looker = Looker(original)
+    seen = looker.compare(decoded)
+    if args.picture:
+        from bsm.files.picture import png, side_by_side
+
+        picture = png(side_by_side(*looker.pictures(decoded)))
+        with open_output(args.picture, overwrite=args.force) as file:
+            file.write(picture)
+    return seen
 
 
 def _known(errors: dict[str, float | None]) -> dict[str, float]:
@@ -86,7 +139,7 @@ def _load(path: str, args: argparse.Namespace, console: Console) -> TriangleMesh
     """A mesh file or a stream, without the vertices that no face uses."""
     with about(path):
         if is_stream(path):
-            return decode_whole(read_chunks(path), limits_of(args))
+            return decode_whole(read_chunks(path), limits_of(args.limits))
         source = read_mesh(path, reader=args.reader)
     for note in source.notes:
         console.note(f"{path}: {note}")

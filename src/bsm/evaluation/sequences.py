@@ -13,9 +13,12 @@ from typing import Any
 import numpy as np
 
 from bsm.bitstream.connectivity.faces import encode_connectivity
-from bsm.codec.arrays import Faces, Positions
+from bsm.bitstream.container.gop import MAX_EXPONENT
+from bsm.codec.arrays import Faces, Matrix, Positions
 from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.sequence.row_prediction import quantize_basis, time_cosines, trajectories
 from bsm.codec.sequence.targets import compare_sequences
+from bsm.codec.sequence.temporal import learn_basis
 from bsm.evaluation.draco import decode_draco, encode_draco, positions_in_order
 
 Point = dict[str, Any]
@@ -62,6 +65,29 @@ def pca_point(positions: Positions, faces: Faces, kg: float) -> Point:
                 points.append(point_of(f"PCA {count}", int(size), positions, decoded.reshape(positions.shape), faces))
                 break
     return min(points, key=lambda point: float(point["bpvf"]), default={"codec": "PCA", "bpvf": None})
+
+
+def temporal_bits(positions: Positions, step: float) -> dict[str, float]:
+    """About the bits a vertex and frame that components take over a learnt basis, itself included, and over cosines.
+
+    Parameters
+    ----------
+    positions : float64 array, shape (T, n, 3)
+    step : float
+        With which components are quantized, in diagonals of the first frame.
+    """
+    motion = trajectories((positions - positions[0].mean(axis=0)) / np.linalg.norm(np.ptp(positions[0], axis=0)))
+    learnt = learn_basis(motion, step, MAX_EXPONENT)
+    spectrum = quantize_basis(learnt.columns, learnt.exponents, 0.5)
+    cosines = time_cosines(len(positions))
+    components: dict[str, tuple[Matrix, ...]] = {
+        "learnt": (motion @ learnt.columns / step, spectrum.astype(np.float64)),
+        "cosines": (motion.reshape(len(motion), 3, -1) @ cosines / step,),
+    }
+    return {
+        name: sum(float(np.log2(1.0 + np.abs(part)).sum()) for part in parts) / positions[..., 0].size
+        for name, parts in components.items()
+    }
 
 
 def point_of(name: str, size: int, original: Positions, decoded: Positions, faces: Faces) -> Point:

@@ -103,7 +103,6 @@ def test_noise_is_a_typed_error_or_levels(noise):
 BODIES = [
     GopBody(GopMethod.LEARNT, 4, 0.5, 3, np.array([7, 3, 40], np.int32), b"basis", b"levels"),
     GopBody(GopMethod.LEARNT, 4, 0.5, 0, NONE, b"", b""),
-    GopBody(GopMethod.COSINES, 2, 0.25, 6, NONE, b"", b"levels"),
     GopBody(GopMethod.KEY_FRAME, 1, 2.0**-20, 3, NONE, b"", b"x"),
     GopBody(GopMethod.NEXT_FRAME, 1, 1.0, 3, NONE, b"", b""),
 ]
@@ -131,18 +130,18 @@ def test_known_bytes_of_a_body():
     ("data", "error"),
     [
         (b"", CorruptError),
-        (b"\x04\x01\x00\x00\x80\x3f\x03", UnsupportedError),
-        (b"\x01\x00\x00\x00\x80\x3f\x03", CorruptError),  # no frames
-        (b"\x01\x05\x00\x00\x80\x3f\x03", CorruptError),  # more than the header allows
-        (b"\x02\x02\x00\x00\x80\x3f", CorruptError),  # two frames where there is one
-        (b"\x01\x01\x00\x00\x80\xbf\x03", CorruptError),  # negative step
-        (b"\x01\x01\x00\x00\xc0\x7f\x03", CorruptError),  # step not a number
-        (b"\x01\x01\x00\x00\x80\x7f\x03", CorruptError),  # infinite step
-        (b"\x01\x01\x00\x00\x80\x3f\x04", CorruptError),  # more components than 3 T
+        (b"\x03\x01\x00\x00\x80\x3f\x03", UnsupportedError),
+        (b"\x00\x00\x00\x00\x80\x3f\x00\x00", CorruptError),  # no frames
+        (b"\x00\x05\x00\x00\x80\x3f\x00\x00", CorruptError),  # more than the header allows
+        (b"\x01\x02\x00\x00\x80\x3f", CorruptError),  # two frames where there is one
+        (b"\x00\x01\x00\x00\x80\xbf\x00\x00", CorruptError),  # negative step
+        (b"\x00\x01\x00\x00\xc0\x7f\x00\x00", CorruptError),  # step not a number
+        (b"\x00\x01\x00\x00\x80\x7f\x00\x00", CorruptError),  # infinite step
+        (b"\x00\x01\x00\x00\x80\x3f\x04\x00\x00\x00\x00\x00", CorruptError),  # more components than 3 T
         (b"\x00\x01\x00\x00\x80\x3f\x01\x01\x00", CorruptError),  # exponent -1
         (b"\x00\x01\x00\x00\x80\x3f\x01\xa2\x06\x00", CorruptError),  # exponent 401
         (b"\x00\x01\x00\x00\x80\x3f\x01\x00\x02\x00", CorruptError),  # basis longer than the data
-        (b"\x01\x01\x00\x00\x80", CorruptError),
+        (b"\x00\x01\x00\x00\x80", CorruptError),
     ],
 )
 def test_illegal_bodies(data, error):
@@ -153,5 +152,5 @@ def test_illegal_bodies(data, error):
 def test_illegal_steps_cannot_be_written():
     for step in (0.0, -1.0, float("inf"), float("nan"), 0.1):  # 0.1 is no single-precision number
         with pytest.raises(OptionError):
-            write_gop_body(GopBody(GopMethod.COSINES, 1, step, 3, NONE, b"", b""))
+            write_gop_body(GopBody(GopMethod.LEARNT, 1, step, 0, NONE, b"", b""))
     assert MAX_EXPONENT == 400

@@ -9,7 +9,6 @@ from bsm.bitstream.errors import NumericError
 from bsm.codec.basis.weighted import (
     LARGEST_WEIGHT,
     SMALLEST_WEIGHT,
-    binary_weights,
     cotangent_weights,
     hold,
 )
@@ -78,7 +77,6 @@ def test_weights_do_not_depend_on_the_size_of_ordinary_triangles() -> None:
     graph = graph_of_faces(mesh.faces, len(mesh.positions))
     one = cotangent_weights(graph, mesh.faces, mesh.positions)
     np.testing.assert_allclose(cotangent_weights(graph, mesh.faces, 1024.0 * mesh.positions), one, rtol=1e-9)
-    assert binary_weights(graph).tolist() == [1.0] * len(graph.neighbours)
 
 
 def test_positions_beyond_numbers_are_an_error() -> None:

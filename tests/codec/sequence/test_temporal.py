@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from bsm.codec.sequence.row_prediction import OCTAVE
-from bsm.codec.sequence.temporal import FINEST_EXPONENT, PRECISION, WORTH, bits_estimate, learn_basis, projection
+from bsm.codec.sequence.temporal import FINEST_EXPONENT, PRECISION, WORTH, learn_basis, projection
 
 ROWS, COLUMNS, STEP = 400, 24, 0.01
 
@@ -45,7 +45,3 @@ def test_projection_finds_the_components_even_if_a_basis_is_not_quite_orthonorma
     basis = np.linalg.qr(random.normal(size=(COLUMNS, 5)))[0] + 0.01 * random.normal(size=(COLUMNS, 5))
     components = random.normal(size=(7, 5))
     np.testing.assert_allclose(components @ basis.T @ projection(basis), components, atol=1e-12)
-
-
-def test_bits_are_the_logarithms_of_levels() -> None:
-    assert bits_estimate(np.array([[0.0, 0.01, -0.03], [0.07, 0.0, 0.15]]), STEP) == 0 + 1 + 2 + 3 + 0 + 4

@@ -92,7 +92,7 @@ def test_what_cannot_be_kept_is_an_error(mesh):
 
 @pytest.mark.parametrize(
     "keywords",
-    [{"theta": 5.0}, {"grid": 12}, {"step": 0.01}, {"preset": "lossless"}, {"grid_cell": 1.0}, {"size": 900}],
+    [{"theta": 5.0}, {"grid": 12}, {"step": 0.01}, {"preset": "grid14"}, {"grid_cell": 1.0}, {"size": 900}],
 )
 def test_borders_are_locked_by_promises_alone(keywords):
     with pytest.raises(OptionError, match="borders are locked where there is a promise"):
@@ -158,8 +158,8 @@ def test_on_the_command_line(tmp_path, capsys):
     write_mesh(tmp_path / "a.ply", patch(30, 20))
     name = str(tmp_path / "a.ply")
     assert main(["encode", "-q", name, "--lock-borders"]) == 0
-    assert main(["encode", "-fq", name, "--lock-borders", "0.01mm", "--preset", "fine"]) == 0
-    assert main(["encode", "-fq", name, "--grid-cell", "0.001", "--grid-origin=-1,-2,-3", "--preset", "lossless"]) == 0
+    assert main(["encode", "-fq", name, "--lock-borders", "0.01mm", "--preset", "fine", "--meta", "unit=mm"]) == 0
+    assert main(["encode", "-fq", name, "--grid-cell", "0.001", "--grid-origin=-1,-2,-3", "--preset", "grid14"]) == 0
     mesh = read_mesh(name).mesh
     decoded = bsm.decode(str(tmp_path / "a.bsm"))
     assert bsm.compare(mesh, decoded).max_error <= 0.001

@@ -61,8 +61,8 @@ export class BSMGeometry extends BufferGeometry {
 
     /** Frames per second; 0: the stream is no sequence, or does not say. */
     get frameRate(): number {
-        const said = this.metadata.get("frame_rate");
-        return (this.header as { frameRate?: number } | undefined)?.frameRate ?? (typeof said === "number" ? said : 0);
+        const rate = this.metadata.get("frame_rate");
+        return typeof rate === "number" && rate > 0 && rate < Infinity ? rate : 0;
     }
 
     /** Bring the geometry up to a picture. */

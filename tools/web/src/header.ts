@@ -26,9 +26,7 @@ export interface Header {
     prediction: number[];
     smoothing: number;
     frames: number;
-    frameRate: number;
     gopFrames: number;
-    weights: number;
     detailStep: number;
     details: number;
     coarser: number;
@@ -84,9 +82,7 @@ const FIELDS: Fields<keyof Header> = {
     prediction: { key: 19, type: "floats", low: -1e30, high: 1e30, default: [], lengths: [0, 16] },
     smoothing: { key: 20, type: "float", low: 0, high: 1e6, default: 0 },
     frames: { key: 21, type: "int", low: 0, high: COUNT, default: 0 },
-    frameRate: { key: 22, type: "float", low: 0, high: 1e6, default: 0 },
     gopFrames: { key: 23, type: "int", low: 0, high: COUNT, default: 0 },
-    weights: { key: 24, type: "method", low: 0, high: 1, default: 0 },
     detailStep: { key: 25, type: "float", low: 0, high: 2 ** 20, default: 0 },
     details: { key: 26, type: "int", low: 0, high: COUNT, default: 0 },
     coarser: { key: 27, type: "int", low: 0, high: 30, default: 0 },

@@ -12,9 +12,8 @@ import { Cursor } from "./reader";
 import { blockCost, partCost, shownCost, UNCODED } from "./work";
 
 const LEARNT = 0;
-const COSINES = 1;
-const KEY_FRAME = 2;
-const NEXT_FRAME = 3;
+const KEY_FRAME = 1;
+const NEXT_FRAME = 2;
 const MOST_EXPONENT = 400;
 
 const FLATNESS = 2 ** -12;
@@ -118,8 +117,7 @@ export class Sequence {
         const { header } = this;
         if (index !== this.next) throw new CorruptError(`frame ${index} where frame ${this.next} must follow`);
         const gop = parseGop(data, header.gopFrames);
-        const columns = gop.method === COSINES ? 3 * gop.frames : gop.components;
-        checkLimit(this.limits, "sequenceBytes", 16 * columns * (header.vertices + 3 * gop.frames));
+        checkLimit(this.limits, "sequenceBytes", 16 * gop.components * (header.vertices + 3 * gop.frames));
         const last = index + gop.frames;
         if (header.frames > 0 && last > header.frames) throw new CorruptError(`frame ${last - 1} of ${header.frames}`);
         const frames = this.paidFor(gop, data.length);
@@ -138,7 +136,7 @@ export class Sequence {
                 0,
             );
             allowance.spend(parts + shownCost(header.vertices, gop.frames, gop.components), received);
-            return gop.method <= COSINES ? this.transformed(gop) : [this.single(gop)];
+            return gop.method === LEARNT ? this.transformed(gop) : [this.single(gop)];
         } catch (error) {
             allowance.show(-header.vertices * gop.frames);
             throw error;
@@ -167,11 +165,10 @@ export class Sequence {
 
     /** Weight of each entry of the graph (S 3.1). */
     private edgeWeights(faces: Ints, frame: Doubles): Doubles {
-        const { memory, header } = this;
+        const { memory } = this;
         const { offsets, neighbours } = this.blocks.graph;
         const weights = memory.doubles(neighbours.length);
-        weights.view.fill(header.weights === 1 ? 0 : 1);
-        if (header.weights === 0) return weights;
+        weights.view.fill(0);
         memory.run("cotangents", offsets, neighbours, faces, frame, FLATNESS, SMALLNESS, weights);
         const { view } = weights;
         if (!areFinite(view)) throw new NumericError("the first frame is too large for weights of its edges");
@@ -311,13 +308,13 @@ export class Sequence {
         return field;
     }
 
-    /** Frames of methods 0 and 1 (S 7.1). */
+    /** Frames of method 0 (S 7.1). */
     private transformed(gop: Gop): (() => Float64Array)[] {
-        const { memory, parts, first } = this;
+        const { parts, first } = this;
         const columns = gop.components;
         this.history = undefined;
         this.startModel();
-        const basis = gop.method === LEARNT ? this.learntBasis(gop) : cosineBasis(memory, gop);
+        const basis = this.learntBasis(gop);
         this.startModel();
         const levels = this.readLevels(gop.levels, parts.map((part) => part.basis.columns!), columns);
         if (columns === 0) return Array.from({ length: gop.frames }, () => () => new Float64Array(3 * this.header.vertices));
@@ -344,7 +341,7 @@ export class Sequence {
         });
     }
 
-    /** B of method 0, 3 T rows (S 5.2). */
+    /** B, 3 T rows (S 5.2). */
     private learntBasis({ frames, components, exponents, basis }: Gop): Float64Array {
         const steps = exponents.map((exponent) => 2 ** (-exponent / 4));
         const matrices = this.readLevels(basis, [frames, frames, frames], components);
@@ -357,7 +354,7 @@ export class Sequence {
         return columns;
     }
 
-    /** The frame of methods 2 and 3 (S 7.2). */
+    /** The frame of methods 1 and 2 (S 7.2). */
     private single(gop: Gop): () => Float64Array {
         const { memory, parts, first } = this;
         if (gop.method === KEY_FRAME) {
@@ -407,29 +404,18 @@ function temporalCosines(memory: Memory, frames: number): Doubles {
     return cosines;
 }
 
-/** B of method 1, 3 T rows (S 5.1). */
-function cosineBasis(memory: Memory, { frames, components }: Gop): Float64Array {
-    const values = temporalCosines(memory, frames).view;
-    const basis = new Float64Array(3 * frames * components);
-    for (let i = 0; i < components; i++) {
-        const [f, d] = [Math.floor(i / 3), i % 3];
-        for (let t = 0; t < frames; t++) basis[(d * frames + t) * components + i] = values[t * frames + f];
-    }
-    return basis;
-}
-
 /** The data of a GOP of a sequence whose longest has so many frames (S 2). */
 function parseGop(data: Uint8Array, longest: number): Gop {
     const cursor = new Cursor(data);
     const method = cursor.take(1)[0];
     if (method > NEXT_FRAME) throw new UnsupportedError(`GOP method ${method} is unknown to this decoder`);
     const frames = cursor.varint();
-    const most = method <= COSINES ? longest : 1;
+    const most = method === LEARNT ? longest : 1;
     if (frames < 1 || frames > most) throw new CorruptError(`a GOP of ${frames} frames where 1 to ${most} are legal`);
     const bytes = cursor.take(4);
     const step = new DataView(bytes.buffer, bytes.byteOffset, 4).getFloat32(0, true);
     if (!(step > 0 && step < Infinity)) throw new CorruptError(`a GOP with the step ${step}`);
-    const components = method <= COSINES ? cursor.varint() : 3;
+    const components = method === LEARNT ? cursor.varint() : 3;
     if (components > 3 * frames) throw new CorruptError(`${components} components for ${frames} frames`);
     const exponents: number[] = [];
     let basis = new Uint8Array(0);

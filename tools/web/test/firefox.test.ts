@@ -33,11 +33,12 @@ describe("Firefox", { skip: !existsSync(FIREFOX) && `no Firefox at ${FIREFOX}`, 
 
     test("decodes to the last bit what node does", async () => {
         const kernels = await compile(BUILDS[0]);
-        site.extra.set("/script.js", "window.ready = true;");
+        site.extra.set("/script.js", 'import * as bsm from "bsm"; window.bsm = bsm;');
         await page.goto(site.address);
+        await page.waitForFunction("window.bsm");
         for (const name of NAMES) {
             const found = await page.evaluate(async (name) => {
-                const { decode, loadKernels } = await import("/bsm/main.js" as string);
+                const { decode, loadKernels } = (window as any).bsm;
                 const bytes = new Uint8Array(await (await fetch(`/stream/${name}.bsm`)).arrayBuffer());
                 return [...decode(await loadKernels(), bytes).positions];
             }, name);
@@ -47,8 +48,9 @@ describe("Firefox", { skip: !existsSync(FIREFOX) && `no Firefox at ${FIREFOX}`, 
 
     test("decodes with a helper, in threads that are used again", async () => {
         await page.goto(site.address);
+        await page.waitForFunction("window.bsm");
         const found = await page.evaluate(async () => {
-            const { loadKernels, startTeam, Pool } = await import("/bsm/main.js" as string);
+            const { loadKernels, startTeam, Pool } = (window as any).bsm;
             let [shared, workers] = [0, 0];
             window.Worker = class extends Worker {
                 constructor(url: string | URL, options?: WorkerOptions) {

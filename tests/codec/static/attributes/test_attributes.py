@@ -88,9 +88,9 @@ def compared(given: TriangleMesh, decoded: TriangleMesh, encoder: Encoder) -> di
     "options",
     [
         EncodeOptions(),
-        PRESETS["lossless"],
+        PRESETS["grid14"],
         EncodeOptions(keep_order=True),
-        replace(PRESETS["lossless"], keep_order=True),
+        replace(PRESETS["grid14"], keep_order=True),
     ],
     ids=["blocks", "grid", "blocks in order", "grid in order"],
 )
@@ -117,7 +117,7 @@ def test_everything_comes_back(shape, options):
 def test_split_files_come_back_split():
     mesh = split_by_attributes(dressed(torus()))
     assert len(mesh.positions) > 40 * 24
-    encoder = Encoder(mesh, PRESETS["lossless"])
+    encoder = Encoder(mesh, PRESETS["grid14"])
     decoded = decode(encoder.encode())
     assert len(decoded.positions) == 40 * 24, "no gaping geometry"
     assert max(compared(mesh, decoded, encoder).values()) < 0.002
@@ -137,7 +137,7 @@ def test_split_files_come_back_with_their_indices():
             for one in mesh.attributes
         ),
     )
-    options = replace(PRESETS["lossless"], keep_order=True, attributes={"*": "exact"})
+    options = replace(PRESETS["grid14"], keep_order=True, attributes={"*": "exact"})
     decoded = decode(encode(loose, options))
     assert (decoded.faces == loose.faces).all() and len(decoded.positions) == len(loose.positions)
     for one, found in zip(loose.attributes, decoded.attributes, strict=True):
@@ -206,7 +206,7 @@ def test_attributes_can_be_left_out():
     assert "left out: color, normal, heat, group, wild" in encoder.notes
 
 
-@pytest.mark.parametrize("options", [EncodeOptions(), PRESETS["lossless"]], ids=["blocks", "grid"])
+@pytest.mark.parametrize("options", [EncodeOptions(), PRESETS["grid14"]], ids=["blocks", "grid"])
 def test_normals_can_be_recomputed(options):
     mesh = torus()
     smooth = replace(mesh, attributes=(Attribute("normal", np.ones((len(mesh.positions), 3)), "vertex", "normal"),))
@@ -224,7 +224,7 @@ def test_normals_can_be_recomputed(options):
 
 def test_recomputed_normals_keep_their_creases():
     mesh = replace(tetrahedron(), attributes=(normals(tetrahedron()),))
-    decoded = decode(encode(mesh, replace(PRESETS["lossless"], normals="recompute", keep_order=True)))
+    decoded = decode(encode(mesh, replace(PRESETS["grid14"], normals="recompute", keep_order=True)))
     np.testing.assert_allclose(
         at_corners(decoded, decoded.attributes[0]), at_corners(mesh, mesh.attributes[0]), atol=1e-6
     )

@@ -11,10 +11,10 @@ from bsm.codec.basis.laplacian import dense_laplacian
 from bsm.codec.blocks.overlap import grow_blocks
 from bsm.codec.blocks.partition import metis_partition
 from bsm.codec.geometry.graph import graph_of_faces
-from bsm.paper.exhibit import Cell, Column, Exhibit, Table
-from bsm.paper.pictures import heat
-from bsm.paper.published import COHERENCE
-from bsm.paper.study import ROLES, Model, Study
+from tools.paper.exhibit import Cell, Column, Exhibit, Table
+from tools.paper.pictures import heat
+from tools.paper.published import COHERENCE
+from tools.paper.study import ROLES, Model, Study
 
 Matrices = npt.NDArray[np.float64]
 

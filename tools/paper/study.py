@@ -19,7 +19,7 @@ from bsm.evaluation.render import DEFAULT_VIEW, view_matrix
 from bsm.evaluation.sample import knot
 from bsm.files.formats.npz import read_arrays
 from bsm.files.mesh import format_of_name, read_mesh
-from bsm.paper.shapes import ball, box, swaying
+from tools.paper.shapes import ball, box, swaying
 
 Item = TypeVar("Item")
 

@@ -1,0 +1,1 @@
+"""How much two meshes look alike, in pictures of both."""

@@ -1,0 +1,184 @@
+"""How much alike two meshes look: a distance, 1 where nobody can tell them apart on a screen (`spec/look.md`)."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from bsm.bitstream.errors import MeshError
+from bsm.codec.arrays import Faces, Matrix, Positions
+from bsm.codec.geometry.attribute_errors import at_corners
+from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.look.pictures import BACKGROUND, SQUARE, Normals, Picture, Shape, difference, draw
+from bsm.codec.look.sides import cameras, pixels_for
+from bsm.codec.threads import ordered_map
+
+DISSIMILAR = 0.03
+"""1 - SSIM at distance 1."""
+VISIBLE_SHARE = 0.005
+"""Share of covered pixels that differ visibly, at distance 1."""
+POWER = 0.8
+"""Of the larger of both over its bound: so that a distance is about linear in the step of a quantizer."""
+GONE, GONE_POWER = 0.5, 2.0
+"""The same of `Look.gone`: what is gone altogether is at distance 4, however small it is."""
+_LARGEST = 1e150
+
+
+@dataclass(frozen=True)
+class Look:
+    """How much a mesh differs in pictures from an original.
+
+    Attributes
+    ----------
+    distance : float
+        0: the pictures are the same; up to 1: it looks the same; about twice as much for steps twice as wide.
+    dissimilarity : float
+        1 - SSIM, mean over the covered pixels of all pictures.
+    visible : float
+        Share of covered pixels whose shade differs by more than 12 of 255 after a slight blur.
+    gone : float
+        Share of pixels that differ by more than 48 of 255, in the square of 8 by 8 where that is largest: half of it
+        where an edge moves by some pixels, all where a part is not there any more.
+    """
+
+    distance: float
+    dissimilarity: float
+    visible: float
+    gone: float
+
+
+class Looker:
+    """Pictures of an original, to compare one decoded version after another with.
+
+    Parameters
+    ----------
+    mesh : TriangleMesh
+    threads : int, optional
+        None: one per core. The result does not depend on it.
+
+    Raises
+    ------
+    MeshError
+        If the mesh has no area, so that nothing of it is seen, or its coordinates are too large to compute with.
+    """
+
+    def __init__(self, mesh: TriangleMesh, *, threads: int | None = None) -> None:
+        self._mesh, self._threads = mesh, threads
+        used = mesh.positions[np.unique(mesh.faces)]
+        low, high = used.min(axis=0), used.max(axis=0)
+        with np.errstate(over="ignore"):
+            self._diagonal = math.hypot(*(high - low))
+        if not self._diagonal > 0.0:
+            raise MeshError("the mesh cannot be looked at: all vertices are at one place")
+        if not self._diagonal < _LARGEST:
+            raise MeshError("the mesh cannot be looked at: its coordinates are too large to compute with; scale it")
+        self._middle = low + (high - low) / 2
+        positions = self._placed(mesh.positions)
+        self._shape = Shape.of(positions, mesh.faces)
+        self.pixels = pixels_for(positions, mesh.faces)
+        self._cameras = cameras(self._placed(used), self.pixels)
+        self._pictures = self._drawn(positions, self._shape.faces, self._shape.normals(positions))
+        if not any((picture < BACKGROUND).any() for picture in self._pictures):
+            raise MeshError("the mesh cannot be looked at: its faces have no area")
+
+    def look(self, positions: Positions) -> Look:
+        """How these positions look on the faces of the original, with normals that follow from them.
+
+        Parameters
+        ----------
+        positions : ndarray of float64, shape (n, 3)
+            As many as the original has, in its order.
+
+        Raises
+        ------
+        MeshError
+            If there are more or fewer, or one is not finite.
+        """
+        positions = np.ascontiguousarray(positions, np.float64)
+        if positions.shape != self._mesh.positions.shape:
+            raise MeshError(f"positions must have shape {self._mesh.positions.shape}, not {positions.shape}")
+        if not np.isfinite(positions).all():
+            raise MeshError("a position is not finite")
+        placed = self._placed(positions)
+        return self._seen(self._pictures, placed, self._shape.faces, self._shape.normals(placed))
+
+    def distance(self, positions: Positions) -> float:
+        """The distance alone of `look`."""
+        return self.look(positions).distance
+
+    def compare(self, other: TriangleMesh) -> Look:
+        """How another mesh looks, of whatever vertices and faces, in the frames that the original fills.
+
+        Where the original has normals of its own, both are also compared as shaded with normals of their own; what
+        differs more counts.
+        """
+        placed = self._placed(other.positions)
+        shape = Shape.of(placed, other.faces)
+        smooth = shape.normals(placed)
+        seen = self._seen(self._pictures, placed, shape.faces, smooth)
+        own, others = own_normals(self._mesh), own_normals(other)
+        if own is None:
+            return seen
+        pictures = self._drawn(self._placed(self._mesh.positions), self._shape.faces, own)
+        shaded = self._seen(pictures, placed, shape.faces, smooth if others is None else others)
+        return max(seen, shaded, key=lambda look: look.distance)
+
+    def pictures(self, other: TriangleMesh) -> tuple[Picture, Picture]:
+        """Both meshes from the side where they differ most."""
+        placed = self._placed(other.positions)
+        shape = Shape.of(placed, other.faces)
+        drawn = self._drawn(placed, shape.faces, shape.normals(placed))
+        pairs = list(zip(self._pictures, drawn, strict=True))
+        return max(pairs, key=lambda pair: difference(*pair)[0])
+
+    def _placed(self, positions: Positions) -> Positions:
+        """In units of the diagonal, from the middle of the original."""
+        return np.ascontiguousarray((positions - self._middle) / self._diagonal)
+
+    def _drawn(self, placed: Positions, faces: Faces, normals: Normals) -> list[Picture]:
+        def drawn(camera: Matrix) -> Picture:
+            return draw(placed, faces, normals, camera, self.pixels)
+
+        return list(ordered_map(drawn, self._cameras, self._threads))
+
+    def _seen(self, pictures: Sequence[Picture], placed: Positions, faces: Faces, normals: Normals) -> Look:
+        def sums(side: tuple[Picture, Matrix]) -> Matrix:
+            picture, camera = side
+            return difference(picture, draw(placed, faces, normals, camera, self.pixels))
+
+        sides = zip(pictures, self._cameras, strict=True)
+        found = np.array(list(ordered_map(sums, sides, self._threads)))
+        dissimilar, visible, covered, _ = (float(sum(column)) for column in found.T)
+        return judged(dissimilar / covered, visible / covered, float(found[:, 3].max()) / SQUARE)
+
+
+def look(original: TriangleMesh, other: TriangleMesh, *, threads: int | None = None) -> Look:
+    """How much alike two meshes look, of whatever vertices and faces.
+
+    Raises
+    ------
+    MeshError
+        If the original has no area, so that nothing of it is seen, or its coordinates are too large to compute with.
+    """
+    return Looker(original, threads=threads).compare(other)
+
+
+def judged(dissimilarity: float, visible: float, gone: float) -> Look:
+    """The distance that these numbers make."""
+    dissimilarity = max(0.0, dissimilarity)  # of equal pictures it is a rounding error
+    distance = max(dissimilarity / DISSIMILAR, visible / VISIBLE_SHARE) ** POWER
+    return Look(max(distance, (gone / GONE) ** GONE_POWER), dissimilarity, visible, gone)
+
+
+def own_normals(mesh: TriangleMesh) -> Normals | None:
+    """Those that the mesh has as an attribute of its vertices or corners, of length 1; None: it has none."""
+    for attribute in mesh.attributes:
+        if attribute.semantic == "normal" and attribute.components == 3 and attribute.domain != "face":
+            corners = np.asarray(at_corners(attribute, mesh.faces), np.float64)
+            lengths = np.sqrt(np.square(corners).sum(axis=-1, keepdims=True))
+            unit = np.divide(corners, lengths, out=np.zeros_like(corners), where=lengths > 0)
+            return np.ascontiguousarray(unit.reshape(-1, 9), np.float32)
+    return None

@@ -1,0 +1,56 @@
+/* Normals as viewers shade: at each corner of a face those of the faces around its vertex, but not across creases. */
+#include "codec/look/normals.h"
+
+INLINE void cross_product(const double *a, const double *b, const double *c, double *n) {
+    double ux = b[0] - a[0], uy = b[1] - a[1], uz = b[2] - a[2];
+    double vx = c[0] - a[0], vy = c[1] - a[1], vz = c[2] - a[2];
+    n[0] = uy * vz - uz * vy;
+    n[1] = uz * vx - ux * vz;
+    n[2] = ux * vy - uy * vx;
+}
+
+INLINE double dot(const double *a, const double *b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+/* `joined` has the vertices of faces with those at one place as one, `starts` and `around` the faces of each.
+ * `normals` has nine numbers a face, three of each corner: the sum of the cross products of those around the corner's
+ * vertex whose angle to the face has a cosine above `cosine`, and of the face itself; of length 1, or zero. A
+ * vertex with more than `most` faces smooths nothing. `crosses` is room for four numbers a face. */
+int64_t shown_normals(ConstDoubles2 positions, ConstInts2 faces, ConstInts2 joined, ConstLongs starts, ConstInts around,
+                      double cosine, int64_t most, Doubles2 crosses, Singles2 normals) {
+    int64_t n = starts.size - 1;
+    if (positions.columns != 3 || faces.columns != 3 || crosses.columns != 4 || normals.columns != 9 || n < 0 ||
+        joined.columns != 3 || joined.rows != faces.rows || crosses.rows < faces.rows || normals.rows < faces.rows)
+        return MISUSED;
+    for (int64_t v = 0; v < n; v++)
+        if (starts.data[v] < 0 || starts.data[v] > starts.data[v + 1] || starts.data[v + 1] > around.size) return MISUSED;
+    for (int64_t k = 0; k < around.size; k++)
+        if (around.data[k] < 0 || around.data[k] >= faces.rows) return MISUSED;
+    for (int64_t k = 0; k < 3 * faces.rows; k++)
+        if (faces.data[k] < 0 || faces.data[k] >= positions.rows || joined.data[k] < 0 || joined.data[k] >= n) return MISUSED;
+    for (int64_t f = 0; f < faces.rows; f++) {
+        const int32_t *face = faces.data + 3 * f;
+        double *own = crosses.data + 4 * f;
+        cross_product(positions.data + 3 * (int64_t)face[0], positions.data + 3 * (int64_t)face[1],
+                      positions.data + 3 * (int64_t)face[2], own);
+        own[3] = __builtin_sqrt(dot(own, own));
+    }
+    for (int64_t f = 0; f < faces.rows; f++) {
+        const double *own = crosses.data + 4 * f;
+        for (int k = 0; k < 3; k++) {
+            int64_t vertex = joined.data[3 * f + k], from = starts.data[vertex], to = starts.data[vertex + 1];
+            double sum[3] = {own[0], own[1], own[2]}, least_dot = cosine * own[3];
+            if (to - from <= most)
+                for (int64_t i = from; i < to; i++) {
+                    const double *other = crosses.data + 4 * (int64_t)around.data[i];
+                    if (other == own || !(dot(own, other) > least_dot * other[3])) continue;
+                    sum[0] += other[0];
+                    sum[1] += other[1];
+                    sum[2] += other[2];
+                }
+            double length = __builtin_sqrt(dot(sum, sum));
+            float *normal = normals.data + 9 * f + 3 * k;
+            for (int d = 0; d < 3; d++) normal[d] = length > 0.0 ? (float)(sum[d] / length) : 0.0f;
+        }
+    }
+    return 0;
+}

@@ -1,0 +1,90 @@
+"""Shaded pictures of a mesh, and how much two of them differ."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from bsm.codec import _kernels
+from bsm.codec.arrays import Faces, Matrix, Positions
+from bsm.codec.geometry.incidence import Rows, vertex_faces
+from bsm.codec.geometry.welding import weld
+
+Picture = npt.NDArray[np.float32]
+"""Shades, 0 (black) to 1 (white, the background); first row on top."""
+Normals = npt.NDArray[np.float32]
+"""Of the corners of faces, shape (m, 9)."""
+
+CREASE = math.cos(math.radians(40.0))
+"""Cosine of the angle between faces from which on shading is not smooth."""
+MOST_AROUND = 128
+"""Faces around a vertex, above which its corners are shaded as their faces are."""
+VISIBLE = 12.0 / 255.0
+"""Difference of shades, after the narrow blur, that is seen."""
+PLAIN = 48.0 / 255.0
+"""Difference that is plain; where it fills a square, a part is gone."""
+SQUARE = 64.0
+"""Pixels of such a square."""
+BACKGROUND = 1.0
+_GRID = 2.0**24
+_SPREADS = {"wide": (1.5, 5), "narrow": (0.7, 3)}
+_SCRATCH_ROWS = 88
+
+
+@dataclass(frozen=True, eq=False)
+class Shape:
+    """The faces of a mesh, and which of their corners are shaded together."""
+
+    faces: Faces
+    joined: Faces
+    around: Rows
+
+    @classmethod
+    def of(cls, positions: Positions, faces: Faces) -> Shape:
+        """Of positions within a box of diagonal 1; those that are equal at 24 bits of it are one."""
+        _, joined, index = weld(np.rint(positions * _GRID), faces)
+        joined = np.ascontiguousarray(joined, np.int32)
+        return cls(np.ascontiguousarray(faces, np.int32), joined, vertex_faces(joined, int(index.max()) + 1))
+
+    def normals(self, positions: Positions) -> Normals:
+        """As viewers make them: the sum over the faces around a vertex, by area, but not across creases."""
+        count = len(self.faces)
+        normals = np.empty((count, 9), np.float32)
+        _kernels.shown_normals(
+            positions,
+            self.faces,
+            self.joined,
+            self.around.starts,
+            self.around.members,
+            CREASE,
+            MOST_AROUND,
+            np.empty((count, 4)),
+            normals,
+        )
+        return normals
+
+
+def draw(positions: Positions, faces: Faces, normals: Normals, camera: Matrix, pixels: int) -> Picture:
+    """A picture of a mesh, lit alike on both sides of its faces."""
+    picture, depth, lengths = (np.empty((pixels, pixels), np.float32) for _ in range(3))
+    _kernels.draw_shaded(positions, faces, normals, camera, np.empty(positions.shape), depth, lengths, picture)
+    return picture
+
+
+def difference(first: Picture, second: Picture) -> Matrix:
+    """Of the pixels that either covers: the sum of 1 - SSIM; how many differ visibly; how many there are; and how many
+    differ plainly in the square of 8 by 8 that has most of these."""
+    sums = np.zeros(4)
+    scratch = np.empty((_SCRATCH_ROWS, first.shape[1] + 2 * _SPREADS["wide"][1]), np.float32)
+    _kernels.likeness(first, second, _half("wide"), _half("narrow"), VISIBLE, PLAIN, scratch, sums)
+    return sums
+
+
+def _half(name: str) -> Picture:
+    """A Gaussian blur from its middle outwards; all of it sums to 1."""
+    spread, reach = _SPREADS[name]
+    weights = [math.exp(-0.5 * (k / spread) ** 2) for k in range(reach + 1)]
+    return np.array([weight / (2 * sum(weights) - weights[0]) for weight in weights], np.float32)

@@ -1,0 +1,58 @@
+"""The sides that a mesh is looked at from, and the frames that it fills there."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from bsm.codec.arrays import Faces, Matrix, Positions
+
+TOWARDS = (
+    *((1, 0, 0), (0, 1, 0), (-1, 0, 0), (0, -1, 0)),
+    *((7, 0, 401), (7, 0, -401)),
+    *((x, y, z) for x, y in ((101, 101), (-101, 101), (-101, -101), (101, -101)) for z in (100, -100)),
+)
+"""Where the camera is, from the middle of the mesh: around it, above and below, and at the corners of a cube."""
+LIGHT = (0.35, 0.5, 0.79)
+"""Where the light is: right, up, towards the camera."""
+AIR = 1.03
+"""The side of the picture over the longer side of what it shows."""
+LEAST_PIXELS, MOST_PIXELS = 512, 2048
+EDGE_PIXELS = 2.0
+"""What a mean edge has, where `MOST_PIXELS` allow it."""
+
+
+def axes(towards: tuple[int, int, int]) -> Matrix:
+    """The camera's axes as rows: right, up, towards the camera; z is up in the mesh."""
+    x, y, z = towards
+    flat, length = math.sqrt(x * x + y * y), math.sqrt(x * x + y * y + z * z)
+    right = (-y / flat, x / flat, 0.0)
+    ahead = (x / length, y / length, z / length)
+    up = (-ahead[2] * right[1], ahead[2] * right[0], ahead[0] * right[1] - ahead[1] * right[0])
+    return np.array([right, up, ahead])
+
+
+def cameras(positions: Positions, pixels: int) -> list[Matrix]:
+    """What `draw_shaded` takes for each side, so that the positions fill the picture."""
+    found = []
+    for towards in TOWARDS:
+        rows = axes(towards)
+        seen = np.stack([positions[:, 0] * x + positions[:, 1] * y + positions[:, 2] * z for x, y, z in rows], axis=1)
+        low, high = seen.min(axis=0), seen.max(axis=0)
+        side = AIR * float((high - low)[:2].max()) or 1.0
+        scale = np.array([1.0, -1.0, 1.0]) * (pixels / side)
+        offset = np.array([pixels / 2, pixels / 2, 0.0]) - scale * (low + high) / 2
+        light = LIGHT[0] * rows[0] + LIGHT[1] * rows[1] + LIGHT[2] * rows[2]
+        found.append(np.concatenate([np.column_stack([rows * scale[:, None], offset]).ravel(), light]))
+    return found
+
+
+def pixels_for(positions: Positions, faces: Faces) -> int:
+    """Pixels of a side of the pictures: enough that the mean edge has `EDGE_PIXELS`."""
+    ends = positions[faces]
+    edge = float(np.sqrt(np.square(ends - ends[:, [1, 2, 0]]).sum(axis=2)).mean())
+    side = AIR * float(np.ptp(positions[faces].reshape(-1, 3), axis=0).max())
+    if not edge * MOST_PIXELS > EDGE_PIXELS * side:
+        return MOST_PIXELS
+    return max(LEAST_PIXELS, math.ceil(EDGE_PIXELS * side / edge))

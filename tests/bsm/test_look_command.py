@@ -1,0 +1,78 @@
+"""`bsm.look` and `bsm compare --look`: the same answer, pictures on request, and sentences where there is none."""
+
+import json
+import sys
+
+import numpy as np
+import pytest
+
+import bsm
+from bsm.cli import main
+from tests.shapes import tetrahedron, torus
+
+
+@pytest.fixture
+def files(tmp_path):
+    mesh = torus(30, 20)
+    bsm.save(mesh, tmp_path / "a.ply")
+    bsm.save(mesh, tmp_path / "b.bsm", theta=4)
+    bsm.save(tetrahedron(), tmp_path / "other.off")
+    return tmp_path
+
+
+def run_json(capsys, *words):
+    capsys.readouterr()
+    assert main(["compare", *map(str, words), "--json", "-q"]) == 0
+    return json.loads(capsys.readouterr().out)
+
+
+def test_the_command_says_what_python_says(files, capsys):
+    seen = bsm.look(files / "a.ply", files / "b.bsm")
+    found = run_json(capsys, files / "a.ply", files / "b.bsm", "--look")
+    assert found["look"] == {
+        "distance": seen.distance,
+        "dissimilarity": seen.dissimilarity,
+        "visible": seen.visible,
+        "gone": seen.gone,
+    }
+    assert seen.distance > 0
+    assert found["theta_deg"] <= 4
+    assert "look" not in run_json(capsys, files / "a.ply", files / "b.bsm")
+    assert main(["compare", str(files / "a.ply"), str(files / "b.bsm"), "--look"]) == 0
+    line = capsys.readouterr().out.splitlines()[-1]
+    assert line.startswith(f"look               {seen.distance:.4g} (")
+
+
+def test_meshes_of_other_faces_are_looked_at(files, capsys):
+    found = run_json(capsys, files / "a.ply", files / "other.off", "--look")
+    assert list(found) == ["look"]
+    assert found["look"]["distance"] > 1
+    assert main(["compare", str(files / "a.ply"), str(files / "other.off")]) == 3
+
+
+def test_a_picture_shows_both_and_the_difference(files, capsys):
+    image = pytest.importorskip("PIL.Image")
+    target = files / "seen.png"
+    run_json(capsys, files / "a.ply", files / "b.bsm", "--picture", target)
+    with image.open(target) as picture:
+        assert picture.size == (3 * 512, 512)
+        shades = np.asarray(picture)
+    assert shades[:, :512].min() < 128 < shades[0, :1024].min()
+    assert shades[:, 1024:].min() < 255
+    again = ["compare", str(files / "a.ply"), str(files / "b.bsm"), "--picture", str(target)]
+    assert main(again) != 0
+    assert main([*again, "-f"]) == 0
+
+
+def test_without_pillow_a_sentence_tells_what_to_install(files, capsys, monkeypatch):
+    monkeypatch.setitem(sys.modules, "PIL", None)
+    monkeypatch.setitem(sys.modules, "PIL.Image", None)
+    assert main(["compare", str(files / "a.ply"), str(files / "b.bsm"), "--picture", str(files / "no.png")]) != 0
+    assert "pip install" in capsys.readouterr().err
+    assert not (files / "no.png").exists()
+
+
+def test_what_has_no_area_is_a_sentence(files, capsys):
+    bsm.save(([(0, 0, 0), (1, 0, 0), (2, 0, 0)], [(0, 1, 2)]), files / "line.off")
+    assert main(["compare", str(files / "line.off"), str(files / "a.ply"), "--look"]) == 3
+    assert "cannot be looked at" in capsys.readouterr().err

@@ -1,0 +1,318 @@
+"""Looking the same: known answers, what must be seen, and what must not."""
+
+import numpy as np
+import pytest
+
+from bsm.bitstream.errors import MeshError
+from bsm.codec import _kernels
+from bsm.codec.geometry.attributes import Attribute
+from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.look.measure import Looker, judged, look
+from bsm.codec.look.pictures import Shape, difference, draw
+from bsm.codec.look.sides import LEAST_PIXELS, MOST_PIXELS, axes, cameras, pixels_for
+from bsm.files.mesh import read_mesh
+from tests.shapes import patch, tetrahedron, together, torus
+
+MESH = torus(60, 40)
+
+
+def moved(mesh, positions):
+    return TriangleMesh(positions, mesh.faces)
+
+
+def noisy(mesh, size, seed=0):
+    noise = np.random.default_rng(seed).uniform(-1, 1, mesh.positions.shape)
+    return moved(mesh, mesh.positions + size * mesh.diagonal * noise)
+
+
+def plane(rows):
+    """A square patch without its bumps."""
+    mesh = patch(rows, rows)
+    return moved(mesh, mesh.positions * (1, 1, 0))
+
+
+def slid(mesh, size):
+    """Inner vertices of a plane moved within it."""
+    low, high = mesh.positions.min(axis=0), mesh.positions.max(axis=0)
+    inside = ((mesh.positions > low) & (mesh.positions < high))[:, :2].all(axis=1)
+    noise = np.random.default_rng(0).uniform(-size, size, mesh.positions.shape) * mesh.diagonal * (1, 1, 0)
+    return moved(mesh, mesh.positions + noise * inside[:, None])
+
+
+# ------------------------------------------------------------------------------------------------ the same
+
+
+def test_the_same_mesh_is_at_distance_nothing():
+    seen = look(MESH, MESH)
+    assert seen.distance < 1e-3
+    assert seen.visible == 0
+
+
+def test_order_of_vertices_and_faces_does_not_count():
+    random = np.random.default_rng(1)
+    order = random.permutation(len(MESH.positions))
+    back = np.argsort(order)
+    faces = back[MESH.faces][random.permutation(len(MESH.faces))]
+    turned = np.roll(faces, 1, axis=1)
+    other = TriangleMesh(MESH.positions[order], turned)
+    assert look(MESH, other).distance < 0.01
+    worse = noisy(MESH, 0.001)
+    known = look(MESH, worse)
+    found = look(MESH, TriangleMesh(worse.positions[order], turned))
+    assert found.distance == pytest.approx(known.distance, rel=0.02)
+
+
+def test_splitting_vertices_and_faces_does_not_count():
+    corners = MESH.positions[MESH.faces]
+    soup = TriangleMesh(corners.reshape(-1, 3), np.arange(3 * len(corners)).reshape(-1, 3))
+    assert look(MESH, soup).distance < 1e-3
+    assert look(soup, MESH).distance < 1e-3
+    flat = plane(12)
+    halves = (flat.positions[flat.faces[:, 0]] + flat.positions[flat.faces[:, 1]]) / 2
+    first, second, third = flat.faces.T
+    middle = len(flat.positions) + np.arange(len(halves))
+    faces = np.vstack([np.column_stack([first, middle, third]), np.column_stack([middle, second, third])])
+    assert look(flat, TriangleMesh(np.vstack([flat.positions, halves]), faces)).distance < 0.05
+
+
+@pytest.mark.parametrize("scale", [1e-200, 1e-9, 3.0, 1e12, 1e140])
+def test_scale_and_place_do_not_count(scale):
+    worse = noisy(MESH, 0.002)
+    known = look(MESH, worse)
+    offset = np.array([1.0, -2.0, 3.0])
+    large, larger = (moved(mesh, (mesh.positions + offset) * scale) for mesh in (MESH, worse))
+    assert look(large, larger).distance == pytest.approx(known.distance, rel=0.01)
+
+
+def test_sliding_within_a_plane_does_not_count():
+    flat = plane(20)
+    assert look(flat, slid(flat, 0.008)).distance < 0.1
+    lifted = flat.positions + np.random.default_rng(0).normal(0, 0.002, flat.positions.shape) * flat.diagonal
+    assert look(flat, moved(flat, lifted)).distance > 1
+
+
+# ------------------------------------------------------------------------------------------------ different
+
+
+def test_noise_is_seen_the_more_of_it():
+    looker = Looker(MESH)
+    distances = [looker.distance(noisy(MESH, size).positions) for size in (1e-4, 2e-4, 4e-4, 8e-4, 1.6e-3, 3.2e-3)]
+    assert distances == sorted(distances)
+    assert distances[0] < 1 < distances[-1]
+
+
+def test_a_missing_part_is_seen():
+    small = moved(tetrahedron(), tetrahedron().positions * 0.1 + MESH.positions.max(axis=0))
+    both = together(MESH, small)
+    assert look(both, MESH).distance > 3
+    assert look(both, both).distance < 1e-3
+
+
+def test_a_missing_ear_of_a_scan_is_seen(meshes):
+    spot = read_mesh(meshes / "static" / "c3d_spot.ply").mesh
+    high = spot.positions[spot.faces].mean(axis=1)[:, 1] > np.quantile(spot.positions[:, 1], 0.99)
+    assert 0 < high.sum() < 0.05 * len(high)
+    assert look(spot, TriangleMesh(spot.positions, spot.faces[~high])).distance > 3
+
+
+@pytest.mark.parametrize("name", ["static/c3d_spot.ply", "static/fandisk_6475.ply", "assets/robot_forearm.obj"])
+def test_bits_of_a_quantizer_are_seen_one_by_one(meshes, name):
+    mesh = read_mesh(meshes / name).mesh.bare
+    looker = Looker(mesh)
+    low, extent = mesh.positions.min(axis=0), np.ptp(mesh.positions, axis=0).max()
+    distances = []
+    for bits in range(8, 16):
+        step = extent / (2**bits - 1)
+        distances.append(looker.distance(low + np.rint((mesh.positions - low) / step) * step))
+    assert distances == sorted(distances, reverse=True)
+    assert 2**0.5 < (distances[1] / distances[-1]) ** (1 / 6) < 2**1.5
+
+
+def test_a_crease_is_not_smoothed_and_a_roof_is():
+    corners = [(0, 0, 0), (0, 1, 0), (1, 0, 0), (1, 1, 0), (-1, 0, 0.3), (-1, 1, 0.3), (0, 0, -1), (0, 1, -1)]
+    mesh = TriangleMesh(corners, [(0, 2, 1), (2, 3, 1), (0, 1, 4), (4, 1, 5)])
+    normals = Shape.of(mesh.positions, mesh.faces).normals(mesh.positions).reshape(-1, 3, 3)
+    flat, roof = np.array([0, 0, 1.0]), np.cross([0, 1, 0], [-1, 0, 0.3])
+    sloped = roof / np.linalg.norm(roof)
+    # At vertex 0 there are one face of the plane and one of the roof, by their areas.
+    known = flat + roof
+    assert normals[0, 0] == pytest.approx(known / np.linalg.norm(known), abs=1e-6)
+    assert normals[1, 0] == pytest.approx(flat)
+    assert normals[3, 2] == pytest.approx(sloped, abs=1e-6)
+    sharp = TriangleMesh(corners, [(0, 2, 1), (0, 1, 6)])
+    apart = Shape.of(sharp.positions, sharp.faces).normals(sharp.positions).reshape(-1, 3, 3)
+    assert apart[0, 0] == pytest.approx(flat)
+
+
+def test_both_sides_of_a_face_are_lit_alike():
+    turned = TriangleMesh(MESH.positions, MESH.faces[:, ::-1])
+    assert look(MESH, turned).distance < 0.01
+
+
+def test_normals_that_a_mesh_has_are_looked_at_too():
+    smooth = Shape.of(MESH.positions, MESH.faces).normals(MESH.positions).reshape(-1, 3)
+    own = TriangleMesh(MESH.positions, MESH.faces, (Attribute("normal", smooth, "corner", "normal"),))
+    assert look(own, own).distance < 1e-3
+    assert look(own, MESH).distance < 1e-3
+    tilted = smooth + np.array([0.5, 0.0, 0.0], np.float32)
+    other = TriangleMesh(MESH.positions, MESH.faces, (Attribute("normal", tilted, "corner", "normal"),))
+    assert look(own, other).distance > 1
+    assert look(MESH, other).distance < 1e-3
+
+
+# ------------------------------------------------------------------------------------------------ known answers
+
+
+def test_the_distance_is_one_at_its_bounds():
+    assert judged(0.03, 0.0, 0.0).distance == 1
+    assert judged(0.0, 0.005, 0.0).distance == 1
+    assert judged(0.06, 0.005, 0.1).distance == pytest.approx(2**0.8)
+    assert judged(-1e-9, 0.0, 0.0).distance == 0
+    assert judged(0.0, 0.0, 0.5).distance == 1
+    assert judged(0.0, 0.0, 1.0).distance == 4
+
+
+def test_a_square_from_above_has_one_shade():
+    square = TriangleMesh([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)], [(0, 1, 2), (0, 2, 3)])
+    camera = cameras(square.positions, 100)[4]
+    normals = np.tile(np.array([0, 0, 1], np.float32), (2, 3))
+    picture = draw(square.positions, square.faces, normals, camera, 100)
+    inside = picture < 1
+    towards = axes((7, 0, 401))
+    cosine = 0.35 * towards[0, 2] + 0.5 * towards[1, 2] + 0.79 * towards[2, 2]
+    assert picture[inside] == pytest.approx(0.12 + 0.78 * cosine, abs=1e-6)
+    side = np.sqrt(inside.sum())
+    assert side == pytest.approx(100 / 1.03, abs=1.0)
+    assert picture[0].min() == picture[:, -1].min() == 1
+
+
+def test_a_uniform_change_is_visible_above_its_threshold():
+    first = np.full((64, 64), 0.5, np.float32)
+    for change, count in ((11.9, 0), (12.1, 64 * 64)):
+        # Around the picture both are background.
+        second = first + np.float32(change / 255)
+        sums = difference(first, second)
+        assert sums[2] == 64 * 64
+        assert sums[1] == pytest.approx(count, rel=0.15)
+    assert difference(first, first)[1] == 0
+    white = np.ones((8, 8), np.float32)
+    assert (difference(white, white) == 0).all()
+
+
+def test_what_is_gone_fills_a_square():
+    first = np.full((64, 64), 0.5, np.float32)
+    for width, gone in ((2, 16), (5, 40), (20, 64)):
+        second = first.copy()
+        second[20:50, 9 : 9 + width] = 0.9
+        assert difference(first, second)[3] == pytest.approx(gone, abs=8)
+    second = first.copy()
+    second[30:33, 30:33] = 0.9
+    assert 4 <= difference(first, second)[3] <= 13
+
+
+def test_dissimilarity_is_that_of_the_definition():
+    ndimage = pytest.importorskip("scipy.ndimage")
+    random = np.random.default_rng(2)
+    x, y = (random.uniform(0.1, 0.9, (40, 50)) for _ in range(2))
+    x[:, :7] = y[:, :7] = 1.0
+
+    def blur(picture, deviation, radius):
+        return ndimage.gaussian_filter(picture, deviation, radius=radius, mode="constant", cval=1.0)
+
+    mx, my = blur(x, 1.5, 5), blur(y, 1.5, 5)
+    vx, vy, c = blur(x * x, 1.5, 5) - mx * mx, blur(y * y, 1.5, 5) - my * my, blur(x * y, 1.5, 5) - mx * my
+    ssim = (2 * mx * my + 1e-4) * (2 * c + 9e-4) / ((mx * mx + my * my + 1e-4) * (vx + vy + 9e-4))
+    inside = (x < 0.999) | (y < 0.999)
+    visible = np.abs(blur(x, 0.7, 3) - blur(y, 0.7, 3)) > 12 / 255
+    found = difference(x.astype(np.float32), y.astype(np.float32))
+    assert found[0] == pytest.approx((1 - ssim[inside]).sum(), rel=1e-4)
+    assert found[1] == pytest.approx((visible & inside).sum(), abs=2)
+    assert found[2] == inside.sum()
+
+
+def test_pictures_of_dense_meshes_have_more_pixels():
+    assert pixels_for(MESH.positions, MESH.faces) == LEAST_PIXELS
+    dense = torus(700, 500)
+    assert LEAST_PIXELS < pixels_for(dense.positions, dense.faces) < MOST_PIXELS
+
+
+def test_threads_change_nothing():
+    worse = noisy(MESH, 0.001)
+    assert look(MESH, worse, threads=1) == look(MESH, worse, threads=4)
+
+
+def test_a_fan_of_very_many_faces_is_quick():
+    count = 40000
+    angles = np.linspace(0, 2 * np.pi, count, endpoint=False)
+    ring = np.column_stack([np.cos(angles), np.sin(angles), np.zeros(count)])
+    middle = np.full(count, count)
+    faces = np.column_stack([np.arange(count), (np.arange(count) + 1) % count, middle])
+    fan = TriangleMesh(np.vstack([ring, [0, 0, 0.5]]), faces)
+    assert Looker(fan).distance(fan.positions) < 1e-3
+
+
+# ------------------------------------------------------------------------------------------------ what cannot be seen
+
+
+def test_what_has_no_area_is_refused():
+    for corners in ([(0, 0, 0)] * 3, [(0, 0, 0), (1, 1, 1), (2, 2, 2)]):
+        with pytest.raises(MeshError, match="cannot be looked at"):
+            Looker(TriangleMesh(corners, [(0, 1, 2)]))
+    with pytest.raises(MeshError, match="too large"):
+        Looker(moved(MESH, MESH.positions * 1e200))
+
+
+def test_positions_of_another_shape_are_refused():
+    looker = Looker(MESH)
+    with pytest.raises(MeshError, match="shape"):
+        looker.look(MESH.positions[:-1])
+    with pytest.raises(MeshError, match="not finite"):
+        looker.look(np.full(MESH.positions.shape, np.nan))
+
+
+def test_what_vanishes_or_flies_away_is_seen():
+    looker = Looker(MESH)
+    assert looker.distance(np.zeros(MESH.positions.shape)) > 5
+    assert looker.distance(np.full(MESH.positions.shape, 1e300)) > 5
+    spiked = MESH.positions.copy()
+    spiked[0] = 1e6
+    assert looker.distance(spiked) > 1
+
+
+def test_one_face_is_a_mesh():
+    one = TriangleMesh([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)])
+    assert look(one, one).distance < 1e-3
+
+
+def test_the_side_that_differs_most_is_drawn():
+    dented = MESH.positions.copy()
+    top = dented[:, 2] > 0.8 * dented[:, 2].max()
+    dented[top, 2] *= 0.9
+    looker = Looker(MESH)
+    first, second = looker.pictures(moved(MESH, dented))
+    assert first.shape == second.shape == (looker.pixels, looker.pixels)
+    assert np.abs(first - second).max() > 12 / 255
+
+
+def test_kernels_refuse_what_does_not_fit():
+    shape = Shape.of(MESH.positions, MESH.faces)
+    normals = shape.normals(MESH.positions)
+    camera = cameras(MESH.positions, 64)[0]
+    room = [np.empty((64, 64), np.float32) for _ in range(3)]
+    good = (MESH.positions, shape.faces, normals, camera, np.empty(MESH.positions.shape), *room)
+    _kernels.draw_shaded(*good)
+    for place in (0, 2, 3, 4, 5, 6):
+        with pytest.raises(ValueError, match="fit together"):
+            _kernels.draw_shaded(*(value[:-1] if k == place else value for k, value in enumerate(good)))
+    with pytest.raises(ValueError, match="fit together"):
+        _kernels.draw_shaded(good[0], shape.faces + 10**6, *good[2:])
+    wide, narrow = np.ones(6, np.float32), np.ones(4, np.float32)
+    for first, second, scratch in ((room[0], room[1][:-1], 88), (room[0], room[1], 87)):
+        with pytest.raises(ValueError, match="fit together"):
+            _kernels.likeness(first, second, wide, narrow, 0.1, 0.2, np.empty((scratch, 80), np.float32), np.zeros(4))
+    starts, around = shape.around
+    given = [MESH.positions, shape.faces, shape.joined, starts, around, 0.7, 128, np.empty((len(normals), 4)), normals]
+    _kernels.shown_normals(*given)
+    for place, wrong in ((1, shape.faces + 10**6), (2, shape.joined + 10**6), (4, around[:-1]), (7, given[7][:-1])):
+        with pytest.raises(ValueError, match="fit together"):
+            _kernels.shown_normals(*(wrong if k == place else value for k, value in enumerate(given)))
