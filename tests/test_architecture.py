@@ -43,7 +43,8 @@ FLOORS = {
         ("container",),
     ),
     "bsm.codec.static": (
-        ("coding", "contract", "draft", "events", "joining", "sections", "stages", "targets", "units", "work"),
+        ("work",),
+        ("coding", "contract", "draft", "events", "joining", "sections", "stages", "targets", "units"),
         ("numbering", "preamble", "rules", "whole"),
         ("attributes",),
         ("assembly", "options"),

@@ -85,7 +85,7 @@ def refuse_collisions(inputs: Sequence[str], outputs: Sequence[str]) -> None:
 
 
 def _identity(path: str) -> tuple[int, int] | str | None:
-    """The same for the same file under whatever name; None: there is none."""
+    """What is equal for one file under all its names; None: there is no such file."""
     if is_url(path):
         return path
     with suppress(OSError):
