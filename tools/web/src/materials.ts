@@ -2,6 +2,12 @@
 import { Color, DoubleSide, FrontSide, MeshStandardMaterial, NoColorSpace, RepeatWrapping, SRGBColorSpace, Texture } from "three";
 import type { Metadata } from "./index";
 
+/** Angles that turn the axis which a mesh calls up to y. */
+export function turnOf(metadata: Metadata): [number, number, number] {
+    const up = metadata.get("up");
+    return up === "z" ? [-Math.PI / 2, 0, 0] : up === "x" ? [0, 0, Math.PI / 2] : [0, 0, 0];
+}
+
 type Words = Map<string, string | number>;
 type Slot = "map" | "emissiveMap" | "normalMap" | "metalnessMap" | "roughnessMap" | "aoMap";
 

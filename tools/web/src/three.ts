@@ -2,14 +2,11 @@
 import { BufferGeometry, Group, Loader, Mesh, type LoadingManager, type MeshStandardMaterial } from "three";
 import { BSMGeometry, type Progress } from "./geometry";
 import type { Limits } from "./index";
-import { imagesOf, materialsOf } from "./materials";
+import { imagesOf, materialsOf, turnOf } from "./materials";
 import { placeOf, Pool, type Build, type StreamDecoding } from "./pool";
 import { BSMSequence, type SequenceEvents } from "./sequences";
 
 export { BSMGeometry, BSMSequence, type Progress, type SequenceEvents };
-
-/** Matrices that turn the axis which a mesh calls up to y. */
-const TURNS: Record<string, [number, number, number]> = { z: [-Math.PI / 2, 0, 0], x: [0, 0, Math.PI / 2] };
 
 /** Threads of all loaders that name no decoder's path of their own. */
 let shared: Pool | undefined;
@@ -205,8 +202,7 @@ export async function sceneOf(geometry: BSMGeometry): Promise<Group> {
     const parts = new Set(pieces.map(({ part }) => part));
     if (parts.size < 2) group.add(new Mesh<BSMGeometry, MeshStandardMaterial | MeshStandardMaterial[]>(geometry, materials.length > 1 ? materials : materials[0]));
     else for (const piece of pieces) group.add(meshOf(geometry, piece, materials[piece.material], nameOf(metadata, piece.part)));
-    const turn = TURNS[String(metadata.get("up") ?? "y")];
-    if (turn) group.rotation.set(...turn);
+    group.rotation.set(...turnOf(metadata));
     return group;
 }
 

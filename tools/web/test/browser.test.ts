@@ -8,15 +8,15 @@ import { inflateSync } from "node:zlib";
 import { chromium, type BrowserContext, type Page } from "playwright-core";
 import { Decoder } from "../src/index";
 import { readNpz } from "./npz";
-import { base64, CHROMIUM, compile, FLAGS, savedPage, VECTORS, VIEWER } from "./shared";
+import { base64, CHROMIUM, compile, FLAGS, savedPage, VECTORS, VIEWER, WEB } from "./shared";
 
 const STREAM = "good-labels";
 const SECTIONS = "good-sections";
 /** One of the specification, and a real one if it is named. */
 const SEQUENCES = [join(VECTORS, "good-sequence-learnt.bsm"), ...(process.env.BSM_SEQUENCE ? [process.env.BSM_SEQUENCE] : [])];
 
-/** Share of the pixels that differ from the corner, and where their middle is; of an 8-bit PNG. */
-function silhouette(png: Buffer): { share: number; x: number; y: number } {
+/** Rows of an 8-bit PNG, and how wide its pixels are. */
+function* rowsOf(png: Buffer): Generator<{ row: Uint8Array; channels: number; y: number; width: number; height: number }> {
     const [width, height, channels] = [png.readUInt32BE(16), png.readUInt32BE(20), png[25] === 6 ? 4 : 3];
     const parts: Buffer[] = [];
     for (let at = 8; at < png.length; at += 12 + png.readUInt32BE(at)) {
@@ -25,8 +25,6 @@ function silhouette(png: Buffer): { share: number; x: number; y: number } {
     const rows = inflateSync(Buffer.concat(parts));
     const stride = width * channels;
     let above = new Uint8Array(stride);
-    let [count, sumX, sumY] = [0, 0, 0];
-    let corner: Uint8Array | undefined;
     for (let y = 0; y < height; y++) {
         const filter = rows[y * (stride + 1)];
         const row = Uint8Array.from(rows.subarray(y * (stride + 1) + 1, (y + 1) * (stride + 1)));
@@ -35,13 +33,39 @@ function silhouette(png: Buffer): { share: number; x: number; y: number } {
             const paeth = [a, b, c].sort((p, q) => Math.abs(a + b - c - p) - Math.abs(a + b - c - q))[0];
             row[i] += [0, a, b, (a + b) >> 1, paeth][filter];
         }
+        yield { row, channels, y, width, height };
+        above = row;
+    }
+}
+
+/** Share of the pixels that differ from the corner, and where their middle is. */
+function silhouette(png: Buffer): { share: number; x: number; y: number } {
+    let [count, sumX, sumY, size] = [0, 0, 0, [1, 1]];
+    let corner: Uint8Array | undefined;
+    for (const { row, channels, y, width, height } of rowsOf(png)) {
         corner ??= row.slice(0, 3);
+        size = [width, height];
         for (let x = 0; x < width; x++) {
             if ([0, 1, 2].some((d) => Math.abs(row[x * channels + d] - corner![d]) > 8)) [count, sumX, sumY] = [count + 1, sumX + x, sumY + y];
         }
-        above = row;
     }
+    const [width, height] = size;
     return { share: count / (width * height), x: sumX / count / width, y: sumY / count / height };
+}
+
+/** Shares of the pixels that are red and green, and how high these are on the mean, from the top. */
+function coloursIn(png: Buffer): { red: number; green: number; redHeight: number; greenHeight: number } {
+    const [counts, heights] = [[0, 0], [0, 0]];
+    let all = 1;
+    for (const { row, channels, y, width, height } of rowsOf(png)) {
+        all = width * height;
+        for (let i = 0; i < row.length; i += channels) {
+            const [r, g, b] = row.subarray(i, i + 3);
+            const which = r > 2 * g && r > 2 * b ? 0 : g > 2 * r && g > 2 * b ? 1 : undefined;
+            if (which !== undefined) [counts[which], heights[which]] = [counts[which] + 1, heights[which] + y];
+        }
+    }
+    return { red: counts[0] / all, green: counts[1] / all, redHeight: heights[0] / counts[0], greenHeight: heights[1] / counts[1] };
 }
 
 describe("the page in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromium at ${CHROMIUM}` }, () => {
@@ -54,6 +78,8 @@ describe("the page in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromium a
         const options = { executablePath: CHROMIUM, headless: true, args: FLAGS, viewport: { width: 800, height: 500 } };
         context = await chromium.launchPersistentContext(join(folder, "profile"), options);
         page = await context.newPage();
+        // The panel is folded at first.
+        await page.addInitScript(() => document.addEventListener("DOMContentLoaded", () => document.querySelector("details.bsm-panel")?.setAttribute("open", "")));
         page.on("pageerror", (error) => complaints.push(error.message));
         page.on("request", (request) => /^(file|data|blob):/.test(request.url()) || complaints.push(request.url()));
     });
@@ -145,11 +171,11 @@ describe("the page in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromium a
             });
         await page.locator("canvas").focus();
         const met = [await name()];
-        for (let k = 0; k < 7; k++) {
+        for (let k = 0; k < 8; k++) {
             await page.keyboard.press("Tab");
             met.push(await name());
         }
-        const expected = ["The mesh", "Stream whole", "Cut the stream behind byte", "Link", "Stream again", "Colour", "Wireframe", "Licences"];
+        const expected = ["The mesh", "Controls", "Stream whole", "Cut the stream behind byte", "Link", "Stream again", "Colour", "Wireframe", "Licences"];
         assert.deepEqual(met.map((found, i) => found.startsWith(expected[i])), expected.map(() => true), met.join(" | "));
         await page.getByRole("group", { name: "Link" }).getByRole("slider", { name: "Cut the stream" }).focus();
         await page.getByRole("combobox", { name: "Colour" }).selectOption("blocks");
@@ -188,6 +214,21 @@ describe("the page in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromium a
         });
     }
 
+    test("wears the textures of a stream, has its axis up, and its panel folded", async () => {
+        const fresh = await context.newPage();
+        // Half of the image is red, half is green: a page without the texture has neither.
+        await fresh.goto(savedPage(folder, { worn: readFileSync(join(WEB, "test/textured.bsm")) }));
+        await fresh.waitForSelector("body[data-state=complete]", { timeout: 20_000 });
+        await fresh.waitForFunction(() => document.querySelector<HTMLSelectElement>("[name=colour]")!.value === "own");
+        assert.equal(await fresh.locator("details.bsm-panel").getAttribute("open"), null);
+        await fresh.waitForTimeout(300);
+        const counts = coloursIn(await fresh.locator("canvas").screenshot());
+        assert.ok(counts.red > 0.02 && counts.green > 0.02, JSON.stringify(counts));
+        // The red half is the upper one along z, which this mesh calls up.
+        assert.ok(counts.redHeight < counts.greenHeight, JSON.stringify(counts));
+        await fresh.close();
+    });
+
     test("says how far a mesh is from its original, and how long Draco's file takes", async () => {
         const { positions } = readNpz(readFileSync(join(VECTORS, `${STREAM}.npz`)));
         const moved = Float32Array.from(positions.values);
@@ -222,6 +263,7 @@ describe("the page in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromium a
         await shown.waitFor({ timeout: 20_000 });
         const { share } = silhouette(await page.locator("canvas").screenshot());
         assert.ok(share > 0.02 && share < 0.6, `share ${share}`);
+        await page.evaluate(() => document.querySelector("details.bsm-panel")!.setAttribute("open", ""));
         assert.equal(await page.getByRole("combobox", { name: "Stream" }).locator("option").textContent(), "a stream");
         assert.ok(Math.abs((await page.locator("main > div").boundingBox())!.height - 400) < 2);
         await page.evaluate(() => (window as unknown as { change: () => void }).change());

@@ -1,6 +1,7 @@
 /** A stream as it arrives, cut at any byte, over a link of any speed; sequences play. */
 import { BufferAttribute } from "three";
 import { BSMGeometry } from "../geometry";
+import { imagesOf, materialsOf, turnOf } from "../materials";
 import { errorLike, type Header, type LossEvent } from "../index";
 import type { Pool, StreamDecoding } from "../pool";
 import { coloursOf, errorsOf, LEGENDS, type Errors, type Scheme } from "./colours";
@@ -24,6 +25,8 @@ export interface Content {
 }
 
 const SECOND = 1000;
+/** Of materials, the most that mirrors. */
+const PALE = 0.3;
 
 /** Middle and diagonal of the box that a mesh fills, about, in its own unit. */
 function extentOf({ center, scale, grid, lattice }: Header): { center: number[]; diagonal: number } {
@@ -55,6 +58,7 @@ export class View {
     private playback?: Playback;
     private errors?: Errors;
     private ownColours?: BufferAttribute;
+    private dressed = false;
     private fed = 0;
     private started = 0;
     private firstDrawn?: number;
@@ -155,6 +159,7 @@ export class View {
         this.firstDrawn = this.completed = undefined;
         this.errors = undefined;
         this.ownColours = undefined;
+        this.dressed = false;
         this.allow("own", false);
         this.losses = [];
         this.shown = this.over = false;
@@ -204,7 +209,7 @@ export class View {
         if (this.shown || this.closed) return;
         this.shown = this.stale = true;
         const { center, diagonal } = header ? extentOf(header) : { center: [0, 0, 0], diagonal: 1 };
-        this.stage.show(this.geometry, center, diagonal);
+        this.stage.show(this.geometry, center, diagonal, turnOf(this.geometry.metadata));
     }
 
     /** Say what is lost; what could be decoded stays to be seen. */
@@ -228,10 +233,33 @@ export class View {
         this.over = true;
         this.stale = true;
         this.ownColours = this.geometry.getAttribute("color") as BufferAttribute | undefined;
-        this.allow("own", this.ownColours !== undefined);
-        if (this.ownColours && this.colour.value === "plain") this.colour.value = "own";
+        if (this.ownColours) this.wear();
+        void this.dress(this.geometry);
         this.completed = performance.now() - this.started;
         this.root.dataset.state = this.losses.length > 0 ? "damaged" : "complete";
+    }
+
+    /** Offer what the stream has of colours and materials, and show it. */
+    private wear(): void {
+        this.allow("own", true);
+        if (this.colour.value === "plain") this.colour.value = "own";
+        this.stale = true;
+    }
+
+    /** Make materials of what the metadata say, once images are there. */
+    private async dress(geometry: BSMGeometry): Promise<void> {
+        const named = [...geometry.metadata.keys()].some((key) => key.startsWith("material."));
+        if (!named) return;
+        const images = await imagesOf(geometry.metadata);
+        if (geometry !== this.geometry || this.closed) return;
+        const materials = materialsOf(geometry.metadata, images, 1 + Math.max(0, ...geometry.pieces.map(({ material }) => material)));
+        for (const material of materials) {
+            material.vertexColors = this.ownColours !== undefined;
+            material.metalness = Math.min(material.metalness, PALE); // there is nothing here that metal could mirror
+        }
+        this.stage.dress(materials);
+        this.dressed = true;
+        this.wear();
     }
 
     /** Frames are there: begin to play them, unless the page's reader wants less motion. */
@@ -287,7 +315,7 @@ export class View {
         this.errors = original && this.geometry.origin.length > 0 ? errorsOf(this.geometry, original) : undefined;
         this.part("legend").textContent = LEGENDS[scheme];
         const colours = coloursOf(this.geometry, scheme, this.errors?.distances);
-        this.stage.colour(scheme === "own" ? this.ownColours : colours && new BufferAttribute(colours, 3));
+        this.stage.colour(scheme === "own" ? this.ownColours : colours && new BufferAttribute(colours, 3), scheme === "own" && this.dressed);
     }
 
     private report(): void {
