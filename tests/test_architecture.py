@@ -19,7 +19,7 @@ FLOORS = {
         ("batch",),
         ("encoding",),
         ("api",),
-        ("pyvista", "trimesh", "viewer"),
+        ("gltf", "pyvista", "trimesh", "viewer"),
         # Finds the module of a command by its name.
         ("cli",),
         ("commands",),

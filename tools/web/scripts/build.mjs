@@ -96,6 +96,7 @@ async function products() {
         "pool.js": await open("pool.ts", beside("errors", "index", "quick")),
         "main.js": await open("facade.ts", beside("errors", "index", "pool")),
         "three.js": await open("three.ts", beside("errors", "index", "pool")),
+        "gltf.js": await open("gltf.ts", beside("errors", "index", "pool")),
         "react.js": await open("react.ts", beside("three")),
     };
     return [

@@ -8,7 +8,7 @@ import { inflateSync } from "node:zlib";
 import { chromium, type BrowserContext, type Page } from "playwright-core";
 import { Decoder } from "../src/index";
 import { readNpz } from "./npz";
-import { base64, CHROMIUM, compile, FLAGS, savedPage, VECTORS, VIEWER, WEB } from "./shared";
+import { base64, CHROMIUM, compile, FLAGS, savedPage, VECTORS, VIEWER } from "./shared";
 
 const STREAM = "good-labels";
 const SECTIONS = "good-sections";
@@ -217,7 +217,7 @@ describe("the page in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromium a
     test("wears the textures of a stream, has its axis up, and its panel folded", async () => {
         const fresh = await context.newPage();
         // Half of the image is red, half is green: a page without the texture has neither.
-        await fresh.goto(savedPage(folder, { worn: readFileSync(join(WEB, "test/textured.bsm")) }));
+        await fresh.goto(savedPage(folder, { worn: readFileSync(join(VECTORS, "good-attribute-textured.bsm")) }));
         await fresh.waitForSelector("body[data-state=complete]", { timeout: 20_000 });
         await fresh.waitForFunction(() => document.querySelector<HTMLSelectElement>("[name=colour]")!.value === "own");
         assert.equal(await fresh.locator("details.bsm-panel").getAttribute("open"), null);

@@ -1,13 +1,41 @@
 /** The package in pages of headless Chromium: threads, the loader of three.js, and what a page may forbid. */
 import assert from "node:assert/strict";
-import { existsSync } from "node:fs";
+import { existsSync, readFileSync } from "node:fs";
+import { join } from "node:path";
 import test, { after, before, describe } from "node:test";
 import { chromium, type Browser, type Page } from "playwright-core";
 import { serveSite, POLICY, type Site } from "./server";
-import { CHROMIUM, FLAGS } from "./shared";
+import { decode } from "../src/index";
+import { BUILDS, CHROMIUM, compile, FLAGS, VECTORS } from "./shared";
 
 const STREAM = "good-labels";
 const SECTIONS = "good-sections";
+
+/** A scene of one stream, by EXT_bsm_compression; it is said to have so many vertices and corners. */
+function sceneOf(stream: Uint8Array, vertices: number, corners: number): Uint8Array {
+    const name = "EXT_bsm_compression";
+    const sizes = [["POSITION", "VEC3", 12, vertices], ["NORMAL", "VEC3", 12, vertices], ["TEXCOORD_0", "VEC2", 8, vertices], ["indices", "SCALAR", 4, corners]] as const;
+    let at = 0;
+    const views = sizes.map(([attribute, , size, count]) => {
+        const view = { buffer: 1, byteOffset: at, byteLength: size * count, extensions: { [name]: { stream: 0, attribute, componentType: attribute === "indices" ? 5125 : 5126 } } };
+        at += size * count;
+        return view;
+    });
+    const tree = {
+        asset: { version: "2.0" }, extensionsUsed: [name], extensionsRequired: [name], scene: 0, scenes: [{ nodes: [0] }], nodes: [{ mesh: 0 }],
+        meshes: [{ primitives: [{ attributes: { POSITION: 0, NORMAL: 1, TEXCOORD_0: 2 }, indices: 3 }] }],
+        accessors: sizes.map(([attribute, type, , count], i) => ({ bufferView: i + 1, componentType: attribute === "indices" ? 5125 : 5126, count, type, ...(i === 0 ? { min: [-1, -1, -1], max: [1, 1, 1] } : {}) })),
+        bufferViews: [{ buffer: 0, byteLength: stream.length }, ...views],
+        buffers: [{ byteLength: stream.length }, { byteLength: at, extensions: { [name]: { fallback: true } } }],
+    };
+    const text = Buffer.from(JSON.stringify(tree));
+    const [json, data] = [Buffer.alloc(Math.ceil(text.length / 4) * 4, " "), Buffer.alloc(Math.ceil(stream.length / 4) * 4)];
+    text.copy(json);
+    data.set(stream);
+    const chunk = (kind: number, content: Buffer): Buffer => Buffer.concat([Buffer.from(Uint32Array.of(content.length, kind).buffer), content]);
+    const chunks = Buffer.concat([chunk(0x4e4f534a, json), chunk(0x004e4942, data)]);
+    return Buffer.concat([Buffer.from("glTF"), Buffer.from(Uint32Array.of(2, 12 + chunks.length).buffer), chunks]);
+}
 
 describe("the package in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromium at ${CHROMIUM}`, timeout: 180_000 }, () => {
     let browser: Browser;
@@ -158,6 +186,36 @@ describe("the package in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromiu
         assert.equal(seen.shown, seen.length);
         assert.deepEqual([seen.still, seen.last, seen.unit], [true, true, true]);
         assert.deepEqual([...new Set(seen.heard as string[])].sort(), ["ended", "loop", "pause", "play"]);
+    });
+
+    test("makes scenes with textures", async () => {
+        const seen = await found(`
+            const scene = await new BSMLoader().loadScene("/stream/good-attribute-textured.bsm");
+            const [{ material, geometry }] = scene.children;
+            return { name: material.name, size: [material.map.image.width, material.map.image.height], space: material.map.colorSpace, metalness: material.metalness, uv: geometry.hasAttribute("uv"), turned: scene.rotation.x < -1 };`);
+        assert.deepEqual(seen, { name: "halves", size: [8, 8], space: "srgb", metalness: 0, uv: true, turned: true });
+    });
+
+    test("is a plug-in of GLTFLoader", async () => {
+        const kernels = await compile(BUILDS[0]);
+        const stream = readFileSync(join(VECTORS, "good-attribute-textured.bsm"));
+        const { positions, faces } = decode(kernels, stream);
+        site.extra.set("/scene.glb", sceneOf(stream, positions.length / 3, faces.length));
+        site.extra.set("/wrong.glb", sceneOf(stream, positions.length / 3 + 1, faces.length));
+        site.extra.set("/broken.glb", sceneOf(stream.subarray(0, -30), positions.length / 3, faces.length));
+        const seen = await found(`
+            const { GLTFLoader } = await import("three/addons/loaders/GLTFLoader.js");
+            const { GLTFBSMExtension } = await import("/bsm/gltf.js");
+            const load = (url) => new GLTFLoader().register((parser) => new GLTFBSMExtension(parser)).loadAsync(url);
+            const { geometry } = (await load("/scene.glb")).scene.children[0];
+            const own = await new BSMLoader().loadAsync("/stream/good-attribute-textured.bsm");
+            const same = (name) => [...geometry.getAttribute(name).array].join() === [...own.getAttribute(name).array].join();
+            const problems = await Promise.all(["/wrong.glb", "/broken.glb"].map((url) => load(url).then(() => "none", (error) => error.name + " " + error.message)));
+            return { same: ["position", "normal", "uv"].map(same), index: [...geometry.index.array].join() === [...own.index.array].join(), problems };`);
+        assert.deepEqual([seen.same, seen.index], [[true, true, true], true]);
+        const [wrong, broken] = seen.problems as string[];
+        assert.match(wrong, /bufferView 1: POSITION has \d+ bytes, not \d+/);
+        assert.match(broken, /TruncatedError/);
     });
 
     for (const [place, headers] of [["free", {}], ["locked", { "Content-Security-Policy": "worker-src 'none'" }]] as [string, Record<string, string>][]) {

@@ -11,14 +11,17 @@ const CONSUMER = `
 import { decode, loadKernels, Pool, type Metadata } from "bsm-decoder";
 import * as quick from "bsm-decoder/quick";
 import { BSMLoader, BSMSequence, type BSMGeometry } from "bsm-decoder/three";
+import { GLTFBSMExtension } from "bsm-decoder/gltf";
+import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
 import { Mesh, type Group } from "three";
+const gltf: GLTFLoader = new GLTFLoader().register((parser) => new GLTFBSMExtension(parser));
 const loader: BSMLoader = new BSMLoader().setWorkerLimit(2).preload("quick");
 loader.load("a.bsm", (geometry) => new Mesh(geometry), (event) => event.loaded, (error: unknown) => error);
 const scene: Promise<Group> = loader.loadScene("a.bsm");
 const sequence: Promise<BSMSequence> = loader.loadSequence("a.bsm");
 const geometry: Promise<BSMGeometry> = loader.parseAsync(new ArrayBuffer(8));
 const told: Metadata = new Map();
-export { decode, loadKernels, Pool, quick, scene, sequence, geometry, told };
+export { gltf, decode, loadKernels, Pool, quick, scene, sequence, geometry, told };
 `;
 const PROGRAM = `
 import { readFileSync } from "node:fs";
