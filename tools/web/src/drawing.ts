@@ -1,4 +1,5 @@
 /** What is drawn of a stream, made in the thread that decodes: arrays that a page hands to its graphics as they are. */
+import { begun } from "./begun";
 import type { Attribute } from "./attributes";
 import type { Changes } from "./assembly";
 import type { ConnectivityEvent, EndEvent, Event, FrameEvent, HeaderEvent, LossEvent, MetadataEvent, RefinementEvent } from "./decoder";
@@ -282,7 +283,7 @@ export class Drawing {
             this.origin.fill(0);
             this.finish();
         }
-        const { vertices } = this.shape!;
+        const { vertices } = begun(this.shape);
         const positions = spread(points, 3, vertices);
         const normals = spread(normalsOf(this.faces, this.origin, points), 3, vertices);
         const small = Int16Array.from(normals, (value) => Math.round(value * MOST_NORMAL));

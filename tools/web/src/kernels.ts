@@ -32,8 +32,15 @@ export class Place<View extends Numbers> {
     /** Its numbers, until the next allocation. */
     get view(): View {
         const { buffer } = this.memory;
-        if (this.numbers?.buffer !== buffer) this.numbers = new this.kind(buffer, this.pointer, this.length);
-        return this.numbers!;
+        const { numbers } = this;
+        if (numbers?.buffer === buffer) return numbers;
+        return (this.numbers = new this.kind(buffer, this.pointer, this.length));
+    }
+
+    /** Its columns, of an array that has some. */
+    get width(): number {
+        if (this.columns === undefined) throw new RangeError("an array of one dimension is asked for its columns");
+        return this.columns;
     }
 
     /** How many rows it has. */
