@@ -90,8 +90,9 @@ def _textured() -> TriangleMesh:
     low, high = mesh.positions.min(axis=0), mesh.positions.max(axis=0)
     across = (mesh.positions - low) / (high - low)
     wall = np.stack([2 * across[:, 0] - 1, 0.1 * across[:, 2], 2 * across[:, 1] - 1], axis=1)
-    material = {"baseColorTexture": 0, "metallicFactor": 0.0, "doubleSided": 1, "name": "halves"}
-    metadata: dict[str, str | int | float | bytes] = {f"material.0.{name}": value for name, value in material.items()}
+    material: dict[str, str | int | float | bytes] = {"baseColorTexture": 0, "metallicFactor": 0.0, "doubleSided": 1}
+    material |= {"name": "halves"}
+    metadata = {f"material.0.{name}": value for name, value in material.items()}
     return replace(
         mesh,
         positions=wall,
