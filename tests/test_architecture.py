@@ -20,7 +20,7 @@ FLOORS = {
         ("batch",),
         ("encoding",),
         ("api",),
-        ("blender", "pyvista", "trimesh", "viewer"),
+        ("blender", "gltf", "pyvista", "trimesh", "viewer"),
         # Finds the module of a command by its name.
         ("cli",),
         ("commands",),
