@@ -10,6 +10,7 @@ from bsm.codec.arrays import Faces, Positions
 from bsm.codec.choices import named
 from bsm.codec.denoise.coarse import CoarseFilter
 from bsm.codec.denoise.filters.topology import Topology
+from bsm.codec.denoise.learnt.cascade import joined, learnt
 from bsm.codec.denoise.noise.estimate import NoiseLevel
 from bsm.codec.denoise.noise.finding import Finding, find_noise
 from bsm.codec.denoise.noise.outliers import Outliers, find_outliers
@@ -69,6 +70,8 @@ class AutomaticChoice:
         between vertices. Real meshes have detail that the rehearsal lacks: take it as a lower bound.
     rehearsals : int
         How many there were.
+    learnt : float
+        Share of the learnt normals (`codec.denoise.learnt`) in the result.
     outliers : int
         Vertices that stood out by themselves and were put back before all else.
     """
@@ -80,6 +83,7 @@ class AutomaticChoice:
     untreated: float
     expected: float
     rehearsals: int
+    learnt: float = 0.0
     outliers: int = 0
 
     def after(self, outliers: Outliers) -> AutomaticChoice:
@@ -159,21 +163,22 @@ def choose(positions: Positions, finding: Finding, patient: Patient, goal: str =
     local = finding.on(members)
     rehearsal = Rehearsal(positions[members], local, probe, coarse, BASE, named("goal", GOALS, goal))
     most = MOST_MEMBERS if patient.topology.n <= LARGE else MOST_LARGE_MEMBERS
-    steps, expected = rehearsal.compete(CANDIDATES, most)
+    winner = rehearsal.compete(CANDIDATES, most)
     # The result is a better guess than the one it was chosen with. A third round would believe its own mistakes.
-    rehearsal.rehearse(rehearsal.perform(steps))
+    rehearsal.rehearse(rehearsal.perform(winner.steps))
     untreated = rehearsal.untreated
-    steps, expected = rehearsal.compete(CANDIDATES, most)
+    winner = rehearsal.compete(CANDIDATES, most)
+    steps, (share, expected) = winner.steps, rehearsal.weigh(winner)
     reason = finding.reason
     if expected > WORTH * untreated:
         steps, expected = (), untreated
         reason = f"{reason}, but any filter would cost more than it gains"
-    elif expected > HARMFUL * rehearsal.changed(steps):
+    elif expected > HARMFUL * rehearsal.changed(steps, share):
         steps, expected = (), untreated
         reason = f"{reason}, but the result is expected to be as far off as what it changes"
     level = rehearsal.level
     noise = NoiseLevel(level.normal / finding.edge, level.tangential / finding.edge)
-    return AutomaticChoice(steps, finding.kind, reason, noise, untreated, expected, rehearsal.rounds)
+    return AutomaticChoice(steps, finding.kind, reason, noise, untreated, expected, rehearsal.rounds, share)
 
 
 def treat(choice: AutomaticChoice, noisy: Positions, finding: Finding, patient: Patient) -> tuple[Positions, Verdict]:
@@ -182,6 +187,8 @@ def treat(choice: AutomaticChoice, noisy: Positions, finding: Finding, patient: 
         return noisy, Verdict(np.ones(len(noisy), dtype=np.bool_), 0.0, 0.0, "")
     results = {step: _perform(step, choice, noisy, patient) for step in set(choice.steps)}
     result = blend([results[step] for step in choice.steps])
+    if choice.learnt > 0.0:
+        result = joined(result, learnt(noisy, patient.topology), choice.learnt, patient.topology)
     result = keep_good(noisy, result, finding.levels > 0.0)
     if finding.grid is not None:
         result = finding.grid.within_cells(noisy, result)

@@ -101,6 +101,20 @@ def open_sequence(source: Source, file_format: str | None = None, reader: str | 
     return Frames(mesh.faces, shape[0], npz_frames(archive))
 
 
+def separate_meshes(path: str, file_format: str | None = None, reader: str | None = None) -> list[str]:
+    """The mesh files of a folder or pattern if they are meshes by themselves: one, or the last has other faces than
+    the first; none if they are the frames of a sequence, or the path is that of a file.
+    """
+    if is_pipe(path) or is_url(path) or not _names_many(path):
+        return []
+    names = _frame_files(path)
+    if len(names) > 1:
+        first, last = (read_mesh(name, file_format, reader=reader).mesh for name in (names[0], names[-1]))
+        if first.positions.shape == last.positions.shape and np.array_equal(first.faces, last.faces):
+            return []
+    return names
+
+
 @contextmanager
 def sequence_writer(
     path: str,
