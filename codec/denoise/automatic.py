@@ -16,7 +16,7 @@ from bsm.codec.denoise.noise.finding import Finding, find_noise
 from bsm.codec.denoise.noise.outliers import Outliers, find_outliers
 from bsm.codec.denoise.noise.probe import Probe
 from bsm.codec.denoise.recipe import Recipe, Step, blend, perform
-from bsm.codec.denoise.rehearsal import GOALS, MOST_MEMBERS, Rehearsal
+from bsm.codec.denoise.rehearsal import GOALS, LEARNT_SHARE, MOST_MEMBERS, Rehearsal
 from bsm.codec.denoise.safety import Verdict, judge, keep_good, restraint
 from bsm.codec.denoise.sample import sample
 from bsm.codec.geometry.metrics import mean_edge_length
@@ -37,6 +37,8 @@ CANDIDATES = (
     Recipe("none", 0.2, "patches", 0.35),
     *(Recipe("none", 0.2, "local", sigma_r) for sigma_r in (0.35, 0.45, 0.6)),
 )
+HERALDS = (CANDIDATES[0], *CANDIDATES[1:3], CANDIDATES[7], CANDIDATES[-2])
+"""Those that compete for the second guess."""
 LARGEST_KEEP = max(recipe.keep for recipe in CANDIDATES)
 BLOCK_SIZE = 500
 """About the paper's; half or twice of it leaves 2.4 and 0.6 % more of the angle (tools.constants)."""
@@ -163,9 +165,9 @@ def choose(positions: Positions, finding: Finding, patient: Patient, goal: str =
     local = finding.on(members)
     rehearsal = Rehearsal(positions[members], local, probe, coarse, BASE, named("goal", GOALS, goal))
     most = MOST_MEMBERS if patient.topology.n <= LARGE else MOST_LARGE_MEMBERS
-    winner = rehearsal.compete(CANDIDATES, most)
-    # The result is a better guess than the one it was chosen with. A third round would believe its own mistakes.
-    rehearsal.rehearse(rehearsal.perform(winner.steps))
+    # What a few of them make, in the mean with the learnt normals, is a better guess than the one that they were chosen
+    # with. A third round would believe its own mistakes.
+    rehearsal.rehearse(rehearsal.perform(rehearsal.compete(HERALDS, most).steps, LEARNT_SHARE))
     untreated = rehearsal.untreated
     winner = rehearsal.compete(CANDIDATES, most)
     steps, (share, expected) = winner.steps, rehearsal.weigh(winner)

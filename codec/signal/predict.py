@@ -22,9 +22,6 @@ from bsm.codec.blocks.blend import Blend, degree_weights
 from bsm.codec.blocks.overlap import Block
 from bsm.codec.geometry.graph import Graph
 
-MAX_STIFFNESS = 2.0**16
-"""Largest stiffness that a stream may ask for."""
-
 
 @dataclass(frozen=True, eq=False)
 class Suspended:
@@ -46,7 +43,7 @@ class Suspended:
 
     @cached_property
     def factor(self) -> Factor:
-        """Of L + S + delta I: for the block's dictionary, and for what continues its surroundings."""
+        """Factorisation of L + S + delta I: for the block's dictionary, and for what continues its surroundings."""
         return factorize(self.laplacian, self.springs + self.shift)
 
 

@@ -40,7 +40,7 @@ class Parser(argparse.ArgumentParser):
         super().__init__(**{"formatter_class": Formatter, **keywords})
 
     def format_usage(self) -> str:
-        """One line."""
+        """The usage in one line."""
         return f"usage: {self.prog}{self._inputs()}\n"
 
     def format_help(self) -> str:

@@ -44,7 +44,7 @@ def errors(matrices: Sequence[Matrices]) -> npt.NDArray[np.float64]:
 
 
 def left_out(matrices: Sequence[Matrices]) -> npt.NDArray[np.float64]:
-    """The same where a model's first matrix is no part of its own mean."""
+    """Errors where a model's first matrix is no part of its own mean."""
     table = errors(matrices)
     np.fill_diagonal(table, [np.square(own[0] - own[1:].mean(axis=0)).mean() for own in matrices])
     return table

@@ -218,7 +218,7 @@ class Study:
         return self._models[role]
 
     def partner(self, role: str, noisy: str, sigma: float) -> Model:
-        """The same model with other noise: of the file `noisy`, or as strong as `sigma` where there is none."""
+        """A model with other noise: of the file `noisy`, or as strong as `sigma` where there is none."""
         model = self.model(role)
         if self.folder is None:
             moved = gaussian_along_normals(model.clean, model.faces, sigma, seed=2)

@@ -73,7 +73,7 @@ class Planner:
         schemes: list[Scheme] = []
         first = 0
         for blocks, coding in zip(prepared.blocks, codings, strict=True):
-            schemes.append(Scheme(blocks, rules, coding, self._options.blend, first))
+            schemes.append(Scheme(blocks, rules, coding, first))
             first += blocks.count
         return schemes
 
@@ -96,21 +96,18 @@ class Planner:
 
     def _rules(self) -> ChainRules:
         options = self._options
-        predicted = options.predict and options.seed == "previous" and options.bits is None
         return ChainRules(
-            exact=options.basis == "svd",
-            exact_keys=options.exact_keys,
-            independent=options.seed == "independent",
+            exact=options.exact_keys,
             key_interval=max(even_interval(options.key_interval, blocks.count) for blocks in self._prepared.blocks),
             power=options.power,
             iterations=options.iterations,
             key_iterations=options.key_iterations,
             shift=single(options.shift),
-            stiffness=STIFFNESS if predicted else None,
+            stiffness=STIFFNESS if options.predict and options.bits is None else 0.0,
         )
 
     def _codings(self, step: float) -> Sequence[Coding]:
-        """Of each section."""
+        """How each section is coded."""
         size, ratio = self._prepared.size, self._options.detail_ratio
         if step < smallest_step(size):
             raise OptionError(f"step = {step:g} is too fine for blocks of {size}, try {smallest_step(size):.1e}")

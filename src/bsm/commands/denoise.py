@@ -28,9 +28,11 @@ from bsm.files.mesh import (
     save_written,
     written_mesh,
 )
+from bsm.files.motion.folder import separate_meshes
+from bsm.files.motion.frames import Frames
 from bsm.files.naming import output_inside, refuse_terminal
 from bsm.files.output import refuse_to_overwrite
-from bsm.files.sequence import Frames, open_sequence, separate_meshes, sequence_kind, sequence_writer
+from bsm.files.sequence import open_sequence, sequence_kind, sequence_writer
 
 if TYPE_CHECKING:
     from bsm.codec.denoise import AutomaticChoice, DenoiseOptions
@@ -116,8 +118,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace, console: Console) -> int:
     """Denoise all inputs."""
-    inputs = [name for given in args.inputs for name in (separate_meshes(given, args.format, args.reader) or [given])]
-    if args.output is not None and len(inputs) > len(args.inputs) and not Path(args.output).is_dir():
+    found = {given: separate_meshes(given, args.format, args.reader) for given in args.inputs}
+    inputs = [name for given in args.inputs for name in (found[given] or [given])]
+    if args.output is not None and any(found.values()) and not Path(args.output).is_dir():
         # A folder of meshes becomes a folder, whether its name ends in / or not.
         args.output = args.output.rstrip("/") + "/"
     beside = "" if args.output else ".denoised"

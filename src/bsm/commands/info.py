@@ -97,7 +97,7 @@ def _worded(summary: Facts) -> str:
 
 
 def _position_lines(summary: dict[str, Any]) -> list[str]:
-    """Of what kind the positions are."""
+    """Lines that say how positions are coded."""
     header, coefficients = summary["header"], summary["coefficients"] or [0]
     if header["grid"]:
         return [f"positions on a grid of {' x '.join(str(largest + 1) for largest in header['grid'])}"]

@@ -24,7 +24,6 @@ import { chunkCost, GRID_COST, layerCost, LIGHT_COST, orderCost, type GridCost }
 
 const ORDER_METHOD = 1;
 const SPLITS_METHOD = 2;
-const MAX_STIFFNESS = 65536;
 /** The next block is one that a helper has to send first. */
 export const NEED_BLOCK = "need block";
 
@@ -162,9 +161,10 @@ export class Decoder {
         private readonly wishes: Wishes = {},
     ) {
         this.limits = { ...DEFAULT_LIMITS, ...limits };
-        this.reader = wishes.tolerant ? new TolerantReader(this.limits) : new Reader(this.limits);
         this.memory = kernels.instantiate(this.limits.memory);
         this.allowance = new Allowance(this.limits);
+        const spend = this.allowance.spend.bind(this.allowance);
+        this.reader = wishes.tolerant ? new TolerantReader(this.limits, spend) : new Reader(this.limits, spend);
     }
 
     /** Take more bytes of the stream. */
@@ -348,9 +348,6 @@ export class Decoder {
         if (header.gopFrames > 0 && (header.smoothing > 0 || header.details > 0)) {
             throw new UnsupportedError("smoothing and details of sequences are unknown to this decoder");
         }
-        if (header.prediction.length > 1 || !header.prediction.every((value) => value > 0 && value < MAX_STIFFNESS)) {
-            throw new CorruptError(`the prediction has the parameters ${header.prediction}, one stiffness is legal`);
-        }
         checkLimit(this.limits, "coefficients", header.details);
         if (header.gopFrames > 0) checkLimit(this.limits, "sequenceBytes", 8 * header.vertices * header.coefficients);
         this.header = header;
@@ -383,7 +380,7 @@ export class Decoder {
 
     private acceptAttribute(index: number, declaration: Declaration, seams: Uint8Array): void {
         this.structure!.expectFaces(this.header!.blocks);
-        this.attributes ??= new Attributes(this.memory, this.header!, this.structure!.faces, this.limits);
+        this.attributes ??= new Attributes(this.memory, this.header!, this.structure!.faces, this.limits, this.allowance);
         const { attributes } = this;
         this.tolerating(() => attributes.declare(index, declaration, seams), undefined, true);
     }
@@ -392,6 +389,7 @@ export class Decoder {
         const attributes = this.begunAttributes();
         this.tolerating(() => {
             if (first === 0) this.allowance.spend(attributes.costOf(index));
+            this.allowance.keep(0, data.length);
             this.allowance.spend(chunkCost(data.length), data.length);
             const attribute = attributes.decode(index, first, count, data, this.numbering!, () => this.solid());
             if (attribute) this.queue.push({ type: "attribute", ...attribute });
@@ -409,7 +407,7 @@ export class Decoder {
             this.skipTo(this.header!.blocks);
             if (!this.refinement) this.chains!.release();
         }
-        attributes.check(this.numbering!);
+        attributes.begin(this.numbering!);
         return attributes;
     }
 
