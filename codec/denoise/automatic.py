@@ -10,7 +10,7 @@ from bsm.codec.arrays import Faces, Positions
 from bsm.codec.choices import named
 from bsm.codec.denoise.coarse import CoarseFilter
 from bsm.codec.denoise.filters.topology import Topology
-from bsm.codec.denoise.learnt.cascade import joined, learnt
+from bsm.codec.denoise.learnt.cascade import Learner, joined
 from bsm.codec.denoise.noise.estimate import NoiseLevel
 from bsm.codec.denoise.noise.finding import Finding, find_noise
 from bsm.codec.denoise.noise.outliers import Outliers, find_outliers
@@ -141,6 +141,7 @@ class Patient:
         self.topology = Topology(faces, n)
         self.probe = Probe(self.topology)
         self._coarse: CoarseFilter | None = None
+        self.learner = Learner(self.topology)
         self._keep = 0.0
 
     def edge(self, positions: Positions) -> float:
@@ -160,10 +161,13 @@ def choose(positions: Positions, finding: Finding, patient: Patient, goal: str =
     if not finding.noisy:
         return AutomaticChoice((), finding.kind, finding.reason, NoiseLevel(0.0, 0.0), 0.0, 0.0, 0)
     members, part = sample(patient.topology.faces, finding.levels)
-    probe = patient.probe if len(members) == patient.topology.n else Probe(Topology(part, len(members)))
+    probe, learner = patient.probe, patient.learner
+    if len(members) < patient.topology.n:
+        probe = Probe(Topology(part, len(members)))
+        positions, learner = positions[members], Learner(probe.topology)
     coarse = CoarseFilter(part, len(members), LARGEST_KEEP, BLOCK_SIZE)
     local = finding.on(members)
-    rehearsal = Rehearsal(positions[members], local, probe, coarse, BASE, named("goal", GOALS, goal))
+    rehearsal = Rehearsal(positions, local, probe, coarse, BASE, named("goal", GOALS, goal), learner)
     most = MOST_MEMBERS if patient.topology.n <= LARGE else MOST_LARGE_MEMBERS
     # What a few of them make, in the mean with the learnt normals, is a better guess than the one that they were chosen
     # with. A third round would believe its own mistakes.
@@ -190,7 +194,7 @@ def treat(choice: AutomaticChoice, noisy: Positions, finding: Finding, patient: 
     results = {step: _perform(step, choice, noisy, patient) for step in set(choice.steps)}
     result = blend([results[step] for step in choice.steps])
     if choice.learnt > 0.0:
-        result = joined(result, learnt(noisy, patient.topology), choice.learnt, patient.topology)
+        result = joined(result, patient.learner(noisy), choice.learnt, patient.topology)
     result = keep_good(noisy, result, finding.levels > 0.0)
     if finding.grid is not None:
         result = finding.grid.within_cells(noisy, result)

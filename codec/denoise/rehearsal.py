@@ -18,7 +18,7 @@ import numpy as np
 
 from bsm.codec.arrays import Positions
 from bsm.codec.denoise.coarse import CoarseFilter
-from bsm.codec.denoise.learnt.cascade import joined, learnt
+from bsm.codec.denoise.learnt.cascade import Learner, joined, learnt
 from bsm.codec.denoise.noise.estimate import NoiseLevel, estimate_noise
 from bsm.codec.denoise.noise.finding import Finding
 from bsm.codec.denoise.noise.probe import Probe
@@ -98,6 +98,8 @@ class Rehearsal:
         Makes the guess.
     goal : callable
         What is to be small: from the reference and positions to a number.
+    learner : Learner
+        Of this connectivity.
     """
 
     def __init__(
@@ -108,8 +110,10 @@ class Rehearsal:
         coarse: CoarseFilter,
         base: Recipe,
         goal: Goal,
+        learner: Learner,
     ) -> None:
         topology = probe.topology
+        self._learner = learner
         self._topology, self._coarse, self._goal = topology, coarse, goal
         self._given, self._finding, self._touched = noisy, finding, finding.levels > 0.0
         smooth = coarse(noisy, base.keep)
@@ -146,7 +150,7 @@ class Rehearsal:
 
         result = blend([one(step) for step in steps])
         if share > 0.0:
-            result = joined(result, learnt(self._given, self._topology), share, self._topology)
+            result = joined(result, self._learner(self._given), share, self._topology)
         return self._within(result, self._given)
 
     def changed(self, steps: tuple[Step, ...], share: float) -> float:

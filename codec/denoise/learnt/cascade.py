@@ -55,6 +55,27 @@ def learnt(positions: Positions, topology: Topology) -> Learnt:
     return Learnt(positions, normals)
 
 
+class Learner:
+    """`learnt` for the meshes of one connectivity, which remembers the last one that it was asked for.
+
+    Parameters
+    ----------
+    topology : Topology
+    """
+
+    def __init__(self, topology: Topology) -> None:
+        self._topology = topology
+        self._last: tuple[Positions, Learnt] | None = None
+
+    def __call__(self, positions: Positions) -> Learnt:
+        """What the networks make of positions, which nobody may change in place; any number of threads may ask."""
+        last = self._last
+        if last is None or last[0] is not positions:
+            last = (positions, learnt(positions, self._topology))
+            self._last = last
+        return last[1]
+
+
 def joined(positions: Positions, other: Learnt, share: float, topology: Topology) -> Positions:
     """Positions that follow the mean of their own normals and the learnt ones, which have `share` of it."""
     if share == 0.0:

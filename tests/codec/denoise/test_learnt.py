@@ -8,7 +8,7 @@ import pytest
 from bsm.codec.denoise import automatic
 from bsm.codec.denoise.filters.topology import Topology
 from bsm.codec.denoise.filters.vertex_update import face_geometry
-from bsm.codec.denoise.learnt.cascade import joined, learnt, regressed_normals
+from bsm.codec.denoise.learnt.cascade import Learner, joined, learnt, regressed_normals
 from bsm.codec.denoise.learnt.descriptors import BASE, NUMBERS, descriptions, mirrored
 from bsm.codec.denoise.learnt.network import WEIGHTS, Network, read_networks, write_networks
 from bsm.codec.denoise.noise.gaussian import gaussian_along_normals
@@ -125,3 +125,13 @@ def test_the_choice_says_how_much_of_it_is_learnt(monkeypatch: pytest.MonkeyPatc
     result, choice = automatic.denoise_automatically(noisy, faces)
     assert 0.0 <= choice.learnt <= 1.0
     assert theta(clean, result, faces) < 0.2 * theta(clean, noisy, faces)
+
+
+def test_a_learner_remembers_one_mesh_alone() -> None:
+    _, noisy, faces = noisy_sphere(8)
+    learner = Learner(Topology(faces, len(noisy)))
+    first = learner(noisy)
+    assert learner(noisy) is first
+    other = learner(2.0 * noisy)
+    assert other is not first and learner(noisy) is not first
+    assert (learner(noisy).positions == first.positions).all()
