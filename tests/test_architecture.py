@@ -15,7 +15,7 @@ FLOORS = {
         ("codec",),
         ("console", "lengths", "steadiness", "usage"),
         ("files",),
-        ("comparison", "evaluation", "exits", "foreign", "options"),
+        ("comparison", "evaluation", "exits", "foreign", "loops", "options"),
         ("farm", "meshes"),
         ("batch",),
         ("encoding",),
