@@ -40,6 +40,8 @@ CANDIDATES = (
 HERALDS = (CANDIDATES[0], *CANDIDATES[1:3], CANDIDATES[7], CANDIDATES[-2])
 """Those that compete for the second guess."""
 LARGEST_KEEP = max(recipe.keep for recipe in CANDIDATES)
+SLIDING = 0.6
+"""Noise across the normals, over noise along them, from which on vertices may slide along the surface."""
 BLOCK_SIZE = 500
 """About the paper's; half or twice of it leaves 2.4 and 0.6 % more of the angle (tools.constants)."""
 LARGE, MOST_LARGE_MEMBERS = 100_000, 2
@@ -169,11 +171,14 @@ def choose(positions: Positions, finding: Finding, patient: Patient, goal: str =
     local = finding.on(members)
     rehearsal = Rehearsal(positions, local, probe, coarse, BASE, named("goal", GOALS, goal), learner)
     most = MOST_MEMBERS if patient.topology.n <= LARGE else MOST_LARGE_MEMBERS
+    candidates, heralds = CANDIDATES, HERALDS
+    if rehearsal.level.tangential > SLIDING * rehearsal.level.normal:
+        candidates, heralds = (tuple(map(_sliding, recipes)) for recipes in (candidates, heralds))
     # What a few of them make, in the mean with the learnt normals, is a better guess than the one that they were chosen
     # with. A third round would believe its own mistakes.
-    rehearsal.rehearse(rehearsal.perform(rehearsal.compete(HERALDS, most).steps, LEARNT_SHARE))
+    rehearsal.rehearse(rehearsal.perform(rehearsal.compete(heralds, most).steps, LEARNT_SHARE))
     untreated = rehearsal.untreated
-    winner = rehearsal.compete(CANDIDATES, most)
+    winner = rehearsal.compete(candidates, most)
     steps, (share, expected) = winner.steps, rehearsal.weigh(winner)
     reason = finding.reason
     if expected > WORTH * untreated:
@@ -185,6 +190,11 @@ def choose(positions: Positions, finding: Finding, patient: Patient, goal: str =
     level = rehearsal.level
     noise = NoiseLevel(level.normal / finding.edge, level.tangential / finding.edge)
     return AutomaticChoice(steps, finding.kind, reason, noise, untreated, expected, rehearsal.rounds, share)
+
+
+def _sliding(recipe: Recipe) -> Recipe:
+    """A recipe that lets vertices slide along the surface: for noise that has moved them there."""
+    return replace(recipe, hand_over="positions") if recipe.hand_over == "heights" else recipe
 
 
 def treat(choice: AutomaticChoice, noisy: Positions, finding: Finding, patient: Patient) -> tuple[Positions, Verdict]:
