@@ -11,6 +11,7 @@ extern "C" {
 #include "codec/blocks/blend.h"
 #include "codec/blocks/overlap.h"
 #include "codec/blocks/partition.h"
+#include "codec/denoise/learnt/descriptors.h"
 #include "codec/denoise/noise/estimate.h"
 #include "codec/denoise/filters/fast_effective.h"
 #include "codec/denoise/filters/guidance.h"
@@ -96,6 +97,8 @@ NB_MODULE(_kernels, m) {
           Unlocked());
     m.def("filter_normals", &filter_normals, "centroids"_a, "areas"_a, "normals"_a, "guide"_a, "starts"_a, "near"_a,
           "sigma_s"_a, "sigma_r"_a, "filtered"_a, Unlocked());
+    m.def("describe_faces", &describe_faces, "centroids"_a, "areas"_a, "normals"_a, "guide"_a, "smooth"_a, "axes"_a,
+          "starts"_a, "near"_a, "distance"_a, "begin"_a, "described"_a, "frames"_a, Unlocked());
     m.def("mollify", &mollify, "positions"_a, "centroids"_a, "areas"_a, "starts"_a, "near"_a, "width"_a, "moved"_a,
           Unlocked());
     m.def("predict_from_planes", &predict_from_planes, "positions"_a, "centroids"_a, "areas"_a, "normals"_a,
