@@ -43,6 +43,9 @@ from bsm.codec.static.work import Allowance
 FINEST_STEP = 2e-5
 """Below, a search for a target does not look."""
 
+FIRST_STEP = 0.4
+"""Of the first frame, in steps of the others; 0.35 and 0.5 cost about as much, 0.7 costs 1 % more."""
+
 FIRST_FRAME = ChainRules(
     exact=False,
     exact_keys=False,
@@ -270,7 +273,7 @@ def open_sequence(prepared: Prepared, options: SequenceOptions, frames: int, pro
         If the options' first step is too fine.
     """
     finest = smallest_step(prepared.size)
-    step = options.first_step or max(options.step / 2, finest)
+    step = options.first_step or max(FIRST_STEP * options.step, finest)
     if step < finest:
         raise OptionError(f"first_step = {step:g} is too fine for blocks of {prepared.size}, try {finest:.1e}")
     width = max(1, round(options.keep * prepared.size))

@@ -22,7 +22,6 @@ RANGES: dict[str, tuple[float, float]] = {
     "overlap": (1.0, 8.0),
     "keep": (1e-6, 1.0),
     "frame_rate": (0.0, 1e6),
-    "rounding": (0.0, 0.5),
     "threads": (1, 256),
 }
 
@@ -38,7 +37,7 @@ class SequenceOptions:
     step : float
         Quantization step, relative to the bounding box's diagonal of the first frame.
     first_step : float, optional
-        That of the first frame, which all others are predicted from; None: half of `step`.
+        That of the first frame, which all others are predicted from; None: 0.4 of `step`.
     gop : int
         Frames of a GOP at most, or between key frames: what a loss costs at most, and what the encoder holds.
     keep : float
@@ -47,8 +46,6 @@ class SequenceOptions:
         Vertices of a part, about, and size of a block as a multiple of the largest part.
     frame_rate : float
         Frames per second, written to the metadata as `frame_rate`; 0: unknown.
-    rounding : float
-        Fraction added before a magnitude is cut to an integer; below 0.5 it widens the dead zone.
     keep_order : bool
         Store the order of vertices and faces, and the first corner of each face.
     attributes : mapping of str to str, or pairs
@@ -74,7 +71,6 @@ class SequenceOptions:
     block_size: int = 400
     overlap: float = 1.0
     frame_rate: float = 0.0
-    rounding: float = 0.4
     keep_order: bool = False
     attributes: Mapping[str, str] | tuple[tuple[str, str], ...] = ()
     limits: str = "default"
