@@ -52,7 +52,7 @@ class Pending(Generic[Result]):
         self._coming.acquire()
 
     def run(self) -> None:
-        """Do the work."""
+        """Do the work of this thread."""
         assert self._work is not None
         try:
             self._outcome = self._work()

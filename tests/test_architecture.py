@@ -10,6 +10,21 @@ ROOT = Path(__file__).parent.parent
 KNOW_BYTES = ("bsm.codec.static", "bsm.codec.sequence")
 KNOWN_TO_ALL = ("bsm.bitstream.errors", "bsm.bitstream.limits")
 FLOORS = {
+    "bsm": (
+        ("bitstream", "__version__", "_kernels"),
+        ("codec",),
+        ("console", "files", "lengths", "steadiness", "usage"),
+        ("comparison", "evaluation", "exits", "foreign", "options"),
+        ("farm", "meshes"),
+        ("batch",),
+        ("encoding",),
+        ("api",),
+        ("pyvista", "trimesh", "viewer"),
+        # Finds the module of a command by its name.
+        ("cli",),
+        ("commands",),
+        ("__main__",),
+    ),
     "bsm.codec": (
         ("_kernels", "arrays", "choices", "threads"),
         ("geometry",),
@@ -28,7 +43,8 @@ FLOORS = {
         ("container",),
     ),
     "bsm.codec.static": (
-        ("coding", "contract", "draft", "events", "joining", "sections", "stages", "targets", "units", "work"),
+        ("work",),
+        ("coding", "contract", "draft", "events", "joining", "sections", "stages", "targets", "units"),
         ("numbering", "preamble", "rules", "whole"),
         ("attributes",),
         ("assembly", "options"),

@@ -100,7 +100,11 @@ def _small_real_mesh(meshes):
 
 def run(folder, script, timeout=300):
     """Run a script in the folder, as somebody would who works there with this checkout."""
-    environment = {**os.environ, "PATH": f"{folder}/bin:{os.environ['PATH']}", "PYTHONPATH": f"{folder}/site:{ROOT}"}
+    environment = {
+        **os.environ,
+        "PATH": f"{folder}/bin:{os.environ['PATH']}",
+        "PYTHONPATH": f"{folder}/site:{ROOT}:{ROOT / 'src'}",
+    }
     return subprocess.run(
         ["bash", "-c", f"set -eo pipefail\n{script}"],
         cwd=folder,

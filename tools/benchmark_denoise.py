@@ -30,8 +30,8 @@ from bsm.codec.denoise.handover import HAND_OVERS
 from bsm.codec.geometry.metrics import Reference, compare, theta
 from bsm.files.formats.npz import read_arrays
 from bsm.files.mesh import read_mesh
-from bsm.paper.sequences import noisy_frames, time_sequence
 from tools.denoise_trials import TRIALS
+from tools.paper.sequences import noisy_frames, time_sequence
 
 # Theta after 20 iterations and seconds of the guided filter's authors' own C++ program (bldeng/GuidedDenoising).
 AUTHORS = {

@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from bsm.commands.encode_options import add_coding_flags, given_options
+from bsm.commands.encode_options import add_coding_flags, settings_of
 from bsm.console import Console, print_json
 from bsm.evaluation.codecs import paper_options
 from bsm.evaluation.per_block import boundary_rows, boundary_table, quartiles
@@ -17,7 +17,7 @@ from tools.command import run_command
 def main(args: argparse.Namespace, console: Console) -> None:
     """Print the quartiles over the blocks, as the paper's box plot shows them."""
     mesh = read_mesh(args.input).mesh
-    deviations_of = boundary_table(mesh, paper_options(**{"power": 2, **given_options(args)}))
+    deviations_of = boundary_table(mesh, paper_options(**{"power": 2, **settings_of(args)}))
     rows = [
         {"case": case, "where": where, **quartiles(deviations)}
         for case, groups in deviations_of.items()

@@ -24,7 +24,10 @@ from bsm.codec.denoise.noise.gaussian import (
     gaussian_along_normals,
     gaussian_in_part,
     gaussian_isotropic,
+    gaussian_with_range,
     impulsive,
+    ripples_along_normals,
+    rounded,
     uniform_along_normals,
 )
 from bsm.codec.denoise.recipe import Recipe, iterates
@@ -42,6 +45,9 @@ KINDS: dict[str, Kind] = {
     "few impulses": lambda positions, faces, sigma: impulsive(positions, faces, sigma, 0.1, SEED),
     "one axis": lambda positions, faces, sigma: gaussian_along_axis(positions, faces, sigma, SEED),
     "correlated": lambda positions, faces, sigma: correlated_along_normals(positions, faces, sigma, SEED),
+    "ripples": lambda positions, faces, sigma: ripples_along_normals(positions, faces, sigma, SEED, 4.0),
+    "range": lambda positions, faces, sigma: gaussian_with_range(positions, faces, sigma, SEED),
+    "rounded": lambda positions, faces, sigma: rounded(positions, faces, 0.5 * sigma, SEED),
     "half clean": lambda positions, faces, sigma: gaussian_in_part(positions, faces, sigma, 0.5, SEED),
 }
 GUIDED = Recipe("none", 0.1, "patches", 0.35)

@@ -57,7 +57,7 @@ def reciprocal_table() -> npt.NDArray[np.int32]:
 
 
 def source() -> str:
-    """The file."""
+    """The C file that holds the tables."""
     return _HEAD + "".join(
         f"\nconst {kind} {name}[{len(table)}] = {{\n{rows(table.tolist())}}};\n"
         for kind, name, table in (

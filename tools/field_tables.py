@@ -92,7 +92,7 @@ def _rounded(x: int, unit: int) -> int:
 
 
 def source() -> str:
-    """The file."""
+    """The C file that holds the tables."""
     odds, less = odds_tables()
     return _HEAD + "".join(
         f"\nconst {kind} {name}[{len(table)}] = {{\n{rows(table)}}};\n"

@@ -98,7 +98,7 @@ def make_guide(surface: Surface, face_count: int) -> Guide:
 
 
 def no_guide() -> Guide:
-    """For decoding."""
+    """The guide of a decoder, which has none."""
     nothing = np.empty(0, np.int32)
     return make_guide(Surface(nothing, nothing, nothing, nothing), 0)
 
@@ -114,7 +114,7 @@ def make_conquest(face_count: int, fans: int, dummies: int) -> Conquest:
 
 
 def enlarge_conquest(conquest: Conquest) -> Conquest:
-    """The same state with room for more nodes."""
+    """State of a conquest with room for more nodes."""
     return conquest._replace(front=enlarge_front(conquest.front))
 
 
@@ -124,7 +124,7 @@ def pause_behind(conquest: Conquest, faces: int) -> None:
 
 
 def fans_of(conquest: Conquest) -> int:
-    """Fans so far."""
+    """Fans that a conquest has met so far."""
     return int(conquest.tallies[_REAL])
 
 

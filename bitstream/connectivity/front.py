@@ -21,7 +21,7 @@ _MADE, _ALIVE, _TAILS = _BUCKETS, _BUCKETS + 1, _BUCKETS + 2
 
 
 class Front(NamedTuple):
-    """All polygons.
+    """Polygons that bound the conquered faces.
 
     Attributes
     ----------
@@ -44,5 +44,5 @@ def make_front(capacity: int) -> Front:
 
 
 def enlarge_front(front: Front) -> Front:
-    """The same front with twice the capacity."""
+    """A front with twice the capacity."""
     return Front(np.concatenate([front.nodes, np.empty_like(front.nodes)]), front.heads)

@@ -105,7 +105,7 @@ def decode_splits(data: bytes, faces: Ints, vertices: int, limits: Limits) -> Sp
 
 
 def _corners(vertices: Ints, count: int, source: Ints) -> tuple[Ints, Ints, Ints]:
-    """Of each corner at a vertex: corners before it there, given vertices there, and where these begin in order."""
+    """For each corner at a vertex: corners before it there, given vertices there, and where these begin in order."""
     order = np.argsort(vertices, kind="stable")
     ordered = vertices[order]
     starts = np.searchsorted(ordered, np.arange(count + 1))

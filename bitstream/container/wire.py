@@ -115,7 +115,7 @@ def checksum_size(frame_type: int, length: int) -> int:
 
 
 def checksum(size: int, data: bytes | bytearray | memoryview) -> bytes:
-    """Of two bytes: CRC-16 (CCITT polynomial 0x1021, initial value 0); of four: CRC-32 (as in zlib); little-endian."""
+    """Two bytes: CRC-16 (CCITT polynomial 0x1021, initial value 0); of four: CRC-32 (as in zlib); little-endian."""
     value = binascii.crc_hqx(data, 0) if size == 2 else zlib.crc32(data)
     return value.to_bytes(size, "little")
 

@@ -26,28 +26,28 @@ def free(work: float) -> None:
 
 
 def factor_cost(fronts: Fronts) -> float:
-    """Of one factorisation."""
+    """Work of one factorisation, nanoseconds."""
     return float(fronts.sums[1]) / 14.0 + 40.0 * len(fronts.rows) + 4000.0
 
 
 def solve_cost(fronts: Fronts, columns: int) -> float:
-    """Of one solution for so many columns, which are solved in panels of 32, a panel in vectors of eight."""
+    """Work of one solution for so many columns, which are solved in panels of 32, a panel in vectors of eight."""
     return 50.0 + float(fronts.sums[0]) * (0.6 * -(-columns // 32) + 0.035 * _whole(columns))
 
 
 def onorm_cost(rows: int, columns: int) -> float:
-    """Of one orthonormalisation."""
+    """Work of one orthonormalisation, nanoseconds."""
     whole = _whole(columns)
     return rows * (3.0 + 0.5 * whole + whole * whole / 29.0) + 1500.0
 
 
 def reflection_cost(rows: int, columns: int) -> float:
-    """Of one by reflections."""
+    """Work of one orthonormalisation by reflections, nanoseconds."""
     return 0.35 * rows * columns * columns + 4000.0
 
 
 def dictionary_cost(fronts: Fronts, columns: int, power: int, iterations: int) -> float:
-    """Of a dictionary whose columns power and iterations do not lose."""
+    """Work of making a dictionary whose columns power and iterations do not lose."""
     rows = len(fronts.rows)
     return ONCE * rows * _whole(columns) + iterations * (
         power * solve_cost(fronts, columns) + onorm_cost(rows, columns)
@@ -55,7 +55,7 @@ def dictionary_cost(fronts: Fronts, columns: int, power: int, iterations: int) -
 
 
 def careful_dictionary_cost(fronts: Fronts, columns: int, power: int, iterations: int) -> float:
-    """Of one that would lose them, so that they are made orthonormal after every solution; without reflections."""
+    """Work of a dictionary whose columns are made orthonormal after every solution; no reflections."""
     rounding = CARE * onorm_cost(len(fronts.rows), columns)
     return iterations * power * (solve_cost(fronts, columns) + rounding)
 

@@ -10,7 +10,7 @@ from bsm.codec.arrays import Positions
 from bsm.codec.choices import named
 from bsm.codec.denoise.filters.guided import GuidedFilter
 from bsm.codec.denoise.filters.topology import Topology
-from bsm.codec.denoise.filters.vertex_update import face_geometry
+from bsm.codec.denoise.filters.vertex_update import face_geometry, vertex_normals
 
 SIGMA_R = 0.3
 """Width of the range kernel; half or twice of it leaves 0.1 and 1.1 % more of the angle (tools.constants)."""
@@ -27,6 +27,12 @@ def coarse_positions(noisy: Positions, coarse: Positions, topology: Topology) ->
     return np.array(coarse)
 
 
+def coarse_heights(noisy: Positions, coarse: Positions, topology: Topology) -> Positions:
+    """Move the noisy vertices along the normals of the coarse mesh, as far as the coarse mesh is: none slides on it."""
+    normals = vertex_normals(face_geometry(np.ascontiguousarray(coarse), topology.faces).normals, topology.around)
+    return np.asarray(noisy + np.einsum("ij,ij->i", coarse - noisy, normals)[:, None] * normals)
+
+
 def coarse_normals(noisy: Positions, coarse: Positions, topology: Topology) -> Positions:
     """Keep the noisy positions, after one joint bilateral pass that the normals of the coarse mesh guide."""
     guide = face_geometry(np.ascontiguousarray(coarse), topology.faces).normals
@@ -40,6 +46,7 @@ def noisy_positions(noisy: Positions, coarse: Positions, topology: Topology) -> 
 
 HAND_OVERS: dict[str, HandOver] = {
     "positions": coarse_positions,
+    "heights": coarse_heights,
     "normals": coarse_normals,
     "none": noisy_positions,
 }

@@ -17,8 +17,9 @@ class DenoiseOptions:
     Parameters
     ----------
     hand_over : str
-        "positions" (the paper's: the fine step sees the coarse mesh), "normals" (the noisy mesh, after a pass guided
-        by the coarse mesh's normals) or "none" (no coarse step).
+        "positions" (the paper's: the fine step sees the coarse mesh), "heights" (the same, but no vertex slides
+        along the surface), "normals" (the noisy mesh, after a pass guided by the coarse mesh's normals) or "none" (no
+        coarse step).
     fine : str
         Name of the fine step, see `codec.denoise.filters.fine.FINE_STEPS`.
     iterations : int, optional

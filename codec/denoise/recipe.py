@@ -27,7 +27,7 @@ class Recipe:
     Attributes
     ----------
     hand_over : str
-        Name of a hand-over: "positions", "normals" or "none".
+        Name of a hand-over, see `codec.denoise.handover`.
     keep : float
         Fraction of the frequencies that the coarse mesh keeps, c over n_d; of no account without a hand-over.
     guide : str

@@ -131,6 +131,10 @@ class Rehearsal:
 
         return self._within(blend([one(step) for step in steps]), self._given)
 
+    def changed(self, steps: tuple[Step, ...]) -> float:
+        """How far the steps' result is from the mesh that is rehearsed for, in the unit of the errors."""
+        return self._goal(Reference(self._given, self._topology.faces), self.perform(steps))
+
     def _rehearse(self, guess: Positions, noisy: Positions) -> None:
         self.truth = Reference(guess, self._topology.faces)
         self.noisy = noisy
@@ -169,7 +173,9 @@ class Rehearsal:
         return steps[:1] if len(set(steps)) == 1 else steps, error
 
     def _within(self, positions: Positions, otherwise: Positions) -> Positions:
-        """Positions where the mesh is to be touched."""
+        """Positions where the mesh is to be touched, as far as it may be."""
+        if self._finding.grid is not None:
+            positions = self._finding.grid.within_cells(otherwise, positions)
         return positions if self._touched.all() else np.where(self._touched[:, None], positions, otherwise)
 
 

@@ -87,7 +87,7 @@ class Attribute:
             )
 
     def taken(self, vertices: Order, faces: Order) -> Attribute:
-        """That of the mesh whose vertex j was vertex `vertices[j]` and whose face i was face `faces[i]` here."""
+        """The attribute of a mesh whose vertex j was vertex `vertices[j]` and whose face i was face `faces[i]` here."""
         if self.indices is None:
             return replace(self, values=self.values[vertices if self.domain == "vertex" else faces])
         used, where = np.unique(self.indices[faces], return_inverse=True)

@@ -73,5 +73,5 @@ class Original:
         return _kernels.farthest_apart(self.positions, np.ascontiguousarray(decoded, np.float64))
 
     def closeness(self, decoded: Positions) -> Closeness:
-        """Both."""
+        """Farthest distance and mean angle of a decoded mesh."""
         return Closeness(self.farthest(decoded), self.angle(decoded))

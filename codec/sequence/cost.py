@@ -29,7 +29,7 @@ def loop_memory(rows: int, body: GopBody) -> float:
 
 
 def gop_cost(sites: tuple[Site, ...], vertices: int, body: GopBody) -> float:
-    """Of the levels, loops and fields of a GOP, and of its frames."""
+    """Work of the levels, loops and fields of a GOP, and of its frames."""
     columns, frames = body.components, body.frames
     fields = sum(_part_cost(site.fronts, site.width, columns) for site in sites)
     cosines = 30.0 * frames * columns if body.method is GopMethod.LEARNT else 0.0

@@ -129,7 +129,7 @@ class Part:
 
 
 class Dictionaries:
-    """Those of all parts: kept of the first ones, as many as there is room for, and made again of the others.
+    """Dictionaries of all parts: kept of the first ones, as many as there is room for, and made again of the others.
 
     Parameters
     ----------

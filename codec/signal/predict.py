@@ -46,7 +46,7 @@ class Suspended:
 
     @cached_property
     def factor(self) -> Factor:
-        """Of L + S + delta I: for the block's dictionary, and for what continues its surroundings."""
+        """Factorisation of L + S + delta I: for the block's dictionary, and for what continues its surroundings."""
         return factorize(self.laplacian, self.springs + self.shift)
 
 

@@ -70,7 +70,7 @@ class Spectrum:
         return smoothed
 
     def only(self, vertices: npt.NDArray[np.integer]) -> Spectrum:
-        """The same of some of the vertices."""
+        """Smoothing of some of the vertices only."""
         return Spectrum(self.positions[vertices], np.ascontiguousarray(self.terms[:, vertices]))
 
     def __post_init__(self) -> None:

@@ -178,7 +178,7 @@ class Assembly:
         return self._told(np.concatenate([moved, finished]), np.concatenate([self._blended[moved], done]), finished)
 
     def _told(self, changed: Indices, positions: Matrix, finished: Indices) -> Changes:
-        """Of vertices, the last of which are `finished`, and their positions, in the user's numbers and unit."""
+        """Vertices that changed, the last of them `finished`, and their positions, in the user's numbers and unit."""
         positions = self._units.back(positions)
         numbers, rows = self._numbering.spread(changed)
         self._spend(COPY * len(numbers))

@@ -95,7 +95,7 @@ class Coding(Protocol):
         """What the header has to say of it; the number of coefficients is said when all blocks are coded."""
 
     def begin(self) -> Coding:
-        """The same way in the state that a chain starts from."""
+        """This way of coding, in the state that a chain starts from."""
 
     def choose(self, ground: Ground, wanted: Matrix, sizes: DynamicSize | None) -> BlockLevels:
         """Levels that bring a block near to `wanted`, shape (n, 3), or as near as pays.

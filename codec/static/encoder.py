@@ -57,7 +57,7 @@ class Attempt:
 
     @property
     def header(self) -> Header:
-        """Its header."""
+        """The header of the stream."""
         return self.draft.header
 
     @property

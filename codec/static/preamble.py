@@ -135,7 +135,7 @@ class Prepared:
 
     @cached_property
     def positions(self) -> Matrix:
-        """Of `mesh`, in BSM units, shape (n, 3)."""
+        """Positions of `mesh` in BSM units, shape (n, 3)."""
         return self.units.into(self.mesh.positions)
 
     @cached_property
@@ -173,7 +173,7 @@ class Prepared:
 
     @property
     def size(self) -> int:
-        """n_d.
+        """Vertices of the largest block, n_d.
 
         Raises
         ------

@@ -161,7 +161,7 @@ class Structure:
 
     @property
     def graph(self) -> Graph:
-        """Of these."""
+        """The graph of the decoded faces."""
         return self.section.graph
 
     @property
@@ -288,7 +288,7 @@ class Connected:
 
     def _declared(self, packet: packets.Attribute, queue: deque[Any]) -> Stage[Any]:
         try:
-            return replace(self, declarations=self.declarations.add(packet, self._body.allowance.limits))
+            return replace(self, declarations=self.declarations.add(packet, self._body.allowance))
         except BsmError as error:
             if not self._body.tolerant:
                 raise

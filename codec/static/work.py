@@ -26,6 +26,8 @@ COPY_MEMORY = 4
 """Bytes for each row of all blocks."""
 ATTRIBUTE = 4e5
 """Of an attribute, however few values it has."""
+DECLARED = 6e5
+"""Of a map, which has few entries."""
 CODED = 800.0
 """Of a byte of coded values."""
 FRESH, MOST_FRESH = 2.0, 4e6
@@ -33,7 +35,7 @@ FRESH, MOST_FRESH = 2.0, 4e6
 
 
 def mesh_cost(vertices: int, faces: int, received: int, before: tuple[int, int] = (0, 0)) -> float:
-    """Of faces and graph; what meets at more vertices than a closed surface has was cut and is sewn together again.
+    """Work of faces and graph; what meets at more vertices than a closed surface has was cut and is sewn again.
 
     Of the vertices and faces that there were `before`, in earlier sections, there is the graph again.
     """
@@ -44,33 +46,33 @@ def mesh_cost(vertices: int, faces: int, received: int, before: tuple[int, int] 
 
 
 def order_cost(vertices: int, faces: int, received: int) -> float:
-    """Of the order that a mesh had."""
+    """Work of restoring the order that a mesh had."""
     return 500.0 * vertices + 750.0 * faces + 100.0 * received
 
 
 def partition_cost(graph: Graph, first: int, blocks: int, copies: int) -> float:
-    """Of cutting vertices from `first` on into so many parts, and of growing these to so many copies together."""
+    """Work of cutting vertices from `first` on into so many parts, and of growing these to so many copies together."""
     cut = graph.size - first + len(graph.neighbours) - int(graph.offsets[first])
     return cut * (4.0 * blocks.bit_length() + 20.0) + 2.0 * graph.size + 100.0 * blocks + 30.0 * copies
 
 
 def labels_cost(graph: Graph, received: int) -> float:
-    """Of labels of parts."""
+    """Work of decoding the labels of parts."""
     return 300.0 * graph.size + 30.0 * len(graph.neighbours) + 100.0 * received
 
 
 def block_cost(rows: int, edges: int, levels: int) -> float:
-    """Of all of a block but its dictionary."""
+    """Work of a block, except its dictionary."""
     return BLOCK + ROW * rows + LOOK * edges + LEVEL * levels
 
 
 def ground_cost(laplacian: Laplacian, columns: int) -> float:
-    """Of extending what is known around a block, and of putting its coefficients on that."""
+    """Work of extending what is known around a block, and of putting its coefficients on that."""
     return factor_cost(laplacian.fronts) + solve_cost(laplacian.fronts, 3) + 1.5 * len(laplacian.diagonal) * columns
 
 
 def chain_cost(vertices: int) -> float:
-    """Of beginning a chain that knows where vertices are."""
+    """Work of beginning a chain that knows where vertices are."""
     return min(FRESH * vertices, MOST_FRESH)
 
 
@@ -95,32 +97,32 @@ def block_memory(laplacian: Laplacian, columns: int) -> int:
 
 
 def grid_cost(vertices: int, faces: int) -> float:
-    """Of a grid, before its bytes are counted."""
+    """Work of a grid, before its bytes are counted."""
     return 1650.0 * vertices + 150.0 * faces
 
 
 def light_cost(vertices: int, faces: int) -> float:
-    """Of a light grid, before its bytes are counted."""
+    """Work of a light grid, before its bytes are counted."""
     return 200.0 * vertices + 40.0 * faces
 
 
 def layer_cost(vertices: int, faces: int, axes: int) -> float:
-    """Of a layer of refinement or an attribute, before its bytes are counted."""
+    """Work of a layer of refinement or an attribute, before its bytes are counted."""
     return vertices * (400.0 + 230.0 * axes) + 100.0 * faces
 
 
 def grid_chunk_cost(received: int) -> float:
-    """Of a frame of a grid."""
+    """Work of a frame of a grid."""
     return 3.5e4 + CODED * received
 
 
 def light_chunk_cost(received: int) -> float:
-    """Of a frame of a light grid."""
+    """Work of a frame of a light grid."""
     return 3.5e4 + 120.0 * received
 
 
 def chunk_cost(received: int) -> float:
-    """Of a frame of a layer or of an attribute."""
+    """Work of a frame of a layer or of an attribute."""
     return 8e4 + CODED * received
 
 
@@ -134,6 +136,26 @@ def layer_memory(vertices: int, faces: int, axes: int) -> float:
     return 16.0 * vertices + levels_charge(vertices, faces, axes)
 
 
+def declaration_cost(doubts: bytes) -> float:
+    """Of a declaration of an attribute."""
+    return DECLARED + 30.0 * len(doubts)
+
+
+def seams_kept(vertices: int, faces: int, *, first: bool) -> float:
+    """Bytes that stay of the seams of one more attribute; the first brings the corners of all."""
+    return 3.0 * faces + (8.0 * vertices + 36.0 * faces if first else 0.0)
+
+
+def seams_memory(vertices: int, faces: int) -> float:
+    """Bytes for decoding the seams of an attribute, besides those that stay."""
+    return 16.0 * vertices + 36.0 * faces
+
+
+def seams_cost(vertices: int, faces: int, received: int) -> float:
+    """Of the seams of an attribute, and of joining corners between them, which is done twice."""
+    return 5e4 + 10.0 * vertices + 120.0 * faces + CODED * received
+
+
 def values_memory(values: int, faces: int, components: int) -> float:
     """Bytes that an attribute is kept in: its values as they come and as the user has them, and where they belong."""
     return 16.0 * components * values + 12.0 * values + 12.0 * faces
@@ -145,7 +167,7 @@ def recomputing_memory(values: int, faces: int) -> float:
 
 
 def values_cost(values: int, faces: int) -> float:
-    """Of arranging the values of an attribute, or of making normals again."""
+    """Work of arranging the values of an attribute, or of making normals again."""
     return ATTRIBUTE + 150.0 * values + 60.0 * faces
 
 
@@ -175,6 +197,11 @@ class Allowance:
     def limits(self) -> Limits:
         """What the caller grants."""
         return self._limits
+
+    @property
+    def vertices(self) -> int:
+        """Those that the stream really has."""
+        return self._vertices
 
     @property
     def spent(self) -> float:

@@ -121,23 +121,20 @@ def encode_many(
         If nothing can be begun: wrong options, outputs that would replace each other, no cluster, ...
     """
     from bsm.batch import plan
-    from bsm.cli import command_parser
-    from bsm.commands.encode import encode_one, one_thread_each
     from bsm.console import Console
+    from bsm.encoding.job import EncodeJob
+    from bsm.encoding.mesh import encode_one
+    from bsm.farm.jobs import Run
     from bsm.farm.run import run_many
 
     keywords_to.encode_options(**keywords)
-    args = command_parser("encode").parse_command(["sources"])
-    wishes = {"jobs": jobs, "dask": dask, "report": report and os.fspath(report), "resume": resume, "force": overwrite}
-    kinds = {name: f"target_{kind}" for name, kind in keywords_to.TARGETS.items()}
-    given = {kinds.get(name, name): value for name, value in keywords.items()}
-    meta = [f"{name}={value}" for name, value in (metadata or {}).items()]
-    for name, value in {**wishes, **given, "meta": meta, "quiet": True}.items():
-        setattr(args, name, value)
+    run = Run(jobs=jobs, dask=dask, report=os.fspath(report) if report else None, resume=resume)
     folder = None if target is None else os.fspath(target).rstrip("/") + "/"
     planned = plan([os.fspath(source) for source in sources], folder, lambda _: ".bsm")
-    one_thread_each(args, planned)
-    return run_many(args, Console(quiet=True), encode_one, planned)
+    threads = keywords.pop("threads", 1 if run.side_by_side and len(planned) > 1 else None)
+    told = metadata or {}
+    job = EncodeJob(force=overwrite, quiet=True, metadata=told, wishes=keywords, threads=threads, compared=False)
+    return run_many(run, job, Console(quiet=True), encode_one, planned)
 
 
 def decode(stream: Source, *, limits: Limits = DEFAULT_LIMITS, threads: int | None = None) -> TriangleMesh:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import argparse
 import os
 import time
 from collections.abc import Callable, Sequence
@@ -14,35 +13,15 @@ from bsm.console import Console, print_json
 from bsm.exits import about, tell
 from bsm.farm.jobs import Facts as Facts
 from bsm.farm.jobs import Job as Job
-from bsm.farm.jobs import Outcome, Work
+from bsm.farm.jobs import Outcome, Run, Task, Work
 from bsm.farm.report import table
-from bsm.farm.run import run_many, task
+from bsm.farm.run import run_many, task_of
 from bsm.files.naming import default_output, output_inside
 from bsm.files.remote import expanded, is_url, without_scheme_of_files
 from bsm.files.state import files_behind
 from bsm.files.state import size_of as size_of
 
 _STANDARD = {"/dev/stdin": "-", "/dev/fd/0": "-", "/dev/stdout": "-", "/dev/fd/1": "-"}
-
-
-def add_inputs(parser: argparse.ArgumentParser, about_them: str, output: str | None = None) -> None:
-    """Declare inputs, how many are worked on at a time, and, where the command writes, its output."""
-    parser.add_argument("inputs", metavar="IN", nargs="+", help=f"{about_them}; URLs as well (s3://bucket/name)")
-    if output:
-        parser.add_argument("-o", "--output", metavar="OUT", help=output)
-    parser.add_argument(
-        "-j", "--jobs", type=int, default=1, metavar="N", help="inputs to work on at a time, 0: one per core (1)"
-    )
-    parser.add_argument("--json", action="store_true", help="print the result as JSON")
-    many = parser.add_argument_group("many inputs")
-    many.add_argument("--dask", metavar="ADDRESS", help="work on the Dask cluster of this scheduler")
-    if output:
-        many.add_argument("--report", metavar="FILE.json", help="write what came of each input, print a table")
-        many.add_argument(
-            "--resume", action="store_true", help="go on from --report: leave what is whole and as it would be made"
-        )
-    else:
-        parser.set_defaults(report=None, resume=False)
 
 
 def plan(
@@ -106,7 +85,7 @@ def refuse_collisions(inputs: Sequence[str], outputs: Sequence[str]) -> None:
 
 
 def _identity(path: str) -> tuple[int, int] | str | None:
-    """The same for the same file under whatever name; None: there is none."""
+    """What is equal for one file under all its names; None: there is no such file."""
     if is_url(path):
         return path
     with suppress(OSError):
@@ -116,7 +95,8 @@ def _identity(path: str) -> tuple[int, int] | str | None:
 
 
 def run_jobs(
-    args: argparse.Namespace,
+    run: Run,
+    asked: Task,
     console: Console,
     work: Work,
     jobs: Sequence[Job],
@@ -128,6 +108,8 @@ def run_jobs(
 
     Parameters
     ----------
+    run, asked, work, jobs
+        See `bsm.farm.run.run_many`.
     show : callable, optional
         Words the facts of one input for standard output, where they are the result.
 
@@ -136,10 +118,10 @@ def run_jobs(
     int
         The exit code: that of the first failure.
     """
-    if len(jobs) == 1 and args.dask is None and args.report is None and not args.resume:
+    if len(jobs) == 1 and run.dask is None and run.report is None and not run.resume:
         with about(jobs[0].input):
-            facts = work(task(args, jobs[0]), console)
-        if args.json:
+            facts = work(task_of(asked, jobs[0]), console)
+        if run.json:
             print_json(facts)
         elif show:
             print(show(facts))
@@ -151,15 +133,15 @@ def run_jobs(
             console.note(line)
         if outcome.error is not None:
             tell(outcome.error)
-        elif show and not args.json:
+        elif show and not run.json:
             print(f"{job.input}:\n{show(outcome.facts)}\n", flush=True)
 
-    done = run_many(args, console, work, jobs, hear)
-    if args.report is not None:
+    done = run_many(run, asked, console, work, jobs, hear)
+    if run.report is not None:
         for line in table(done):
             console.note(line)
     console.note(_summary(done, time.perf_counter() - begin))
-    if args.json:
+    if run.json:
         print_json({"files": done})
     return next((facts["exit"] for facts in done if "error" in facts), 0)
 

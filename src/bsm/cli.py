@@ -25,7 +25,6 @@ COMMANDS = {
     "demo": "compress a sample and show what became of it",
     "curve": "measure rate against error and draw it",
     "bench": "measure speed against exact solvers and Draco",
-    "paper": "measure the tables and figures of the paper again",
     "completion": "print what makes a shell complete commands and options",
 }
 _WITHOUT_FILES = ("info", "compare", "verify", "bench", "completion", "curve")
@@ -63,7 +62,6 @@ def program_parser(*, complete: bool = False) -> Parser:
         prog="bsm",
         description="Compress triangle meshes to a stream that is decoded block by block.",
         epilog=f"exit codes (of many inputs, that of the first failure):\n{exit_table()}",
-        formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument("--version", action="store_true", help="show the version and exit")
     commands = parser.add_subparsers(metavar="COMMAND")
@@ -105,9 +103,3 @@ def _complete(parser: Parser, name: str) -> Parser:
     module.add_arguments(parser)
     parser.set_defaults(run=module.run)
     return parser
-
-
-if __name__ == "__main__":
-    from bsm.__main__ import run
-
-    run()

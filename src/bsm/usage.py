@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 import difflib
 from collections.abc import Iterable, Iterator, Sequence
-from typing import NoReturn
+from typing import Any, NoReturn
 
 FILES = ("IN", "OUT", "FILE", "FILE.npy", "FILE.json", "REPORT.html", "MESH", "FOLDER", "A", "B")
 """What files and folders are called in the help."""
@@ -19,8 +19,39 @@ def suggestion(word: str, known: Iterable[str]) -> str:
     return f"; did you mean {found[0]}?" if found else ""
 
 
+class Formatter(argparse.RawDescriptionHelpFormatter):
+    """Help of one line where one is enough."""
+
+    def __init__(self, prog: str) -> None:
+        super().__init__(prog, max_help_position=27)
+
+    def _format_action_invocation(self, action: argparse.Action) -> str:
+        """The value is named once: `-o, --output OUT`."""
+        if not action.option_strings or action.nargs == 0:
+            return super()._format_action_invocation(action)
+        value = self._format_args(action, action.dest.upper())
+        return f"{', '.join(action.option_strings)} {value}"
+
+
 class Parser(argparse.ArgumentParser):
     """An argument parser that is short about errors and takes options anywhere between inputs."""
+
+    def __init__(self, **keywords: Any) -> None:
+        super().__init__(**{"formatter_class": Formatter, **keywords})
+
+    def format_usage(self) -> str:
+        """The usage in one line."""
+        return f"usage: {self.prog}{self._inputs()}\n"
+
+    def format_help(self) -> str:
+        """The usage in one line, then all options."""
+        self.usage = f"{self.prog}{self._inputs()}"
+        return super().format_help()
+
+    def _inputs(self) -> str:
+        inputs = [action for action in self._actions if not action.option_strings and action.nargs != argparse.PARSER]
+        names = "".join(f" {action.metavar}{'...' if action.nargs in ('+', '*') else ''}" for action in inputs)
+        return f"{names} [options]" if inputs else " COMMAND ..."
 
     def parse_command(self, words: Sequence[str]) -> argparse.Namespace:
         """Parse the words behind a command.
@@ -43,10 +74,7 @@ class Parser(argparse.ArgumentParser):
 
     def error(self, message: str) -> NoReturn:
         """Say what is wrong, and one line of usage; exit with code 2."""
-        inputs = [action for action in self._actions if not action.option_strings and action.nargs != argparse.PARSER]
-        names = "".join(f" {action.metavar}{'...' if action.nargs in ('+', '*') else ''}" for action in inputs)
-        what = f"{names} [options]" if inputs else " COMMAND ..."
-        self.exit(2, f"{self.prog}: {message}\nusage: {self.prog}{what}; {self.prog} --help tells more\n")
+        self.exit(2, f"{self.prog}: {message}\nusage: {self.prog}{self._inputs()}; {self.prog} --help tells more\n")
 
     def file_arguments(self) -> Iterator[argparse.Action]:
         """All that are names of files, those of commands included."""

@@ -51,8 +51,8 @@ def test_a_mesh_of_trimesh(mesh, stream):
 
 def test_options_are_those_of_the_command_line(mesh, tmp_path):
     bsm.save(mesh, tmp_path / "a.ply")
-    given = ["--theta", "4", "--preset", "small", "--block-size", "150", "--no-predict"]
-    command = [sys.executable, "-m", "bsm.cli", "encode", str(tmp_path / "a.ply"), "-q", *given]
+    given = ["--theta", "4", "--preset", "small", "--set", "block-size=150", "--set", "predict=no"]
+    command = [sys.executable, "-m", "bsm", "encode", str(tmp_path / "a.ply"), "-q", *given]
     subprocess.run(command, cwd=ROOT, check=True, timeout=120)
     keywords = {"theta": 4, "preset": "small", "block_size": 150, "predict": False}
     assert bsm.encode(tmp_path / "a.ply", **keywords) == (tmp_path / "a.bsm").read_bytes()

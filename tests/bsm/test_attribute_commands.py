@@ -91,7 +91,7 @@ def test_the_shape_alone_brings_no_images():
 def test_materials_that_are_left_out_are_named(tmp_path, capsys):
     bsm.save(painted(), tmp_path / "a.npz")
     words = ("encode", tmp_path / "a.npz", "-o", tmp_path / "a.bsm", "-f")
-    assert "left out: materials, images" in notes(capsys, *words, "--no-attributes")
+    assert "left out: materials, images" in notes(capsys, *words, "--attribute", "*=none")
     assert "left out: materials, images" not in notes(capsys, *words)
 
 

@@ -21,7 +21,7 @@ from bsm.files.mesh import read_mesh, write_mesh
 from tests.bsm import program
 
 ROOT = program.ROOT
-SMALL = ["--block-size", "150", "--threads", "1"]
+SMALL = ["--set", "block-size=150", "--threads", "1"]
 bsm = partial(program.bsm, text=True)
 
 
@@ -70,7 +70,8 @@ def test_there_and_back(meshes, tmp_path, jobs):
 
 def test_processes_write_the_same_bytes(meshes, streams, tmp_path):
     assert (
-        bsm("encode", "-q", *sorted(meshes.iterdir()), "-j", 3, "-o", tmp_path, "--block-size", "150").returncode == 0
+        bsm("encode", "-q", *sorted(meshes.iterdir()), "-j", 3, "-o", tmp_path, "--set", "block-size=150").returncode
+        == 0
     )
     assert names(tmp_path) == names(streams)
     assert all((tmp_path / name).read_bytes() == (streams / name).read_bytes() for name in names(tmp_path))
@@ -174,7 +175,10 @@ def test_a_signal_leaves_no_half_file_and_no_process(number, code, jobs, tmp_pat
     output = tmp_path / "out"
     command = [sys.executable, "-m", "bsm", "encode", *sorted(tmp_path.iterdir()), "-o", f"{output}/", "-j", jobs]
     with subprocess.Popen(
-        [*command, "--block-size", "300", "--keep", "1"], cwd=ROOT, stderr=subprocess.PIPE, start_new_session=True
+        [*command, "--set", "block-size=300", "--set", "keep=1"],
+        cwd=ROOT,
+        stderr=subprocess.PIPE,
+        start_new_session=True,
     ) as process:
         while not (output.exists() and list(output.iterdir())):
             assert process.poll() is None
@@ -206,7 +210,7 @@ run()
 
 
 @pytest.mark.parametrize(
-    "module", ["bsm.cli", "argparse", "bsm.exits", "bsm.commands.encode", "numpy", "codec", "msgpack"]
+    "module", ["bsm.cli", "argparse", "bsm.exits", "bsm.commands.encode", "numpy", "bsm.codec", "msgpack"]
 )
 def test_an_interrupt_in_the_first_moments(module, meshes):
     """Wherever it hits the imports, it is an interrupt and no traceback."""
@@ -225,7 +229,7 @@ def test_an_interrupt_in_the_first_moments(module, meshes):
 
 def shell(script, *arguments):
     """Run a script of bash, whose $B is the program and $S options for small meshes."""
-    environment = {**os.environ, "B": f"{sys.executable} -m bsm", "S": " ".join(SMALL), "PYTHONPATH": str(ROOT)}
+    environment = {**os.environ, "B": f"{sys.executable} -m bsm", "S": " ".join(SMALL)}
     return subprocess.run(
         ["bash", "-c", f"set -eo pipefail; {script}", "bash", *map(str, arguments)],
         capture_output=True,
@@ -283,7 +287,7 @@ def on_a_terminal(*arguments):
 
 def test_one_bar_for_a_search_with_the_time_left(tmp_path):
     write_mesh(tmp_path / "a.npz", knot(200_000))
-    words = ["encode", tmp_path / "a.npz", "-o", tmp_path / "a.bsm", "--keep", "0.3", "--threads", "1"]
+    words = ["encode", tmp_path / "a.npz", "-o", tmp_path / "a.bsm", "--set", "keep=0.3", "--threads", "1"]
     shown = on_a_terminal(*words, "--theta", "4")
     assert re.search(r"encoding, attempt [2-9]", shown) and "<00:" in shown and "blocks/s" in shown
     *frames, result = shown.replace("\r\n", "\n").rstrip("\n").split("\r")
@@ -298,6 +302,6 @@ def test_a_bar_for_sequences(tmp_path):
     positions, faces = mesh.positions, mesh.faces
     frames = np.array([positions * (1 + 0.1 * np.sin(t / 3)) for t in range(12)])
     np.savez(tmp_path / "a.npz", positions=frames, faces=faces)
-    words = ["encode", tmp_path / "a.npz", "-o", tmp_path / "a.bsm", "--keep", "1", "--block-size", "200"]
+    words = ["encode", tmp_path / "a.npz", "-o", tmp_path / "a.bsm", "--set", "keep=1", "--set", "block-size=200"]
     shown = on_a_terminal(*words, "--threads", "1")
     assert "encoding:" in shown and "blocks/s" in shown and "KG error" in shown

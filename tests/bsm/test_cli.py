@@ -12,14 +12,14 @@ import pytest
 
 from bsm.cli import COMMANDS, main
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.commands.encode_options import ENCODE_FLAGS
+from bsm.commands.encode_options import ENCODE_FLAGS, SETTINGS
 from bsm.evaluation.sample import knot
 from bsm.exits import EXITS
 from bsm.files.mesh import read_mesh, write_mesh
 from tests.bsm.program import ROOT, bsm
 from tests.shapes import torus
 
-SMALL = ["--block-size", "150", "--threads", "1", "--step", "0.004"]
+SMALL = ["--set", "block-size=150", "--threads", "1", "--set", "step=0.004"]
 
 
 @pytest.fixture(scope="module")
@@ -61,7 +61,7 @@ def test_encode_and_decode_name_their_outputs(folder, tmp_path, capsys):
 
 
 def test_json_of_encode_decode_and_verify(folder, tmp_path, capsys, mesh):
-    result = run_json(capsys, "encode", folder / "sample.ply", "-o", tmp_path / "a.bsm", "--keep", "0.2", *SMALL)
+    result = run_json(capsys, "encode", folder / "sample.ply", "-o", tmp_path / "a.bsm", "--set", "keep=0.2", *SMALL)
     assert (result["vertices"], result["faces"]) == (len(mesh.positions), len(mesh.faces))
     assert result["bytes"] == (tmp_path / "a.bsm").stat().st_size
     assert result["bpv_total"] == pytest.approx(8 * result["bytes"] / result["vertices"])
@@ -89,8 +89,8 @@ def test_info_adds_up(folder, capsys, mesh):
     [
         (["--grid", "8"], "positions on a grid of ", "blocks"),
         (["--quick"], "positions on a grid of ", "blocks"),
-        (["--step", "0.004"], " blocks of ", "paper"),
-        (["--bits", "12"], " by the paper's formula\n", "refinement"),
+        (["--set", "step=0.004"], " blocks of ", "paper"),
+        (["--set", "bits=12"], " by the paper's formula\n", "refinement"),
     ],
 )
 def test_info_tells_how_positions_are_coded(folder, tmp_path, capsys, options, expected, absent):
@@ -101,7 +101,7 @@ def test_info_tells_how_positions_are_coded(folder, tmp_path, capsys, options, e
 
 
 def test_the_papers_rate_counts_every_coefficient(folder, tmp_path, capsys):
-    options = ["--bits", "12", "--coefficients", "15", *SMALL]
+    options = ["--set", "bits=12", "--set", "coefficients=15", *SMALL]
     main(["encode", str(folder / "sample.ply"), "-q", "-o", str(tmp_path / "a.bsm"), *options])
     info = run_json(capsys, "info", tmp_path / "a.bsm")
     assert info["coefficients"] == [15] * info["blocks"]
@@ -192,7 +192,7 @@ def test_pipes(folder, mesh):
 
 def test_the_demo_draws_a_picture(tmp_path, capsys):
     folder = tmp_path / "new" / "folder"
-    result = run_json(capsys, "demo", "-o", folder, "--vertices", "900", *SMALL)
+    result = run_json(capsys, "demo", "-o", folder, "--vertices", "900")
     assert {Path(path).name for path in result["written"]} == {"bsm_demo.bsm", "bsm_demo.png"}
     assert (folder / "bsm_demo.png").read_bytes().startswith(b"\x89PNG")
     assert main(["verify", str(folder / "bsm_demo.bsm"), "-q"]) == 0
@@ -201,13 +201,15 @@ def test_the_demo_draws_a_picture(tmp_path, capsys):
 
 def test_the_demo_works_without_matplotlib(tmp_path, capsys, monkeypatch):
     monkeypatch.setitem(sys.modules, "matplotlib.figure", None)
-    result = run_json(capsys, "demo", "-o", tmp_path, "--vertices", "900", *SMALL)
+    result = run_json(capsys, "demo", "-o", tmp_path, "--vertices", "900")
     assert [Path(path).name for path in result["written"]] == ["bsm_demo.bsm"]
 
 
 def test_what_is_left_of_a_damaged_stream_is_written(tmp_path, capsys):
-    main(["demo", "-o", str(tmp_path), "--vertices", "900", *SMALL, "--seed", "independent", "-q"])
-    data = bytearray((tmp_path / "bsm_demo.bsm").read_bytes())
+    write_mesh(tmp_path / "whole.ply", torus(30, 30))
+    whole = tmp_path / "whole.bsm"
+    main(["encode", str(tmp_path / "whole.ply"), "-q", *SMALL, "--set", "key_interval=1"])
+    data = bytearray(whole.read_bytes())
     data[-60] ^= 0xFF
     broken, output = tmp_path / "broken.bsm", tmp_path / "left.ply"
     broken.write_bytes(data)
@@ -240,8 +242,8 @@ def test_an_interrupt_that_something_wrapped_is_an_interrupt(monkeypatch, capsys
 
 FAILURES = {
     "unknown option": (["encode", "{folder}/sample.ply", "--no-such"], 2),
-    "value out of range": (["encode", "{folder}/sample.ply", "-o", "{tmp}/a.bsm", "--keep", "7"], 2),
-    "no word for it": (["encode", "{folder}/sample.ply", "-o", "{tmp}/a.bsm", "--basis", "dct"], 2),
+    "value out of range": (["encode", "{folder}/sample.ply", "-o", "{tmp}/a.bsm", "--set", "keep=7"], 2),
+    "no word for it": (["encode", "{folder}/sample.ply", "-o", "{tmp}/a.bsm", "--set", "partition=dct"], 2),
     "unknown output format": (["decode", "{folder}/sample.bsm", "-o", "{tmp}/a.xyz"], 2),
     "json into a pipe": (["encode", "{folder}/sample.ply", "-o", "-", "--json"], 2),
     "output is the input": (["encode", "{folder}/sample.bsm"], 2),
@@ -404,11 +406,11 @@ def test_the_flags_are_fields_and_show_their_defaults():
 
     defaults = {field.name: field.default for field in fields(EncodeOptions)}
     assert MISSING not in defaults.values()
-    for flag in ENCODE_FLAGS:
+    for flag in (*ENCODE_FLAGS, *SETTINGS):
         default = defaults[flag.field]
         shown = flag.help.partition("(default")[2]
         if isinstance(default, bool):
-            assert ("yes" if default else "no") in shown
+            assert not default or "yes" in shown
         elif default is not None:
             assert f"{default}" in shown, flag.field
 

@@ -246,7 +246,7 @@ def test_noise_is_as_strong_as_asked_for_and_seeded(tmp_path, kind):
         assert ran.returncode == 0, ran.stderr
     positions = [read_mesh(path).mesh.positions for path in (first, again, other)]
     assert (positions[0] == positions[1]).all() and (positions[0] != positions[2]).any()
-    share = {"isotropic": 3.0, "impulsive": 0.5, "part": 0.5}.get(kind, 1.0)
+    share = {"isotropic": 3.0, "rounded": 3.0, "impulsive": 0.5, "part": 0.5}.get(kind, 1.0)
     measured = rms_over_edge(CLEAN.positions, positions[2], CLEAN.faces)
     assert measured == pytest.approx(0.3 * share**0.5, rel=0.1)
     assert json.loads(ran.stdout)["rms_over_edge"] == pytest.approx(measured)

@@ -15,10 +15,10 @@ import pytest
 
 import bsm
 from bsm.bitstream.errors import ArgumentError, DependencyError, FormatError, OptionError
-from bsm.cli import command_parser, main
+from bsm.cli import main
 from bsm.console import Console
 from bsm.evaluation.sample import knot
-from bsm.farm.jobs import Job
+from bsm.farm.jobs import Job, Run, Task
 from bsm.farm.run import run_many
 from bsm.files.mesh import read_mesh, write_mesh
 from bsm.files.output import open_output
@@ -120,7 +120,7 @@ def test_a_cluster_goes_on_behind_failures_and_back(cluster, sources, tmp_path):
 def test_a_job_that_kills_every_worker_has_failed_alone(cluster, tmp_path):
     jobs = [Job(f"/{name}", str(tmp_path / name)) for name in ("a", "always", "b", "c")]
     cluster.scheduler.allowed_failures = 0
-    done = run_many(arguments(dask=cluster.scheduler_address), Console(quiet=True), deadly, jobs)
+    done = run_many(Run(dask=cluster.scheduler_address), Task(quiet=True), Console(quiet=True), deadly, jobs)
     cluster.scheduler.allowed_failures = 3
     assert [facts.get("exit") for facts in done] == [None, 6, None, None]
     assert {"a", "b", "c"} == {name for name in contents(tmp_path) if "always" not in name}
@@ -143,7 +143,7 @@ def test_no_scheduler(sources, tmp_path, capsys):
 def deadly(args, console):
     """Work that kills its process, always or once; or is at fault."""
     mark = Path(args.output).with_suffix(".mark")
-    with open_output(args.output, overwrite=args.output in args.replaceable) as file:
+    with open_output(args.output, overwrite=args.may_replace(args.output)) as file:
         file.write(b"begun")
         if "always" in args.input or ("once" in args.input and not mark.exists()):
             mark.touch()
@@ -153,16 +153,12 @@ def deadly(args, console):
     return {"input": args.input, "output": args.output}
 
 
-def arguments(**more):
-    args = command_parser("encode").parse_command(["x"])
-    return type(args)(**{**vars(args), "quiet": True, **more})
-
-
 def test_a_process_that_dies_takes_only_its_own_job_along(tmp_path):
     names = ["a", "b", "once", "c", "fault", "always", "d", "e"]
     jobs = [Job(name, str(tmp_path / name)) for name in names]
     heard = []
-    done = run_many(arguments(jobs=2), Console(quiet=True), deadly, jobs, lambda job, _: heard.append(job.input))
+    quiet = Task(quiet=True), Console(quiet=True)
+    done = run_many(Run(jobs=2), *quiet, deadly, jobs, lambda job, _: heard.append(job.input))
     assert heard == names == [facts["input"] for facts in done]
     assert {facts["input"]: facts["exit"] for facts in done if "error" in facts} == {"fault": 1, "always": 6}
     assert "KeyError" in done[4]["error"] and "please report" in done[4]["error"]

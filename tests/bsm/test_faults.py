@@ -45,7 +45,7 @@ def said(done):
 @pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGINT, signal.SIGKILL])
 def test_killed_in_mid_encode(number, folder, tmp_path):
     output = tmp_path / "a.bsm"
-    command = [*BSM, "encode", folder / "large.ply", "-o", output, "--block-size", "300", "--keep", "1"]
+    command = [*BSM, "encode", folder / "large.ply", "-o", output, "--set", "block-size=300", "--set", "keep=1"]
     with subprocess.Popen(command, cwd=ROOT, stderr=subprocess.PIPE) as process:
         while not list(tmp_path.iterdir()):  # the temporary file is there from the first block on
             assert process.poll() is None

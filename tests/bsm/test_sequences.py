@@ -136,7 +136,7 @@ def test_targets(npz, tmp_path, capsys, flag, name, value):
     assert result(capsys, "compare", npz, tmp_path / "a.bsm")[name] <= value * 1.001
 
 
-@pytest.mark.parametrize("words", [["--kg", 1, "--bpvf", 2], ["--smoothing", 1], ["--bpv", 2], ["--gop", 0]])
+@pytest.mark.parametrize("words", [["--kg", 1, "--bpvf", 2], ["--set", "smoothing=1"], ["--bpv", 2], ["--gop", 0]])
 def test_options_that_do_not_go_with_a_sequence(npz, tmp_path, words):
     assert bsm("encode", npz, "-o", tmp_path / "a.bsm", *words) != 0
     assert not (tmp_path / "a.bsm").exists()

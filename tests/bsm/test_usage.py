@@ -19,7 +19,7 @@ from tests.bsm.test_batch import bsm
         (["encdoe"], "bsm: there is no command encdoe; did you mean encode?"),
         (["quux"], "bsm: there is no command quux"),
         (["encode", "a.ply", "--tehta", "5"], "bsm encode: there is no option --tehta; did you mean --theta?"),
-        (["encode", "a.ply", "--kep=5"], "bsm encode: there is no option --kep; did you mean --keep?"),
+        (["encode", "a.ply", "--qick"], "bsm encode: there is no option --qick; did you mean --quick?"),
         (["encode", "--theta", "x", "a.ply"], "bsm encode: argument --theta: invalid float value: 'x'"),
         (["encode"], "bsm encode: the following arguments are required: IN"),
         (["compare", "a", "b", "c"], "bsm compare: c: one input too many"),

@@ -28,7 +28,7 @@ def tool(name, *arguments):
 
 def test_boundary(tmp_path):
     write_mesh(tmp_path / "torus.npz", torus())
-    done = tool("boundary", tmp_path / "torus.npz", "--block-size", "150", "--json", "-o", tmp_path / "box")
+    done = tool("boundary", tmp_path / "torus.npz", "--set", "block-size=150", "--json", "-o", tmp_path / "box")
     rows = json.loads(done.stdout)["rows"]
     assert [(row["case"], row["where"]) for row in rows] == [
         (case, where)

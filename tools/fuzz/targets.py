@@ -84,7 +84,7 @@ def reader(data: bytes) -> None:
 
 
 def tolerant_reader(data: bytes) -> None:
-    """The same in tolerant mode; what the strict reader accepts, it reads alike."""
+    """Attack the reader in tolerant mode; what the strict reader accepts, it reads alike."""
     found = _drain(TolerantReader(LIMITS), data, len(data) // 3)
     _expect(found == _drain(Reader(LIMITS), data, 0), "the tolerant reader reads something else")
 
@@ -130,7 +130,7 @@ def connectivity(data: bytes) -> None:
 
 
 def pieces(data: bytes) -> None:
-    """The same in three pieces; the first numbers tell how long the first two are, and how many faces they make."""
+    """Attack the decoder of faces in pieces; the first numbers tell the lengths of two, and the faces of all."""
     vertices, faces, first, more, one, two = (int.from_bytes(data[at : at + 2], "little") for at in range(0, 12, 2))
     cuts = 1 + first % 1000, 2 + first % 1000 + more % 1000
     ends, begin, before = (*cuts, cuts[1] + 1 + faces % 2000), 12, 0
@@ -184,7 +184,7 @@ def grid(data: bytes) -> None:
 
 
 def light(data: bytes) -> None:
-    """The same by the small model."""
+    """Attack the decoder of light grids."""
     _on_grid(data, LightDecoder(_SOUP, 46, _LARGEST))
 
 

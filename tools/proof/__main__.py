@@ -50,7 +50,7 @@ class Part:
 
     @property
     def name(self) -> str:
-        """Of its file."""
+        """Name of its file."""
         return f"{self.suite}-{self.number}-{self.size}"
 
 
@@ -140,7 +140,7 @@ def run(part: Part, args: argparse.Namespace, findings: Path) -> Tally:
 
 
 def digest() -> str:
-    """Of all sources that the proof is about."""
+    """A digest of all sources that the proof is about."""
     total = hashlib.sha256()
     for name in WATCHED:
         for path in sorted((ROOT / name).rglob("*")):

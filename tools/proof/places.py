@@ -56,7 +56,7 @@ class Place:
 
 
 def processors(short: bool = False) -> tuple[Place, ...]:
-    """Those that the processor at hand can stand in for: a level of x86-64, and what OpenBLAS calls one of it.
+    """Processors that the one at hand can stand in for: a level of x86-64, and what OpenBLAS calls one of it.
 
     `short` leaves the least and the greatest alone.
     """

@@ -156,7 +156,7 @@ def encodes(shard: Shard, number: int, size: int) -> None:
 
 
 def surroundings(shard: Shard, number: int, size: int) -> None:
-    """The same in one environment."""
+    """Encode and decode in one environment."""
     _elsewhere(shard, size, environments()[number : number + 1])
 
 

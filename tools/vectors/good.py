@@ -52,7 +52,7 @@ def _coarser() -> bytes:
 
 
 def _compressed() -> bytes:
-    """The same few levels in every block."""
+    """A stream with the same few levels in every block."""
     stream = encode(_small(), EncodeOptions(**{**vars(BASE), "bits": 16, "coefficients": 21}))
     frames = frames_of(stream)
     values = np.full(63, 1 << 15)

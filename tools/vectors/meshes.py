@@ -39,7 +39,7 @@ def tetrahedron() -> TriangleMesh:
 
 
 def triangle() -> TriangleMesh:
-    """One face."""
+    """A mesh of one face."""
     return TriangleMesh(np.array([[0, 0, 0], [4, 0, 0], [0, 3, 0]], float), np.array([[0, 1, 2]]))
 
 
@@ -81,7 +81,7 @@ def hub() -> TriangleMesh:
 
 
 def shuffled(mesh: TriangleMesh) -> TriangleMesh:
-    """The same mesh with vertices, faces and first corners in another order."""
+    """A mesh with its vertices, faces and first corners in another order."""
     n, m = len(mesh.positions), len(mesh.faces)
     number = np.arange(n) * 7 % n if n % 7 else np.arange(n)[::-1]
     positions = np.empty_like(mesh.positions)

@@ -27,7 +27,7 @@ Arrays = dict[str, npt.NDArray[Any]]
 
 @dataclass(frozen=True)
 class Vector:
-    """One stream.
+    """One stream of the test vectors.
 
     Parameters
     ----------
@@ -131,7 +131,7 @@ def distance(positions: npt.NDArray[Any], expected: npt.NDArray[Any], scale: flo
 
 
 def read_manifest() -> list[Vector]:
-    """All vectors.
+    """All vectors of the manifest.
 
     Raises
     ------

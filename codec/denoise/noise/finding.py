@@ -8,14 +8,16 @@ noise in all these ways is taken for noise: the answer for anything else is "non
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
+import numpy.typing as npt
 
 from bsm.codec.arrays import Positions
 from bsm.codec.denoise.filters.topology import Mask
 from bsm.codec.denoise.filters.vertex_update import Floats
 from bsm.codec.denoise.noise.probe import BOUND, SHARE, Probe
+from bsm.codec.denoise.noise.rounding import Grid, find_grid
 from bsm.codec.denoise.noise.windows import FEWEST, Windows
 from bsm.codec.geometry.metrics import mean_edge_length
 
@@ -23,13 +25,16 @@ FEWEST_WINDOWS, FEWEST_INNER = 5, 3
 """Windows without which nothing is said; and those wholly inside a noisy part."""
 FAINTEST = 0.05
 """Levels below, in mean edges, are left alone: the finest detail of real surfaces is as strong."""
-MANY_WINDOWS, FAINTEST_OF_FEW = 20, 0.085
+MANY_WINDOWS, FAINTEST_OF_FEW, CORRELATED_OF_FEW = 20, 0.085, 0.1
 """With fewer windows their spread says less, and noise has to be this strong."""
 FAINT, SURE = 0.115, 0.15
 """Up to here it is still like the detail of the roughest surfaces; from here on it may be mixed with more shape."""
 EVEN_FAINT, EVEN, EVEN_CORRELATED, UNEVEN = 0.1, 0.145, 0.18, 0.26
 """Largest spread of the windows' levels (logarithms) beyond chance: for faint, for ordinary, for correlated (of which
 clean meshes have little), for strong noise."""
+SURELY_WHITE = (0.925, 1.06)
+"""Faint noise whose finest frequencies are in this ratio to the fine ones is judged like ordinary noise: noise of 0.08
+edges and more reads 0.93 to 1.03, the rough clean meshes as even as noise 0.87 and less."""
 LEVEL_SPREAD = 0.92
 """Chance makes levels of windows of w vertices spread by about this over sqrt(w)."""
 ASIDE = 0.2
@@ -46,6 +51,16 @@ NEARBY = 4
 """Rings about a vertex that decide whether it is in or out."""
 AXIS_LEVEL, AXIS_RANK, AXIS_REACH, AXIS_CALM, AXIS_FEWEST = 0.1, 0.3, 0.4, 0.6, 40
 """Noise along an axis: how strong at least, how much weaker in the second direction, where it shows and where not."""
+AXIS_TAIL = 2.0
+"""Tails of what an axis explains, over the normal distribution's, that noise does not have: creases do."""
+DEPTH_FEWEST, DEPTH_WORTH, DEPTH_MOST = 12, 0.7, 3.0
+"""Noise that grows with depth: windows that are needed, what is left of the spread, and the logarithm of the ratio
+between both ends."""
+ROUNDED_SLANT, ROUNDED_SHARE = 0.98, 0.3
+"""Surfaces along an axis show nothing of rounding; so much of the mesh has to lie otherwise."""
+ROUNDED_LEVEL, ROUNDED_SEEN, ROUNDED_ZEROS = (0.025, 0.35), (0.4, 4.5), 0.15
+"""Rounding that is worth a treatment, in mean edges; how much of what is expected has to be there, creases included;
+and the largest share of vertices with nothing of it: shapes that were drawn on a grid have many."""
 HEAVY_LEVEL = 0.3
 """From here on normals are taken from a smoother version."""
 
@@ -57,8 +72,8 @@ class Finding:
     Attributes
     ----------
     kind : str
-        "none", "white", "impulses", "correlated", "axis", "local" or "unsteady" (what the temporal filter of a sequence
-        has left); "unknown" for a mesh too small for statistics.
+        "none", "white", "impulses", "correlated", "axis", "grid" (rounded positions), "local" or "unsteady" (what the
+        temporal filter of a sequence has left); "unknown" for a mesh too small for statistics.
     level : float
         Standard deviation along the normals where there is noise, in the unit of the mesh. Of correlated noise only
         what the finest frequencies show.
@@ -70,6 +85,10 @@ class Finding:
         A sentence for the user.
     axis : ndarray of float64, shape (3,), optional
         Direction of noise along one axis.
+    growth : ndarray of float64, shape (n,), optional
+        Of noise along an axis that grows with depth (a depth camera's): its level over `level` at every vertex.
+    grid : Grid, optional
+        To which positions were rounded.
     whiteness : float
         Level of the finest frequencies over that of the fine ones; 1 for white noise.
     """
@@ -80,12 +99,19 @@ class Finding:
     edge: float
     reason: str
     axis: Floats | None = None
+    growth: Floats | None = None
+    grid: Grid | None = None
     whiteness: float = 1.0
 
     @property
     def noisy(self) -> bool:
         """Whether there is anything to remove."""
         return self.kind not in ("none", "unknown")
+
+    def on(self, members: npt.NDArray[np.int64]) -> Finding:
+        """The finding for some of the vertices."""
+        growth = None if self.growth is None else self.growth[members]
+        return replace(self, levels=self.levels[members], growth=growth)
 
 
 @dataclass(frozen=True, eq=False)
@@ -114,7 +140,7 @@ def find_noise(positions: Positions, probe: Probe) -> Finding:
     evidence = _look(positions, probe, edge, passes=2)
     if np.nanquantile(evidence.levels, 0.75) > HEAVY_LEVEL:
         evidence = _look(positions, probe, edge, passes=8)
-    for test in (_everywhere, _here_and_there, _one_axis):
+    for test in (_rounded, _everywhere, _here_and_there, _one_axis):
         finding = test(positions, evidence)
         if finding is not None:
             return finding
@@ -130,6 +156,23 @@ def _look(positions: Positions, probe: Probe, edge: float, passes: int) -> _Evid
     return _Evidence(probe, normals, along, probe.levels(along), edge)
 
 
+def _rounded(positions: Positions, evidence: _Evidence) -> Finding | None:
+    """Known from the coordinates, and as strong as the cells are large."""
+    grid = find_grid(positions)
+    if grid is None:
+        return None
+    slanted = evidence.probe.counted & (np.abs(evidence.normals).max(axis=1) < ROUNDED_SLANT)
+    expected = grid.levels(evidence.normals) / evidence.edge
+    level = float(np.median(expected))
+    if slanted.sum() < ROUNDED_SHARE * len(slanted) or not ROUNDED_LEVEL[0] < level < ROUNDED_LEVEL[1]:
+        return None
+    seen = np.abs(evidence.along[slanted] / expected[slanted])
+    if not ROUNDED_SEEN[0] < np.quantile(seen, SHARE) / BOUND < ROUNDED_SEEN[1] or (seen < 0.1).mean() > ROUNDED_ZEROS:
+        return None
+    reason = f"positions rounded to a grid of {float(grid.steps.max()) / evidence.edge:.2f} mean edges"
+    return Finding("grid", level * evidence.edge, expected * evidence.edge, evidence.edge, reason, grid=grid)
+
+
 def _everywhere(positions: Positions, evidence: _Evidence) -> Finding | None:
     """As strong in one place as in another."""
     windows, chosen = evidence.probe.windows, evidence.probe.counted
@@ -138,17 +181,17 @@ def _everywhere(positions: Positions, evidence: _Evidence) -> Finding | None:
     if level < FAINTEST or not _looks_random(evidence, chosen):
         return None
     kind, whiteness = _colour(positions, evidence, windows.valid, chosen)
-    if len(levels) < MANY_WINDOWS and level < FAINTEST_OF_FEW and kind != "correlated":
+    if len(levels) < MANY_WINDOWS and level < (CORRELATED_OF_FEW if kind == "correlated" else FAINTEST_OF_FEW):
         return None
-    if _spread(levels, windows) > _allowed(level, kind):
+    if _spread(levels, windows) > _allowed(level, kind, whiteness):
         return None
     amount = np.full(len(positions), level * evidence.edge)
     return Finding(kind, level * evidence.edge, amount, evidence.edge, "noise all over", whiteness=whiteness)
 
 
-def _allowed(level: float, kind: str) -> float:
+def _allowed(level: float, kind: str, whiteness: float) -> float:
     """Faint white noise is what fine detail looks most like."""
-    if kind != "correlated" and level < FAINT:
+    if kind != "correlated" and level < FAINT and not SURELY_WHITE[0] < whiteness < SURELY_WHITE[1]:
         return EVEN_FAINT
     share = min(max((level - SURE) / SURE, 0.0), 1.0)
     usual = EVEN_CORRELATED if kind == "correlated" else EVEN
@@ -173,13 +216,22 @@ def _one_axis(positions: Positions, evidence: _Evidence) -> Finding | None:
     if values[1] > AXIS_RANK * values[2]:
         return None
     # Cameras look along an axis of their own coordinates, which often are the file's.
-    found = [_along(axis, evidence) for axis in (vectors[:, 2], *np.eye(3))]
+    found = [_along(axis, positions, evidence) for axis in (vectors[:, 2], *np.eye(3))]
     best = min(found, key=lambda one: one.spread)
     if best.spread > UNEVEN or best.level < AXIS_LEVEL or best.calm > AXIS_CALM * best.level:
         return None
-    amount = best.level * np.abs(evidence.normals @ best.axis) * evidence.edge
+    facing_it = np.abs(evidence.normals @ best.axis)
+    reached = evidence.probe.counted & (facing_it > AXIS_REACH)
+    explained = evidence.along[reached] / (best.level * best.growth * facing_it)[reached]
+    if not _is_random(explained) or np.quantile(np.abs(explained), 0.95) > AXIS_TAIL * 1.96:
+        return None
+    amount = best.level * best.growth * facing_it * evidence.edge
     reason = f"noise along one axis ({', '.join(f'{component:.2f}' for component in best.axis)})"
-    return Finding("axis", best.level * evidence.edge, amount, evidence.edge, reason, axis=best.axis)
+    grows = bool((best.growth != 1.0).any())
+    if grows:
+        reason += f", {best.growth.max() / best.growth.min():.1f} times as strong at one end as at the other"
+    growth = best.growth if grows else None
+    return Finding("axis", best.level * evidence.edge, amount, evidence.edge, reason, axis=best.axis, growth=growth)
 
 
 @dataclass(frozen=True, eq=False)
@@ -190,19 +242,39 @@ class _Axis:
     level: float
     spread: float
     calm: float
+    growth: Floats
 
 
-def _along(axis: Floats, evidence: _Evidence) -> _Axis:
+def _along(axis: Floats, positions: Positions, evidence: _Evidence) -> _Axis:
     probe = evidence.probe
     slope = np.abs(evidence.normals @ axis)
     reached = probe.counted & (slope > AXIS_REACH)
     windows = Windows.of_labels(probe.windows, reached, AXIS_FEWEST)
+    growth = np.ones(len(slope))
     if reached.sum() < LOCAL_SHARE * len(reached) or windows.valid.sum() < FEWEST_WINDOWS:
-        return _Axis(axis, 0.0, np.inf, 0.0)
+        return _Axis(axis, 0.0, np.inf, 0.0, growth)
     levels = windows.quantiles(np.abs(evidence.along) / np.maximum(slope, AXIS_REACH), SHARE)[windows.valid] / BOUND
+    spread = _spread(levels, windows)
+    depth = positions @ axis
+    depth = (depth - depth.min()) / (np.ptp(depth) or 1.0)
+    if len(levels) >= DEPTH_FEWEST and levels.min() > 0.0:
+        rate = _rate(windows.means(depth)[windows.valid], np.log(levels))
+        even = levels / np.exp(rate * (windows.means(depth)[windows.valid] - 0.5))
+        if abs(rate) < DEPTH_MOST and _spread(even, windows) < DEPTH_WORTH * spread:
+            growth, levels, spread = np.exp(rate * (depth - 0.5)), even, _spread(even, windows)
     still = probe.counted & (slope < 0.5 * AXIS_REACH)
     calm = float(np.quantile(np.abs(evidence.along[still]), SHARE)) / BOUND if still.sum() >= FEWEST else 0.0
-    return _Axis(axis, float(np.median(levels)), _spread(levels, windows), calm)
+    return _Axis(axis, float(np.median(levels)), spread, calm, growth)
+
+
+def _rate(depth: Floats, logarithms: Floats) -> float:
+    """Slope of a line through the points; those far above it (creases) weigh less."""
+    weights, line = np.ones(len(depth)), np.zeros(2)
+    for _ in range(8):
+        line = np.polyfit(depth, logarithms, 1, w=np.sqrt(weights))
+        above = np.maximum(logarithms - np.polyval(line, depth), 0.0)
+        weights = 1.0 / (1.0 + np.square(above / 0.2))
+    return float(line[0])
 
 
 def _here_and_there(positions: Positions, evidence: _Evidence) -> Finding | None:
@@ -220,7 +292,7 @@ def _here_and_there(positions: Positions, evidence: _Evidence) -> Finding | None
     level = float(np.median(strong))
     if level < LOCAL_LEVEL or level < LOCAL_STEP * np.median(weak):
         return None
-    if _spread(strong, windows) > _allowed(level, "white"):
+    if _spread(strong, windows) > _allowed(level, "white", 0.0):
         return None
     if not _looks_random(evidence, inner[windows.labels] & probe.counted):
         return None
@@ -255,7 +327,10 @@ def _standardised(evidence: _Evidence, chosen: Mask) -> Floats:
 
 def _looks_random(evidence: _Evidence, chosen: Mask) -> bool:
     """Both sides alike, and neither a heap of zeros nor a hole there."""
-    values = _standardised(evidence, chosen)
+    return _is_random(_standardised(evidence, chosen))
+
+
+def _is_random(values: Floats) -> bool:
     centre = float(np.mean(np.abs(values) < 0.1)) / 0.0797
     return abs(float(np.median(values))) < ASIDE and CENTRE[0] < centre < CENTRE[1]
 

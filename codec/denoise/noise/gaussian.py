@@ -2,7 +2,8 @@
 
 The kinds are those that scanners, cameras and careless exports leave behind: white noise along the normals or in all
 directions, white noise of bounded size, outliers, noise along one axis (a depth camera's), noise that neighbours share
-(a line scanner's or a filtered depth map's), and noise in one part of the mesh only.
+(a line scanner's or a filtered depth map's), waves, noise that grows with the distance from a camera, coordinates
+rounded to a grid, and noise in one part of the mesh only.
 """
 
 from __future__ import annotations
@@ -107,6 +108,68 @@ def correlated_along_normals(positions: Positions, faces: Faces, sigma: float, s
         amounts = np.where(degrees > 0, 0.5 * (amounts + sums / np.maximum(degrees, 1)), amounts)
     amounts *= _length(positions, faces, sigma) / (float(np.sqrt(np.square(amounts).mean())) or 1.0)
     return positions + amounts[:, None] * _directions(positions, faces)
+
+
+def gaussian_with_range(
+    positions: Positions,
+    faces: Faces,
+    sigma: float,
+    seed: int,
+    axis: tuple[float, float, float] = (0.0, 0.0, 1.0),
+    ratio: float = 4.0,
+) -> Positions:
+    """Move every vertex along one direction, the more the further it is away (a depth camera's noise).
+
+    Parameters
+    ----------
+    positions, faces, sigma, seed, axis
+        As in `gaussian_along_axis`; `sigma` is the root mean square over the mesh.
+    ratio : float
+        Strength at the far end over that at the near one; it grows with the square of the distance.
+    """
+    depth = positions @ np.asarray(axis, dtype=np.float64)
+    place = (depth - depth.min()) / (float(np.ptp(depth)) or 1.0)
+    strength = np.square(1.0 + (np.sqrt(ratio) - 1.0) * place)[:, None]
+    moved = gaussian_along_axis(positions, faces, sigma, seed, axis) - positions
+    return np.asarray(positions + moved * (strength / float(np.sqrt(np.square(strength).mean()))))
+
+
+def ripples_along_normals(
+    positions: Positions, faces: Faces, sigma: float, seed: int, length: float = 6.0
+) -> Positions:
+    """Move every vertex along its normal by the sum of three waves of random directions (a scanner that trembles).
+
+    Parameters
+    ----------
+    positions, faces, sigma, seed
+        As in `gaussian_along_normals`.
+    length : float
+        Of the waves, in mean edges.
+    """
+    random = np.random.default_rng(seed)
+    directions = random.normal(size=(3, 3))
+    directions /= np.linalg.norm(directions, axis=1, keepdims=True)
+    turns = 2.0 * np.pi / (length * (mean_edge_length(positions, faces) or 1.0))
+    waves = np.sin(turns * (positions @ directions.T) + random.uniform(0.0, 2.0 * np.pi, 3)).sum(axis=1)
+    amounts = waves * (_length(positions, faces, sigma) / (float(np.sqrt(np.square(waves).mean())) or 1.0))
+    return np.asarray(positions + amounts[:, None] * _directions(positions, faces))
+
+
+def rounded(positions: Positions, faces: Faces, sigma: float, seed: int) -> Positions:
+    """Round every coordinate to a grid.
+
+    Parameters
+    ----------
+    positions, faces
+        As in `gaussian_along_normals`.
+    sigma : float
+        Standard deviation of what that changes in each coordinate, over the mean edge length.
+    seed : int
+        Of where the grid lies.
+    """
+    step = np.sqrt(12.0) * _length(positions, faces, sigma) or 1.0
+    offset = step * np.random.default_rng(seed).random(3)
+    return np.asarray(np.round((positions - offset) / step) * step + offset) if sigma > 0.0 else np.array(positions)
 
 
 def gaussian_in_part(positions: Positions, faces: Faces, sigma: float, fraction: float, seed: int) -> Positions:

@@ -45,9 +45,13 @@ class Synthesis:
         seed : int
         """
         finding, topology = self._finding, self._probe.topology
-        white = np.random.default_rng(seed).normal(size=positions.shape)
+        random = np.random.default_rng(seed)
+        if finding.grid is not None:
+            return finding.grid.round(positions, finding.grid.steps * random.random(3))
+        white = random.normal(size=positions.shape)
         if finding.axis is not None:
-            return positions + finding.level * white[:, :1] * finding.axis
+            growth = 1.0 if finding.growth is None else finding.growth[:, None]
+            return np.asarray(positions + finding.level * growth * white[:, :1] * finding.axis)
         normals = _normals(positions, topology)
         along = np.einsum("ij,ij->i", white, normals)[:, None]
         amount = self._probe.correlated(along, self._steps)

@@ -43,7 +43,7 @@ class Windows:
 
     @staticmethod
     def of_labels(windows: Windows, counted: Mask, fewest: int = FEWEST) -> Windows:
-        """The same windows with other vertices counted, `fewest` of them in a valid one."""
+        """These windows with other vertices counted, `fewest` of them in a valid one."""
         other = object.__new__(Windows)
         other._graph = windows._graph
         other._count(windows.labels, counted, fewest)

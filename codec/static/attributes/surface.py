@@ -40,7 +40,7 @@ class Surface:
 
 
 def surface_of(domain: int, faces: Faces, vertices: int, loose: int, joins: Joins | None) -> Surface:
-    """That of a domain of values.
+    """The surface on which values of a domain lie.
 
     Parameters
     ----------
@@ -79,7 +79,7 @@ class Arrangement:
 
 
 def arrangement_of(declaration: Declaration, surface: Surface, numbering: Numbering, rows: int) -> Arrangement:
-    """That of an attribute of `rows` coded values."""
+    """How the `rows` coded values of an attribute lie on the surface."""
     everything = np.arange(rows, dtype=np.int64)
     corners = numbering.corners
     if declaration.domain == FACE:

@@ -54,7 +54,7 @@ class Character:
         return self._bytes(counts)
 
     def entropy_of(self, bends: Indices) -> float:
-        """The same of given second differences, shape (k, 3)."""
+        """Entropy of given second differences, shape (k, 3)."""
         counts = np.empty((3, len(EXTRA)), np.int32)
         _kernels.count_bends(bends, max(1, len(bends) // MOST_FLAPS), counts)
         return self._bytes(counts)
@@ -108,7 +108,7 @@ class Character:
 
     @cached_property
     def _corners(self) -> Matrix:
-        """Of some flaps, from the lower corner of the mesh on, shape (k, 12)."""
+        """Corners of some flaps, from the lower corner of the mesh on, shape (k, 12)."""
         return np.ascontiguousarray((self._original.positions[self._flaps] - self._low).reshape(-1, 12))
 
     @cached_property

@@ -154,7 +154,7 @@ class Shaped:
         return float(np.square(places - np.rint(places)).sum(axis=1).max()) * step**2 <= reach**2
 
     def draft_from_origin(self, step: float, places: Levels) -> Draft:
-        """The same of a grid that begins where the mesh's unit does, which is shorter to write."""
+        """The stream of a grid that begins where the mesh's unit does, which is shorter to write."""
         least = places.min(axis=0)
         corner = tuple(map(int, least)) if least.any() else ()
         held = Grid((0.0, 0.0, 0.0), step, tuple(map(int, np.ptp(places, axis=0))), corner=corner)

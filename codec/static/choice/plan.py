@@ -110,7 +110,7 @@ class Planner:
         )
 
     def _codings(self, step: float) -> Sequence[Coding]:
-        """Of each section."""
+        """How each section is coded."""
         size, ratio = self._prepared.size, self._options.detail_ratio
         if step < smallest_step(size):
             raise OptionError(f"step = {step:g} is too fine for blocks of {size}, try {smallest_step(size):.1e}")

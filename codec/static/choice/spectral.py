@@ -98,7 +98,7 @@ class Stack:
         return positions
 
     def draft(self) -> Draft:
-        """The stream."""
+        """The stream of blocks and layers."""
         base = self.base
         if not self.added:
             return base.draft

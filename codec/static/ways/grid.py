@@ -56,7 +56,7 @@ class Grid:
     light: bool = False
 
     def positions(self, coded: Levels) -> Positions:
-        """Of coded values, shape (n, 3), in the mesh's unit."""
+        """Positions of coded values, shape (n, 3), in the mesh's unit."""
         places = spread(coded, self.lattice) + np.array(self.corner or (0, 0, 0), np.int64)
         return np.asarray(places * self.step + np.array(self.origin))
 

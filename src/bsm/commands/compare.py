@@ -139,7 +139,7 @@ def _load(path: str, args: argparse.Namespace, console: Console) -> TriangleMesh
     """A mesh file or a stream, without the vertices that no face uses."""
     with about(path):
         if is_stream(path):
-            return decode_whole(read_chunks(path), limits_of(args))
+            return decode_whole(read_chunks(path), limits_of(args.limits))
         source = read_mesh(path, reader=args.reader)
     for note in source.notes:
         console.note(f"{path}: {note}")

@@ -6,12 +6,14 @@ import argparse
 import time
 from pathlib import Path
 
-from bsm.batch import Facts, add_inputs, came_to, plan, run_jobs, size_of
+from bsm.batch import Facts, came_to, plan, run_jobs, size_of
 from bsm.bitstream.errors import OptionError
 from bsm.commands import sequence_decode
+from bsm.commands.decode_job import DecodeJob
+from bsm.commands.inputs import add_inputs, asked, run_of
 from bsm.commands.limits import add_limits_flag, limits_of
 from bsm.console import Console
-from bsm.farm.run import anywhere, may_replace
+from bsm.farm.run import anywhere
 from bsm.files.mesh import WRITTEN_FORMATS, format_of_name, save_written, written_mesh
 from bsm.files.naming import output_inside, refuse_terminal
 from bsm.files.output import refuse_to_overwrite
@@ -63,11 +65,12 @@ def run(args: argparse.Namespace, console: Console) -> int:
     if args.blocks is not None and args.tolerant:
         raise OptionError("--blocks stops early and --tolerant goes on: choose one")
     refuse_terminal(jobs[0].output)
-    args.given, args.many = args.output and (anywhere(args.output) if args.dask else args.output), len(jobs) > 1
-    return run_jobs(args, console, decode_one, jobs)
+    given = args.output and (anywhere(args.output) if args.dask else args.output)
+    job = asked(DecodeJob, args, output="", given=given, many=len(jobs) > 1)
+    return run_jobs(run_of(args), job, console, decode_one, jobs)
 
 
-def decode_one(args: argparse.Namespace, console: Console) -> Facts:
+def decode_one(args: DecodeJob, console: Console) -> Facts:
     """Decode one stream and say what came out."""
     header, chunks = peek_header(read_chunks(args.input))
     if header is not None and header.gop_frames:
@@ -79,15 +82,15 @@ def decode_one(args: argparse.Namespace, console: Console) -> Facts:
     kind = args.format or ("ply" if output == "-" else format_of_name(output))
     if kind not in WRITTEN_FORMATS:
         raise OptionError(f"{output}: the name tells no mesh format; use --format, one of {', '.join(WRITTEN_FORMATS)}")
-    refuse_to_overwrite(output, may_replace(args, output))
+    refuse_to_overwrite(output, args.may_replace(output))
     begin = time.perf_counter()
     if args.tolerant:
-        mesh = decode_what_is_left(chunks, lambda text: console.note(f"{args.input}: {text}"), limits_of(args))
+        mesh = decode_what_is_left(chunks, lambda text: console.note(f"{args.input}: {text}"), limits_of(args.limits))
     elif args.blocks is None:
-        mesh = decode_whole(chunks, limits_of(args), layers=args.layers)
+        mesh = decode_whole(chunks, limits_of(args.limits), layers=args.layers)
     else:
         with console.progress("decoding") as progress:
-            mesh = decode_blocks(chunks, args.blocks, progress, limits_of(args))
+            mesh = decode_blocks(chunks, args.blocks, progress, limits_of(args.limits))
     seconds = time.perf_counter() - begin
     if args.permutation:
         mesh = reorder(mesh, read_permutation(args.permutation))
@@ -97,7 +100,7 @@ def decode_one(args: argparse.Namespace, console: Console) -> Facts:
             f"{args.input}: left out: {missing} of {header.attributes} attributes, of which values have not come"
         )
     file = written_mesh(mesh, kind, "mesh" if output == "-" else output)
-    left_out = save_written(output, file, overwrite=may_replace(args, output), overwrite_beside=args.force)
+    left_out = save_written(output, file, overwrite=args.may_replace(output), overwrite_beside=args.force)
     if left_out:
         console.note(f"{args.input}: {kind} cannot hold {', '.join(left_out)}")
     written = len(file.data)

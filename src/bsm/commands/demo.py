@@ -10,9 +10,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from bsm.bitstream.errors import DependencyError
-from bsm.commands.encode_options import add_encode_flags, encode_options
+from bsm.commands.encode_options import add_preset_flags, wishes_of
 from bsm.console import Console, print_json
 from bsm.files.output import open_output, refuse_to_overwrite
+from bsm.options import encode_options
 
 if TYPE_CHECKING:
     from bsm.codec.geometry.mesh import TriangleMesh
@@ -27,7 +28,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("-o", "--output", metavar="FOLDER", default=".", help="where to write (default: here)")
     parser.add_argument("--vertices", type=int, default=20_000, metavar="N", help="size of the sample (default 20000)")
     parser.add_argument("--json", action="store_true", help="print the result as JSON")
-    add_encode_flags(parser)
+    add_preset_flags(parser)
 
 
 def run(args: argparse.Namespace, console: Console) -> None:
@@ -49,7 +50,7 @@ def run(args: argparse.Namespace, console: Console) -> None:
     console.note(f"sample     a knotted rope: {vertices} vertices, {faces} faces, {plain} bytes as plain arrays")
 
     begin = time.perf_counter()
-    encoder = Encoder(sample, encode_options(args))
+    encoder = Encoder(sample, encode_options(**wishes_of(args)))
     with console.progress("encoding") as progress:
         stream = b"".join(encoder.chunks(progress))
     encoding = time.perf_counter() - begin

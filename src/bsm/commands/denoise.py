@@ -6,17 +6,18 @@ import argparse
 import time
 from collections import Counter
 from collections.abc import Iterator
-from dataclasses import asdict
+from dataclasses import asdict, dataclass, field, replace
 from itertools import chain
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from bsm.batch import Facts, add_inputs, plan, run_jobs, size_of
+from bsm.batch import Facts, plan, run_jobs, size_of
 from bsm.bitstream.errors import OptionError
 from bsm.codec.arrays import Positions
+from bsm.commands.inputs import add_inputs, asked, run_of
 from bsm.commands.reader import add_reader_flag
 from bsm.console import Console, Progress
-from bsm.farm.run import may_replace
+from bsm.farm.jobs import Task
 from bsm.files.mesh import MESH_FORMATS, format_of_name, read_mesh, save_written, written_mesh
 from bsm.files.naming import output_inside, refuse_terminal
 from bsm.files.output import refuse_to_overwrite
@@ -26,9 +27,19 @@ if TYPE_CHECKING:
     from bsm.codec.denoise import AutomaticChoice, DenoiseOptions, Step
 
 FINE = ("guided", "bilateral", "non-iterative", "fast-effective", "bilateral-normal", "l0")
-HAND_OVERS = ("positions", "normals", "none")
+HAND_OVERS = ("positions", "heights", "normals", "none")
 GOALS = ("shading", "shape")
 _OPTIONS = ("fine", "hand_over", "iterations", "keep", "block_size")
+
+
+@dataclass(frozen=True, kw_only=True)
+class DenoiseJob(Task):
+    """What `bsm denoise` is asked for: formats, the goal of the automatic mode, and options instead of it."""
+
+    format: str | None = None
+    reader: str | None = None
+    goal: str = GOALS[0]
+    options: dict[str, Any] = field(default_factory=dict)
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -58,7 +69,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--hand-over",
         choices=HAND_OVERS,
         default=argparse.SUPPRESS,
-        help="what the fine step gets: coarse positions, noisy ones smoothed along coarse normals, or no coarse step",
+        help="what the fine step gets: coarse positions, noisy ones moved to it along its normals, noisy "
+        "ones smoothed along coarse normals, or no coarse step",
     )
     ways.add_argument(
         "--iterations",
@@ -91,17 +103,18 @@ def run(args: argparse.Namespace, console: Console) -> int:
     if jobs[0].output == "-" and args.json:
         raise OptionError("--json and -o - would both write to standard output")
     refuse_terminal(jobs[0].output)
-    return run_jobs(args, console, denoise_one, jobs)
+    given = {name: getattr(args, name) for name in _OPTIONS if hasattr(args, name)}
+    return run_jobs(run_of(args), asked(DenoiseJob, args, output="", options=given), console, denoise_one, jobs)
 
 
-def denoise_one(args: argparse.Namespace, console: Console) -> Facts:
+def denoise_one(args: DenoiseJob, console: Console) -> Facts:
     """Denoise one mesh or one sequence."""
     options = _options(args)
     if sequence := open_sequence(args.input, args.format, args.reader):
         result = _denoise_sequence(args, console, sequence, options)
     else:
         if Path(args.output).is_dir():
-            args.output = output_inside(args.output, args.input, _suffix(args.input))
+            args = replace(args, output=output_inside(args.output, args.input, _suffix(args.input)))
         result = _denoise_mesh(args, console, options)
     sizes = {"input_bytes": size_of(args.input), "output_bytes": size_of(args.output)}
     return {"input": args.input, "output": args.output, **sizes, **result}
@@ -112,21 +125,20 @@ def _suffix(name: str) -> str:
     return f".{format_of_name(name) or ('npz' if Path(name).is_dir() else 'ply')}"
 
 
-def _options(args: argparse.Namespace) -> DenoiseOptions | None:
+def _options(args: DenoiseJob) -> DenoiseOptions | None:
     """What was asked for; None: nothing."""
-    given = {name: getattr(args, name) for name in _OPTIONS if hasattr(args, name)}
-    if not given:
+    if not args.options:
         return None
     from bsm.codec.denoise import DenoiseOptions
 
-    return DenoiseOptions(**given)
+    return DenoiseOptions(**args.options)
 
 
-def _denoise_mesh(args: argparse.Namespace, console: Console, options: DenoiseOptions | None) -> dict[str, Any]:
+def _denoise_mesh(args: DenoiseJob, console: Console, options: DenoiseOptions | None) -> dict[str, Any]:
     kind = args.format if args.output == "-" else format_of_name(args.output)
     if kind not in MESH_FORMATS:
         raise OptionError(f"{args.output}: the name tells no mesh format; use one of .{', .'.join(MESH_FORMATS)}")
-    refuse_to_overwrite(args.output, may_replace(args, args.output))
+    refuse_to_overwrite(args.output, args.may_replace(args.output))
 
     from bsm.codec.denoise import FrameDenoiser
 
@@ -141,9 +153,9 @@ def _denoise_mesh(args: argparse.Namespace, console: Console, options: DenoiseOp
     _tell_moved(console, mesh.positions, positions)
     seconds = time.perf_counter() - begin
     moved, stale = mesh.moved(positions)
-    replace = may_replace(args, args.output)
+    overwrite = args.may_replace(args.output)
     written = written_mesh(moved, kind, args.output)
-    left_out = save_written(args.output, written, overwrite=replace, overwrite_beside=args.force)
+    left_out = save_written(args.output, written, overwrite=overwrite, overwrite_beside=args.force)
     if left_out or stale:
         console.note(f"{args.input}: left out: {', '.join((*stale, *left_out))}")
     console.note(f"{args.input}: {len(mesh.positions)} vertices -> {args.output}, {seconds:.2f} s")
@@ -151,7 +163,7 @@ def _denoise_mesh(args: argparse.Namespace, console: Console, options: DenoiseOp
 
 
 def _denoise_sequence(
-    args: argparse.Namespace, console: Console, source: Frames, options: DenoiseOptions | None
+    args: DenoiseJob, console: Console, source: Frames, options: DenoiseOptions | None
 ) -> dict[str, Any]:
     kind = sequence_kind(args.output, args.format if args.output == "-" else None)
 
@@ -161,7 +173,7 @@ def _denoise_sequence(
     begin = time.perf_counter()
     denoiser = FrameDenoiser(first, source.faces, options, goal=args.goal, force=args.force)
     count = 0
-    writer = sequence_writer(args.output, kind, source.faces, source.count, overwrite=may_replace(args, args.output))
+    writer = sequence_writer(args.output, kind, source.faces, source.count, overwrite=args.may_replace(args.output))
     with writer as write, console.progress("denoising", "frames") as progress:
         for frame in denoiser(_counted(chain([first], source.frames), source.count, progress)):
             write(frame)

@@ -3,23 +3,18 @@
 from __future__ import annotations
 
 import argparse
-import time
-from collections.abc import Sequence
 
-from bsm.batch import Facts, Job, add_inputs, came_to, plan, refuse_collisions, run_jobs, size_of
+from bsm.batch import plan, refuse_collisions, run_jobs
 from bsm.bitstream.errors import OptionError
-from bsm.commands.encode_options import add_encode_flags, encode_options, given_options, given_targets
+from bsm.commands.encode_options import add_encode_flags, wishes_of
+from bsm.commands.inputs import add_inputs, asked, run_of
 from bsm.commands.reader import add_reader_flag
-from bsm.commands.sequence_options import add_sequence_flags, refuse_sequence_flags
-from bsm.console import Console, finite
-from bsm.farm.run import may_replace
-from bsm.files.mesh import MESH_FORMATS, read_mesh
+from bsm.commands.sequence_options import add_sequence_flags, sequence_wishes
+from bsm.console import Console
+from bsm.encoding.job import EncodeJob
+from bsm.encoding.mesh import encode_one
+from bsm.files.mesh import MESH_FORMATS
 from bsm.files.naming import refuse_terminal
-from bsm.files.output import open_output, refuse_to_overwrite
-from bsm.files.permutation import write_permutation
-from bsm.files.sequence import open_sequence
-from bsm.lengths import LENGTHS, refuse_other_units
-from bsm.meshes import told_of
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -57,83 +52,17 @@ def run(args: argparse.Namespace, console: Console) -> int:
     if jobs[0].output == "-" and args.json:
         raise OptionError("--json and -o - would both write to standard output")
     refuse_terminal(jobs[0].output)
-    one_thread_each(args, jobs)
-    return run_jobs(args, console, encode_one, jobs)
+    many, wishes = run_of(args), {**wishes_of(args), **sequence_wishes(args)}
+    threads = wishes.pop("threads", 1 if many.side_by_side and len(jobs) > 1 else None)
+    more = {"output": "", "metadata": _metadata(args), "wishes": wishes, "threads": threads}
+    job = asked(EncodeJob, args, **more, compared=not args.quiet or args.json)
+    return run_jobs(many, job, console, encode_one, jobs)
 
 
-def metadata_of(args: argparse.Namespace) -> dict[str, str]:
+def _metadata(args: argparse.Namespace) -> dict[str, str]:
     """What `--meta` says."""
     pairs = [text.partition("=") for text in args.meta]
     for name, sign, _ in pairs:
         if not name or not sign:
             raise OptionError(f"--meta takes NAME=TEXT, not {name!r}")
     return {name: value for name, _, value in pairs}
-
-
-def one_thread_each(args: argparse.Namespace, jobs: Sequence[Job]) -> None:
-    """Let jobs that are done side by side have a thread each, unless something else was said."""
-    if (args.jobs != 1 or args.dask) and len(jobs) > 1 and not hasattr(args, "threads"):
-        args.threads = 1
-
-
-def encode_one(args: argparse.Namespace, console: Console) -> Facts:
-    """Encode one input and say what came out."""
-    for path in filter(None, (args.output, args.permutation)):
-        refuse_to_overwrite(path, may_replace(args, path))
-
-    from bsm.codec.static.encoder import Encoder
-
-    if sequence := open_sequence(args.input, args.format, args.reader):
-        from bsm.commands.sequence_encode import encode_sequence
-
-        return encode_sequence(args, console, sequence, metadata_of(args))
-    refuse_sequence_flags(args)
-    options = encode_options(args)
-    source = read_mesh(args.input, args.format, reader=args.reader)
-    mesh = told_of(source.mesh, options, metadata_of(args))
-    given = {**given_options(args), **given_targets(args)}
-    refuse_other_units({name: given.get(name) for name in LENGTHS}, mesh.metadata)
-    begin = time.perf_counter()
-    encoder = Encoder(mesh, options)
-    overwrite = may_replace(args, args.output)
-    with open_output(args.output, overwrite=overwrite) as file, console.progress("encoding") as progress:
-        attempt = encoder.result(progress)
-        for chunk in attempt.frames:
-            file.write(chunk)
-    seconds = time.perf_counter() - begin
-    unsent = source.mesh.metadata.keys() - mesh.metadata.keys()
-    images = sum(len(value) for value in mesh.metadata.values() if isinstance(value, bytes))
-    notes = (
-        *source.notes,
-        *encoder.notes,
-        *(["left out: materials, images"] if unsent else []),
-        *([f"{images} of the bytes are images, as they are"] if images else []),
-    )
-    for note in notes:
-        console.note(f"{args.input}: {note}")
-    if args.permutation:
-        write_permutation(args.permutation, encoder.vertex_order, overwrite=args.force)
-    vertices, faces, size, error = attempt.header.vertices, len(encoder.mesh.faces), attempt.size, attempt.comparison
-    taken = size_of(args.input)
-    console.note(
-        f"{args.input} -> {args.output}: {vertices} vertices, {faces} faces, {came_to(taken, size)}, "
-        f"{8 * size / vertices:.2f} bits per vertex; farthest vertex {100 * error.max_error_relative:.3g} % of the "
-        f"diagonal, normals {error.angle_deg:.2f} degrees by area and {error.theta_deg:.2f} by face, "
-        f"{error.nmsve_db:.2f} dB; {seconds:.2f} s"
-    )
-    return {
-        "input": args.input,
-        "output": args.output,
-        "vertices": vertices,
-        "faces": faces,
-        "input_bytes": taken,
-        "output_bytes": size,
-        "bytes": size,
-        "bpv_total": 8 * size / vertices,
-        "theta_deg": error.theta_deg,
-        "angle_deg": error.angle_deg,
-        "nmsve_db": finite(error.nmsve_db),
-        "max_error_relative": error.max_error_relative,
-        "seconds": seconds,
-        "notes": list(notes),
-    }

@@ -5,12 +5,9 @@ from __future__ import annotations
 import argparse
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from bsm import options
-
-if TYPE_CHECKING:
-    from bsm.codec.static.options import EncodeOptions
+from bsm.usage import suggestion
 
 
 @dataclass(frozen=True)
@@ -22,7 +19,7 @@ class EncodeFlag:
     field : str
         Name of the field; the flag is the same with dashes.
     type : callable
-        Reads the value; `bool` makes a pair of flags, --x and --no-x.
+        Reads the value; `bool` makes a flag without a value.
     metavar : str
         What the value is called in the help.
     help : str
@@ -38,11 +35,62 @@ class EncodeFlag:
         """Add the flag; where it is not given the namespace has no such name, so `EncodeOptions` has the defaults."""
         name = f"--{self.field.replace('_', '-')}"
         if self.type is bool:
-            group.add_argument(name, action=argparse.BooleanOptionalAction, default=argparse.SUPPRESS, help=self.help)
+            group.add_argument(name, action="store_true", default=argparse.SUPPRESS, help=self.help)
         else:
             group.add_argument(
                 name, type=self.type, metavar=self.metavar, default=argparse.SUPPRESS, help=self.help, dest=self.field
             )
+
+
+@dataclass(frozen=True)
+class Setting:
+    """One field of `EncodeOptions` that has no flag of its own; parameters as those of `EncodeFlag`."""
+
+    field: str
+    type: Callable[[str], Any]
+    metavar: str
+    help: str
+
+    def read(self, text: str) -> Any:
+        """The value that a text stands for."""
+        if self.type is bool and text not in ("yes", "no"):
+            raise ValueError(text)
+        return text == "yes" if self.type is bool else self.type(text)
+
+
+class HelpAll(argparse.Action):
+    """Prints the help, and all settings."""
+
+    def __call__(self, parser: argparse.ArgumentParser, *_: Any) -> None:
+        """Print both and end."""
+        parser.print_help()
+        print("\nsettings, --set NAME=VALUE:")
+        width = max(len(f"{one.field}={one.metavar}") for one in SETTINGS)
+        for one in SETTINGS:
+            print(f"  {f'{one.field}={one.metavar}':{width}}  {one.help}")
+        parser.exit()
+
+
+def thresholds(text: str) -> tuple[float, float]:
+    """Two numbers with a comma between them."""
+    low, high = map(float, text.split(","))
+    return low, high
+
+
+def setting(text: str) -> tuple[str, Any]:
+    """NAME=VALUE as a field of `EncodeOptions` and its value."""
+    name, _, value = text.partition("=")
+    known = {one.field: one for one in SETTINGS}
+    name = name.strip().replace("-", "_")
+    if name not in known:
+        raise argparse.ArgumentTypeError(
+            f"there is no setting {name!r}{suggestion(name, known)}; --help-all lists them"
+        )
+    try:
+        return name, known[name].read(value.strip())
+    except ValueError:
+        one = known[name]
+        raise argparse.ArgumentTypeError(f"{name}={one.metavar or 'yes|no'} is expected, not {text!r}") from None
 
 
 def point(text: str) -> tuple[float, ...]:
@@ -57,34 +105,40 @@ ENCODE_FLAGS = (
     EncodeFlag("grid", int, "BITS", "exactly the positions that a grid of so many bits per axis has (1 to 20)"),
     EncodeFlag("grid_cell", float, "H", "exactly the positions of a grid of such cells: parts on one fit exactly"),
     EncodeFlag("grid_origin", point, "X,Y,Z", "a place of that grid (default 0,0,0); =X,Y,Z where X is negative"),
-    EncodeFlag("quick", bool, "", "only what is quick to decode: grids, by a small model, no blocks (default: no)"),
-    EncodeFlag("keep", float, "FRACTION", "largest c_i, as a fraction of a block's vertices (default: as many as pay)"),
-    EncodeFlag("coefficients", int, "C", "coefficients kept per block and coordinate, instead of --keep"),
-    EncodeFlag("step", float, "S", "quantisation step, relative to the bounding box's diagonal; instead of a promise"),
-    EncodeFlag("detail", float, "R", "how much coarser x, y, z are than detail along normals, 0: none (default 3)"),
-    EncodeFlag("bits", int, "Q", "as in the paper: every coefficient in Q bits, without prediction"),
-    EncodeFlag("smoothing", float, "A", "smoothing in the decoder (default: chosen by trying)"),
-    EncodeFlag("block_size", int, "N", "vertices of a block before overlap, about (default 750)"),
-    EncodeFlag("overlap", float, "F", "size of the blocks with overlap, as a multiple of the largest (default 1.15)"),
-    EncodeFlag("partition", str, "derived|metis", "who cuts the mesh into blocks (default derived: both sides)"),
-    EncodeFlag("basis", str, "oi|svd", "orthogonal iterations, or the exact eigenbasis (default oi)"),
-    EncodeFlag("seed", str, "previous|independent", "whether blocks build on the one before (default previous)"),
-    EncodeFlag("key_seed", str, "cosines|svd", "where a chain begins (default cosines, with --bits svd)"),
-    EncodeFlag("key_interval", int, "K", "every K blocks one depends on none before it, 0: the first (default 32)"),
-    EncodeFlag("power", int, "Z", "exponent of the iterated matrix (default 3)"),
-    EncodeFlag("iterations", int, "T", "orthogonal iterations per block (default 1)"),
-    EncodeFlag("key_iterations", int, "T", "orthogonal iterations of a block that depends on none (default 4)"),
-    EncodeFlag("shift", float, "D", "what is added to the Laplacian's diagonal (default 0.0078125)"),
-    EncodeFlag("blend", str, "degree|uniform|own", "weights of a vertex's copies in several blocks (default degree)"),
-    EncodeFlag("predict", bool, "", "predict coefficients from blocks already coded (default: yes)"),
-    EncodeFlag("keep_order", bool, "", "store the order of vertices and faces (default: no)"),
-    EncodeFlag("normals", str, "keep|recompute", "recompute: send none, the decoder makes them (default keep)"),
+    EncodeFlag("quick", bool, "", "only what is quick to decode: grids, by a small model, no blocks"),
+    EncodeFlag("keep_order", bool, "", "store the order of vertices and faces"),
     EncodeFlag(
         "sections", int, "N", "come in so many turns of faces and blocks, to be drawn sooner (default: 2 if large)"
     ),
     EncodeFlag("limits", str, "default|service|wide", "what decoders may refuse is an error (default: default)"),
     EncodeFlag("threads", int, "N", "threads to use (default: one per core)"),
 )
+
+SETTINGS = (
+    Setting("keep", float, "FRACTION", "largest c_i, as a fraction of a block's vertices (default: as many as pay)"),
+    Setting("coefficients", int, "C", "coefficients kept per block and coordinate, instead of keep"),
+    Setting("step", float, "S", "quantisation step, relative to the bounding box's diagonal; instead of a promise"),
+    Setting("detail", float, "R", "how much coarser x, y, z are than detail along normals, 0: none (default 3)"),
+    Setting("bits", int, "Q", "as in the paper: every coefficient in Q bits, without prediction"),
+    Setting("smoothing", float, "A", "smoothing in the decoder (default: chosen by trying)"),
+    Setting("block_size", int, "N", "vertices of a block before overlap, about (default 750)"),
+    Setting("overlap", float, "F", "size of the blocks with overlap, as a multiple of the largest (default 1.15)"),
+    Setting("partition", str, "derived|metis", "who cuts the mesh into blocks (default derived: both sides)"),
+    Setting("basis", str, "oi|svd", "orthogonal iterations, or the exact eigenbasis (default oi)"),
+    Setting("seed", str, "previous|independent", "whether blocks build on the one before (default previous)"),
+    Setting("key_seed", str, "cosines|svd", "where a chain begins (default cosines, with --bits svd)"),
+    Setting("key_interval", int, "K", "every K blocks one depends on none before it, 0: the first (default 32)"),
+    Setting("power", int, "Z", "exponent of the iterated matrix (default 3)"),
+    Setting("iterations", int, "T", "orthogonal iterations per block (default 1)"),
+    Setting("key_iterations", int, "T", "orthogonal iterations of a block that depends on none (default 4)"),
+    Setting("shift", float, "D", "what is added to the Laplacian's diagonal (default 0.0078125)"),
+    Setting("blend", str, "degree|uniform|own", "weights of a vertex's copies in several blocks (default degree)"),
+    Setting("predict", bool, "yes|no", "predict coefficients from blocks already coded (default: yes)"),
+    Setting(
+        "doi", thresholds, "EPS_L,EPS_H", "as many coefficients per block as keep its residual between two thresholds"
+    ),
+)
+"""The codec's inside, for those who study it: `--set NAME=VALUE`."""
 
 
 PRESETS = ("small", "balanced", "fine", "near-lossless", "grid14")
@@ -126,7 +180,14 @@ def named_quality(text: str) -> tuple[str, str]:
 
 
 def add_encode_flags(parser: argparse.ArgumentParser) -> None:
-    """Add presets, targets and the flags of `add_coding_flags`."""
+    """Add presets, targets, and how meshes are coded."""
+    add_preset_flags(parser)
+    add_coding_flags(parser)
+    parser.add_argument("--help-all", nargs=0, action=HelpAll, default=argparse.SUPPRESS, help="also list the settings")
+
+
+def add_preset_flags(parser: argparse.ArgumentParser) -> None:
+    """Add presets and targets."""
     wishes = parser.add_argument_group("what to reach", "a target is met in closed loop, on what the decoder will see")
     wishes.add_argument("--preset", choices=PRESETS, default="balanced", help=PROMISES)
     targets = wishes.add_mutually_exclusive_group()
@@ -142,11 +203,10 @@ def add_encode_flags(parser: argparse.ArgumentParser) -> None:
         help="parts that are encoded apart gape by at most GAP where they were one: relative (default 0.0001), or "
         "with a unit (0.05mm)",
     )
-    add_coding_flags(parser)
 
 
 def add_coding_flags(parser: argparse.ArgumentParser) -> None:
-    """Add all of `ENCODE_FLAGS`, and the thresholds of dynamic subspaces."""
+    """Add all of `ENCODE_FLAGS`, what becomes of attributes, and the settings."""
     group = parser.add_argument_group("coding")
     for flag in ENCODE_FLAGS:
         flag.add(group)
@@ -157,45 +217,32 @@ def add_coding_flags(parser: argparse.ArgumentParser) -> None:
         type=named_quality,
         metavar="NAME=QUALITY",
         default=argparse.SUPPRESS,
-        help="how an attribute is kept: exact, 12bits, 0.01 (a bound), 1%%, 2deg, recompute or none; the name * is "
-        "any other one; may be repeated",
+        help="how an attribute is kept: exact, 12bits, 0.01 (a bound), 1%%, 2deg, recompute or none; * is any other "
+        "one (*=none: materials and images go, too); may be repeated",
     )
     group.add_argument(
-        "--no-attributes",
-        dest="attributes",
-        action="append_const",
-        const=("*", "none"),
+        "--set",
+        action="append",
+        type=setting,
+        metavar="NAME=VALUE",
         default=argparse.SUPPRESS,
-        help="leave out all attributes that --attribute does not name; where none is left, materials and images, too",
-    )
-    group.add_argument(
-        "--doi",
-        nargs=2,
-        type=float,
-        metavar=("EPS_L", "EPS_H"),
-        default=argparse.SUPPRESS,
-        help="dynamic subspaces: as many coefficients per block as keep its residual between the two thresholds",
+        help="one of the codec's settings, for study; --help-all lists them",
     )
 
 
-def given_options(args: argparse.Namespace) -> dict[str, Any]:
-    """The fields of `EncodeOptions` that were given on the command line, presets and targets left aside."""
-    given = {flag.field: getattr(args, flag.field) for flag in ENCODE_FLAGS if hasattr(args, flag.field)}
+_NAMES = ("lock_borders", *(flag.field for flag in ENCODE_FLAGS))
+
+
+def settings_of(args: argparse.Namespace) -> dict[str, Any]:
+    """What `--set` says."""
+    return dict(getattr(args, "set", ()))
+
+
+def wishes_of(args: argparse.Namespace) -> dict[str, Any]:
+    """What the command line asks for, as keywords of `bsm.options.encode_options`: preset, options, and target."""
+    given = {name: getattr(args, name) for name in _NAMES if hasattr(args, name)}
     if getattr(args, "attributes", None):
         given["attributes"] = dict(args.attributes)
-    if hasattr(args, "lock_borders"):
-        given["lock_borders"] = args.lock_borders
-    if hasattr(args, "doi"):
-        given["doi"] = tuple(args.doi)
-    return given
-
-
-def given_targets(args: argparse.Namespace) -> dict[str, Any]:
-    """The targets that were given on the command line, by their keywords."""
     values = {name.replace("-", "_"): getattr(args, f"target_{kind}") for name, kind, _, _ in TARGET_FLAGS}
-    return {keyword: value for keyword, value in values.items() if value is not None}
-
-
-def encode_options(args: argparse.Namespace) -> EncodeOptions:
-    """The options that the command line asks for: a preset, what was given on top of it, and a target."""
-    return options.encode_options(preset=args.preset, **given_options(args), **given_targets(args))
+    targets = {keyword: value for keyword, value in values.items() if value is not None}
+    return {"preset": args.preset, **given, **settings_of(args), **targets}

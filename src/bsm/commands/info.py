@@ -4,15 +4,24 @@ from __future__ import annotations
 
 import argparse
 import base64
-from dataclasses import asdict
+from dataclasses import asdict, dataclass
 from typing import Any
 
-from bsm.batch import Facts, Job, add_inputs, input_names, run_jobs
+from bsm.batch import Facts, Job, input_names, run_jobs
 from bsm.bitstream.container.wire import VERSION
+from bsm.commands.inputs import add_inputs, asked, run_of
 from bsm.commands.limits import add_limits_flag, limits_of
 from bsm.console import Console
+from bsm.farm.jobs import Task
 from bsm.files.pipes import read_chunks
 from bsm.files.stream import StreamInfo, inspect_stream
+
+
+@dataclass(frozen=True, kw_only=True)
+class InfoJob(Task):
+    """What `bsm info` is asked for."""
+
+    limits: str = "default"
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -23,12 +32,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace, console: Console) -> int:
     """Describe all inputs."""
-    return run_jobs(args, console, info_of_one, [Job(name) for name in input_names(args.inputs)], _worded)
+    jobs = [Job(name) for name in input_names(args.inputs)]
+    return run_jobs(run_of(args), asked(InfoJob, args), console, info_of_one, jobs, _worded)
 
 
-def info_of_one(args: argparse.Namespace, console: Console) -> Facts:
+def info_of_one(args: InfoJob, console: Console) -> Facts:
     """Describe one stream."""
-    return {"input": args.input, **summarise(inspect_stream(read_chunks(args.input), limits_of(args)))}
+    return {"input": args.input, **summarise(inspect_stream(read_chunks(args.input), limits_of(args.limits)))}
 
 
 def summarise(info: StreamInfo) -> dict[str, Any]:
@@ -87,7 +97,7 @@ def _worded(summary: Facts) -> str:
 
 
 def _position_lines(summary: dict[str, Any]) -> list[str]:
-    """Of what kind the positions are."""
+    """Lines that say how positions are coded."""
     header, coefficients = summary["header"], summary["coefficients"] or [0]
     if header["grid"]:
         return [f"positions on a grid of {' x '.join(str(largest + 1) for largest in header['grid'])}"]

@@ -18,6 +18,6 @@ def add_limits_flag(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def limits_of(args: argparse.Namespace) -> Limits:
-    """The limits of a command line."""
-    return NAMED_LIMITS[args.limits]()
+def limits_of(name: str) -> Limits:
+    """The limits that the option names."""
+    return NAMED_LIMITS[name]()

@@ -16,7 +16,7 @@ from bsm.files.mesh import MESH_FORMATS, format_of_name, read_mesh, save_written
 from bsm.files.naming import refuse_terminal
 from bsm.files.output import refuse_to_overwrite
 
-KINDS = ("gaussian", "isotropic", "uniform", "impulsive", "axis", "correlated", "part")
+KINDS = ("gaussian", "isotropic", "uniform", "impulsive", "axis", "correlated", "ripples", "range", "rounded", "part")
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -32,12 +32,15 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         choices=KINDS,
         default="gaussian",
         help="Gaussian along the normals (default); in all directions; from an interval; on some vertices only; along "
-        "one axis (a depth camera); shared by neighbours (a scanner); in one part of the mesh only",
+        "one axis (a depth camera); shared by neighbours (a scanner); waves; along one axis and growing with the "
+        "distance; coordinates rounded to a grid; in one part of the mesh only",
     )
     parser.add_argument(
         "--fraction", type=float, metavar="P", help="share of the vertices, impulsive and part only (0.5)"
     )
-    parser.add_argument("--axis", type=float, nargs=3, metavar=("X", "Y", "Z"), help="direction, axis only (0 0 1)")
+    parser.add_argument(
+        "--axis", type=float, nargs=3, metavar=("X", "Y", "Z"), help="direction, axis and range only (0 0 1)"
+    )
     parser.add_argument("--seed", type=int, default=0, metavar="N", help="the same seed gives the same noise (0)")
     add_reader_flag(parser)
     parser.add_argument("--json", action="store_true", help="print what was done as JSON")
@@ -78,19 +81,22 @@ def _generator(args: argparse.Namespace) -> Callable[[TriangleMesh], Positions]:
     sigma, seed = args.sigma, args.seed
     if args.fraction is not None and args.kind not in ("impulsive", "part"):
         raise OptionError("--fraction goes with --kind impulsive and --kind part only")
-    if args.axis is not None and args.kind != "axis":
-        raise OptionError("--axis goes with --kind axis only")
+    if args.axis is not None and args.kind not in ("axis", "range"):
+        raise OptionError("--axis goes with --kind axis and --kind range only")
     if args.kind in ("impulsive", "part"):
         some = noise.impulsive if args.kind == "impulsive" else noise.gaussian_in_part
         fraction = 0.5 if args.fraction is None else args.fraction
         return lambda mesh: some(mesh.positions, mesh.faces, sigma, fraction, seed)
-    if args.kind == "axis":
+    if args.kind in ("axis", "range"):
+        along = noise.gaussian_along_axis if args.kind == "axis" else noise.gaussian_with_range
         axis = (0.0, 0.0, 1.0) if args.axis is None else tuple(args.axis)
-        return lambda mesh: noise.gaussian_along_axis(mesh.positions, mesh.faces, sigma, seed, axis)
+        return lambda mesh: along(mesh.positions, mesh.faces, sigma, seed, axis)
     generate = {
         "gaussian": noise.gaussian_along_normals,
         "isotropic": noise.gaussian_isotropic,
         "uniform": noise.uniform_along_normals,
         "correlated": noise.correlated_along_normals,
+        "ripples": noise.ripples_along_normals,
+        "rounded": noise.rounded,
     }[args.kind]
     return lambda mesh: generate(mesh.positions, mesh.faces, sigma, seed)

@@ -61,7 +61,7 @@ def compare_loaded(args: argparse.Namespace, original: Sequence, decoded: Sequen
 
 def _loaded(path: str, args: argparse.Namespace) -> Sequence | None:
     with about(path):
-        return load_sequence(path, args.reader, limits_of(args))
+        return load_sequence(path, args.reader, limits_of(args.limits))
 
 
 def compare_if_sequences(args: argparse.Namespace) -> bool:

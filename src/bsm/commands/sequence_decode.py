@@ -9,9 +9,9 @@ from collections.abc import Iterator
 
 from bsm.batch import Facts, size_of
 from bsm.bitstream.errors import OptionError
+from bsm.commands.decode_job import DecodeJob
 from bsm.commands.limits import limits_of
 from bsm.console import Console
-from bsm.farm.run import may_replace
 from bsm.files.naming import default_output, output_inside
 from bsm.files.output import refuse_to_overwrite
 from bsm.files.permutation import read_permutation, reorder
@@ -25,22 +25,22 @@ def add_flags(parser: argparse.ArgumentParser) -> None:
     group.add_argument("--frames", metavar="A:B", help="frames A to B - 1 only; what they do not need is not decoded")
 
 
-def refuse_flags(args: argparse.Namespace) -> None:
+def refuse_flags(args: DecodeJob) -> None:
     """Raise `OptionError` if a flag of `add_flags` was given for a mesh."""
     if args.frames is not None:
         raise OptionError("--frames is for sequences, and this is one mesh")
 
 
-def decode_sequence(args: argparse.Namespace, console: Console, chunks: Iterator[bytes]) -> Facts:
+def decode_sequence(args: DecodeJob, console: Console, chunks: Iterator[bytes]) -> Facts:
     """Decode one sequence; every frame is written as soon as it is known."""
     if args.blocks is not None:
         raise OptionError("--blocks is for meshes, and this is a sequence")
     output = _output(args)
     kind = sequence_kind(output, args.format)
-    refuse_to_overwrite(output, may_replace(args, output))
+    refuse_to_overwrite(output, args.may_replace(output))
     begin = time.perf_counter()
     first, last = _range(args.frames)
-    stream = SequenceStream(chunks, console.note if args.tolerant else None, first, limits_of(args))
+    stream = SequenceStream(chunks, console.note if args.tolerant else None, first, limits_of(args.limits))
     header, faces = stream.header, stream.faces
     last = min(last, header.frames or last)
     expected = max(last - first, 0) if header.frames and not args.tolerant else 0
@@ -56,7 +56,7 @@ def decode_sequence(args: argparse.Namespace, console: Console, chunks: Iterator
             kind,
             faces,
             expected,
-            overwrite=may_replace(args, output),
+            overwrite=args.may_replace(output),
             attributes=lambda: stream.attributes if holds else (),
         ) as write,
         console.progress("decoding", "frames") as progress,
@@ -82,7 +82,7 @@ def decode_sequence(args: argparse.Namespace, console: Console, chunks: Iterator
     return {"input": args.input, "output": output, **facts, **sizes, "seconds": seconds}
 
 
-def _output(args: argparse.Namespace) -> str:
+def _output(args: DecodeJob) -> str:
     """Where a sequence goes: an npz, or a folder for frames of a format of meshes, if nothing else was said."""
     suffix = f".{args.format or 'npz'}" if args.format in (None, "npz", "npy") else ""
     if args.given is None:

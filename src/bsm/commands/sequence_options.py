@@ -3,14 +3,7 @@
 from __future__ import annotations
 
 import argparse
-from typing import TYPE_CHECKING
-
-from bsm import options
-from bsm.bitstream.errors import OptionError
-from bsm.commands.encode_options import given_options, given_targets
-
-if TYPE_CHECKING:
-    from bsm.codec.sequence.options import SequenceOptions
+from typing import Any
 
 _OWN = ("kg", "bpvf", "gop", "low_delay", "frame_rate")
 
@@ -31,20 +24,6 @@ def add_sequence_flags(parser: argparse.ArgumentParser) -> None:
     group.add_argument("--frame-rate", type=float, metavar="FPS", help="frames per second, for the metadata")
 
 
-def refuse_sequence_flags(args: argparse.Namespace) -> None:
-    """Raise `OptionError` if a flag of `add_sequence_flags` was given for a mesh."""
-    given = [name for name in _OWN if getattr(args, name) is not None]
-    if given:
-        raise OptionError(f"--{given[0].replace('_', '-')} is for sequences, and this is one mesh")
-
-
-def sequence_options(args: argparse.Namespace) -> SequenceOptions:
-    """The options that the command line asks for.
-
-    Raises
-    ------
-    ArgumentError, OptionError
-        If a flag does not go with sequences, or there are two targets.
-    """
-    own = {name: getattr(args, name) for name in _OWN if getattr(args, name) is not None}
-    return options.sequence_options(preset=args.preset, **given_options(args), **given_targets(args), **own)
+def sequence_wishes(args: argparse.Namespace) -> dict[str, Any]:
+    """What was asked for that only sequences have, as keywords of `bsm.options.sequence_options`."""
+    return {name: getattr(args, name) for name in _OWN if getattr(args, name) is not None}

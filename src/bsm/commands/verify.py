@@ -3,15 +3,27 @@
 from __future__ import annotations
 
 import argparse
+from dataclasses import dataclass
 
-from bsm.batch import Facts, Job, add_inputs, input_names, run_jobs
+from bsm.batch import Facts, Job, input_names, run_jobs
 from bsm.bitstream.errors import OptionError
+from bsm.commands.inputs import add_inputs, asked, run_of
 from bsm.commands.limits import add_limits_flag, limits_of
 from bsm.console import Console
+from bsm.farm.jobs import Task
 from bsm.files.pipes import read_chunks
 from bsm.files.sequence_stream import decode_through
 from bsm.files.stream import decode_whole, inspect_stream
 from bsm.steadiness import check_steadiness
+
+
+@dataclass(frozen=True, kw_only=True)
+class VerifyJob(Task):
+    """What `bsm verify` is asked for: the limits, whether only structure is checked, or steadiness as well."""
+
+    limits: str = "default"
+    quick: bool = False
+    steady: bool = False
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -31,13 +43,14 @@ def run(args: argparse.Namespace, console: Console) -> int:
     """Check all inputs; what is wrong is raised."""
     if args.steady and args.quick:
         raise OptionError("--steady decodes, which --quick does not")
-    return run_jobs(args, console, verify_one, [Job(name) for name in input_names(args.inputs)])
+    jobs = [Job(name) for name in input_names(args.inputs)]
+    return run_jobs(run_of(args), asked(VerifyJob, args), console, verify_one, jobs)
 
 
-def verify_one(args: argparse.Namespace, console: Console) -> Facts:
+def verify_one(args: VerifyJob, console: Console) -> Facts:
     """Check one stream."""
     chunks = list(read_chunks(args.input))
-    limits = limits_of(args)
+    limits = limits_of(args.limits)
     info = inspect_stream(iter(chunks), limits)
     if not args.quick:
         decode_through(iter(chunks), limits) if info.header.gop_frames else decode_whole(iter(chunks), limits)

@@ -71,7 +71,7 @@ def _contents(args: argparse.Namespace) -> list[Content]:
     with about(args.original):
         mesh = read_mesh(args.original, reader=args.reader).mesh
     with about(args.inputs[0]):
-        return [compared(name, data, mesh, limits_of(args)) for name, data in streams.items()]
+        return [compared(name, data, mesh, limits_of(args.limits)) for name, data in streams.items()]
 
 
 def _free_name(name: str, taken: dict[str, bytes]) -> str:

@@ -137,7 +137,7 @@ class Draco:
         return Coded(data, lambda decoded: positions_in_order(mesh, decoded, self.position_bits))
 
     def decode(self, data: bytes) -> TriangleMesh:
-        """Decode."""
+        """Positions that a stream of this codec holds."""
         return decode_draco(data)
 
     def breakdown(self, data: bytes) -> Breakdown:

@@ -23,12 +23,12 @@ RowOrder = Callable[[Blocks, int], Laplacian]
 
 
 def in_bisection_order(blocks: Blocks, index: int) -> Laplacian:
-    """That of the block as the codec has it."""
+    """Laplacian of a block as the codec has it."""
     return laplacian_of(blocks.block(index))
 
 
 def in_breadth_first_order(blocks: Blocks, index: int) -> Laplacian:
-    """That of the block with its rows as growing found them: its part in mesh order, then ring after ring."""
+    """Laplacian of a block with its rows as growing found them: its part in mesh order, then ring after ring."""
     block = blocks.block(index)
     found = blocks.members_of(index)
     by_vertex = np.argsort(block.vertices)
@@ -36,7 +36,7 @@ def in_breadth_first_order(blocks: Blocks, index: int) -> Laplacian:
 
 
 def permuted(laplacian: Laplacian, rows: npt.NDArray[np.integer]) -> Laplacian:
-    """That of the same block with its row `rows[r]` as row r."""
+    """A Laplacian with its row `rows[r]` as row r."""
     block, fronts = laplacian.block, laplacian.fronts
     entries = np.ones(len(block.neighbours), np.int8)
     graph = csr_matrix((entries, block.neighbours, block.offsets), shape=(block.size, block.size))

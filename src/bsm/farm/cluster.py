@@ -10,7 +10,7 @@ from contextlib import contextmanager
 from typing import Any
 
 from bsm.bitstream.errors import DependencyError
-from bsm.farm.jobs import Outcome, Outcomes, Task, Tasks, Work, far_outcome
+from bsm.farm.jobs import Numbered, Outcome, Outcomes, Tasks, Work, far_outcome
 
 AHEAD = 2
 """Jobs handed out for each thread of the cluster."""
@@ -43,8 +43,8 @@ def on_cluster(work: Work, tasks: Tasks, address: str) -> Outcomes:
     except (OSError, ValueError) as error:
         raise OSError(errno.EHOSTUNREACH, "no Dask scheduler answers here", address) from error
     waiting, run = iter(tasks), uuid.uuid4().hex
-    handed: dict[str, Task] = {}
-    suspects: list[Task] = []
+    handed: dict[str, Numbered] = {}
+    suspects: list[Numbered] = []
     with _silence("distributed.client"), client:
         running: Any = distributed.as_completed(loop=client.loop)  # type: ignore[no-untyped-call]
         try:

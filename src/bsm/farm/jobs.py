@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import argparse
 import traceback
 from collections.abc import Callable, Generator, Iterable
 from dataclasses import dataclass
@@ -14,8 +13,6 @@ from bsm.files.output import remove_abandoned
 
 Facts = dict[str, Any]
 """What came of an input, ready for JSON; `input_bytes`, `output_bytes` are summed up."""
-Work = Callable[[argparse.Namespace, Console], Facts]
-"""What a command does with `input` and `output` of its arguments; a function of a module, so that processes find it."""
 
 
 @dataclass(frozen=True)
@@ -24,6 +21,71 @@ class Job:
 
     input: str
     output: str = ""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Task:
+    """What is asked for an input; each command adds fields of its own.
+
+    Parameters
+    ----------
+    input, output : str
+        Of the job.
+    force : bool
+        Write over files.
+    quiet : bool
+        Say nothing but results and errors.
+    before : dict, optional
+        What came of the same job in an earlier run.
+    replaceable : frozenset of str
+        Outputs that may be written over without `force`: they were not there when the run began, or an earlier run was
+        to make them.
+    """
+
+    input: str = ""
+    output: str = ""
+    force: bool = False
+    quiet: bool = False
+    before: Facts | None = None
+    replaceable: frozenset[str] = frozenset()
+
+    def may_replace(self, path: str) -> bool:
+        """Whether this job may write over a file."""
+        return self.force or path in self.replaceable
+
+
+@dataclass(frozen=True, kw_only=True)
+class Run:
+    """How many jobs are done.
+
+    Parameters
+    ----------
+    jobs : int
+        At a time, each in a process; 0: one per core.
+    dask : str, optional
+        The scheduler of a cluster that does them instead.
+    report : str, optional
+        The file that records them.
+    resume : bool
+        Go on from that record.
+    json : bool
+        Print results for machines.
+    """
+
+    jobs: int = 1
+    dask: str | None = None
+    report: str | None = None
+    resume: bool = False
+    json: bool = False
+
+    @property
+    def side_by_side(self) -> bool:
+        """Whether several jobs may be done at a time."""
+        return self.jobs != 1 or self.dask is not None
+
+
+Work: TypeAlias = Callable[[Any, Console], Facts]
+"""What a command does with a `Task` of its own; a function of a module, so that processes find it."""
 
 
 @dataclass(frozen=True)
@@ -39,37 +101,37 @@ class UnexpectedError(Exception):
     """A fault of the program, with its traceback."""
 
 
-Task: TypeAlias = tuple[int, argparse.Namespace]
-"""The number of a job, and its arguments."""
-Tasks: TypeAlias = Iterable[Task]
+Numbered: TypeAlias = tuple[int, Task]
+"""The number of a job, and what is asked."""
+Tasks: TypeAlias = Iterable[Numbered]
 """Made as they are needed."""
 Outcomes: TypeAlias = Generator[tuple[int, Outcome], None, None]
 """Numbers of jobs and what came of them, as they end."""
 
 
-def outcome_of(work: Work, args: argparse.Namespace, console: Console) -> Outcome:
+def outcome_of(work: Work, task: Task, console: Console) -> Outcome:
     """Do one job; whatever fails is an outcome too, but for signals and for pipes that nobody reads."""
     try:
-        with about(args.input):
-            return Outcome(work(args, console), said=tuple(console.kept or ()))
+        with about(task.input):
+            return Outcome(work(task, console), said=tuple(console.kept or ()))
     except Exception as error:
         if behind(error) is not error or isinstance(error, BrokenPipeError):
             raise
-        failure = error if is_expected(error) else _fault(args.input, error)
+        failure = error if is_expected(error) else _fault(task.input, error)
         return Outcome({}, failure, tuple(console.kept or ()))
 
 
-def far_outcome(work: Work, args: argparse.Namespace) -> Outcome:
+def far_outcome(work: Work, task: Task) -> Outcome:
     """`outcome_of` where nobody listens and an earlier attempt may have been cut off."""
-    for path in args.replaceable:
+    for path in task.replaceable:
         remove_abandoned(path)
-    return outcome_of(work, args, Console(args.quiet, kept=[]))
+    return outcome_of(work, task, Console(task.quiet, kept=[]))
 
 
 def one_by_one(work: Work, tasks: Tasks, console: Console) -> Outcomes:
     """Do all jobs here."""
-    for number, args in tasks:
-        yield number, outcome_of(work, args, console)
+    for number, task in tasks:
+        yield number, outcome_of(work, task, console)
 
 
 def _fault(name: str, error: Exception) -> UnexpectedError:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import argparse
 import multiprocessing
 import os
 import signal
@@ -14,13 +13,14 @@ from contextlib import contextmanager
 from itertools import islice
 
 from bsm.exits import exit_of
-from bsm.farm.jobs import Outcome, Outcomes, Task, Tasks, Work, far_outcome
+from bsm.farm.jobs import Numbered, Outcome, Outcomes, Task, Tasks, Work, far_outcome
 from bsm.files.output import Terminated, termination_as_exception
 
 AHEAD = 2
 """Jobs handed out for each process."""
 
-Handed = dict[int, argparse.Namespace]
+Handed = dict[int, Task]
+Ends = Generator[tuple[int, Outcome], None, Handed]
 
 
 def in_processes(work: Work, tasks: Tasks, processes: int) -> Outcomes:
@@ -40,7 +40,7 @@ def in_processes(work: Work, tasks: Tasks, processes: int) -> Outcomes:
                     )
 
 
-def _until_one_dies(work: Work, tasks: Iterator[Task], processes: int) -> Generator[tuple[int, Outcome], None, Handed]:
+def _until_one_dies(work: Work, tasks: Iterator[Numbered], processes: int) -> Ends:
     """Do jobs until there are none, or a process dies; returns what was handed out and has not ended."""
     # Not forked: threads of this process may hold locks.
     pool = ProcessPoolExecutor(processes, multiprocessing.get_context("spawn"))
@@ -85,9 +85,9 @@ def _end(pool: ProcessPoolExecutor, *, at_once: bool) -> None:
             process.join()
 
 
-def _task(work: Work, args: argparse.Namespace) -> Outcome:
+def _task(work: Work, task: Task) -> Outcome:
     try:
-        return far_outcome(work, args)
+        return far_outcome(work, task)
     except Terminated:
         # What was begun is cleared away; nothing else is to be taken up.
         os._exit(exit_of(Terminated()).code)

@@ -2,24 +2,22 @@
 
 from __future__ import annotations
 
-import argparse
 import hashlib
 import json
 import time
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from typing import Any
 
 from bsm import __version__
 from bsm.bitstream.errors import FormatError
 from bsm.console import Console
-from bsm.farm.jobs import Facts, Job, Work
+from bsm.farm.jobs import Facts, Job, Task, Work
 from bsm.files.output import open_output, remove_abandoned
 from bsm.files.pipes import read_bytes, read_chunks
 from bsm.files.state import files_behind, state_of
 
-_ABOUT_THE_RUN = {"inputs", "input", "output", "run", "given", "many", "jobs", "dask", "report", "resume"}
-_ABOUT_ME = {"json", "quiet", "force", "threads", "replaceable", "before"}
+_ABOUT_THE_RUN = {"input", "output", "folder", "quiet", "force", "threads", "replaceable", "before"}
 _EVERY = 1.0
 """Seconds between two versions of a report, at least."""
 _SHARE = 0.02
@@ -27,9 +25,9 @@ _SHARE = 0.02
 _ROWS = 60
 
 
-def options_of(args: argparse.Namespace) -> Facts:
+def options_of(task: Task) -> Facts:
     """What outputs depend on beside their inputs."""
-    given = {name: value for name, value in vars(args).items() if name not in _ABOUT_THE_RUN | _ABOUT_ME}
+    given = {name: value for name, value in asdict(task).items() if name not in _ABOUT_THE_RUN}
     options: Facts = json.loads(json.dumps({"version": __version__, **given}, default=str, sort_keys=True))
     return options
 
@@ -125,9 +123,9 @@ def read_report(path: str, command: str, options: Facts) -> Earlier:
     return Earlier(frozenset(files), files if same else {})
 
 
-def recorded(work: Work, args: argparse.Namespace, console: Console) -> Facts:
-    """Work that says what it read and wrote; it is not done again where both are still as `args.before` says."""
-    state, before = state_of(args.input), args.before
+def recorded(work: Work, task: Task, console: Console) -> Facts:
+    """Work that says what it read and wrote; it is not done again where both are still as `task.before` says."""
+    state, before = state_of(task.input), task.before
     if before:
         remove_abandoned(before["output"])
     if (
@@ -136,9 +134,9 @@ def recorded(work: Work, args: argparse.Namespace, console: Console) -> Facts:
         and before.get("input_state") == state
         and before.get("output_sha256") == _digest(before["output"])
     ):
-        console.note(f"{args.input} -> {before['output']}: as it was")
+        console.note(f"{task.input} -> {before['output']}: as it was")
         return {**before, "resumed": True}
-    facts = work(args, console)
+    facts = work(task, console)
     return {**facts, "input_state": state, "output_sha256": _digest(facts["output"])}
 
 

@@ -2,23 +2,24 @@
 
 from __future__ import annotations
 
-import argparse
 import os
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import closing
+from dataclasses import replace
 from functools import partial
 
 from bsm.bitstream.errors import OptionError
 from bsm.console import Console
 from bsm.exits import exit_of, worded
-from bsm.farm.jobs import Facts, Job, Outcome, Outcomes, Task, Tasks, Work, one_by_one
+from bsm.farm.jobs import Facts, Job, Numbered, Outcome, Outcomes, Run, Task, Tasks, Work, one_by_one
 from bsm.farm.report import NOTHING, Earlier, Report, options_of, read_report, recorded
 from bsm.files.output import refuse_to_overwrite
 from bsm.files.remote import is_url, state_of_remote
 
 
 def run_many(
-    args: argparse.Namespace,
+    run: Run,
+    asked: Task,
     console: Console,
     work: Work,
     jobs: Sequence[Job],
@@ -28,8 +29,12 @@ def run_many(
 
     Parameters
     ----------
-    args : Namespace
-        What all jobs have in common: `jobs`, `dask`, `report`, `resume`, and what `work` takes.
+    run : Run
+    asked : Task
+        What all jobs have in common; each gets a copy with its input and output.
+    work : callable
+        Takes such a task.
+    jobs : sequence of Job
     hear : callable
         Is told what came of one job after the other, in their order.
 
@@ -38,24 +43,24 @@ def run_many(
     list of dict
         What came of each, in their order; with "error" and "exit" where it failed.
     """
-    if args.dask is not None:
+    if run.dask is not None:
         jobs = [_anywhere(job) for job in jobs]
     earlier, report = NOTHING, None
-    if args.report is not None:
-        refuse_to_overwrite(args.report, args.force or args.resume)
+    if run.report is not None:
+        refuse_to_overwrite(run.report, asked.force or run.resume)
         command = work.__name__
-        options = options_of(args)
-        earlier = read_report(args.report, command, options) if args.resume else NOTHING
-        report = Report(args.report, command, options, jobs, earlier.files)
+        options = options_of(asked)
+        earlier = read_report(run.report, command, options) if run.resume else NOTHING
+        report = Report(run.report, command, options, jobs, earlier.files)
         work = partial(recorded, work)
-    elif args.resume:
+    elif run.resume:
         raise OptionError("--resume goes on from what --report FILE.json says: name it")
     done: list[Facts] = [{} for _ in jobs]
     ended: dict[int, Outcome] = {}
     told = 0
-    tasks = _tasks(args, jobs, earlier)
+    tasks = _tasks(asked, jobs, earlier)
     try:
-        with console.progress("files", "files") as progress, closing(_outcomes(args, console, work, tasks)) as outcomes:
+        with console.progress("files", "files") as progress, closing(_outcomes(run, console, work, tasks)) as outcomes:
             for count, (number, outcome) in enumerate(outcomes, 1):
                 done[number] = _facts(jobs[number], outcome)
                 if report:
@@ -71,35 +76,28 @@ def run_many(
     return done
 
 
-def task(args: argparse.Namespace, job: Job, earlier: Earlier = NOTHING) -> argparse.Namespace:
-    """The arguments of one job: `input`, `output`, `before` (what came of it once) and `replaceable` (outputs that may
-    be written over without being asked: what was not there when it began, or was to be made by an earlier run)."""
+def task_of(asked: Task, job: Job, earlier: Earlier = NOTHING) -> Task:
+    """What is asked, for one job."""
     before = earlier.files.get(job.output)
     replaceable = {job.output, *([before["output"]] if before else [])} - {"", "-"}
-    mine = {name for name in replaceable if name in earlier.outputs or not _is_there(name)}
-    more = {"input": job.input, "output": job.output, "before": before, "replaceable": mine}
-    return argparse.Namespace(**{**vars(args), **more})
+    mine = frozenset(name for name in replaceable if name in earlier.outputs or not _is_there(name))
+    return replace(asked, input=job.input, output=job.output, before=before, replaceable=mine)
 
 
-def may_replace(args: argparse.Namespace, path: str) -> bool:
-    """Whether a job may write over a file."""
-    return args.force or path in args.replaceable
-
-
-def _tasks(args: argparse.Namespace, jobs: Sequence[Job], earlier: Earlier) -> Iterator[Task]:
+def _tasks(asked: Task, jobs: Sequence[Job], earlier: Earlier) -> Iterator[Numbered]:
     for number, job in enumerate(jobs):
-        yield number, task(args, job, earlier)
+        yield number, task_of(asked, job, earlier)
 
 
-def _outcomes(args: argparse.Namespace, console: Console, work: Work, tasks: Tasks) -> Outcomes:
+def _outcomes(run: Run, console: Console, work: Work, tasks: Tasks) -> Outcomes:
     """Where jobs are done."""
-    if args.dask is not None:
+    if run.dask is not None:
         from bsm.farm.cluster import on_cluster
 
-        return on_cluster(work, tasks, args.dask)
-    if args.jobs < 0:
-        raise OptionError(f"-j {args.jobs}: at least one input at a time, or 0")
-    processes = args.jobs or _cores()
+        return on_cluster(work, tasks, run.dask)
+    if run.jobs < 0:
+        raise OptionError(f"-j {run.jobs}: at least one input at a time, or 0")
+    processes = run.jobs or _cores()
     if processes == 1:
         return one_by_one(work, tasks, console)
     # Where there is one process there is no need to load this.

@@ -26,7 +26,7 @@ _STANDARD = {"/dev/stdout": "/dev/fd/1", "/dev/stderr": "/dev/fd/2"}
 
 
 class Terminated(SystemExit):
-    """SIGTERM came."""
+    """Raised when SIGTERM comes."""
 
 
 @contextmanager
@@ -124,7 +124,7 @@ def _by_its_own_name(path: str | os.PathLike[str]) -> Iterator[None]:
 
 
 def _permissions(target: Path) -> int:
-    """Those of the file that is replaced, or those that any new file gets (a temporary file is private)."""
+    """Permissions of the file that is replaced, or those that any new file gets (a temporary file is private)."""
     if target.exists():
         return target.stat().st_mode & 0o777
     mask = os.umask(0)

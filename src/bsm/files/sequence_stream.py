@@ -77,7 +77,7 @@ class SequenceStream:
 
     @property
     def attributes(self) -> tuple[Attribute, ...]:
-        """Those that are the same in all frames, once the first frame is known."""
+        """Attributes that are the same in all frames, once the first frame is known."""
         return self._decoder.attributes
 
     def frames(self) -> Iterator[tuple[int, Positions]]:

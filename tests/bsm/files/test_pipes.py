@@ -108,12 +108,12 @@ def test_what_is_a_pipe(tmp_path):
 def test_the_command_line_takes_what_a_shell_gives(line, tmp_path):
     write_mesh(tmp_path / "in.ply", knot(300))
     os.mkfifo(tmp_path / "fifo.ply")
-    program = f'bsm() {{ "{sys.executable}" -m bsm.cli "$@"; }}\n'
+    program = f'bsm() {{ "{sys.executable}" -m bsm "$@"; }}\n'
     feed = "cat in.ply > fifo.ply &\n" if "fifo.ply" in line else ""
     done = subprocess.run(
         ["bash", "-c", program + feed + line],
         cwd=tmp_path,
-        env={**os.environ, "PYTHONPATH": str(ROOT)},
+        env={**os.environ},
         capture_output=True,
         timeout=120,
         check=True,

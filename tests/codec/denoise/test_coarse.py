@@ -8,6 +8,7 @@ import pytest
 from bsm.bitstream.errors import OptionError
 from bsm.codec.denoise.coarse import RULES, CoarseFilter
 from bsm.codec.denoise.filters.topology import Topology
+from bsm.codec.denoise.filters.vertex_update import face_geometry, vertex_normals
 from bsm.codec.denoise.handover import HAND_OVERS, hand_over
 from bsm.codec.denoise.noise.gaussian import gaussian_along_normals
 from bsm.codec.geometry.graph import graph_of_faces
@@ -79,7 +80,7 @@ def test_illegal_fractions_are_refused(keep: float) -> None:
         CoarseFilter(faces, len(positions), 0.5)(positions, keep)
 
 
-@pytest.mark.parametrize("name", ["positions", "normals"])
+@pytest.mark.parametrize("name", ["positions", "heights", "normals"])
 def test_each_hand_over_takes_noise_away_before_the_fine_step(name: str) -> None:
     clean, faces = sphere(16)
     noisy = gaussian_along_normals(clean, faces, 0.3, seed=2)
@@ -87,6 +88,17 @@ def test_each_hand_over_takes_noise_away_before_the_fine_step(name: str) -> None
     assert theta(clean, hand_over(name)(noisy, coarse, Topology(faces, len(noisy))), faces) < 0.6 * theta(
         clean, noisy, faces
     )
+
+
+def test_heights_move_along_the_normals_of_the_coarse_mesh_alone() -> None:
+    clean, faces = sphere(16)
+    noisy = gaussian_along_normals(clean, faces, 0.3, seed=2)
+    coarse = CoarseFilter(faces, len(clean))(noisy)
+    topology = Topology(faces, len(noisy))
+    moved = hand_over("heights")(noisy, coarse, topology) - noisy
+    normals = vertex_normals(face_geometry(coarse, faces).normals, topology.around)
+    along = np.einsum("ij,ij->i", moved, normals)[:, None] * normals
+    assert moved == pytest.approx(along, abs=1e-12) and np.abs(moved).max() > 0.0
 
 
 def test_hand_overs_copy_what_they_hand_over() -> None:

@@ -12,14 +12,17 @@ from bsm.codec.denoise.noise.gaussian import (
     gaussian_along_axis,
     gaussian_along_normals,
     gaussian_in_part,
+    gaussian_with_range,
     impulsive,
+    rounded,
     uniform_along_normals,
 )
 from bsm.codec.denoise.noise.outliers import find_outliers
 from bsm.codec.denoise.noise.probe import Probe
+from bsm.codec.denoise.noise.rounding import find_grid
 from bsm.codec.denoise.safety import judge, keep_good, restraint
-from bsm.codec.geometry.metrics import mean_edge_length
-from tests.codec.denoise.denoise_shapes import cube, sphere
+from bsm.codec.geometry.metrics import mean_edge_length, theta
+from tests.codec.denoise.denoise_shapes import Partners, cube, grid, sphere
 
 KINDS = {
     "white": gaussian_along_normals,
@@ -56,6 +59,38 @@ def test_the_axis_is_found() -> None:
     assert abs(finding.axis @ direction) > 0.97
 
 
+def test_noise_that_grows_with_the_distance_is_found_with_its_growth() -> None:
+    clean, faces = sphere(40)
+    finding = find(gaussian_with_range(clean, faces, 0.3, 5, ratio=3.0), faces)
+    assert finding.kind == "axis" and finding.axis is not None and finding.growth is not None
+    assert abs(finding.axis[2]) > 0.97
+    near, far = (finding.growth[np.argmin(way * clean[:, 2])] for way in (1.0, -1.0))
+    assert 2.0 < max(near, far) / min(near, far) < 5.0
+    assert len(finding.on(np.arange(7)).growth) == 7  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("sigma", [0.05, 0.15])
+def test_rounded_positions_are_known_for_it_and_stay_in_their_cells(sigma: float) -> None:
+    clean, faces = sphere(30)
+    noisy = rounded(clean, faces, sigma, 3)
+    finding = find(noisy, faces)
+    assert finding.kind == "grid" and finding.grid is not None
+    step = np.sqrt(12.0) * sigma * mean_edge_length(clean, faces)
+    assert finding.grid.steps == pytest.approx(step, rel=1e-3)
+    result, choice = denoise_automatically(noisy, faces)
+    assert choice.steps
+    assert np.abs(result - noisy).max() <= 0.5 * step * (1.0 + 1e-6)
+    assert theta(clean, result, faces) < 0.5 * theta(clean, noisy, faces)
+
+
+def test_shapes_that_were_drawn_on_a_grid_are_not_rounded() -> None:
+    """A roof whose two slopes of 45 degrees hit the grid exactly."""
+    flat, faces = grid(60)
+    roof = np.stack([flat[:, 0], flat[:, 1], 30.0 - np.abs(flat[:, 0] - 30.0)], axis=1)
+    assert find_grid(roof) is not None
+    assert find(roof, faces).kind == "none"
+
+
 def test_noise_in_one_half_is_found_there() -> None:
     clean, faces = sphere(30)
     noisy = gaussian_in_part(clean, faces, 0.3, 0.5, seed=4)
@@ -80,6 +115,16 @@ def test_a_mesh_too_small_for_statistics_is_unknown() -> None:
     clean, faces = sphere(6)
     finding = find(gaussian_along_normals(clean, faces, 0.3, 1), faces)
     assert finding.kind == "unknown" and not finding.noisy
+
+
+@pytest.mark.real
+def test_faint_noise_is_told_from_fine_detail_by_its_whiteness(partners: Partners) -> None:
+    rough, _ = partners("armadillo_12502", "armadillo_12502_0.2_noisy")
+    assert find(rough.positions, rough.faces).kind == "none"
+    for name, sigma in (("sharpsphere", 0.08), ("fr_chinese_lion", 0.08), ("fr_casting", 0.08)):
+        clean, _ = partners(name, "sharpsphere_noisy")
+        noisy = gaussian_along_normals(clean.positions, clean.faces, sigma, 5)
+        assert find(noisy, clean.faces).kind == "white"
 
 
 def test_noise_may_go_and_shape_may_not() -> None:

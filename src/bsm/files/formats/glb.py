@@ -27,7 +27,7 @@ class _AsItIs:
         self.format = kind
 
     def save(self, file: Any, format: str = "") -> None:
-        """Write it."""
+        """Write the file."""
         file.write(self._data)
 
 

@@ -136,7 +136,7 @@ class _Part:
         return np.asarray(self.mesh.faces[:, ::-1] if mirrored else self.mesh.faces)
 
     def columns(self) -> list[Column]:
-        """What its vertices and faces have."""
+        """Attributes of a geometry's vertices and faces."""
         mesh, visual = self.mesh, self.mesh.visual
         found = []
         if "vertex_normals" in mesh._cache:
@@ -169,7 +169,7 @@ class _Part:
         return unit
 
     def materials(self) -> tuple[list[Any], Array]:
-        """Its materials, and which of them each face has."""
+        """Materials of a mesh, and which of them each face has."""
         visual = self.mesh.visual
         none = np.zeros(len(self.mesh.faces), np.int64)
         if visual.kind != "texture" or visual.material is None:

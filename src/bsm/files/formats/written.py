@@ -13,7 +13,7 @@ from bsm.files.formats.materials import Material
 
 @dataclass(frozen=True)
 class Written:
-    """A mesh file.
+    """A mesh file as it will be written.
 
     Parameters
     ----------

@@ -8,10 +8,10 @@ import numpy as np
 
 from bsm.codec.denoise.coarse import RULES, CoarseFilter
 from bsm.codec.denoise.filters.guided import guided_normal_filtering
-from bsm.paper.exhibit import Cell, Column, Exhibit, Table
-from bsm.paper.pictures import portrait
-from bsm.paper.published import JULIO, JULIO_SIZES, OVERLAPS
-from bsm.paper.study import Study
+from tools.paper.exhibit import Cell, Column, Exhibit, Table
+from tools.paper.pictures import portrait
+from tools.paper.published import JULIO, JULIO_SIZES, OVERLAPS
+from tools.paper.study import Study
 
 FINE_ITERATIONS = 2
 EXACT = replace(RULES, exact=True)

@@ -11,10 +11,10 @@ from bsm.codec.basis.laplacian import dense_laplacian
 from bsm.codec.blocks.overlap import grow_blocks
 from bsm.codec.blocks.partition import metis_partition
 from bsm.codec.geometry.graph import graph_of_faces
-from bsm.paper.exhibit import Cell, Column, Exhibit, Table
-from bsm.paper.pictures import heat
-from bsm.paper.published import COHERENCE
-from bsm.paper.study import ROLES, Model, Study
+from tools.paper.exhibit import Cell, Column, Exhibit, Table
+from tools.paper.pictures import heat
+from tools.paper.published import COHERENCE
+from tools.paper.study import ROLES, Model, Study
 
 Matrices = npt.NDArray[np.float64]
 
@@ -44,7 +44,7 @@ def errors(matrices: Sequence[Matrices]) -> npt.NDArray[np.float64]:
 
 
 def left_out(matrices: Sequence[Matrices]) -> npt.NDArray[np.float64]:
-    """The same where a model's first matrix is no part of its own mean."""
+    """Errors where a model's first matrix is no part of its own mean."""
     table = errors(matrices)
     np.fill_diagonal(table, [np.square(own[0] - own[1:].mean(axis=0)).mean() for own in matrices])
     return table

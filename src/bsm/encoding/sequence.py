@@ -1,8 +1,7 @@
-"""bsm encode, where the input is a sequence."""
+"""Sequences to streams: a job of `bsm encode` whose input is one."""
 
 from __future__ import annotations
 
-import argparse
 import math
 import time
 from collections import deque
@@ -11,48 +10,48 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from bsm import options
 from bsm.batch import Facts, came_to, size_of
 from bsm.codec.arrays import Positions
-from bsm.codec.geometry.mesh import Metadata
-from bsm.commands.sequence_options import sequence_options
 from bsm.console import Console, finite
-from bsm.farm.run import may_replace
+from bsm.encoding.job import EncodeJob
 from bsm.files.output import open_output
 from bsm.files.permutation import write_permutation
 from bsm.files.sequence import Frames
 
 
-def encode_sequence(args: argparse.Namespace, console: Console, source: Frames, metadata: Metadata) -> Facts:
+def encode_sequence(job: EncodeJob, console: Console, source: Frames) -> Facts:
     """Encode one sequence; every GOP is written as soon as its frames are there."""
     from bsm.codec.sequence.encoder import SequenceEncoder
 
     begin = time.perf_counter()
-    encoder = SequenceEncoder(source.faces, sequence_options(args), source.count, metadata, source.attributes)
+    chosen = options.sequence_options(**job.wishes, threads=job.threads)
+    encoder = SequenceEncoder(source.faces, chosen, source.count, job.metadata, source.attributes)
     heard = Echo()
     size = 0
-    replace = may_replace(args, args.output)
-    with open_output(args.output, overwrite=replace) as file, console.progress("encoding") as progress:
+    replace = job.may_replace(job.output)
+    with open_output(job.output, overwrite=replace) as file, console.progress("encoding") as progress:
         for chunk in encoder.chunks(heard.taken(source.frames), progress):
             size += file.write(chunk)
             file.flush()
-            if not args.quiet or args.json:
+            if job.compared:
                 heard.compare(chunk, encoder.vertex_order)
     seconds = time.perf_counter() - begin
     notes = (*source.notes, *encoder.notes)
     for note in notes:
-        console.note(f"{args.input}: {note}")
-    if args.permutation:
-        write_permutation(args.permutation, encoder.vertex_order, overwrite=args.force)
+        console.note(f"{job.input}: {note}")
+    if job.permutation:
+        write_permutation(job.permutation, encoder.vertex_order, overwrite=job.force)
     vertices, faces, frames = len(encoder.vertex_order), len(encoder.face_order), heard.frames
     bpvf = 8 * size / (vertices * frames)
-    taken = size_of(args.input)
+    taken = size_of(job.input)
     console.note(
-        f"{args.input} -> {args.output}: {frames} frames of {vertices} vertices, {faces} faces, "
+        f"{job.input} -> {job.output}: {frames} frames of {vertices} vertices, {faces} faces, "
         f"{came_to(taken, size)}, {bpvf:.3f} bits per vertex and frame; KG error {heard.kg:.3g} %, {seconds:.2f} s"
     )
     return {
-        "input": args.input,
-        "output": args.output,
+        "input": job.input,
+        "output": job.output,
         "frames": frames,
         "vertices": vertices,
         "faces": faces,

@@ -19,7 +19,7 @@ from bsm.evaluation.render import DEFAULT_VIEW, view_matrix
 from bsm.evaluation.sample import knot
 from bsm.files.formats.npz import read_arrays
 from bsm.files.mesh import format_of_name, read_mesh
-from bsm.paper.shapes import ball, box, swaying
+from tools.paper.shapes import ball, box, swaying
 
 Item = TypeVar("Item")
 
@@ -218,7 +218,7 @@ class Study:
         return self._models[role]
 
     def partner(self, role: str, noisy: str, sigma: float) -> Model:
-        """The same model with other noise: of the file `noisy`, or as strong as `sigma` where there is none."""
+        """A model with other noise: of the file `noisy`, or as strong as `sigma` where there is none."""
         model = self.model(role)
         if self.folder is None:
             moved = gaussian_along_normals(model.clean, model.faces, sigma, seed=2)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from bsm.paper.exhibit import Exhibit
+from tools.paper.exhibit import Exhibit
 
 
 @dataclass(frozen=True)

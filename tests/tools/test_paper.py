@@ -12,17 +12,16 @@ import numpy as np
 import pytest
 
 from bsm.bitstream.errors import OptionError
-from bsm.cli import main
 from bsm.codec.geometry.metrics import face_normals
 from bsm.files.mesh import write_mesh
-from bsm.paper import published
-from bsm.paper.coherence import errors, left_out, smallest_on_diagonal
-from bsm.paper.exhibit import Cell, Claim, Column, Exhibit, Picture, Table
-from bsm.paper.exhibits import EXHIBITS, make_exhibits
-from bsm.paper.report import report, summary
-from bsm.paper.scoreboard import Score, scores
-from bsm.paper.shapes import ball, box, swaying
-from bsm.paper.study import FULL, QUICK, Study
+from tools.paper import published
+from tools.paper.coherence import errors, left_out, smallest_on_diagonal
+from tools.paper.exhibit import Cell, Claim, Column, Exhibit, Picture, Table
+from tools.paper.exhibits import EXHIBITS, make_exhibits
+from tools.paper.report import report, summary
+from tools.paper.scoreboard import Score, scores
+from tools.paper.shapes import ball, box, swaying
+from tools.paper.study import FULL, QUICK, Study
 
 ROOT = Path(__file__).parents[2]
 
@@ -88,7 +87,7 @@ def quick(tmp_path_factory) -> tuple[str, dict]:
     """A quick report, and the data it printed."""
     path = tmp_path_factory.mktemp("paper") / "report.html"
     ran = subprocess.run(
-        [sys.executable, "-m", "bsm", "paper", "-o", str(path), "--quick", "--json"],
+        [sys.executable, "-m", "tools.paper", "-o", str(path), "--quick", "--json"],
         capture_output=True,
         text=True,
         timeout=300,
@@ -165,9 +164,13 @@ def test_a_full_run_has_all_the_papers_numbers():
 
 
 def test_what_is_refused(tmp_path, capsys):
-    assert main(["paper", "-o", str(tmp_path / "r.html"), "--meshes", str(tmp_path / "nowhere")]) != 0
-    assert main(["paper", "-o", str(tmp_path / "r.html"), "--only", "nothing", "--quick"]) != 0
-    assert "overlap" in capsys.readouterr().err
+    for words, said in (
+        (["--meshes", str(tmp_path / "nowhere")], "has no folder static/"),
+        (["--only", "nothing"], "nothing"),
+    ):
+        command = [sys.executable, "-m", "tools.paper", "-o", str(tmp_path / "r.html"), "--quick", *words]
+        done = subprocess.run(command, capture_output=True, text=True, cwd=ROOT, check=False)
+        assert done.returncode == 2 and said in done.stderr and "Traceback" not in done.stderr
     with pytest.raises(OptionError):
         make_exhibits(Study(None, QUICK, lambda text: None), ["best"])
 

@@ -16,11 +16,11 @@ from bsm.codec.denoise.filters.topology import Topology
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.metrics import face_normals
 from bsm.evaluation.codecs import Spectral, paper_options
-from bsm.paper.exhibit import Cell, Claim, Column, Exhibit, Picture, Table
-from bsm.paper.iterations import SEGMENTS
-from bsm.paper.pictures import diagram, normal_colors, portrait
-from bsm.paper.segments import blocks_of, parts_of
-from bsm.paper.study import Model, Study
+from tools.paper.exhibit import Cell, Claim, Column, Exhibit, Picture, Table
+from tools.paper.iterations import SEGMENTS
+from tools.paper.pictures import diagram, normal_colors, portrait
+from tools.paper.segments import blocks_of, parts_of
+from tools.paper.study import Model, Study
 
 COUNTS = (1, 2, 5, 20)
 IN_FIGURE = ("bilateral", "non-iterative", "fast-effective", "bilateral-normal", "guided")

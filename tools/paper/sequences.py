@@ -18,10 +18,10 @@ from bsm.codec.geometry.graph import Graph, graph_of_faces
 from bsm.codec.geometry.metrics import theta
 from bsm.codec.signal.chain import Chain, ChainRules
 from bsm.codec.signal.predict import unheld
-from bsm.paper.exhibit import Cell, Column, Exhibit, Table
-from bsm.paper.iterations import fastest
-from bsm.paper.pictures import portrait
-from bsm.paper.study import Study
+from tools.paper.exhibit import Cell, Column, Exhibit, Table
+from tools.paper.iterations import fastest
+from tools.paper.pictures import portrait
+from tools.paper.study import Study
 
 SIGMA = 0.2
 SHOWN = 3

@@ -1,4 +1,4 @@
-"""bsm paper: every table and figure of the paper, measured again, in one HTML report."""
+"""Every table and figure of the paper, measured again, in one HTML report: `python -m tools.paper -o REPORT.html`."""
 
 from __future__ import annotations
 
@@ -9,10 +9,14 @@ from pathlib import Path
 from bsm.bitstream.errors import OptionError
 from bsm.console import Console, print_json
 from bsm.files.output import open_output, refuse_to_overwrite
+from tools.command import run_command
+from tools.paper.exhibits import EXHIBITS, make_exhibits, models_table
+from tools.paper.report import report, summary
+from tools.paper.study import FULL, QUICK, Study
 
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Declare what the command takes."""
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(prog="python -m tools.paper", description=__doc__)
     parser.add_argument("-o", "--output", metavar="REPORT.html", required=True, help="where to write the report")
     parser.add_argument(
         "--meshes",
@@ -22,18 +26,16 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--only", metavar="LIST", help="names of exhibits, separated by commas (default: all)")
     parser.add_argument("--quick", action="store_true", help="few settings and small meshes: seconds, not minutes")
     parser.add_argument("--json", action="store_true", help="print the data of all tables as JSON")
+    parser.add_argument("-f", "--force", action="store_true", help="overwrite the report")
+    return parser
 
 
-def run(args: argparse.Namespace, console: Console) -> None:
+def main(args: argparse.Namespace, console: Console) -> None:
     """Measure, write the report, and say how many numbers agree with the paper's."""
     refuse_to_overwrite(args.output, args.force)
     folder = Path(args.meshes) if args.meshes else None
     if folder is not None and not (folder / "static").is_dir():
         raise OptionError(f"{folder} has no folder static/")
-
-    from bsm.paper.exhibits import EXHIBITS, make_exhibits, models_table
-    from bsm.paper.report import report, summary
-    from bsm.paper.study import FULL, QUICK, Study
 
     begin = time.perf_counter()
     study = Study(folder, QUICK if args.quick else FULL, console.note)
@@ -46,5 +48,11 @@ def run(args: argparse.Namespace, console: Console) -> None:
     console.note(f"{args.output}: {len(text) / 1e6:.1f} MB, {time.perf_counter() - begin:.0f} s")
     if args.json:
         print_json({name: exhibit.as_json() for name, exhibit in exhibits.items()})
+    elif folder is None:
+        print("not comparable with the paper: generated meshes stand in for its models")
     else:
         print(summary(exhibits))
+
+
+if __name__ == "__main__":
+    run_command(_parser(), main)

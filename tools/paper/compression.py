@@ -10,9 +10,9 @@ from bsm.evaluation.codecs import PAPER_KEEPS, Curve, paper_curves, paper_option
 from bsm.evaluation.per_block import block_size_for, boundary_table, dynamic_comparison, quartiles, spread
 from bsm.evaluation.plots import draw_boxes, draw_paper_figure, draw_per_block
 from bsm.evaluation.run import run_curve
-from bsm.paper.exhibit import Cell, Claim, Column, Exhibit, Table
-from bsm.paper.pictures import drawn
-from bsm.paper.study import Study
+from tools.paper.exhibit import Cell, Claim, Column, Exhibit, Table
+from tools.paper.pictures import drawn
+from tools.paper.study import Study
 
 SEGMENTS = 70
 KEEP = 0.10

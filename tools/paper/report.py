@@ -7,8 +7,8 @@ import html
 import json
 from typing import Any
 
-from bsm.paper.exhibit import Cell, Claim, Column, Exhibit, Picture, Table
-from bsm.paper.scoreboard import scores
+from tools.paper.exhibit import Cell, Claim, Column, Exhibit, Picture, Table
+from tools.paper.scoreboard import scores
 
 PAPER = "Block-Based Spectral Processing of Static and Dynamic 3D Meshes using Orthogonal Iterations"
 _GENERATED = "A generated mesh stands in for the paper's, so the numbers need not agree."

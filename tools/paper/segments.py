@@ -15,11 +15,11 @@ from bsm.codec.blocks.partition import Partition, metis_partition
 from bsm.codec.denoise.coarse import OVERLAP, CoarseFilter
 from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.geometry.metrics import face_normals
-from bsm.paper.exhibit import Cell, Column, Exhibit, Picture, Table
-from bsm.paper.overlap import EXACT
-from bsm.paper.pictures import error_colors, part_colors, portrait
-from bsm.paper.published import BUNNY
-from bsm.paper.study import Model, Study
+from tools.paper.exhibit import Cell, Column, Exhibit, Picture, Table
+from tools.paper.overlap import EXACT
+from tools.paper.pictures import error_colors, part_colors, portrait
+from tools.paper.published import BUNNY
+from tools.paper.study import Model, Study
 
 _UNSTATED = "The paper does not say how strong its noise is, and the level of MND follows it; compare the trend."
 

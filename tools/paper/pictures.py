@@ -14,8 +14,8 @@ import numpy.typing as npt
 from bsm.codec.arrays import Faces, Positions
 from bsm.evaluation.plots import import_matplotlib
 from bsm.evaluation.render import bounds_of, render
-from bsm.paper.exhibit import Picture
-from bsm.paper.study import Model
+from tools.paper.exhibit import Picture
+from tools.paper.study import Model
 
 Colors = npt.NDArray[np.float64]
 _GOLDEN = 0.618034

@@ -5,15 +5,15 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 
 from bsm.bitstream.errors import OptionError
-from bsm.paper.coherence import coherence
-from bsm.paper.compression import boundary, dynamic, rates
-from bsm.paper.denoising import coarse_to_fine, companions, hand, normals
-from bsm.paper.exhibit import Cell, Column, Exhibit, Table
-from bsm.paper.iterations import powers, times
-from bsm.paper.overlap import overlap
-from bsm.paper.segments import degrees, number_of_segments, segmentation, transition
-from bsm.paper.sequences import sequences
-from bsm.paper.study import ROLES, Study
+from tools.paper.coherence import coherence
+from tools.paper.compression import boundary, dynamic, rates
+from tools.paper.denoising import coarse_to_fine, companions, hand, normals
+from tools.paper.exhibit import Cell, Column, Exhibit, Table
+from tools.paper.iterations import powers, times
+from tools.paper.overlap import overlap
+from tools.paper.segments import degrees, number_of_segments, segmentation, transition
+from tools.paper.sequences import sequences
+from tools.paper.study import ROLES, Study
 
 EXHIBITS: dict[str, Callable[[Study], Exhibit]] = {
     "segmentation": segmentation,

@@ -1,0 +1,1 @@
+"""Mesh files and sequences to streams, one job at a time."""
