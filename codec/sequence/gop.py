@@ -138,8 +138,17 @@ class GopEncoder:
         self._setting = setting
         self._parts: tuple[Part, ...] = tuple(setting.dictionaries.each(lambda _, part: part))
         self._options = options
-        self._step = float(np.float32(options.step))
+        self.step = options.step
         self._history = FrameHistory(setting.first)
+
+    @property
+    def step(self) -> float:
+        """With which the next GOP is quantized; what is set becomes a single-precision number."""
+        return self._step
+
+    @step.setter
+    def step(self, step: float) -> None:
+        self._step = float(np.float32(step))
 
     def encode(self, frames: Matrix, number: int, progress: Progress) -> GopBody:
         """Encode frames, shape (T, n, 3), from frame `number` of the sequence on."""

@@ -5,8 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+from bsm.bitstream.errors import OptionError
 from bsm.bitstream.limits import NAMED_LIMITS
 from bsm.codec.choices import check_options
+from bsm.codec.sequence.promise import Promise
 from bsm.codec.sequence.targets import SequenceTarget
 from bsm.codec.static.attributes.quality import checked_qualities
 
@@ -56,6 +58,8 @@ class SequenceOptions:
         None: one per core.
     target : SequenceTarget, optional
         Look for the one step for all frames that reaches it; this needs all frames in memory.
+    promise : Promise, optional
+        Look for the step of each GOP that keeps it in every frame; only with `mode` "gop", and without a target.
 
     Raises
     ------
@@ -76,7 +80,10 @@ class SequenceOptions:
     limits: str = "default"
     threads: int | None = None
     target: SequenceTarget | None = None
+    promise: Promise | None = None
 
     def __post_init__(self) -> None:
         check_options(self, CHOICES, RANGES)
+        if self.promise is not None and (self.target is not None or self.mode != "gop"):
+            raise OptionError("a sequence keeps a promise or meets a target, and low delay promises nothing")
         object.__setattr__(self, "attributes", checked_qualities(self.attributes))
