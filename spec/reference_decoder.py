@@ -184,20 +184,17 @@ FIELDS = {
     "blocks": (3, int, 0, COUNT, 0),
     "block_size": (4, int, 0, COUNT, 0),
     "coefficients": (5, int, 0, COUNT, 0),
-    "basis": (6, "method", 0, 1, 0),
-    "seeding": (7, "method", 0, 1, 0),
     "key_interval": (8, int, 0, COUNT, 0),
-    "power": (9, int, 1, 64, 2),
+    "power": (9, int, 1, 64, 3),
     "iterations": (10, int, 1, 1024, 1),
-    "key_iterations": (11, int, 1, 1024, 8),
+    "key_iterations": (11, int, 1, 1024, 4),
     "shift": (12, float, 2.0**-30, 2.0**30, 0.0078125),
-    "blend": (13, "method", 0, 2, 0),
     "coding": (14, "method", 0, 1, 1),
     "bits": (15, int, 1, 32, 12),
     "step": (16, float, 2.0**-40, 2.0**20, 2.0**-8),
     "center": (17, (3, 3), -1e300, 1e300, [0.0, 0.0, 0.0]),
     "scale": (18, float, 1e-300, 1e300, 1.0),
-    "prediction": (19, (0, 16), -1e30, 1e30, []),
+    "stiffness": (19, float, 0.0, 65536.0, 8.0),
     "smoothing": (20, float, 0.0, 1e6, 0.0),
     "frames": (21, int, 0, COUNT, 0),
     "gop_frames": (23, int, 0, COUNT, 0),
@@ -682,13 +679,12 @@ def exact_basis(laplacian, columns, springs):
 
 def key_dictionary(header, laplacian, columns, springs):
     """M 8: of a block that follows none."""
-    if header["basis"] == 1 or header["key_seed"] == 1:
+    if header["key_seed"] == 1:
         return exact_basis(laplacian, columns, springs)
-    iterations = header["iterations"] if header["seeding"] == 1 else header["key_iterations"]
     start = (
         cosine_columns(len(laplacian), 0, columns) if connected(laplacian) else noisy_columns(len(laplacian), columns)
     )
-    return orthogonal_iterations(laplacian, start, springs + header["shift"], header["power"], iterations)
+    return orthogonal_iterations(laplacian, start, springs + header["shift"], header["power"], header["key_iterations"])
 
 
 def hash_columns(rows, columns):
@@ -945,10 +941,8 @@ class Allowance:
 
     def spend(self, header, rows, columns, follows):
         """Take note of a dictionary to come, on a surface."""
-        power, iterations = header["power"], header["key_iterations"]
-        if follows or header["seeding"] == 1:
-            iterations = header["iterations"]
-        if header["basis"] == 1 or (header["key_seed"] == 1 and not follows):
+        power, iterations = header["power"], header["iterations" if follows else "key_iterations"]
+        if header["key_seed"] == 1 and not follows:
             power, iterations = 2, 128
         whole = -(-columns // 8) * 8
         require_limit(8 * (6 * rows * whole + 2 * whole**2), MOST_MEMORY + 1024 * self.vertices, "memory")
@@ -1136,8 +1130,8 @@ class Chain:
         points, heights = self.points(width, payload)
         heights = heights[: min(header["details"], block.size)]
         springs, pulls = np.zeros(block.size), np.zeros((block.size, 3))
-        if header["prediction"]:
-            springs, pulls = surroundings(self.mesh.graph, block, self.known, header["prediction"][0])
+        if header["stiffness"]:
+            springs, pulls = surroundings(self.mesh.graph, block, self.known, header["stiffness"])
         subspace = self.subspace = self.dictionary(block, max(width, len(heights)), springs)  # M 11.2
         positions = extend(block.laplacian, springs, pulls, header["shift"])  # M 10.2
         positions = positions + subspace[:, :width] @ (points * (header["step"] / 2))
@@ -1168,9 +1162,9 @@ class Chain:
 
     def dictionary(self, block, columns, springs):
         header = self.mesh.header
-        follows = self.subspace is not None and len(self.subspace) == block.size and header["seeding"] == 0  # M 8.3
+        follows = self.subspace is not None and len(self.subspace) == block.size  # M 8.3
         self.mesh.allowance.spend(header, block.size, columns, follows)
-        if header["basis"] == 1 or not follows:
+        if not follows:
             return key_dictionary(header, block.laplacian, columns, springs)
         had = self.subspace.shape[1]
         start = np.concatenate([self.subspace, cosine_columns(block.size, had, max(had, columns))], axis=1)[:, :columns]
@@ -1187,7 +1181,7 @@ def decode_blocks(mesh, blended):
     if not (blocks or packets[GOP] or packets[REFINEMENT]):
         packets.require(False, "a block is missing")  # M 10.3
     mesh.cut(mesh.labels if mesh.section == len(mesh.ends) - 1 else None)
-    length = 1 if header["seeding"] == 1 else header["key_interval"] or header["blocks"]
+    length = header["key_interval"] or header["blocks"]
     for expected, (index, width, payload) in enumerate(blocks):
         require(index == mesh.blocks[expected], "a block is missing")  # M 10.3
         if expected % length == 0:  # M 10.1, M 18.4
@@ -1196,12 +1190,7 @@ def decode_blocks(mesh, blended):
         block = Block(mesh.graph, grow(mesh.graph, core, header["block_size"]))
         require(1 <= width <= block.size, "a wrong number of coefficients")  # M 9.9
         positions = chain.decode(block, width, payload)
-        weights = {  # M 12.1
-            0: np.maximum(block.degrees, 1.0),
-            1: np.ones(block.size),
-            2: np.isin(block.vertices, core).astype(float),
-        }[header["blend"]]
-        blended.add(block, positions, weights)
+        blended.add(block, positions, np.maximum(block.degrees, 1.0))  # M 12.1
     packets.require(len(blocks) == len(mesh.blocks), "a block is missing")  # M 10.3
 
 
@@ -1538,8 +1527,6 @@ def decode_all(stream):
     header, packets = parse_stream(stream)
     if header["gop_frames"] and (header["smoothing"] or header["details"]):
         raise UnsupportedError("smoothing or details in a sequence")  # S 1.1
-    prediction = header["prediction"]
-    require(len(prediction) <= 1 and all(0 < k < 2.0**16 for k in prediction), "illegal prediction")  # M 7.5
     require_limit(header["details"], MOST_COLUMNS, "details")  # M 14.1
     mesh, blended = Mesh(header, packets), Known(header["vertices"])
     mesh.next_section()

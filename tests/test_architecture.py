@@ -13,13 +13,14 @@ FLOORS = {
     "bsm": (
         ("bitstream", "__version__", "_kernels"),
         ("codec",),
-        ("console", "files", "lengths", "steadiness", "usage"),
-        ("comparison", "evaluation", "exits", "foreign", "options"),
+        ("console", "lengths", "steadiness", "usage"),
+        ("files",),
+        ("comparison", "evaluation", "exits", "foreign", "loops", "options"),
         ("farm", "meshes"),
         ("batch",),
         ("encoding",),
         ("api",),
-        ("pyvista", "trimesh", "viewer"),
+        ("blender", "pyvista", "trimesh", "viewer"),
         # Finds the module of a command by its name.
         ("cli",),
         ("commands",),

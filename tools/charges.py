@@ -61,7 +61,7 @@ KINDS: dict[str, Callable[[], bytes]] = {
     **{name: lambda name=name: _preset(name) for name in PRESETS},  # type: ignore[misc]
     "paper": lambda: _options(bits=12, key_interval=0),
     "paper-wide": lambda: _options(bits=12, keep=0.4, block_size=500, key_interval=0),
-    "paper-exact": lambda: _options(bits=12, keep=0.2, block_size=500, basis="svd"),
+    "paper-exact": lambda: _options(bits=12, keep=0.2, block_size=500, key_interval=1, key_seed="svd"),
     "large-blocks": lambda: _options(step=0.002, block_size=5000),
     "small-blocks": lambda: _options(step=0.002, block_size=30),
     "in-sections": lambda: encode(torus(200, 150), replace(PRESETS["balanced"], sections=8)),

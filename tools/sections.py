@@ -88,16 +88,13 @@ def random_sections(random: Random, mesh: TriangleMesh) -> bytes | None:
 def _options(random: Random, block_size: int) -> dict[str, Any]:
     """Some fields of a header."""
     choices: dict[str, Any] = {
-        "basis": 1,
-        "seeding": 1,
         "key_interval": random.randrange(1, 4),
         "power": random.choice((1, 3)),
         "iterations": 2,
         "key_iterations": random.choice((1, 4)),
         "shift": random.choice((2.0**-4, 4.0)),
-        "blend": random.choice((1, 2)),
         "coding": 0,
-        "prediction": [random.choice((1.0, 8.0))],
+        "stiffness": random.choice((0.0, 1.0)),
         "smoothing": random.choice((0.5, 4.0)),
         "key_seed": 1,
         "refinements": random.choice(([2.0**-16, 0.0], [2.0**-16, 0.5, 2.0**-18, 0.0])),
@@ -112,7 +109,7 @@ def _options(random: Random, block_size: int) -> dict[str, Any]:
 
 def _writer(options: dict[str, Any], columns: int, numbers: np.random.Generator) -> WriteBlock:
     """Writes blocks of random levels, by models that live as long as their chains."""
-    interval = 1 if options.get("seeding") else options.get("key_interval", 0)
+    interval = options.get("key_interval", 0)
     details = -(-options.get("details", 0) // 3)
     models: list[CoefficientModel] = []
 

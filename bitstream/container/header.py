@@ -151,22 +151,16 @@ class Header:
     """Vertices of the largest block, n_d."""
     coefficients: int = integer(5, 0, COUNT, default=0)
     """Columns of the largest dictionary: the largest c_i."""
-    basis: int = method(6, known=2)
-    """0: orthogonal iterations; 1: exact eigenbasis."""
-    seeding: int = method(7, known=2)
-    """0: a block starts from the block before it; 1: every block starts on its own."""
     key_interval: int = integer(8, 0, COUNT, default=0)
     """Every so many blocks one does not depend on others; 0: only the first."""
-    power: int = integer(9, 1, 64, default=2)
+    power: int = integer(9, 1, 64, default=3)
     """The exponent z of one orthogonal iteration."""
     iterations: int = integer(10, 1, 1024, default=1)
     """Orthogonal iterations per block, t."""
-    key_iterations: int = integer(11, 1, 1024, default=8)
+    key_iterations: int = integer(11, 1, 1024, default=4)
     """Orthogonal iterations of a key block."""
     shift: float = real(12, 2.0**-30, 2.0**30, default=0.0078125)
     """What is added to the Laplacian's diagonal, delta."""
-    blend: int = method(13, known=3)
-    """Weights of a vertex's copies: 0: its degree in the block; 1: all equal; 2: only the copy in its own part."""
     coding: int = method(14, known=2, default=1)
     """Coefficients: 0: packed and zstd; 1: adaptive."""
     bits: int = integer(15, 1, 32, default=12)
@@ -177,8 +171,8 @@ class Header:
     """The origin of BSM units, in the mesh's unit."""
     scale: float = real(18, 1e-300, 1e300, default=1.0)
     """One BSM unit in the mesh's unit: the diagonal of the bounding box."""
-    prediction: tuple[float, ...] = reals(19, -1e30, 1e30, (0, 16), default=())
-    """Parameters of the prediction between blocks; empty: none."""
+    stiffness: float = real(19, 0.0, 65536.0, default=8.0)
+    """Of the springs on which a block hangs, the prediction between blocks; 0: there are none."""
     smoothing: float = real(20, 0.0, 1e6, default=0.0)
     """Amount of smoothing after reconstruction, alpha."""
     frames: int = integer(21, 0, COUNT, default=0)

@@ -6,7 +6,6 @@ import numpy as np
 
 from bsm.codec import _kernels
 from bsm.codec.arrays import Indices, Mask, Matrix
-from bsm.codec.blocks.overlap import Block, Blocks
 
 
 class Blend:
@@ -51,12 +50,3 @@ class Blend:
 def degree_weights(degrees: Indices) -> Matrix:
     """Weight of each row: its neighbours inside the block; a row without any counts as one."""
     return np.maximum(degrees, 1).astype(np.float64)
-
-
-def copy_weights(how: str, blocks: Blocks, index: int, block: Block) -> Matrix:
-    """Weight of each row of block `index`: "degree" (the paper's), "uniform", or "own": only those of its part."""
-    if how == "degree":
-        return degree_weights(block.degrees)
-    if how == "uniform":
-        return np.ones(block.size)
-    return np.isin(block.vertices, blocks.core(index)).astype(np.float64)

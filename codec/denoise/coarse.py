@@ -28,14 +28,12 @@ OVERLAP = 1.15
 KEEP = 0.10
 RULES = ChainRules(
     exact=False,
-    exact_keys=False,
-    independent=False,
     key_interval=16,
     power=3,
     iterations=2,
     key_iterations=4,
     shift=0.125,
-    stiffness=None,
+    stiffness=0.0,
 )
 
 

@@ -50,8 +50,6 @@ FIRST_STEP = 0.4
 
 FIRST_FRAME = ChainRules(
     exact=False,
-    exact_keys=False,
-    independent=False,
     key_interval=0,
     power=2,
     iterations=2,
@@ -346,7 +344,7 @@ def open_sequence(prepared: Prepared, options: SequenceOptions, frames: int, pro
     if step < finest:
         raise OptionError(f"first_step = {step:g} is too fine for blocks of {prepared.size}, try {finest:.1e}")
     width = max(1, round(options.keep * prepared.size))
-    scheme = Scheme(prepared.blocks[0], FIRST_FRAME, Adaptive(width, single(step)), "degree")
+    scheme = Scheme(prepared.blocks[0], FIRST_FRAME, Adaptive(width, single(step)))
     blocks = encode_blocks([scheme], prepared.positions, threads=options.threads, progress=progress)
     header = Header(
         vertices=prepared.graph.size,

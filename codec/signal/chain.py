@@ -40,43 +40,38 @@ class ChainRules:
     Parameters
     ----------
     exact : bool
-        Exact eigenbasis of every block, see `codec.basis.orthogonal_iteration.exact_basis`.
-    exact_keys : bool
-        That for blocks without predecessor only, as the paper seeds its first block.
-    independent : bool
-        Every block starts from cosines and is a chain of its own.
+        Exact eigenbasis of blocks without predecessor, as the paper seeds its first block; see
+        `codec.basis.orthogonal_iteration.exact_basis`.
     key_interval : int
-        Blocks per chain; 0: one chain.
+        Blocks per chain; 0: one chain. 1: every block is on its own.
     power, iterations, key_iterations, shift
         z, t_max, t_max of a block without predecessor, and delta.
-    stiffness : float, optional
-        Of the springs in the prediction, see `codec.signal.predict`; None: no prediction.
+    stiffness : float
+        Of the springs in the prediction, see `codec.signal.predict`; 0: no prediction.
     rounding : callable
         What becomes of the numbers that dictionaries and predictions start from: nothing, but where it is tried whether
         a stream bears other rounding errors, see `codec.steadiness`.
     """
 
     exact: bool
-    exact_keys: bool
-    independent: bool
     key_interval: int
     power: int
     iterations: int
     key_iterations: int
     shift: float
-    stiffness: float | None
+    stiffness: float
     rounding: Rounding = unchanged
 
     def schedule(self, follows: bool) -> tuple[int, int]:
         """Power and iterations of a block that follows another, or of one that does not."""
-        if self.exact or (self.exact_keys and not follows):
+        if self.exact and not follows:
             return EXACT_POWER, EXACT_ITERATIONS
-        return self.power, self.iterations if follows or self.independent else self.key_iterations
+        return self.power, self.iterations if follows else self.key_iterations
 
     @property
     def alone(self) -> bool:
         """Whether every block is a chain of its own, so that none knows of another."""
-        return self.independent or self.key_interval == 1
+        return self.key_interval == 1
 
     def chain_starts(self, blocks: int) -> range:
         """Indices of the key blocks among `blocks` blocks."""
@@ -89,7 +84,7 @@ class ChainRules:
 
     def chain_length(self, blocks: int) -> int:
         """Blocks in a chain (the last one may be shorter)."""
-        return 1 if self.independent else self.key_interval or blocks
+        return self.key_interval or blocks
 
 
 def even_interval(interval: int, blocks: int) -> int:
@@ -100,12 +95,10 @@ def even_interval(interval: int, blocks: int) -> int:
 def key_dictionary(rules: ChainRules, around: Suspended, width: int, spend: Spend = free) -> Matrix:
     """U of a block that follows no other, with `width` columns; `spend` is told of the work."""
     block = around.laplacian.block
-    exact = rules.exact or rules.exact_keys
-    start = rules.rounding(first_columns(block.size, width, exact or in_pieces(block)))
-    if exact:
+    start = rules.rounding(first_columns(block.size, width, rules.exact or in_pieces(block)))
+    if rules.exact:
         return exact_basis(around.laplacian, start, around.springs, spend)
-    iterations = rules.iterations if rules.independent else rules.key_iterations
-    return orthogonal_iteration(around.factor, start, power=rules.power, iterations=iterations, spend=spend)
+    return orthogonal_iteration(around.factor, start, power=rules.power, iterations=rules.key_iterations, spend=spend)
 
 
 def in_pieces(block: Block) -> bool:
@@ -128,7 +121,7 @@ class Chain:
     def __init__(self, rules: ChainRules, graph: Graph, spend: Spend = free) -> None:
         self._rules = rules
         self._spend = spend
-        self._known = None if rules.stiffness is None or rules.alone else Known(graph, rules.stiffness)
+        self._known = None if rules.stiffness == 0.0 or rules.alone else Known(graph, rules.stiffness)
         self._subspace: Matrix | None = None
 
     def around(self, block: Block) -> Surroundings:
@@ -144,13 +137,13 @@ class Chain:
         return dictionary_cost(fronts, width, *schedule), careful_dictionary_cost(fronts, width, *schedule)
 
     def _follows(self, block: Block) -> bool:
-        return self._subspace is not None and len(self._subspace) == block.size and not self._rules.independent
+        return self._subspace is not None and len(self._subspace) == block.size
 
     def dictionary(self, around: Surroundings, width: int) -> Matrix:
         """U of a block with `width` columns (at most its rows), a function of connectivity and earlier widths only."""
         rules, laplacian = self._rules, around.laplacian
         width = min(width, laplacian.block.size)
-        if rules.exact or not self._follows(laplacian.block):
+        if not self._follows(laplacian.block):
             return key_dictionary(rules, around, width, self._spend)
         assert self._subspace is not None
         start = rules.rounding(follow_columns(self._subspace, width, in_pieces(laplacian.block)))

@@ -22,9 +22,6 @@ from bsm.codec.blocks.blend import Blend, degree_weights
 from bsm.codec.blocks.overlap import Block
 from bsm.codec.geometry.graph import Graph
 
-MAX_STIFFNESS = 2.0**16
-"""Largest stiffness that a stream may ask for."""
-
 
 @dataclass(frozen=True, eq=False)
 class Suspended:

@@ -12,14 +12,11 @@ from bsm.bitstream.limits import NAMED_LIMITS
 from bsm.codec.choices import check_options
 from bsm.codec.static.attributes.quality import Grade, checked_qualities
 from bsm.codec.static.contract import ANY_ANGLE, Contract, Fit
-from bsm.codec.static.rules import BASES, BLENDS, KEY_SEEDS, SEEDS
+from bsm.codec.static.rules import KEY_SEEDS
 from bsm.codec.static.targets import Target
 
 CHOICES = {
-    "basis": BASES,
-    "seed": SEEDS,
     "key_seed": KEY_SEEDS,
-    "blend": BLENDS,
     "partition": ("derived", "metis"),
     "normals": ("keep", "recompute"),
     "limits": tuple(NAMED_LIMITS),
@@ -66,14 +63,12 @@ class EncodeOptions:
         n_d as a multiple of the largest part.
     partition : str
         "derived": both sides compute it; "metis": the paper's, its labels are sent.
-    basis, seed : str
-        "oi" (orthogonal iterations) or "svd" (exact eigenbasis); "previous" (start from the block before, predict
-        from the vertices shared with it) or "independent" (every block on its own).
     key_seed : str, optional
         Where a block that follows none begins: "cosines", or "svd", the exact lowest subspace, as the paper seeds its
         first block. None: "svd" with `bits`, the paper's mode, and cosines otherwise.
     key_interval : int
-        Every so many blocks, at most, one depends on nothing before it; 0: only the first.
+        Every so many blocks, at most, one depends on nothing before it; 0: only the first; 1: every block is on its
+        own, with exact bases throughout if `key_seed` is "svd".
     power, iterations, key_iterations : int
         z, t_max and t_max of a key block.
     shift : float, optional
@@ -87,11 +82,9 @@ class EncodeOptions:
         How many times coarser x, y and z are quantized than the detail layer, which keeps what they leave out along
         the normal alone; 0: no detail layer. None: 3, and 0 with `bits`, `doi` and targets of distance.
     predict : bool
-        Predict coefficients from overlapping vertices that are known already ("previous" only).
+        Predict coefficients from overlapping vertices that are known already.
     smoothing : float, optional
         Amount alpha of smoothing in the decoder; None: chosen by trying.
-    blend : str
-        Weights of a vertex's copies: "degree" (the paper's), "uniform", or "own" (only the copy in its part counts).
     keep_order : bool
         Store the order of vertices and faces, and the first corner of each face.
     doi : (float, float), optional
@@ -141,8 +134,6 @@ class EncodeOptions:
     block_size: int = 750
     overlap: float = 1.15
     partition: str = "derived"
-    basis: str = "oi"
-    seed: str = "previous"
     key_seed: str | None = None
     key_interval: int = 32
     power: int = 3
@@ -154,7 +145,6 @@ class EncodeOptions:
     detail: float | None = None
     predict: bool = True
     smoothing: float | None = None
-    blend: str = "degree"
     keep_order: bool = False
     doi: tuple[float, float] | None = None
     target: Target | None = None
@@ -243,9 +233,8 @@ class EncodeOptions:
 
     @property
     def exact_keys(self) -> bool:
-        """Whether chains begin with the exact basis, which is no question where every block has it."""
-        chosen = self.key_seed or ("cosines" if self.bits is None or self.seed == "independent" else "svd")
-        return chosen == "svd" and self.basis == "oi"
+        """Whether chains begin with the exact basis."""
+        return (self.key_seed or ("cosines" if self.bits is None else "svd")) == "svd"
 
     @property
     def fixed_smoothing(self) -> float | None:

@@ -6,18 +6,12 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from bsm.bitstream.container.header import Header
-from bsm.bitstream.errors import CorruptError
-from bsm.codec.arrays import Faces, Matrix
-from bsm.codec.blocks.blend import copy_weights
-from bsm.codec.blocks.overlap import Block, Blocks
+from bsm.codec.arrays import Faces
+from bsm.codec.blocks.overlap import Blocks
 from bsm.codec.signal.chain import ChainRules, Rounding, unchanged
-from bsm.codec.signal.predict import MAX_STIFFNESS
 from bsm.codec.static.coding import Coding, coding_of
 
-BASES = ("oi", "svd")
-SEEDS = ("previous", "independent")
 KEY_SEEDS = ("cosines", "svd")
-BLENDS = ("degree", "uniform", "own")
 """Names of the methods that a header numbers."""
 
 STIFFNESS = 8.0
@@ -35,8 +29,6 @@ class Scheme:
     rules : ChainRules
     coding : Coding
         As it is where a chain begins.
-    blend : str
-        One of `BLENDS`.
     first : int
         Number of the first block in the stream; here, blocks are counted from there.
     """
@@ -44,7 +36,6 @@ class Scheme:
     blocks: Blocks
     rules: ChainRules
     coding: Coding
-    blend: str
     first: int = 0
 
     @property
@@ -56,52 +47,35 @@ class Scheme:
         """The chain that the block with a number belongs to."""
         return (number - self.first) // self.rules.chain_length(self.blocks.count)
 
-    def weights(self, index: int, block: Block) -> Matrix:
-        """Weight of each row of block `index` in the blend."""
-        return copy_weights(self.blend, self.blocks, index, block)
-
     def fields(self) -> dict[str, Any]:
         """Twin of `scheme_of`: what the header has to say."""
         rules = self.rules
         return self.coding.fields | {
             "blocks": self.blocks.count,
-            "basis": int(rules.exact),
-            "key_seed": int(rules.exact_keys),
-            "seeding": int(rules.independent),
+            "key_seed": int(rules.exact),
             "key_interval": rules.key_interval,
             "power": rules.power,
             "iterations": rules.iterations,
             "key_iterations": rules.key_iterations,
             "shift": rules.shift,
-            "prediction": () if rules.stiffness is None else (rules.stiffness,),
-            "blend": BLENDS.index(self.blend),
+            "stiffness": rules.stiffness,
         }
 
 
 def scheme_of(header: Header, faces: Faces, blocks: Blocks, rounding: Rounding = unchanged, first: int = 0) -> Scheme:
     """What the header says; `faces`, shape (m, 3), as the decoder numbers them; see `Scheme`."""
     rules = replace(chain_rules(header), rounding=rounding)
-    return Scheme(blocks, rules, coding_of(header, faces, blocks.graph.size), BLENDS[header.blend], first)
+    return Scheme(blocks, rules, coding_of(header, faces, blocks.graph.size), first)
 
 
 def chain_rules(header: Header) -> ChainRules:
-    """What a header says about chains and dictionaries.
-
-    Raises
-    ------
-    CorruptError
-        If it asks for a prediction that there is not.
-    """
-    if len(header.prediction) > 1 or not all(0 < value < MAX_STIFFNESS for value in header.prediction):
-        raise CorruptError(f"the prediction has the parameters {header.prediction}, one stiffness is legal")
+    """What a header says about chains and dictionaries."""
     return ChainRules(
-        exact=header.basis == 1,
-        exact_keys=header.key_seed == 1,
-        independent=header.seeding == 1,
+        exact=header.key_seed == 1,
         key_interval=header.key_interval,
         power=header.power,
         iterations=header.iterations,
         key_iterations=header.key_iterations,
         shift=header.shift,
-        stiffness=header.prediction[0] if header.prediction else None,
+        stiffness=header.stiffness,
     )

@@ -83,7 +83,7 @@ def test_a_value_of_the_wrong_type_is_named(name):
     [
         ({"stepp": 1}, ArgumentError, "did you mean step?"),
         ({"thetta": 1}, ArgumentError, "did you mean theta?"),
-        ({"elephant": 1}, ArgumentError, "there are attributes, basis"),
+        ({"elephant": 1}, ArgumentError, "there are attributes, bits"),
         ({"kg": 1}, ArgumentError, "kg is for sequences, not for a mesh"),
         ({"bits": 2.5}, ArgumentError, "a whole number or None, not 2.5"),
         ({"step": True}, ArgumentError, "a number or None, not True"),

@@ -158,7 +158,7 @@ def _blocks(count: int, columns: int) -> Iterator[tuple[int, bytes]]:
         yield FrameType.BLOCK, write_varint(index) + write_varint(columns) + zeros
 
 
-PACKED = {"coding": 0, "bits": 1}
+PACKED = {"coding": 0, "bits": 1, "stiffness": 0.0}
 
 
 def _blocky(
@@ -434,7 +434,7 @@ BOMBS: dict[str, Bomb] = {
         lambda: _blocky(("torus", 36, 36), blocks=100, block_size=14, power=64, iterations=1024, key_iterations=1024),
     ),
     "wide": Bomb("as many columns as rows", lambda: one_block(64, 64, 4096, power=1)),
-    "wide-exact": Bomb("the same, exact", lambda: one_block(64, 64, 4096, basis=1)),
+    "wide-exact": Bomb("the same, exact", lambda: one_block(64, 64, 4096, key_seed=1)),
     "wide-1024": Bomb("1,024 columns, two iterations", lambda: one_block(64, 64, 1024, power=1, key_iterations=2)),
     "svd-keys": Bomb(
         "exact chains of one block each",
@@ -451,7 +451,7 @@ BOMBS: dict[str, Bomb] = {
     ),
     "chains": Bomb(
         "chains of two blocks",
-        lambda: _tiny_blocks(("torus", 256, 256), 8, key_interval=2, prediction=(1.0,), power=1, key_iterations=1),
+        lambda: _tiny_blocks(("torus", 256, 256), 8, key_interval=2, stiffness=1.0, power=1, key_iterations=1),
     ),
     "chains-large": Bomb(
         "the same of a large mesh, each on its own",
@@ -461,7 +461,7 @@ BOMBS: dict[str, Bomb] = {
             blocks=131072,
             block_size=64,
             key_interval=2,
-            prediction=(1.0,),
+            stiffness=1.0,
             power=1,
             key_iterations=1,
         ),
@@ -475,7 +475,7 @@ BOMBS: dict[str, Bomb] = {
             blocks=4096,
             block_size=256,
             key_interval=2,
-            prediction=(1.0,),
+            stiffness=1.0,
             power=1,
         ),
     ),

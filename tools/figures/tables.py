@@ -13,7 +13,7 @@ import numpy as np
 from bsm.bitstream.errors import DependencyError, OptionError
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.metrics import Reference
-from bsm.evaluation.codecs import Spectral, draco_curve, our_curve, paper_options
+from bsm.evaluation.codecs import COLD_STARTS, EXACT_BASES, Spectral, draco_curve, our_curve, paper_options
 from bsm.evaluation.per_block import (
     block_size_for,
     boundary_rows,
@@ -129,11 +129,11 @@ class Figure:
 def basis_figure(source: Source) -> Figure:
     """NMSVE of the exact basis and of orthogonal iterations, 12 bits for every coefficient."""
     methods: dict[str, dict[str, Any]] = {
-        "svd": {"basis": "svd"},
+        "svd": EXACT_BASES,
         "z=1": {"power": 1},
         "z=2": {"power": 2},
-        "z=1, independent": {"power": 1, "seed": "independent"},
-        "z=2, independent": {"power": 2, "seed": "independent"},
+        "z=1, independent": COLD_STARTS | {"power": 1},
+        "z=2, independent": COLD_STARTS | {"power": 2},
     }
     rows = []
     for name, blocks in BLOCKS.items():

@@ -133,7 +133,9 @@ def hand(study: Study) -> Exhibit:
     reference, pixels, segments = model.reference, study.effort.pixels, SEGMENTS["hand"]
     block = model.block(segments)
     tracked = CoarseFilter(model.faces, model.size, block=block)(model.noisy)
-    exact = CoarseFilter(model.faces, model.size, block=block, rules=replace(RULES, exact=True))(model.noisy)
+    exact = CoarseFilter(model.faces, model.size, block=block, rules=replace(RULES, exact=True, key_interval=1))(
+        model.noisy
+    )
     study.note(f"{model.name}: dynamic orthogonal iterations")
     positions = _dynamic(model, tracked, segments)
     rows = []

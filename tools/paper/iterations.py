@@ -131,7 +131,9 @@ def times(study: Study) -> Exhibit:
         model = study.model(role)
         shares, size = study.effort.some(published), model.block(SEGMENTS[role])
         blocks = blocks_of(model, parts_of(model, SEGMENTS[role]))
-        exact = CoarseFilter(model.faces, model.size, max(shares) / 100, size, replace(RULES, exact=True))
+        exact = CoarseFilter(
+            model.faces, model.size, max(shares) / 100, size, replace(RULES, exact=True, key_interval=1)
+        )
         yardstick = _Yardstick(blocks, svd_seconds(blocks), exact)
         rows = []
         for share in shares:
@@ -178,7 +180,7 @@ def powers(study: Study) -> Exhibit:
             exact = name == "SVD"
             power = 1 if exact else int(name[2:])
             # One iteration for every block but the first, whose start has no predecessor.
-            rules = replace(RULES, exact=exact, power=power, iterations=1, key_interval=0)
+            rules = replace(RULES, exact=exact, power=power, iterations=1, key_interval=int(exact))
             build = partial(CoarseFilter, model.faces, model.size, block=block, rules=rules)
             seconds = svd_seconds(blocks) if exact else fastest(build, study.effort.repeats)
             coarse = build()(model.noisy)

@@ -14,7 +14,7 @@ from tools.paper.published import JULIO, JULIO_SIZES, OVERLAPS
 from tools.paper.study import Study
 
 FINE_ITERATIONS = 2
-EXACT = replace(RULES, exact=True)
+EXACT = replace(RULES, exact=True, key_interval=1)
 """The exact basis, which the paper computes by SVD where it does not say otherwise."""
 SHOWN = 70
 

@@ -188,8 +188,6 @@ def _static_choices(random: Random) -> dict[str, Callable[[], Any]]:
         "coefficients": lambda: random.choice((1, 4, 20)),
         "overlap": lambda: random.choice((1.0, 1.15, 2.0)),
         "partition": lambda: "metis",
-        "basis": lambda: "svd",
-        "seed": lambda: "independent",
         "key_seed": lambda: random.choice(("svd", "cosines")),
         "key_interval": lambda: random.choice((0, 1, 2, 5)),
         "power": lambda: random.choice((1, 2, 8, 16)),
@@ -199,7 +197,6 @@ def _static_choices(random: Random) -> dict[str, Callable[[], Any]]:
         "detail": lambda: random.choice((0.0, 0.5, 3.0)),
         "predict": lambda: False,
         "smoothing": lambda: random.choice((0.0, 0.5, 8.0)),
-        "blend": lambda: random.choice(("uniform", "own")),
         "keep_order": lambda: True,
     }
 

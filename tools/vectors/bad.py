@@ -217,7 +217,7 @@ HEADERS: dict[str, Bad] = {
         f"bad-lacks-{name.replace('_', '-')}": Bad(f"HEADER lacks {name}", "corrupt", _entries(**{name: None}))
         for name in ("vertices", "faces", "blocks", "block_size", "coefficients")
     },
-    "bad-default-stored": Bad("a field is stored that has its default", "corrupt", _entries(seeding=0)),
+    "bad-default-stored": Bad("a field is stored that has its default", "corrupt", _entries(coarser=0)),
     "bad-default-stored-float": Bad("the default step is stored", "corrupt", _entries(step=2.0**-8)),
     "bad-int-as-float": Bad("a float where an int belongs", "corrupt", _entries(vertices=56.0)),
     "bad-float-as-int": Bad("an int where a float belongs", "corrupt", _entries(shift=1)),
@@ -231,7 +231,7 @@ HEADERS: dict[str, Bad] = {
     "bad-power-65": Bad("power = 65", "corrupt", _entries(power=65)),
     "bad-iterations-zero": Bad("iterations = 0", "corrupt", _entries(iterations=0)),
     "bad-bits-33": Bad("bits = 33", "corrupt", _entries(bits=33)),
-    "bad-basis-256": Bad("a method above 255", "corrupt", _entries(basis=256)),
+    "bad-method-256": Bad("a method above 255", "corrupt", _entries(key_seed=256)),
     "bad-vertices-zero": Bad("vertices = 0", "corrupt", _entries(vertices=0)),
     "bad-vertices-negative": Bad("vertices < 0", "corrupt", _entries(vertices=-1)),
     "bad-vertices-2-31": Bad("vertices = 2^31", "corrupt", _entries(vertices=2**31)),
@@ -249,9 +249,8 @@ HEADERS: dict[str, Bad] = {
     "bad-details-no-step": Bad("details without a step", "corrupt", _entries(details=5)),
     "bad-details-none": Bad("a step without details", "corrupt", _entries(detail_step=0.5)),
     "bad-frames-static": Bad("frames without gop_frames", "corrupt", _entries(frames=3)),
-    "bad-prediction-two": Bad("prediction with two parameters", "corrupt", _entries(prediction=[1.0, 2.0])),
-    "bad-prediction-zero": Bad("a spring without stiffness", "corrupt", _entries(prediction=[0.0])),
-    "bad-prediction-stiff": Bad("a spring of stiffness 2^16", "corrupt", _entries(prediction=[65536.0])),
+    "bad-stiffness-negative": Bad("a spring of negative stiffness", "corrupt", _entries(stiffness=-1.0)),
+    "bad-stiffness-beyond": Bad("a spring stiffer than 2^16", "corrupt", _entries(stiffness=65536.0078125)),
     "bad-limit-vertices": Bad(
         "more vertices than a decoder should grant",
         "limit",
@@ -325,7 +324,7 @@ HEADERS: dict[str, Bad] = {
         f"unsupported-{name}": Bad(
             f"a {name} that is not known", "unsupported", _entries(**{name: int(HEADER_FIELDS[name].high) + 1})
         )
-        for name in ("basis", "seeding", "blend", "coding", "key_seed")
+        for name in ("coding", "key_seed", "borders", "light")
     },
     "bad-not-finite": Bad(
         "positions beyond the greatest double",

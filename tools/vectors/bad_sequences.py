@@ -67,14 +67,6 @@ def _step(value: float) -> Edit:
 
 BAD_SEQUENCES: dict[str, Bad] = {
     "unsupported-sequence-method": Bad("a GOP of method 3", "unsupported", _gop(lambda d: b"\x03" + d[1:])),
-    "bad-sequence-prediction-zero": Bad(
-        "a first frame on springs without stiffness", "corrupt", lambda: with_header(_base("learnt"), prediction=[0.0])
-    ),
-    "bad-sequence-prediction-three": Bad(
-        "a first frame whose prediction has three parameters",
-        "corrupt",
-        lambda: with_header(_base("learnt"), prediction=[1.0, 2.0, 3.0]),
-    ),
     "unsupported-sequence-smoothing": Bad(
         "smoothing of a sequence", "unsupported", lambda: with_header(_base("learnt"), smoothing=1.0)
     ),

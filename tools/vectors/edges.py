@@ -110,7 +110,7 @@ def _unused(**changes: Any) -> Callable[[], bytes]:
     return lambda: with_header(_stream(), **changes)
 
 
-METHOD = int(HEADER_FIELDS["blend"].high) + 1
+METHOD = int(HEADER_FIELDS["key_seed"].high) + 1
 
 EDGES: dict[str, Good] = {
     "good-pieces": _static(
@@ -123,7 +123,9 @@ EDGES: dict[str, Good] = {
     "good-pieces-follow": _static(
         "blocks of several components that follow others", _strips, block_size=96, overlap=1.0, key_interval=0
     ),
-    "good-pieces-exact": _static("exact bases of blocks of several components", _strips, block_size=96, basis="svd"),
+    "good-pieces-exact": _static(
+        "exact bases of blocks of several components", _strips, block_size=96, key_seed="svd", key_interval=1
+    ),
     "good-pieces-many-iterations": _static(
         "many iterations on many components", _pieces, block_size=240, keep=0.5, power=8, key_iterations=16
     ),
@@ -132,7 +134,7 @@ EDGES: dict[str, Good] = {
         lambda: with_header(_stream(bits=9), details=4, detail_step=0.01),
     ),
     "good-independent-predicted": Good(
-        "prediction where every block is on its own", lambda: with_header(_stream(seed="independent"), prediction=[8.0])
+        "prediction where every block is on its own", lambda: with_header(_stream(key_interval=1), stiffness=None)
     ),
     "good-refined-ordered": Good(
         "refinement, and the order as given",
@@ -175,35 +177,30 @@ EDGES_BAD: dict[str, Bad] = {
         "an unknown key behind a value out of range", "unsupported", _with_map(lambda e: _entries({**e, 9: 65, 63: 1}))
     ),
     "unsupported-method-and-range": Bad(
-        "an unknown method behind a value out of range", "unsupported", _unused(power=65, blend=METHOD)
+        "an unknown method behind a value out of range", "unsupported", _unused(power=65, key_seed=METHOD)
     ),
     "unsupported-method-and-lack": Bad(
-        "an unknown method, and no number of faces", "unsupported", _unused(faces=None, blend=METHOD)
+        "an unknown method, and no number of faces", "unsupported", _unused(faces=None, key_seed=METHOD)
     ),
     "unsupported-method-and-limit": Bad(
         "an unknown method of a mesh beyond all limits",
         "unsupported",
-        _unused(vertices=2**30, faces=2**30, blocks=2**18, block_size=8192, blend=METHOD),
+        _unused(vertices=2**30, faces=2**30, blocks=2**18, block_size=8192, key_seed=METHOD),
     ),
     "unsupported-method-and-default": Bad(
-        "an unknown method behind a default that is stored", "unsupported", _unused(seeding=0, key_seed=METHOD)
+        "an unknown method behind a default that is stored", "unsupported", _unused(coarser=0, key_seed=METHOD)
     ),
     "bad-range-and-limit": Bad(
         "a mesh beyond all limits, and a value out of range",
         "corrupt",
         _unused(vertices=2**30, faces=2**30, blocks=2**18, block_size=8192, power=65),
     ),
-    "bad-prediction-and-limit": Bad(
-        "a mesh beyond all limits, and a prediction with two parameters",
-        "limit",
-        _unused(vertices=2**30, faces=2**30, blocks=2**18, block_size=8192, prediction=[1.0, 2.0]),
-    ),
     "bad-map-and-key": Bad(
         "an unknown key in a map that is not canonical",
         "corrupt",
         _with_map(lambda e: _entries({**e, 63: 1}).replace(b"\x01\x38", b"\x01\xcc\x38", 1)),
     ),
-    "bad-method-float": Bad("a method that is no int", "corrupt", _unused(blend=float(METHOD))),
+    "bad-method-float": Bad("a method that is no int", "corrupt", _unused(key_seed=float(METHOD))),
     "bad-int16": Bad("300 as int 16", "corrupt", _metadata(b"\x81\xa1a\xd1\x01\x2c")),
     "bad-int16-header": Bad(
         "a number of faces as int 16",
@@ -231,7 +228,9 @@ EDGES_BAD: dict[str, Bad] = {
         _swap_after(lambda data: b"\x09" + data[1:]),
     ),
     "bad-claims": Bad("a regular mesh without blocks", "corrupt", _claims()),
-    "bad-claims-wide": Bad("the same with dictionaries as wide as they may be", "corrupt", _claims(power=64, basis=1)),
+    "bad-claims-wide": Bad(
+        "the same with dictionaries as wide as they may be", "corrupt", _claims(power=64, key_seed=1)
+    ),
     "bad-claims-blocks": Bad(
         "the same with a block for every vertex, each as large as the mesh",
         "corrupt",

@@ -48,7 +48,7 @@ def _uneven() -> TriangleMesh:
 
 def _coarser() -> bytes:
     stream = encode(_small(), EncodeOptions(**{**vars(BASE), "bits": 12}))
-    return with_header(stream, coarser=2, blend=1)
+    return with_header(stream, coarser=2)
 
 
 def _compressed() -> bytes:
@@ -88,11 +88,11 @@ STATIC: dict[str, Good] = {
     ),
     "good-chain": _static("several blocks in one chain, with prediction", _small, key_interval=0),
     "good-keys": _static("key blocks in mid-stream: chains of two blocks", _small, key_interval=2),
-    "good-independent": _static("every block on its own (seeding 1)", _small, seed="independent"),
+    "good-independent": _static("every block on its own", _small, key_interval=1),
     "good-no-prediction": _static("a chain without prediction", _small, predict=False),
-    "good-exact": _static("exact basis (basis 1) of blocks on springs", _small, basis="svd"),
+    "good-exact": _static("exact bases of all blocks", _small, key_seed="svd", key_interval=1),
     "good-exact-clusters": _static(
-        "exact basis of one block with repeated eigenvalues", lambda: torus(6, 6), basis="svd", block_size=36
+        "exact basis of one block with repeated eigenvalues", lambda: torus(6, 6), key_seed="svd", block_size=36
     ),
     "good-key-seed": _static("chains that begin with an exact basis", _small, key_seed="svd", key_interval=3),
     "good-one-column": _static("c = 1 in every block", _small, coefficients=1),
@@ -119,8 +119,6 @@ STATIC: dict[str, Good] = {
     "good-packed-7": _static("packed coefficients of 7 bits, which do not end at a byte", _small, bits=7),
     "good-packed-coarser": Good("packed coefficients whose first row is coarser", _coarser),
     "good-packed-zstd": Good("packed coefficients that zstd shortens", _compressed),
-    "good-blend-uniform": _static("blend 1: all copies equal", _small, blend="uniform"),
-    "good-blend-own": _static("blend 2: only the copy in its own part", _small, blend="own"),
     "good-smoothing": _static("smoothing over the whole mesh, boundary included", lambda: patch(12, 11), smoothing=2.0),
     "good-smoothing-tangled": _static("smoothing of a mesh with a vertex without edges", tangled, smoothing=0.5),
     "good-parameters": _static(
@@ -145,13 +143,13 @@ STATIC: dict[str, Good] = {
         "the stiffest springs, between blocks that hold several components",
         lambda: with_header(
             encode(together(torus(7, 6), patch(6, 5), tetrahedron()), BASE),
-            prediction=[65535.0],
+            stiffness=65536.0,
             shift=2.0**-5,
             key_interval=None,
         ),
     ),
     "good-loose": Good(
-        "the loosest springs", lambda: with_header(encode(_small(), BASE), prediction=[2.0**-30], key_interval=None)
+        "the loosest springs", lambda: with_header(encode(_small(), BASE), stiffness=2.0**-30, key_interval=None)
     ),
     "good-fine": _static("a fine step: levels of many bits", _small, step=1e-6, keep=1.0),
     "good-coarse": _static("a coarse step: most levels are 0", _small, step=0.04),
@@ -161,7 +159,7 @@ STATIC: dict[str, Good] = {
     "good-details-independent": _static(
         "details of blocks on their own, ordered and smoothed",
         _shuffled,
-        seed="independent",
+        key_interval=1,
         detail=2.0,
         keep_order=True,
         smoothing=0.25,

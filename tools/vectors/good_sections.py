@@ -77,7 +77,7 @@ def small_sections(faces: Faces, cuts: Sequence[int], counts: Sequence[int], col
         levels = (7 * np.arange(3 * columns) + 5 * section + 3 * number) % 15 - 7
         return write_varint(columns) + pack_coefficients(levels + (1 << (BITS - 1)), BITS)
 
-    packed = {"coding": 0, "bits": BITS, "coefficients": columns, "prediction": [2.0], "key_iterations": 4}
+    packed = {"coding": 0, "bits": BITS, "coefficients": columns, "stiffness": 2.0, "key_iterations": 4}
     return in_sections(coded, counts, write, **packed | fields)
 
 
@@ -108,11 +108,10 @@ SECTIONS: dict[str, Good] = {
     "good-sections-2": _encoded("two sections, a chain in each", _rings, 2, key_interval=0),
     "good-sections-8": _encoded("eight sections, as many as there may be", _rings, 8, block_size=16),
     "good-sections-keys": _encoded("key blocks within sections", _rings, 2, key_interval=2),
-    "good-sections-independent": _encoded("blocks on their own in sections", _rings, 3, seed="independent"),
+    "good-sections-independent": _encoded("blocks on their own in sections", _rings, 3, key_interval=1),
     "good-sections-exact": _encoded("chains that begin with an exact basis in sections", _rings, 3, key_seed="svd"),
     "good-sections-packed": _encoded("packed coefficients in sections", _rings, 3, bits=10),
-    "good-sections-own": _encoded("blend 2 in sections: a core is in one section", _rings, 3, blend="own"),
-    "good-sections-uniform": _encoded("blend 1 in sections", _rings, 3, blend="uniform", overlap=1.6),
+    "good-sections-wide": _encoded("blocks that overlap far, in sections", _rings, 3, overlap=1.6),
     "good-sections-details": _encoded("details: normals by the faces so far", _rings, 3, detail=3.0, keep=0.15),
     "good-sections-smoothing": _encoded(
         "smoothing across sections, boundary included", lambda: patch(13, 12), 3, smoothing=2.0

@@ -73,7 +73,7 @@ class Planner:
         schemes: list[Scheme] = []
         first = 0
         for blocks, coding in zip(prepared.blocks, codings, strict=True):
-            schemes.append(Scheme(blocks, rules, coding, self._options.blend, first))
+            schemes.append(Scheme(blocks, rules, coding, first))
             first += blocks.count
         return schemes
 
@@ -96,17 +96,14 @@ class Planner:
 
     def _rules(self) -> ChainRules:
         options = self._options
-        predicted = options.predict and options.seed == "previous" and options.bits is None
         return ChainRules(
-            exact=options.basis == "svd",
-            exact_keys=options.exact_keys,
-            independent=options.seed == "independent",
+            exact=options.exact_keys,
             key_interval=max(even_interval(options.key_interval, blocks.count) for blocks in self._prepared.blocks),
             power=options.power,
             iterations=options.iterations,
             key_iterations=options.key_iterations,
             shift=single(options.shift),
-            stiffness=STIFFNESS if predicted else None,
+            stiffness=STIFFNESS if options.predict and options.bits is None else 0.0,
         )
 
     def _codings(self, step: float) -> Sequence[Coding]:

@@ -13,6 +13,7 @@ from bsm.bitstream.errors import BsmError, CorruptError, NumericError
 from bsm.codec.arrays import Matrix
 from bsm.codec.basis.cost import Spend, free
 from bsm.codec.basis.dynamic_size import DynamicSize
+from bsm.codec.blocks.blend import degree_weights
 from bsm.codec.signal.chain import Chain
 from bsm.codec.signal.predict import Surroundings
 from bsm.codec.static.assembly import DecodedBlock
@@ -88,7 +89,7 @@ class ChainEncoder:
         chain.commit(block, np.ascontiguousarray(dictionary[:, : levels.width]), decoded)
         number = scheme.first + index
         packet = packets.Block(number, len(levels.coordinates), coding.write(levels))
-        result = DecodedBlock(number, block.vertices, decoded, scheme.weights(index, block))
+        result = DecodedBlock(number, block.vertices, decoded, degree_weights(block.degrees))
         return CodedBlock(packet, result, work, block_memory(around.laplacian, levels.width))
 
     def _work_of(self, index: int, around: Surroundings, levels: BlockLevels) -> float:
@@ -115,7 +116,7 @@ class ChainDecoder:
     @cached_property
     def _chain(self) -> Chain:
         rules, graph = self._scheme.rules, self._scheme.blocks.graph
-        if (rules.stiffness is not None and not rules.alone) or self._scheme.coding.detail_rows:
+        if (rules.stiffness and not rules.alone) or self._scheme.coding.detail_rows:
             self._allowance.spend(chain_cost(graph.size))
         return Chain(rules, graph, self._allowance.spend)
 
@@ -153,7 +154,7 @@ class ChainDecoder:
             chain.commit(block, dictionary, decoded)
         if not np.isfinite(decoded).all():
             raise NumericError("the coefficients reconstruct to positions that are not finite")
-        return DecodedBlock(packet.index, block.vertices, decoded, scheme.weights(index, block))
+        return DecodedBlock(packet.index, block.vertices, decoded, degree_weights(block.degrees))
 
 
 def encode_blocks(

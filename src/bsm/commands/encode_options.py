@@ -124,15 +124,12 @@ SETTINGS = (
     Setting("block_size", int, "N", "vertices of a block before overlap, about (default 750)"),
     Setting("overlap", float, "F", "size of the blocks with overlap, as a multiple of the largest (default 1.15)"),
     Setting("partition", str, "derived|metis", "who cuts the mesh into blocks (default derived: both sides)"),
-    Setting("basis", str, "oi|svd", "orthogonal iterations, or the exact eigenbasis (default oi)"),
-    Setting("seed", str, "previous|independent", "whether blocks build on the one before (default previous)"),
     Setting("key_seed", str, "cosines|svd", "where a chain begins (default cosines, with --bits svd)"),
     Setting("key_interval", int, "K", "every K blocks one depends on none before it, 0: the first (default 32)"),
     Setting("power", int, "Z", "exponent of the iterated matrix (default 3)"),
     Setting("iterations", int, "T", "orthogonal iterations per block (default 1)"),
     Setting("key_iterations", int, "T", "orthogonal iterations of a block that depends on none (default 4)"),
     Setting("shift", float, "D", "what is added to the Laplacian's diagonal (default 0.0078125)"),
-    Setting("blend", str, "degree|uniform|own", "weights of a vertex's copies in several blocks (default degree)"),
     Setting("predict", bool, "yes|no", "predict coefficients from blocks already coded (default: yes)"),
     Setting(
         "doi", thresholds, "EPS_L,EPS_H", "as many coefficients per block as keep its residual between two thresholds"

@@ -168,6 +168,12 @@ PAPER_THRESHOLDS = (0.14, 0.1, 0.07, 0.05, 0.035)
 """eps_h of dynamic orthogonal iterations; eps_l is a tenth less."""
 
 
+EXACT_BASES: dict[str, Any] = {"key_interval": 1, "key_seed": "svd"}
+"""Every block in its exact basis, as by SVD."""
+COLD_STARTS: dict[str, Any] = {"key_interval": 1, "key_seed": "cosines", "key_iterations": 1}
+"""Every block by one orthogonal iteration from cosines."""
+
+
 def paper_options(**changes: Any) -> EncodeOptions:
     """The paper's mode: METIS, 12 bits for every coefficient, one chain.
 
@@ -184,15 +190,15 @@ def paper_curves(block_size: int = 500, keeps: tuple[float, ...] = PAPER_KEEPS) 
         for threshold in PAPER_THRESHOLDS
     )
     lines: tuple[tuple[str, str, dict[str, Any]], ...] = (
-        ("svd", "SVD", {"basis": "svd"}),
+        ("svd", "SVD", EXACT_BASES),
         ("oi-r1", "OI, R", {}),
         ("oi-r1-t2", "OI, R, 2 iterations", {"iterations": 2}),
         ("oi-r1-t3", "OI, R, 3 iterations", {"iterations": 3}),
         ("oi-r2", "OI, R²", {"power": 2}),
         ("oi-r3", "OI, R³", {"power": 3}),
         ("oi-r4", "OI, R⁴", {"power": 4}),
-        ("oi-r1-cold", "OI, R, no warm start", {"seed": "independent"}),
-        ("oi-r2-cold", "OI, R², no warm start", {"seed": "independent", "power": 2}),
+        ("oi-r1-cold", "OI, R, no warm start", COLD_STARTS),
+        ("oi-r2-cold", "OI, R², no warm start", COLD_STARTS | {"power": 2}),
     )
     fixed = (
         Curve(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -10,25 +10,48 @@ import numpy as np
 import numpy.typing as npt
 
 from bsm.bitstream.limits import NAMED_LIMITS
-from bsm.codec.blocks.overlap import Blocks, grow_blocks
+from bsm.codec.blocks.blend import Blend, degree_weights
+from bsm.codec.blocks.overlap import Block, Blocks, grow_blocks
 from bsm.codec.blocks.partition import Partition, derive_partition
 from bsm.codec.geometry.graph import Graph, graph_of_faces
 from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.static.choice.plan import Planner
 from bsm.codec.static.decoder import decode
 from bsm.codec.static.encoder import Encoder
 from bsm.codec.static.options import EncodeOptions
+from bsm.codec.static.preamble import Parts, prepare
+from bsm.codec.static.ways.block_coder import encode_blocks
 from bsm.evaluation.codecs import paper_options
 from bsm.evaluation.tables import number, table
 from bsm.files.stream import StreamInfo, inspect_stream
 
 Floats = npt.NDArray[np.float64]
 
-OVERLAP_CASES: dict[str, dict[str, Any]] = {
-    "no overlap": {"overlap": 1.0, "blend": "own"},
-    "simple average": {"blend": "uniform"},
-    "weighted average": {"blend": "degree"},
+Weighing = Callable[[Blocks, int, Block], Floats]
+"""The weights, shape (n_i,), with which a block's copies count: from all blocks, its number, and itself."""
+
+
+def only_its_own(blocks: Blocks, number: int, block: Block) -> Floats:
+    """Only the copies in the block whose part they belong to."""
+    return np.isin(block.vertices, blocks.core(number)).astype(np.float64)
+
+
+def all_alike(blocks: Blocks, number: int, block: Block) -> Floats:
+    """Every copy as much as any other."""
+    return np.ones(block.size)
+
+
+def by_degree(blocks: Blocks, number: int, block: Block) -> Floats:
+    """Copies by their degree in the block, as the paper has it, and the codec."""
+    return degree_weights(block.degrees)
+
+
+OVERLAP_CASES: dict[str, tuple[dict[str, Any], Weighing]] = {
+    "no overlap": ({"overlap": 1.0}, only_its_own),
+    "simple average": ({}, all_alike),
+    "weighted average": ({}, by_degree),
 }
-"""The three cases of the paper's box plot (section 6.1)."""
+"""The three cases of the paper's box plot (section 6.1): options, and how copies of a vertex count."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -83,11 +106,23 @@ def boundary_deviations(view: BlockView) -> dict[str, Floats]:
 
 
 def boundary_table(mesh: TriangleMesh, options: EncodeOptions) -> dict[str, dict[str, Floats]]:
-    """`boundary_deviations` for each of `OVERLAP_CASES`."""
+    """`boundary_deviations` for each of `OVERLAP_CASES`; smoothing is left out."""
     return {
-        case: boundary_deviations(view_blocks(mesh, replace(options, **changes)))
-        for case, changes in OVERLAP_CASES.items()
+        case: boundary_deviations(blend_blocks(mesh, replace(options, **changes), weigh))
+        for case, (changes, weigh) in OVERLAP_CASES.items()
     }
+
+
+def blend_blocks(mesh: TriangleMesh, options: EncodeOptions, weigh: Weighing) -> BlockView:
+    """The error of a mesh whose blocks are coded as by `view_blocks`, and joined with other weights."""
+    view = view_blocks(mesh, options)
+    prepared = prepare(mesh, Parts(options.block_size, options.overlap), keep_order=False)
+    schemes = Planner(prepared, options).schemes(options.step or options.first_step)
+    blocks, blend = view.blocks(), Blend(view.graph.size)
+    for coded in encode_blocks(schemes, prepared.positions, threads=options.threads, doi=options.doi):
+        block = blocks.block(coded.decoded.index)
+        blend.add(block.vertices, coded.decoded.positions, weigh(blocks, coded.decoded.index, block))
+    return replace(view, error=blend.all_positions() - prepared.positions)
 
 
 def quartiles(deviations: Floats) -> dict[str, float | None]:

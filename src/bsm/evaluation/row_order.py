@@ -71,15 +71,13 @@ def nmsve_db_of(mesh: TriangleMesh, options: EncodeOptions, keep: float, row_ord
     partition = derive_partition(graph, max(1, round(graph.size / options.block_size)))
     blocks = grow_blocks(graph, partition, block_size(partition, options.overlap))
     rules = ChainRules(
-        exact=options.basis == "svd",
-        exact_keys=options.exact_keys,
-        independent=options.seed == "independent",
+        exact=options.exact_keys,
         key_interval=options.key_interval,
         power=options.power,
         iterations=options.iterations,
         key_iterations=options.key_iterations,
         shift=options.shift,
-        stiffness=None,
+        stiffness=0.0,
     )
     chain, blend = Chain(rules, graph), Blend(graph.size)
     for index in range(blocks.count):

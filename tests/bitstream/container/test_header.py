@@ -193,7 +193,7 @@ def test_noise_is_a_typed_error_or_a_header(noise):
 @given(st.data())
 def test_a_changed_byte_is_a_typed_error_or_another_header(data):
     payload = bytearray(
-        write_header(replace(SMALL_HEADER, center=(0.1, 0.2, 0.3), prediction=(1.0, 2.0), frames=7, gop_frames=7))
+        write_header(replace(SMALL_HEADER, center=(0.1, 0.2, 0.3), stiffness=2.0, frames=7, gop_frames=7))
     )
     index = data.draw(st.integers(0, len(payload) - 1))
     payload[index] ^= data.draw(st.integers(1, 255))
@@ -213,10 +213,11 @@ def test_a_changed_byte_is_a_typed_error_or_another_header(data):
         {12: 1e-30},
         {17: [0.0, 0.0, 1]},
         {17: [0.5, 0.5]},  # too short
-        {19: [0.5] * 17},  # too long
-        {6: 256},  # not even a reserved method
+        {19: [0.5]},  # an array for a float
+        {41: [1] * 16},  # too long
+        {31: 256},  # not even a reserved method
         {12: 0.0078125},  # the default, stored
-        {13: 0},
+        {27: 0},
         {-1: 0},
         {2: 33},  # more vertices than corners
         {3: 101, 1: 100},  # more blocks than vertices
@@ -296,7 +297,7 @@ def test_limits():
 
 @pytest.mark.parametrize(
     "changes",
-    [{"vertices": 0}, {"vertices": 1.5}, {"shift": math.nan}, {"shift": "x"}, {"basis": 2}, {"center": (1, 2)}],
+    [{"vertices": 0}, {"vertices": 1.5}, {"shift": math.nan}, {"shift": "x"}, {"key_seed": 2}, {"center": (1, 2)}],
 )
 def test_a_header_cannot_be_made_of_illegal_values(changes):
     with pytest.raises(OptionError):

@@ -64,7 +64,7 @@ def test_a_lost_block_costs_its_chain_at_the_most(index, how):
 
 @pytest.mark.parametrize("smoothing", [0.0, 2.0])
 def test_an_independent_stream_loses_the_block_alone_and_says_what_is_missing(smoothing):
-    data = stream(seed="independent", smoothing=smoothing)
+    data = stream(key_interval=1, smoothing=smoothing)
     whole = decode(data).positions
     events = recover(damaged(data, 5, "changed"))
     assert lost_blocks(events) == [5]

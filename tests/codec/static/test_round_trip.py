@@ -41,18 +41,18 @@ def events_of(data, pieces):
     "options",
     [
         {},
-        {"seed": "independent"},
-        {"basis": "svd"},
+        {"key_interval": 1},
+        {"key_interval": 1, "key_seed": "svd"},
         {"partition": "metis"},
         {"bits": 12},
-        {"bits": 16, "blend": "uniform", "overlap": 1.3},
-        {"blend": "own", "overlap": 1.0},
+        {"bits": 16, "overlap": 1.3},
+        {"overlap": 1.0},
         {"key_interval": 0},
         {"key_interval": 3, "power": 1, "iterations": 2},
         {"predict": False, "smoothing": 0.0},
         {"detail": 0.0},
-        {"detail": 6.0, "seed": "independent"},
-        {"detail": 1.5, "basis": "svd", "key_interval": 2},
+        {"detail": 6.0, "key_interval": 1},
+        {"detail": 1.5, "key_seed": "svd", "key_interval": 2},
         {"smoothing": 4.0},
         {"threads": 1},
     ],
@@ -108,7 +108,7 @@ def test_a_step_finer_than_levels_can_hold_is_refused():
     ],
     ids=["tetrahedron", "triangle", "point", "repeated", "components", "mixed", "far", "tiny", "huge"],
 )
-@pytest.mark.parametrize("options", [{}, {"bits": 12}, {"seed": "independent"}], ids=str)
+@pytest.mark.parametrize("options", [{}, {"bits": 12}, {"key_interval": 1}], ids=str)
 @pytest.mark.filterwarnings("ignore:overflow")  # of the comparison, which squares what is huge
 def test_small_and_strange_meshes_come_back(mesh, options):
     encoder, decoded, _ = round_trip(mesh, block_size=50, keep=1.0, step=1e-4, smoothing=0.0, **options)
@@ -217,7 +217,7 @@ def test_a_stream_over_the_limits_is_refused():
 
 
 def test_illegal_options_are_refused():
-    for wrong in ({"keep": 0.0}, {"bits": 1}, {"bits": 17}, {"overlap": 0.9}, {"seed": "random"}, {"step": -1.0}):
+    for wrong in ({"keep": 0.0}, {"bits": 1}, {"bits": 17}, {"overlap": 0.9}, {"key_seed": "random"}, {"step": -1.0}):
         with pytest.raises(OptionError):
             EncodeOptions(**wrong)
 

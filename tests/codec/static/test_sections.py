@@ -33,8 +33,7 @@ OPTIONS = [
     {},
     {"key_interval": 2},
     {"smoothing": 2.0},
-    {"detail": 0.0, "blend": "own"},
-    {"seed": "independent", "smoothing": 1.0},
+    {"key_interval": 1, "smoothing": 1.0},
     {"bits": 12, "step": None},
 ]
 REFINED = {"step": None, "keep": None, "contract": Contract(0.002, 3.0), "block_size": 200}

@@ -64,15 +64,15 @@ export function keyDictionary(
 }
 
 function isExact(header: Header, follows: boolean): boolean {
-    return header.basis === 1 || (header.keySeed === 1 && !follows);
+    return header.keySeed === 1 && !follows;
 }
 
 function iterationsOf(header: Header, follows: boolean): number {
-    return follows || header.seeding === 1 ? header.iterations : header.keyIterations;
+    return follows ? header.iterations : header.keyIterations;
 }
 
 export function chainLength(header: Header): number {
-    return header.seeding === 1 ? 1 : header.keyInterval || header.blocks;
+    return header.keyInterval || header.blocks;
 }
 
 /** How much work a decoder may still do, and how much memory it may take. */
@@ -163,7 +163,7 @@ export class ChainDecoder {
     ) {
         this.model = new CoefficientModel(memory, header.coefficients, "coordinates");
         if (header.details > 0) this.details = new CoefficientModel(memory, Math.ceil(header.details / 3), "details");
-        if (header.prediction.length > 0) {
+        if (header.stiffness > 0) {
             this.known = new Blend(memory, blocks.graph.size);
             this.inside = memory.bytes(blocks.graph.size);
             this.inside.view.fill(0);
@@ -194,7 +194,7 @@ export class ChainDecoder {
             if (!areFinite(positions)) throw new NumericError("the coefficients reconstruct to positions that are not finite");
             const vertices = block.vertices.view.slice();
             const degrees = degreesOf(block).map((degree) => Math.max(degree, 1));
-            decoded = { index, vertices, positions, weights: this.copyWeights(index, vertices, degrees) };
+            decoded = { index, vertices, positions, weights: degrees };
             this.known?.add(decoded, degrees);
             return subspace;
         }, this.behind);
@@ -224,8 +224,7 @@ export class ChainDecoder {
         const pulls = memory.doubles(3 * block.size, 3);
         if (known && inside) {
             const { offsets, neighbours } = this.blocks.graph;
-            const stiffness = this.header.prediction[0];
-            memory.run("look_around", offsets, neighbours, block.vertices, inside, known.sums, known.weights, stiffness, springs, pulls);
+            memory.run("look_around", offsets, neighbours, block.vertices, inside, known.sums, known.weights, this.header.stiffness, springs, pulls);
         } else {
             springs.view.fill(0);
             pulls.view.fill(0);
@@ -235,14 +234,14 @@ export class ChainDecoder {
 
     /** The dictionary that a block starts from, if it follows another. */
     private predecessor(block: Block): Doubles | undefined {
-        return this.header.seeding === 0 && this.subspace?.rows === block.size ? this.subspace : undefined;
+        return this.subspace?.rows === block.size ? this.subspace : undefined;
     }
 
     /** U of a block (M 8.3 to M 8.5). */
     private dictionary(block: Block, springs: Doubles, factor: Factor, width: number): Doubles {
         const { header, memory, allowance } = this;
         const previous = this.predecessor(block);
-        if (header.basis === 1 || !previous) return keyDictionary(memory, header, block, springs.view.slice(), width, allowance, factor);
+        if (!previous) return keyDictionary(memory, header, block, springs.view.slice(), width, allowance, factor);
         const start = followColumns(memory, block, previous, width);
         return orthogonalIteration(memory, block, factor, start, width, scheduleOf(header, true), allowance);
     }
@@ -259,14 +258,5 @@ export class ChainDecoder {
             const { view } = normals;
             for (let i = 0; i < view.length; i++) positions[i] += view[i] * heights[Math.floor(i / 3)];
         });
-    }
-
-    /** Weight of each copy in the blend (M 12.1). */
-    private copyWeights(index: number, vertices: Int32Array, degrees: Float64Array): Float64Array {
-        if (this.header.blend === 0) return degrees;
-        if (this.header.blend === 1) return degrees.map(() => 1);
-        const { cores, first } = this.blocks;
-        const core = new Set(membersOf(this.blocks, index).view.subarray(0, cores[index - first]));
-        return Float64Array.from(vertices, (vertex) => (core.has(vertex) ? 1 : 0));
     }
 }

@@ -24,7 +24,6 @@ import { chunkCost, GRID_COST, layerCost, LIGHT_COST, orderCost, type GridCost }
 
 const ORDER_METHOD = 1;
 const SPLITS_METHOD = 2;
-const MAX_STIFFNESS = 65536;
 /** The next block is one that a helper has to send first. */
 export const NEED_BLOCK = "need block";
 
@@ -348,9 +347,6 @@ export class Decoder {
     private acceptHeader(header: Header): void {
         if (header.gopFrames > 0 && (header.smoothing > 0 || header.details > 0)) {
             throw new UnsupportedError("smoothing and details of sequences are unknown to this decoder");
-        }
-        if (header.prediction.length > 1 || !header.prediction.every((value) => value > 0 && value < MAX_STIFFNESS)) {
-            throw new CorruptError(`the prediction has the parameters ${header.prediction}, one stiffness is legal`);
         }
         checkLimit(this.limits, "coefficients", header.details);
         if (header.gopFrames > 0) checkLimit(this.limits, "sequenceBytes", 8 * header.vertices * header.coefficients);

@@ -10,20 +10,17 @@ export interface Header {
     blocks: number;
     blockSize: number;
     coefficients: number;
-    basis: number;
-    seeding: number;
     keyInterval: number;
     power: number;
     iterations: number;
     keyIterations: number;
     shift: number;
-    blend: number;
     coding: number;
     bits: number;
     step: number;
     center: number[];
     scale: number;
-    prediction: number[];
+    stiffness: number;
     smoothing: number;
     frames: number;
     gopFrames: number;
@@ -66,20 +63,17 @@ const FIELDS: Fields<keyof Header> = {
     blocks: { key: 3, type: "int", low: 0, high: COUNT, default: 0 },
     blockSize: { key: 4, type: "int", low: 0, high: COUNT, default: 0 },
     coefficients: { key: 5, type: "int", low: 0, high: COUNT, default: 0 },
-    basis: { key: 6, type: "method", low: 0, high: 1, default: 0 },
-    seeding: { key: 7, type: "method", low: 0, high: 1, default: 0 },
     keyInterval: { key: 8, type: "int", low: 0, high: COUNT, default: 0 },
-    power: { key: 9, type: "int", low: 1, high: 64, default: 2 },
+    power: { key: 9, type: "int", low: 1, high: 64, default: 3 },
     iterations: { key: 10, type: "int", low: 1, high: 1024, default: 1 },
-    keyIterations: { key: 11, type: "int", low: 1, high: 1024, default: 8 },
+    keyIterations: { key: 11, type: "int", low: 1, high: 1024, default: 4 },
     shift: { key: 12, type: "float", low: 2 ** -30, high: 2 ** 30, default: 0.0078125 },
-    blend: { key: 13, type: "method", low: 0, high: 2, default: 0 },
     coding: { key: 14, type: "method", low: 0, high: 1, default: 1 },
     bits: { key: 15, type: "int", low: 1, high: 32, default: 12 },
     step: { key: 16, type: "float", low: 2 ** -40, high: 2 ** 20, default: 2 ** -8 },
     center: { key: 17, type: "floats", low: -1e300, high: 1e300, default: [0, 0, 0], lengths: [3, 3] },
     scale: { key: 18, type: "float", low: 1e-300, high: 1e300, default: 1 },
-    prediction: { key: 19, type: "floats", low: -1e30, high: 1e30, default: [], lengths: [0, 16] },
+    stiffness: { key: 19, type: "float", low: 0, high: 65536, default: 8 },
     smoothing: { key: 20, type: "float", low: 0, high: 1e6, default: 0 },
     frames: { key: 21, type: "int", low: 0, high: COUNT, default: 0 },
     gopFrames: { key: 23, type: "int", low: 0, high: COUNT, default: 0 },
