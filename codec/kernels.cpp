@@ -31,6 +31,7 @@ extern "C" {
 #include "codec/look/normals.h"
 #include "codec/look/shade.h"
 #include "codec/sequence/row_prediction.h"
+#include "codec/sequence/row_search.h"
 #include "codec/signal/detail.h"
 #include "codec/signal/frames.h"
 #include "codec/signal/place.h"
@@ -48,7 +49,7 @@ struct nb::detail::type_caster<Fronts>
 
 template <>
 struct nb::detail::type_caster<PredictionRules>
-    : nb::detail::TupleCaster<PredictionRules, double, double, double, double, int64_t, int64_t> {};
+    : nb::detail::TupleCaster<PredictionRules, double, double, double, int64_t, int64_t> {};
 
 BSM_STRUCT(Wanted, ConstDoubles2, ConstInts2, ConstLongs, ConstInts, ConstInts, ConstInts, ConstDoubles2, ConstDoubles)
 BSM_STRUCT(Aim, double, double, int64_t)
@@ -159,8 +160,11 @@ NB_MODULE(_kernels, m) {
     m.def("hold", &hold, "offsets"_a, "neighbours"_a, "weights"_a, "rank"_a, "vertices"_a, "own_offsets"_a,
           "own_neighbours"_a, "inner"_a, "springs"_a, "starts"_a, "outer"_a, "stiffness"_a, Unlocked());
     m.def("pull", &pull, "starts"_a, "outer"_a, "stiffness"_a, "field"_a, "pulls"_a, Unlocked());
-    m.def("follow_rows", &follow_rows, "known"_a, "targets"_a, "levels"_a, "decoded"_a, "moments"_a, "step"_a,
-          "rounding"_a, "encoding"_a, "rules"_a, "factor"_a, "row"_a, "expected"_a, Unlocked());
+    m.def("follow_rows", &follow_rows, "known"_a, "levels"_a, "decoded"_a, "moments"_a, "step"_a, "rules"_a, "factor"_a,
+        "row"_a, "expected"_a, Unlocked());
+    m.def("search_rows", &search_rows, "known"_a, "targets"_a, "prices"_a, "weight"_a, "levels"_a, "decoded"_a,
+        "moments"_a, "step"_a, "rules"_a, "factor"_a, "row"_a, "expected"_a, "values"_a, "ways"_a, "origins"_a,
+        Unlocked());
     m.def("component_sizes", checked<&component_sizes>, "offsets"_a, "neighbours"_a, "seen"_a, "waiting"_a, "sizes"_a,
           Unlocked());
     m.def("reaches_all", checked<&reaches_all>, "offsets"_a, "neighbours"_a, "scratch"_a, Unlocked());

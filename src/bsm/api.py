@@ -192,7 +192,8 @@ def encode_sequence(
         What is the same in all frames; `SequenceDecoder.attributes` gives it back. How well each is kept, the option
         `attributes` says, as of a mesh.
     **keywords
-        As on the command line: `preset`, `low_delay`, one target (`kg`, `bpvf`, `theta`, `nmsve_db`), and fields of
+        As on the command line: `preset` ("small", "balanced", "fine", "near-lossless": promises for every frame),
+        `low_delay`, bounds (`look`, `max_error`), one target (`kg`, `bpvf`, `theta`, `nmsve_db`), and fields of
         `SequenceOptions` (`step`, `gop`, `frame_rate`, ...).
     """
     from bsm.codec.sequence.encoder import encode_sequence as encode_frames
