@@ -4,6 +4,7 @@ Commands stand in blocks (lines indented by four, or fenced as sh or python) or 
 of meshes is asked for its help always, and run as it stands where there are real meshes and time (`-m long`).
 """
 
+import ast
 import os
 import re
 import subprocess
@@ -229,3 +230,14 @@ def test_paths_that_documents_name_exist(name):
 
 EXAMPLES = {"out/", "streams/", "new/", "dance.glb/", "frames/"}
 """Names of files that a reader may have, not of ours."""
+LEANING = re.compile(r"(?:Of|The same|And|That of|Those|Them)\b")
+
+
+@pytest.mark.parametrize("room", ["bitstream", "codec", "src/bsm", "tools"])
+def test_docstrings_can_be_read_alone(room):
+    """In a tooltip nobody sees the one before."""
+    sources = [path for path in (ROOT / room).rglob("*.py") if "node_modules" not in path.parts]
+    nodes = [(path, node) for path in sources for node in ast.walk(ast.parse(path.read_text()))]
+    named = [(path, node) for path, node in nodes if isinstance(node, (ast.FunctionDef, ast.ClassDef))]
+    leaning = [f"{path}:{node.lineno}" for path, node in named if LEANING.match(ast.get_docstring(node) or "")]
+    assert not leaning
