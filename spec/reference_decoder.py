@@ -32,7 +32,6 @@ from reference_attributes import (
     Declaration,
     check_declarations,
     read_seams,
-    relief_of,
 )
 from reference_connectivity import (
     Connectivity,
@@ -44,6 +43,7 @@ from reference_connectivity import (
     arrange,
     decode_labels,
     neighbours_of,
+    read_rotations,
     read_signed,
     read_unsigned,
 )
@@ -233,9 +233,9 @@ def parse_fields(payload, fields):
             require(type(value) is list and all(type(v) is item for v in value), f"{name} has a wrong type")
             require(kind[0] <= len(value) <= kind[1], f"{name} has a wrong length")
             items = value
-        elif kind in (str, bytes):
+        elif kind is str:
             require(type(value) is kind, f"{name} has a wrong type")
-            items = [len(value.encode() if kind is str else value)]
+            items = [len(value.encode())]
         else:
             require(type(value) is (float if kind is float else int), f"{name} has a wrong type")
             items = [value]
@@ -856,25 +856,6 @@ def unzipped(data, size):
     return content
 
 
-def piece(data, at, size):
-    """F 9.2: `size` bytes, and where they end."""
-    length, at = payload_varint(data, at)
-    require(length <= len(data) - at, "a piece ends too early")
-    stream = zlib.decompressobj()
-    try:
-        content = stream.decompress(data[at : at + length], size + 1)
-    except zlib.error as error:
-        raise CorruptError(f"a piece is damaged: {error}") from None
-    require(len(content) == size and stream.eof and not stream.unused_data, "a piece of another size")
-    return content, at + length
-
-
-def piece_of_numbers(data, at, count):
-    """F 9.2: `count` numbers, and where they end."""
-    content, at = piece(data, at, 4 * count)
-    return [sum(content[i + k * count] << 8 * k for k in range(4)) for i in range(count)], at
-
-
 # ---------------------------------------------------------------- M 10, M 12, M 17: positions
 
 
@@ -935,12 +916,9 @@ class Allowance:
         require_limit(self.work, MOST_WORK + 3.2e4 * (self.vertices + self.shown), "work")
 
 
-def data_of(packet, known):
-    """F 5.2: what is behind the method."""
-    method, data = packet
-    if method not in known:
-        raise UnsupportedError(f"method {method}, and not one of {known}")
-    return data
+def read_column(decoder, count):
+    """F 9.3: whole numbers, as a matrix of one column (S 4)."""
+    return LevelModel().matrix(decoder, count, 1, np.zeros((0, 1), int))[:, 0].tolist()
 
 
 class Mesh:
@@ -961,7 +939,7 @@ class Mesh:
         header, packets = self.header, self.packets
         packets.require(len(packets[CONNECTIVITY]) > self.section, "there is no CONNECTIVITY")
         begin = self.known
-        coded = data_of(packets[CONNECTIVITY][self.section], (1,))
+        coded = packets[CONNECTIVITY][self.section]
         self.faces, self.known = self.connectivity.decode(coded)
         self.begin, self.allowance.vertices = begin, self.known
         self.blocks = range(([0, *self.ends])[self.section], self.ends[self.section])
@@ -978,10 +956,9 @@ class Mesh:
         self.user_corners = [[3 * f + i for i in range(3)] for f in range(len(self.faces))]
         self.splits, self.labels = False, None
         if packets[PARTITION]:
-            self.labels = decode_labels(data_of(packets[PARTITION][0], (0,)), self.graph, self.header["blocks"])
+            self.labels = decode_labels(packets[PARTITION][0], self.graph, self.header["blocks"])
         if packets[ORDER]:
-            data = data_of(packets[ORDER][0], (1,) if self.header["gop_frames"] else (1, 2))
-            self.arrange(packets[ORDER][0][0], data)
+            self.arrange(packets[ORDER][0])
 
     def own_blocks(self):
         """Those of the section that have come."""
@@ -1012,51 +989,53 @@ class Mesh:
             arranged[given] = position
         return arranged
 
-    def arrange(self, method, data):
+    def arrange(self, data):
         """C 9, F 9: the numbers that each vertex has, the faces, and vertices in none of them."""
         vertices = self.header["vertices"]
-        if method == 1:
-            numbers, self.arranged, self.user_corners = arrange(data, self.faces, vertices)
-            self.numbers = [[number] for number in numbers]
-            return
-        self.splits = True
-        size, at = payload_varint(data, 0)  # F 9.1
-        require(size <= len(data) - at, "the order ends too early")
-        numbers, faces, self.user_corners = arrange(data[at : at + size], self.faces, vertices)
-        at += size
-        given, at = payload_varint(data, at)
-        copies, at = payload_varint(data, at)
+        copies, at = payload_varint(data, 0)  # F 9.1
         loose, at = payload_varint(data, at)
+        given = vertices + copies + loose
         require_limit(given, MOST_VERTICES, "given vertices")
-        require(given == vertices + copies + loose and vertices + copies <= 3 * len(faces), "wrong numbers of vertices")
-        kinds, at = piece(data, at, given)
-        counts = [kinds.count(kind) for kind in range(3)]
-        require(counts == [vertices, copies, loose], "other vertices than were announced")  # F 9.3
-        back, at = piece_of_numbers(data, at, copies)
+        require(vertices + copies <= 3 * len(self.faces) and given < 1 << 24, "too many copies of vertices")
+        require(24 * loose <= len(data) - at, "positions of loose vertices are missing")
+        values = struct.unpack(f"<{3 * loose}d", data[at : at + 24 * loose])
+        require(all(map(math.isfinite, values)), "a loose vertex is not finite")
+        decoder = RangeDecoder(data[at + 24 * loose :])
+        numbers, faces, self.user_corners = arrange(decoder, self.faces, vertices)
+        self.arranged, self.numbers = faces, [[number] for number in numbers]
+        self.splits = copies + loose > 0
+        if self.splits:
+            self.split(decoder, numbers, given, copies, values)
+        decoder.finish()
+        require(not (self.splits and self.header["gop_frames"]), "copies or loose vertices in a sequence")  # F 9.1
+
+    def split(self, decoder, numbers, given, copies, values):
+        """F 9.2 to F 9.5."""
+        vertices, faces = self.header["vertices"], self.arranged
+        kinds = read_rotations(decoder, given)  # F 9.2
+        require([kinds.count(0), kinds.count(1)] == [vertices, copies], "other vertices than were announced")
+        back = read_column(decoder, copies)
         places, last, waiting = [[] for _ in range(vertices)], -1, iter(back)
         for number, kind in enumerate(kinds):
             if kind == 0:
                 last += 1
                 places[last].append(number)
-            elif kind == 1:  # F 9.4
+            elif kind == 1:  # F 9.3
                 vertex = last - next(waiting)
-                require(vertex >= 0, "a copy of no vertex")
+                require(0 <= vertex <= last, "a copy of no vertex")
                 places[vertex].append(number)
         steps = [0] * (3 * len(faces))
         if copies:
-            steps, at = piece_of_numbers(data, at, 3 * len(faces))
+            steps = read_column(decoder, 3 * len(faces))
         seen, self.arranged, corner = [0] * vertices, [], iter(steps)
-        for face in faces:  # F 9.5
+        for face in faces:  # F 9.4
             turned = []
             for v in face:
                 step = next(corner)
-                require(step < len(places[v]), "a copy that there is not")
+                require(0 <= step < len(places[v]), "a copy that there is not")
                 turned.append(places[v][(seen[v] + step) % len(places[v])])
                 seen[v] += 1
             self.arranged.append(tuple(turned))
-        require(len(data) - at == 24 * loose, "positions of loose vertices are missing")  # F 9.6
-        values = struct.unpack(f"<{3 * loose}d", data[at:])
-        require(all(map(math.isfinite, values)), "a loose vertex is not finite")
         alone = [number for number, kind in enumerate(kinds) if kind == 2]
         self.loose = {number: values[3 * i : 3 * i + 3] for i, number in enumerate(alone)}
         self.numbers = [places[number] for number in numbers]
@@ -1445,9 +1424,6 @@ def decode_attributes(mesh, packets, attributes, positions, places):
     """D 3 to D 5: for each attribute its arrays, as spec/vectors/README.md tells; positions are in BSM units."""
     if packets.fault and not packets[VALUES]:
         return {}  # the stream ends before them
-    leaning = [one.declared for one in attributes if one.declared.leans]
-    if leaning and places is None:
-        places = relief_of(positions, leaning[0].relief, leaning[0].doubts)
     arrays = {}
     for index, one in enumerate(attributes):
         declared = one.declared

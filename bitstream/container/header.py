@@ -27,7 +27,7 @@ class Field:
 
     `reserved` is the largest value that a later version may give a meaning to: above `high`, and up to there, a
     value is unsupported and not corrupt. Of a list, `item` is the type and `lengths` bounds the number of its entries;
-    of text and bytes, the range is that of their length in bytes.
+    of text, the range is that of its length in bytes.
     """
 
     key: int
@@ -47,7 +47,7 @@ class Field:
     def problem(self, value: Any) -> str | None:
         """What is wrong with a normalised value, or None."""
         items = value if self.type is tuple else (value,)
-        if self.type in (str, bytes):
+        if self.type is str:
             items = (len(value.encode() if isinstance(value, str) else value),)
         least, most = self.lengths
         if self.type is tuple and not least <= len(items) <= most:
@@ -64,7 +64,7 @@ class Field:
 
 
 def _plain(kind: Kind, value: Any) -> Any:
-    if kind in (str, bytes):
+    if kind is str:
         if type(value) is not kind:
             raise TypeError(f"it must be of type {kind.__name__}")
         return value
@@ -99,11 +99,6 @@ def integers(key: int, low: int, high: int, lengths: tuple[int, int], default: t
 def text(key: int, low: int, high: int) -> Any:
     """Declare a text of so many bytes of UTF-8."""
     return field(metadata={"wire": Field(key, str, low, high)})
-
-
-def binary(key: int, high: int) -> Any:
-    """Declare bytes, none of them by default."""
-    return field(default=b"", metadata={"wire": Field(key, bytes, 0, high)})
 
 
 @dataclass(frozen=True)

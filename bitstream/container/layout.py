@@ -75,20 +75,13 @@ def parse_metadata(payload: bytes, limits: Limits) -> Metadata:
 
 
 def write_coded(packet: Connectivity | Partition | Order) -> bytes:
-    """A byte for the method, then its data."""
-    if not 0 <= packet.method <= 255:
-        raise OptionError(f"method {packet.method} does not fit a byte")
-    return bytes([packet.method]) + packet.data
+    """Its data."""
+    return packet.data
 
 
-def parse_coded(make: Callable[[int, bytes], Coded]) -> Callable[[bytes, Limits], Coded]:
+def parse_coded(make: Callable[[bytes], Coded]) -> Callable[[bytes, Limits], Coded]:
     """Inverse of `write_coded` for the packet type `make`."""
-
-    def parse(payload: bytes, limits: Limits) -> Coded:
-        cursor = Cursor(payload)
-        return make(cursor.take(1)[0], cursor.rest())
-
-    return parse
+    return lambda payload, limits: make(payload)
 
 
 def write_block(block: Block) -> bytes:

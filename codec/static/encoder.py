@@ -245,7 +245,7 @@ class Encoder:
         """A draft with all that the mesh carries."""
         if not self._carried and not self._given.metadata:
             return draft
-        return with_attributes(draft, self._prepared, self._carried, self._given.metadata)
+        return with_attributes(draft, self._carried, self._given.metadata)
 
     @cached_property
     def _wanted(self) -> list[tuple[Attribute, Quality]]:

@@ -19,7 +19,7 @@ from bsm.bitstream.fields.light import LightDecoder, LightEncoder
 from bsm.codec.arrays import Indices, Levels, Positions
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.static.attributes.decoding import ValuesStage, completed
-from bsm.codec.static.attributes.relief import Solid
+from bsm.codec.static.attributes.solid import Solid
 from bsm.codec.static.events import BlockEvent, Changes, Losses, LossEvent, unreadable
 from bsm.codec.static.stages import Arrival, Stage, misplaced
 from bsm.codec.static.structure import Structure

@@ -18,7 +18,6 @@ const PIECE = 65536;
 const MOST_COMPONENTS = 4;
 const [BASES, VALENCES] = [4, 6];
 const FACE_CONTEXTS = 257;
-const MOST_COORDINATE = 2 ** 20;
 const FLOAT32 = 6;
 const FLOAT64 = 7;
 const SEMANTICS = ["generic", "color", "normal", "texcoord"] as const;
@@ -71,7 +70,6 @@ interface Valued {
 /** The attributes of one mesh. */
 export class Attributes {
     private readonly valued = new Map<number, Valued>();
-    private relief?: Int32Array;
     private current = -1;
     private mark?: number;
 
@@ -189,7 +187,7 @@ export class Attributes {
         const { declaration } = one;
         one.surface ??= this.surfaceOf(one, numbering);
         one.values = new Float64Array(declaration.rows * declaration.components);
-        const geometry = declaration.leans ? this.reliefOf(one.surface, solid) : new Int32Array(0);
+        const geometry = declaration.leans ? this.geometryOf(one.surface, solid()) : new Int32Array(0);
         this.mark ??= memory.mark();
         memory.release(this.mark);
         this.current = index;
@@ -246,28 +244,12 @@ export class Attributes {
     }
 
     /** Where rows are, in whole numbers (D 5). */
-    private reliefOf(surface: Surface, solid: () => Solid | undefined): Int32Array {
-        this.relief ??= this.makeRelief(solid());
-        const places = new Int32Array(3 * surface.vertices.length);
-        surface.vertices.forEach((vertex, row) => vertex >= 0 && places.set(this.relief!.subarray(3 * vertex, 3 * vertex + 3), 3 * row));
-        return places;
-    }
-
-    private makeRelief(solid?: Solid): Int32Array {
-        const leaning = [...this.valued.values()].find(({ declaration }) => declaration.leans)?.declaration;
-        if (!solid || !leaning) throw new CorruptError("positions are missing that attributes are predicted from");
-        if (solid.places) return solid.places;
-        if (leaning.relief === 0) throw new CorruptError("the attribute is missing that says how positions are rounded");
-        const scaled = solid.positions.map((x) => x * 2 ** leaning.relief + 0.5);
-        const low = scaled.map(Math.floor);
-        const cursor = new Cursor(leaning.doubts);
-        for (let [i, begun] = [0, false]; !cursor.ended; begun = true) {
-            const entry = cursor.varint();
-            i += Math.floor(entry / 2);
-            if (i >= low.length || (begun && entry < 2)) throw new CorruptError(`coordinate ${i} of ${low.length} is in doubt`);
-            low[i] = nearestEven(scaled[i]) - 1 + (entry % 2);
-        }
-        return Int32Array.from(low, (x) => Math.min(Math.max(x, -MOST_COORDINATE), MOST_COORDINATE));
+    private geometryOf(surface: Surface, solid?: Solid): Int32Array {
+        const places = solid?.places;
+        if (!places) throw new CorruptError("positions are missing that attributes are predicted from");
+        const geometry = new Int32Array(3 * surface.vertices.length);
+        surface.vertices.forEach((vertex, row) => vertex >= 0 && geometry.set(places.subarray(3 * vertex, 3 * vertex + 3), 3 * row));
+        return geometry;
     }
 
     /** As the user knows it (D 4.5). */
@@ -296,13 +278,6 @@ export class Attributes {
         }
         return { ...shape, domain: "vertex", values: chosen(source.map((vertex, i) => (vertex < 0 ? loose++ : found[i]))) };
     }
-}
-
-/** The whole number that is nearest, of two the even one. */
-function nearestEven(x: number): number {
-    const low = Math.floor(x);
-    const above = x - low;
-    return above > 0.5 || (above === 0.5 && low % 2 !== 0) ? low + 1 : low;
 }
 
 /** How numbers are predicted (D 3.4). */

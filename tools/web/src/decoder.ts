@@ -3,7 +3,6 @@ import { Attributes, type Attribute, type Solid } from "./attributes";
 import { Assembly, inMeshUnits, type Changes } from "./assembly";
 import type { Blocks } from "./blocks";
 import { Allowance, type DecodedBlock } from "./chain";
-import { decodeArrangement } from "./connectivity";
 import type { Declaration } from "./declaration";
 import { BsmError, CorruptError, errorLike, UnsupportedError, type Described } from "./errors";
 import { gridKernel, Refinement } from "./fields";
@@ -12,18 +11,16 @@ import type { Header } from "./header";
 import { isMine, type SharedBlock } from "./helper";
 import type { Kernels, Memory } from "./kernels";
 import { checkLimit, DEFAULT_LIMITS, type Limits } from "./limits";
-import { Numbering, permuted, type Loose } from "./numbering";
-import { Cursor, END_OF_STREAM, NEED_DATA, Reader, type Damaged, type Metadata, type Packet, type Signal } from "./reader";
+import { Numbering, type Loose } from "./numbering";
+import { decodeOrder } from "./order";
+import { END_OF_STREAM, NEED_DATA, Reader, type Damaged, type Metadata, type Packet, type Signal } from "./reader";
 
 export type { Metadata };
 import { Sequence } from "./sequence";
-import { split } from "./splits";
 import { Structure, type Chains } from "./structure";
 import { TolerantReader } from "./tolerant";
 import { chunkCost, GRID_COST, layerCost, LIGHT_COST, orderCost, type GridCost } from "./work";
 
-const ORDER_METHOD = 1;
-const SPLITS_METHOD = 2;
 /** The next block is one that a helper has to send first. */
 export const NEED_BLOCK = "need block";
 
@@ -284,11 +281,11 @@ export class Decoder {
                 this.queue.push(packet);
                 return;
             case "connectivity":
-                return this.acceptConnectivity(packet.method, packet.data);
+                return this.acceptConnectivity(packet.data);
             case "partition":
-                return this.structure!.acceptPartition(packet.method, packet.data);
+                return this.structure!.acceptPartition(packet.data);
             case "order":
-                return this.acceptOrder(packet.method, packet.data);
+                return this.acceptOrder(packet.data);
             case "block":
                 return this.acceptBlock(packet.index, packet.coefficients, packet.data);
             case "gop":
@@ -355,26 +352,21 @@ export class Decoder {
         this.queue.push({ type: "header", header });
     }
 
-    private acceptConnectivity(method: number, data: Uint8Array): void {
+    private acceptConnectivity(data: Uint8Array): void {
         const { connectivity } = this.structure!;
         if (connectivity.section > 0) {
             this.built();
             this.skipTo(connectivity.blocks);
             this.assembly!.leave();
         }
-        this.structure!.accept(method, data);
+        this.structure!.accept(data);
         this.chains = undefined;
     }
 
-    private acceptOrder(method: number, data: Uint8Array): void {
+    private acceptOrder(data: Uint8Array): void {
         const { memory, structure, header, limits } = this;
-        const splits = method === SPLITS_METHOD && !header!.gopFrames;
-        if (!splits && method !== ORDER_METHOD) throw new UnsupportedError(`order method ${method} is unknown to this decoder`);
         this.allowance.spend(orderCost(header!.vertices, header!.faces, data.length), data.length);
-        const cursor = new Cursor(data);
-        const order = splits ? cursor.take(cursor.varint()) : data;
-        const arrangement = decodeArrangement(memory, order, structure!.faces, header!.vertices);
-        this.numbering = splits ? split(cursor.rest(), arrangement, limits) : permuted(arrangement);
+        this.numbering = decodeOrder(memory, data, structure!.faces, header!, limits);
     }
 
     private acceptAttribute(index: number, declaration: Declaration, seams: Uint8Array): void {

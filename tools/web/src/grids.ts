@@ -1,17 +1,16 @@
 /** A stream of a static mesh on a light grid to the mesh, while it arrives: as `decoder.ts` decodes it, without all else. */
 import { Allowance } from "./chain";
-import { CONNECTIVITY_METHOD, ConnectivityDecoder, decodeArrangement } from "./connectivity";
+import { ConnectivityDecoder } from "./connectivity";
 import type { BlockEvent, ConnectivityEvent, EndEvent, HeaderEvent, Mesh } from "./decoder";
 import { BsmError, UnsupportedError } from "./errors";
 import { Grid, lightKernel } from "./grid";
 import type { Header } from "./header";
 import type { Kernels, Memory } from "./kernels";
 import { DEFAULT_LIMITS, type Limits } from "./limits";
-import { Numbering, permuted } from "./numbering";
+import { Numbering } from "./numbering";
+import { decodeOrder } from "./order";
 import { END_OF_STREAM, NEED_DATA, Reader, type Packet, type Signal } from "./reader";
 import { LIGHT_COST, meshCost, orderCost } from "./work";
-
-const ORDER_METHOD = 1;
 
 export type Event = HeaderEvent | ConnectivityEvent | BlockEvent | EndEvent;
 
@@ -81,9 +80,9 @@ export class Decoder {
             case "header":
                 return this.acceptHeader(packet.header);
             case "connectivity":
-                return this.acceptConnectivity(packet.method, packet.data);
+                return this.acceptConnectivity(packet.data);
             case "order":
-                return this.acceptOrder(packet.method, packet.data);
+                return this.acceptOrder(packet.data);
             case "grid":
                 return this.acceptGrid(packet.first, packet.count, packet.data);
             case "end":
@@ -98,19 +97,17 @@ export class Decoder {
         this.queue.push({ type: "header", header });
     }
 
-    private acceptConnectivity(method: number, data: Uint8Array): void {
+    private acceptConnectivity(data: Uint8Array): void {
         const { vertices, faces } = this.header;
-        if (method !== CONNECTIVITY_METHOD) throw new UnsupportedError(`connectivity method ${method} is unknown to this decoder`);
         this.connectivity.take(data);
         this.allowance.grant(vertices);
         this.allowance.spend(meshCost(vertices, faces, data.length, { vertices: 0, faces: 0 }), data.length);
     }
 
-    private acceptOrder(method: number, data: Uint8Array): void {
+    private acceptOrder(data: Uint8Array): void {
         const { vertices, faces } = this.header;
-        if (method !== ORDER_METHOD) throw new UnsupportedError(`this build decodes no order of method ${method}; bsm.js may`);
         this.allowance.spend(orderCost(vertices, faces, data.length), data.length);
-        this.numbering = permuted(decodeArrangement(this.memory, data, this.connectivity.faces, vertices));
+        this.numbering = decodeOrder(this.memory, data, this.connectivity.faces, this.header, this.limits);
     }
 
     private acceptGrid(first: number, count: number, data: Uint8Array): void {

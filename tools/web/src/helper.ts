@@ -80,9 +80,9 @@ export class Helper {
             this.header = packet.header;
             this.structure = new Structure(memory, packet.header, limits, allowance);
         } else if (packet.type === "connectivity") {
-            structure!.accept(packet.method, packet.data);
+            structure!.accept(packet.data);
             this.chains = undefined;
-        } else if (packet.type === "partition") structure!.acceptPartition(packet.method, packet.data);
+        } else if (packet.type === "partition") structure!.acceptPartition(packet.data);
         else if (packet.type === "block" && isMine(header!, packet.index, this.share)) return this.decode(packet);
         return undefined;
     }
