@@ -113,6 +113,7 @@ def canonical_map(payload):
     except Exception as error:  # msgpack raises many kinds
         raise CorruptError(f"not a msgpack map: {error}") from None
     require(type(pairs) is tuple and len(pairs) <= 256, "not a map of at most 256 entries")
+    require(sum(len(value) for _, value in pairs if type(value) is list) <= 256, "arrays of more than 256 entries")
     kinds = {type(key) for key, _ in pairs}
     require(len(kinds) <= 1 and kinds <= {int, str}, "keys must be all integers or all strings")
     keys = [key.encode() if type(key) is str else key for key, _ in pairs]
@@ -127,7 +128,6 @@ def canonical_map(payload):
 
 def packed_value(value, nested):
     if type(value) is list and not nested:
-        require(len(value) <= 256, "array of more than 256 entries")
         return msgpack.Packer().pack_array_header(len(value)) + b"".join(packed_value(v, True) for v in value)
     require(type(value) in (int, float, str, bytes), "a map may not hold a value of this type")
     if type(value) is float:
@@ -250,6 +250,7 @@ def parse_fields(payload, fields):
 
 def parse_header(payload):
     """F 4."""
+    require(len(payload) <= 65536, "a header of too many bytes")  # F 4.9
     header = h = parse_fields(payload, FIELDS)
     require(h["vertices"] <= 3 * h["faces"], "more vertices than corners")  # F 4.6
     if h["grid"]:
@@ -438,6 +439,7 @@ def declaration_of(payload):
     index, at = payload_varint(payload, 0)
     size, at = payload_varint(payload, at)
     require(size <= len(payload) - at, "a declaration ends too early")
+    require(size <= 65536, "a declaration of too many bytes")
     return index, Declaration(parse_fields(payload[at : at + size], ATTRIBUTE_FIELDS), payload[at + size :])
 
 

@@ -13,13 +13,14 @@ FLOORS = {
     "bsm": (
         ("bitstream", "__version__", "_kernels"),
         ("codec",),
-        ("console", "files", "lengths", "steadiness", "usage"),
+        ("console", "lengths", "steadiness", "usage"),
+        ("files",),
         ("comparison", "evaluation", "exits", "foreign", "options"),
         ("farm", "meshes"),
         ("batch",),
         ("encoding",),
         ("api",),
-        ("pyvista", "trimesh", "viewer"),
+        ("blender", "pyvista", "trimesh", "viewer"),
         # Finds the module of a command by its name.
         ("cli",),
         ("commands",),
@@ -43,7 +44,8 @@ FLOORS = {
         ("container",),
     ),
     "bsm.codec.static": (
-        ("coding", "contract", "draft", "events", "joining", "sections", "stages", "targets", "units", "work"),
+        ("work",),
+        ("coding", "contract", "draft", "events", "joining", "sections", "stages", "targets", "units"),
         ("numbering", "preamble", "rules", "whole"),
         ("attributes",),
         ("assembly", "options"),

@@ -47,9 +47,12 @@ class Joins:
 
     @cached_property
     def _joined(self) -> tuple[Ints, Ints]:
-        joined, first = (np.empty(len(self.seams), np.int32) for _ in range(2))
-        count = _kernels.join_corners(self.corners, self.seams, joined, first)
-        return joined.reshape(-1, 3), first[:count].copy()
+        return _join(self.corners, self.seams)
+
+    @cached_property
+    def count(self) -> int:
+        """How many values there are; what tells it is not kept, since there may be many such objects."""
+        return len(_join(self.corners, self.seams)[1])
 
     @property
     def faces(self) -> Ints:
@@ -65,6 +68,12 @@ class Joins:
     def vertices(self) -> Ints:
         """The vertex of each value."""
         return self.corners.faces.ravel()[self.first]
+
+
+def _join(corners: Corners, seams: Flags) -> tuple[Ints, Ints]:
+    joined, first = (np.empty(len(seams), np.int32) for _ in range(2))
+    count = _kernels.join_corners(corners, seams, joined, first)
+    return joined.reshape(-1, 3), first[:count].copy()
 
 
 def find_seams(corners: Corners, values: npt.ArrayLike) -> Flags:

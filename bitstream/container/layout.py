@@ -31,6 +31,9 @@ from bsm.bitstream.container.wire import Cursor, FrameType, write_varint
 from bsm.bitstream.errors import CorruptError, OptionError
 from bsm.bitstream.limits import Limits
 
+MOST_HEADER = 1 << 16
+MOST_DECLARATION = 1 << 16
+"""Bytes of their maps."""
 LIMITED_FIELDS = ("vertices", "faces", "blocks", "block_size", "coefficients", "frames", "gop_frames", "attributes")
 
 Coded = TypeVar("Coded", Connectivity, Partition, Order)
@@ -43,6 +46,8 @@ def write_header(header: Header) -> bytes:
 
 def parse_header(payload: bytes, limits: Limits) -> Header:
     """Inverse of `write_header`; counts are checked against `limits`."""
+    if len(payload) > MOST_HEADER:
+        raise CorruptError(f"a header of {len(payload)} bytes, where {MOST_HEADER} are legal")
     header = header_from_entries(parse_map(payload))
     for name in LIMITED_FIELDS:
         limits.check(name, getattr(header, name))
@@ -139,6 +144,8 @@ def parse_attribute(payload: bytes, limits: Limits) -> Attribute:
     """Inverse of `write_attribute`; counts are checked against `limits`."""
     cursor = Cursor(payload)
     index, length = cursor.varint(), cursor.varint()
+    if length > MOST_DECLARATION:
+        raise CorruptError(f"a declaration of {length} bytes, where {MOST_DECLARATION} are legal")
     declaration = record_of(Declaration, "attribute", parse_map(cursor.take(length)))
     limits.check("attribute_values", declaration.rows * max(1, declaration.words))
     return Attribute(index, declaration, cursor.rest())

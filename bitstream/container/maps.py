@@ -13,6 +13,12 @@ import msgpack
 from bsm.bitstream.errors import CorruptError
 
 MAX_ENTRIES = 256
+_MAP, _ARRAY = (0x80, 0xDE), (0x90, 0xDC)
+"""First bytes: with their number of entries in the lower four bits, or in two bytes behind."""
+_SIZES = {0xCA: 4, 0xCB: 8, **{0xCC + i: 1 << i for i in range(4)}, **{0xD0 + i: 1 << i for i in range(4)}}
+"""First bytes of numbers, and how many follow."""
+_LENGTHS = {0xC4: 1, 0xC5: 2, 0xC6: 4, 0xD9: 1, 0xDA: 2, 0xDB: 4}
+"""First bytes of binary and text, and how many bytes their length has."""
 _FLOAT32_MAX = struct.unpack(">f", b"\x7f\x7f\xff\xff")[0]
 
 
@@ -34,6 +40,7 @@ def parse_map(payload: bytes) -> list[tuple[Any, Any]]:
     CorruptError
         If `payload` is anything but what `write_map` makes of ascending keys of one type.
     """
+    _scan(payload)
     try:
         pairs = msgpack.unpackb(
             payload,
@@ -60,6 +67,57 @@ def parse_map(payload: bytes) -> list[tuple[Any, Any]]:
     if write_map(pairs) != payload:
         raise CorruptError("map is not in its shortest form")
     return list(pairs)
+
+
+def _scan(payload: bytes) -> None:
+    """Refuse, before anything is made of it, what has too many entries, or is nested deeper than a list in a map.
+
+    Whatever is nested makes many times its bytes of objects, and of those there would be as many as bytes.
+    """
+    entries, start = _many(payload, 0, *_MAP)
+    left = MAX_ENTRIES
+    for place in range(2 * entries):
+        items, inside = _many(payload, start, *_ARRAY) if place % 2 else (-1, start)
+        left -= max(items, 0)
+        if left < 0:
+            raise CorruptError(f"the arrays of a map have more than {MAX_ENTRIES} entries")
+        for _ in range(items):
+            inside = _after(payload, inside)
+        start = inside if items >= 0 else _after(payload, start)
+    if start != len(payload):
+        raise CorruptError("bytes behind a map, or a map that ends too early")
+
+
+def _many(payload: bytes, start: int, short: int, long: int) -> tuple[int, int]:
+    """How many entries the map or array at `start` has, and where they begin; -1 if there is none."""
+    first = payload[start] if start < len(payload) else 0
+    if first & 0xF0 == short:
+        return first & 15, start + 1
+    if first != long:
+        if short == _MAP[0]:
+            raise CorruptError("expected a map of few entries")
+        return -1, start
+    count = int.from_bytes(payload[start + 1 : start + 3], "big")
+    if count > MAX_ENTRIES:
+        raise CorruptError(f"{count} entries of a map or an array are more than {MAX_ENTRIES}")
+    return count, start + 3
+
+
+def _after(payload: bytes, start: int) -> int:
+    """Where the value at `start`, which holds no other, ends."""
+    if start >= len(payload):
+        raise CorruptError("a map ends too early")
+    first = payload[start]
+    if first < 0x80 or first >= 0xE0:
+        return start + 1
+    if 0xA0 <= first < 0xC0:
+        return start + 1 + (first & 31)
+    if first in _SIZES:
+        return start + 1 + _SIZES[first]
+    width = _LENGTHS.get(first)
+    if width is None:
+        raise CorruptError(f"a map may not hold what begins with the byte {first} here")
+    return start + 1 + width + int.from_bytes(payload[start + 1 : start + 1 + width], "big")
 
 
 def _pack(value: Any) -> bytes:

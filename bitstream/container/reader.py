@@ -3,16 +3,25 @@
 from __future__ import annotations
 
 import zlib
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from enum import Enum
-from typing import TypeAlias
+from typing import Any, TypeAlias
+
+import numpy.typing as npt
 
 from bsm.bitstream.container.grammar import Grammar
 from bsm.bitstream.container.layout import PARSERS
 from bsm.bitstream.container.packets import Damaged, End, Packet
 from bsm.bitstream.container.wire import SKIPPABLE_TYPES, Frame, FrameType, parse_frame, parse_preamble, write_preamble
-from bsm.bitstream.errors import BsmError, CorruptError, OptionError, TruncatedError, UnsupportedError
+from bsm.bitstream.errors import (
+    ArgumentError,
+    BsmError,
+    CorruptError,
+    OptionError,
+    TruncatedError,
+    UnsupportedError,
+)
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 
 
@@ -21,6 +30,18 @@ class Signal(Enum):
 
     NEED_DATA = "give more bytes to receive_data, or call receive_eof"
     END_OF_STREAM = "END was read and nothing follows"
+
+
+FRAME_COST, BYTE_COST = 8e3, 8.0
+"""Nanoseconds of a processor core for reading a frame, whatever it is, and for each of its bytes."""
+
+Buffer: TypeAlias = bytes | bytearray | memoryview | npt.NDArray[Any]
+Spend: TypeAlias = Callable[[float, int], None]
+"""Is told of work, and of the bytes that ask for it, and may refuse it by raising `LimitError`."""
+
+
+def unpaid(work: float, received: int) -> None:
+    """Who reads packets alone need not ask."""
 
 
 NEED_DATA = Signal.NEED_DATA
@@ -48,6 +69,8 @@ class Reader:
     ----------
     limits : Limits
         What this reader may be asked to hold.
+    spend : callable
+        Is told of the work of every frame, before it is looked into.
 
     Attributes
     ----------
@@ -55,9 +78,10 @@ class Reader:
         The frame of the packet returned last.
     """
 
-    def __init__(self, limits: Limits = DEFAULT_LIMITS) -> None:
+    def __init__(self, limits: Limits = DEFAULT_LIMITS, spend: Spend = unpaid) -> None:
         self.last_frame: FrameSpan | None = None
         self._limits = limits
+        self._spend = spend
         self._buffer = bytearray()
         self._offset = 0  # of the buffer's first byte in the stream
         self._frames = 0
@@ -67,11 +91,31 @@ class Reader:
         self._grammar = Grammar()
         self._error: BsmError | None = None
 
-    def receive_data(self, data: bytes | bytearray | memoryview) -> None:
-        """Take more bytes of the stream, any number of them."""
+    def receive_data(self, data: Buffer) -> None:
+        """Take more bytes of the stream, any number of them.
+
+        Parameters
+        ----------
+        data : bytes, or any other buffer
+            Of an array its bytes, row after row.
+
+        Raises
+        ------
+        ArgumentError
+            If it is none.
+        OptionError
+            After `receive_eof`.
+        """
+        given: Any = data
+        try:
+            view = memoryview(given)
+        except (TypeError, ValueError):
+            raise ArgumentError(f"bytes of a stream are expected, not {type(data).__name__}") from None
         if self._eof:
             raise OptionError("bytes were given to a reader after receive_eof")
-        self._buffer += data
+        if self._error is None:
+            with view:
+                self._buffer += view if view.c_contiguous and view.nbytes == len(view) else view.tobytes()
 
     def receive_eof(self) -> None:
         """Take note that no more bytes will come."""
@@ -91,6 +135,7 @@ class Reader:
             return self._next()
         except BsmError as error:
             self._error = error.located(offset=self._offset, frame=self._frames if self._started else None)
+            self._buffer = bytearray()
             raise
 
     def _next(self) -> Event:
@@ -100,6 +145,7 @@ class Reader:
             frame = parse_frame(self._buffer, 0, self._limits)
             if frame is None:
                 return self._incomplete()
+            self._spend(FRAME_COST + BYTE_COST * frame.size, frame.size)
             packet = self._parse(frame)
             self._consume(frame, packet)
             if packet is not None:

@@ -5,13 +5,27 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from bsm.bitstream.container.packets import Damaged, End
-from bsm.bitstream.container.reader import END_OF_STREAM, NEED_DATA, Event, FrameSpan, Reader
+from bsm.bitstream.container.reader import (
+    BYTE_COST,
+    END_OF_STREAM,
+    NEED_DATA,
+    Event,
+    FrameSpan,
+    Reader,
+    Spend,
+    unpaid,
+)
 from bsm.bitstream.container.wire import FrameType, Tag, parse_frame, parse_tag
 from bsm.bitstream.errors import BsmError
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 
 SCAN_BYTES = 1 << 20
 SCAN_FACTOR = 64
+STRIDE = 4096
+"""Places that are looked at before they are paid for again."""
+PLACE_COST = 4e3
+MAP_COST = 6e5
+"""Nanoseconds of looking for a frame at one place, and of looking into one whose checksum is right."""
 
 
 @dataclass
@@ -40,8 +54,10 @@ class TolerantReader(Reader):
     have come.
     """
 
-    def __init__(self, limits: Limits = DEFAULT_LIMITS) -> None:
-        super().__init__(limits)
+    def __init__(self, limits: Limits = DEFAULT_LIMITS, spend: Spend = unpaid) -> None:
+        super().__init__(limits, self._pay)
+        self._payer = spend
+        self._refused: BsmError | None = None
         self._damage: _Damage | None = None
         self._scan_work = 0
         self._lossy = False
@@ -56,10 +72,18 @@ class TolerantReader(Reader):
                 self._behind_damage = self._behind_damage and event is NEED_DATA
                 return event
             except BsmError as error:
-                if self._grammar.header is None:
+                if self._grammar.header is None or error is self._refused:
                     raise
                 self._damage = self._inspect(error)
         return self._recover(self._damage)
+
+    def _pay(self, work: float, received: int) -> None:
+        """Spend; what there is no more work for is no damage."""
+        try:
+            self._payer(work, received)
+        except BsmError as error:
+            self._refused = error
+            raise
 
     def _check_end(self, end: End) -> None:
         if not self._lossy:
@@ -101,6 +125,8 @@ class TolerantReader(Reader):
             if fits or fits is None:
                 return damage.tag.end if fits else None
         for start in range(max(damage.scanned, 1), available):
+            if start % STRIDE == 1:
+                self._pay(PLACE_COST * STRIDE, STRIDE)
             damage.scanned = start
             fits = self._fits(start)
             if fits or fits is None:
@@ -120,9 +146,12 @@ class TolerantReader(Reader):
                     self._scan_work += cost
             frame = parse_frame(self._buffer, start, self._limits)
             if frame is not None:
+                self._pay(MAP_COST + BYTE_COST * frame.size, 0)
                 self._parse(frame)
                 return True
-        except BsmError:
+        except BsmError as error:
+            if error is self._refused:
+                raise
             return False
         return False if self._eof else None
 

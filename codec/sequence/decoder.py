@@ -275,25 +275,20 @@ class SequenceDecoder(StreamDecoder[Item]):
     ) -> None:
         self._attributes: list[Attribute] = []
         wishes = Wishes(threads, tolerant, start, self._attributes)
-        self._allowance = Allowance(limits)
+        allowance = Allowance(limits)
         body = Body(
-            self._allowance,
+            allowance,
             check=lambda header: check_header(header, limits),
             begin=lambda structure: FirstFrame(structure, wishes),
             rounding=rounding,
             threads=threads,
         )
-        super().__init__(Beginning(body), limits, tolerant=tolerant)
+        super().__init__(Beginning(body), allowance, tolerant=tolerant)
 
     @property
     def attributes(self) -> tuple[Attribute, ...]:
         """Attributes that are the same in all frames and whole; all of them when the first frame is."""
         return tuple(self._attributes)
-
-    @property
-    def work(self) -> float:
-        """Nanoseconds of a processor core that the stream has cost so far, by the estimates that limits bound."""
-        return self._allowance.spent
 
     def close(self) -> None:
         """Give up what was not asked for."""

@@ -199,22 +199,17 @@ class Decoder(StreamDecoder[Item]):
             self._most_ahead = most_ahead(structure.graph.size, structure.header.block_size)
             return BlockStage(structure, wishes, lanes)
 
-        self._allowance = Allowance(limits)
+        allowance = Allowance(limits)
         body = Body(
-            self._allowance,
+            allowance,
             check=lambda header: check_header(header, limits),
             begin=begin,
             tolerant=tolerant,
             rounding=rounding,
             threads=threads,
         )
-        super().__init__(Beginning(body), limits, tolerant=tolerant)
+        super().__init__(Beginning(body), allowance, tolerant=tolerant)
         self._lanes = lanes
-
-    @property
-    def work(self) -> float:
-        """Nanoseconds of a processor core that the stream has cost so far, by the estimates that limits bound."""
-        return self._allowance.spent
 
     def close(self) -> None:
         """Stop the threads; blocks that were not asked for are given up."""

@@ -14,10 +14,10 @@ from types import TracebackType
 from typing import Any, Generic, Protocol, TypeAlias, TypeVar
 
 from bsm.bitstream.container.packets import Damaged, Metadata, MetadataValue, Packet
-from bsm.bitstream.container.reader import END_OF_STREAM, NEED_DATA, Reader, Signal
+from bsm.bitstream.container.reader import END_OF_STREAM, NEED_DATA, Buffer, Reader, Signal
 from bsm.bitstream.container.tolerant import TolerantReader
 from bsm.bitstream.errors import BsmError, CorruptError
-from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
+from bsm.codec.static.work import Allowance
 
 Item = TypeVar("Item")
 Self = TypeVar("Self", bound="StreamDecoder[Any]")
@@ -68,9 +68,10 @@ class StreamDecoder(ABC, Generic[Item]):
     A context manager: leaving it stops its threads.
     """
 
-    def __init__(self, first: Stage[Item], limits: Limits = DEFAULT_LIMITS, *, tolerant: bool = False) -> None:
+    def __init__(self, first: Stage[Item], allowance: Allowance, *, tolerant: bool = False) -> None:
+        self._allowance = allowance
         self._tolerant = tolerant
-        self._reader = TolerantReader(limits) if tolerant else Reader(limits)
+        self._reader = (TolerantReader if tolerant else Reader)(allowance.limits, allowance.spend)
         self._queue: deque[Item] = deque()
         self._stage = first
         self.metadata: Mapping[str, MetadataValue] = {}
@@ -88,8 +89,18 @@ class StreamDecoder(ABC, Generic[Item]):
     def close(self) -> None:
         """Stop the threads; what was not asked for is given up."""
 
-    def receive_data(self, data: bytes | bytearray | memoryview) -> None:
-        """Take more bytes of the stream."""
+    @property
+    def work(self) -> float:
+        """Nanoseconds of a processor core that the stream has cost so far, by the estimates that limits bound."""
+        return self._allowance.spent
+
+    @property
+    def vertices(self) -> int:
+        """How many have come with faces; by them memory and work are bounded."""
+        return self._allowance.vertices
+
+    def receive_data(self, data: Buffer) -> None:
+        """Take more bytes of the stream, in any buffer; raises as `Reader.receive_data`."""
         self._reader.receive_data(data)
 
     def receive_eof(self) -> None:

@@ -284,7 +284,7 @@ class Connected:
 
     def _declared(self, packet: packets.Attribute, queue: deque[Any]) -> Stage[Any]:
         try:
-            return replace(self, declarations=self.declarations.add(packet, self._body.allowance.limits))
+            return replace(self, declarations=self.declarations.add(packet, self._body.allowance))
         except BsmError as error:
             if not self._body.tolerant:
                 raise

@@ -26,6 +26,8 @@ COPY_MEMORY = 4
 """Bytes for each row of all blocks."""
 ATTRIBUTE = 4e5
 """Of an attribute, however few values it has."""
+DECLARED = 6e5
+"""Of a map, which has few entries."""
 CODED = 800.0
 """Of a byte of coded values."""
 FRESH, MOST_FRESH = 2.0, 4e6
@@ -134,6 +136,21 @@ def layer_memory(vertices: int, faces: int, axes: int) -> float:
     return 16.0 * vertices + levels_charge(vertices, faces, axes)
 
 
+def seams_kept(vertices: int, faces: int, *, first: bool) -> float:
+    """Bytes that stay of the seams of one more attribute; the first brings the corners of all."""
+    return 3.0 * faces + (8.0 * vertices + 36.0 * faces if first else 0.0)
+
+
+def seams_memory(vertices: int, faces: int) -> float:
+    """Bytes for decoding the seams of an attribute, besides those that stay."""
+    return 16.0 * vertices + 36.0 * faces
+
+
+def seams_cost(vertices: int, faces: int, received: int) -> float:
+    """Of the seams of an attribute, and of joining corners between them, which is done twice."""
+    return 5e4 + 10.0 * vertices + 120.0 * faces + CODED * received
+
+
 def values_memory(values: int, faces: int, components: int) -> float:
     """Bytes that an attribute is kept in: its values as they come and as the user has them, and where they belong."""
     return 16.0 * components * values + 12.0 * values + 12.0 * faces
@@ -175,6 +192,11 @@ class Allowance:
     def limits(self) -> Limits:
         """What the caller grants."""
         return self._limits
+
+    @property
+    def vertices(self) -> int:
+        """Those that the stream really has."""
+        return self._vertices
 
     @property
     def spent(self) -> float:

@@ -10,12 +10,13 @@ from pathlib import Path
 
 from bsm.bitstream.errors import OptionError
 from bsm.console import Console, print_json
-from bsm.exits import about, tell
+from bsm.exits import tell
 from bsm.farm.jobs import Facts as Facts
 from bsm.farm.jobs import Job as Job
 from bsm.farm.jobs import Outcome, Run, Task, Work
 from bsm.farm.report import table
 from bsm.farm.run import run_many, task_of
+from bsm.files.about import about
 from bsm.files.naming import default_output, output_inside
 from bsm.files.remote import expanded, is_url, without_scheme_of_files
 from bsm.files.state import files_behind

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Iterator
-from contextlib import contextmanager
 from dataclasses import dataclass
 
 from bsm.bitstream.errors import (
@@ -84,16 +82,6 @@ def behind(error: BaseException) -> BaseException:
             return cause
         cause = cause.__cause__ or cause.__context__
     return error
-
-
-@contextmanager
-def about(path: str) -> Iterator[None]:
-    """Put the name of the file that it is about before the message of whatever is raised inside."""
-    try:
-        yield
-    except BsmError as error:
-        error.message = f"{path}: {error.message}"
-        raise
 
 
 def tell(error: BaseException) -> None:

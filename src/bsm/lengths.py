@@ -39,7 +39,7 @@ def refuse_other_units(lengths: Mapping[str, Any], metadata: Mapping[str, Any]) 
     """
     own = metadata.get("unit")
     own = own if isinstance(own, str) else ""
-    size = _metres(own)
+    size = metres(own)
     for name, value in lengths.items():
         number, unit = _parts(name, value) if isinstance(value, str) else (0.0, "")
         if unit in ("", "%"):
@@ -49,7 +49,7 @@ def refuse_other_units(lengths: Mapping[str, Any], metadata: Mapping[str, Any]) 
                 f"{name} is in {unit}, but the mesh does not say what its unit is: add unit={unit} to its metadata "
                 f"(--meta unit={unit}) if it is that, or give {name} in percent of the diagonal, such as 0.1%"
             )
-        other = _metres(unit)
+        other = metres(unit)
         if size is not None and other is not None and other != size:
             meant = f"{number * other / size:g}{own}"
             raise OptionError(f"{name} is in {unit}, and the mesh says that its unit is {own}: give it as {meant}")
@@ -67,6 +67,6 @@ def _parts(name: str, value: Any) -> tuple[float, str]:
         raise ArgumentError(f"{name}: {found[1]!r} is no number") from None
 
 
-def _metres(unit: str) -> float | None:
+def metres(unit: str) -> float | None:
     name = unit.strip().lower()
     return IN_METRES.get(name, IN_METRES.get(name.removesuffix("s")))

@@ -18,7 +18,7 @@ from bsm.bitstream.limits import NAMED_LIMITS, Limits
 from bsm.codec.sequence.decoder import FrameEvent, SequenceDecoder
 from bsm.codec.static.decoder import Decoder
 from bsm.codec.static.encoder import encode
-from bsm.codec.static.events import ConnectivityEvent, HeaderEvent, LossEvent
+from bsm.codec.static.events import HeaderEvent, LossEvent
 from bsm.files.sequence_stream import peek_header
 from tools.vectors.meshes import torus
 
@@ -102,8 +102,6 @@ def decode_all(data: bytes, how: str, limits: Limits) -> Taken:
                 match event:
                     case HeaderEvent(found):
                         size = found.vertices
-                    case ConnectivityEvent():
-                        taken.vertices = size if event.last else event.vertices
                     case LossEvent():
                         losses.append(event)
                     case FrameEvent():
@@ -111,7 +109,7 @@ def decode_all(data: bytes, how: str, limits: Limits) -> Taken:
             taken.outcome = "decoded"
         except BsmError as error:
             taken.outcome = f"{type(error).__name__}: {error}"
-        taken.work = decoder.work
+        taken.work, taken.vertices = decoder.work, decoder.vertices
     return taken
 
 

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from bsm.bitstream.attributes.seams import NO_SEAM, OPEN, encode_seams
 from bsm.bitstream.coefficients.matrices import encode_levels, make_level_bank
 from bsm.bitstream.coefficients.packed import pack_coefficients
 from bsm.bitstream.connectivity.conquest import (
@@ -26,13 +27,14 @@ from bsm.bitstream.connectivity.partition import encode_labels
 from bsm.bitstream.connectivity.seams import code_seams
 from bsm.bitstream.connectivity.valence_model import RARE_HEADER, code_rare, make_models
 from bsm.bitstream.container import packets
-from bsm.bitstream.container.declaration import AS_CODED, FACE, OTHERWISE, RECOMPUTED, Declaration
+from bsm.bitstream.container.declaration import AS_CODED, CORNER, FACE, OTHERWISE, RECOMPUTED, Declaration
 from bsm.bitstream.container.gop import GopBody, GopMethod, write_gop_body
 from bsm.bitstream.container.layout import FRAME_TYPES, WRITERS
 from bsm.bitstream.container.maps import write_map
 from bsm.bitstream.container.splits import Splits, encode_order
 from bsm.bitstream.container.wire import FrameType, write_frame, write_varint
 from bsm.bitstream.entropy.range_coder import finish_writing, make_room, start_writing
+from bsm.bitstream.fields.corners import corners_of
 from bsm.bitstream.fields.levels import LevelsEncoder
 from bsm.codec.blocks.overlap import grow_blocks
 from bsm.codec.blocks.partition import derive_partition, partition_of_labels
@@ -346,6 +348,42 @@ def _valued(rows: int, columns: int, count: int, chunk: int, *, coded: int | Non
     return stream_of([*frames[:2], *declared, *frames[2:], *chunks])
 
 
+def _seamed(rows: int, columns: int, count: int) -> bytes:
+    """So many attributes of corners, each with seams of its own that are nowhere, and no values."""
+    size = rows * columns
+    blocks = {"blocks": 1 + size // 4000, "block_size": min(size, 8000), "power": 1}
+    frames = frames_of(_blocky(("torus", rows, columns), attributes=count, **blocks))
+    corners = corners_of(_coded("torus", rows, columns).faces, size)
+    none = np.where(corners.opposite < 0, OPEN, NO_SEAM).astype(np.uint8)
+    seams = [encode_seams(corners, none, (none,) * earlier) for earlier in range(3)]
+    values: dict[str, Any] = {"rows": size, "largest": (1,), "kind": 0, "domain": CORNER}
+    declared = [
+        _written(packets.Attribute(index, Declaration(name=f"{index}", **values), seams[min(index, 2)]))
+        for index in range(count)
+    ]
+    return stream_of([*frames[:2], *declared, *frames[2:]])
+
+
+def _skippable(count: int) -> bytes:
+    """So many frames that a decoder has no use for."""
+    frames = frames_of(one_block(20, 20, 4))
+    return stream_of([frames[0], *[(8, b"")] * count, *frames[1:]])
+
+
+def _nested(kind: FrameType, size: int) -> bytes:
+    """A map of so many bytes, which are arrays in arrays, in place of a header, an attribute or metadata."""
+    inside = b"\x91" * 400 + b"\x01"
+    payload = b"\x81\xcc\x80\xdd" + (size // len(inside)).to_bytes(4, "big") + inside * (size // len(inside))
+    if kind == FrameType.HEADER:
+        return stream_of([(kind, payload)])
+    frames = frames_of(one_block(20, 20, 4))
+    if kind == FrameType.METADATA:
+        return stream_of([frames[0], (kind, payload), *frames[1:]])
+    coded = _coded("torus", 20, 20)
+    header = _header(coded, **PACKED, blocks=1, block_size=400, coefficients=4, attributes=1)
+    return stream_of([header, frames[1], (kind, write_varint(0) + write_varint(len(payload)) + payload), *frames[2:]])
+
+
 def _written(packet: packets.Packet) -> tuple[int, bytes]:
     kind = FRAME_TYPES[type(packet)]
     return kind, WRITERS[kind](packet)
@@ -553,6 +591,13 @@ BOMBS: dict[str, Bomb] = {
         "attributes of faces",
         lambda: _valued(100, 100, 20, 1 << 15, domain=FACE, origin=AS_CODED, coded=20_000),
     ),
+    "seams": Bomb("60 attributes with seams of their own on a million vertices", lambda: _seamed(1024, 1024, 60)),
+    "seams-many": Bomb("255 of them on fewer", lambda: _seamed(256, 256, 255)),
+    "seams-most": Bomb("255 of them on a million", lambda: _seamed(1024, 1024, 255)),
+    "skippable": Bomb("frames of nothing", lambda: _skippable(4_000_000)),
+    "nested-header": Bomb("arrays in arrays as a header", lambda: _nested(FrameType.HEADER, 1 << 24)),
+    "nested-attribute": Bomb("the same as a declaration", lambda: _nested(FrameType.ATTRIBUTE, 1 << 24)),
+    "nested-metadata": Bomb("the same as metadata", lambda: _nested(FrameType.METADATA, 8_000_000)),
     "torn": Bomb(
         "a megabyte of rubbish behind the blocks",
         lambda: _torn(one_block(20, 20, 4), _rubbish(1 << 20)),

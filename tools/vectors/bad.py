@@ -299,6 +299,14 @@ HEADERS: dict[str, Bad] = {
     ),
     "bad-map-nil": Bad("nil in a map", "corrupt", _map(lambda e: msgpack.packb({**e, 64: None}))),
     "bad-map-true": Bad("a boolean in a map", "corrupt", _map(lambda e: msgpack.packb({**e, 64: True}))),
+    "bad-map-arrays": Bad(
+        "arrays of 257 entries together",
+        "corrupt",
+        _map(lambda e: write_map([*e.items(), (64, [1] * 200), (65, [1] * 57)])),
+    ),
+    "bad-header-long": Bad(
+        "a header of more than 65,536 bytes", "corrupt", _map(lambda e: write_map([*e.items(), (64, b"\0" * 65_500)]))
+    ),
     "bad-map-nested": Bad("a map in a map", "corrupt", _map(lambda e: msgpack.packb({**e, 64: {1: 2}}))),
     "bad-map-trailing": Bad("a byte behind the map", "corrupt", _map(lambda e: write_map(sorted(e.items())) + b"\0")),
     "bad-map-array": Bad("an array instead of a map", "corrupt", _map(lambda e: msgpack.packb([1, 2]))),

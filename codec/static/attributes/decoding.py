@@ -16,7 +16,6 @@ from bsm.bitstream.container.declaration import CORNER, FACE, RECOMPUTED, Declar
 from bsm.bitstream.container.reader import Signal
 from bsm.bitstream.errors import BsmError, CorruptError
 from bsm.bitstream.fields.corners import Corners, corners_of
-from bsm.bitstream.limits import Limits
 from bsm.codec.arrays import Faces, Levels
 from bsm.codec.geometry.attributes import Attribute, Semantic
 from bsm.codec.geometry.mesh import TriangleMesh
@@ -36,11 +35,15 @@ from bsm.codec.static.numbering import Numbering
 from bsm.codec.static.stages import Arrival, Stage, misplaced
 from bsm.codec.static.whole import Complete
 from bsm.codec.static.work import (
+    DECLARED,
     Allowance,
     chunk_cost,
     coding_memory,
     layer_cost,
     recomputing_memory,
+    seams_cost,
+    seams_kept,
+    seams_memory,
     values_cost,
     values_memory,
 )
@@ -73,19 +76,20 @@ class Declarations:
     vertices: int
     known: tuple[Declared, ...] = ()
 
-    def add(self, packet: packets.Attribute, limits: Limits) -> Declarations:
-        """With one more.
+    def add(self, packet: packets.Attribute, allowance: Allowance) -> Declarations:
+        """With one more; its seams are paid for.
 
         Raises
         ------
         LimitError
-            If all together have more numbers than are granted.
+            If all together have more numbers, or take more work or memory, than are granted.
         CorruptError, TruncatedError
             If its seams are none of these faces, or those of an attribute that is missing.
         """
+        allowance.spend(DECLARED)
         every = [*(one.declaration for one in self.known), packet.declaration]
-        limits.check("attribute_values", sum(numbers_of(one, len(self.faces)) for one in every))
-        one = Declared(packet.index, packet.declaration, self._joins(packet))
+        allowance.limits.check("attribute_values", sum(numbers_of(one, len(self.faces)) for one in every))
+        one = Declared(packet.index, packet.declaration, self._joins(packet, allowance))
         return replace(self, known=(*self.known, one))
 
     def rows_of(self, one: Declared, numbering: Numbering) -> int:
@@ -100,13 +104,13 @@ class Declarations:
         if declaration.domain == FACE:
             expected = len(self.faces)
         else:
-            places = self.vertices if one.joins is None else len(one.joins.vertices)
+            places = self.vertices if one.joins is None else one.joins.count
             expected = places + loose_of(declaration, numbering)
         if declaration.coding != RECOMPUTED and declaration.rows != expected:
             raise CorruptError(f"attribute {declaration.name!r} has {declaration.rows} values where {expected} belong")
         return expected
 
-    def _joins(self, packet: packets.Attribute) -> Joins | None:
+    def _joins(self, packet: packets.Attribute, allowance: Allowance) -> Joins | None:
         declaration = packet.declaration
         if declaration.domain != CORNER:
             return None
@@ -117,7 +121,11 @@ class Declarations:
             return shared[0]
         if len(self.known) < packet.index:
             raise CorruptError(f"the seams of {declaration.name!r} depend on those of an attribute that is missing")
-        earlier = tuple(one.joins.seams for one in self._with_seams)
+        faces, received = len(self.faces), len(packet.seams)
+        allowance.keep(seams_kept(self.vertices, faces, first=not self._with_seams), received)
+        allowance.afford(seams_memory(self.vertices, faces))
+        allowance.spend(seams_cost(self.vertices, faces, received), received)
+        earlier = tuple(one.joins.seams for one in self._with_seams[-2:])
         return Joins(self._corners, decode_seams(packet.seams, self._corners, earlier))
 
     @property

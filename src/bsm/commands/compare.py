@@ -12,7 +12,7 @@ from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.commands.limits import add_limits_flag, limits_of
 from bsm.commands.reader import add_reader_flag
 from bsm.console import Console, finite, print_json
-from bsm.exits import about
+from bsm.files.about import about
 from bsm.files.mesh import read_mesh
 from bsm.files.output import open_output, refuse_to_overwrite
 from bsm.files.permutation import read_permutation

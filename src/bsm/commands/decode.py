@@ -29,12 +29,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_inputs(
         parser,
         "stream, or - for standard input",
-        "mesh file, or folder for any number of inputs (default: IN with .ply; - for a pipe); for a sequence an npz "
-        "(default), or a folder for its frames",
+        "mesh file, or folder for any number of inputs (default: IN with .ply; - for a pipe); for a sequence npz "
+        "(default), PC2, MDD, GLB, USD, a folder for its frames, or their names: walk/%%04d.obj",
     )
-    parser.add_argument(
-        "--format", choices=(*SEQUENCE_FORMATS, "glb"), help="format of the output (default: by its name; ply)"
-    )
+    parser.add_argument("--format", choices=SEQUENCE_FORMATS, help="format of the output (default: by its name; ply)")
     parser.add_argument("--blocks", type=int, metavar="N", help="stop after N blocks, and write the part that is there")
     parser.add_argument(
         "--layers", type=int, metavar="N", help="stop after N layers: 1 is the base, each refinement one more"

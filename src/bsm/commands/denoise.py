@@ -19,9 +19,10 @@ from bsm.commands.reader import add_reader_flag
 from bsm.console import Console, Progress
 from bsm.farm.jobs import Task
 from bsm.files.mesh import MESH_FORMATS, format_of_name, read_mesh, save_written, written_mesh
+from bsm.files.motion.frames import Frames
 from bsm.files.naming import output_inside, refuse_terminal
 from bsm.files.output import refuse_to_overwrite
-from bsm.files.sequence import Frames, open_sequence, sequence_kind, sequence_writer
+from bsm.files.sequence import open_sequence, sequence_kind, sequence_writer
 
 if TYPE_CHECKING:
     from bsm.codec.denoise import AutomaticChoice, DenoiseOptions, Step

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import argparse
+from collections.abc import Sequence
+from pathlib import Path
 
 from bsm.batch import plan, refuse_collisions, run_jobs
 from bsm.bitstream.errors import OptionError
@@ -14,18 +16,24 @@ from bsm.console import Console
 from bsm.encoding.job import EncodeJob
 from bsm.encoding.mesh import encode_one
 from bsm.files.mesh import MESH_FORMATS
+from bsm.files.motion.folder import common_name, look_like_frames
 from bsm.files.naming import refuse_terminal
+from bsm.files.sequence import SEQUENCES_READ
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare what the command takes."""
     add_inputs(
         parser,
-        "mesh file (OBJ, OFF, PLY, STL, npz), - for standard input, or a sequence: npz, folder, or quoted pattern",
-        "file, or folder for any number of inputs (default: IN with .bsm; - for a pipe)",
+        "mesh file (OBJ, OFF, PLY, STL, npz), - for standard input, or a sequence: folder, quoted pattern, npz, PC2, "
+        "MDD, USD, GLB with --animation",
+        "file, or folder for any number of inputs (default: IN with .bsm; - for a pipe); many inputs to one .bsm are "
+        "the frames of a sequence",
     )
     parser.add_argument(
-        "--format", choices=(*MESH_FORMATS, "npy"), help="format of the input (default: by its name or content)"
+        "--format",
+        choices=tuple(dict.fromkeys((*MESH_FORMATS, *SEQUENCES_READ))),
+        help="format of the input (default: by its name or content)",
     )
     parser.add_argument(
         "--permutation", metavar="FILE.npy", help="also write which input vertex each decoded vertex is"
@@ -44,6 +52,14 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace, console: Console) -> int:
     """Encode all inputs."""
+    members: tuple[str, ...] = ()
+    if is_one_sequence(args.inputs, args.output):
+        members, args.inputs = tuple(args.inputs), [common_name(args.inputs)]
+    elif args.output is None and len(args.inputs) > 1 and look_like_frames(args.inputs):
+        console.note(
+            f"{len(args.inputs)} inputs are numbered like the frames of one animation; to make one stream of them, "
+            "-o NAME.bsm"
+        )
     jobs = plan(args.inputs, args.output, lambda _: ".bsm")
     if args.permutation:
         if len(jobs) > 1:
@@ -54,9 +70,22 @@ def run(args: argparse.Namespace, console: Console) -> int:
     refuse_terminal(jobs[0].output)
     many, wishes = run_of(args), {**wishes_of(args), **sequence_wishes(args)}
     threads = wishes.pop("threads", 1 if many.side_by_side and len(jobs) > 1 else None)
-    more = {"output": "", "metadata": _metadata(args), "wishes": wishes, "threads": threads}
+    more = {"output": "", "metadata": _metadata(args), "wishes": wishes, "threads": threads, "members": members}
+    more["format"] = _form(args)
     job = asked(EncodeJob, args, **more, compared=not args.quiet or args.json)
     return run_jobs(many, job, console, encode_one, jobs)
+
+
+def is_one_sequence(inputs: Sequence[str], output: str | None) -> bool:
+    """Whether many inputs are the frames of one stream."""
+    return len(inputs) > 1 and output is not None and output.lower().endswith(".bsm") and not Path(output).is_dir()
+
+
+def _form(args: argparse.Namespace) -> str | None:
+    """The format of the input, as far as it was said."""
+    if args.piped_frames and args.format not in (None, "npy"):
+        raise OptionError(f"--frames takes npy arrays, and --format says {args.format}")
+    return "npy" if args.piped_frames else args.format
 
 
 def _metadata(args: argparse.Namespace) -> dict[str, str]:

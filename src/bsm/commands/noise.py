@@ -11,7 +11,7 @@ from bsm.codec.arrays import Positions
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.commands.reader import add_reader_flag
 from bsm.console import Console, print_json
-from bsm.exits import about
+from bsm.files.about import about
 from bsm.files.mesh import MESH_FORMATS, format_of_name, read_mesh, save_written, written_mesh
 from bsm.files.naming import refuse_terminal
 from bsm.files.output import refuse_to_overwrite

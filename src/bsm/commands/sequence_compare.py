@@ -15,7 +15,7 @@ from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.sequence.targets import compare_sequences
 from bsm.commands.limits import limits_of
 from bsm.console import finite, print_json
-from bsm.exits import about
+from bsm.files.about import about
 from bsm.files.permutation import in_order_of, read_permutation
 from bsm.files.pipes import read_chunks
 from bsm.files.sequence import open_sequence

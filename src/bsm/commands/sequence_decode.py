@@ -12,10 +12,11 @@ from bsm.bitstream.errors import OptionError
 from bsm.commands.decode_job import DecodeJob
 from bsm.commands.limits import limits_of
 from bsm.console import Console
+from bsm.files.motion.told import Told
 from bsm.files.naming import default_output, output_inside
 from bsm.files.output import refuse_to_overwrite
 from bsm.files.permutation import read_permutation, reorder
-from bsm.files.sequence import sequence_kind, sequence_writer
+from bsm.files.sequence import ONE_FILE, sequence_kind, sequence_writer
 from bsm.files.sequence_stream import SequenceStream, numbered, numbers_of
 
 
@@ -48,7 +49,10 @@ def decode_sequence(args: DecodeJob, console: Console, chunks: Iterator[bytes]) 
     if args.permutation:
         mesh = reorder(mesh, read_permutation(args.permutation))
     order, faces = numbers_of(mesh.positions), mesh.faces
-    holds = kind not in ("npz", "npy") and not args.permutation
+    told = Told(
+        lambda: () if args.permutation else stream.attributes,
+        lambda: {} if args.permutation else stream.metadata,
+    )
     count = 0
     with (
         sequence_writer(
@@ -57,7 +61,7 @@ def decode_sequence(args: DecodeJob, console: Console, chunks: Iterator[bytes]) 
             faces,
             expected,
             overwrite=args.may_replace(output),
-            attributes=lambda: stream.attributes if holds else (),
+            told=told,
         ) as write,
         console.progress("decoding", "frames") as progress,
     ):
@@ -70,9 +74,10 @@ def decode_sequence(args: DecodeJob, console: Console, chunks: Iterator[bytes]) 
                 progress(count, expected)
         if count == 0:
             raise OptionError("the stream has none of these frames")
-    if stream.attributes and not holds:
-        names = ", ".join(one.name for one in stream.attributes)
-        console.note(f"{args.input}: left out: {names}; frames in files of their own, in the stream's order, hold them")
+    lost = [one.name for one in stream.attributes] if args.permutation else told.left_out
+    if lost:
+        because = " with --permutation" if args.permutation else ""
+        console.note(f"{args.input}: left out: {', '.join(lost)}, which {kind} does not hold{because}")
     seconds = time.perf_counter() - begin
     facts = {"frames": count, "vertices": header.vertices, "faces": header.faces}
     console.note(
@@ -84,7 +89,7 @@ def decode_sequence(args: DecodeJob, console: Console, chunks: Iterator[bytes]) 
 
 def _output(args: DecodeJob) -> str:
     """Where a sequence goes: an npz, or a folder for frames of a format of meshes, if nothing else was said."""
-    suffix = f".{args.format or 'npz'}" if args.format in (None, "npz", "npy") else ""
+    suffix = f".{args.format or 'npz'}" if args.format in (None, *ONE_FILE) else ""
     if args.given is None:
         return default_output(args.input, suffix)
     return output_inside(args.given, args.input, suffix) if args.many else str(args.output)

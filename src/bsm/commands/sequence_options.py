@@ -12,8 +12,9 @@ def add_sequence_flags(parser: argparse.ArgumentParser) -> None:
     """Add what only sequences have."""
     group = parser.add_argument_group(
         "sequences",
-        "an npz of frames, a folder or pattern of mesh files, or npy arrays on a pipe (--format npy: the faces, "
-        "then the positions of each frame); a target is met by one step for all frames, which are kept in memory then",
+        "a folder or pattern of mesh files, many of them with -o NAME.bsm, npz, PC2, MDD, GLB with --animation, USD, "
+        "or npy arrays on a pipe (--frames: the faces, then the positions of each frame); a target is met by one step "
+        "for all frames, which are kept in memory then",
     )
     group.add_argument("--kg", type=float, metavar="PERCENT", help="Karni and Gotsman's error at most PERCENT")
     group.add_argument("--bpvf", type=float, metavar="X", help="at most X bits per vertex and frame, the whole file")
@@ -21,7 +22,26 @@ def add_sequence_flags(parser: argparse.ArgumentParser) -> None:
     group.add_argument(
         "--low-delay", action="store_true", default=None, help="send each frame as it comes; --gop: every N a key frame"
     )
-    group.add_argument("--frame-rate", type=float, metavar="FPS", help="frames per second, for the metadata")
+    group.add_argument(
+        "--frame-rate",
+        type=float,
+        metavar="FPS",
+        help="frames per second, for the metadata; where an animation is sampled (glTF, USD) the rate of that",
+    )
+    group.add_argument(
+        "--animation",
+        metavar="NAME",
+        help="of a GLB or glTF this animation, by name or number (0), and not the mesh alone",
+    )
+    group.add_argument(
+        "--mesh",
+        dest="cache_mesh",
+        metavar="FILE",
+        help="the mesh of a PC2 or MDD (default: of the same name beside it)",
+    )
+    group.add_argument(
+        "--frames", dest="piped_frames", action="store_true", help="a pipe holds frames: npy arrays, as --format npy"
+    )
 
 
 def sequence_wishes(args: argparse.Namespace) -> dict[str, Any]:

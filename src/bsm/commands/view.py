@@ -12,7 +12,7 @@ from bsm.bitstream.errors import FormatError, OptionError
 from bsm.commands.limits import add_limits_flag, limits_of
 from bsm.commands.reader import add_reader_flag
 from bsm.console import Console
-from bsm.exits import about
+from bsm.files.about import about
 from bsm.files.mesh import read_mesh
 from bsm.files.output import open_output
 from bsm.files.pipes import read_chunks

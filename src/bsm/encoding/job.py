@@ -29,6 +29,10 @@ class EncodeJob(Task):
         To use; None: one per core.
     compared : bool
         Whether the error of a sequence is measured.
+    members : tuple of str
+        The files of all frames, where each was named.
+    animation, cache_mesh : str, optional
+        Of a glTF the animation, of a cache of points the mesh; see `Wanted`.
     """
 
     format: str | None = None
@@ -38,3 +42,6 @@ class EncodeJob(Task):
     wishes: Mapping[str, Any] = field(default_factory=dict)
     threads: int | None = None
     compared: bool = True
+    members: tuple[str, ...] = ()
+    animation: str | None = None
+    cache_mesh: str | None = None

@@ -6,13 +6,13 @@ import time
 
 from bsm import options
 from bsm.batch import Facts, came_to, size_of
+from bsm.bitstream.errors import OptionError
 from bsm.console import Console, finite
 from bsm.encoding.job import EncodeJob
-from bsm.encoding.sequence import encode_sequence
+from bsm.encoding.sequence import encode_sequence, sequence_of
 from bsm.files.mesh import read_mesh
 from bsm.files.output import open_output, refuse_to_overwrite
 from bsm.files.permutation import write_permutation
-from bsm.files.sequence import open_sequence
 from bsm.lengths import LENGTHS, refuse_other_units
 from bsm.meshes import told_of
 
@@ -24,8 +24,11 @@ def encode_one(job: EncodeJob, console: Console) -> Facts:
 
     from bsm.codec.static.encoder import Encoder
 
-    if sequence := open_sequence(job.input, job.format, job.reader):
+    if sequence := sequence_of(job):
         return encode_sequence(job, console, sequence)
+    for name, given in (("animation", job.animation), ("mesh", job.cache_mesh)):
+        if given is not None:
+            raise OptionError(f"--{name} is for sequences, and this is one mesh")
     chosen = options.encode_options(**job.wishes, threads=job.threads)
     source = read_mesh(job.input, job.format, reader=job.reader)
     mesh = told_of(source.mesh, chosen, job.metadata)

@@ -15,9 +15,24 @@ from bsm.batch import Facts, came_to, size_of
 from bsm.codec.arrays import Positions
 from bsm.console import Console, finite
 from bsm.encoding.job import EncodeJob
+from bsm.files.motion.frames import Frames, Wanted
 from bsm.files.output import open_output
 from bsm.files.permutation import write_permutation
-from bsm.files.sequence import Frames
+from bsm.files.sequence import open_frames, open_sequence
+
+_OF_SEQUENCES = ("kg", "bpvf", "gop", "low_delay", "frame_rate")
+"""Wishes that only a sequence can fulfil: a GLB is then one."""
+
+
+def sequence_of(job: EncodeJob) -> Frames | None:
+    """The sequence that a job's input is; None: it is perhaps a mesh."""
+    if job.members:
+        return open_frames(job.members, job.format, job.reader)
+    asked = (job.animation, job.cache_mesh, *(job.wishes.get(name) for name in _OF_SEQUENCES))
+    if all(one is None for one in asked):
+        return open_sequence(job.input, job.format, job.reader)
+    wanted = Wanted(job.wishes.get("frame_rate") or 0.0, job.animation or "", job.cache_mesh)
+    return open_sequence(job.input, job.format, job.reader, wanted)
 
 
 def encode_sequence(job: EncodeJob, console: Console, source: Frames) -> Facts:
@@ -26,12 +41,14 @@ def encode_sequence(job: EncodeJob, console: Console, source: Frames) -> Facts:
 
     begin = time.perf_counter()
     chosen = options.sequence_options(**job.wishes, threads=job.threads)
-    encoder = SequenceEncoder(source.faces, chosen, source.count, job.metadata, source.attributes)
+    rate = {"frame_rate": source.frame_rate} if source.frame_rate else {}
+    metadata = {**source.metadata, **rate, **job.metadata}
+    encoder = SequenceEncoder(source.faces, chosen, source.count, metadata, source.attributes)
     heard = Echo()
     size = 0
     replace = job.may_replace(job.output)
     with open_output(job.output, overwrite=replace) as file, console.progress("encoding") as progress:
-        for chunk in encoder.chunks(heard.taken(source.frames), progress):
+        for chunk in encoder.chunks(heard.taken(source.frames, job.compared), progress):
             size += file.write(chunk)
             file.flush()
             if job.compared:
@@ -44,7 +61,8 @@ def encode_sequence(job: EncodeJob, console: Console, source: Frames) -> Facts:
         write_permutation(job.permutation, encoder.vertex_order, overwrite=job.force)
     vertices, faces, frames = len(encoder.vertex_order), len(encoder.face_order), heard.frames
     bpvf = 8 * size / (vertices * frames)
-    taken = size_of(job.input)
+    sizes = [size_of(name) or 0 for name in job.members]
+    taken = sum(sizes) if sizes else size_of(job.input)
     console.note(
         f"{job.input} -> {job.output}: {frames} frames of {vertices} vertices, {faces} faces, "
         f"{came_to(taken, size)}, {bpvf:.3f} bits per vertex and frame; KG error {heard.kg:.3g} %, {seconds:.2f} s"
@@ -79,11 +97,12 @@ class Echo:
 
         self._decoder = SequenceDecoder()
 
-    def taken(self, frames: Iterator[Positions]) -> Iterator[Positions]:
-        """The frames, which are also kept."""
+    def taken(self, frames: Iterator[Positions], kept: bool) -> Iterator[Positions]:
+        """The frames, which are also kept until they have been compared."""
         for frame in frames:
             self.frames += 1
-            self._waiting.append(frame)
+            if kept:
+                self._waiting.append(frame)
             yield frame
 
     def compare(self, chunk: bytes, order: np.ndarray) -> None:

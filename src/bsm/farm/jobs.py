@@ -8,7 +8,8 @@ from dataclasses import dataclass
 from typing import Any, TypeAlias
 
 from bsm.console import Console
-from bsm.exits import about, behind, is_expected
+from bsm.exits import behind, is_expected
+from bsm.files.about import about
 from bsm.files.output import remove_abandoned
 
 Facts = dict[str, Any]

@@ -53,6 +53,8 @@ _WRITERS: dict[str, Callable[[TriangleMesh, str], Written]] = {
 }
 MESH_FORMATS = ("npz", *_READERS)
 """What we read and write ourselves."""
+USD_FORMATS = ("usd", "usda", "usdc", "usdz")
+"""Read with usd-core."""
 WRITTEN_FORMATS = tuple(_WRITERS)
 """What we write; GLB with trimesh."""
 READERS = ("bsm", "openmesh", "trimesh")
@@ -106,6 +108,10 @@ def read_mesh(
     kind = file_format or format_of_name(name) or format_of_bytes(data) or Path(name).suffix[1:].lower()
     if (reader == "openmesh" and kind not in _READERS) or (reader == "bsm" and kind not in MESH_FORMATS):
         raise OptionError(f"{reader} does not read {f'.{kind}' if kind else 'this'}; the default reader may")
+    if kind in USD_FORMATS and path and reader is None:
+        from bsm.files.motion.usd import read_usd_mesh
+
+        return read_usd_mesh(path)
     if reader == "trimesh" or kind not in MESH_FORMATS:
         return read_with_trimesh(data, path, kind, limits).checked(limits)
     if kind == "npz":

@@ -14,7 +14,7 @@ from bsm.bitstream.errors import BsmError, TruncatedError
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.codec.arrays import Faces, Positions
 from bsm.codec.geometry.attributes import Attribute
-from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.geometry.mesh import Metadata, TriangleMesh
 from bsm.files.stream import events
 
 Note = Callable[[str], None]
@@ -79,6 +79,11 @@ class SequenceStream:
     def attributes(self) -> tuple[Attribute, ...]:
         """Attributes that are the same in all frames, once the first frame is known."""
         return self._decoder.attributes
+
+    @property
+    def metadata(self) -> Metadata:
+        """What belongs to the whole sequence."""
+        return self._decoder.metadata
 
     def frames(self) -> Iterator[tuple[int, Positions]]:
         """Number and positions, shape (n, 3), of one frame after the other."""

@@ -87,7 +87,6 @@ def test_metadata_limit():
         (CASES[0][0], "8101a161"),  # an integer for a name
         (CASES[0][0], "81a16191a161"),  # a list for a value
         (CASES[0][0], "81a161cb3ff0000000000000"),  # a double where a single is exact
-        (CASES[2][0], ""),
         (CASES[5][0], ""),
         (CASES[5][0], "05"),
         (CASES[5][0], "8000"),

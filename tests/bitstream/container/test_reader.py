@@ -1,8 +1,10 @@
 import binascii
 import itertools
 import zlib
+from array import array
 from dataclasses import replace
 
+import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -23,9 +25,11 @@ from bsm.bitstream.container.packets import (
     Values,
 )
 from bsm.bitstream.container.reader import END_OF_STREAM, NEED_DATA, Reader
+from bsm.bitstream.container.tolerant import TolerantReader
 from bsm.bitstream.container.wire import write_frame, write_preamble, write_varint
 from bsm.bitstream.container.writer import Writer, write_stream
 from bsm.bitstream.errors import (
+    ArgumentError,
     BsmError,
     CorruptError,
     FormatError,
@@ -379,3 +383,48 @@ def test_writer_refuses_what_its_readers_would():
     for limits in (Limits(frame_bytes=5), Limits(vertices=99), Limits(metadata_bytes=3)):
         with pytest.raises(LimitError):
             write_stream([SMALL_HEADER, Metadata({"a": 5.5}), CONNECTIVITY], limits)
+
+
+@pytest.mark.parametrize("wrong", ["text", 5, None, [1, 2], object(), np.array(["2001-01-01"], "M8[s]")])
+def test_what_is_no_buffer_is_refused(wrong):
+    with pytest.raises(ArgumentError, match="bytes of a stream"):
+        Reader().receive_data(wrong)
+
+
+def test_any_buffer_is_taken_as_its_bytes():
+    stream = encoded("static")
+    whole = np.frombuffer(stream, np.uint8)
+    for buffer in (whole, whole.reshape(-1, 1), np.repeat(whole, 2)[::2], array("b", stream), memoryview(stream)):
+        reader, packets = Reader(), []
+        reader.receive_data(buffer)
+        while (packet := reader.next_packet()) is not NEED_DATA:
+            packets.append(packet)
+        assert packets == read_all(stream)
+
+
+def test_every_frame_is_paid_for():
+    paid = []
+    reader = Reader(spend=lambda work, received: paid.append((work, received)))
+    stream = encoded("static")
+    header = frame_ends(stream)[1]
+    stream = stream[:header] + write_frame(8, b"") * 10 + stream[header:]
+    reader.receive_data(stream)
+    count = 0
+    with pytest.raises(CorruptError, match="END counts"):
+        while reader.next_packet() is not NEED_DATA:
+            count += 1
+    assert len(paid) == count + 1 + 10
+    assert sum(received for _, received in paid) == len(stream) - 5
+    assert all(work >= 8e3 for work, _ in paid)
+
+
+@pytest.mark.parametrize("reader", [Reader, TolerantReader])
+def test_work_that_is_refused_is_no_damage(reader):
+    def refuse(work, received):
+        raise LimitError("no more")
+
+    given = reader(spend=refuse)
+    given.receive_data(encoded("static"))
+    for _ in range(2):
+        with pytest.raises(LimitError, match="no more"):
+            given.next_packet()

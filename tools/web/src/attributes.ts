@@ -7,9 +7,10 @@ import { makeLearners, makeModel } from "./fields";
 import { decodeChunk, linkCorners, zeros } from "./grid";
 import type { Header } from "./header";
 import type { Argument, Ints, Memory } from "./kernels";
+import type { Allowance } from "./chain";
 import { checkLimit, type Limits } from "./limits";
 import type { Numbering } from "./numbering";
-import { layerCost, valuesCost } from "./work";
+import { DECLARED, layerCost, seamsCost, valuesCost, valuesMemory } from "./work";
 
 const SEAM = 1;
 const SEAMS = { inputs: 4, others: 9, slots: 32 * 32 + 9 * 16 + 256 + 9 };
@@ -43,11 +44,10 @@ export interface Solid {
     places?: Int32Array;
 }
 
-/** Which corners share a value: the seams, and the value of each corner and the first corner of each value. */
+/** Which corners share a value: the seams, and how many values there are. */
 interface Joins {
     seams: Uint8Array;
-    faces: Int32Array;
-    first: Int32Array;
+    count: number;
 }
 
 /** The values of an attribute as vertices of a mesh of their own; -1 for the vertex of what no face uses. */
@@ -78,10 +78,12 @@ export class Attributes {
         private readonly header: Header,
         private readonly faces: Ints,
         private readonly limits: Limits,
+        private readonly allowance: Allowance,
     ) {}
 
     /** Take a declaration, and its seams. */
     declare(index: number, declaration: Declaration, seams: Uint8Array): void {
+        this.allowance.spend(DECLARED);
         const all = [...this.valued.values()].map((one) => one.declaration);
         checkLimit(this.limits, "attributeValues", [...all, declaration].reduce((sum, one) => sum + this.numbersOf(one), 0));
         this.valued.set(index, { declaration, joins: this.joinsOf(index, declaration, seams), values: new Float64Array(0), coded: 0 });
@@ -98,7 +100,7 @@ export class Attributes {
         const one = this.valued.get(index);
         if (!one) throw new CorruptError(`attribute ${index} is not declared`);
         const { declaration } = one;
-        if (index !== this.current) this.begin(index, one, numbering, solid);
+        if (index !== this.current) this.start(index, one, numbering, solid);
         if (first !== one.coded || !one.coders) throw new CorruptError(`attribute "${declaration.name}" lacks the values before ${first}`);
         const cursor = new Cursor(data);
         const several = one.coders.length > 1;
@@ -124,7 +126,9 @@ export class Attributes {
             one.surface = this.surfaceOf(one, numbering);
             one.values = normalsOf(one.surface, found.positions);
             if (one.declaration.kind === FLOAT32) one.values.forEach((value, i, all) => (all[i] = Math.fround(value)));
-            return [this.given(one, numbering)];
+            const given = this.given(one, numbering);
+            one.surface = undefined;
+            return [given];
         });
     }
 
@@ -132,12 +136,24 @@ export class Attributes {
     check(numbering: Numbering): void {
         for (const one of this.valued.values()) {
             const { declaration } = one;
-            const surface = (one.surface = this.surfaceOf(one, numbering));
-            const expected = declaration.domain === FACE ? surface.faces.length / 3 : surface.vertices.length;
+            const expected = this.rowsOf(one, numbering);
             if (declaration.coding !== RECOMPUTED && declaration.rows !== expected) {
                 throw new CorruptError(`attribute "${declaration.name}" has ${declaration.rows} values where ${expected} belong`);
             }
         }
+    }
+
+    /** Take note of what all of them are kept in. */
+    begin(numbering: Numbering): void {
+        this.check(numbering);
+        for (const one of this.valued.values()) {
+            this.allowance.keep(valuesMemory(this.rowsOf(one, numbering), this.header.faces, one.declaration.components));
+        }
+    }
+
+    private rowsOf({ declaration, joins }: Valued, numbering: Numbering): number {
+        if (declaration.domain === FACE) return this.header.faces;
+        return (joins ? joins.count : this.header.vertices) + looseOf(declaration, numbering);
     }
 
     private numbersOf(declaration: Declaration): number {
@@ -146,7 +162,7 @@ export class Attributes {
     }
 
     private joinsOf(index: number, declaration: Declaration, seams: Uint8Array): Joins | undefined {
-        const { memory, faces, header, valued } = this;
+        const { memory, faces, header, valued, allowance } = this;
         if (declaration.domain !== CORNER) return undefined;
         if (declaration.seamsOf) {
             const shared = valued.get(declaration.seamsOf - 1)?.joins;
@@ -155,6 +171,8 @@ export class Attributes {
         }
         if (valued.size < index) throw new CorruptError(`the seams of "${declaration.name}" depend on an attribute that is missing`);
         const earlier = [...valued.values()].filter((one) => one.joins && !one.declaration.seamsOf).map((one) => one.joins!.seams);
+        allowance.keep(faces.length, seams.length);
+        allowance.spend(seamsCost(header.vertices, header.faces, seams.length), seams.length);
         return memory.scratch(() => {
             const corners = linkCorners(memory, faces, header.vertices);
             const coder = new Coder(memory, seams);
@@ -165,27 +183,40 @@ export class Attributes {
             earlier.slice(-2).reverse().forEach((one, k) => one.forEach((seam, edge) => (known[edge] += (k ? 1 : 3) * (1 + Number(seam === SEAM)))));
             memory.call("code_edges", coder.parts, bank, corners, edges, others, memory.ints(3 * header.vertices, 3));
             coder.finish();
-            const [joined, first] = [memory.ints(faces.length), memory.ints(faces.length)];
-            const count = memory.call("join_corners", corners, edges, joined, first);
-            return { seams: edges.view.slice(), faces: joined.view.slice(), first: first.view.slice(0, count) };
+            const count = memory.call("join_corners", corners, edges, memory.ints(faces.length), memory.ints(faces.length));
+            return { seams: edges.view.slice(), count };
+        });
+    }
+
+    /** The value of each corner, and the first corner of each value. */
+    private joined({ seams, count }: Joins): { faces: Int32Array; first: Int32Array } {
+        const { memory, faces, header } = this;
+        return memory.scratch(() => {
+            const corners = linkCorners(memory, faces, header.vertices);
+            const [edges, joined, first] = [memory.bytes(seams.length), memory.ints(seams.length), memory.ints(seams.length)];
+            edges.view.set(seams);
+            memory.call("join_corners", corners, edges, joined, first);
+            return { faces: joined.view.slice(), first: first.view.slice(0, count) };
         });
     }
 
     private surfaceOf({ declaration, joins }: Valued, numbering: Numbering): Surface {
         const faces = this.faces.view.slice();
         if (declaration.domain === FACE) return { faces, vertices: new Int32Array(0) };
-        const loose = isByVertex(declaration) ? numbering.loose.vertices.length : 0;
-        const size = joins ? joins.first.length : this.header.vertices;
-        const vertices = new Int32Array(size + loose).fill(-1);
-        for (let row = 0; row < size; row++) vertices[row] = joins ? faces[joins.first[row]] : row;
-        return { faces: joins ? joins.faces : faces, vertices };
+        const joined = joins && this.joined(joins);
+        const size = joins ? joins.count : this.header.vertices;
+        const vertices = new Int32Array(size + looseOf(declaration, numbering)).fill(-1);
+        for (let row = 0; row < size; row++) vertices[row] = joined ? faces[joined.first[row]] : row;
+        return { faces: joined ? joined.faces : faces, vertices };
     }
 
     /** The state of an attribute takes the place of that of the one before. */
-    private begin(index: number, one: Valued, numbering: Numbering, solid: () => Solid | undefined): void {
+    private start(index: number, one: Valued, numbering: Numbering, solid: () => Solid | undefined): void {
         const { memory } = this;
         const { declaration } = one;
-        one.surface ??= this.surfaceOf(one, numbering);
+        const before = this.valued.get(this.current);
+        if (before) before.surface = before.coders = undefined;
+        one.surface = this.surfaceOf(one, numbering);
         one.values = new Float64Array(declaration.rows * declaration.components);
         const geometry = declaration.leans ? this.geometryOf(one.surface, solid()) : new Int32Array(0);
         this.mark ??= memory.mark();
@@ -278,6 +309,11 @@ export class Attributes {
         }
         return { ...shape, domain: "vertex", values: chosen(source.map((vertex, i) => (vertex < 0 ? loose++ : found[i]))) };
     }
+}
+
+/** How many values there are for vertices that no face uses. */
+function looseOf(declaration: Declaration, numbering: Numbering): number {
+    return isByVertex(declaration) ? numbering.loose.vertices.length : 0;
 }
 
 /** How numbers are predicted (D 3.4). */

@@ -80,6 +80,8 @@ export class Allowance {
     private owed = 0;
     private vertices = 0;
     private shown = 0;
+    private kept = 0;
+    private received = 0;
 
     constructor(private readonly limits: Limits) {}
 
@@ -102,6 +104,14 @@ export class Allowance {
     /** Take note of memory for a while. */
     hold(memory: number): void {
         this.check("blockMemory", memory, this.limits.blockMemoryPerVertex * this.vertices);
+    }
+
+    /** Take note of memory that is kept to the end, and of bytes that stand for it. */
+    keep(memory: number, received = 0): void {
+        this.kept += memory;
+        this.received += received;
+        const { blockMemoryPerVertex, memoryPerByte } = this.limits;
+        this.check("blockMemory", this.kept, blockMemoryPerVertex * this.vertices + memoryPerByte * this.received);
     }
 
     private check(name: "work" | "blockMemory", value: number, granted: number): void {

@@ -44,8 +44,12 @@ const FIELDS: Fields<keyof Declaration> = {
     seamsOf: { key: 15, type: "int", low: 0, high: 65535, default: 0 },
 };
 
+/** Bytes of the map (F 5.8). */
+const MOST_DECLARATION = 2 ** 16;
+
 /** The declaration in a map; contradictions are errors (D 1.4). */
 export function parseDeclaration(payload: Uint8Array): Declaration {
+    if (payload.length > MOST_DECLARATION) throw new CorruptError(`a declaration of ${payload.length} bytes, where ${MOST_DECLARATION} are legal`);
     const declaration = parseFields(payload, FIELDS, "attribute") as unknown as Declaration;
     const problem = contradiction(declaration) ?? rangeProblem(declaration);
     if (problem) throw new CorruptError(`attribute "${declaration.name}" contradicts itself: ${problem}`);

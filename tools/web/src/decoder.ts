@@ -158,9 +158,10 @@ export class Decoder {
         private readonly wishes: Wishes = {},
     ) {
         this.limits = { ...DEFAULT_LIMITS, ...limits };
-        this.reader = wishes.tolerant ? new TolerantReader(this.limits) : new Reader(this.limits);
         this.memory = kernels.instantiate(this.limits.memory);
         this.allowance = new Allowance(this.limits);
+        const spend = this.allowance.spend.bind(this.allowance);
+        this.reader = wishes.tolerant ? new TolerantReader(this.limits, spend) : new Reader(this.limits, spend);
     }
 
     /** Take more bytes of the stream. */
@@ -371,7 +372,7 @@ export class Decoder {
 
     private acceptAttribute(index: number, declaration: Declaration, seams: Uint8Array): void {
         this.structure!.expectFaces(this.header!.blocks);
-        this.attributes ??= new Attributes(this.memory, this.header!, this.structure!.faces, this.limits);
+        this.attributes ??= new Attributes(this.memory, this.header!, this.structure!.faces, this.limits, this.allowance);
         const { attributes } = this;
         this.tolerating(() => attributes.declare(index, declaration, seams), undefined, true);
     }
@@ -380,6 +381,7 @@ export class Decoder {
         const attributes = this.begunAttributes();
         this.tolerating(() => {
             if (first === 0) this.allowance.spend(attributes.costOf(index));
+            this.allowance.keep(0, data.length);
             this.allowance.spend(chunkCost(data.length), data.length);
             const attribute = attributes.decode(index, first, count, data, this.numbering!, () => this.solid());
             if (attribute) this.queue.push({ type: "attribute", ...attribute });
@@ -397,7 +399,7 @@ export class Decoder {
             this.skipTo(this.header!.blocks);
             if (!this.refinement) this.chains!.release();
         }
-        attributes.check(this.numbering!);
+        attributes.begin(this.numbering!);
         return attributes;
     }
 

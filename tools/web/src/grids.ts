@@ -30,9 +30,9 @@ export class Decoder {
 
     constructor(kernels: Kernels, limits: Partial<Limits> = {}) {
         this.limits = { ...DEFAULT_LIMITS, ...limits };
-        this.reader = new Reader(this.limits);
         this.memory = kernels.instantiate(this.limits.memory);
         this.allowance = new Allowance(this.limits);
+        this.reader = new Reader(this.limits, this.allowance.spend.bind(this.allowance));
     }
 
     /** Take more bytes of the stream. */

@@ -96,10 +96,13 @@ export function mostCopies(vertices: number): number {
     return 16 * vertices + 65536;
 }
 
+/** Bytes of a header (F 4.9). */
+const MOST_HEADER = 2 ** 16;
 const LIMITED = ["vertices", "faces", "blocks", "blockSize", "coefficients", "frames", "gopFrames", "attributes"] as const;
 
 /** The header in a payload; its counts are checked against `limits`. */
 export function parseHeader(payload: Uint8Array, limits: Limits): Header {
+    if (payload.length > MOST_HEADER) throw new CorruptError(`a header of ${payload.length} bytes, where ${MOST_HEADER} are legal`);
     const complete = parseFields(payload, FIELDS, "header") as unknown as Header;
     checkContradictions(complete);
     for (const name of LIMITED) checkLimit(limits, name, complete[name]);

@@ -44,9 +44,10 @@ export class Helper {
         private readonly tolerant = false,
     ) {
         this.limits = { ...DEFAULT_LIMITS, ...limits };
-        this.reader = tolerant ? new TolerantReader(this.limits) : new Reader(this.limits);
         this.memory = kernels.instantiate(this.limits.memory);
         this.allowance = new Allowance(this.limits);
+        const spend = this.allowance.spend.bind(this.allowance);
+        this.reader = tolerant ? new TolerantReader(this.limits, spend) : new Reader(this.limits, spend);
     }
 
     receiveData(data: Uint8Array): void {

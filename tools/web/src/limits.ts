@@ -22,9 +22,10 @@ export interface Limits {
     work: number;
     workPerVertex: number;
     workPerByte: number;
-    /** Bytes for the dictionary of a block while it is made (M 14.2), and how many more for each vertex. */
+    /** Bytes for the dictionary of a block while it is made (M 14.2), and for all attributes; how many more for each vertex and byte. */
     blockMemory: number;
     blockMemoryPerVertex: number;
+    memoryPerByte: number;
     /** Bytes that the decoder's own memory may grow to. */
     memory: number;
 }
@@ -48,6 +49,7 @@ export const DEFAULT_LIMITS: Readonly<Limits> = {
     workPerByte: 1.6e4,
     blockMemory: 2 ** 26,
     blockMemoryPerVertex: 2 ** 10,
+    memoryPerByte: 64,
     memory: 2 ** 31,
 };
 

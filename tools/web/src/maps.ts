@@ -42,6 +42,8 @@ function compareKeys(a: Key, b: Key): number {
 class MapReader {
     private readonly view: DataView;
     private at = 0;
+    /** Entries that arrays may still have, all of them together. */
+    private left = MOST_ENTRIES;
 
     constructor(private readonly data: Uint8Array) {
         this.view = new DataView(data.buffer, data.byteOffset, data.byteLength);
@@ -110,6 +112,8 @@ class MapReader {
     }
 
     private array(size: number): Value {
+        this.left -= size;
+        if (this.left < 0) throw new CorruptError(`the arrays of a map have more than ${MOST_ENTRIES} entries`);
         return { type: "array", value: Array.from({ length: this.atMost(size) }, () => this.value(false)) };
     }
 

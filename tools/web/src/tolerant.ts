@@ -4,6 +4,10 @@ import { END_OF_STREAM, NEED_DATA, Reader, type Damaged, type Packet, type Signa
 
 const SCAN_BYTES = 2 ** 20;
 const SCAN_FACTOR = 64;
+/** Places that are looked at before they are paid for again. */
+const STRIDE = 4096;
+/** Nanoseconds of looking for a frame at one place, and of looking into one whose checksum is right. */
+const [PLACE, MAP] = [4e3, 6e5];
 
 /** What is known of the damage at the buffer's start while its end is looked for. */
 interface Damage {
@@ -27,6 +31,16 @@ export class TolerantReader extends Reader {
     private damage?: Damage;
     private scanWork = 0;
     private behindDamage = false;
+    private refused?: BsmError;
+
+    protected override pay(work: number, received: number): void {
+        try {
+            super.pay(work, received);
+        } catch (error) {
+            if (error instanceof BsmError) this.refused = error;
+            throw error;
+        }
+    }
 
     protected override next(): Packet | Damaged | Signal {
         if (this.behindDamage && this.eof && this.begin === this.end) return END_OF_STREAM;
@@ -36,7 +50,7 @@ export class TolerantReader extends Reader {
                 this.behindDamage &&= packet === NEED_DATA;
                 return packet;
             } catch (error) {
-                if (!(error instanceof BsmError) || !this.grammar.header) throw error;
+                if (!(error instanceof BsmError) || !this.grammar.header || error === this.refused) throw error;
                 this.damage = this.inspect(error);
             }
         }
@@ -76,6 +90,7 @@ export class TolerantReader extends Reader {
             if (fits !== false) return fits ? damage.size : undefined;
         }
         for (let start = Math.max(damage.scanned, 1); start < available; start++) {
+            if (start % STRIDE === 1) this.pay(PLACE * STRIDE, STRIDE);
             damage.scanned = start;
             const fits = this.fits(start);
             if (fits !== false) return fits ? start : undefined;
@@ -95,11 +110,12 @@ export class TolerantReader extends Reader {
             }
             const frame = this.frame(start);
             if (frame) {
+                this.pay(MAP, 0);
                 this.parse(frame.type, frame.payload);
                 return true;
             }
         } catch (error) {
-            if (!(error instanceof BsmError)) throw error;
+            if (!(error instanceof BsmError) || error === this.refused) throw error;
             return false;
         }
         return this.eof ? false : undefined;

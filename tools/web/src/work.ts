@@ -62,6 +62,19 @@ export function layerCost(vertices: number, faces: number, axes: number): number
     return vertices * (400 + 230 * axes) + 100 * faces;
 }
 
+/** Of the declaration of an attribute. */
+export const DECLARED = 6e5;
+
+/** Of the seams of an attribute, and of joining corners between them. */
+export function seamsCost(vertices: number, faces: number, received: number): number {
+    return 5e4 + 10 * vertices + 120 * faces + CODED * received;
+}
+
+/** Bytes that an attribute is kept in. */
+export function valuesMemory(values: number, faces: number, components: number): number {
+    return (16 * components + 12) * values + 12 * faces;
+}
+
 /** Of an attribute, besides what it costs as a layer. */
 export function valuesCost(values: number, faces: number): number {
     return 4e5 + 150 * values + 60 * faces;

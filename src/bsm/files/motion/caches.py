@@ -1,0 +1,184 @@
+"""Caches of points beside a mesh: PC2 (3ds Max, Blender's Mesh Cache) and MDD (LightWave).
+
+PC2 is little-endian: "POINTCACHE2\\0", the version 1, the number of points, the first frame and the step of samples
+as float32, the number of samples; then float32 coordinates, sample by sample. MDD is big-endian: numbers of frames and
+of points, the time of each frame in seconds as float32, then float32 coordinates.
+"""
+
+from __future__ import annotations
+
+import os
+import struct
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import BinaryIO
+
+import numpy as np
+
+from bsm.bitstream.errors import CorruptError, FormatError, MeshError, OptionError, TruncatedError
+from bsm.codec.arrays import Positions
+from bsm.files.about import about
+from bsm.files.mesh import read_mesh
+from bsm.files.motion.frames import Frames, Wanted, checked_frames, rate_of_times
+
+CACHES = ("pc2", "mdd")
+MESHES_BESIDE = ("obj", "ply", "off", "glb", "gltf", "stl", "npz")
+"""The suffices of the mesh that lies beside a cache; the first that is there is taken."""
+_PC2 = struct.Struct("<12siiffi")
+_SIGNATURE = b"POINTCACHE2\0"
+_MDD = struct.Struct(">ii")
+
+
+@dataclass(frozen=True)
+class Cache:
+    """What the head of a cache says.
+
+    Parameters
+    ----------
+    points, frames : int
+    start : int
+        Where the coordinates begin, in bytes.
+    kind : str
+        The type of a coordinate, as numpy spells it.
+    rate : float
+        Frames per second, 0: not known.
+    """
+
+    points: int
+    frames: int
+    start: int
+    kind: str
+    rate: float = 0.0
+
+
+def read_cache(path: str, kind: str, reader: str | None, wanted: Wanted) -> Frames:
+    """The frames of a cache, each read when it is asked for, and the faces of the mesh that it moves.
+
+    Raises
+    ------
+    FormatError, TruncatedError
+        If it is none, or has fewer bytes than it claims.
+    MeshError
+        If there is no mesh beside it, or one of another number of vertices.
+    """
+    cache = read_head(path, kind)
+    beside = _beside(path) if wanted.mesh is None else os.fspath(wanted.mesh)
+    with about(beside):
+        mesh = read_mesh(beside, reader=reader).mesh
+    if len(mesh.positions) != cache.points:
+        raise MeshError(
+            f"the cache has {cache.points} points and the mesh {beside} has {len(mesh.positions)} vertices; name the "
+            "mesh that it was made for with --mesh"
+        )
+    kept, normals = mesh.moved(mesh.positions)
+    notes = [f"faces and attributes are those of {beside}"]
+    notes += [f"left out, for they move: {', '.join(normals)}"] if normals else []
+    frames = checked_frames(path, _samples(path, cache), cache.points)
+    return Frames(mesh.faces, cache.frames, frames, kept.attributes, tuple(notes), cache.rate, mesh.metadata)
+
+
+def read_head(path: str, kind: str) -> Cache:
+    """What the head of a cache says, checked against the bytes that are there."""
+    size = os.path.getsize(path)
+    with open(path, "rb") as file:
+        cache = _head_of_pc2(file) if kind == "pc2" else _head_of_mdd(file, size)
+    if cache.frames < 1 or cache.points < 1:
+        raise FormatError(f"the {kind.upper()} file claims {cache.frames} frames of {cache.points} points")
+    needed = cache.start + 12 * cache.points * cache.frames
+    if size < needed:
+        raise TruncatedError(
+            f"the {kind.upper()} file claims {cache.frames} frames of {cache.points} points, which take {needed} "
+            f"bytes; it has {size}"
+        )
+    return cache
+
+
+def _head_of_pc2(file: BinaryIO) -> Cache:
+    head = file.read(_PC2.size)
+    if len(head) < _PC2.size or not head.startswith(_SIGNATURE):
+        raise FormatError('this is no PC2 file: it does not begin with "POINTCACHE2"')
+    _, version, points, _, _, frames = _PC2.unpack(head)
+    if version != 1:
+        raise FormatError(f"PC2 of version {version} is not known; 1 is")
+    return Cache(points, frames, _PC2.size, "<f4")
+
+
+def _head_of_mdd(file: BinaryIO, size: int) -> Cache:
+    head = file.read(_MDD.size)
+    if len(head) < _MDD.size:
+        raise TruncatedError(f"an MDD file begins with {_MDD.size} bytes; this one has {len(head)}")
+    frames, points = _MDD.unpack(head)
+    start = _MDD.size + 4 * max(frames, 0)
+    if size < start:
+        raise TruncatedError(
+            f"the MDD file claims {frames} frames, whose times alone take {start} bytes; it has {size}"
+        )
+    times = np.frombuffer(file.read(start - _MDD.size), ">f4").astype(np.float64)
+    return Cache(points, frames, start, ">f4", rate_of_times(times))
+
+
+def _samples(path: str, cache: Cache) -> Iterator[Positions]:
+    with open(path, "rb") as file:
+        file.seek(cache.start)
+        for number in range(cache.frames):
+            data = file.read(12 * cache.points)
+            if len(data) < 12 * cache.points:
+                raise TruncatedError(f"the file ends in frame {number} of {cache.frames}")
+            yield np.frombuffer(data, cache.kind).reshape(-1, 3).astype(np.float64)
+
+
+def _beside(path: str) -> str:
+    candidates = [str(Path(path).with_suffix(f".{suffix}")) for suffix in MESHES_BESIDE]
+    found = next((name for name in candidates if os.path.isfile(name)), None)
+    if found is None:
+        raise MeshError(
+            f"a cache holds points and no faces: put the mesh beside it ({Path(path).with_suffix('.obj').name}), or "
+            "name it with --mesh"
+        )
+    return found
+
+
+@contextmanager
+def write_cache(
+    file: BinaryIO, kind: str, count: int, rate: Callable[[], float]
+) -> Iterator[Callable[[Positions], None]]:
+    """Write a cache; yields what takes frame after frame, as many as announced, and keeps none.
+
+    Raises
+    ------
+    OptionError
+        If the number of frames is not known beforehand, which stands first in these files.
+    MeshError
+        If single precision cannot hold a coordinate.
+    CorruptError
+        If other than so many frames came.
+    """
+    if count < 1:
+        raise OptionError(
+            f"a {kind.upper()} begins with its number of frames, and this stream does not tell it; write npz"
+        )
+    single = "<f4" if kind == "pc2" else ">f4"
+    taken = 0
+
+    def write(frame: Positions) -> None:
+        nonlocal taken
+        if taken == 0 and kind == "pc2":
+            file.write(_PC2.pack(_SIGNATURE, 1, len(frame), 0.0, 1.0, count))
+        elif taken == 0:
+            file.write(_MDD.pack(count, len(frame)))
+            file.write((np.arange(count) / (rate() or 24.0)).astype(">f4").tobytes())
+        if np.abs(frame).max() > np.finfo(np.float32).max:
+            raise MeshError(f"a coordinate of frame {taken} is beyond single precision, which {kind.upper()} has")
+        file.write(np.ascontiguousarray(frame, single).tobytes())
+        taken += 1
+
+    yield write
+    if taken != count:
+        raise CorruptError(f"{taken} of {count} frames came")
+
+
+def mesh_of(path: str) -> str:
+    """The name of the mesh that is written beside a cache."""
+    return str(Path(path).with_suffix(".obj"))

@@ -1,0 +1,198 @@
+"""One mesh file for each frame, in a folder, named by a pattern, or one by one."""
+
+from __future__ import annotations
+
+import glob
+import os
+import re
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from itertools import count
+from pathlib import Path
+
+import numpy as np
+
+from bsm.bitstream.errors import FormatError, MeshError, OptionError
+from bsm.codec.arrays import Positions
+from bsm.codec.geometry.attributes import Attribute
+from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.files.about import about
+from bsm.files.mesh import WRITTEN_FORMATS, format_of_name, read_mesh, save_written, written_mesh
+from bsm.files.motion.frames import Frames
+
+_NUMBERS = re.compile(r"(\d+)")
+_PLACE = re.compile(r"%(0?)(\d*)d")
+
+
+def names_many(path: str) -> bool:
+    """Whether a path is that of a folder, or a pattern: ``run/*.obj`` or ``run/%04d.obj``."""
+    return os.path.isdir(path) or ((glob.has_magic(path) or is_numbered(path)) and not os.path.exists(path))
+
+
+def frame_files(path: str) -> list[str]:
+    """The mesh files of a folder or pattern, by the numbers in their names."""
+    if Path(path).is_dir():
+        names = [os.path.join(path, name) for name in os.listdir(path)]
+    else:
+        names = glob.glob(_PLACE.sub("*", path) if is_numbered(path) else path)
+    found = [name for name in names if format_of_name(name)]
+    if not found:
+        raise FormatError(f"there are no mesh files in {path}; the formats are {', '.join(WRITTEN_FORMATS)}")
+    return in_order(found)
+
+
+def in_order(names: Sequence[str]) -> list[str]:
+    """Names in the order of the numbers in them.
+
+    Raises
+    ------
+    MeshError
+        If they are numbered, and a number is missing.
+    """
+    ordered = sorted(names, key=_natural)
+    numbers = _numbers(ordered)
+    steps = np.diff(numbers)
+    if len(steps) and steps.min() > 0 and (steps != steps.min()).any():
+        place = int(np.argmax(steps != steps.min()))
+        missing = numbers[place] + int(steps.min())
+        raise MeshError(
+            f"frame {missing} is missing between {ordered[place]} and {ordered[place + 1]}; "
+            "add it, or number the files without a gap"
+        )
+    return ordered
+
+
+def look_like_frames(names: Sequence[str]) -> bool:
+    """Whether files are called like the frames of one animation: alike but for a number that counts up evenly."""
+    ordered = sorted(names, key=_natural)
+    steps = np.diff(_numbers(ordered))
+    return len(steps) > 0 and steps.min() > 0 and bool((steps == steps.min()).all())
+
+
+def common_name(names: Sequence[str]) -> str:
+    """One name for many files: what they begin and end with."""
+    first, last = min(names), max(names)
+    same = [one == other for one, other in zip(first, last)]
+    head = len(same) if all(same) else same.index(False)
+    return f"{first[:head]}*{Path(first).suffix}"
+
+
+def _natural(name: str) -> list[str | int]:
+    return [int(part) if part.isdecimal() else part for part in _NUMBERS.split(os.path.basename(name))]
+
+
+def _numbers(ordered: Sequence[str]) -> list[int]:
+    """The number that counts the files; none, if there is none that alone tells them apart."""
+    parts = [_NUMBERS.split(os.path.basename(name)) for name in ordered]
+    if len({len(of_one) for of_one in parts}) != 1:
+        return []
+    differing = [place for place, values in enumerate(zip(*parts)) if len(set(values)) > 1]
+    if len(differing) != 1 or differing[0] % 2 == 0:
+        return []
+    return [int(of_one[differing[0]]) for of_one in parts]
+
+
+def read_files(names: Sequence[str], file_format: str | None, reader: str | None) -> Frames:
+    """The frames in files, each read when it is asked for.
+
+    Raises
+    ------
+    BsmError
+        If one cannot be read, or has other faces than the first; also while the frames are read.
+    """
+    first = _read(names[0], 0, file_format, reader)
+
+    def frames() -> Iterator[Positions]:
+        yield first.positions
+        for number, name in enumerate(names[1:], 1):
+            mesh = _read(name, number, file_format, reader)
+            if difference := _difference(first, mesh):
+                raise MeshError(
+                    f"these are different meshes, not the frames of one animation: {name} (frame {number}) has other "
+                    f"faces than {names[0]}: {difference}; to work on each by itself, name the files and write to a "
+                    "folder, -o FOLDER/"
+                )
+            yield mesh.positions
+
+    last = _read(names[-1], len(names) - 1, file_format, reader) if first.attributes and len(names) > 1 else first
+    kept = tuple(one for one in first.attributes if one.semantic != "normal" and _has(last, one))
+    moving = [one.name for one in first.attributes if one not in kept]
+    notes = [f"left out, for they move or change: {', '.join(moving)}"] if moving else []
+    if kept and len(names) > 1:
+        notes.append(f"{', '.join(one.name for one in kept)}: as the first frame has them")
+    return Frames(first.faces, len(names), frames(), kept, tuple(notes), metadata=first.metadata)
+
+
+def _read(name: str, number: int, file_format: str | None, reader: str | None) -> TriangleMesh:
+    with about(f"{name} (frame {number})"):
+        return read_mesh(name, file_format, reader=reader).mesh
+
+
+def _difference(first: TriangleMesh, other: TriangleMesh) -> str:
+    """How the faces of two meshes differ; nothing if they do not."""
+    for what, one, two in (("vertices", first.positions, other.positions), ("faces", first.faces, other.faces)):
+        if len(one) != len(two):
+            return f"{len(two)} {what} where there were {len(one)}"
+    if np.array_equal(first.faces, other.faces):
+        return ""
+    row = int(np.argmax((first.faces != other.faces).any(axis=1)))
+    return f"face {row} is {other.faces[row].tolist()} where it was {first.faces[row].tolist()}"
+
+
+def _has(mesh: TriangleMesh, attribute: Attribute) -> bool:
+    """Whether a mesh has the same attribute with the same values."""
+    for one in mesh.attributes:
+        if (one.name, one.domain, one.semantic) == (attribute.name, attribute.domain, attribute.semantic):
+            alike = np.array_equal(one.values, attribute.values) and one.values.dtype == attribute.values.dtype
+            if one.indices is None or attribute.indices is None:
+                return alike
+            return alike and np.array_equal(one.indices, attribute.indices)
+    return False
+
+
+# --------------------------------------------------------------------------------------------------------- the way back
+
+
+def is_numbered(path: str) -> bool:
+    """Whether a path has a place for the number of a frame, as ``walk/%04d.obj`` has."""
+    return len(_PLACE.findall(os.path.basename(path))) == 1 and "%" not in _PLACE.sub("", os.path.basename(path))
+
+
+@contextmanager
+def write_files(path: str, kind: str, *, overwrite: bool) -> Iterator[Callable[[TriangleMesh], tuple[str, ...]]]:
+    """A file for each frame: in a folder, or called by a pattern; files that were written are removed after an error.
+
+    Parameters
+    ----------
+    path : str
+        A folder, or a path with one ``%d`` or ``%04d`` in the name of the file.
+    kind : str
+        One of the formats of meshes.
+    """
+    pattern = Path(path) if is_numbered(path) else Path(path, f"%05d.{kind}")
+    if not is_numbered(pattern.name):
+        raise OptionError(f"{path}: write one %d or %04d for the number of the frame")
+    new = not pattern.parent.exists()
+    pattern.parent.mkdir(parents=True, exist_ok=True)
+    if not is_numbered(path) and any(pattern.parent.iterdir()) and not overwrite:
+        raise FileExistsError(17, "the folder is not empty; -f writes into it", path)
+    written: list[Path] = []
+    numbers = count()
+
+    def write(mesh: TriangleMesh) -> tuple[str, ...]:
+        number = next(numbers)
+        target = pattern.parent / _PLACE.sub(lambda place: f"{number:{place[1]}{place[2]}d}", pattern.name)
+        file = written_mesh(mesh, kind, target)
+        was_there = target.exists()
+        if not was_there:
+            written.extend([target, *(target.parent / name for name in file.beside)])
+        return save_written(target, file, overwrite=overwrite)
+
+    try:
+        yield write
+    except BaseException:
+        for target in written:
+            target.unlink(missing_ok=True)
+        if new and not any(pattern.parent.iterdir()):
+            pattern.parent.rmdir()
+        raise

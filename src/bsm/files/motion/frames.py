@@ -1,0 +1,93 @@
+"""What every reader of sequences gives, and what may be asked of it."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from bsm.bitstream.errors import MeshError
+from bsm.codec.arrays import Faces, Positions
+from bsm.codec.geometry.attributes import Attribute
+from bsm.codec.geometry.mesh import Metadata
+
+LIKELY_RATES = (12, 15, 24, 25, 30, 48, 50, 60, 72, 90, 100, 120)
+
+
+@dataclass(frozen=True, eq=False)
+class Frames:
+    """A sequence that is read as it is used.
+
+    Parameters
+    ----------
+    faces : int32 array, shape (m, 3)
+    count : int
+        Number of frames; 0 if that is not known beforehand.
+    frames : iterator of float64 arrays, shape (n, 3)
+        Can be used once.
+    attributes : tuple of Attribute
+        Those of the first frame that the last has, too; no normals, which move.
+    notes : tuple of str
+        What was left out.
+    frame_rate : float
+        Frames per second; 0: the files do not say.
+    metadata : mapping
+        As that of `TriangleMesh`.
+    """
+
+    faces: Faces
+    count: int
+    frames: Iterator[Positions]
+    attributes: tuple[Attribute, ...] = ()
+    notes: tuple[str, ...] = ()
+    frame_rate: float = 0.0
+    metadata: Metadata = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Wanted:
+    """What may be asked of a reader of sequences.
+
+    Parameters
+    ----------
+    rate : float
+        Frames per second, where a file holds curves to be sampled; 0: as the file's keys have it.
+    animation : str
+        Number or name of the animation of a file that has several.
+    mesh : path, optional
+        The mesh that a cache of points belongs to; None: the file of the same name beside it.
+    """
+
+    rate: float = 0.0
+    animation: str = ""
+    mesh: str | os.PathLike[str] | None = None
+
+
+def checked_frames(name: str, frames: Iterable[Positions], vertices: int) -> Iterator[Positions]:
+    """The frames of one file, as float64.
+
+    Raises
+    ------
+    MeshError
+        If a frame has another number of vertices, or a coordinate that is not finite.
+    """
+    for number, frame in enumerate(frames):
+        if frame.shape != (vertices, 3):
+            raise MeshError(f"frame {number} of {name} has {len(frame)} vertices, and the mesh has {vertices}")
+        if not (finite := np.isfinite(frame)).all():
+            row = int(np.argmin(finite.all(axis=1)))
+            raise MeshError(f"vertex {row} of frame {number} of {name} has a coordinate that is not finite")
+        yield np.asarray(frame, np.float64)
+
+
+def rate_of_times(times: Positions) -> float:
+    """Frames per second of equally spaced times in seconds, shape (T,); 0: they are not equally spaced."""
+    if len(times) < 2:
+        return 0.0
+    step = float(times[-1] - times[0]) / (len(times) - 1)
+    if step <= 0 or float(np.abs(np.diff(times) - step).max()) > 0.02 * step:
+        return 0.0
+    rate = 1.0 / step
+    return float(round(rate)) if abs(rate - round(rate)) < 1e-3 * rate else rate

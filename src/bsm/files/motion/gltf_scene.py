@@ -1,0 +1,309 @@
+"""The scene of a glTF that moves: nodes, skins and morph targets, at any time of an animation."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from bsm.bitstream.errors import FormatError
+from bsm.codec.geometry.splitting import row_numbers
+from bsm.files.formats.columns import Column, color_column, meaning_of
+from bsm.files.motion.curves import Array, Curve, matrix_of
+from bsm.files.motion.gltf import Document, Tree
+from bsm.files.rows import Doubles, Ints
+
+_TRIANGLES = 4
+
+
+@dataclass(frozen=True, eq=False)
+class Skin:
+    """Joints, by the numbers of their nodes, and the matrices that take the bound mesh to each; shape (j, 4, 4)."""
+
+    joints: list[int]
+    inverse: Doubles
+
+
+@dataclass(frozen=True, eq=False)
+class Part:
+    """The triangles of one primitive, where the scene has them once.
+
+    Parameters
+    ----------
+    node : int
+    base : float64 array, shape (n, 3)
+    targets : float64 array, shape (k, n, 3)
+        What each morph target adds.
+    faces : int64 array, shape (m, 3)
+    skin : Skin, optional
+    joints, weights : arrays of shape (n, 4 or 8)
+        Of the skin.
+    columns : tuple of Column
+        What vertices have, before they were joined.
+    origin : int64 array
+        The vertex that each of the file's has become.
+    corners : int64 array, shape (m, 3)
+        The file's vertices at the corners.
+    material : int
+        -1: none.
+    """
+
+    node: int
+    base: Doubles
+    targets: Doubles
+    faces: Ints
+    skin: Skin | None
+    joints: Ints
+    weights: Doubles
+    columns: tuple[Column, ...]
+    corners: Ints
+    material: int
+    name: str
+
+
+class Scene:
+    """Everything of a document that is seen, and one animation of it.
+
+    Parameters
+    ----------
+    document : Document
+    animation : dict
+        Of the document's tree.
+
+    Attributes
+    ----------
+    parts : list of Part
+    notes : list of str
+        What is left out.
+    """
+
+    def __init__(self, document: Document, animation: Tree) -> None:
+        self._document = document
+        self._nodes = document.items("nodes")
+        self._parents = self._ordered()
+        self._curves = self._animated(animation)
+        self.notes: list[str] = []
+        self.parts = [part for node in self._parents for part in self._parts(node)]
+
+    @property
+    def moves(self) -> bool:
+        """Whether a curve reaches something that is seen."""
+        moved = {node for node, _ in self._curves}
+        above = {node: self._line(node) for part in self.parts for node in (part.node, *self._joints(part))}
+        return any(moved & line for line in above.values())
+
+    def _joints(self, part: Part) -> list[int]:
+        return part.skin.joints if part.skin else []
+
+    def _line(self, node: int) -> set[int]:
+        found = set()
+        while node >= 0:
+            found.add(node)
+            node = self._parents[node]
+        return found
+
+    @property
+    def keys(self) -> Doubles:
+        """The times of all keys, each once."""
+        times = [np.empty(0), *(curve.times for curve in self._curves.values())]
+        return np.unique(np.round(np.concatenate(times), 6))
+
+    def at(self, time: float) -> Doubles:
+        """The positions of all parts' vertices, one part behind the other."""
+        places: dict[int, Doubles] = {}
+        for node, parent in self._parents.items():
+            local = self._local(node, time)
+            places[node] = places[parent] @ local if parent >= 0 else local
+        return np.concatenate([self._placed(part, places, time) for part in self.parts])
+
+    def _placed(self, part: Part, places: dict[int, Doubles], time: float) -> Doubles:
+        points = part.base
+        if len(part.targets):
+            weights = self._weights(part.node, len(part.targets), time)
+            used = np.flatnonzero(weights)
+            points = points + np.tensordot(weights[used], part.targets[used], 1)
+        if part.skin is None:
+            matrix = places[part.node]
+            return points @ matrix[:3, :3].T + matrix[:3, 3]
+        bones = np.array([places[joint] for joint in part.skin.joints]) @ part.skin.inverse
+        moved = np.zeros_like(points)
+        for joint, weight in zip(part.joints.T, part.weights.T, strict=True):
+            bone = bones[joint]
+            moved += weight[:, None] * (np.einsum("nij,nj->ni", bone[:, :3, :3], points) + bone[:, :3, 3])
+        return moved
+
+    def _weights(self, node: int, count: int, time: float) -> Doubles:
+        curve = self._curves.get((node, "weights"))
+        if curve is not None:
+            return curve.at(time)
+        mesh = self._document.item("meshes", self._nodes[node]["mesh"])
+        given = self._nodes[node].get("weights", mesh.get("weights", [0.0] * count))
+        return np.asarray(given, np.float64).reshape(count)
+
+    def _local(self, node: int, time: float) -> Doubles:
+        tree = self._nodes[node]
+        animated = [self._curves.get((node, path)) for path in ("translation", "rotation", "scale")]
+        if "matrix" in tree and not any(animated):
+            return np.asarray(tree["matrix"], np.float64).reshape(4, 4).T
+        rest = (("translation", (0, 0, 0)), ("rotation", (0, 0, 0, 1)), ("scale", (1, 1, 1)))
+        values = [
+            np.asarray(tree.get(name, usual), np.float64).reshape(len(usual)) if curve is None else curve.at(time)
+            for (name, usual), curve in zip(rest, animated, strict=True)
+        ]
+        return matrix_of(*values)
+
+    def _ordered(self) -> dict[int, int]:
+        """The nodes of the scene, parents before children, and the parent of each; -1: none."""
+        document = self._document
+        children = {int(child) for node in self._nodes for child in node.get("children", [])}
+        roots = [number for number in range(len(self._nodes)) if number not in children]
+        if document.items("scenes"):
+            roots = list(document.item("scenes", document.tree.get("scene", 0)).get("nodes", []))
+        parents: dict[int, int] = {}
+        waiting = [(int(root), -1) for root in reversed(roots)]
+        while waiting:
+            node, parent = waiting.pop()
+            if node in parents:
+                raise FormatError(f"node {node} of this glTF stands in two places")
+            parents[node] = parent
+            found = document.item("nodes", node).get("children", [])
+            waiting += [(int(child), node) for child in reversed(found)]
+        return parents
+
+    def _animated(self, animation: Tree) -> dict[tuple[int, str], Curve]:
+        document, found = self._document, {}
+        samplers = animation.get("samplers", [])
+        for channel in animation.get("channels", []):
+            node, path = channel["target"].get("node"), channel["target"]["path"]
+            if node is None or path not in ("translation", "rotation", "scale", "weights"):
+                continue
+            sampler = samplers[channel["sampler"]]
+            times = document.numbers(sampler["input"])[:, 0].astype(np.float64)
+            values = document.numbers(sampler["output"]).astype(np.float64)
+            way = sampler.get("interpolation", "LINEAR")
+            each = 3 if way == "CUBICSPLINE" else 1
+            if path == "weights":
+                values = values.reshape(each * len(times), -1)
+            width = {"translation": 3, "rotation": 4, "scale": 3}.get(path) or self._targets_of(node)
+            if values.shape[1] != width:
+                raise FormatError(f"the {path} of node {node} is animated by {values.shape[1]} numbers, not {width}")
+            found[int(node), path] = Curve(times, values, way, path == "rotation")
+        return found
+
+    def _targets_of(self, node: int) -> int:
+        mesh = self._document.item("meshes", self._document.item("nodes", node).get("mesh"))
+        return len(mesh["primitives"][0].get("targets", []))
+
+    def _parts(self, node: int) -> list[Part]:
+        tree, document = self._nodes[node], self._document
+        if "mesh" not in tree:
+            return []
+        mesh = document.item("meshes", tree["mesh"])
+        skin = self._skin(tree["skin"]) if "skin" in tree else None
+        name = str(tree.get("name") or mesh.get("name") or "")
+        found = []
+        for primitive in mesh["primitives"]:
+            if primitive.get("mode", _TRIANGLES) != _TRIANGLES or "POSITION" not in primitive["attributes"]:
+                self.notes.append("points, lines, strips and fans were left out")
+                continue
+            found.append(self._part(node, primitive, skin, name))
+        return found
+
+    def _skin(self, index: object) -> Skin:
+        skin = self._document.item("skins", index)
+        joints = [int(joint) for joint in skin["joints"]]
+        missing = [joint for joint in joints if joint not in self._parents]
+        if missing:
+            raise FormatError(f"joint {missing[0]} of skin {index} is not in the scene")
+        if "inverseBindMatrices" not in skin:
+            return Skin(joints, np.tile(np.eye(4), (len(joints), 1, 1)))
+        inverse = self._document.numbers(skin["inverseBindMatrices"]).astype(np.float64)
+        if inverse.shape[0] < len(joints) or inverse.shape[1] != 16:
+            raise FormatError(f"skin {index} has {len(inverse)} matrices for {len(joints)} joints")
+        return Skin(joints, inverse[: len(joints)].reshape(-1, 4, 4).transpose(0, 2, 1))
+
+    def _part(self, node: int, primitive: Tree, skin: Skin | None, name: str) -> Part:
+        given, document = primitive["attributes"], self._document
+        base = document.numbers(given["POSITION"]).astype(np.float64)
+        count = len(base)
+        targets = [
+            self._of(target.get("POSITION"), count, 3, "a morph target") for target in primitive.get("targets", [])
+        ]
+        if "indices" in primitive:
+            corners = document.numbers(primitive["indices"])[:, 0].astype(np.int64)
+        else:
+            corners = np.arange(count)
+        corners = corners[: len(corners) // 3 * 3].reshape(-1, 3)
+        if corners.size and corners.max() >= count:
+            raise FormatError(f"a face of this glTF refers to vertex {corners.max()} of {count}")
+        joints, weights = np.zeros((count, 0), np.int64), np.zeros((count, 0))
+        if skin is not None:
+            sets = [number for number in range(2) if f"JOINTS_{number}" in given and f"WEIGHTS_{number}" in given]
+            if not sets:
+                raise FormatError(f"the mesh of node {node} has a skin, and its vertices name no joints")
+            joints = np.hstack([self._of(given[f"JOINTS_{n}"], count, 4, "joints") for n in sets]).astype(np.int64)
+            weights = np.hstack([self._of(given[f"WEIGHTS_{n}"], count, 4, "weights") for n in sets])
+            total = weights.sum(axis=1, keepdims=True)
+            weights = np.divide(weights, total, out=np.zeros_like(weights), where=total > 0)
+            if joints.size and joints.max() >= len(skin.joints):
+                raise FormatError(f"a vertex of node {node} hangs on joint {joints.max()} of {len(skin.joints)}")
+        columns = self._columns(given, count)
+        origin = _alike([base, *targets, joints, weights])
+        first = np.unique(origin, return_index=True)[1]
+        return Part(
+            node,
+            base[first],
+            np.array(targets).reshape(len(targets), count, 3)[:, first],
+            origin[corners],
+            skin,
+            joints[first],
+            weights[first],
+            columns,
+            corners,
+            int(primitive.get("material", -1)),
+            name,
+        )
+
+    def _of(self, index: object, count: int, width: int, what: str) -> Doubles:
+        """An accessor for each vertex; zeros where there is none."""
+        if index is None:
+            return np.zeros((count, width))
+        found = self._document.numbers(index).astype(np.float64)
+        if found.shape != (count, width):
+            raise FormatError(f"{what} of {found.shape} numbers for {count} vertices")
+        return found
+
+    def _columns(self, given: Tree, count: int) -> tuple[Column, ...]:
+        found: list[Column] = []
+        for name, index in given.items():
+            kind, _, number = name.partition("_")
+            if kind not in ("TEXCOORD", "COLOR", ""):
+                continue
+            values: Any = self._document.numbers(index, whole=kind == "COLOR")
+            if len(values) != count or values.shape[1] > 4:
+                raise FormatError(f"{name} has {values.shape} numbers for {count} vertices")
+            later = number if number not in ("", "0") else ""
+            if kind == "COLOR":
+                one = color_column(values, "vertex")
+                found.append(Column(f"color{later}", one.values, "vertex", one.semantic))
+            elif kind == "TEXCOORD":
+                upright = values.astype(np.float32)
+                upright[:, 1] = 1 - upright[:, 1]  # glTF counts from the top, we from the bottom
+                found.append(Column(f"texcoord{later}", upright, "vertex", "texcoord"))
+            else:
+                found.append(Column(number.lower(), values, "vertex", meaning_of(number)))
+        return tuple(found)
+
+
+def _alike(tables: list[Array]) -> Ints:
+    """The number of each row, the same for rows that are alike in all tables, in the order in which they first come."""
+    numbers = row_numbers(np.asarray(tables[0]))
+    for table in tables[1:]:
+        if table.size:
+            numbers = row_numbers(np.column_stack([numbers, table]))
+    _, first, inverse = np.unique(numbers, return_index=True, return_inverse=True)
+    rank = np.empty(len(first), np.int64)
+    rank[np.argsort(first)] = np.arange(len(first))
+    found: Ints = rank[inverse.reshape(-1)]
+    return found

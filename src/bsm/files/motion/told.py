@@ -1,0 +1,43 @@
+"""What belongs to all frames of a sequence that is written."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, field
+
+from bsm.codec.arrays import Faces, Positions
+from bsm.codec.geometry.attributes import Attribute
+from bsm.codec.geometry.mesh import Metadata, TriangleMesh
+
+
+@dataclass(frozen=True, eq=False)
+class Told:
+    """What belongs to all frames.
+
+    Parameters
+    ----------
+    attributes : callable
+        Those of all frames, asked for when the first frame is there.
+    metadata : callable
+        As that of `TriangleMesh`; asked for then, too.
+    left_out : list of str
+        What the form cannot hold, known at the end.
+    """
+
+    attributes: Callable[[], tuple[Attribute, ...]] = tuple
+    metadata: Callable[[], Metadata] = dict
+    left_out: list[str] = field(default_factory=list)
+
+    @property
+    def frame_rate(self) -> float:
+        """Frames per second; 0: not known."""
+        rate = self.metadata().get("frame_rate")
+        return float(rate) if isinstance(rate, int | float) and 0 < rate < float("inf") else 0.0
+
+    def mesh(self, positions: Positions, faces: Faces, *, with_metadata: bool = True) -> TriangleMesh:
+        """The mesh of a frame, with everything."""
+        return TriangleMesh(positions, faces, self.attributes(), self.metadata() if with_metadata else {})
+
+    def loses(self, names: Iterable[str]) -> None:
+        """Take note of what cannot be held."""
+        self.left_out.extend(name for name in dict.fromkeys(names) if name not in self.left_out)

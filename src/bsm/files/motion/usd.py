@@ -1,0 +1,351 @@
+"""USD, read and written with usd-core: points with time samples, their units and the axis that points up."""
+
+from __future__ import annotations
+
+import shutil
+import tempfile
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import replace
+from pathlib import Path
+from typing import Any, BinaryIO
+
+import numpy as np
+
+from bsm.bitstream.errors import DependencyError, FormatError, LimitError, MeshError
+from bsm.bitstream.limits import DEFAULT_LIMITS
+from bsm.codec.arrays import Faces, Positions
+from bsm.codec.geometry.attributes import MOST_COMPONENTS, Attribute, Domain, Semantic
+from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.files.formats.columns import Array, Column, color_column
+from bsm.files.formats.materials import named, without_materials
+from bsm.files.formats.polygons import MeshFile, Polygons
+from bsm.files.motion.frames import Frames, Wanted, checked_frames
+from bsm.files.motion.told import Told
+from bsm.files.rows import Doubles, Ints, single_suffices
+from bsm.lengths import metres
+
+USUAL_RATE = 24.0
+MOST_FRAMES = 1 << 20
+_UNITS = {1.0: "meters", 0.1: "decimeters", 0.01: "centimeters", 0.001: "millimeters", 0.0254: "inches", 0.3048: "feet"}
+
+
+def import_usd() -> Any:
+    """The modules of usd-core; `DependencyError` where they are missing."""
+    try:
+        import pxr.Sdf
+        import pxr.Tf
+        import pxr.Usd
+        import pxr.UsdGeom
+        import pxr.UsdSkel
+        import pxr.UsdUtils
+        import pxr.Vt
+    except ImportError as error:
+        raise DependencyError(
+            "USD files are read and written with usd-core; run: pip install 'bsm-codec[usd]'"
+        ) from error
+    return pxr
+
+
+# ----------------------------------------------------------------------------------------------------------------- in
+
+
+class _Part:
+    """A mesh of a stage: its faces once, its points at any time."""
+
+    def __init__(self, pxr: Any, prim: Any) -> None:
+        mesh = pxr.UsdGeom.Mesh(prim)
+        self._pxr, self.prim, self._points = pxr, prim, mesh.GetPointsAttr()
+        self.counts_attr, self.corners_attr = mesh.GetFaceVertexCountsAttr(), mesh.GetFaceVertexIndicesAttr()
+        earliest = pxr.Usd.TimeCode.EarliestTime()
+        self.counts: Ints = np.array(self.counts_attr.Get(earliest) or [], np.int64)
+        self.corners: Ints = np.array(self.corners_attr.Get(earliest) or [], np.int64)
+        self.vertices = len(self._points.Get(earliest) or [])
+        if (self.counts < 0).any() or self.counts.sum() != len(self.corners):
+            raise FormatError(
+                f"the faces of {prim.GetPath()} have {len(self.corners)} corners, not {self.counts.sum()}"
+            )
+        self.turned = mesh.GetOrientationAttr().Get() == pxr.UsdGeom.Tokens.leftHanded
+
+    @property
+    def times(self) -> list[float]:
+        """When its points are told, or its place."""
+        found = list(self._points.GetTimeSamples())
+        prim = self.prim
+        while prim and not prim.IsPseudoRoot():
+            found += self._pxr.UsdGeom.Xformable(prim).GetTimeSamples() if prim.IsA(self._pxr.UsdGeom.Xformable) else []
+            prim = prim.GetParent()
+        return found
+
+    def at(self, time: float, cache: Any) -> Doubles:
+        """Its points in the world."""
+        code = self._pxr.Usd.TimeCode(time)
+        points = np.array(self._points.Get(code), np.float64).reshape(-1, 3)
+        for name, attr, known in (
+            ("counts", self.counts_attr, self.counts),
+            ("corners", self.corners_attr, self.corners),
+        ):
+            if attr.GetNumTimeSamples() > 1 and not np.array_equal(np.array(attr.Get(code), np.int64), known):
+                raise MeshError(
+                    f"{self.prim.GetPath()} has other faces at time {time:g} than before (their {name}): "
+                    "a sequence keeps its faces"
+                )
+        if len(points) != self.vertices:
+            raise MeshError(
+                f"{self.prim.GetPath()} has {len(points)} points at time {time:g} and {self.vertices} before"
+            )
+        matrix = np.array(cache.GetLocalToWorldTransform(self.prim), np.float64)
+        return points @ matrix[:3, :3] + matrix[3, :3]
+
+    def columns(self) -> list[Column]:
+        """Texture coordinates, colours and other numbers; those of corners have indices."""
+        found = []
+        rows = {"vertex": self.vertices, "face": len(self.counts), "corner": len(self.corners)}
+        for primvar in self._pxr.UsdGeom.PrimvarsAPI(self.prim).GetPrimvars():
+            name, kind = str(primvar.GetPrimvarName()), str(primvar.GetTypeName())
+            domain = _DOMAINS.get(primvar.GetInterpolation())
+            value = primvar.Get(self._pxr.Usd.TimeCode.EarliestTime())
+            if domain is None or value is None or not kind.endswith("[]") or name == "normals":
+                continue
+            values = np.array(value)
+            values = values[:, None] if values.ndim == 1 else values
+            if values.dtype.kind not in "iuf" or values.ndim != 2 or values.shape[1] > MOST_COMPONENTS:
+                continue
+            places = np.array(primvar.GetIndices() or np.arange(len(values)), np.int64)
+            if len(places) == rows[domain] and 0 <= places.min(initial=0) <= places.max(initial=0) < len(values):
+                named_as, values, semantic = _meant(name, kind, values)
+                at_corners = domain == "corner"
+                table = values if at_corners else values[places]
+                found.append(Column(named_as, table, domain, semantic, places if at_corners else None))
+        return found
+
+
+_DOMAINS: dict[str, Domain] = {"vertex": "vertex", "varying": "vertex", "uniform": "face", "faceVarying": "corner"}
+
+
+def _meant(name: str, kind: str, values: Array) -> tuple[str, Array, Semantic]:
+    """What a primvar is called here, its values, and what they mean."""
+    if kind.startswith(("color3", "color4")):
+        model = color_column(values.astype(np.float64), "vertex")
+        return "color" if name == "displayColor" else name, model.values, model.semantic
+    if kind.startswith("texCoord2") or (name in ("st", "uv", "UVMap") and values.shape[1] == 2):
+        return "texcoord" if name in ("st", "UVMap") else name, values, "texcoord"
+    return name, values, "generic"
+
+
+class _Stage:
+    """What is seen of a stage."""
+
+    def __init__(self, path: str) -> None:
+        self.pxr = pxr = import_usd()
+        try:
+            self.stage = pxr.Usd.Stage.Open(path)
+        except Exception as error:  # of the library's own kind
+            raise FormatError(f"usd-core cannot read this file: {str(error).strip().splitlines()[-1]}") from error
+        self._bake()
+        self.parts = [_Part(pxr, prim) for prim in self.stage.Traverse() if prim.IsA(pxr.UsdGeom.Mesh)]
+        self.parts = [part for part in self.parts if len(part.counts)]
+        if not self.parts:
+            raise FormatError("this stage has no meshes")
+        DEFAULT_LIMITS.check("vertices", sum(part.vertices for part in self.parts))
+        DEFAULT_LIMITS.check("faces", sum(int(part.counts.sum()) - 2 * len(part.counts) for part in self.parts))
+
+    def _bake(self) -> None:
+        """Let skeletons move the points, in a layer that is not saved."""
+        pxr = self.pxr
+        if any(prim.IsA(pxr.UsdSkel.Root) for prim in self.stage.Traverse()):
+            self.stage.SetEditTarget(self.stage.GetSessionLayer())
+            pxr.UsdSkel.BakeSkinning(self.stage.Traverse())
+
+    @property
+    def times(self) -> list[float]:
+        """All times that are told, in order."""
+        return sorted({time for part in self.parts for time in part.times})
+
+    def at(self, time: float) -> Doubles:
+        """The points of all parts."""
+        cache = self.pxr.UsdGeom.XformCache(self.pxr.Usd.TimeCode(time))
+        return np.concatenate([part.at(time, cache) for part in self.parts])
+
+    def mesh(self, positions: Doubles) -> MeshFile:
+        """The mesh of a frame, with everything; polygons are cut into triangles."""
+        parts, geom = self.parts, self.pxr.UsdGeom
+        begin = np.cumsum([0, *(part.vertices for part in parts)])
+        sizes = np.concatenate([part.counts for part in parts])
+        corners = np.concatenate([part.corners + first for part, first in zip(parts, begin)])
+        turned = np.repeat([part.turned for part in parts], [len(part.counts) for part in parts])
+        order = _turned(sizes, turned)
+        notes = [f"{len(parts)} parts were joined to one mesh"] if len(parts) > 1 else []
+        up = str(geom.GetStageUpAxis(self.stage)).lower()
+        unit = float(geom.GetStageMetersPerUnit(self.stage))
+        metadata: dict[str, str | int | float | bytes] = {"up": up, "unit": _UNITS.get(round(unit, 9), f"{unit:g} m")}
+        columns = []
+        if len(parts) == 1:
+            metadata["name"] = parts[0].prim.GetName()
+            for column in parts[0].columns():
+                places = None if column.indices is None else column.indices[order]
+                columns.append(replace(column, indices=places))
+        else:
+            owner = np.repeat(np.arange(len(parts), dtype=np.int32), [len(part.counts) for part in parts])
+            columns.append(Column("part", owner[:, None], "face"))
+            metadata |= named([str(part.prim.GetPath()) for part in parts], "part")
+            if any(part.columns() for part in parts):
+                notes.append("left out: texture coordinates and colours of several parts")
+        return Polygons(positions, sizes, corners[order], tuple(notes), (), tuple(columns), metadata).checked(
+            DEFAULT_LIMITS
+        )
+
+
+def _turned(sizes: Ints, turned: Array) -> Ints:
+    """The order of corners in which the polygons that are turned run the other way round, from the same corner."""
+    first = np.repeat(np.cumsum(sizes) - sizes, sizes)
+    step = np.arange(len(first)) - first
+    size = np.repeat(sizes, sizes)
+    found: Ints = first + np.where(np.repeat(turned, sizes), (size - step) % np.maximum(size, 1), step)
+    return found
+
+
+def read_usd(path: str, wanted: Wanted) -> Frames | None:
+    """The frames of a stage, sampled at its rate or the one that is wanted; None if nothing moves.
+
+    Raises
+    ------
+    FormatError, MeshError, LimitError
+        If it has no meshes, or faces that change; also while the frames are read.
+    DependencyError
+        If usd-core is missing.
+    """
+    stage = _Stage(path)
+    times = stage.times
+    if len(times) < 2:
+        return None
+    codes = float(stage.stage.GetTimeCodesPerSecond()) or USUAL_RATE
+    rate = wanted.rate or codes
+    first, last = times[0], times[-1]
+    if stage.stage.HasAuthoredTimeCodeRange():
+        first, last = float(stage.stage.GetStartTimeCode()), float(stage.stage.GetEndTimeCode())
+    count = int(np.floor(max(last - first, 0.0) * rate / codes + 1e-6)) + 1
+    if count > MOST_FRAMES:
+        raise LimitError(f"the stage runs from {first:g} to {last:g}, which are {count} frames, too many")
+    still = stage.mesh(stage.at(first))
+
+    def frames() -> Iterator[Positions]:
+        for number in range(count):
+            yield stage.at(first + number * codes / rate)
+
+    mesh = still.mesh
+    checked = checked_frames(path, frames(), len(mesh.positions))
+    notes = (f"{count} frames at {rate:g} per second", *still.notes)
+    return Frames(mesh.faces, count, checked, mesh.attributes, notes, rate, mesh.metadata)
+
+
+def read_usd_mesh(path: str) -> MeshFile:
+    """The mesh of a stage at its first time; errors as of `read_usd`."""
+    stage = _Stage(path)
+    times = stage.times
+    found = stage.mesh(stage.at(times[0] if times else 0.0))
+    return MeshFile(
+        found.mesh, (*found.notes, "of the motion, the first time was taken") if len(times) > 1 else found.notes
+    )
+
+
+# ---------------------------------------------------------------------------------------------------------------- out
+
+
+@contextmanager
+def write_usd(file: BinaryIO, kind: str, faces: Faces, told: Told) -> Iterator[Callable[[Positions], None]]:
+    """Write a stage of one mesh whose points have a time sample for each frame; yields what takes frame after frame.
+
+    Raises
+    ------
+    MeshError
+        If single precision, which points have, would move vertices.
+    DependencyError
+        If usd-core is missing.
+    """
+    pxr = import_usd()
+    with tempfile.TemporaryDirectory() as folder:
+        path = str(Path(folder, "mesh.usdc" if kind == "usdz" else f"mesh.{kind}"))
+        stage = pxr.Usd.Stage.CreateNew(path)
+        mesh: Any = None
+        taken = 0
+
+        def write(frame: Positions) -> None:
+            nonlocal mesh, taken
+            if mesh is None:
+                mesh = _begun(pxr, stage, told.mesh(frame, faces), told)
+            if not single_suffices(frame):
+                raise MeshError(f"frame {taken} needs double precision, which points of USD do not have; write npz")
+            points = np.ascontiguousarray(frame, np.float32)
+            mesh.GetPointsAttr().Set(pxr.Vt.Vec3fArray.FromNumpy(points), taken)
+            extent = np.array([points.min(axis=0), points.max(axis=0)])
+            mesh.GetExtentAttr().Set(pxr.Vt.Vec3fArray.FromNumpy(extent), taken)
+            taken += 1
+            if taken % 64 == 0:
+                stage.Save()  # what is saved need not be kept
+
+        yield write
+        stage.SetEndTimeCode(max(taken - 1, 0))
+        stage.Save()
+        if kind == "usdz":
+            packed = str(Path(folder, "mesh.usdz"))
+            if not pxr.UsdUtils.CreateNewUsdzPackage(path, packed):
+                raise OSError("usd-core could not pack the stage as usdz")
+            path = packed
+        with open(path, "rb") as written:
+            shutil.copyfileobj(written, file)
+
+
+def _begun(pxr: Any, stage: Any, first: TriangleMesh, told: Told) -> Any:
+    """A stage with everything of a mesh but its points."""
+    geom, rate = pxr.UsdGeom, told.frame_rate or USUAL_RATE
+    metadata = without_materials(first.metadata)
+    geom.SetStageUpAxis(stage, geom.Tokens.z if str(metadata.get("up", "y")).lower() == "z" else geom.Tokens.y)
+    unit = metadata.get("unit")
+    size = metres(unit) if isinstance(unit, str) else None
+    geom.SetStageMetersPerUnit(stage, size or 1.0)
+    stage.SetTimeCodesPerSecond(rate)
+    stage.SetFramesPerSecond(rate)
+    stage.SetStartTimeCode(0)
+    stage.SetInterpolationType(pxr.Usd.InterpolationTypeLinear)
+    name = pxr.Tf.MakeValidIdentifier(str(metadata.get("name") or "mesh"))
+    mesh = geom.Mesh.Define(stage, f"/{name}")
+    stage.SetDefaultPrim(mesh.GetPrim())
+    mesh.CreateSubdivisionSchemeAttr(geom.Tokens.none)
+    mesh.CreateFaceVertexCountsAttr(pxr.Vt.IntArray(len(first.faces), 3))
+    mesh.CreateFaceVertexIndicesAttr(pxr.Vt.IntArray.FromNumpy(np.ascontiguousarray(first.faces.reshape(-1))))
+    mesh.CreatePointsAttr()
+    mesh.CreateExtentAttr()
+    told.loses(one.name for one in first.attributes if not _written(pxr, mesh, one))
+    told.loses(
+        name for name in first.metadata if name not in ("up", "name", "frame_rate") and (name != "unit" or size is None)
+    )
+    return mesh
+
+
+def _written(pxr: Any, mesh: Any, attribute: Attribute) -> bool:
+    """Write an attribute as a primvar; whether that can be."""
+    types, width = pxr.Sdf.ValueTypeNames, attribute.components
+    values = attribute.values.astype(np.float32)
+    name = pxr.Tf.MakeValidIdentifier(attribute.name)
+    if attribute.semantic == "color":
+        whole = {np.dtype(np.uint8): 255.0, np.dtype(np.uint16): 65535.0}
+        values = values[:, :3] / whole.get(attribute.values.dtype, 1.0)
+        name, kind = ("displayColor" if attribute.name == "color" else name), types.Color3fArray
+        if width < 3:
+            return False
+    elif attribute.semantic == "texcoord" and width == 2:
+        name, kind = ("st" if attribute.name == "texcoord" else name), types.TexCoord2fArray
+    elif (attribute.values.astype(np.float32) == attribute.values).all():
+        kind = {1: types.FloatArray, 2: types.Float2Array, 3: types.Float3Array, 4: types.Float4Array}[width]
+    else:
+        return False
+    tokens = pxr.UsdGeom.Tokens
+    place = {"vertex": tokens.vertex, "face": tokens.uniform, "corner": tokens.faceVarying}[attribute.domain]
+    primvar = pxr.UsdGeom.PrimvarsAPI(mesh).CreatePrimvar(name, kind, place)
+    arrays = {1: pxr.Vt.FloatArray, 2: pxr.Vt.Vec2fArray, 3: pxr.Vt.Vec3fArray, 4: pxr.Vt.Vec4fArray}
+    table = np.ascontiguousarray(values[:, 0] if values.shape[1] == 1 else values, np.float32)
+    primvar.Set(arrays[values.shape[1]].FromNumpy(table))
+    if attribute.indices is not None:
+        primvar.SetIndices(pxr.Vt.IntArray.FromNumpy(np.ascontiguousarray(attribute.indices.reshape(-1), np.int32)))
+    return True

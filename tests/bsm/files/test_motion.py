@@ -1,0 +1,480 @@
+"""Sequences in the files of other programs: read as those show them, written so that those read them."""
+
+import json
+import shutil
+import struct
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scipy.spatial import cKDTree
+
+from bsm.bitstream.errors import BsmError, FormatError, MeshError, OptionError, TruncatedError, UnsupportedError
+from bsm.cli import main
+from bsm.codec.geometry.attributes import Attribute
+from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.files.mesh import read_mesh, write_mesh
+from bsm.files.motion.curves import Curve, matrix_of
+from bsm.files.motion.folder import in_order, look_like_frames
+from bsm.files.motion.frames import Wanted
+from bsm.files.motion.gltf_frames import read_gltf
+from bsm.files.motion.told import Told
+from bsm.files.sequence import open_frames, open_sequence, sequence_kind, sequence_writer
+from tests.motion import bending
+from tests.shapes import torus
+
+MOVING = Path(__file__).parent / "moving"
+"""What Blender 5.0.1 wrote, and what it showed at each of the 25 frames; see make.py there."""
+COUNT = 6
+
+
+def bsm(*words):
+    return main([str(word) for word in words])
+
+
+def frames_of(path, **keywords):
+    source = open_sequence(str(path), wanted=Wanted(**keywords))
+    return source, np.array(list(source.frames))
+
+
+def needs(kind):
+    if kind.startswith("usd"):
+        pytest.importorskip("pxr.Usd")
+    if kind == "glb":
+        pytest.importorskip("trimesh")
+
+
+@pytest.mark.parametrize("name", ["skinned", "morphing"])
+@pytest.mark.parametrize("kind", ["glb", "usdc"])
+def test_frames_are_those_that_blender_shows(name, kind):
+    needs(kind)
+    source, frames = frames_of(MOVING / f"{name}.{kind}")
+    shown = np.load(MOVING / f"{name}.npz")["positions"].astype(np.float64)
+    if kind == "glb":  # whose up is y
+        shown = np.stack([shown[..., 0], shown[..., 2], -shown[..., 1]], axis=-1)
+    assert frames.shape == shown.shape and source.count == 25 and source.frame_rate == 24
+    assert np.ptp(shown, axis=0).max() > 0.3
+    distance, same = cKDTree(shown[0]).query(frames[0])
+    assert len(set(same)) == len(same) and distance.max() < 1e-5
+    assert np.abs(frames - shown[:, same]).max() < 1e-5
+    assert source.metadata["up"] == ("y" if kind == "glb" else "z")
+    assert any(one.semantic == "texcoord" and one.domain == "corner" for one in source.attributes)
+
+
+def test_an_animation_is_sampled_at_the_rate_that_is_asked_for():
+    _, slow = frames_of(MOVING / "morphing.glb", rate=12)
+    _, fast = frames_of(MOVING / "morphing.glb", rate=24)
+    assert len(slow) == 13 and np.allclose(slow, fast[::2], atol=1e-6)
+
+
+@pytest.mark.parametrize("name", ["skinned", "morphing"])
+def test_a_moving_glb_through_the_program(tmp_path, capsys, name):
+    stream = tmp_path / "a.bsm"
+    assert bsm("encode", MOVING / f"{name}.glb", "--animation", 0, "-o", stream, "--preset", "fine") == 0
+    said = capsys.readouterr().err
+    assert "25 frames" in said and "normals" in said
+    assert bsm("decode", stream, "-o", tmp_path / "back.glb") == 0
+    (_, original), (again, back) = frames_of(MOVING / f"{name}.glb"), frames_of(tmp_path / "back.glb")
+    assert again.frame_rate == 24 and [one.name for one in again.attributes] == ["texcoord"]
+    _, same = cKDTree(original[0]).query(back[0])
+    diagonal = np.linalg.norm(np.ptp(original[0], axis=0))
+    assert len(set(same)) == len(same)
+    assert np.abs(back - original[:, same]).max() < 0.01 * diagonal
+    # Without being asked for, a GLB is the mesh that it always was.
+    assert bsm("encode", MOVING / f"{name}.glb", "-o", tmp_path / "still.bsm") == 0
+    assert "animations" in capsys.readouterr().err
+
+
+def painted(frames=COUNT):
+    """A bending torus with texture coordinates at corners and colours."""
+    positions, faces = bending(frames)
+    positions = positions.astype(np.float32).astype(np.float64)
+    corners = positions[0][faces][:, :, :2].reshape(-1, 2).astype(np.float32) * 0.3 + 0.5
+    color = (np.abs(positions[0]) * 99).astype(np.uint8)
+    attributes = (
+        Attribute("texcoord", corners, "corner", "texcoord"),
+        Attribute("color", color, "vertex", "color"),
+    )
+    return positions, faces, attributes
+
+
+@pytest.mark.parametrize("kind", ["pc2", "mdd", "glb", "usda", "usdc", "usdz", "obj", "ply", "off", "stl", "npz"])
+def test_there_and_back(tmp_path, kind):
+    needs(kind)
+    positions, faces, attributes = painted()
+    one_file = sequence_kind(f"a.{kind}", None) if kind not in ("obj", "ply", "off", "stl") else None
+    path = tmp_path / (f"a.{kind}" if one_file else f"%02d.{kind}")
+    told = Told(lambda: attributes, lambda: {"unit": "cm", "up": "z", "frame_rate": 25.0})
+    with sequence_writer(str(path), kind, faces, COUNT, overwrite=False, told=told) as write:
+        for frame in positions:
+            write(frame)
+    source, frames = frames_of(path)
+    assert source.count == COUNT
+    if kind == "stl":  # which has no vertices, but corners
+        assert np.allclose(frames[:, source.faces], positions[:, faces], atol=1e-6)
+        return
+    same = cKDTree(positions[0]).query(frames[0])[1]
+    assert len(set(same)) == len(same) == positions.shape[1]
+    assert np.abs(frames - positions[:, same]).max() < 1e-6
+    assert np.array_equal(np.sort(same[source.faces]), np.sort(faces))
+    holds = {"ply": {"color"}, "off": {"color"}, "npz": set(), "obj": {"texcoord", "color"}}
+    assert {one.semantic for one in source.attributes} >= holds.get(kind, {"texcoord", "color"}) - {
+        "color" * (kind == "off")
+    }
+    assert source.frame_rate == (25 if kind in ("mdd", "glb", "usda", "usdc", "usdz") else 0)
+    texcoord = next((one for one in source.attributes if one.semantic == "texcoord"), None)
+    if texcoord is not None:
+        shown = texcoord.values[texcoord.indices] if texcoord.indices is not None else texcoord.values[source.faces]
+        assert np.allclose(shown, positions[0][same[source.faces]][:, :, :2] * 0.3 + 0.5, atol=1e-5)
+    if kind.startswith("usd"):
+        assert (source.metadata["unit"], source.metadata["up"]) == ("centimeters", "z")
+
+
+def test_usd_core_reads_what_we_write(tmp_path):
+    pxr = pytest.importorskip("pxr.Usd")
+    from pxr import UsdGeom
+
+    positions, faces, attributes = painted()
+    told = Told(lambda: attributes, lambda: {"unit": "mm", "up": "z", "frame_rate": 30.0})
+    with sequence_writer(str(tmp_path / "a.usdc"), "usdc", faces, COUNT, overwrite=False, told=told) as write:
+        for frame in positions:
+            write(frame)
+    stage = pxr.Stage.Open(str(tmp_path / "a.usdc"))
+    assert (stage.GetStartTimeCode(), stage.GetEndTimeCode(), stage.GetTimeCodesPerSecond()) == (0, COUNT - 1, 30)
+    assert UsdGeom.GetStageUpAxis(stage) == "Z" and UsdGeom.GetStageMetersPerUnit(stage) == 0.001
+    mesh = UsdGeom.Mesh(stage.GetDefaultPrim())
+    for number, frame in enumerate(positions):
+        assert np.array_equal(np.array(mesh.GetPointsAttr().Get(number)), frame.astype(np.float32))
+    between = np.array(mesh.GetPointsAttr().Get(0.5))
+    assert np.allclose(between, (positions[0] + positions[1]) / 2, atol=1e-6)
+    assert UsdGeom.PrimvarsAPI(mesh).GetPrimvar("st").GetInterpolation() == "faceVarying"
+
+
+def stage_of(path, points, times, counts=(3, 3), corners=(0, 1, 2, 0, 2, 3), place=None, hand=None):
+    """A stage as usd-core writes it."""
+    from pxr import Gf, Usd, UsdGeom
+
+    stage = Usd.Stage.CreateNew(str(path))
+    above = UsdGeom.Xform.Define(stage, "/above")
+    mesh = UsdGeom.Mesh.Define(stage, "/above/mesh")
+    mesh.CreateFaceVertexCountsAttr(list(counts))
+    mesh.CreateFaceVertexIndicesAttr(list(corners))
+    for time, one in zip(times, points):
+        mesh.CreatePointsAttr().Set([Gf.Vec3f(*map(float, point)) for point in one], time)
+    if hand:
+        mesh.CreateOrientationAttr(hand)
+    if place is not None:
+        above.AddTranslateOp().Set(Gf.Vec3d(*place), times[-1])
+        above.GetOrderedXformOps()[0].Set(Gf.Vec3d(0, 0, 0), times[0])
+    stage.Save()
+    return mesh, stage
+
+
+SQUARE = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], float)
+
+
+def test_stages_of_others(tmp_path):
+    pytest.importorskip("pxr.Usd")
+    stage_of(tmp_path / "a.usda", [SQUARE, 3 * SQUARE], (0, 12), place=(0, 0, 24), hand="leftHanded")
+    source, frames = frames_of(tmp_path / "a.usda")
+    assert len(frames) == 13 and source.frame_rate == 24
+    assert np.allclose(frames[6], 2 * SQUARE + [0, 0, 12]), (
+        "between samples USD goes straight on, above the mesh as well"
+    )
+    assert source.faces.tolist() == [[0, 2, 1], [0, 3, 2]]
+    _, fine = frames_of(tmp_path / "a.usda", rate=48)
+    assert len(fine) == 25 and np.allclose(fine[::2], frames)
+
+
+def test_stages_that_are_no_sequence(tmp_path, capsys):
+    pytest.importorskip("pxr.Usd")
+    from pxr import Usd
+
+    stage_of(tmp_path / "still.usda", [SQUARE], (0,))
+    assert open_sequence(str(tmp_path / "still.usda")) is None
+    assert read_mesh(tmp_path / "still.usda").mesh.positions.shape == (4, 3)
+    Usd.Stage.CreateNew(str(tmp_path / "empty.usda")).Save()
+    with pytest.raises(FormatError, match="no meshes"):
+        open_sequence(str(tmp_path / "empty.usda"))
+    (tmp_path / "wrong.usdc").write_bytes(b"PXR-USDC and no more")
+    with pytest.raises(FormatError, match="usd-core"):
+        open_sequence(str(tmp_path / "wrong.usdc"))
+    mesh, stage = stage_of(tmp_path / "other.usda", [SQUARE, SQUARE, SQUARE], (0, 1, 2))
+    mesh.GetFaceVertexIndicesAttr().Set([0, 1, 2, 0, 2, 3], 0)
+    mesh.GetFaceVertexIndicesAttr().Set([0, 1, 3, 1, 2, 3], 2)
+    stage.Save()
+    assert bsm("encode", tmp_path / "other.usda", "-o", tmp_path / "x.bsm") == 3
+    assert "other faces at time 2" in capsys.readouterr().err
+    assert not (tmp_path / "x.bsm").exists()
+
+
+# ------------------------------------------------------------------------------------------------------------- folders
+
+
+def written(folder, positions, faces, suffix="ply"):
+    folder.mkdir()
+    for number, frame in enumerate(positions):
+        write_mesh(folder / f"walk_{number + 7}.{suffix}", TriangleMesh(frame, faces))
+    return sorted(map(str, folder.iterdir()))
+
+
+def test_many_files_make_one_stream(tmp_path, capsys):
+    positions, faces = bending(12)
+    names = written(tmp_path / "run", positions, faces)
+    assert names[0].endswith("walk_10.ply"), "as a shell gives them"
+    assert bsm("encode", *names, "-o", tmp_path / "a.bsm", "--preset", "fine") == 0
+    assert "12 frames" in capsys.readouterr().err
+    assert bsm("decode", tmp_path / "a.bsm", "-o", tmp_path / "back.npz") == 0
+    back = np.load(tmp_path / "back.npz")["positions"]
+    same = cKDTree(back[0]).query(positions[0])[1]
+    assert np.abs(back[:, same] - positions).max() < 0.01
+    capsys.readouterr()
+    assert bsm("encode", *names[:3]) == 0
+    said = capsys.readouterr().err
+    assert "3 inputs are numbered like the frames" in said and "-o NAME.bsm" in said
+
+
+def test_what_is_wrong_with_a_folder_is_named(tmp_path, capsys):
+    positions, faces = bending(5)
+    for name, spoil, expected in (
+        ("gap", lambda files: files[2].unlink(), "frame 9 is missing between"),
+        (
+            "nan",
+            lambda files: files[3].write_bytes(ascii_ply(positions[3], faces, 11)),
+            "walk_10.ply (frame 3): vertex 11",
+        ),
+        ("cut", lambda files: files[1].write_bytes(files[1].read_bytes()[:-9]), "walk_8.ply (frame 1)"),
+    ):
+        written(tmp_path / name, positions, faces)
+        spoil(sorted((tmp_path / name).iterdir(), key=lambda file: int(file.stem[5:])))
+        assert bsm("encode", tmp_path / name, "-o", tmp_path / "x.bsm") != 0
+        assert expected in capsys.readouterr().err
+        assert [file.name for file in tmp_path.iterdir() if "x.bsm" in file.name] == [], "nothing half-written"
+
+
+def ascii_ply(positions, faces, bad):
+    points = positions.copy()
+    points[bad, 1] = np.nan
+    head = (
+        f"ply\nformat ascii 1.0\nelement vertex {len(points)}\nproperty float x\nproperty float y\nproperty float z\n"
+    )
+    head += f"element face {len(faces)}\nproperty list uchar int vertex_indices\nend_header\n"
+    rows = [" ".join(map(str, row)) for row in points.tolist()] + [f"3 {a} {b} {c}" for a, b, c in faces.tolist()]
+    return (head + "\n".join(rows) + "\n").encode()
+
+
+def test_how_frames_differ_is_said(tmp_path):
+    positions, faces = bending(3)
+    names = written(tmp_path / "a", positions, faces)
+    turned = faces.copy()
+    turned[5] = np.roll(turned[5], 1)
+    write_mesh(names[1], TriangleMesh(positions[1], turned))
+    with pytest.raises(MeshError, match=r"walk_8.ply \(frame 1\) has other faces than .*walk_7.ply: face 5 is"):
+        list(open_frames(names).frames)
+    write_mesh(names[1], TriangleMesh(positions[1], faces[:-2]))
+    with pytest.raises(MeshError, match="958 faces where there were 960"):
+        list(open_frames(names).frames)
+
+
+def test_order_and_gaps():
+    assert in_order(["a10.obj", "a9.obj", "a8.obj"]) == ["a8.obj", "a9.obj", "a10.obj"]
+    assert in_order(["v2_4.obj", "v2_2.obj", "v2_6.obj"]) == ["v2_2.obj", "v2_4.obj", "v2_6.obj"], "every second frame"
+    assert in_order(["b.obj", "a.obj"]) == ["a.obj", "b.obj"]
+    with pytest.raises(MeshError, match=r"frame 4 is missing between a3\.obj and a5\.obj"):
+        in_order(["a1.obj", "a2.obj", "a3.obj", "a5.obj"])
+    assert look_like_frames(["x/a1.obj", "x/a2.obj"]) and not look_like_frames(["horse.obj", "cow.obj"])
+    assert not look_like_frames(["a1b7.obj", "a2b9.obj"])
+
+
+def test_numbered_files_are_removed_after_an_error(tmp_path):
+    positions, faces = bending(3)
+    (tmp_path / "keep.txt").write_text("mine")
+    for folder in (tmp_path, tmp_path / "new"):
+        with (
+            pytest.raises(RuntimeError),
+            sequence_writer(str(folder / "f%03d.obj"), "obj", faces, 3, overwrite=False) as write,
+        ):
+            write(positions[0])
+            assert (folder / "f000.obj").exists()
+            raise RuntimeError
+    assert [file.name for file in tmp_path.iterdir()] == ["keep.txt"]
+    for path in ("%d%d.obj", "a.obj", "a.abc"):
+        with pytest.raises(OptionError):
+            sequence_kind(path, None)
+
+
+# -------------------------------------------------------------------------------------------------------------- caches
+
+
+def test_pc2_and_mdd_byte_by_byte(tmp_path):
+    positions, faces = bending(2)
+    positions = positions[:, :9]
+    faces = np.array([[0, 1, 2], [3, 4, 5], [6, 7, 8]])
+    for kind in ("pc2", "mdd"):
+        told = Told(metadata=lambda: {"frame_rate": 4.0})
+        with sequence_writer(str(tmp_path / f"a.{kind}"), kind, faces, 2, overwrite=True, told=told) as write:
+            write(positions[0])
+            write(positions[1])
+    head = struct.pack("<12siiffi", b"POINTCACHE2\0", 1, 9, 0.0, 1.0, 2)
+    assert (tmp_path / "a.pc2").read_bytes() == head + positions.astype("<f4").tobytes()
+    head = struct.pack(">iiff", 2, 9, 0.0, 0.25)
+    assert (tmp_path / "a.mdd").read_bytes() == head + positions.astype(">f4").tobytes()
+    assert frames_of(tmp_path / "a.mdd")[0].frame_rate == 4
+    shutil.move(tmp_path / "a.obj", tmp_path / "b.obj")
+    with pytest.raises(MeshError, match=r"--mesh"):
+        open_sequence(str(tmp_path / "a.pc2"))
+    source, frames = frames_of(tmp_path / "a.pc2", mesh=tmp_path / "b.obj")
+    assert np.allclose(frames, positions, atol=1e-6) and np.array_equal(source.faces, faces)
+    write_mesh(tmp_path / "a.obj", torus(5, 4))
+    with pytest.raises(MeshError, match=r"9 points and the mesh .* has 20 vertices"):
+        open_sequence(str(tmp_path / "a.pc2"))
+
+
+@pytest.mark.parametrize(
+    ("kind", "data", "error"),
+    [
+        ("pc2", b"", FormatError),
+        ("pc2", b"POINTCACHE2", FormatError),
+        ("pc2", struct.pack("<12siiffi", b"POINTCACHE2\0", 2, 9, 0, 1, 2), FormatError),
+        ("pc2", struct.pack("<12siiffi", b"POINTCACHE2\0", 1, -9, 0, 1, 2), FormatError),
+        ("pc2", struct.pack("<12siiffi", b"POINTCACHE2\0", 1, 2**31 - 1, 0, 1, 2**31 - 1), TruncatedError),
+        ("mdd", b"123", TruncatedError),
+        ("mdd", struct.pack(">ii", -1, 4), FormatError),
+        ("mdd", struct.pack(">ii", 2**31 - 1, 4), TruncatedError),
+        ("mdd", struct.pack(">iif", 1, 2**31 - 1, 0.0), TruncatedError),
+    ],
+)
+def test_damaged_caches(tmp_path, kind, data, error):
+    write_mesh(tmp_path / "a.obj", torus(5, 4))
+    (tmp_path / f"a.{kind}").write_bytes(data)
+    with pytest.raises(error):
+        open_sequence(str(tmp_path / f"a.{kind}"))
+
+
+def test_a_cache_with_nan_names_the_frame(tmp_path, capsys):
+    mesh = torus(5, 4)
+    write_mesh(tmp_path / "a.obj", mesh)
+    frames = np.tile(mesh.positions, (20, 1, 1)).astype("<f4")
+    frames[17, 3, 2] = np.nan
+    head = struct.pack("<12siiffi", b"POINTCACHE2\0", 1, len(mesh.positions), 0, 1, 20)
+    (tmp_path / "a.pc2").write_bytes(head + frames.tobytes())
+    assert bsm("encode", tmp_path / "a.pc2", "-o", tmp_path / "a.bsm", "--gop", 4) == 3
+    assert "vertex 3 of frame 17 of" in capsys.readouterr().err
+    assert sorted(file.name for file in tmp_path.iterdir()) == ["a.obj", "a.pc2"]
+
+
+# ---------------------------------------------------------------------------------------------------------------- glTF
+
+
+def glb_of(tree, binary=b""):
+    text = json.dumps(tree).encode()
+    text += b" " * (-len(text) % 4)
+    chunk = struct.pack("<II", len(binary), 0x004E4942) + binary
+    return struct.pack("<4sIIII", b"glTF", 2, 20 + len(text) + len(chunk), len(text), 0x4E4F534A) + text + chunk
+
+
+def parsed(data):
+    size = int.from_bytes(data[12:16], "little")
+    return json.loads(data[20 : 20 + size]), data[28 + size :]
+
+
+def test_what_is_no_moving_gltf(tmp_path, capsys):
+    pytest.importorskip("trimesh")
+    write_mesh(tmp_path / "still.glb", torus(5, 4))
+    assert bsm("encode", tmp_path / "still.glb", "--animation", 0, "-o", tmp_path / "a.bsm") == 3
+    assert "still.glb: this glTF has no animation" in capsys.readouterr().err
+    with pytest.raises(OptionError, match="there is no animation 1"):
+        frames_of(MOVING / "skinned.glb", animation="1")
+    with pytest.raises(OptionError, match="there is no animation jump; there are ArmatureAction"):
+        frames_of(MOVING / "skinned.glb", animation="jump")
+    assert frames_of(MOVING / "skinned.glb", animation="ArmatureAction")[0].count == 25
+    tree, binary = parsed((MOVING / "skinned.glb").read_bytes())
+    tree["extensionsRequired"] = ["KHR_draco_mesh_compression"]
+    (tmp_path / "draco.glb").write_bytes(glb_of(tree, binary))
+    with pytest.raises(UnsupportedError, match="KHR_draco"):
+        frames_of(tmp_path / "draco.glb")
+
+
+def test_hostile_gltf_gives_errors_of_ours(tmp_path):
+    """Whatever stands anywhere in the tree; and bytes that are not there."""
+    tree, binary = parsed((MOVING / "skinned.glb").read_bytes())
+    path = tmp_path / "a.glb"
+    refused = 0
+    for place in list(leaves(tree)):
+        for wrong in (-1, 1 << 40, 2.5, "x", None, [], {}, [[]]):
+            spoiled = json.loads(json.dumps(tree))
+            where = spoiled
+            for key in place[:-1]:
+                where = where[key]
+            where[place[-1]] = wrong
+            path.write_bytes(glb_of(spoiled, binary))
+            try:
+                for _, frame in zip(range(2), read_gltf(str(path), Wanted()).frames):
+                    assert np.isfinite(frame).all()
+            except BsmError:
+                refused += 1
+    assert refused > 300
+    for size in range(0, len(binary), 997):
+        path.write_bytes(glb_of(tree, binary[:size]))
+        with pytest.raises(TruncatedError):
+            frames_of(path)
+    whole = (MOVING / "skinned.glb").read_bytes()
+    for size in (0, 4, 19, 40, 5000):
+        path.write_bytes(whole[:size])
+        with pytest.raises(BsmError):
+            frames_of(path)
+
+
+def leaves(tree, place=()):
+    if isinstance(tree, dict | list):
+        for key, value in tree.items() if isinstance(tree, dict) else enumerate(tree):
+            yield from leaves(value, (*place, key))
+    elif place[:1] != ("materials",) and "bufferViews" not in place[:1]:
+        yield place
+
+
+def test_a_node_below_itself_ends(tmp_path):
+    tree, binary = parsed((MOVING / "morphing.glb").read_bytes())
+    tree["nodes"][0]["children"] = [0]
+    (tmp_path / "a.glb").write_bytes(glb_of(tree, binary))
+    with pytest.raises(FormatError, match="two places"):
+        frames_of(tmp_path / "a.glb")
+
+
+def test_files_elsewhere_are_not_read(tmp_path):
+    tree, binary = parsed((MOVING / "morphing.glb").read_bytes())
+    (tmp_path / "in").mkdir()
+    (tmp_path / "a.bin").write_bytes(binary)
+    (tmp_path / "in" / "b.bin").write_bytes(binary)
+    tree["buffers"][0]["uri"] = "b.bin"
+    (tmp_path / "in" / "a.gltf").write_text(json.dumps(tree))
+    assert frames_of(tmp_path / "in" / "a.gltf")[0].count == 25
+    tree["buffers"][0]["uri"] = "../a.bin"
+    (tmp_path / "in" / "a.gltf").write_text(json.dumps(tree))
+    with pytest.raises(FormatError, match="not in its folder"):
+        frames_of(tmp_path / "in" / "a.gltf")
+
+
+def test_curves_go_as_gltf_says():
+    times = np.array([1.0, 3.0])
+    line = Curve(times, np.array([[0.0], [4.0]]), "LINEAR")
+    assert [float(line.at(t)[0]) for t in (0, 1, 2, 3, 9)] == [0, 0, 2, 4, 4]
+    step = Curve(times, np.array([[0.0], [4.0]]), "STEP")
+    assert [float(step.at(t)[0]) for t in (1, 2.9, 3)] == [0, 0, 4]
+    # A cubic through both values with the slopes that are given: v(t) = t^2 on [1, 3].
+    cubic = Curve(times, np.array([[0], [1], [2], [6], [9], [0]], float), "CUBICSPLINE")
+    assert np.allclose([cubic.at(t)[0] for t in (1, 1.5, 2, 3)], [1, 2.25, 4, 9])
+    # A quarter turn about z, by the shorter way, though the second quaternion has the other sign.
+    half = np.sqrt(0.5)
+    turn = Curve(np.array([0.0, 1.0]), np.array([[0, 0, 0, 1], [0, 0, -half, -half]]), "LINEAR", True)
+    angle = np.pi / 4
+    eighth = matrix_of(np.zeros(3), turn.at(0.5), np.ones(3))[:2, :2]
+    assert np.allclose(eighth, [[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
+    with pytest.raises(FormatError):
+        Curve(times[::-1], np.zeros((2, 1)), "LINEAR")
+
+
+def test_alembic_is_told_another_way(tmp_path):
+    (tmp_path / "a.abc").write_bytes(b"Ogawa")
+    with pytest.raises(UnsupportedError, match="Blender"):
+        open_sequence(str(tmp_path / "a.abc"))

@@ -1,0 +1,143 @@
+"""BSM in Blender: File > Import and Export, and dropping a .bsm onto the viewport."""
+
+import os
+from contextlib import contextmanager
+
+import bpy
+from bpy.app.handlers import persistent
+from bpy.props import BoolProperty, CollectionProperty, EnumProperty, IntProperty, StringProperty
+from bpy_extras.io_utils import ExportHelper, ImportHelper
+
+PRESETS = [
+    ("balanced", "Balanced", "The farthest vertex within 1 % of the diagonal"),
+    ("fine", "Fine", "Closer to the original, larger"),
+    ("small", "Small", "Farther from the original, smaller"),
+]
+
+
+@contextmanager
+def progress_of(context):
+    """A number at the pointer while frames are read or written."""
+    manager = context.window_manager
+    manager.progress_begin(0, 100)
+    try:
+        yield lambda done, total: manager.progress_update(100 * done // max(total, 1))
+    finally:
+        manager.progress_end()
+
+
+class BSM_OT_import(bpy.types.Operator, ImportHelper):
+    """Import compressed meshes and moving meshes"""
+
+    bl_idname = "import_scene.bsm"
+    bl_label = "Import BSM"
+    bl_options = {"REGISTER", "UNDO", "PRESET"}  # noqa: RUF012
+
+    filename_ext = ".bsm"
+    filter_glob: StringProperty(default="*.bsm", options={"HIDDEN"})
+    directory: StringProperty(subtype="DIR_PATH", options={"SKIP_SAVE", "HIDDEN"})
+    files: CollectionProperty(type=bpy.types.OperatorFileListElement, options={"SKIP_SAVE", "HIDDEN"})
+    frame_start: IntProperty(name="First Frame", default=1, description="Frame of the scene that shows the first one")
+    set_scene: BoolProperty(
+        name="Set Scene",
+        default=True,
+        description="Let the scene have the frames per second and the end of the sequence",
+    )
+
+    def execute(self, context):
+        from bsm.bitstream.errors import BsmError
+        from bsm.blender import import_file
+
+        names = [os.path.join(self.directory, one.name) for one in self.files if one.name] or [self.filepath]
+        with progress_of(context) as progress:
+            for name in names:
+                try:
+                    import_file(name, frame_start=self.frame_start, set_scene=self.set_scene, progress=progress)
+                except (BsmError, OSError) as error:
+                    self.report({"ERROR"}, f"{os.path.basename(name)}: {error}")
+                    return {"CANCELLED"}
+        return {"FINISHED"}
+
+    def invoke(self, context, event):
+        return self.invoke_popup(context) if self.files else ImportHelper.invoke(self, context, event)
+
+
+class BSM_OT_export(bpy.types.Operator, ExportHelper):
+    """Export the active object, with its modifiers and its motion"""
+
+    bl_idname = "export_scene.bsm"
+    bl_label = "Export BSM"
+    bl_options = {"PRESET"}  # noqa: RUF012
+
+    filename_ext = ".bsm"
+    filter_glob: StringProperty(default="*.bsm", options={"HIDDEN"})
+    animation: BoolProperty(name="Animation", default=True, description="All frames of the scene, not only this one")
+    preset: EnumProperty(name="Preset", items=PRESETS, default="balanced")
+
+    @classmethod
+    def poll(cls, context):
+        return context.active_object is not None
+
+    def execute(self, context):
+        from bsm.bitstream.errors import BsmError
+        from bsm.blender import export_object
+
+        with progress_of(context) as progress:
+            try:
+                done = export_object(self.filepath, animation=self.animation, preset=self.preset, progress=progress)
+            except (BsmError, OSError) as error:
+                self.report({"ERROR"}, str(error))
+                return {"CANCELLED"}
+        self.report({"INFO"}, f"{done['frames']} frames of {done['vertices']} vertices in {done['bytes']} bytes")
+        return {"FINISHED"}
+
+
+class BSM_FH_import(bpy.types.FileHandler):
+    """Takes streams that are dropped"""
+
+    bl_idname = "BSM_FH_import"
+    bl_label = "BSM"
+    bl_import_operator = "import_scene.bsm"
+    bl_export_operator = "export_scene.bsm"
+    bl_file_extensions = ".bsm"
+
+    @classmethod
+    def poll_drop(cls, context):
+        return context.area is None or context.area.type in ("VIEW_3D", "OUTLINER")
+
+
+@persistent
+def restore(*_):
+    """Write caches again that a project has lost on its way."""
+    from bsm.blender import restore_caches
+
+    restore_caches()
+
+
+def add_import(menu, _):
+    menu.layout.operator(BSM_OT_import.bl_idname, text="BSM (.bsm)")
+
+
+def add_export(menu, _):
+    menu.layout.operator(BSM_OT_export.bl_idname, text="BSM (.bsm)")
+
+
+CLASSES = (BSM_OT_import, BSM_OT_export, BSM_FH_import)
+
+
+def register():
+    """What Blender calls when the extension is enabled."""
+    for one in CLASSES:
+        bpy.utils.register_class(one)
+    bpy.types.TOPBAR_MT_file_import.append(add_import)
+    bpy.types.TOPBAR_MT_file_export.append(add_export)
+    bpy.app.handlers.load_post.append(restore)
+
+
+def unregister():
+    """What Blender calls when it is disabled."""
+    bpy.app.handlers.load_post.remove(restore)
+    bpy.types.TOPBAR_MT_file_export.remove(add_export)
+    bpy.types.TOPBAR_MT_file_import.remove(add_import)
+    for one in reversed(CLASSES):
+        bpy.utils.unregister_class(one)
