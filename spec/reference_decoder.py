@@ -47,7 +47,7 @@ from reference_connectivity import (
     read_signed,
     read_unsigned,
 )
-from reference_fields import GridReader, LevelsReader, LightReader, place
+from reference_fields import ExactReader, GridReader, LevelsReader, LightReader, place
 from reference_fields import Mesh as Corners
 
 
@@ -210,7 +210,7 @@ FIELDS = {
     "attributes": (33, int, 0, 255, 0),
     "corner": (40, [0, 3], -(2**31), COUNT, []),
     "sections": (41, [0, 14], 1, COUNT, []),
-    "light": (42, "method", 0, 1, 0),
+    "light": (42, "method", 0, 2, 0),
 }
 
 
@@ -259,6 +259,7 @@ def parse_header(payload):
         require(others <= allowed, "a grid, and something else")
         require(len(h["grid"]) == 3, "a grid of other than three axes")
         require(len(h["lattice"]) in (0, 2), "a lattice is not two numbers")
+        require(h["light"] < 2 or not (h["lattice"] or h["corner"]), "floats on a lattice, or with a corner")
         require(len(h["corner"]) in (0, 3), "a corner is not three numbers")
         require(not h["corner"] or h["center"] == [0, 0, 0], "a corner and a center")
         require(not h["lattice"] or max(h["grid"]) <= h["lattice"][1] <= h["lattice"][0], "a lattice that is none")
@@ -350,7 +351,7 @@ def read_frames(stream, packets):
             parsed = parse_header(payload)
         elif kind in (CONNECTIVITY, PARTITION, ORDER):
             require(len(payload) >= 1, "no method")
-            parsed = (payload[0], payload[1:])  # F 5.2
+            parsed = payload  # F 5.2
         elif kind == BLOCK:
             index, at = payload_varint(payload, 0)
             width, at = payload_varint(payload, at)
@@ -1046,6 +1047,15 @@ class Mesh:
 def decode_grid(mesh, grids):
     """V 12: positions in the unit of the mesh, shape (n, 3), and their coded values."""
     header = mesh.header
+    if header["light"] == 2:
+        exact = ExactReader(mesh.faces, header["vertices"], header)
+        for _, _, count, payload in grids:
+            size, at = payload_varint(payload, 0)
+            require(size <= len(payload) - at, "a frame ends inside its values")
+            exact.read(payload[at : at + size], payload[at + size :], count)
+        if not np.isfinite(exact.positions).all():
+            raise NumericError("positions are not finite")  # V 16.4
+        return np.array(exact.positions), exact.x
     reader = (LightReader if header["light"] else GridReader)(mesh.faces, header["vertices"], header["grid"])
     for _, _, count, payload in grids:
         reader.read(payload, count)

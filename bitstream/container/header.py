@@ -196,8 +196,8 @@ class Header:
     """First cell of a grid on each axis, counted from the origin of the mesh's unit; empty: `center` says it."""
     sections: tuple[int, ...] = integers(41, 1, COUNT, (0, 2 * (MOST_SECTIONS - 1)), default=())
     """Faces and blocks of each section but the last, one pair after another; see `spans`."""
-    light: int = method(42, known=2)
-    """1: the values of a grid are quick to decode, and some more bytes."""
+    light: int = method(42, known=3)
+    """1: the values of a grid are quick to decode, and some more bytes; 2: floats in their cells follow the values."""
 
     def __post_init__(self) -> None:
         normalise_fields(self, "header")
@@ -253,6 +253,10 @@ def contradiction(header: Header) -> str | None:
     return next((problem for problem, broken in rules.items() if broken), None)
 
 
+EXACT = 2
+"""`light`: floats in the cells of a grid follow its values."""
+
+
 def _grid_rules(header: Header) -> dict[str, bool]:
     cells, points = header.lattice if len(header.lattice) == 2 else (0, 0)
     return {
@@ -263,6 +267,8 @@ def _grid_rules(header: Header) -> dict[str, bool]:
         "a lattice of more points than cells": points > cells,
         "a corner that is not one of three axes": len(header.corner) not in (0, 3),
         "a corner and a center": bool(header.corner) and any(header.center),
+        "floats in the cells of a lattice, or of cells that are counted": header.light == EXACT
+        and bool(header.lattice or header.corner),
     } | {
         f"a grid, and {name}": getattr(header, name) != default
         for name, default in HEADER_DEFAULTS.items()

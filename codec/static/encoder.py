@@ -21,7 +21,7 @@ from bsm.codec.static.attributes.encoding import Carried, carry, place_of, with_
 from bsm.codec.static.attributes.quality import Quality, qualities
 from bsm.codec.static.choice.fulfilment import Fulfilment
 from bsm.codec.static.choice.ladders import FINER, WIDEST, Blocks, Grids, Ladder, Refined
-from bsm.codec.static.choice.lattices import rounded, rounded_to_cells
+from bsm.codec.static.choice.lattices import exact, rounded, rounded_to_cells
 from bsm.codec.static.choice.shaping import Shaper
 from bsm.codec.static.choice.spectral import Spectral
 from bsm.codec.static.draft import Draft
@@ -164,6 +164,8 @@ class Encoder:
 
     def _bare(self, progress: Progress | None) -> Draft:
         options = self.options
+        if options.exact:
+            return exact(self._prepared)
         if options.grid is not None:
             return rounded(self._prepared, options.grid)
         if options.grid_cell is not None:
@@ -261,7 +263,7 @@ class Encoder:
 
     @cached_property
     def _joined(self) -> Joined:
-        return join(self._given, keep=self.options.keep_order)
+        return join(self._given, keep=self.options.keep_order, exact=self.options.exact)
 
     @cached_property
     def _prepared(self) -> Prepared:

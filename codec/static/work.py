@@ -126,6 +126,11 @@ def chunk_cost(received: int) -> float:
     return 8e4 + CODED * received
 
 
+def floats_cost(vertices: int, largest: int) -> float:
+    """Of the floats behind a grid, before their bytes are counted."""
+    return 400.0 * vertices + 4.0 * largest
+
+
 def grid_memory(vertices: int, faces: int) -> float:
     """Bytes for decoding a grid, and its positions."""
     return 80.0 * vertices + grid_charge(vertices, faces)

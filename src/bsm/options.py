@@ -39,7 +39,7 @@ def encode_options(*, preset: str = "balanced", **keywords: Any) -> EncodeOption
     Parameters
     ----------
     preset : str
-        "small", "balanced", "fine", "near-lossless" or "grid14": what everything has that is not given.
+        "small", "balanced", "fine", "near-lossless", "grid14" or "lossless": what everything has that is not given.
     **keywords
         Fields of `EncodeOptions`, and at most one of `max_error` and `TARGETS`.
 
@@ -56,7 +56,7 @@ def encode_options(*, preset: str = "balanced", **keywords: Any) -> EncodeOption
     base: EncodeOptions = _named("preset", PRESETS, preset)
     given = _fields("a mesh", EncodeOptions, _with_lengths(keywords), TARGETS, Target)
     others = ("target", "grid_cell", *CODING)
-    if base.grid is not None and any(given.get(name) is not None for name in others):
+    if base.is_grid and any(given.get(name) is not None for name in others):
         base = EncodeOptions()  # a preset that is a grid has nothing that could be changed
     return replace(base, **given)
 

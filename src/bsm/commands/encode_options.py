@@ -138,10 +138,11 @@ SETTINGS = (
 """The codec's inside, for those who study it: `--set NAME=VALUE`."""
 
 
-PRESETS = ("small", "balanced", "fine", "near-lossless", "grid14")
+PRESETS = ("small", "balanced", "fine", "near-lossless", "grid14", "lossless")
 PROMISES = (
     "how far a vertex may be off, of the diagonal, and normals on average: small 2 %% and 12 degrees, balanced 1 %% "
-    "and 8 (default), fine 0.5 %% and 3, near-lossless 0.05 %%; grid14: exactly as on a grid of 14 bits"
+    "and 8 (default), fine 0.5 %% and 3, near-lossless 0.05 %%; grid14: exactly as on a grid of 14 bits; "
+    "lossless: single precision, to the bit"
 )
 """Of the presets; written out, since importing what they are takes time."""
 

@@ -7,7 +7,7 @@ import type { Declaration } from "./declaration";
 import { BsmError, CorruptError, errorLike, UnsupportedError, type Described } from "./errors";
 import { gridKernel, Refinement } from "./fields";
 import { Grid, lightKernel } from "./grid";
-import type { Header } from "./header";
+import { EXACT, type Header } from "./header";
 import { isMine, type SharedBlock } from "./helper";
 import type { Kernels, Memory } from "./kernels";
 import { checkLimit, DEFAULT_LIMITS, type Limits } from "./limits";
@@ -19,7 +19,7 @@ export type { Metadata };
 import { Sequence } from "./sequence";
 import { Structure, type Chains } from "./structure";
 import { TolerantReader } from "./tolerant";
-import { chunkCost, GRID_COST, layerCost, LIGHT_COST, orderCost, type GridCost } from "./work";
+import { chunkCost, exactCost, GRID_COST, layerCost, LIGHT_COST, orderCost, type GridCost } from "./work";
 
 /** The next block is one that a helper has to send first. */
 export const NEED_BLOCK = "need block";
@@ -440,14 +440,15 @@ export class Decoder {
     }
 
     private get gridCost(): GridCost {
-        return this.header!.light ? LIGHT_COST : GRID_COST;
+        const { light, grid } = this.header!;
+        return light === 1 ? LIGHT_COST : light === EXACT ? exactCost(Math.max(...grid)) : GRID_COST;
     }
 
     private begunGrid(): Grid {
         if (this.grid) return this.grid;
         this.announce();
         this.allowance.spend(this.gridCost.whole(this.header!.vertices, this.header!.faces));
-        return (this.grid = new Grid(this.memory, this.structure!.faces, this.header!, this.header!.light ? lightKernel : gridKernel));
+        return (this.grid = new Grid(this.memory, this.structure!.faces, this.header!, this.header!.light === 1 ? lightKernel : gridKernel));
     }
 
     private acceptGop(index: number, data: Uint8Array): void {

@@ -52,6 +52,11 @@ export const GRID_COST: GridCost = {
     frame: (received) => 3.5e4 + CODED * received,
 };
 
+/** Of a grid with floats, whose largest axis has so many values. */
+export function exactCost(largest: number): GridCost {
+    return { ...GRID_COST, whole: (vertices, faces) => GRID_COST.whole(vertices, faces) + 400 * vertices + 4 * largest };
+}
+
 export const LIGHT_COST: GridCost = {
     whole: (vertices, faces) => 200 * vertices + 40 * faces,
     frame: (received) => 3.5e4 + 120 * received,
