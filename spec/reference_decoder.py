@@ -350,7 +350,6 @@ def read_frames(stream, packets):
         if kind == HEADER:
             parsed = parse_header(payload)
         elif kind in (CONNECTIVITY, PARTITION, ORDER):
-            require(len(payload) >= 1, "no method")
             parsed = payload  # F 5.2
         elif kind == BLOCK:
             index, at = payload_varint(payload, 0)

@@ -71,7 +71,7 @@ EXACT: dict[str, Good] = {
     "good-exact-tiny": Good("floats that are not normal", lambda: lossless(_moved(torus(9, 8), 1e-41))),
     "good-exact-huge": Good("floats up to the greatest", lambda: lossless(_moved(torus(9, 8), 2e38))),
     "good-exact-triangle": Good("three vertices", lambda: lossless(triangle())),
-    "good-exact-ordered": Good("ORDER, with copies", lambda: lossless(soup(shuffled(torus(7, 6))), keep_order=True)),
+    "good-exact-splits": Good("ORDER, with copies", lambda: lossless(soup(shuffled(torus(7, 6))), keep_order=True)),
     "good-exact-attributes": Good(
         "attributes that lean on the grid, exact", lambda: lossless(worn(torus(10, 8), charts, creases, colors))
     ),
