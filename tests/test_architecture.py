@@ -8,19 +8,20 @@ import pytest
 
 ROOT = Path(__file__).parent.parent
 KNOW_BYTES = ("bsm.codec.static", "bsm.codec.sequence")
-KNOWN_TO_ALL = ("bsm.bitstream.errors", "bsm.bitstream.limits")
+KNOWN_TO_ALL = ("bsm.bitstream.errors", "bsm.bitstream.limits", "bsm.bitstream.once")
 FLOORS = {
     "bsm": (
         ("bitstream", "__version__", "_kernels"),
         ("codec",),
         ("console", "lengths", "steadiness", "usage"),
         ("files",),
-        ("comparison", "evaluation", "exits", "foreign", "options"),
+        ("comparison", "evaluation", "exits", "foreign", "loops", "options"),
         ("farm", "meshes"),
         ("batch",),
         ("encoding",),
         ("api",),
-        ("blender", "pyvista", "trimesh", "viewer"),
+        ("blender", "gltf", "trimesh", "viewer", "vtk"),
+        ("pyvista",),
         # Finds the module of a command by its name.
         ("cli",),
         ("commands",),
@@ -36,7 +37,7 @@ FLOORS = {
         ("sequence",),
     ),
     "bsm.bitstream": (
-        ("_kernels", "errors"),
+        ("_kernels", "errors", "once"),
         ("limits",),
         ("entropy",),
         ("connectivity", "coefficients", "fields"),

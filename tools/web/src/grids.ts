@@ -1,7 +1,8 @@
 /** A stream of a static mesh on a light grid to the mesh, while it arrives: as `decoder.ts` decodes it, without all else. */
+import { begun } from "./begun";
 import { Allowance } from "./chain";
 import { ConnectivityDecoder } from "./connectivity";
-import type { BlockEvent, ConnectivityEvent, EndEvent, HeaderEvent, Mesh } from "./decoder";
+import type { BlockEvent, ConnectivityEvent, EndEvent, HeaderEvent, Mesh, MetadataEvent } from "./decoder";
 import { BsmError, UnsupportedError } from "./errors";
 import { Grid, lightKernel } from "./grid";
 import type { Header } from "./header";
@@ -12,7 +13,7 @@ import { decodeOrder } from "./order";
 import { END_OF_STREAM, NEED_DATA, Reader, type Packet, type Signal } from "./reader";
 import { LIGHT_COST, meshCost, orderCost } from "./work";
 
-export type Event = HeaderEvent | ConnectivityEvent | BlockEvent | EndEvent;
+export type Event = HeaderEvent | MetadataEvent | ConnectivityEvent | BlockEvent | EndEvent;
 
 /** Takes the bytes of a stream as they come, and gives events as soon as they can be known. */
 export class Decoder {
@@ -22,8 +23,8 @@ export class Decoder {
     private readonly allowance: Allowance;
     private readonly queue: Event[] = [];
     private error?: BsmError;
-    private header!: Header;
-    private connectivity!: ConnectivityDecoder;
+    private header?: Header;
+    private connectivity?: ConnectivityDecoder;
     private numbering?: Numbering;
     private grid?: Grid;
     private chunks = 0;
@@ -71,14 +72,16 @@ export class Decoder {
     finish(): Mesh {
         this.receiveEof();
         while (this.nextEvent() !== END_OF_STREAM);
-        const { numbering, grid } = this;
-        return { positions: numbering!.arranged(grid!.positions), faces: numbering!.faces, attributes: [] };
+        const [numbering, grid] = [begun(this.numbering), begun(this.grid)];
+        return { positions: numbering.arranged(grid.positions), faces: numbering.faces, attributes: [] };
     }
 
     private accept(packet: Packet): void {
         switch (packet.type) {
             case "header":
                 return this.acceptHeader(packet.header);
+            case "metadata":
+                return void this.queue.push(packet);
             case "connectivity":
                 return this.acceptConnectivity(packet.data);
             case "order":
@@ -98,32 +101,32 @@ export class Decoder {
     }
 
     private acceptConnectivity(data: Uint8Array): void {
-        const { vertices, faces } = this.header;
-        this.connectivity.take(data);
+        const { vertices, faces } = begun(this.header);
+        begun(this.connectivity).take(data);
         this.allowance.grant(vertices);
         this.allowance.spend(meshCost(vertices, faces, data.length, { vertices: 0, faces: 0 }), data.length);
     }
 
     private acceptOrder(data: Uint8Array): void {
-        const { vertices, faces } = this.header;
+        const { vertices, faces } = begun(this.header);
         this.allowance.spend(orderCost(vertices, faces, data.length), data.length);
-        this.numbering = decodeOrder(this.memory, data, this.connectivity.faces, this.header, this.limits);
+        this.numbering = decodeOrder(this.memory, data, begun(this.connectivity).faces, begun(this.header), this.limits);
     }
 
     private acceptGrid(first: number, count: number, data: Uint8Array): void {
         const grid = (this.grid ??= this.begunGrid());
         this.allowance.spend(LIGHT_COST.frame(data.length), data.length);
         const changes = grid.decode(first, count, data);
-        this.queue.push({ type: "block", index: this.chunks++, ...this.numbering!.spread(changes) });
+        this.queue.push({ type: "block", index: this.chunks++, ...begun(this.numbering).spread(changes) });
     }
 
     private begunGrid(): Grid {
-        const { vertices, faces } = this.header;
-        this.numbering ??= new Numbering(this.connectivity.faces.view.slice(), vertices);
+        const { vertices, faces } = begun(this.header);
+        this.numbering ??= new Numbering(begun(this.connectivity).faces.view.slice(), vertices);
         const { size, loose } = this.numbering;
         this.queue.push({ type: "connectivity", faces: this.numbering.faces.slice(), vertices: size, loose, section: 0, sections: 1 });
         this.allowance.spend(LIGHT_COST.whole(vertices, faces));
-        return new Grid(this.memory, this.connectivity.faces, this.header, lightKernel);
+        return new Grid(this.memory, begun(this.connectivity).faces, begun(this.header), lightKernel);
     }
 }
 
