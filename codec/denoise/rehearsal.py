@@ -36,7 +36,7 @@ MOST_MEMBERS = 4
 GAIN = 1.01
 """Members join while the error stays below this multiple: what the guess lacks, several recipes miss less often."""
 LEARNT_SHARE = 0.4
-"""Of the learnt normals in the mean with those of the recipes; half costs more on coarse and uneven meshes than it gains,
+"""Of the learnt normals in the mean with those of the recipes; half costs more on uneven meshes than it gains,
 and alone they are worse on half of the meshes tried."""
 LEARNT_WORTH = 1.04
 """The mean takes part below this multiple of the recipes' error in the rehearsal, which flatters them: they were chosen
