@@ -15,7 +15,7 @@ import type { Memory } from "./kernels";
 import { checkLimit, type Limits } from "./limits";
 import { Numbering } from "./numbering";
 import { decodeOrder } from "./order";
-import { Cursor, type Damaged, type Packet } from "./reader";
+import { type Damaged, type Packet } from "./reader";
 import { Sequence } from "./sequence";
 import { Structure, type Chains } from "./structure";
 import { chunkCost, exactCost, GRID_COST, layerCost, LIGHT_COST, orderCost, type GridCost } from "./work";
