@@ -16,16 +16,20 @@ from bsm.codec.sequence.targets import compare_sequences
 from bsm.commands.limits import limits_of
 from bsm.console import finite, print_json
 from bsm.files.about import about
+from bsm.files.motion.frames import Wanted
 from bsm.files.permutation import in_order_of, read_permutation
 from bsm.files.pipes import read_chunks
 from bsm.files.sequence import open_sequence
 from bsm.files.sequence_stream import SequenceStream, all_frames, numbered, numbers_of, peek_header
 from bsm.files.stream import is_stream
+from bsm.loops import Loops
 
 Sequence = tuple[Positions, Faces]
 
 
-def load_sequence(path: str, reader: str | None = None, limits: Limits = DEFAULT_LIMITS) -> Sequence | None:
+def load_sequence(
+    path: str, reader: str | None = None, limits: Limits = DEFAULT_LIMITS, wanted: Wanted | None = None
+) -> Sequence | None:
     """The frames, shape (T, n, 3), and faces of a file, folder or stream; None if it is a mesh."""
     if _is_stream(path):
         header, chunks = peek_header(read_chunks(path))
@@ -33,7 +37,7 @@ def load_sequence(path: str, reader: str | None = None, limits: Limits = DEFAULT
             return None
         stream = SequenceStream(chunks, limits=limits)
         return all_frames(stream), stream.faces
-    source = open_sequence(path, reader=reader)
+    source = open_sequence(path, reader=reader, wanted=wanted)
     return None if source is None else (np.array(list(source.frames)), source.faces)
 
 
@@ -50,18 +54,44 @@ def compare_loaded(args: argparse.Namespace, original: Sequence, decoded: Sequen
     other, other_kept = TriangleMesh(second[0], other_faces).without_isolated_vertices()
     order = read_permutation(args.permutation) if args.permutation else None
     rows = numbers_of(in_order_of(mesh, numbered(other.faces, len(other_kept)), order))
-    result = asdict(compare_sequences(first[:, kept], second[:, other_kept[rows]], mesh.faces))
+    one, two = first[:, kept], second[:, other_kept[rows]]
+    result = asdict(compare_sequences(one, two, mesh.faces))
     if _is_stream(args.decoded):
         result["bpvf_total"] = 8 * Path(args.decoded).stat().st_size / second[..., 0].size
+    of_frames = _of_frames(one, two)
+    repeats = _repeats(one)
     if args.json:
-        print_json({name: finite(value) for name, value in result.items()})
+        numbers = {name: finite(value) for name, value in result.items()}
+        print_json({**numbers, "frames": of_frames, "loops": list(repeats)})
     else:
-        print("\n".join(f"{name:<19}{value:.6g}" for name, value in result.items()))
+        worst = max(range(len(of_frames)), key=lambda number: of_frames[number]["max_error_relative"])
+        lines = [f"{name:<19}{value:.6g}" for name, value in result.items()]
+        lines.append(f"worst frame        {worst} ({of_frames[worst]['max_error_relative']:.6g})")
+        print("\n".join([*lines, *repeats]))
 
 
-def _loaded(path: str, args: argparse.Namespace) -> Sequence | None:
+def _of_frames(one: Positions, two: Positions) -> list[dict[str, float]]:
+    """The errors of each frame, in diagonals of the first."""
+    diagonal = float(np.linalg.norm(np.ptp(one[0], axis=0))) or 1.0
+    found = []
+    for original, decoded in zip(one, two, strict=True):
+        distances = np.linalg.norm(original - decoded, axis=1) / diagonal
+        rms = float(np.sqrt(np.square(distances).mean()))
+        found.append({"rms_relative": rms, "max_error_relative": float(distances.max())})
+    return found
+
+
+def _repeats(frames: Positions) -> tuple[str, ...]:
+    """What is to be said of loops."""
+    loops = Loops()
+    for frame in frames:
+        loops.take(frame)
+    return loops.said()
+
+
+def _loaded(path: str, args: argparse.Namespace, wanted: Wanted | None = None) -> Sequence | None:
     with about(path):
-        return load_sequence(path, args.reader, limits_of(args.limits))
+        return load_sequence(path, args.reader, limits_of(args.limits), wanted)
 
 
 def compare_if_sequences(args: argparse.Namespace) -> bool:
@@ -75,6 +105,10 @@ def compare_if_sequences(args: argparse.Namespace) -> bool:
     original, decoded = _loaded(args.original, args), _loaded(args.decoded, args)
     if original is None and decoded is None:
         return False
+    if original is None:  # an animated glTF is a sequence where the other one is
+        original = _loaded(args.original, args, Wanted())
+    if decoded is None:
+        decoded = _loaded(args.decoded, args, Wanted())
     if original is None or decoded is None:
         one, other = (args.decoded, args.original) if original is None else (args.original, args.decoded)
         raise MeshError(f"{one} is a sequence and {other} one mesh")

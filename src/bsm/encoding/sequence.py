@@ -19,6 +19,7 @@ from bsm.files.motion.frames import Frames, Wanted
 from bsm.files.output import open_output
 from bsm.files.permutation import write_permutation
 from bsm.files.sequence import open_frames, open_sequence
+from bsm.loops import Loops
 
 _OF_SEQUENCES = ("kg", "bpvf", "gop", "low_delay", "frame_rate")
 """Wishes that only a sequence can fulfil: a GLB is then one."""
@@ -54,7 +55,7 @@ def encode_sequence(job: EncodeJob, console: Console, source: Frames) -> Facts:
             if job.compared:
                 heard.compare(chunk, encoder.vertex_order)
     seconds = time.perf_counter() - begin
-    notes = (*source.notes, *encoder.notes)
+    notes = (*source.notes, *encoder.notes, *heard.loops.said())
     for note in notes:
         console.note(f"{job.input}: {note}")
     if job.permutation:
@@ -88,6 +89,7 @@ class Echo:
     """Hears what a decoder makes of a stream while it is written, and holds only the frames that are not out yet."""
 
     frames: int = 0
+    loops: Loops = field(default_factory=Loops)
     _waiting: deque[Positions] = field(default_factory=deque)
     _squares: float = 0.0
     _extent: float = 0.0
@@ -101,6 +103,7 @@ class Echo:
         """The frames, which are also kept until they have been compared."""
         for frame in frames:
             self.frames += 1
+            self.loops.take(frame)
             if kept:
                 self._waiting.append(frame)
             yield frame
