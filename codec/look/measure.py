@@ -12,8 +12,18 @@ from bsm.bitstream.errors import MeshError
 from bsm.codec.arrays import Faces, Matrix, Positions
 from bsm.codec.geometry.attribute_errors import at_corners
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.codec.look.pictures import BACKGROUND, SQUARE, Normals, Picture, Shape, difference, draw
-from bsm.codec.look.sides import cameras, pixels_for
+from bsm.codec.look.pictures import (
+    BACKGROUND,
+    SQUARE,
+    Normals,
+    Picture,
+    Shape,
+    difference,
+    difference_map,
+    draw,
+    draw_owned,
+)
+from bsm.codec.look.sides import CORNERS, cameras, pixels_for
 from bsm.codec.threads import ordered_map
 
 DISSIMILAR = 0.03
@@ -127,6 +137,29 @@ class Looker:
         pictures = self._drawn(self._placed(self._mesh.positions), self._shape.faces, own)
         shaded = self._seen(pictures, placed, shape.faces, smooth if others is None else others)
         return max(seen, shaded, key=lambda look: look.distance)
+
+    def blame(self, *versions: Positions) -> list[Matrix]:
+        """Where versions look different: how unlike the pixels are that show each face of the original, added.
+
+        That is their 1 - SSIM, and up to 1 more where they differ visibly; over all pixels that the original covers, as
+        seen from the corners of a cube around it. `versions` are positions as `look` takes them.
+        """
+        placed = [self._placed(positions) for positions in (self._mesh.positions, *versions)]
+        drawn = [(positions, self._shape.normals(positions)) for positions in placed]
+        faces = self._shape.faces
+
+        def blamed(camera: Matrix) -> tuple[int, list[Matrix]]:
+            picture, owner = draw_owned(drawn[0][0], faces, drawn[0][1], camera, self.pixels)
+            shown = owner >= 0
+            found = []
+            for positions, normals in drawn[1:]:
+                _, unlike = difference_map(picture, draw(positions, faces, normals, camera, self.pixels))
+                found.append(np.bincount(owner[shown], unlike[shown].astype(np.float64), len(faces)).astype(np.float64))
+            return int(shown.sum()), found
+
+        sides = list(ordered_map(blamed, self._cameras[CORNERS], self._threads))
+        covered = sum(count for count, _ in sides) or 1
+        return [np.sum([found[number] for _, found in sides], axis=0) / covered for number in range(len(versions))]
 
     def pictures(self, other: TriangleMesh) -> tuple[Picture, Picture]:
         """Both meshes from the side where they differ most."""

@@ -5,12 +5,12 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
-from functools import cached_property
 
 import numpy as np
 
 from bsm.bitstream.container.header import Header
 from bsm.bitstream.errors import OptionError, TargetError
+from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Order
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.closeness import Original
@@ -83,6 +83,11 @@ class Attempt:
         return 8.0 * self.size / self.header.vertices
 
 
+SIZES, PROMISED_SIZES = (1e-290, 1e290), (1e-30, 1e30)
+"""Of meshes, in their own unit: what numbers of the format hold; and where errors, squared, are numbers of single
+precision."""
+
+
 class Encoder:
     """Encodes one mesh; the work begins with the first thing asked for.
 
@@ -101,6 +106,7 @@ class Encoder:
                 "borders are locked where there is a promise: a preset but grid14, or max_error; parts on one grid, "
                 "grid_cell, fit anyway"
             )
+        mesh.require_sizes(*(SIZES if self.options.promise is None else PROMISED_SIZES))
         self._given = mesh
 
     @property

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
 from bsm.bitstream.container.header import MOST_SECTIONS
-from bsm.bitstream.errors import OptionError
+from bsm.bitstream.errors import ArgumentError, OptionError
 from bsm.bitstream.limits import NAMED_LIMITS
 from bsm.codec.choices import check_options
 from bsm.codec.static.attributes.quality import Grade, checked_qualities
@@ -162,10 +162,17 @@ class EncodeOptions:
     threads: int | None = None
 
     def __post_init__(self) -> None:
+        if self.target is not None and not isinstance(self.target, Target):
+            raise ArgumentError(f"target must be a Target, not {self.target!r}")
         check_options(self, CHOICES, RANGES)
         object.__setattr__(self, "attributes", checked_qualities(self.attributes))
         if self.detail_ratio and (self.bits is not None or self.doi is not None):
             raise OptionError("a detail layer excludes a fixed number of bits and dynamic subspaces")
+        doi: object = self.doi
+        if doi is not None and not (
+            isinstance(doi, tuple) and len(doi) == 2 and all(isinstance(one, (int, float)) for one in doi)
+        ):
+            raise ArgumentError(f"doi must be two thresholds, not {doi!r}")
         if self.doi is not None and not 0.0 < self.doi[0] < self.doi[1]:
             raise OptionError(f"doi = {self.doi} must be two thresholds, 0 < eps_l < eps_h")
         if self.bits is not None and self.target is not None:

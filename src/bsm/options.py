@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import difflib
+import math
 import types
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
@@ -32,8 +33,8 @@ BOUNDS = ("look", "max_error")
 SEQUENCE_TARGETS = {"kg": "kg", "bpvf": "bpvf", "theta": "theta_deg", "nmsve_db": "nmsve_db"}
 """The same for sequences."""
 
-SEQUENCE_STEPS = {"small": 0.006, "balanced": 0.002, "fine": 0.0007}
-"""The presets of sequences."""
+SEQUENCE_STEPS = {"small": 0.006, "balanced": 0.002, "fine": 0.0007, "near-lossless": 0.0001}
+"""The presets of sequences that are sent frame by frame, which promise nothing."""
 
 
 def encode_options(*, preset: str | None = None, **keywords: Any) -> EncodeOptions:
@@ -98,17 +99,38 @@ def _with_bounds(base: EncodeOptions, keywords: Mapping[str, Any]) -> dict[str, 
     return given
 
 
-def sequence_options(*, preset: str = "balanced", low_delay: bool = False, **keywords: Any) -> SequenceOptions:
-    """The options for a sequence that keywords ask for: fields of `SequenceOptions`, at most one of `SEQUENCE_TARGETS`.
+def sequence_options(*, preset: str | None = None, low_delay: bool = False, **keywords: Any) -> SequenceOptions:
+    """The options for a sequence that keywords ask for.
+
+    Parameters
+    ----------
+    preset : str, optional
+        "small", "balanced", "fine" or "near-lossless": what is promised for every frame where neither a step nor a
+        target is given; with `low_delay`, a step. None: "balanced".
+    low_delay : bool
+    **keywords
+        Fields of `SequenceOptions`; the bounds `look` and `max_error`, or at most one of `SEQUENCE_TARGETS`.
 
     Raises as `encode_options`.
     """
     from bsm.codec.sequence.options import SequenceOptions
+    from bsm.codec.sequence.promise import PROMISES, Promise
     from bsm.codec.sequence.targets import SequenceTarget
 
+    name = "balanced" if preset is None else preset
+    bounds = {bound: keywords.pop(bound) for bound in ("look", "max_error") if keywords.get(bound) is not None}
     given = _fields("a sequence", SequenceOptions, keywords, SEQUENCE_TARGETS, SequenceTarget)
     mode = "low-delay" if _checked("low_delay", low_delay, bool) else "gop"
-    return replace(SequenceOptions(step=_named("preset", SEQUENCE_STEPS, preset), mode=mode), **given)
+    base = SequenceOptions(step=_named("preset", SEQUENCE_STEPS, name), mode=mode)
+    if bounds:
+        if given.get("target") is not None or given.get("step") is not None:
+            raise OptionError(f"{' and '.join(bounds)} of a sequence cannot be combined with a target or a step")
+        farthest, absolute = parse_length("max_error", bounds.get("max_error", PROMISES[name].farthest))
+        look = _checked("look", bounds.get("look", math.inf), float)
+        given["promise"] = Promise(farthest, look, absolute)
+    elif mode == "gop" and not {"target", "step", "promise"} & {key for key in given if given[key] is not None}:
+        given["promise"] = PROMISES[name]
+    return replace(base, **given)
 
 
 def denoise_options(**keywords: Any) -> DenoiseOptions | None:

@@ -8,6 +8,7 @@ import pytest
 from bsm.bitstream.errors import ArgumentError, OptionError
 from bsm.codec.denoise import DenoiseOptions
 from bsm.codec.sequence.options import SequenceOptions
+from bsm.codec.sequence.promise import PROMISES, Promise
 from bsm.codec.sequence.targets import SequenceTarget
 from bsm.codec.static.contract import Contract
 from bsm.codec.static.options import BALANCED, PRESETS, EncodeOptions
@@ -18,7 +19,7 @@ from bsm.options import BOUNDS, SEQUENCE_STEPS, TARGETS, denoise_options, encode
 
 def test_without_keywords_everything_is_the_default():
     assert encode_options() == EncodeOptions()
-    assert sequence_options() == SequenceOptions()
+    assert sequence_options() == SequenceOptions(promise=PROMISES["balanced"])
     assert denoise_options() is None
 
 
@@ -29,7 +30,19 @@ def test_presets(preset):
 
 @pytest.mark.parametrize("preset", SEQUENCE_STEPS)
 def test_presets_of_sequences(preset):
-    assert sequence_options(preset=preset).step == SEQUENCE_STEPS[preset]
+    assert sequence_options(preset=preset).promise == PROMISES[preset]
+    low_delay = sequence_options(preset=preset, low_delay=True)
+    assert low_delay.step == SEQUENCE_STEPS[preset] and low_delay.promise is None
+    assert sequence_options(preset=preset, kg=1).promise is None
+
+
+def test_bounds_of_sequences():
+    assert sequence_options(max_error="0.2%").promise == Promise(0.002)
+    assert sequence_options(max_error="3mm", look=2).promise == Promise(3.0, 2.0, absolute=True)
+    assert sequence_options(preset="fine", look=2).promise == Promise(PROMISES["fine"].farthest, 2.0)
+    for others in ({"kg": 1}, {"step": 0.01}, {"low_delay": True}):
+        with pytest.raises(OptionError):
+            sequence_options(max_error=0.01, **others)
 
 
 def test_keywords_are_put_on_top_of_a_preset():

@@ -7,15 +7,15 @@ models and assets; they decide about bytes and time, never about whether a contr
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import replace
-from functools import cached_property
 
 import numpy as np
 
 from bsm.bitstream.container.header import Layer
 from bsm.bitstream.errors import LimitError, TargetError
+from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Levels, Matrix
 from bsm.codec.static.choice.borders import borders_of
 from bsm.codec.static.choice.grid_search import COARSEST, GridSearch
@@ -23,8 +23,9 @@ from bsm.codec.static.choice.judge import Judge, Sight
 from bsm.codec.static.choice.lattices import rounded
 from bsm.codec.static.choice.reaches import reaches
 from bsm.codec.static.choice.search import Trial, looked_for, widest_step
+from bsm.codec.static.choice.settling import Sensitivity
 from bsm.codec.static.choice.shaping import Aim
-from bsm.codec.static.choice.spectral import Base, Spectral, Stack, base_step
+from bsm.codec.static.choice.spectral import Base, Spectral, Stack, base_step, layer_steps
 from bsm.codec.static.contract import Contract
 from bsm.codec.static.draft import Draft
 from bsm.codec.static.options import EncodeOptions
@@ -69,17 +70,23 @@ STEEP, STEEP_HEIGHTS = 1.05, 0.65
 """How angles grow with the step of a layer, in their logarithms: of one along all axes, and along normals alone."""
 FLATTER = 0.6
 """And how much less they may."""
-LOOK_BASE, AXES_OF_LOOK, WORTH_OF_LOOK, STEEP_LOOK = 0.012, 4.0, 0.6, (0.9, 1.8)
-"""Where a look is asked for: step of the base; how much coarser levels in the plane are; how much bits count against
-normals, over what is best for angles; and how pictures get worse with the step, in their logarithms."""
+AXES_OF_LOOK, WORTH_OF_LOOK, STEEP_LOOK = 4.0, 0.11, (0.9, 1.8)
+"""Where a look is asked for: how much coarser levels in the plane are; what a bit is worth, over the mean cost of an
+error of one step along the normal, which is about what it saves where all is rounded; and how pictures get worse with
+the step, in their logarithms."""
+LOOK_BASE, LOOK_BASE_IF_ROUGH, COARSEST_LOOK_BASE = 18.0, 0.0006, 0.016
+"""The step of blocks below a layer, in steps of that; at least so much for each degree between faces beside each other,
+for what is rough is not in low frequencies; and at most."""
+FIRST_LOOK, NEAR_SEEN = 1.6, 16.0
+"""Noise that sensitivity is measured with, over the step that angles would have; and how far a vertex may be brought
+from its place where nobody sees it, in steps of the layer."""
 NEAR = 8.0
 """How far shaping may bring a vertex from its place, in steps of the layer."""
 FEW_LOOKS = 4000
 """Meshes of more vertices are looked at in one way to code alone, the one that is likely to be smaller."""
-DENSE, PREVIEW = 0.0062, 2.0
-"""Below this look, meshes with sharp edges, or with edges shorter than so many diagonals on average, are smaller on
-grids:
-where faces are as small as pixels, errors that have nothing to do with each other average out."""
+DENSE, TINY, PREVIEW = 0.0062, 0.0012, 2.0
+"""Below this look, meshes with sharp edges are smaller on grids, unless the mean edge is shorter than the first; and so
+are all where it is shorter than the second: pictures do not show their faces."""
 MARGIN = 1e-9
 """Of a bound on distances, for what rounding may add."""
 
@@ -110,6 +117,7 @@ class Fulfilment:
         self._options = options
         self._contract = contract
         self._progress = progress
+        self._sight = sight
         self._original = sight.original
         self._shaper = sight.shaper
         self._reaches = reaches(prepared, contract) * (1.0 - MARGIN)
@@ -191,7 +199,8 @@ class Fulfilment:
             return self._prepared.graph.size >= FEW_VERTICES
         if self._grids.fits_model or (self._contract.about_angle <= MODEL_ANGLE and self._shaper.character.is_model):
             return False
-        if self._contract.look < PREVIEW and (self._edge < DENSE or self._shaper.character.is_sharp):
+        sharp = self._shaper.character.is_sharp and self._edge >= DENSE
+        if self._contract.look < PREVIEW and (sharp or self._edge < TINY):
             return False
         return self._prepared.has_low_frequencies and not self._blocks.is_flat(COARSE, FLAT)
 
@@ -207,10 +216,18 @@ class Fulfilment:
             if plain is not None:
                 yield plain
                 return
-        base = LOOK_BASE if self._contract.look < math.inf else base_step(angle)
-        stack = self._refined(coarse.base(base, self._progress))
+        stack = self._refined(coarse.base(self._base_step, self._progress))
         if stack is not None:
             yield stack.draft()
+
+    @property
+    def _base_step(self) -> float:
+        """That of blocks which are refined."""
+        if self._sensitivity is None:
+            return base_step(self._contract.about_angle)
+        step = LOOK_BASE * self._sensitivity.step_for(self._contract.look, AXES_OF_LOOK)
+        rough = LOOK_BASE_IF_ROUGH * self._shaper.character.roughness
+        return min(max(step, rough), COARSEST_LOOK_BASE)
 
     def _plain(self, blocks: Spectral) -> Draft | None:
         """The smallest of a few steps without refinement, except for vertices out of reach: these cost more at coarser
@@ -295,25 +312,56 @@ class Fulfilment:
         lock, still = self._lock(base), self._borders.vertices
         start = base.positions if lock is None else base.moved(*lock)
 
-        looks = self._contract.look < math.inf
-        worth = WORTH_OF_LOOK if looks else 1.0
+        tries = 2 if self._shaper.character.is_model else 3
+        choose = self._bent_levels(base, start) if self._sensitivity is None else self._seen_levels(base, start)
 
         def measure(step: float, whole: bool = False) -> Trial[tuple[Layer, Levels]]:
             layer = base.layer(step, ratio)
-            wanted, directions = base.wanted(layer)
-            wanted[still] = 0
-            aim = Aim(worth * layer.step / self._edge, min(self._reach, NEAR * layer.step), 6)
             with self._told():
-                levels = self._shaper.levels(start, wanted, directions, aim)
+                levels = choose(layer)
                 levels[still] = 0
                 moved = self._brought_back(base, base.moved(layer, levels, start))
                 return self._judge.trial(step, moved, (layer, levels), whole=whole)
 
-        first, tries = self._first_layer(ratio), 2 if self._shaper.character.is_model else 3
-        if not looks:
-            steep = STEEP if ratio else STEEP_HEIGHTS
-            return widest_step(measure, first, tries=tries, most=COARSEST, slopes=(FLATTER * steep, steep))
-        return looked_for(measure, first, most=COARSEST, slopes=STEEP_LOOK)
+        if self._sensitivity is not None:
+            first = self._sensitivity.step_for(self._contract.look, ratio)
+            return looked_for(measure, min(first, COARSEST), most=COARSEST, slopes=STEEP_LOOK)
+        steep = STEEP if ratio else STEEP_HEIGHTS
+        slopes = FLATTER * steep, steep
+        return widest_step(measure, self._first_layer(ratio), tries=tries, most=COARSEST, slopes=slopes)
+
+    def _bent_levels(self, base: Base, start: Matrix) -> Callable[[Layer], Levels]:
+        """Levels of a layer, on positions, that bend faces least."""
+        still = self._borders.vertices
+
+        def choose(layer: Layer) -> Levels:
+            wanted, directions = base.wanted(layer)
+            wanted[still] = 0
+            aim = Aim(layer.step / self._edge, min(self._reach, NEAR * layer.step), 6)
+            return self._shaper.levels(start, wanted, directions, aim)
+
+        return choose
+
+    def _seen_levels(self, base: Base, start: Matrix) -> Callable[[Layer], Levels]:
+        """Levels of a layer, on positions, of which least is seen."""
+        sensitivity, offsets = self._sensitivity, base.offsets_of(start)
+        assert sensitivity is not None
+
+        def choose(layer: Layer) -> Levels:
+            reach = np.minimum(self._reaches, NEAR_SEEN * layer.step)
+            return sensitivity.levels(offsets[:, : layer.axes], layer_steps(layer), WORTH_OF_LOOK, reach)
+
+        return choose
+
+    @cached_property
+    def _sensitivity(self) -> Sensitivity | None:
+        """None: nothing is asked of pictures, or to be seen in them."""
+        looker = None if self._contract.look == math.inf else self._sight.looker
+        if looker is None:
+            return None
+        step = FIRST_LOOK * self._first_layer(AXES_OF_LOOK)
+        positions, faces = self._prepared.positions, self._prepared.mesh.faces
+        return Sensitivity(positions, faces, self._prepared.graph, looker, (step, AXES_OF_LOOK * step))
 
     @property
     def _ratio(self) -> float:
