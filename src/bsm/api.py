@@ -192,7 +192,8 @@ def encode_sequence(
         What is the same in all frames; `SequenceDecoder.attributes` gives it back. How well each is kept, the option
         `attributes` says, as of a mesh.
     **keywords
-        As on the command line: `preset`, `low_delay`, one target (`kg`, `bpvf`, `theta`, `nmsve_db`), and fields of
+        As on the command line: `preset` ("small", "balanced", "fine", "near-lossless": promises for every frame),
+        `low_delay`, bounds (`look`, `max_error`), one target (`kg`, `bpvf`, `theta`, `nmsve_db`), and fields of
         `SequenceOptions` (`step`, `gop`, `frame_rate`, ...).
     """
     from bsm.codec.sequence.encoder import encode_sequence as encode_frames
@@ -276,6 +277,7 @@ def denoise(
     /,
     *,
     goal: str = "shading",
+    strength: float = 1.0,
     force: bool = False,
     **keywords: Any,
 ) -> TriangleMesh:
@@ -291,6 +293,8 @@ def denoise(
         Fields of `DenoiseOptions`; without any of them everything is chosen from the noise of the mesh.
     goal : str
         What that strives for: "shading" (normals near the clean ones) or "shape" (vertices).
+    strength : float
+        How much of every movement is made, from 0 to 1.
     force : bool
         Let the options have their way even where they do harm.
 
@@ -303,7 +307,7 @@ def denoise(
     from bsm.codec.denoise import denoise as denoise_mesh
 
     chosen = _chosen(options, DenoiseOptions, keywords, keywords_to.denoise_options)
-    return denoise_mesh(as_mesh(mesh), chosen, goal=goal, force=force)
+    return denoise_mesh(as_mesh(mesh), chosen, goal=goal, strength=strength, force=force)
 
 
 def compare(original: Any, decoded: Any, *, order: npt.ArrayLike | None = None) -> MeshComparison:

@@ -36,8 +36,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--look",
         action="store_true",
-        help="of meshes, whose faces may differ, also how much alike they look in pictures: nobody can tell them "
-        "apart at a distance of 1",
+        help="also how much alike they look in pictures: nobody can tell them apart at a distance of 1; faces of "
+        "meshes may differ; of a sequence every frame",
     )
     parser.add_argument(
         "--picture",

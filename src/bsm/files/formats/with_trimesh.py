@@ -21,6 +21,7 @@ from bsm.files.rows import Doubles
 
 _NO_NAMES = re.compile(r"geometry_\d+|GLTF(_\d+)?")
 _KNOWN_TO_TRIMESH = re.compile(r"POSITION|NORMAL|TEXCOORD_0|COLOR_0|_.*")
+_READ_BY_TRIMESH = ("EXT_texture_webp", "KHR_materials_pbrSpecularGlossiness", "KHR_mesh_quantization")
 _PADDING = re.compile(rb"(?<=IEND\xaeB`\x82)\0{1,3}\Z|(?<=\xff\xd9)\0{1,3}\Z")
 """What GLB files have behind a PNG or JPEG."""
 _OF_TRIMESH = ("units", "from_gltf_primitive", "gltf_extensions", "file_path", "file_name", "node", "processed")
@@ -113,6 +114,7 @@ def _unread(data: bytes, kind: str) -> list[str]:
     """What a glTF holds and trimesh does not tell of."""
     tree = _tree(data, kind)
     found = [name for name in ("animations", "skins", "cameras") if tree.get(name)]
+    found += [name for name in tree.get("extensionsUsed", []) if name not in _READ_BY_TRIMESH]
     for mesh in tree.get("meshes", []):
         for primitive in mesh["primitives"]:
             found += [name for name in primitive["attributes"] if not _KNOWN_TO_TRIMESH.fullmatch(name)]
