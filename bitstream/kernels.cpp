@@ -19,6 +19,7 @@ extern "C" {
 #include "bitstream/entropy/symbols.h"
 #include "bitstream/fields/grid.h"
 #include "bitstream/fields/levels.h"
+#include "bitstream/fields/floats.h"
 #include "bitstream/fields/light.h"
 }
 
@@ -35,6 +36,7 @@ BSM_STRUCT(CoefficientModel, Bank, Bank, Past, ConstInts2, Longs, int64_t)
 BSM_STRUCT(Corners, ConstInts2, Ints, Ints, Ints, Ints)
 BSM_STRUCT(ValueModel, Words, Words, Ints2, Ints2)
 BSM_STRUCT(Grid, ConstInts, ConstInts, Ints2, Ints2, Longs2, Longs2, Longs2)
+BSM_STRUCT(Floats, Words, Longs, Longs2)
 BSM_STRUCT(Light, ConstInts, Ints2, Ints2, Words)
 BSM_STRUCT(Levels, Ints2, Ints2, Ints2, Longs2)
 BSM_STRUCT(Values, ConstInts, ConstInts, ConstInts, ConstInts2, Ints2, Ints2, Longs2, Longs2, Longs2, Ints2, Longs)
@@ -86,6 +88,8 @@ NB_MODULE(_kernels, m) {
     m.def("keep_borders", checked<keep_borders>, "corners"_a, Unlocked());
     m.def("order_vertices", checked<order_vertices>, "corners"_a, "order"_a, "scratch"_a, Unlocked());
     m.def("code_grid", checked<code_grid>, "coder"_a, "model"_a, "corners"_a, "grid"_a, "first"_a, "count"_a,
+        Unlocked());
+    m.def("code_floats", checked<code_floats>, "coder"_a, "floats"_a, "values"_a, "low"_a, "high"_a, "chosen"_a,
         Unlocked());
     m.def("code_light", checked<code_light>, "coder"_a, "corners"_a, "light"_a, "first"_a, "count"_a, Unlocked());
     m.def("code_edges", checked<code_edges>, "coder"_a, "bank"_a, "corners"_a, "seams"_a, "others"_a, "ends"_a,

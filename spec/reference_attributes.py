@@ -58,8 +58,6 @@ FIELDS: dict[str, tuple[int, Any, float, float, Any]] = {
     "offset": (10, (0, 8), -1e300, 1e300, []),
     "step": (11, (0, 4), 1e-300, 1e300, []),
     "leans": (12, "method", 0, 1, 0),
-    "relief": (13, int, 0, 20, 0),
-    "doubts": (14, bytes, 0, 2**24, b""),
     "seams_of": (15, int, 0, 2**16 - 1, 0),
 }
 
@@ -123,19 +121,15 @@ class Declaration:
                     require(offset == int(offset) and step == int(step), "offset or step is no whole number")
                     require(low <= offset and last <= high, "values out of range")
         require(not self.leans or self.domain != 2, "values of faces that lean on positions")
-        require(self.leans or not (self.relief or self.doubts), "relief or doubts without leaning")
         require(not self.seams_of or self.domain == 1, "seams where there are no corners")
         require(not self.seams or (self.domain == 1 and not self.seams_of), "seams that are none of its own")
 
 
 def check_declarations(attributes: list[Declaration], header: dict[str, Any]) -> None:
     """D 1.1, D 1.4: what attributes must be beside each other."""
-    leaning = [index for index, one in enumerate(attributes) if one.leans]
     for index, one in enumerate(attributes):
         require(one.name not in {other.name for other in attributes[:index]}, "two attributes of one name")
-        first = bool(leaning) and index == leaning[0] and not header["grid"]
-        require((one.relief > 0) == first, "relief does not belong here")
-        require(not (one.leans and header["gop_frames"]), "an attribute of a sequence that leans")
+        require(header["grid"] or not one.leans, "an attribute that leans on no grid")
         if one.seams_of:
             require(one.seams_of <= index, "seams of an attribute that does not come before")
             shared = attributes[one.seams_of - 1]
@@ -350,22 +344,3 @@ def from_bits(bits: int, width: int) -> float:
     bits = bits ^ top if bits & top else bits ^ (2 * top - 1)
     value = struct.unpack(">f" if width == 32 else ">d", bits.to_bytes(width // 8, "big"))[0]
     return float(value) if math.isfinite(value) else 0.0
-
-
-# ---------------------------------------------------------------------------------------------------------------------
-# 5  Geometry
-# ---------------------------------------------------------------------------------------------------------------------
-
-
-def relief_of(positions: Sequence[Sequence[float]], relief: int, doubts: bytes) -> list[list[int]]:
-    """D 5.2, D 5.3: positions in BSM units as whole numbers."""
-    scaled = [float(x) * 2.0**relief + 0.5 for position in positions for x in position]
-    low = [math.floor(x) for x in scaled]
-    i, at, first = 0, 0, True
-    while at < len(doubts):
-        d, at = read_varint(doubts, at)
-        i += d >> 1
-        require(i < len(scaled) and (first or d > 1), "a doubt about no coordinate")
-        low[i], first = round(scaled[i]) - 1 + (d & 1), False
-    low = [min(max(x, -(1 << 20)), 1 << 20) for x in low]
-    return [low[i : i + 3] for i in range(0, len(low), 3)]

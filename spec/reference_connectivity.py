@@ -609,22 +609,23 @@ def read_degenerate(decoder: RangeDecoder, count: int, known: int, vertices: int
 
 
 # ---------------------------------------------------------------------------------------------------------------------
-# 4  Order, method 1
+# 4  Order
 # ---------------------------------------------------------------------------------------------------------------------
 
 
 def decode_arrangement(payload: bytes, faces: list[Face], vertices: int) -> tuple[list[int], list[Face]]:
-    """9: the original number of each vertex, and the original faces."""
-    return arrange(payload, faces, vertices)[:2]
-
-
-def arrange(payload: bytes, faces: list[Face], vertices: int) -> tuple[list[int], list[Face], list[Face]]:
-    """9: the same, and which decoded corner each original one is; corner k of face f is 3 f + k."""
+    """9: the original number of each vertex, and the original faces; of a payload that ends there."""
     decoder = RangeDecoder(payload)
+    numbers, original, _ = arrange(decoder, faces, vertices)
+    decoder.finish()
+    return numbers, original
+
+
+def arrange(decoder: RangeDecoder, faces: list[Face], vertices: int) -> tuple[list[int], list[Face], list[Face]]:
+    """9: the same, and which decoded corner each original one is; corner k of face f is 3 f + k."""
     numbers = read_permutation(decoder, vertices)  # 9.1
     places = read_permutation(decoder, len(faces))
     rotations = read_rotations(decoder, len(faces))
-    decoder.finish()
     renumbered = [[numbers[corner] for corner in face] for face in faces]  # 9.5
     suggested = sorted(range(len(faces)), key=lambda f: sorted(renumbered[f], reverse=True))
     original: list[Face] = [[]] * len(faces)

@@ -32,7 +32,6 @@ from reference_attributes import (
     Declaration,
     check_declarations,
     read_seams,
-    relief_of,
 )
 from reference_connectivity import (
     Connectivity,
@@ -44,9 +43,10 @@ from reference_connectivity import (
     arrange,
     decode_labels,
     neighbours_of,
+    read_rotations,
     read_unsigned,
 )
-from reference_fields import GridReader, LevelsReader, LightReader, place
+from reference_fields import ExactReader, GridReader, LevelsReader, LightReader, place
 from reference_fields import Mesh as Corners
 
 
@@ -209,7 +209,7 @@ FIELDS = {
     "attributes": (33, int, 0, 255, 0),
     "corner": (40, [0, 3], -(2**31), COUNT, []),
     "sections": (41, [0, 14], 1, COUNT, []),
-    "light": (42, "method", 0, 1, 0),
+    "light": (42, "method", 0, 2, 0),
 }
 
 
@@ -232,9 +232,9 @@ def parse_fields(payload, fields):
             require(type(value) is list and all(type(v) is item for v in value), f"{name} has a wrong type")
             require(kind[0] <= len(value) <= kind[1], f"{name} has a wrong length")
             items = value
-        elif kind in (str, bytes):
+        elif kind is str:
             require(type(value) is kind, f"{name} has a wrong type")
-            items = [len(value.encode() if kind is str else value)]
+            items = [len(value.encode())]
         else:
             require(type(value) is (float if kind is float else int), f"{name} has a wrong type")
             items = [value]
@@ -258,6 +258,7 @@ def parse_header(payload):
         require(others <= allowed, "a grid, and something else")
         require(len(h["grid"]) == 3, "a grid of other than three axes")
         require(len(h["lattice"]) in (0, 2), "a lattice is not two numbers")
+        require(h["light"] < 2 or not (h["lattice"] or h["corner"]), "floats on a lattice, or with a corner")
         require(len(h["corner"]) in (0, 3), "a corner is not three numbers")
         require(not h["corner"] or h["center"] == [0, 0, 0], "a corner and a center")
         require(not h["lattice"] or max(h["grid"]) <= h["lattice"][1] <= h["lattice"][0], "a lattice that is none")
@@ -348,8 +349,7 @@ def read_frames(stream, packets):
         if kind == HEADER:
             parsed = parse_header(payload)
         elif kind in (CONNECTIVITY, PARTITION, ORDER):
-            require(len(payload) >= 1, "no method")
-            parsed = (payload[0], payload[1:])  # F 5.2
+            parsed = payload  # F 5.2
         elif kind == BLOCK:
             index, at = payload_varint(payload, 0)
             width, at = payload_varint(payload, at)
@@ -438,7 +438,7 @@ def declaration_of(payload):
     index, at = payload_varint(payload, 0)
     size, at = payload_varint(payload, at)
     require(size <= len(payload) - at, "a declaration ends too early")
-    require(size <= 2**24 + 65536, "a declaration of too many bytes")
+    require(size <= 65536, "a declaration of too many bytes")
     return index, Declaration(parse_fields(payload[at : at + size], ATTRIBUTE_FIELDS), payload[at + size :])
 
 
@@ -873,25 +873,6 @@ def unzipped(data, size):
     return content
 
 
-def piece(data, at, size):
-    """F 9.2: `size` bytes, and where they end."""
-    length, at = payload_varint(data, at)
-    require(length <= len(data) - at, "a piece ends too early")
-    stream = zlib.decompressobj()
-    try:
-        content = stream.decompress(data[at : at + length], size + 1)
-    except zlib.error as error:
-        raise CorruptError(f"a piece is damaged: {error}") from None
-    require(len(content) == size and stream.eof and not stream.unused_data, "a piece of another size")
-    return content, at + length
-
-
-def piece_of_numbers(data, at, count):
-    """F 9.2: `count` numbers, and where they end."""
-    content, at = piece(data, at, 4 * count)
-    return [sum(content[i + k * count] << 8 * k for k in range(4)) for i in range(count)], at
-
-
 # ---------------------------------------------------------------- M 10, M 12, M 17: positions
 
 
@@ -952,12 +933,9 @@ class Allowance:
         require_limit(self.work, MOST_WORK + 3.2e4 * (self.vertices + self.shown), "work")
 
 
-def data_of(packet, known):
-    """F 5.2: what is behind the method."""
-    method, data = packet
-    if method not in known:
-        raise UnsupportedError(f"method {method}, and not one of {known}")
-    return data
+def read_column(decoder, count):
+    """F 9.3: whole numbers, as a matrix of one column (S 4)."""
+    return LevelModel().matrix(decoder, count, 1, np.zeros((0, 1), int))[:, 0].tolist()
 
 
 class Mesh:
@@ -978,7 +956,7 @@ class Mesh:
         header, packets = self.header, self.packets
         packets.require(len(packets[CONNECTIVITY]) > self.section, "there is no CONNECTIVITY")
         begin = self.known
-        coded = data_of(packets[CONNECTIVITY][self.section], (1,))
+        coded = packets[CONNECTIVITY][self.section]
         self.faces, self.known = self.connectivity.decode(coded)
         self.begin, self.allowance.vertices = begin, self.known
         self.blocks = range(([0, *self.ends])[self.section], self.ends[self.section])
@@ -995,10 +973,9 @@ class Mesh:
         self.user_corners = [[3 * f + i for i in range(3)] for f in range(len(self.faces))]
         self.splits, self.labels = False, None
         if packets[PARTITION]:
-            self.labels = decode_labels(data_of(packets[PARTITION][0], (0,)), self.graph, self.header["blocks"])
+            self.labels = decode_labels(packets[PARTITION][0], self.graph, self.header["blocks"])
         if packets[ORDER]:
-            data = data_of(packets[ORDER][0], (1,) if self.header["gop_frames"] else (1, 2))
-            self.arrange(packets[ORDER][0][0], data)
+            self.arrange(packets[ORDER][0])
 
     def own_blocks(self):
         """Those of the section that have come."""
@@ -1029,51 +1006,53 @@ class Mesh:
             arranged[given] = position
         return arranged
 
-    def arrange(self, method, data):
+    def arrange(self, data):
         """C 9, F 9: the numbers that each vertex has, the faces, and vertices in none of them."""
         vertices = self.header["vertices"]
-        if method == 1:
-            numbers, self.arranged, self.user_corners = arrange(data, self.faces, vertices)
-            self.numbers = [[number] for number in numbers]
-            return
-        self.splits = True
-        size, at = payload_varint(data, 0)  # F 9.1
-        require(size <= len(data) - at, "the order ends too early")
-        numbers, faces, self.user_corners = arrange(data[at : at + size], self.faces, vertices)
-        at += size
-        given, at = payload_varint(data, at)
-        copies, at = payload_varint(data, at)
+        copies, at = payload_varint(data, 0)  # F 9.1
         loose, at = payload_varint(data, at)
+        given = vertices + copies + loose
         require_limit(given, MOST_VERTICES, "given vertices")
-        require(given == vertices + copies + loose and vertices + copies <= 3 * len(faces), "wrong numbers of vertices")
-        kinds, at = piece(data, at, given)
-        counts = [kinds.count(kind) for kind in range(3)]
-        require(counts == [vertices, copies, loose], "other vertices than were announced")  # F 9.3
-        back, at = piece_of_numbers(data, at, copies)
+        require(vertices + copies <= 3 * len(self.faces) and given < 1 << 24, "too many copies of vertices")
+        require(24 * loose <= len(data) - at, "positions of loose vertices are missing")
+        values = struct.unpack(f"<{3 * loose}d", data[at : at + 24 * loose])
+        require(all(map(math.isfinite, values)), "a loose vertex is not finite")
+        decoder = RangeDecoder(data[at + 24 * loose :])
+        numbers, faces, self.user_corners = arrange(decoder, self.faces, vertices)
+        self.arranged, self.numbers = faces, [[number] for number in numbers]
+        self.splits = copies + loose > 0
+        if self.splits:
+            self.split(decoder, numbers, given, copies, values)
+        decoder.finish()
+        require(not (self.splits and self.header["gop_frames"]), "copies or loose vertices in a sequence")  # F 9.1
+
+    def split(self, decoder, numbers, given, copies, values):
+        """F 9.2 to F 9.5."""
+        vertices, faces = self.header["vertices"], self.arranged
+        kinds = read_rotations(decoder, given)  # F 9.2
+        require([kinds.count(0), kinds.count(1)] == [vertices, copies], "other vertices than were announced")
+        back = read_column(decoder, copies)
         places, last, waiting = [[] for _ in range(vertices)], -1, iter(back)
         for number, kind in enumerate(kinds):
             if kind == 0:
                 last += 1
                 places[last].append(number)
-            elif kind == 1:  # F 9.4
+            elif kind == 1:  # F 9.3
                 vertex = last - next(waiting)
-                require(vertex >= 0, "a copy of no vertex")
+                require(0 <= vertex <= last, "a copy of no vertex")
                 places[vertex].append(number)
         steps = [0] * (3 * len(faces))
         if copies:
-            steps, at = piece_of_numbers(data, at, 3 * len(faces))
+            steps = read_column(decoder, 3 * len(faces))
         seen, self.arranged, corner = [0] * vertices, [], iter(steps)
-        for face in faces:  # F 9.5
+        for face in faces:  # F 9.4
             turned = []
             for v in face:
                 step = next(corner)
-                require(step < len(places[v]), "a copy that there is not")
+                require(0 <= step < len(places[v]), "a copy that there is not")
                 turned.append(places[v][(seen[v] + step) % len(places[v])])
                 seen[v] += 1
             self.arranged.append(tuple(turned))
-        require(len(data) - at == 24 * loose, "positions of loose vertices are missing")  # F 9.6
-        values = struct.unpack(f"<{3 * loose}d", data[at:])
-        require(all(map(math.isfinite, values)), "a loose vertex is not finite")
         alone = [number for number, kind in enumerate(kinds) if kind == 2]
         self.loose = {number: values[3 * i : 3 * i + 3] for i, number in enumerate(alone)}
         self.numbers = [places[number] for number in numbers]
@@ -1082,6 +1061,15 @@ class Mesh:
 def decode_grid(mesh, grids):
     """V 12: positions in the unit of the mesh, shape (n, 3), and their coded values."""
     header = mesh.header
+    if header["light"] == 2:
+        exact = ExactReader(mesh.faces, header["vertices"], header)
+        for _, _, count, payload in grids:
+            size, at = payload_varint(payload, 0)
+            require(size <= len(payload) - at, "a frame ends inside its values")
+            exact.read(payload[at : at + size], payload[at + size :], count)
+        if not np.isfinite(exact.positions).all():
+            raise NumericError("positions are not finite")  # V 16.4
+        return np.array(exact.positions), exact.x
     reader = (LightReader if header["light"] else GridReader)(mesh.faces, header["vertices"], header["grid"])
     for _, _, count, payload in grids:
         reader.read(payload, count)
@@ -1479,9 +1467,6 @@ def decode_attributes(mesh, packets, attributes, positions, places):
     """D 3 to D 5: for each attribute its arrays, as spec/vectors/README.md tells; positions are in BSM units."""
     if packets.fault and not packets[VALUES]:
         return {}  # the stream ends before them
-    leaning = [one.declared for one in attributes if one.declared.leans]
-    if leaning and places is None:
-        places = relief_of(positions, leaning[0].relief, leaning[0].doubts)
     arrays = {}
     for index, one in enumerate(attributes):
         declared = one.declared

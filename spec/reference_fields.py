@@ -750,6 +750,63 @@ class LevelsReader(Field):
 Place = tuple[str, int, int]
 
 
+def number_of(x: float) -> int:
+    """V 16.1: f."""
+    try:
+        (bits,) = struct.unpack("<I", struct.pack("<f", x))
+    except OverflowError:
+        bits = 0xFF800000 if x < 0 else 0x7F800000
+    return bits if bits < 1 << 31 else -1 - (bits - (1 << 31))
+
+
+def float_of(number: int) -> float:
+    """V 16.1: the float of a number."""
+    bits = number if number >= 0 else (1 << 31) - 1 - number
+    value: float = struct.unpack("<f", struct.pack("<I", bits))[0]
+    return value
+
+
+class ExactReader:
+    """V 16."""
+
+    def __init__(self, faces: Iterable[Iterable[int]], vertices: int, header: dict) -> None:
+        self.grid, self.header = GridReader(faces, vertices, header["grid"]), header
+        self.x = self.grid.x
+        self.positions = [[0.0] * 3 for _ in range(vertices)]
+        self.known: dict[tuple[int, int], int] = {}
+        self.asked = [0, 0, 0]
+        self.slots: dict[tuple[int, int], tuple[int, int]] = {}
+
+    def read(self, values: bytes, floats: bytes, count: int) -> None:
+        """V 16.3."""
+        first = self.grid.next
+        self.grid.read(values, count)
+        decoder = RangeDecoder(floats)
+        for v in self.grid.mesh.order[first : first + count]:
+            for j in range(3):
+                number = self.number(decoder, j, self.x[v][j])
+                self.positions[v][j] = float_of(number)
+            if decoder.overran():
+                decoder.fail("floats are missing")
+        decoder.finish()
+
+    def number(self, decoder: RangeDecoder, j: int, k: int) -> int:
+        center, scale = self.header["center"][j], self.header["scale"]
+        low, high = (number_of(center + scale * (k + side)) for side in (-0.5, 0.5))  # V 16.2
+        if low >= high:
+            decoder.fail("a cell without floats")
+        if (j, k) in self.known:
+            place = j, self.asked[j]
+            slot = self.slots.get(place, (1 << 21, 0))
+            bit = decoder.bit(clamp(slot[0] >> 6, 1, 65535))
+            self.slots[place] = learn_slot(slot, bit, 43)
+            self.asked[j] = (2 * self.asked[j] + bit) % 8
+            if bit:
+                return self.known[j, k]
+        self.known[j, k] = low + decoder.uniform(high - low)
+        return self.known[j, k]
+
+
 class LightReader(Field):
     """V 15."""
 

@@ -42,7 +42,7 @@ def gridded(coded: EncodedConnectivity, values: Ints, counts: Iterable[int], **f
     announced = {"vertices": len(values), "faces": len(coded.faces)}
     return [
         header_frame(**announced | fields),
-        (FrameType.CONNECTIVITY, b"\x01" + coded.payload),
+        (FrameType.CONNECTIVITY, coded.payload),
         *grid_frames(coded.faces, values, counts, fields["grid"], fields.get("light", 0)),
     ]
 
@@ -63,7 +63,7 @@ def lightened(stream: bytes, *counts: int) -> bytes:
     header = header_entries(frames[0][1])
     vertices, of_faces, largest = (header[HEADER_FIELDS[name].key] for name in ("vertices", "faces", "grid"))
     data = next(payload for kind, payload in frames if kind == FrameType.CONNECTIVITY)
-    faces = decode_connectivity(data[1:], vertices, of_faces)
+    faces = decode_connectivity(data, vertices, of_faces)
     chunks = [parse_grid(payload, DEFAULT_LIMITS) for kind, payload in frames if kind == FrameType.GRID]
     decoder, values = GridDecoder(faces, vertices, largest), np.zeros((vertices, 3), np.int32)
     for chunk in chunks:

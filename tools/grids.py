@@ -63,7 +63,7 @@ def encode(positions: Positions, faces: Faces, bits: int) -> tuple[bytes, float]
         scale=step,
     )
     encoder = GridEncoder(connectivity.faces, points, header.grid)
-    packets: list[Packet] = [header, Connectivity(1, connectivity.payload)]
+    packets: list[Packet] = [header, Connectivity(connectivity.payload)]
     for first in range(0, len(points), CHUNK):
         count = min(CHUNK, len(points) - first)
         packets.append(Grid(first, count, encoder.chunk(count)))

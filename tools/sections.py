@@ -51,7 +51,7 @@ def in_sections(coded: EncodedConnectivity, counts: Sequence[int], write: WriteB
     frames: Frames = [header_frame(**announced | fields)]
     index = 0
     for section, (piece, count) in enumerate(zip(coded.pieces(coded.cuts), counts, strict=True)):
-        frames.append((FrameType.CONNECTIVITY, b"\x01" + piece))
+        frames.append((FrameType.CONNECTIVITY, piece))
         for number in range(count):
             frames.append((FrameType.BLOCK, write_varint(index) + write(section, number)))
             index += 1

@@ -21,12 +21,15 @@ from bsm.bitstream.entropy.range_coder import (
     copy_bank,
     finish_reading,
     finish_writing,
+    is_reading,
     make_bank,
+    make_room,
     overran,
     signed_span,
     start_reading,
     start_writing,
 )
+from bsm.bitstream.errors import TruncatedError
 
 Levels = npt.NDArray[np.int32]
 Prices = npt.NDArray[np.int16]
@@ -101,6 +104,24 @@ def decode_levels(bank: Bank, payload: bytes, matrices: Sequence[Levels], refere
         if overran(coder):
             break
     finish_reading(coder)
+
+
+def code_column(coder: Coder, values: Levels) -> Coder:
+    """Write whole numbers, or read them into `values`, by a model of their own; return the coder to go on with.
+
+    Raises
+    ------
+    TruncatedError
+        If the payload that is read ends before them.
+    """
+    column = values.reshape(-1, 1)
+    if not is_reading(coder):
+        coder = make_room(coder, 16 * len(values) + 8)
+    used = np.flatnonzero(values)
+    _code_matrix(coder, make_level_bank(), column, np.zeros((0, 1), np.int32), int(used[-1]) + 1 if len(used) else 0)
+    if overran(coder):
+        raise TruncatedError(f"the payload of {len(values)} numbers ends too early")
+    return coder
 
 
 def _occupied(matrix: Levels) -> int:

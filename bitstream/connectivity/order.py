@@ -13,7 +13,7 @@ import numpy.typing as npt
 
 from bsm.bitstream.connectivity.faces import EncodedConnectivity
 from bsm.bitstream.connectivity.permutation import code_permutation, code_rotations
-from bsm.bitstream.entropy.range_coder import finish_reading, finish_writing, start_reading, start_writing
+from bsm.bitstream.entropy.range_coder import Coder, start_writing
 from bsm.bitstream.errors import CorruptError
 
 Ints = npt.NDArray[np.int32]
@@ -21,7 +21,7 @@ Ints = npt.NDArray[np.int32]
 
 @dataclass(frozen=True, eq=False)
 class Arrangement:
-    """What `decode_arrangement` returns.
+    """What `read_arrangement` returns.
 
     Attributes
     ----------
@@ -41,8 +41,8 @@ class Arrangement:
     turns: Ints
 
 
-def encode_arrangement(faces: npt.ArrayLike, encoded: EncodedConnectivity) -> bytes:
-    """Encode the order of `faces`, shape (m, 3), whose connectivity was encoded as `encoded`."""
+def write_arrangement(faces: npt.ArrayLike, encoded: EncodedConnectivity) -> Coder:
+    """Begin a payload with the order of `faces`, shape (m, 3), whose connectivity was encoded as `encoded`."""
     given = np.asarray(faces, np.int32)
     suggested, turned = _suggest(encoded.vertex_order[encoded.faces])
     face_order = encoded.face_order[suggested].astype(np.int32)
@@ -51,11 +51,11 @@ def encode_arrangement(faces: npt.ArrayLike, encoded: EncodedConnectivity) -> by
     rotations = np.argmax([(np.roll(original, -k, axis=1) == given).all(axis=1) for k in range(3)], axis=0)
     coder = code_permutation(start_writing(0), encoded.vertex_order)
     coder = code_permutation(coder, face_order)
-    return finish_writing(code_rotations(coder, rotations.astype(np.int32)))
+    return code_rotations(coder, rotations.astype(np.int32))
 
 
-def decode_arrangement(payload: bytes, faces: Ints, vertex_count: int) -> Arrangement:
-    """Decode the original order of decoded `faces`, shape (m, 3), of `vertex_count` vertices.
+def read_arrangement(coder: Coder, faces: Ints, vertex_count: int) -> Arrangement:
+    """Read the original order of decoded `faces`, shape (m, 3), of `vertex_count` vertices, where a payload begins.
 
     Raises
     ------
@@ -66,9 +66,9 @@ def decode_arrangement(payload: bytes, faces: Ints, vertex_count: int) -> Arrang
         raise CorruptError(f"the arrangement is of {vertex_count} vertices, which the faces are not")
     vertex_order, suggested_order = np.zeros(vertex_count, np.int32), np.zeros(len(faces), np.int32)
     rotations = np.zeros(len(faces), np.int32)
-    coder = code_permutation(start_reading(payload), vertex_order)
-    coder = code_permutation(coder, suggested_order)
-    finish_reading(code_rotations(coder, rotations))
+    code_permutation(coder, vertex_order)
+    code_permutation(coder, suggested_order)
+    code_rotations(coder, rotations)
 
     suggested, turned = _suggest(vertex_order[faces])
     face_order = np.empty_like(suggested_order)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from bsm.bitstream.container.header import binary, integer, integers, method, normalise_fields, reals, text
+from bsm.bitstream.container.header import integer, integers, method, normalise_fields, reals, text
 from bsm.bitstream.errors import OptionError
 
 VERTEX, CORNER, FACE = range(3)
@@ -22,8 +22,6 @@ MOST_WORDS = 2 * MOST_COMPONENTS
 """Numbers in a coded value: two for each component where they are doubles to the bit."""
 MOST_LEVEL = 2**32 - 1
 _OCTAHEDRAL = range(2, 2**16, 2)
-MOST_DOUBTS = 2**24
-MOST_RELIEF = 20
 _INTEGERS = {0: (0, 2**8 - 1), 1: (-(2**7), 2**7 - 1), 2: (0, 2**16 - 1), 3: (-(2**15), 2**15 - 1)} | {
     4: (0, 2**32 - 1),
     5: (-(2**31), 2**31 - 1),
@@ -63,11 +61,7 @@ class Declaration:
     step: tuple[float, ...] = reals(11, 1e-300, 1e300, (0, MOST_COMPONENTS), default=())
     """One level, of all components or of each; empty: 1."""
     leans: int = method(12, known=2)
-    """1: the values are predicted from the decoded positions."""
-    relief: int = integer(13, 0, MOST_RELIEF, default=0)
-    """Where there are blocks, these are in units of 2^-relief (A 6)."""
-    doubts: bytes = binary(14, MOST_DOUBTS)
-    """Coordinates that rounding might tear apart (A 6)."""
+    """1: the values are predicted from positions on a grid."""
     seams_of: int = integer(15, 0, 2**16 - 1, default=0)
     """0: the seams follow; otherwise they are those of attribute `seams_of` - 1."""
 
@@ -123,7 +117,6 @@ def _rules(d: Declaration) -> dict[str, bool]:
         "other than a step for all or for each number": len(d.step) not in (0, 1, d.words),
         "octahedral levels that are not two of the same even number": d.coding == OCTAHEDRAL
         and not any(d.largest == (most, most) for most in d.largest[:1] if most in _OCTAHEDRAL),
-        "relief or doubts without leaning on positions": d.leans == 0 and bool(d.relief or d.doubts),
         "values of faces that lean on positions": d.domain == FACE and d.leans > 0,
         "seams where there are no corners": d.seams_of > 0 and d.domain != CORNER,
     }

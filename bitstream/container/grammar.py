@@ -224,11 +224,10 @@ class Grammar:
                 return f"the seams of attribute {declaration.seams_of - 1}, which does not come before"
             if shared is not None and (shared.domain != CORNER or shared.seams_of):
                 return f"the seams of attribute {declaration.seams_of - 1}, which has none of its own"
-        first = declaration.leans > 0 and not any(other.leans for other in self._declared.values())
-        if (declaration.relief > 0) != (first and not header.grid) and not self._lossy:
-            return "relief belongs to the first attribute that leans on the positions of blocks, and to no other"
-        if header.gop_frames and (declaration.leans or declaration.coding == RECOMPUTED):
-            return "an attribute of a sequence that leans on positions, or is recomputed from them"
+        if declaration.leans and not header.grid:
+            return "an attribute that leans on positions which are on no grid"
+        if header.gop_frames and declaration.coding == RECOMPUTED:
+            return "an attribute of a sequence that is recomputed from positions"
         return None
 
     def _values_problem(self, values: Values) -> str | None:

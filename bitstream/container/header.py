@@ -27,7 +27,7 @@ class Field:
 
     `reserved` is the largest value that a later version may give a meaning to: above `high`, and up to there, a
     value is unsupported and not corrupt. Of a list, `item` is the type and `lengths` bounds the number of its entries;
-    of text and bytes, the range is that of their length in bytes.
+    of text, the range is that of its length in bytes.
     """
 
     key: int
@@ -47,7 +47,7 @@ class Field:
     def problem(self, value: Any) -> str | None:
         """What is wrong with a normalised value, or None."""
         items = value if self.type is tuple else (value,)
-        if self.type in (str, bytes):
+        if self.type is str:
             items = (len(value.encode() if isinstance(value, str) else value),)
         least, most = self.lengths
         if self.type is tuple and not least <= len(items) <= most:
@@ -64,7 +64,7 @@ class Field:
 
 
 def _plain(kind: Kind, value: Any) -> Any:
-    if kind in (str, bytes):
+    if kind is str:
         if type(value) is not kind:
             raise TypeError(f"it must be of type {kind.__name__}")
         return value
@@ -99,11 +99,6 @@ def integers(key: int, low: int, high: int, lengths: tuple[int, int], default: t
 def text(key: int, low: int, high: int) -> Any:
     """Declare a text of so many bytes of UTF-8."""
     return field(metadata={"wire": Field(key, str, low, high)})
-
-
-def binary(key: int, high: int) -> Any:
-    """Declare bytes, none of them by default."""
-    return field(default=b"", metadata={"wire": Field(key, bytes, 0, high)})
 
 
 @dataclass(frozen=True)
@@ -201,8 +196,8 @@ class Header:
     """First cell of a grid on each axis, counted from the origin of the mesh's unit; empty: `center` says it."""
     sections: tuple[int, ...] = integers(41, 1, COUNT, (0, 2 * (MOST_SECTIONS - 1)), default=())
     """Faces and blocks of each section but the last, one pair after another; see `spans`."""
-    light: int = method(42, known=2)
-    """1: the values of a grid are quick to decode, and some more bytes."""
+    light: int = method(42, known=3)
+    """1: the values of a grid are quick to decode, and some more bytes; 2: floats in their cells follow the values."""
 
     def __post_init__(self) -> None:
         normalise_fields(self, "header")
@@ -258,6 +253,10 @@ def contradiction(header: Header) -> str | None:
     return next((problem for problem, broken in rules.items() if broken), None)
 
 
+EXACT = 2
+"""`light`: floats in the cells of a grid follow its values."""
+
+
 def _grid_rules(header: Header) -> dict[str, bool]:
     cells, points = header.lattice if len(header.lattice) == 2 else (0, 0)
     return {
@@ -268,6 +267,8 @@ def _grid_rules(header: Header) -> dict[str, bool]:
         "a lattice of more points than cells": points > cells,
         "a corner that is not one of three axes": len(header.corner) not in (0, 3),
         "a corner and a center": bool(header.corner) and any(header.center),
+        "floats in the cells of a lattice, or of cells that are counted": header.light == EXACT
+        and bool(header.lattice or header.corner),
     } | {
         f"a grid, and {name}": getattr(header, name) != default
         for name, default in HEADER_DEFAULTS.items()

@@ -9,7 +9,7 @@ import math
 from collections.abc import Callable
 from typing import Any, TypeVar
 
-from bsm.bitstream.container.declaration import MOST_DOUBTS, Declaration
+from bsm.bitstream.container.declaration import Declaration
 from bsm.bitstream.container.header import entries_of, header_from_entries, header_to_entries, record_of
 from bsm.bitstream.container.maps import MAX_ENTRIES, parse_map, write_map
 from bsm.bitstream.container.packets import (
@@ -32,7 +32,7 @@ from bsm.bitstream.errors import CorruptError, OptionError
 from bsm.bitstream.limits import Limits
 
 MOST_HEADER = 1 << 16
-MOST_DECLARATION = (1 << 16) + MOST_DOUBTS
+MOST_DECLARATION = 1 << 16
 """Bytes of their maps."""
 LIMITED_FIELDS = ("vertices", "faces", "blocks", "block_size", "coefficients", "frames", "gop_frames", "attributes")
 
@@ -80,20 +80,13 @@ def parse_metadata(payload: bytes, limits: Limits) -> Metadata:
 
 
 def write_coded(packet: Connectivity | Partition | Order) -> bytes:
-    """A byte for the method, then its data."""
-    if not 0 <= packet.method <= 255:
-        raise OptionError(f"method {packet.method} does not fit a byte")
-    return bytes([packet.method]) + packet.data
+    """Its data."""
+    return packet.data
 
 
-def parse_coded(make: Callable[[int, bytes], Coded]) -> Callable[[bytes, Limits], Coded]:
+def parse_coded(make: Callable[[bytes], Coded]) -> Callable[[bytes, Limits], Coded]:
     """Inverse of `write_coded` for the packet type `make`."""
-
-    def parse(payload: bytes, limits: Limits) -> Coded:
-        cursor = Cursor(payload)
-        return make(cursor.take(1)[0], cursor.rest())
-
-    return parse
+    return lambda payload, limits: make(payload)
 
 
 def write_block(block: Block) -> bytes:

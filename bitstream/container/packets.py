@@ -29,25 +29,22 @@ class Metadata:
 
 @dataclass(frozen=True)
 class Connectivity:
-    """The faces, coded by `method`."""
+    """The coded faces, of one section or of all."""
 
-    method: int
     data: bytes
 
 
 @dataclass(frozen=True)
 class Partition:
-    """Which vertex belongs to which block, coded by `method`."""
+    """Which vertex belongs to which block, coded."""
 
-    method: int
     data: bytes
 
 
 @dataclass(frozen=True)
 class Order:
-    """The order that vertices and faces had before coding, coded by `method`."""
+    """The order that vertices and faces had before coding, coded."""
 
-    method: int
     data: bytes
 
 

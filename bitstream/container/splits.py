@@ -1,25 +1,31 @@
-"""Which vertices of a given mesh are one vertex of what was coded, and which are in no face: an order, method 2.
+"""The data of ORDER: the order that a mesh had, and which given vertices are one vertex of what was coded.
 
-The order of method 1 (`bitstream.connectivity.order`) gives the faces as they were, of vertices made one, numbered as
-the first of each was met. What is said here makes them the given vertices again.
+`bitstream.connectivity.order` gives the faces as they were, of vertices made one, numbered as the first of each
+was met. What is said here makes them the given vertices again, those that are in no face included.
 """
 
 from __future__ import annotations
 
-import zlib
 from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
 
+from bsm.bitstream.coefficients.matrices import code_column
+from bsm.bitstream.connectivity.faces import EncodedConnectivity
+from bsm.bitstream.connectivity.order import Arrangement, read_arrangement, write_arrangement
+from bsm.bitstream.connectivity.permutation import code_rotations
 from bsm.bitstream.container.wire import Cursor, write_varint
-from bsm.bitstream.errors import CorruptError
+from bsm.bitstream.entropy.range_coder import finish_reading, finish_writing, start_reading
+from bsm.bitstream.errors import CorruptError, OptionError
 from bsm.bitstream.limits import Limits
 
 Ints = npt.NDArray[np.int32]
 
 FIRST, COPY, LOOSE = 0, 1, 2
 """A given vertex is the first at its place, at the place of one before it, or in no face."""
+MOST_GIVEN = 1 << 24
+"""Given vertices, so that every number of one can be coded."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,67 +47,92 @@ class Splits:
     loose: npt.NDArray[np.float64]
 
 
-def encode_splits(splits: Splits) -> bytes:
-    """Varints of n, of the copies, and of k; then the kinds of vertices, what the copies are copies of, which of the
-    vertices at its place each corner names (if there are copies), each a varint length and zlib; then the positions of
-    loose vertices, as doubles, least byte first.
+def encode_order(faces: npt.ArrayLike, encoded: EncodedConnectivity, splits: Splits | None = None) -> bytes:
+    """Encode the order of `faces`, shape (m, 3), whose connectivity was encoded as `encoded`, and given vertices.
+
+    Varints of the copies and of loose vertices; positions of these, as doubles, least byte first; then one payload: the
+    order, and if there are copies or loose vertices, kinds of vertices, what copies are copies of, and, if there are
+    any, which of the vertices at its place each corner names.
+
+    Raises
+    ------
+    OptionError
+        If there are too many vertices.
     """
-    source = splits.source
-    kinds = np.full(len(source), COPY, np.uint8)
-    kinds[source < 0] = LOOSE
-    used, first = np.unique(source[source >= 0], return_index=True)
-    kinds[np.flatnonzero(source >= 0)[first]] = FIRST
-    copies = source[kinds == COPY]
-    back = (np.cumsum(kinds == FIRST) - 1)[kinds == COPY] - copies
-    parts = [kinds.tobytes(), _planes(back)]
-    if len(copies):
-        visits, counts, _ = _corners(source[splits.faces].ravel(), len(used), source)
-        ranks = _ranks(source)[splits.faces].ravel()
-        parts.append(_planes((ranks - visits) % counts))
-    packed = [zlib.compress(part, 9) for part in parts]
-    numbers = b"".join(map(write_varint, (len(source), len(copies), len(splits.loose))))
-    pieces = b"".join(write_varint(len(part)) + part for part in packed)
-    return numbers + pieces + np.ascontiguousarray(splits.loose, "<f8").tobytes()
+    coder = write_arrangement(faces, encoded)
+    copied, loose = 0, np.zeros((0, 3))
+    if splits is not None:
+        source, loose = splits.source, splits.loose
+        if len(source) >= MOST_GIVEN:
+            raise OptionError(f"{len(source)} vertices are too many for an order that is kept")
+        kinds = np.full(len(source), COPY, np.int32)
+        kinds[source < 0] = LOOSE
+        used, first = np.unique(source[source >= 0], return_index=True)
+        kinds[np.flatnonzero(source >= 0)[first]] = FIRST
+        copies = source[kinds == COPY]
+        copied = len(copies)
+        if copied or len(loose):
+            back = (np.cumsum(kinds == FIRST) - 1)[kinds == COPY] - copies
+            coder = code_column(code_rotations(coder, kinds), back.astype(np.int32))
+        if copied:
+            visits, counts, _ = _corners(source[splits.faces].ravel(), len(used), source)
+            ranks = _ranks(source)[splits.faces].ravel()
+            coder = code_column(coder, ((ranks - visits) % counts).astype(np.int32))
+    numbers = write_varint(copied) + write_varint(len(loose))
+    return numbers + np.ascontiguousarray(loose, "<f8").tobytes() + finish_writing(coder)
 
 
-def decode_splits(data: bytes, faces: Ints, vertices: int, limits: Limits) -> Splits:
-    """Twin of `encode_splits`, for `faces`, shape (m, 3), of `vertices` vertices in the order of method 1.
+def decode_order(data: bytes, faces: Ints, vertices: int, limits: Limits) -> tuple[Arrangement, Splits | None]:
+    """Twin of `encode_order`, for decoded `faces`, shape (m, 3), of `vertices` vertices; no splits if there are none.
 
     Raises
     ------
     CorruptError, LimitError, TruncatedError
     """
     cursor = Cursor(data)
-    size, copies, loose = cursor.varint(), cursor.varint(), cursor.varint()
-    limits.check("vertices", size)
-    if size != vertices + copies + loose or vertices + copies > 3 * len(faces) or 24 * loose > len(data):
-        raise CorruptError(f"{size} given vertices cannot be {vertices}, {copies} copies and {loose} in no face")
-    kinds = np.frombuffer(_unpack(cursor, size), np.uint8)
-    if (np.bincount(kinds, minlength=3) != (vertices, copies, loose)).any():
-        raise CorruptError("the kinds of given vertices are not as many as was said")
-    source = np.full(size, -1, np.int64)
-    source[kinds == FIRST] = np.arange(vertices)
-    source[kinds == COPY] = (np.cumsum(kinds == FIRST) - 1)[kinds == COPY] - _values(_unpack(cursor, 4 * copies))
-    known = (np.cumsum(kinds == FIRST))[kinds == COPY]
-    if (source[kinds == COPY] < 0).any() or (source[kinds == COPY] >= known).any():
-        raise CorruptError("a given vertex is a copy of one that does not come before it")
-    given = np.ascontiguousarray(source, np.int32)
-    order = np.argsort(np.where(given < 0, vertices, given), kind="stable")
-    if copies:
-        visits, counts, starts = _corners(faces.ravel(), vertices, given)
-        steps = _values(_unpack(cursor, 12 * len(faces)))
-        if (steps < 0).any() or (steps >= counts).any():
-            raise CorruptError("a corner names a copy that there is not")
-        corners = order[starts + (steps + visits) % counts]
-    else:
-        corners = order[faces.ravel()]
-    rest = cursor.rest()
-    if len(rest) != 24 * loose:
-        raise CorruptError(f"{len(rest)} bytes for the positions of {loose} vertices")
-    positions = np.frombuffer(rest, "<f8").reshape(loose, 3).astype(np.float64)
-    if not np.isfinite(positions).all():
+    copies, count = cursor.varint(), cursor.varint()
+    limits.check("vertices", vertices + copies + count)
+    if vertices + copies > 3 * len(faces) or vertices + copies + count >= MOST_GIVEN:
+        raise CorruptError(f"{copies} copies of {vertices} vertices, and {count} in no face")
+    loose = np.frombuffer(cursor.take(24 * count), "<f8").reshape(count, 3).astype(np.float64)
+    if not np.isfinite(loose).all():
         raise CorruptError("a vertex that no face uses has a coordinate that is not finite")
-    return Splits(given, corners.reshape(-1, 3).astype(np.int32), positions)
+    coder = start_reading(cursor.rest())
+    arrangement = read_arrangement(coder, faces, vertices)
+    splits = None
+    if copies or count:
+        kinds, back = np.zeros(vertices + copies + count, np.int32), np.zeros(copies, np.int32)
+        code_rotations(coder, kinds)
+        code_column(coder, back)
+        source = _sources(kinds, back, vertices)
+        steps = np.zeros(3 * len(faces), np.int32)
+        if copies:
+            code_column(coder, steps)
+        splits = Splits(source, _named(arrangement.faces, steps, source, vertices), loose)
+    finish_reading(coder)
+    return arrangement, splits
+
+
+def _sources(kinds: Ints, back: Ints, vertices: int) -> Ints:
+    """The vertex that each given one is, numbered as they are met; -1 for loose ones."""
+    if (np.bincount(kinds, minlength=3)[[FIRST, COPY]] != (vertices, len(back))).any():
+        raise CorruptError("the kinds of given vertices are not as many as was said")
+    source = np.full(len(kinds), -1, np.int64)
+    source[kinds == FIRST] = np.arange(vertices)
+    known = np.cumsum(kinds == FIRST)[kinds == COPY]
+    source[kinds == COPY] = known - 1 - back
+    if ((source[kinds == COPY] < 0) | (back < 0)).any():
+        raise CorruptError("a given vertex is a copy of one that does not come before it")
+    return source.astype(np.int32)
+
+
+def _named(faces: Ints, steps: Ints, source: Ints, vertices: int) -> Ints:
+    """The given vertex of each corner, shape (m, 3)."""
+    order = np.argsort(np.where(source < 0, vertices, source), kind="stable")
+    visits, counts, starts = _corners(faces.ravel(), vertices, source)
+    if ((steps < 0) | (steps >= counts)).any():
+        raise CorruptError("a corner names a copy that there is not")
+    return order[starts + (steps + visits) % counts].reshape(-1, 3).astype(np.int32)
 
 
 def _corners(vertices: Ints, count: int, source: Ints) -> tuple[Ints, Ints, Ints]:
@@ -124,25 +155,3 @@ def _ranks(source: Ints) -> Ints:
     ranks = np.empty(len(source), np.int32)
     ranks[order] = np.arange(len(source)) - np.searchsorted(ordered, ordered)
     return ranks
-
-
-def _planes(values: npt.NDArray[np.integer]) -> bytes:
-    """Four bytes of each value, all the least first: zlib finds more in them."""
-    return np.ascontiguousarray(values.astype("<u4").view(np.uint8).reshape(-1, 4).T).tobytes()
-
-
-def _values(data: bytes) -> npt.NDArray[np.int64]:
-    planes = np.frombuffer(data, np.uint8).reshape(4, -1)
-    return np.ascontiguousarray(planes.T).view("<u4").ravel().astype(np.int64)
-
-
-def _unpack(cursor: Cursor, size: int) -> bytes:
-    """A piece; never allocates for more than `size` bytes."""
-    decompressor = zlib.decompressobj()
-    try:
-        content = decompressor.decompress(cursor.take(cursor.varint()), size + 1)
-    except zlib.error as error:
-        raise CorruptError(f"a piece of the order is damaged: {error}") from error
-    if len(content) != size or not decompressor.eof or decompressor.unused_data:
-        raise CorruptError(f"a piece of the order does not hold exactly {size} bytes")
-    return content

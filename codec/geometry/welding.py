@@ -3,18 +3,21 @@
 from __future__ import annotations
 
 import numpy as np
+import numpy.typing as npt
 
 from bsm.codec.arrays import Faces, Indices, Positions
 
 
-def weld(positions: Positions, faces: Faces) -> tuple[Positions, Faces, Indices]:
+def weld(positions: Positions, faces: Faces, *, bits: bool = False) -> tuple[Positions, Faces, Indices]:
     """Give the vertices of exactly equal positions one number.
 
     Parameters
     ----------
     positions : ndarray of float64, shape (n, 3)
-        Finite; -0.0 equals 0.0.
+        Finite.
     faces : ndarray of int32, shape (m, 3)
+    bits : bool
+        Positions are equal where their bits are; otherwise -0.0 equals 0.0.
 
     Returns
     -------
@@ -25,7 +28,8 @@ def weld(positions: Positions, faces: Faces) -> tuple[Positions, Faces, Indices]
     index : ndarray of int32, shape (n,)
         Welded vertex of each given one: ``welded[index]`` puts values on the welded vertices back on the given ones.
     """
-    values = np.ascontiguousarray(positions, dtype=np.float64) + 0.0  # -0.0 + 0.0 is 0.0
+    values = np.ascontiguousarray(positions, dtype=np.float64)
+    values = values.view(np.int64) if bits else values + 0.0  # -0.0 + 0.0 is 0.0
     if _all_differ(values):
         return positions, faces, np.arange(len(values), dtype=np.int32)
     order = np.lexsort(values.T)
@@ -42,7 +46,7 @@ def weld(positions: Positions, faces: Faces) -> tuple[Positions, Faces, Indices]
     return positions[np.sort(first)], index[faces], index
 
 
-def _all_differ(values: Positions) -> bool:
+def _all_differ(values: Positions | npt.NDArray[np.int64]) -> bool:
     """Whether no two rows can be equal: one sort of one number of each, where `weld` needs one of three."""
     bits = values.view(np.uint64)
     mixed = bits[:, 0] * np.uint64(0x9E3779B97F4A7C15)

@@ -200,7 +200,7 @@ class SequenceEncoder:
         draft = Draft(
             opening.header, (*prepared.before_blocks, *(block.packet for block in opening.blocks)), given.positions
         )
-        draft = with_attributes(draft, prepared, carried, self._metadata, still=False)
+        draft = with_attributes(draft, carried, self._metadata)
         writer = Writer()
         yield writer.start()
         for packet in (draft.header, *draft.body):

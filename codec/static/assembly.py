@@ -14,7 +14,7 @@ from bsm.codec.blocks.blend import Blend
 from bsm.codec.blocks.overlap import Blocks
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.signal.smooth import DEGREE, LocalFilter, smooth
-from bsm.codec.static.attributes.relief import Solid
+from bsm.codec.static.attributes.solid import Solid
 from bsm.codec.static.events import Changes, Losses
 from bsm.codec.static.numbering import Numbering
 from bsm.codec.static.units import Units

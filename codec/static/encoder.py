@@ -23,7 +23,7 @@ from bsm.codec.static.attributes.quality import Quality, qualities
 from bsm.codec.static.choice.fulfilment import Fulfilment
 from bsm.codec.static.choice.judge import Sight
 from bsm.codec.static.choice.ladders import FINER, WIDEST, Blocks, Grids, Ladder, Refined
-from bsm.codec.static.choice.lattices import rounded, rounded_to_cells
+from bsm.codec.static.choice.lattices import exact, rounded, rounded_to_cells
 from bsm.codec.static.choice.shaping import Shaper
 from bsm.codec.static.choice.spectral import Spectral
 from bsm.codec.static.contract import Contract
@@ -200,6 +200,8 @@ class Encoder:
 
     def _bare(self, progress: Progress | None) -> Draft:
         options = self.options
+        if options.exact:
+            return exact(self._prepared)
         if options.grid is not None:
             return rounded(self._prepared, options.grid)
         if options.grid_cell is not None:
@@ -300,7 +302,7 @@ class Encoder:
         """A draft with all that the mesh carries."""
         if not self._carried and not self._given.metadata:
             return draft
-        return with_attributes(draft, self._prepared, self._carried, self._given.metadata)
+        return with_attributes(draft, self._carried, self._given.metadata)
 
     @cached_property
     def _wanted(self) -> list[tuple[Attribute, Quality]]:
@@ -316,7 +318,7 @@ class Encoder:
 
     @cached_property
     def _joined(self) -> Joined:
-        return join(self._given, keep=self.options.keep_order)
+        return join(self._given, keep=self.options.keep_order, exact=self.options.exact)
 
     @cached_property
     def _prepared(self) -> Prepared:

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from bsm.bitstream.container.splits import Splits
+from bsm.bitstream.errors import MeshError
 from bsm.codec.arrays import Indices, Mask, Order
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.welding import weld
@@ -40,7 +41,7 @@ class Joined:
     notes: tuple[str, ...]
 
 
-def join(mesh: TriangleMesh, *, keep: bool) -> Joined:
+def join(mesh: TriangleMesh, *, keep: bool, exact: bool = False) -> Joined:
     """Make vertices at one position one.
 
     Faces that this robs of their area are left out, unless that would leave none, or the given mesh is to be kept.
@@ -50,8 +51,14 @@ def join(mesh: TriangleMesh, *, keep: bool) -> Joined:
     mesh : TriangleMesh
     keep : bool
         The stream shall give every vertex and face back.
+    exact : bool
+        Positions are kept as single precision has them, to the bit: they are rounded to it, and -0.0 is not 0.0.
     """
-    positions, faces, index = weld(mesh.positions, mesh.faces)
+    notes = []
+    if exact:
+        mesh, changed = _single(mesh)
+        notes += [f"{changed} coordinates were rounded to single precision"] if changed else []
+    positions, faces, index = weld(mesh.positions, mesh.faces, bits=exact)
     collapsed = _degenerate(faces) & ~_degenerate(mesh.faces)
     if keep or collapsed.all():
         collapsed[:] = False
@@ -76,7 +83,6 @@ def join(mesh: TriangleMesh, *, keep: bool) -> Joined:
     mentioned[mesh.faces] = True
     merged, loose = int(mentioned.sum()) - len(first), len(index) - int(mentioned.sum())
     splits = Splits(index, mesh.faces, mesh.positions[~given]) if keep and (merged or loose) else None
-    notes = []
     if merged and not keep:
         notes.append(f"{merged} vertices were merged with others at the same position")
     if collapsed.any():
@@ -84,6 +90,15 @@ def join(mesh: TriangleMesh, *, keep: bool) -> Joined:
     if loose and not keep:
         notes.append(f"{loose} vertices that no face uses were left out")
     return Joined(joined, index, first, kept, splits, tuple(notes))
+
+
+def _single(mesh: TriangleMesh) -> tuple[TriangleMesh, int]:
+    """With coordinates in single precision, as doubles, and how many that changes."""
+    with np.errstate(over="ignore"):
+        single = mesh.positions.astype(np.float32).astype(np.float64)
+    if not np.isfinite(single).all():
+        raise MeshError("a coordinate is beyond the range of single precision, which lossless keeps; scale the mesh")
+    return replace(mesh, positions=single), int((single != mesh.positions).sum())
 
 
 def _degenerate(faces: Indices) -> Mask:

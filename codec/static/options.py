@@ -101,6 +101,8 @@ class EncodeOptions:
         dictionaries. With `grid` and `grid_cell`, too, values are coded by a small model, in some more bytes.
     lock_borders : Fit, optional
         With a contract: how well parts fit that are encoded apart.
+    exact : bool
+        Keep every position as single precision has it, to the bit.
     grid : int, optional
         Keep every position exactly as a grid of so many bits along the longest side rounds it.
     attributes : mapping of str to str, or pairs
@@ -152,6 +154,7 @@ class EncodeOptions:
     contract: Contract | None = None
     quick: bool = False
     lock_borders: Fit | None = None
+    exact: bool = False
     grid: int | None = None
     attributes: Mapping[str, str] | tuple[tuple[str, str], ...] = ()
     normals: str = "keep"
@@ -177,6 +180,8 @@ class EncodeOptions:
             raise OptionError(f"doi = {self.doi} must be two thresholds, 0 < eps_l < eps_h")
         if self.bits is not None and self.target is not None:
             raise OptionError("a target is reached by the step; it excludes a fixed number of bits")
+        if self.exact and (self.grid is not None or self.grid_cell is not None or self.quick):
+            raise OptionError("positions are exact, or on a grid, or quick to decode; not two of these")
         if self.grid is not None and self.grid_cell is not None:
             raise OptionError("a grid has a number of bits, or cells of a given length; not both")
         if self.grid_origin is not None and self.grid_cell is None:
@@ -217,7 +222,7 @@ class EncodeOptions:
     @property
     def is_grid(self) -> bool:
         """Whether positions are to be exactly those that some grid gives."""
-        return self.grid is not None or self.grid_cell is not None
+        return self.exact or self.grid is not None or self.grid_cell is not None
 
     @property
     def first_step(self) -> float:
@@ -267,6 +272,7 @@ PRESETS: dict[str, EncodeOptions] = {
     "fine": EncodeOptions(contract=Contract(0.005, look=0.5, by_part=True)),
     "near-lossless": EncodeOptions(contract=Contract(0.0005)),
     "grid14": EncodeOptions(grid=14),
+    "lossless": EncodeOptions(exact=True, attributes={"*": "exact"}),
 }
 """Names for what most users want, each a promise; "balanced" is the default. Larger blocks are smaller files and slower
 to decode."""

@@ -12,13 +12,11 @@ from itertools import pairwise
 import numpy as np
 
 from bsm.bitstream.connectivity.faces import Cut, encode_connectivity
-from bsm.bitstream.connectivity.order import encode_arrangement
 from bsm.bitstream.connectivity.partition import encode_labels
 from bsm.bitstream.container import packets
 from bsm.bitstream.container.header import FREE_COPIES, MOST_COPIES
 from bsm.bitstream.container.packets import Packet
-from bsm.bitstream.container.splits import Splits, encode_splits
-from bsm.bitstream.container.wire import write_varint
+from bsm.bitstream.container.splits import Splits, encode_order
 from bsm.bitstream.errors import OptionError
 from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Faces, Indices, Matrix, Order
@@ -30,18 +28,10 @@ from bsm.codec.signal.bandwidth import MeasuredSpectrum
 from bsm.codec.static.sections import choose_cuts, possible_cuts
 from bsm.codec.static.units import Units, units_of
 
-CONNECTIVITY_METHOD = 1
-"""The valence-driven coder of `bitstream.connectivity.faces`."""
 FEW_VERTICES = 300
 """Meshes of fewer have no low frequencies worth speaking of."""
 SMALL_COMPONENT = 150
 """Vertices; a component of fewer has none either."""
-PARTITION_METHOD = 0
-"""The labels of `bitstream.connectivity.partition`."""
-ORDER_METHOD = 1
-"""The permutations of `bitstream.connectivity.order`."""
-SPLITS_METHOD = 2
-"""The same, and behind it what `bitstream.container.splits` says."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -245,7 +235,7 @@ class Parts:
         if not self.metis:
             return ()
         labels = encode_labels(graph.offsets, graph.neighbours, partition.labels, partition.parts)
-        return (packets.Partition(PARTITION_METHOD, labels),)
+        return (packets.Partition(labels),)
 
 
 def prepare(
@@ -284,22 +274,15 @@ def prepare(
     cuts = choose_cuts(connectivity.cuts, vertices, parts.count(vertices), size, sections)
     coding_order = kept[connectivity.vertex_order]
     ordered = TriangleMesh(mesh.positions[coding_order], connectivity.faces)
-    order: tuple[packets.Order, ...] = ()
-    if keep_order:
-        arrangement = encode_arrangement(used.faces, connectivity)
-        order = (packets.Order(ORDER_METHOD, arrangement),)
-        if splits is not None:
-            order = (
-                packets.Order(SPLITS_METHOD, write_varint(len(arrangement)) + arrangement + encode_splits(splits)),
-            )
+    order = (packets.Order(encode_order(used.faces, connectivity, splits)),) if keep_order else ()
     return Prepared(
         mesh=ordered,
         graph=graph_of_faces(ordered.faces, len(kept)),
         parts=parts,
         units=units_of(ordered),
-        connectivity=packets.Connectivity(CONNECTIVITY_METHOD, connectivity.payload),
+        connectivity=packets.Connectivity(connectivity.payload),
         cuts=cuts,
-        pieces=tuple(packets.Connectivity(CONNECTIVITY_METHOD, piece) for piece in connectivity.pieces(cuts)),
+        pieces=tuple(packets.Connectivity(piece) for piece in connectivity.pieces(cuts)),
         order=order,
         coding_order=coding_order,
         vertex_order=kept if keep_order else coding_order,

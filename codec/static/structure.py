@@ -14,13 +14,12 @@ from typing import Any
 import numpy as np
 
 from bsm.bitstream.connectivity.faces import ConnectivityDecoder
-from bsm.bitstream.connectivity.order import decode_arrangement
 from bsm.bitstream.connectivity.partition import decode_labels
 from bsm.bitstream.container import packets
 from bsm.bitstream.container.header import FREE_COPIES, MOST_COPIES, Header, Span
-from bsm.bitstream.container.splits import decode_splits
-from bsm.bitstream.container.wire import Cursor, FrameType
-from bsm.bitstream.errors import BsmError, CorruptError, UnsupportedError
+from bsm.bitstream.container.splits import decode_order
+from bsm.bitstream.container.wire import FrameType
+from bsm.bitstream.errors import BsmError, CorruptError
 from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Faces
 from bsm.codec.blocks.overlap import grow_blocks
@@ -31,7 +30,6 @@ from bsm.codec.static.assembly import Assembly
 from bsm.codec.static.attributes.decoding import Declarations
 from bsm.codec.static.events import HeaderEvent, LossEvent, unreadable
 from bsm.codec.static.numbering import Numbering
-from bsm.codec.static.preamble import CONNECTIVITY_METHOD, ORDER_METHOD, PARTITION_METHOD, SPLITS_METHOD
 from bsm.codec.static.rules import Scheme, scheme_of
 from bsm.codec.static.stages import Arrival, Stage, misplaced
 from bsm.codec.static.units import Units
@@ -106,7 +104,6 @@ class Growth:
         BsmError
             See `ConnectivityDecoder.take`; `CorruptError` also where there are too few vertices for blocks.
         """
-        _check_method("connectivity", packet.method, CONNECTIVITY_METHOD)
         allowance, received = self._allowance, len(packet.data)
         known = self._decoder.take(packet.data)
         number, span = self._spans.popleft()
@@ -256,14 +253,13 @@ class Connected:
 
     def accept(self, arrival: Arrival, queue: deque[Any]) -> Stage[Any]:
         match arrival:
-            case packets.Partition(method, data):
-                _check_method("partition", method, PARTITION_METHOD)
+            case packets.Partition(data):
                 graph = self.section.graph
                 self._body.allowance.spend(labels_cost(graph, len(data)), len(data))
                 labels = decode_labels(data, graph.offsets, graph.neighbours, self.opened.header.blocks)
                 return replace(self, partition=partition_of_labels(labels))
-            case packets.Order(method, data):
-                return replace(self, numbering=self._numbering(method, data))
+            case packets.Order(data):
+                return replace(self, numbering=self._numbering(data))
             case packets.Attribute() if self.section.is_last:
                 return self._declared(arrival, queue)
             case packets.Damaged(type=FrameType.BLOCK | FrameType.ATTRIBUTE):
@@ -295,25 +291,16 @@ class Connected:
             queue.append(LossEvent(None, error))
             return self
 
-    def _numbering(self, method: int, data: bytes) -> Numbering:
+    def _numbering(self, data: bytes) -> Numbering:
         header, allowance = self.opened.header, self._body.allowance
-        split = method == SPLITS_METHOD and not header.gop_frames
-        if not split:
-            _check_method("order", method, ORDER_METHOD)
         allowance.keep(order_memory(header.vertices, header.faces), len(data))
         allowance.spend(order_cost(header.vertices, header.faces, len(data)), len(data))
-        cursor = Cursor(data)
-        arrangement = cursor.take(cursor.varint()) if split else data
-        order = decode_arrangement(arrangement, self.section.faces, header.vertices)
+        order, splits = decode_order(data, self.section.faces, header.vertices, allowance.limits)
         source = np.empty(header.vertices, np.int32)
         source[order.vertex_order] = np.arange(len(source), dtype=np.int32)
-        if not split:
+        if splits is None:
             return Numbering(order.faces, source, arrangement=order)
-        splits = decode_splits(cursor.rest(), order.faces, len(source), allowance.limits)
+        if header.gop_frames:
+            raise CorruptError("a sequence of frames whose vertices are copies of others, or in no face")
         given = np.where(splits.source < 0, -1, source[splits.source])
         return Numbering(splits.faces, given, splits.loose, order, splits=True)
-
-
-def _check_method(what: str, method: int, known: int) -> None:
-    if method != known:
-        raise UnsupportedError(f"{what} method {method} is unknown to this decoder")

@@ -126,6 +126,11 @@ def chunk_cost(received: int) -> float:
     return 8e4 + CODED * received
 
 
+def floats_cost(vertices: int, largest: int) -> float:
+    """Of the floats behind a grid, before their bytes are counted."""
+    return 400.0 * vertices + 4.0 * largest
+
+
 def grid_memory(vertices: int, faces: int) -> float:
     """Bytes for decoding a grid, and its positions."""
     return 80.0 * vertices + grid_charge(vertices, faces)
@@ -134,11 +139,6 @@ def grid_memory(vertices: int, faces: int) -> float:
 def layer_memory(vertices: int, faces: int, axes: int) -> float:
     """Bytes for decoding a layer of refinement, and its levels that wait."""
     return 16.0 * vertices + levels_charge(vertices, faces, axes)
-
-
-def declaration_cost(doubts: bytes) -> float:
-    """Of a declaration of an attribute."""
-    return DECLARED + 30.0 * len(doubts)
 
 
 def seams_kept(vertices: int, faces: int, *, first: bool) -> float:

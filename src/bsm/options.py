@@ -43,8 +43,8 @@ def encode_options(*, preset: str | None = None, **keywords: Any) -> EncodeOptio
     Parameters
     ----------
     preset : str, optional
-        "small", "balanced", "fine", "near-lossless" or "grid14". Its promise holds beside all bounds and targets that
-        are given; None: that of "balanced", unless there are others.
+        "small", "balanced", "fine", "near-lossless", "grid14" or "lossless". Its promise holds beside all bounds and
+        targets that are given; None: that of "balanced", unless there are others.
     **keywords
         Fields of `EncodeOptions`, the bounds `look` and `max_error`, and at most one of `TARGETS`.
 
@@ -61,7 +61,7 @@ def encode_options(*, preset: str | None = None, **keywords: Any) -> EncodeOptio
     base: EncodeOptions = EncodeOptions() if preset is None else _named("preset", PRESETS, preset)
     given = _fields("a mesh", EncodeOptions, _with_bounds(base, keywords), TARGETS, Target)
     others = ("target", "contract", "grid_cell", *CODING)
-    if base.grid is not None and any(given.get(name) is not None for name in others):
+    if base.is_grid and any(given.get(name) is not None for name in others):
         base = EncodeOptions()  # a preset that is a grid has nothing that could be changed
     return replace(base, **given)
 

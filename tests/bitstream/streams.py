@@ -24,30 +24,30 @@ SMALL_HEADER = Header(vertices=100, faces=190, blocks=3, block_size=60, coeffici
 STATIC: list[Packet] = [
     Header(vertices=100, faces=190, blocks=3, block_size=60, coefficients=10, center=(0.1, -2.0, 3.0), shift=0.01),
     Metadata({"creator": "test", "count": -3, "ratio": 0.5, "thumbnail": b"\x00\xff"}),
-    Connectivity(1, b"faces" * 7),
-    Partition(0, b""),
-    Order(2, b"order"),
+    Connectivity(b"faces" * 7),
+    Partition(b""),
+    Order(b"order"),
     Block(0, 10, bytes(range(70))),
     Block(1, 0, b""),
     Block(2, 7, b"coefficients"),
 ]
-BARE: list[Packet] = [SMALL_HEADER, Connectivity(0, b"\x01")]
+BARE: list[Packet] = [SMALL_HEADER, Connectivity(b"\0\x01")]
 ANIMATED: list[Packet] = [
     Header(vertices=4, faces=4, blocks=1, block_size=4, coefficients=2, frames=50, gop_frames=8),
-    Connectivity(0, b"x"),
+    Connectivity(b"x"),
     Gop(0, b"first"),
     Gop(1, b"second"),
 ]
 GRID: list[Packet] = [
     Header(vertices=100, faces=190, grid=(1023, 7, 500), scale=0.25),
-    Connectivity(1, b"faces"),
-    Order(1, b"order"),
+    Connectivity(b"faces"),
+    Order(b"order"),
     Grid(0, 60, b"positions"),
     Grid(60, 40, b""),
 ]
 REFINED: list[Packet] = [
     replace(SMALL_HEADER, refinements=(0.01, 0.0, 0.001, 6.0)),
-    Connectivity(1, b"faces"),
+    Connectivity(b"faces"),
     Block(0, 10, b"coefficients"),
     Refinement(0, 0, 60, b"heights"),
     Refinement(0, 60, 40, b"more"),
@@ -55,11 +55,11 @@ REFINED: list[Packet] = [
 ]
 SECTIONED: list[Packet] = [
     replace(SMALL_HEADER, sections=(60, 2)),
-    Connectivity(1, b"some faces"),
+    Connectivity(b"some faces"),
     Metadata({"creator": "test"}),
     Block(0, 10, b"coefficients"),
     Block(1, 7, b"more"),
-    Connectivity(1, b"the other faces"),
+    Connectivity(b"the other faces"),
     Block(2, 3, b"the rest"),
 ]
 STREAMS = {

@@ -18,10 +18,11 @@ from bsm.bitstream.coefficients import adaptive, contexts, matrices, rate_distor
 from bsm.bitstream.coefficients.adaptive import CoefficientModel
 from bsm.bitstream.connectivity import conquest, faces, halfedges, partition, permutation, seams
 from bsm.bitstream.connectivity.faces import decode_connectivity, encode_connectivity
-from bsm.bitstream.connectivity.order import decode_arrangement, encode_arrangement
 from bsm.bitstream.connectivity.partition import decode_labels, encode_labels
+from bsm.bitstream.container.splits import decode_order, encode_order
 from bsm.bitstream.entropy import range_coder
 from bsm.bitstream.fields import corners, grid, levels, light
+from bsm.bitstream.limits import DEFAULT_LIMITS
 from bsm.codec.geometry.graph import graph_of_faces
 
 MODULES = (
@@ -83,7 +84,7 @@ def test_every_kernel_defends_itself(refusals: dict[str, int]) -> None:
     vertices = int(given.max()) + 1
     encoded = encode_connectivity(given, vertices)
     decoded = decode_connectivity(encoded.payload, vertices, len(given))
-    order = decode_arrangement(encode_arrangement(given, encoded), decoded, vertices)
+    order, _ = decode_order(encode_order(given, encoded), decoded, vertices, DEFAULT_LIMITS)
     np.testing.assert_array_equal(order.faces, given)
     graph = graph_of_faces(decoded, vertices)
     labels = (np.arange(vertices) // 8).astype(np.int32)

@@ -14,8 +14,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from bsm.bitstream.connectivity.faces import decode_connectivity, encode_connectivity
-from bsm.bitstream.connectivity.order import decode_arrangement, encode_arrangement
 from bsm.bitstream.connectivity.partition import decode_labels, encode_labels
+from bsm.bitstream.container.splits import decode_order, encode_order
 from bsm.bitstream.entropy.range_coder import (
     code_signed,
     code_uniform,
@@ -57,7 +57,7 @@ def check_order(payload: bytes, faces: Faces, vertices: int) -> Any:
     """As `check_faces`, for an order payload."""
 
     def decode() -> Any:
-        decoded = decode_arrangement(payload, faces, vertices)
+        decoded, _ = decode_order(bytes(2) + payload, faces, vertices, DEFAULT_LIMITS)
         return decoded.vertex_order.tolist(), decoded.faces.tolist()
 
     expected = outcome(decode)
@@ -76,7 +76,7 @@ def check_mesh(faces: Faces, vertices: int, labels: list[int]) -> None:
     """Encode faces, their order and a partition; both decoders give them back."""
     encoded = encode_connectivity(faces, vertices)
     assert check_faces(encoded.payload, vertices, len(faces)) == encoded.faces.tolist()
-    order = check_order(encode_arrangement(faces, encoded), encoded.faces, vertices)
+    order = check_order(encode_order(faces, encoded)[2:], encoded.faces, vertices)
     assert order == (encoded.vertex_order.tolist(), np.asarray(faces).tolist())
 
     numbered, parts = by_appearance([labels[v % len(labels)] for v in range(vertices)])
@@ -175,7 +175,7 @@ def test_damaged_connectivity(mesh: tuple[Faces, int], data: st.DataObject) -> N
 def test_damaged_order_and_labels(mesh: tuple[Faces, int], labels: list[int], data: st.DataObject) -> None:
     faces, vertices = mesh
     encoded = encode_connectivity(faces, vertices)
-    check_order(damaged(encode_arrangement(faces, encoded), data), encoded.faces, vertices)
+    check_order(damaged(encode_order(faces, encoded)[2:], data), encoded.faces, vertices)
     numbered, parts = by_appearance([labels[v % len(labels)] for v in range(vertices)])
     graph = graph_of_faces(encoded.faces, vertices)
     payload = encode_labels(graph.offsets, graph.neighbours, np.array(numbered, np.int32), parts)

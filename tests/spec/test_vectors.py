@@ -24,6 +24,7 @@ from tools.vectors.bad_light import BAD_LIGHT
 from tools.vectors.bad_sections import BAD_SECTIONS
 from tools.vectors.bad_sequences import BAD_SEQUENCES
 from tools.vectors.edges import EDGES, EDGES_BAD
+from tools.vectors.exact import BAD_EXACT, EXACT
 from tools.vectors.good import STATIC
 from tools.vectors.good_attributes import ATTRIBUTES
 from tools.vectors.good_fields import FIELDS
@@ -87,12 +88,14 @@ def test_every_vector_has_its_files_and_every_file_is_a_vector():
             *STATIC,
             *FIELDS,
             *LIGHT,
+            *EXACT,
             *ATTRIBUTES,
             *SECTIONS,
             *SEQUENCES,
             *BAD,
             *BAD_FIELDS,
             *BAD_LIGHT,
+            *BAD_EXACT,
             *BAD_ATTRIBUTES,
             *BAD_SECTIONS,
             *BAD_SEQUENCES,

@@ -23,7 +23,6 @@ from bsm.bitstream.connectivity.conquest import (
 )
 from bsm.bitstream.connectivity.faces import EncodedConnectivity, _number_by_appearance, encode_connectivity
 from bsm.bitstream.connectivity.halfedges import close_surface
-from bsm.bitstream.connectivity.order import encode_arrangement
 from bsm.bitstream.connectivity.partition import encode_labels
 from bsm.bitstream.connectivity.seams import code_seams
 from bsm.bitstream.connectivity.valence_model import RARE_HEADER, code_rare, make_models
@@ -32,7 +31,7 @@ from bsm.bitstream.container.declaration import AS_CODED, CORNER, FACE, OTHERWIS
 from bsm.bitstream.container.gop import GopBody, GopMethod, write_gop_body
 from bsm.bitstream.container.layout import FRAME_TYPES, WRITERS
 from bsm.bitstream.container.maps import write_map
-from bsm.bitstream.container.splits import Splits, encode_splits
+from bsm.bitstream.container.splits import Splits, encode_order
 from bsm.bitstream.container.wire import FrameType, write_frame, write_varint
 from bsm.bitstream.entropy.range_coder import finish_writing, make_room, start_writing
 from bsm.bitstream.fields.corners import corners_of
@@ -148,7 +147,7 @@ def _header(coded: EncodedConnectivity, **fields: Any) -> tuple[int, bytes]:
 
 
 def _faces(coded: EncodedConnectivity) -> tuple[int, bytes]:
-    return FrameType.CONNECTIVITY, b"\x01" + coded.payload
+    return FrameType.CONNECTIVITY, coded.payload
 
 
 def _blocks(count: int, columns: int) -> Iterator[tuple[int, bytes]]:
@@ -259,16 +258,12 @@ def _copies(rows: int, columns: int) -> bytes:
     """As many copies of one vertex as there may be, in as many blocks."""
     coded = _coded("torus", rows, columns)
     size, faces = len(coded.vertex_order), coded.faces
-    arrangement = encode_arrangement(
-        faces,
-        EncodedConnectivity(
-            coded.payload, np.arange(size, dtype=np.int32), np.arange(len(faces), dtype=np.int32), faces
-        ),
+    as_coded = EncodedConnectivity(
+        coded.payload, np.arange(size, dtype=np.int32), np.arange(len(faces), dtype=np.int32), faces
     )
     copies = 3 * len(faces) - size
     source = np.concatenate([np.arange(size), np.zeros(copies, np.int64)]).astype(np.int32)
-    splits = encode_splits(Splits(source, faces, np.zeros((0, 3))))
-    order = (FrameType.ORDER, b"\x02" + write_varint(len(arrangement)) + arrangement + splits)
+    order = (FrameType.ORDER, encode_order(faces, as_coded, Splits(source, faces, np.zeros((0, 3)))))
     blocks = size // 4
     return _blocky(("torus", rows, columns), order, blocks=blocks, block_size=min(size, 64), power=1)
 

@@ -166,14 +166,14 @@ def _recut(frames: Frames, random: Random, mutate: Mutate) -> None:
     if which + 1 == len(places):
         cut = random.randrange(len(data) + 1)
         behind = random.randrange(place + 1, len(frames) + 1)
-        frames[place] = (FrameType.CONNECTIVITY, b"\x01" + data[:cut])
-        frames.insert(behind, (FrameType.CONNECTIVITY, b"\x01" + data[cut:]))
+        frames[place] = (FrameType.CONNECTIVITY, data[:cut])
+        frames.insert(behind, (FrameType.CONNECTIVITY, data[cut:]))
         return
     other = places[which + 1]
     whole, cut = data + frames[other][1][1:], len(data) + random.choice((-4, -1, 1, 1, 3, 4, 5, 9))
     cut = min(max(cut, 0), len(whole))
-    frames[place] = (FrameType.CONNECTIVITY, b"\x01" + whole[:cut])
-    frames[other] = (FrameType.CONNECTIVITY, b"\x01" + whole[cut:])
+    frames[place] = (FrameType.CONNECTIVITY, whole[:cut])
+    frames[other] = (FrameType.CONNECTIVITY, whole[cut:])
 
 
 def _move(frames: Frames, random: Random, mutate: Mutate) -> None:

@@ -20,9 +20,10 @@ from bsm.bitstream.coefficients.adaptive import CoefficientModel, decode_coeffic
 from bsm.bitstream.coefficients.matrices import decode_levels, encode_levels, make_level_bank
 from bsm.bitstream.coefficients.rate_distortion import choose_levels
 from bsm.bitstream.connectivity.faces import decode_connectivity, encode_connectivity
-from bsm.bitstream.connectivity.order import decode_arrangement, encode_arrangement
 from bsm.bitstream.connectivity.partition import decode_labels, encode_labels
+from bsm.bitstream.container.splits import decode_order, encode_order
 from bsm.bitstream.errors import BsmError
+from bsm.bitstream.limits import DEFAULT_LIMITS
 from bsm.codec.geometry.graph import graph_of_faces
 from bsm.files.mesh import read_mesh
 from tools.copies import refuse_other_kernels
@@ -103,7 +104,7 @@ def round_trip(faces: Ints) -> bool:
     vertices = int(given.max()) + 1
     encoded = encode_connectivity(given, vertices)
     decoded = decode_connectivity(encoded.payload, vertices, len(given))
-    order = decode_arrangement(encode_arrangement(given, encoded), decoded, vertices)
+    order, _ = decode_order(encode_order(given, encoded), decoded, vertices, DEFAULT_LIMITS)
     graph = graph_of_faces(decoded, vertices)
     labels = (np.arange(vertices) // 16).astype(np.int32)
     parts = int(labels[-1]) + 1

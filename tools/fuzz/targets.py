@@ -15,12 +15,12 @@ from bsm.bitstream.coefficients.adaptive import CoefficientModel, decode_blocks,
 from bsm.bitstream.coefficients.matrices import decode_levels, make_level_bank
 from bsm.bitstream.coefficients.packed import unpack_coefficients
 from bsm.bitstream.connectivity.faces import ConnectivityDecoder, decode_connectivity, encode_connectivity
-from bsm.bitstream.connectivity.order import decode_arrangement
 from bsm.bitstream.connectivity.partition import decode_labels
 from bsm.bitstream.connectivity.permutation import decode_permutation, decode_rotations
 from bsm.bitstream.container.gop import GopMethod, parse_gop_body
 from bsm.bitstream.container.layout import PARSERS
 from bsm.bitstream.container.reader import END_OF_STREAM, NEED_DATA, Reader
+from bsm.bitstream.container.splits import decode_order
 from bsm.bitstream.container.tolerant import TolerantReader
 from bsm.bitstream.container.wire import FrameType
 from bsm.bitstream.errors import BsmError
@@ -29,7 +29,7 @@ from bsm.bitstream.fields.corners import corners_of
 from bsm.bitstream.fields.grid import GridDecoder, GridEncoder
 from bsm.bitstream.fields.levels import LevelsDecoder, LevelsEncoder
 from bsm.bitstream.fields.light import LightDecoder, LightEncoder
-from bsm.bitstream.limits import Limits
+from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.sequence.decoder import FrameEvent, SequenceDecoder
 from bsm.codec.static.decoder import Decoder, decode
@@ -150,7 +150,7 @@ _FAN_GRAPH = graph_of_faces(_FAN, 41)
 
 def arrangement(data: bytes) -> None:
     """An order of vertices and faces."""
-    decoded = decode_arrangement(data, _FAN, 41)
+    decoded, _ = decode_order(data, _FAN, 41, DEFAULT_LIMITS)
     _expect(bool((np.sort(decoded.vertex_order) == np.arange(41)).all()), "no permutation of vertices")
     _expect(bool((np.sort(decoded.face_order) == np.arange(len(_FAN))).all()), "no permutation of faces")
 
@@ -354,7 +354,7 @@ def _seed(name: str, kind: int, payload: bytes, header: object) -> bytes:
         return bytes([kinds.index(FrameType(kind))]) + payload
     if name == "connectivity" and kind == FrameType.CONNECTIVITY:
         counts = (getattr(header, "vertices"), getattr(header, "faces"))  # noqa: B009
-        return b"".join(count.to_bytes(2, "little") for count in counts) + payload[1:]
+        return b"".join(count.to_bytes(2, "little") for count in counts) + payload
     if name in ("coefficients", "coefficient_blocks", "coefficient_layers", "packed") and kind == FrameType.BLOCK:
         return bytes([min(255, getattr(header, "coefficients") - 1), payload[1] - 1]) + payload[2:]  # noqa: B009
     if name in ("arrangement", "permutation") and kind == FrameType.ORDER:

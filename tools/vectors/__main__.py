@@ -112,6 +112,7 @@ def write(*, keep: bool) -> int:
     from tools.vectors.bad_sections import BAD_SECTIONS
     from tools.vectors.bad_sequences import BAD_SEQUENCES
     from tools.vectors.edges import EDGES, EDGES_BAD
+    from tools.vectors.exact import BAD_EXACT, EXACT
     from tools.vectors.good import STATIC
     from tools.vectors.good_attributes import ATTRIBUTES
     from tools.vectors.good_fields import FIELDS
@@ -121,12 +122,21 @@ def write(*, keep: bool) -> int:
 
     streams: dict[Vector, bytes] = {}
     meshes = {}
-    for name, good in {**STATIC, **FIELDS, **SEQUENCES, **ATTRIBUTES, **SECTIONS, **LIGHT, **EDGES}.items():
+    for name, good in {**STATIC, **FIELDS, **SEQUENCES, **ATTRIBUTES, **SECTIONS, **LIGHT, **EXACT, **EDGES}.items():
         vector = Vector(name, good.probes)
         streams[vector] = vector.stream.read_bytes() if keep and vector.stream.is_file() else good.make()
         decoder = _decode_sequence if "-sequence" in name else _decode_static
         meshes[vector] = decoder(streams[vector])
-    wrong = {**BAD, **BAD_FIELDS, **BAD_SEQUENCES, **BAD_ATTRIBUTES, **BAD_SECTIONS, **BAD_LIGHT, **EDGES_BAD}
+    wrong = {
+        **BAD,
+        **BAD_FIELDS,
+        **BAD_SEQUENCES,
+        **BAD_ATTRIBUTES,
+        **BAD_SECTIONS,
+        **BAD_LIGHT,
+        **BAD_EXACT,
+        **EDGES_BAD,
+    }
     for name, bad in wrong.items():
         vector = Vector(name, bad.probes, bad.error)
         streams[vector] = vector.stream.read_bytes() if keep and vector.stream.is_file() else bad.make()

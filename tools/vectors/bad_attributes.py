@@ -39,7 +39,7 @@ def _all() -> bytes:
 
 @cache
 def _blocks() -> bytes:
-    return in_chunks(worn(torus(8, 7), charts, creases), BASE, 1000, relief=16)
+    return in_chunks(worn(torus(8, 7), charts, creases), BASE, 1000)
 
 
 @cache
@@ -197,16 +197,7 @@ BAD_ATTRIBUTES: dict[str, Bad] = {
     ),
     "bad-attribute-origin": _declared("faces that are given by something else", 3, origin=1),
     "bad-attribute-faces-lean": _declared("values of faces that lean", 3, leans=1),
-    "bad-attribute-relief-grid": _declared("relief on a grid", 0, relief=9),
-    "bad-attribute-relief-none": _declared("blocks without relief", 0, make=_blocks, relief=None),
-    "bad-attribute-relief-twice": _declared("relief twice", 1, make=_blocks, relief=16),
-    "bad-attribute-relief-alone": _declared("relief without leaning", 2, relief=9),
-    "bad-attribute-relief-large": _declared("relief above 20", 0, make=_blocks, relief=21),
-    "bad-attribute-doubts-beyond": _declared(
-        "a coordinate that there is not in doubt", 0, make=_blocks, doubts=b"\xff\x7f"
-    ),
-    "bad-attribute-doubts-twice": _declared("a coordinate in doubt twice", 0, make=_blocks, doubts=b"\x04\x01"),
-    "bad-attribute-doubts-cut": _declared("doubts that end inside a number", 0, make=_blocks, doubts=b"\x80"),
+    "bad-attribute-leans-blocks": _declared("an attribute that leans on blocks", 0, make=_blocks, leans=1),
     "bad-attribute-seams-of-itself": _declared("seams of the attribute itself", 0, seams_of=1),
     "bad-attribute-seams-of-vertices": _declared("seams of an attribute without any", 3, seams_of=3, domain=1),
     "bad-attribute-seams-of-colors": _declared("seams where there are no corners", 2, seams_of=1),

@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from functools import cache
 
-from bsm.bitstream.container.wire import Cursor, FrameType, write_varint
+import numpy as np
+
+from bsm.bitstream.container.wire import FrameType, write_varint
 from bsm.codec.static.encoder import encode
 from bsm.codec.static.options import EncodeOptions
 from tools.surgery import frames_of, stream_of, with_header, with_payload
@@ -45,20 +48,20 @@ def _without(make: Callable[[], bytes], kind: int, which: int) -> bytes:
     return stream_of(frames[:place] + frames[place + 1 :])
 
 
-def _order(change: Callable[[bytes], bytes]) -> bytes:
-    """With other data of the given vertices behind the arrangement."""
-
-    def changed(payload: bytes) -> bytes:
-        cursor = Cursor(payload[1:])
-        arrangement = cursor.take(cursor.varint())
-        return b"\2" + write_varint(len(arrangement)) + arrangement + change(cursor.rest())
-
-    return _frame(_split, ORDER, changed)
+def _order(
+    probes: str, change: Callable[[bytes], bytes], error: str = "corrupt", make: Callable[[], bytes] = _split
+) -> Bad:
+    """With other data in ORDER."""
+    return Bad(probes, error, lambda: _frame(make, ORDER, change))
 
 
-def _more_vertices(data: bytes) -> bytes:
-    cursor = Cursor(data)
-    return write_varint(cursor.varint() + 1) + cursor.rest()
+def _loose() -> bytes:
+    """With a vertex in no face."""
+    mesh = torus(6, 5)
+    return encode(
+        replace(mesh, positions=np.concatenate([mesh.positions, [[2.0, 3.0, 4.0]]])),
+        EncodeOptions(grid=8, keep_order=True),
+    )
 
 
 def _with_block() -> bytes:
@@ -133,13 +136,17 @@ BAD_FIELDS: dict[str, Bad] = {
     "bad-refinement-early": Bad(
         "REFINEMENT before the last BLOCK", "corrupt", lambda: stream_of(_early(frames_of(_refined())))
     ),
-    "bad-splits-count": Bad("one given vertex too many", "corrupt", lambda: _order(_more_vertices)),
-    "bad-splits-short": Bad("the position of a loose vertex is cut", "corrupt", lambda: _order(lambda data: data[:-1])),
-    "bad-splits-nan": Bad(
-        "a loose vertex that is not finite", "corrupt", lambda: _order(lambda data: data[:-8] + b"\0\0\0\0\0\0\xf8\x7f")
+    "bad-splits-count": _order("one copy fewer than there are", lambda p: write_varint(149) + p[2:]),
+    "bad-splits-many": _order("more copies than corners", lambda p: write_varint(151) + p[2:]),
+    "bad-splits-many-loose": _order(
+        "more given vertices than may be numbered", lambda p: p[:2] + write_varint((1 << 24) - 180)
     ),
-    "bad-splits-zlib": Bad(
-        "a piece that is no zlib stream", "corrupt", lambda: _order(lambda data: data[:4] + bytes(9) + data[13:])
+    "bad-splits-short": _order("kinds of given vertices that are cut", lambda p: p[:-1], "truncated"),
+    "bad-splits-long": _order("bytes behind the last corner", lambda p: p + bytes(9)),
+    "bad-splits-none": _order("copies that are not announced", lambda p: bytes(2) + p[3:]),
+    "bad-splits-cut": _order("positions of loose vertices that are not there", lambda p: p[:20], make=_loose),
+    "bad-splits-nan": _order(
+        "a loose vertex that is not finite", lambda p: p[:2] + b"\0\0\0\0\0\0\xf8\x7f" + p[10:], make=_loose
     ),
 }
 

@@ -48,7 +48,7 @@ BAD_LIGHT: dict[str, Bad] = {
     ),
     "bad-light-default": Bad("`light` stored though it is 0", "corrupt", lambda: with_header(_light(), light=0)),
     "bad-light-256": Bad("`light` above what a method may be", "corrupt", lambda: with_header(_light(), light=256)),
-    "unsupported-light": Bad("a model that is not known", "unsupported", lambda: with_header(_light(), light=2)),
+    "unsupported-light": Bad("a model that is not known", "unsupported", lambda: with_header(_light(), light=3)),
     "unsupported-light-blocks": Bad(
         "a model that is not known, and no grid", "unsupported", lambda: with_header(_light(), light=255, grid=None)
     ),

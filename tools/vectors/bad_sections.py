@@ -53,7 +53,7 @@ def _piece(which: int, edit: Callable[[bytes], bytes]) -> Callable[[Frames], Non
 
     def change(frames: Frames) -> None:
         place = [i for i, (kind, _) in enumerate(frames) if kind == CONNECTIVITY][which]
-        frames[place] = (CONNECTIVITY, b"\x01" + edit(frames[place][1][1:]))
+        frames[place] = (CONNECTIVITY, edit(frames[place][1]))
 
     return change
 
@@ -62,9 +62,9 @@ def _shifted(bytes_more: int) -> Callable[[Frames], None]:
     """The first piece longer by bytes of the second, which is as much shorter, or the other way round."""
 
     def change(frames: Frames) -> None:
-        first, second = frames[1][1][1:], frames[SECOND][1][1:]
+        first, second = frames[1][1], frames[SECOND][1]
         whole, cut = first + second, len(first) + bytes_more
-        frames[1], frames[SECOND] = (CONNECTIVITY, b"\x01" + whole[:cut]), (CONNECTIVITY, b"\x01" + whole[cut:])
+        frames[1], frames[SECOND] = (CONNECTIVITY, whole[:cut]), (CONNECTIVITY, whole[cut:])
 
     return change
 
@@ -209,28 +209,10 @@ PLACES: dict[str, Bad] = {
     "bad-sections-no-last-block": Bad("the last block of a section is missing", "corrupt", _framed(lambda f: f.pop(3))),
     "bad-sections-last-block": Bad("the last block of all is missing", "corrupt", _framed(lambda f: f.pop())),
     "bad-sections-partition": Bad("PARTITION", "corrupt", _framed(_inserted(2, PARTITION, b"\0"))),
-    "bad-sections-partition-method": Bad(
-        "PARTITION of an unknown method: its place counts first", "corrupt", _framed(_inserted(2, PARTITION, b"\x09"))
-    ),
     "bad-sections-order": Bad("ORDER", "corrupt", _framed(_inserted(2, ORDER, b"\x01"))),
     "bad-sections-gop": Bad("a GOP", "corrupt", _framed(lambda f: f.append((GOP, bytes(9))))),
     "bad-sections-metadata": Bad(
         "METADATA in the second section", "corrupt", _framed(_inserted(SECOND + 1, METADATA, b"\x80"))
-    ),
-    "bad-sections-no-method": Bad(
-        "a second CONNECTIVITY without any byte",
-        "corrupt",
-        _framed(lambda f: f.__setitem__(SECOND, (CONNECTIVITY, b""))),
-    ),
-    "unsupported-sections-method": Bad(
-        "a second CONNECTIVITY of another method",
-        "unsupported",
-        _framed(lambda f: f.__setitem__(SECOND, (CONNECTIVITY, b"\x02" + f[SECOND][1][1:]))),
-    ),
-    "bad-sections-method-early": Bad(
-        "the same before its place: that counts first",
-        "corrupt",
-        _framed(lambda f: f.insert(3, (CONNECTIVITY, b"\x02"))),
     ),
     "bad-sections-refinement-early": Bad(
         "REFINEMENT in the first section",
@@ -275,7 +257,7 @@ PIECES: dict[str, Bad] = {
         "corrupt",
         _framed(
             lambda f: [
-                f.__setitem__(1, (CONNECTIVITY, b"\x01" + b"".join(p[1:] for kind, p in f if kind == CONNECTIVITY))),
+                f.__setitem__(1, (CONNECTIVITY, b"".join(p for kind, p in f if kind == CONNECTIVITY))),
                 _piece(1, lambda data: b"")(f),
                 _piece(2, lambda data: b"")(f),
             ]

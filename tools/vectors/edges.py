@@ -222,11 +222,6 @@ EDGES_BAD: dict[str, Bad] = {
     "bad-order-of-faults": Bad(
         "faces that end too early, and then a second CONNECTIVITY", "truncated", _swap_after(lambda data: data[:2])
     ),
-    "unsupported-before-order": Bad(
-        "a method of CONNECTIVITY that is not known, and then a second CONNECTIVITY",
-        "unsupported",
-        _swap_after(lambda data: b"\x09" + data[1:]),
-    ),
     "bad-claims": Bad("a regular mesh without blocks", "corrupt", _claims()),
     "bad-claims-wide": Bad(
         "the same with dictionaries as wide as they may be", "corrupt", _claims(power=64, key_seed=1)

@@ -47,8 +47,7 @@ def _bytes(stream: bytes) -> Iterator[tuple[bytes, str]]:
             yield payload[1:2], f"c_i = {payload[1]}"
             yield payload[2:], "coded levels"
         else:
-            yield payload[:1], f"method {payload[0]}"
-            yield payload[1:], "coded faces"
+            yield payload, "coded faces"
         yield frame[len(tag) + len(payload) :], "CRC-16"
     start = len(stream) - 8
     yield stream[start : start + 1], "END, 5 bytes"

@@ -16,7 +16,6 @@ from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.splitting import split_by_attributes
 from bsm.codec.sequence.encoder import encode_sequence
 from bsm.codec.static.attributes.encoding import ranges
-from bsm.codec.static.attributes.relief import Solid
 from bsm.codec.static.choice.spectral import Spectral
 from bsm.codec.static.draft import Draft
 from bsm.codec.static.encoder import Encoder, encode
@@ -106,10 +105,10 @@ def worn(mesh: TriangleMesh, *make: Callable[[TriangleMesh], Attribute]) -> Tria
     return replace(mesh, attributes=tuple(one(mesh) for one in make))
 
 
-def in_chunks(mesh: TriangleMesh, options: EncodeOptions, size: int, relief: int | None = None) -> bytes:
-    """Values in chunks of so many, with positions rounded to 2^-relief."""
+def in_chunks(mesh: TriangleMesh, options: EncodeOptions, size: int) -> bytes:
+    """Values in chunks of so many."""
     encoder = Encoder(mesh, options)
-    return with_values(encoder, encoder._bare(None), size, relief)
+    return with_values(encoder, encoder._bare(None), size)
 
 
 def on_layers(mesh: TriangleMesh, count: int) -> bytes:
@@ -121,26 +120,19 @@ def on_layers(mesh: TriangleMesh, count: int) -> bytes:
     draft = made.refined((ALL_AXES, levels)).draft()
     layer = Refinement(0, 0, count, LevelsEncoder(made.prepared.mesh.faces, levels).chunk(count))
     body = (*(packet for packet in draft.body if not isinstance(packet, Refinement)), layer)
-    return with_values(encoder, replace(draft, body=body), 1000, 14)
+    return with_values(encoder, replace(draft, body=body), 1000)
 
 
-def with_values(encoder: Encoder, draft: Draft, size: int, relief: int | None) -> bytes:
+def with_values(encoder: Encoder, draft: Draft, size: int) -> bytes:
     """A draft with the attributes of its mesh, in chunks of so many values."""
     prepared, carried = encoder._prepared, encoder._carried
-    solid = Solid(prepared.units.into(draft.decoded), draft.places)
-    exponent = relief or 0
-    doubts = solid.doubts(exponent) if relief else b""
-    known = solid.relief(exponent, doubts) if relief or draft.places is not None else None
-    first, declared, values = True, [], []
+    declared: list[Packet] = []
+    values: list[Packet] = []
     for index, one in enumerate(carried):
-        leans = known is not None and one.declaration.semantic in (2, 3)
-        declaration = one.declaration
-        if leans:
-            declaration = replace(declaration, leans=1)
-            if first:
-                declaration, first = replace(declaration, relief=exponent, doubts=doubts), False
+        leans = draft.places is not None and one.declaration.semantic in (2, 3)
+        declaration = replace(one.declaration, leans=int(leans))
         declared.append(Declared(index, declaration, one.seams))
-        chunks = one.chunks(known if leans else None, size)
+        chunks = one.chunks(draft.places if leans else None, size)
         parts = zip(ranges(declaration.rows, size), chunks, strict=True)
         values += [Values(index, start, count, data) for (start, count), data in parts]
     before = len(prepared.before_blocks if draft.places is None else prepared.before_grid)
@@ -186,22 +178,21 @@ ATTRIBUTES: dict[str, Good] = {
         "texture coordinates with seams that lean on a grid", lambda: encode(worn(torus(12, 10), charts), GRID)
     ),
     "good-attribute-uv-blocks": Good(
-        "texture coordinates that lean on blocks, with coordinates in doubt",
-        lambda: in_chunks(worn(torus(12, 10), charts), BASE, 50, relief=20),
+        "texture coordinates of a mesh in blocks", lambda: in_chunks(worn(torus(12, 10), charts), BASE, 50)
     ),
     "good-attribute-uv-plain": Good(
         "texture coordinates that lean on nothing", lambda: in_chunks(worn(patch(9, 8), charts), BASE, 1000)
     ),
     "good-attribute-layers": Good(
-        "attributes that lean on a layer of refinement, which ends early",
+        "attributes behind a layer of refinement, which ends early",
         lambda: on_layers(worn(torus(10, 8), charts, creases), 50),
     ),
     "good-attribute-normals": Good(
         "normals with creases, on a grid", lambda: encode(worn(torus(12, 10), creases), GRID)
     ),
     "good-attribute-normals-blocks": Good(
-        "normals and texture coordinates in chunks, the second leans by what the first declares",
-        lambda: in_chunks(worn(torus(10, 8), creases, charts), BASE, 33, relief=12),
+        "normals and texture coordinates of a mesh in blocks, in chunks",
+        lambda: in_chunks(worn(torus(10, 8), creases, charts), BASE, 33),
     ),
     "good-attribute-normals-coarse": Good(
         "normals of two bits that lean on nothing",

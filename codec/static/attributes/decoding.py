@@ -21,7 +21,7 @@ from bsm.codec.geometry.attributes import Attribute, Semantic
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.static.attributes.levels import KINDS, restored
 from bsm.codec.static.attributes.pieces import PieceDecoder, from_pieces
-from bsm.codec.static.attributes.relief import Solid
+from bsm.codec.static.attributes.solid import Solid
 from bsm.codec.static.attributes.surface import (
     Arrangement,
     Surface,
@@ -35,10 +35,10 @@ from bsm.codec.static.numbering import Numbering
 from bsm.codec.static.stages import Arrival, Stage, misplaced
 from bsm.codec.static.whole import Complete
 from bsm.codec.static.work import (
+    DECLARED,
     Allowance,
     chunk_cost,
     coding_memory,
-    declaration_cost,
     layer_cost,
     recomputing_memory,
     seams_cost,
@@ -86,7 +86,7 @@ class Declarations:
         CorruptError, TruncatedError
             If its seams are none of these faces, or those of an attribute that is missing.
         """
-        allowance.spend(declaration_cost(packet.declaration.doubts), len(packet.declaration.doubts))
+        allowance.spend(DECLARED)
         every = [*(one.declaration for one in self.known), packet.declaration]
         allowance.limits.check("attribute_values", sum(numbers_of(one, len(self.faces)) for one in every))
         one = Declared(packet.index, packet.declaration, self._joins(packet, allowance))
@@ -184,7 +184,7 @@ class Valued:
         structure.allowance.spend(values_cost(expected, len(declarations.faces)))
         self._coder: PieceDecoder | None = None
 
-    def decode(self, packet: packets.Values, relief: Levels | None) -> AttributeEvent:
+    def decode(self, packet: packets.Values, places: Levels | None) -> AttributeEvent:
         """Decode a chunk of its values; what decodes them is given up behind the last."""
         if self.complete:
             raise CorruptError("it has all its values already")
@@ -193,7 +193,7 @@ class Valued:
         if self._coder is None:
             allowance.keep(coding)
             allowance.spend(layer_cost(self._rows, faces, self.declaration.components))
-            self._coder = PieceDecoder(self.declaration, self._surface, relief, allowance.limits)
+            self._coder = PieceDecoder(self.declaration, self._surface, places, allowance.limits)
         allowance.keep(0.0, len(packet.data))
         allowance.spend(chunk_cost(len(packet.data)), len(packet.data))
         coder = self._coder
@@ -257,13 +257,8 @@ class Carried:
         """Whether some are made from positions."""
         return any(one.declaration.coding == RECOMPUTED for one in self._valued.values())
 
-    @property
-    def leaning(self) -> Declaration | None:
-        """The first of those that lean on positions."""
-        return next((one.declaration for one in self._valued.values() if one.declaration.leans), None)
-
-    def add(self, packet: packets.Values, relief: Callable[[], Levels]) -> AttributeEvent:
-        """Decode a chunk of values; `relief` gives positions if they lean on these.
+    def add(self, packet: packets.Values, places: Callable[[], Levels]) -> AttributeEvent:
+        """Decode a chunk of values; `places` gives positions if they lean on these.
 
         Raises
         ------
@@ -274,7 +269,7 @@ class Carried:
         if valued is None:
             raise CorruptError(f"attribute {packet.attribute} is not declared")
         try:
-            return valued.decode(packet, relief() if valued.declaration.leans else None)
+            return valued.decode(packet, places() if valued.declaration.leans else None)
         except BsmError as error:
             raise type(error)(f"attribute {valued.declaration.name!r}: {error.message}") from error
 
@@ -299,7 +294,7 @@ class Attributed:
         BsmError
             If it cannot be: also if the attribute leans on positions that are missing.
         """
-        return self._carried.add(packet, lambda: self._relief)
+        return self._carried.add(packet, lambda: self._places)
 
     def mesh(self) -> TriangleMesh:
         """The mesh in its own unit, with the attributes that are whole."""
@@ -311,13 +306,11 @@ class Attributed:
         return self._whole.losses()
 
     @cached_property
-    def _relief(self) -> Levels:
-        solid, first = self._whole.solid(), self._carried.leaning
-        if solid is None or first is None:
+    def _places(self) -> Levels:
+        solid = self._whole.solid()
+        if solid is None or solid.places is None:
             raise CorruptError("positions are missing that attributes are predicted from")
-        if solid.places is None and not first.relief:
-            raise CorruptError("the attribute is missing that says how positions are rounded")
-        return solid.relief(first.relief, first.doubts)
+        return solid.places
 
 
 def without_positions() -> Levels:

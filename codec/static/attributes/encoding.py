@@ -28,7 +28,6 @@ from bsm.codec.geometry.splitting import row_numbers
 from bsm.codec.static.attributes.levels import KINDS, Words, quantized
 from bsm.codec.static.attributes.pieces import PieceEncoder, leans, to_pieces
 from bsm.codec.static.attributes.quality import Quality
-from bsm.codec.static.attributes.relief import FARTHEST, Solid, relief_exponent
 from bsm.codec.static.attributes.surface import Surface, surface_of
 from bsm.codec.static.draft import Draft
 from bsm.codec.static.joining import Joined
@@ -107,12 +106,12 @@ class Carried:
         """The chunks of its values, predicted without positions."""
         return self.chunks(None, CHUNK)
 
-    def chunks(self, relief: Levels | None, size: int) -> tuple[bytes, ...]:
+    def chunks(self, places: Levels | None, size: int) -> tuple[bytes, ...]:
         """The chunks of its values, of so many each."""
         if self.declaration.coding == RECOMPUTED:
             return ()
         pieces = to_pieces(self.declaration, self.levels)
-        encoder = PieceEncoder(self.declaration, self.surface, pieces, relief)
+        encoder = PieceEncoder(self.declaration, self.surface, pieces, places)
         return tuple(encoder.chunk(count) for _, count in ranges(self.declaration.rows, size))
 
 
@@ -192,10 +191,8 @@ def _rows(place: Place, attribute: Attribute) -> tuple[Order, Order, Order]:
     return used, numbers[: rows.size].reshape(rows.shape), numbers[rows.size :]
 
 
-def with_attributes(
-    draft: Draft, prepared: Prepared, carried: tuple[Carried, ...], metadata: Metadata, *, still: bool = True
-) -> Draft:
-    """A draft that carries attributes and metadata, too; where it is not still, none of them leans on positions."""
+def with_attributes(draft: Draft, carried: tuple[Carried, ...], metadata: Metadata) -> Draft:
+    """A draft that carries attributes and metadata, too."""
     shape = packets.Connectivity | packets.Partition | packets.Order
     before = 1 + max(place for place, packet in enumerate(draft.body) if isinstance(packet, shape))
     head, body = draft.body[:before], draft.body[before:]
@@ -204,9 +201,8 @@ def with_attributes(
     values: list[Packet] = []
     header = draft.header
     if carried:
-        leaning = _Leaning(draft, prepared) if still else None
         for index, one in enumerate(carried):
-            declaration, chunks = leaning.cheaper(one) if leaning else (one.declaration, one.plain)
+            declaration, chunks = cheaper(one, draft.places)
             declared.append(packets.Attribute(index, declaration, one.seams))
             for (first, count), data in zip(ranges(declaration.rows, CHUNK), chunks, strict=True):
                 values.append(packets.Values(index, first, count, data))
@@ -214,37 +210,13 @@ def with_attributes(
     return replace(draft, header=header, body=(*told, *head, *declared, *body, *values))
 
 
-class _Leaning:
-    """Positions for the attributes that lean on them; the first of these says how they are rounded."""
-
-    def __init__(self, draft: Draft, prepared: Prepared) -> None:
-        self._solid = Solid(prepared.units.into(draft.decoded), draft.places)
-        units = prepared.units
-        self._usable = max(map(abs, units.center)) <= FARTHEST * units.scale or draft.places is not None
-        self._faces = prepared.mesh.faces
-        self._declared = False
-
-    def cheaper(self, one: Carried) -> tuple[Declaration, tuple[bytes, ...]]:
-        """What an attribute declares, and its chunks: leaning on positions, or not where that takes fewer bytes."""
-        if not leans(one.declaration) or not self._usable:
-            return one.declaration, one.plain
-        exponent, doubts, relief = self._relief
-        chunks = one.chunks(relief, CHUNK)
-        if sum(map(len, chunks)) + (0 if self._declared else len(doubts)) >= sum(map(len, one.plain)):
-            return one.declaration, one.plain
-        declaration = replace(one.declaration, leans=1)
-        if not self._declared:
-            declaration, self._declared = replace(declaration, relief=exponent, doubts=doubts), True
-        return declaration, chunks
-
-    @cached_property
-    def _relief(self) -> tuple[int, bytes, Levels]:
-        """How positions are rounded, where that is in doubt, and what comes of it, shape (n, 3)."""
-        exponent, doubts = 0, b""
-        if self._solid.places is None:
-            exponent = relief_exponent(self._solid.positions, self._faces)
-            doubts = self._solid.doubts(exponent)
-        return exponent, doubts, self._solid.relief(exponent, doubts)
+def cheaper(one: Carried, places: Levels | None) -> tuple[Declaration, tuple[bytes, ...]]:
+    """What an attribute declares, and its chunks: leaning on a grid's values, or not where that takes fewer bytes."""
+    if places is not None and leans(one.declaration):
+        chunks = one.chunks(places, CHUNK)
+        if sum(map(len, chunks)) < sum(map(len, one.plain)):
+            return replace(one.declaration, leans=1), chunks
+    return one.declaration, one.plain
 
 
 def ranges(rows: int, size: int) -> list[tuple[int, int]]:

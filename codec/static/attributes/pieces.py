@@ -71,15 +71,15 @@ def leans(declaration: Declaration) -> bool:
 class PieceEncoder:
     """Codes the numbers of an attribute, shape (k, pieces), at most `MOST_COMPONENTS` of each value at a time.
 
-    `relief`: positions of the vertices, shape (n, 3), if they are predicted from these.
+    `places`: positions of the vertices, shape (n, 3), if they are predicted from these.
     """
 
-    def __init__(self, declaration: Declaration, surface: Surface, pieces: Levels, relief: Levels | None) -> None:
+    def __init__(self, declaration: Declaration, surface: Surface, pieces: Levels, places: Levels | None) -> None:
         def make(some: slice) -> ValueEncoder | FaceValueEncoder:
             largest = largest_pieces(declaration)[some]
             if declaration.domain == FACE:
                 return FaceValueEncoder(surface.faces, pieces[:, some], largest)
-            geometry = None if relief is None else surface.relief(relief)
+            geometry = None if places is None else surface.geometry(places)
             kind = kind_of(declaration)
             return ValueEncoder(surface.faces, pieces[:, some], largest, kind, geometry, surface.places)
 
@@ -94,12 +94,12 @@ class PieceEncoder:
 class PieceDecoder:
     """Twin of `PieceEncoder`; raises as `ValueDecoder`."""
 
-    def __init__(self, declaration: Declaration, surface: Surface, relief: Levels | None, limits: Limits) -> None:
+    def __init__(self, declaration: Declaration, surface: Surface, places: Levels | None, limits: Limits) -> None:
         def make(some: slice) -> ValueDecoder | FaceValueDecoder:
             largest = largest_pieces(declaration)[some]
             if declaration.domain == FACE:
                 return FaceValueDecoder(surface.faces, largest, limits)
-            geometry = None if relief is None else surface.relief(relief)
+            geometry = None if places is None else surface.geometry(places)
             kind, size = kind_of(declaration), len(surface.vertices)
             return ValueDecoder(surface.faces, size, largest, kind, geometry, surface.places, limits)
 

@@ -34,9 +34,9 @@ class Surface:
         apart = np.iinfo(np.int32).max - np.arange(len(self.vertices), dtype=np.int32)
         return np.where(self.vertices < 0, apart, self.vertices).astype(np.int32)
 
-    def relief(self, relief: Levels) -> Levels:
+    def geometry(self, places: Levels) -> Levels:
         """Where values are, given where vertices are, shape (n, 3); those of no vertex at the origin."""
-        return np.where(self.vertices[:, None] < 0, 0, relief[self.vertices]).astype(np.int32)
+        return np.where(self.vertices[:, None] < 0, 0, places[self.vertices]).astype(np.int32)
 
 
 def surface_of(domain: int, faces: Faces, vertices: int, loose: int, joins: Joins | None) -> Surface:

@@ -10,21 +10,23 @@ from typing import Any
 import numpy as np
 
 from bsm.bitstream.container import packets
-from bsm.bitstream.container.header import Header
+from bsm.bitstream.container.header import EXACT, Header
 from bsm.bitstream.container.reader import Signal
-from bsm.bitstream.errors import BsmError, CorruptError
+from bsm.bitstream.container.wire import Cursor, write_varint
+from bsm.bitstream.errors import BsmError, CorruptError, NumericError
+from bsm.bitstream.fields.floats import Floats, Numbers, cells_of, floats_of
 from bsm.bitstream.fields.grid import GridDecoder, GridEncoder
 from bsm.bitstream.fields.lattice import spread
 from bsm.bitstream.fields.light import LightDecoder, LightEncoder
 from bsm.codec.arrays import Indices, Levels, Positions
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.static.attributes.decoding import ValuesStage, completed
-from bsm.codec.static.attributes.relief import Solid
+from bsm.codec.static.attributes.solid import Solid
 from bsm.codec.static.events import BlockEvent, Changes, Losses, LossEvent, unreadable
 from bsm.codec.static.stages import Arrival, Stage, misplaced
 from bsm.codec.static.structure import Structure
 from bsm.codec.static.whole import Complete
-from bsm.codec.static.work import grid_chunk_cost, grid_cost, grid_memory, light_chunk_cost, light_cost
+from bsm.codec.static.work import floats_cost, grid_chunk_cost, grid_cost, grid_memory, light_chunk_cost, light_cost
 
 FIRST, CHUNK = 1 << 12, 1 << 13
 """Vertices of the first frame, and of each that follows: large meshes are seen while they arrive, from early on."""
@@ -46,6 +48,8 @@ class Grid:
         Cells from the origin on where the values begin; (): there.
     light : bool
         Whether values are coded so that they are quick to decode.
+    exact : bool
+        Whether the stream says which float of its cell each coordinate is.
     """
 
     origin: tuple[float, ...]
@@ -54,24 +58,31 @@ class Grid:
     lattice: tuple[int, ...] = ()
     corner: tuple[int, ...] = ()
     light: bool = False
+    exact: bool = False
 
     def positions(self, coded: Levels) -> Positions:
         """Positions of coded values, shape (n, 3), in the mesh's unit."""
         places = spread(coded, self.lattice) + np.array(self.corner or (0, 0, 0), np.int64)
         return np.asarray(places * self.step + np.array(self.origin))
 
+    def cells(self, coded: Levels) -> tuple[Numbers, Numbers]:
+        """Numbers of the floats between which the cell of each coded value is, both of their shape."""
+        return cells_of(coded, np.array(self.origin), self.step)
+
     @property
     def fields(self) -> dict[str, Any]:
         """Twin of `grid_of`: what the header has to say."""
         return {"center": self.origin, "scale": self.step, "grid": self.largest, "lattice": self.lattice} | {
             "corner": self.corner,
-            "light": int(self.light),
+            "light": EXACT if self.exact else int(self.light),
         }
 
 
 def grid_of(header: Header) -> Grid:
     """The grid of a stream."""
-    return Grid(header.center, header.scale, header.grid, header.lattice, header.corner, bool(header.light))
+    exact = header.light == EXACT
+    light = bool(header.light) and not exact
+    return Grid(header.center, header.scale, header.grid, header.lattice, header.corner, light, exact)
 
 
 def encode_grid(faces: Indices, grid: Grid, coded: Levels) -> list[packets.Grid]:
@@ -81,6 +92,17 @@ def encode_grid(faces: Indices, grid: Grid, coded: Levels) -> list[packets.Grid]
     starts = [*range(0, min(size, 1)), *range(FIRST, size, CHUNK)]
     counts = [end - start for start, end in pairwise([*starts, size])]
     return [packets.Grid(start, count, encoder.chunk(count)) for start, count in zip(starts, counts, strict=True)]
+
+
+def encode_exact(faces: Indices, grid: Grid, coded: Levels, floats: Numbers) -> list[packets.Grid]:
+    """The packets of coded values, shape (n, 3), and of the numbers of floats in their cells."""
+    model, order = Floats(grid.largest), GridEncoder(faces, coded, grid.largest).order
+    result = []
+    for packet in encode_grid(faces, grid, coded):
+        rows = order[packet.first : packet.first + packet.count]
+        behind = model.encode(coded[rows], *grid.cells(coded[rows]), floats[rows])
+        result.append(packets.Grid(packet.first, packet.count, write_varint(len(packet.data)) + packet.data + behind))
+    return result
 
 
 FULL = GridDecoder, grid_cost, grid_chunk_cost
@@ -100,6 +122,11 @@ class GridStage:
         self._structure = structure
         self._tolerant = tolerant
         self._decoder = kind(structure.faces, size, self._grid.largest, structure.allowance.limits)
+        self._floats: Floats | None = None
+        if self._grid.exact:
+            allowance.keep(float(Floats.charge(self._grid.largest)))
+            allowance.spend(floats_cost(size, max(self._grid.largest)))
+            self._floats = Floats(self._grid.largest)
         self._chunks = 0
         self._broken = False
         self._complete: Complete | None = None
@@ -128,19 +155,31 @@ class GridStage:
         try:
             if packet.first != self._decoder.coded:
                 raise CorruptError(f"positions from number {self._decoder.coded} on are missing; others depend on them")
-            vertices, coded = self._decoder.chunk(packet.data, packet.count)
+            vertices, coded, positions = self._chunk(packet)
         except BsmError as error:
             if not self._tolerant:
                 raise
             self._lose(error, queue)
             return
-        positions = self._grid.positions(coded)
         self._result.positions[vertices] = positions
         self._result.places[vertices] = coded
         self._result.known[vertices] = True
         numbers, rows = self._structure.numbering.spread(vertices)
         queue.append(BlockEvent(self._chunks, Changes(numbers, positions[rows], np.ones(len(numbers), np.bool_))))
         self._chunks += 1
+
+    def _chunk(self, packet: packets.Grid) -> tuple[Indices, Levels, Positions]:
+        """Vertices of a frame, their values, and their positions."""
+        if self._floats is None:
+            vertices, coded = self._decoder.chunk(packet.data, packet.count)
+            return vertices, coded, self._grid.positions(coded)
+        cursor = Cursor(packet.data)
+        vertices, coded = self._decoder.chunk(cursor.take(cursor.varint()), packet.count)
+        low, high = self._grid.cells(coded)
+        positions = floats_of(self._floats.decode(cursor.rest(), coded, low, high)).astype(np.float64)
+        if not np.isfinite(positions).all():
+            raise NumericError("positions are not finite in the unit of the mesh")
+        return vertices, coded, positions
 
     def _lose(self, error: BsmError, queue: deque[Any]) -> None:
         self._broken = True

@@ -22,7 +22,7 @@ from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.signal.frames import displaced, local_frames
 from bsm.codec.static.assembly import Assembly
 from bsm.codec.static.attributes.decoding import ValuesStage, completed
-from bsm.codec.static.attributes.relief import Solid
+from bsm.codec.static.attributes.solid import Solid
 from bsm.codec.static.events import Losses, LossEvent, RefinementEvent, unreadable
 from bsm.codec.static.stages import Arrival, Stage, misplaced
 from bsm.codec.static.structure import Structure

@@ -203,7 +203,7 @@ class _SectionCount:
     def take(self, packet: packets.Packet | packets.Damaged, end: int) -> None:
         """Count a packet whose frame ends after so many bytes."""
         match packet:
-            case packets.Connectivity(_, data):
+            case packets.Connectivity(data):
                 self._counted.append(SectionInfo(0, 0, len(data), 0, None))
             case packets.Block() | packets.Grid():
                 last = self._counted[-1]

@@ -10,14 +10,15 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from bsm.bitstream.connectivity.faces import decode_connectivity, encode_connectivity
-from bsm.bitstream.connectivity.order import decode_arrangement, encode_arrangement
 from bsm.bitstream.connectivity.permutation import (
     decode_permutation,
     decode_rotations,
     encode_permutation,
     encode_rotations,
 )
+from bsm.bitstream.container.splits import decode_order, encode_order
 from bsm.bitstream.errors import CorruptError, OptionError, TruncatedError
+from bsm.bitstream.limits import DEFAULT_LIMITS
 from tests.shapes import Faces, grid_faces
 
 quick = settings(deadline=None, max_examples=100)
@@ -93,17 +94,18 @@ def shuffled(faces: Faces, seed: int) -> Faces:
 def test_original_faces_are_restored_exactly(faces: Faces) -> None:
     count = int(faces.max()) + 1
     encoded = encode_connectivity(faces, count)
-    payload = encode_arrangement(faces, encoded)
-    restored = decode_arrangement(payload, decode_connectivity(encoded.payload, count, len(faces)), count)
+    payload = encode_order(faces, encoded)
+    decoded = decode_connectivity(encoded.payload, count, len(faces))
+    restored, _ = decode_order(payload, decoded, count, DEFAULT_LIMITS)
     np.testing.assert_array_equal(restored.faces, faces)
     np.testing.assert_array_equal(restored.vertex_order, encoded.vertex_order)
     np.testing.assert_array_equal(restored.face_order, encoded.face_order)
     with pytest.raises((CorruptError, TruncatedError)):
-        decode_arrangement(payload[: len(payload) // 2], encoded.faces, count)
+        decode_order(payload[: len(payload) // 2], encoded.faces, count, DEFAULT_LIMITS)
 
 
 def test_arrangement_of_another_mesh_is_refused() -> None:
     faces = grid_faces(9, 13)
     encoded = encode_connectivity(faces, 117)
     with pytest.raises(CorruptError, match="116 vertices"):
-        decode_arrangement(encode_arrangement(faces, encoded), encoded.faces, 116)
+        decode_order(encode_order(faces, encoded), encoded.faces, 116, DEFAULT_LIMITS)

@@ -35,7 +35,6 @@ def row(name: str, record: type = Header) -> str:
         float: "float",
         tuple: "floats",
         str: "text",
-        bytes: "binary",
     }[declared.type]
     if declared.type is tuple:
         kind = "ints" if declared.item is int else kind

@@ -11,9 +11,9 @@ from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 CASES = [
     (Metadata({}), "80"),
     (Metadata({"b": 1, "a": 2.5, "c": b"\x00", "d": "x"}), "84a161ca40200000a16201a163c40100a164a178"),
-    (Connectivity(1, b"xyz"), "0178797a"),
-    (Partition(0, b""), "00"),
-    (Order(255, b"\x07"), "ff07"),
+    (Connectivity(b"xyz"), "78797a"),
+    (Partition(b""), ""),
+    (Order(b"\x07"), "07"),
     (Block(300, 58, b"abc"), "ac023a616263"),
     (Gop(2, b"abc"), "02616263"),
     (End(5, 0x12345678), "0578563412"),
@@ -87,7 +87,6 @@ def test_metadata_limit():
         (CASES[0][0], "8101a161"),  # an integer for a name
         (CASES[0][0], "81a16191a161"),  # a list for a value
         (CASES[0][0], "81a161cb3ff0000000000000"),  # a double where a single is exact
-        (CASES[2][0], ""),
         (CASES[5][0], ""),
         (CASES[5][0], "05"),
         (CASES[5][0], "8000"),

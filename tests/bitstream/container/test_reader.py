@@ -228,7 +228,7 @@ def test_limits_of_the_header():
         read_all(encoded("bare"), reader=Reader(replace(DEFAULT_LIMITS, vertices=99)))
 
 
-HEADER, CONNECTIVITY, PARTITION, ORDER = SMALL_HEADER, Connectivity(0, b""), Partition(0, b""), Order(0, b"")
+HEADER, CONNECTIVITY, PARTITION, ORDER = SMALL_HEADER, Connectivity(b""), Partition(b""), Order(b"")
 META, B0, B1, B2 = Metadata({}), Block(0, 1, b""), Block(1, 1, b""), Block(2, 1, b"")
 COLOUR = Attribute(0, Declaration(name="colour", rows=100, largest=(255,)), b"")
 COLOURS = Values(0, 0, 100, b"")

@@ -11,7 +11,7 @@ from bsm.bitstream.container.writer import write_stream
 from bsm.bitstream.errors import BsmError
 from tests.bitstream.streams import SMALL_HEADER, STATIC, STREAMS, encoded, frame_ends, read_all
 
-LONG = [SMALL_HEADER, Connectivity(1, bytes(range(256)) * 8), *(Block(i, 5, bytes([i]) * 60) for i in range(3))]
+LONG = [SMALL_HEADER, Connectivity(bytes(range(256)) * 8), *(Block(i, 5, bytes([i]) * 60) for i in range(3))]
 
 
 def read(data: bytes, step: int | None = None) -> list:

@@ -9,8 +9,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from bsm.bitstream.container.splits import Splits, decode_splits, encode_splits
-from bsm.bitstream.errors import BsmError, CorruptError
+from bsm.bitstream.connectivity.faces import encode_connectivity
+from bsm.bitstream.container.splits import Splits, decode_order, encode_order
+from bsm.bitstream.errors import BsmError, CorruptError, TruncatedError
 from bsm.bitstream.limits import DEFAULT_LIMITS
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.static.decoder import decode
@@ -81,22 +82,25 @@ def test_a_damaged_order_is_an_error_of_the_stream() -> None:
     mesh = soup(torus(6, 5))
     joined = join(mesh, keep=True)
     assert joined.splits is not None
-    data = encode_splits(joined.splits)
-    faces, count = joined.mesh.faces, len(joined.mesh.positions)
-    back = decode_splits(data, faces, count, DEFAULT_LIMITS)
-    assert np.array_equal(back.faces, mesh.faces)
+    count = len(joined.mesh.positions)
+    coded = encode_connectivity(joined.mesh.faces, count)
+    data = encode_order(joined.mesh.faces, coded, joined.splits)
+    _, back = decode_order(data, coded.faces, count, DEFAULT_LIMITS)
+    assert back is not None and np.array_equal(back.faces, mesh.faces)
     random = np.random.default_rng(0)
     for _ in range(300):
         broken = bytearray(data)
         broken[random.integers(len(broken))] ^= 1 << random.integers(8)
         with suppress(BsmError):
-            decode_splits(bytes(broken), faces, count, DEFAULT_LIMITS)
-    with pytest.raises(CorruptError):
-        decode_splits(data[:-1], faces, count, DEFAULT_LIMITS)
+            decode_order(bytes(broken), coded.faces, count, DEFAULT_LIMITS)
+    with pytest.raises((CorruptError, TruncatedError)):
+        decode_order(data[: len(data) // 2], coded.faces, count, DEFAULT_LIMITS)
 
 
 def test_splits_of_nothing_are_small() -> None:
     faces = np.array([[0, 1, 2]], np.int32)
-    data = encode_splits(Splits(np.array([0, 1, 2, -1], np.int32), faces, np.array([[1.0, 2.0, 3.0]])))
+    coded = encode_connectivity(faces, 3)
+    data = encode_order(faces, coded, Splits(np.array([0, 1, 2, -1], np.int32), faces, np.array([[1.0, 2.0, 3.0]])))
     assert len(data) < 50
-    assert decode_splits(data, faces, 3, DEFAULT_LIMITS).loose.tolist() == [[1.0, 2.0, 3.0]]
+    _, splits = decode_order(data, coded.faces, 3, DEFAULT_LIMITS)
+    assert splits is not None and splits.loose.tolist() == [[1.0, 2.0, 3.0]]

@@ -11,7 +11,7 @@ import type { Argument, Ints, Memory } from "./kernels";
 import type { Allowance } from "./chain";
 import { checkLimit, type Limits } from "./limits";
 import type { Numbering } from "./numbering";
-import { declarationCost, layerCost, seamsCost, valuesCost, valuesMemory } from "./work";
+import { DECLARED, layerCost, seamsCost, valuesCost, valuesMemory } from "./work";
 
 const SEAM = 1;
 const SEAMS = { inputs: 4, others: 9, slots: 32 * 32 + 9 * 16 + 256 + 9 };
@@ -20,7 +20,6 @@ const PIECE = 65536;
 const MOST_COMPONENTS = 4;
 const [BASES, VALENCES] = [4, 6];
 const FACE_CONTEXTS = 257;
-const MOST_COORDINATE = 2 ** 20;
 const FLOAT32 = 6;
 const FLOAT64 = 7;
 const SEMANTICS = ["generic", "color", "normal", "texcoord"] as const;
@@ -72,7 +71,6 @@ interface Valued {
 /** The attributes of one mesh. */
 export class Attributes {
     private readonly valued = new Map<number, Valued>();
-    private relief?: Int32Array;
     private current = -1;
     private mark?: number;
 
@@ -86,7 +84,7 @@ export class Attributes {
 
     /** Take a declaration, and its seams. */
     declare(index: number, declaration: Declaration, seams: Uint8Array): void {
-        this.allowance.spend(declarationCost(declaration.doubts.length), declaration.doubts.length);
+        this.allowance.spend(DECLARED);
         const all = [...this.valued.values()].map((one) => one.declaration);
         checkLimit(this.limits, "attributeValues", [...all, declaration].reduce((sum, one) => sum + this.numbersOf(one), 0));
         this.valued.set(index, { declaration, joins: this.joinsOf(index, declaration, seams), values: new Float64Array(0), coded: 0 });
@@ -221,7 +219,7 @@ export class Attributes {
         if (before) before.surface = before.coders = undefined;
         one.surface = this.surfaceOf(one, numbering);
         one.values = new Float64Array(declaration.rows * declaration.components);
-        const geometry = declaration.leans ? this.reliefOf(one.surface, solid) : new Int32Array(0);
+        const geometry = declaration.leans ? this.geometryOf(one.surface, solid()) : new Int32Array(0);
         this.mark ??= memory.mark();
         memory.release(this.mark);
         this.current = index;
@@ -278,28 +276,12 @@ export class Attributes {
     }
 
     /** Where rows are, in whole numbers (D 5). */
-    private reliefOf(surface: Surface, solid: () => Solid | undefined): Int32Array {
-        this.relief ??= this.makeRelief(solid());
-        const places = new Int32Array(3 * surface.vertices.length);
-        surface.vertices.forEach((vertex, row) => vertex >= 0 && places.set(begun(this.relief).subarray(3 * vertex, 3 * vertex + 3), 3 * row));
-        return places;
-    }
-
-    private makeRelief(solid?: Solid): Int32Array {
-        const leaning = [...this.valued.values()].find(({ declaration }) => declaration.leans)?.declaration;
-        if (!solid || !leaning) throw new CorruptError("positions are missing that attributes are predicted from");
-        if (solid.places) return solid.places;
-        if (leaning.relief === 0) throw new CorruptError("the attribute is missing that says how positions are rounded");
-        const scaled = solid.positions.map((x) => x * 2 ** leaning.relief + 0.5);
-        const low = scaled.map(Math.floor);
-        const cursor = new Cursor(leaning.doubts);
-        for (let [i, begun] = [0, false]; !cursor.ended; begun = true) {
-            const entry = cursor.varint();
-            i += Math.floor(entry / 2);
-            if (i >= low.length || (begun && entry < 2)) throw new CorruptError(`coordinate ${i} of ${low.length} is in doubt`);
-            low[i] = nearestEven(scaled[i]) - 1 + (entry % 2);
-        }
-        return Int32Array.from(low, (x) => Math.min(Math.max(x, -MOST_COORDINATE), MOST_COORDINATE));
+    private geometryOf(surface: Surface, solid?: Solid): Int32Array {
+        const places = solid?.places;
+        if (!places) throw new CorruptError("positions are missing that attributes are predicted from");
+        const geometry = new Int32Array(3 * surface.vertices.length);
+        surface.vertices.forEach((vertex, row) => vertex >= 0 && geometry.set(places.subarray(3 * vertex, 3 * vertex + 3), 3 * row));
+        return geometry;
     }
 
     /** As the user knows it (D 4.5). */
@@ -333,13 +315,6 @@ export class Attributes {
 /** How many values there are for vertices that no face uses. */
 function looseOf(declaration: Declaration, numbering: Numbering): number {
     return isByVertex(declaration) ? numbering.loose.vertices.length : 0;
-}
-
-/** The whole number that is nearest, of two the even one. */
-function nearestEven(x: number): number {
-    const low = Math.floor(x);
-    const above = x - low;
-    return above > 0.5 || (above === 0.5 && low % 2 !== 0) ? low + 1 : low;
 }
 
 /** How numbers are predicted (D 3.4). */

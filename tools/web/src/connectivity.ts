@@ -5,8 +5,6 @@ import { mostCopies, sectionsOf, type Header, type Section } from "./header";
 import type { Ints, Longs, Memory } from "./kernels";
 import { checkLimit, type Limits } from "./limits";
 
-/** The one method there is. */
-export const CONNECTIVITY_METHOD = 1;
 const ONE = 65536;
 const VALENCE = { contexts: 14, nodes: 16 };
 const EVENT = { contexts: 3, size: 4096 };
@@ -231,38 +229,36 @@ export interface Arrangement {
 }
 
 /** The order that a mesh had: the original number of each vertex, and the original faces (C 9). */
-export function decodeArrangement(
-    memory: Memory,
-    payload: Uint8Array,
-    faces: Ints,
-    vertexCount: number,
-): Arrangement {
+export function readArrangement(memory: Memory, coder: Coder, faces: Ints, vertexCount: number): Arrangement {
+    const count = faces.length / 3;
+    const numbers = readPermutation(memory, coder, vertexCount);
+    const places = readPermutation(memory, coder, count);
+    const rotations = readTurns(memory, coder, count);
+    const renumbered = faces.view.map((corner) => numbers[corner]);
+    const original = new Int32Array(renumbered.length);
+    const coded = new Int32Array(renumbered.length);
+    suggestedOrder(renumbered).forEach((face, rank) => {
+        const place = places[rank];
+        const corners = renumbered.subarray(3 * face, 3 * face + 3);
+        let first = 0;
+        for (let k = 1; k < 3; k++) if (corners[k] < corners[first]) first = k;
+        first += rotations[place];
+        for (let k = 0; k < 3; k++) {
+            coded[3 * place + k] = 3 * face + ((first + k) % 3);
+            original[3 * place + k] = corners[(first + k) % 3];
+        }
+    });
+    return { numbers, faces: original, corners: coded };
+}
+
+/** Numbers 0, 1 and 2 (C 9.4). */
+export function readTurns(memory: Memory, coder: Coder, count: number): Int32Array {
     return memory.scratch(() => {
-        const count = faces.length / 3;
-        const coder = new Coder(memory, payload);
-        const numbers = readPermutation(memory, coder, vertexCount);
-        const places = readPermutation(memory, coder, count);
         const turns = memory.ints(count);
         turns.view.fill(0);
         const bank = makeBank(memory, { slots: 108, selectors: 2, inputs: 2 });
         checkOrder(coder, memory.call("code_turns", coder.parts, bank, turns), `${count} rotations`);
-        coder.finish();
-        const renumbered = faces.view.map((corner) => numbers[corner]);
-        const original = new Int32Array(renumbered.length);
-        const coded = new Int32Array(renumbered.length);
-        const rotations = turns.view;
-        suggestedOrder(renumbered).forEach((face, rank) => {
-            const place = places[rank];
-            const corners = renumbered.subarray(3 * face, 3 * face + 3);
-            let first = 0;
-            for (let k = 1; k < 3; k++) if (corners[k] < corners[first]) first = k;
-            first += rotations[place];
-            for (let k = 0; k < 3; k++) {
-                coded[3 * place + k] = 3 * face + ((first + k) % 3);
-                original[3 * place + k] = corners[(first + k) % 3];
-            }
-        });
-        return { numbers, faces: original, corners: coded };
+        return turns.view.slice();
     });
 }
 

@@ -25,8 +25,6 @@ export interface Declaration {
     offset: number[];
     step: number[];
     leans: number;
-    relief: number;
-    doubts: Uint8Array;
     seamsOf: number;
 }
 
@@ -43,13 +41,11 @@ const FIELDS: Fields<keyof Declaration> = {
     offset: { key: 10, type: "floats", low: -1e300, high: 1e300, default: [], lengths: [0, 8] },
     step: { key: 11, type: "floats", low: 1e-300, high: 1e300, default: [], lengths: [0, 4] },
     leans: { key: 12, type: "method", low: 0, high: 1, default: 0 },
-    relief: { key: 13, type: "int", low: 0, high: 20, default: 0 },
-    doubts: { key: 14, type: "binary", low: 0, high: 2 ** 24, default: new Uint8Array(0) },
     seamsOf: { key: 15, type: "int", low: 0, high: 65535, default: 0 },
 };
 
 /** Bytes of the map (F 5.8). */
-const MOST_DECLARATION = 2 ** 24 + 2 ** 16;
+const MOST_DECLARATION = 2 ** 16;
 
 /** The declaration in a map; contradictions are errors (D 1.4). */
 export function parseDeclaration(payload: Uint8Array): Declaration {
@@ -97,7 +93,6 @@ function contradiction(d: Declaration): string | undefined {
         ["other than an offset for each number", d.offset.length !== 0 && d.offset.length !== words],
         ["other than a step for all or for each number", d.step.length > 1 && d.step.length !== words],
         ["octahedral levels that are not two of the same even number", d.coding === OCTAHEDRAL && !even],
-        ["relief or doubts without leaning on positions", d.leans === 0 && (d.relief > 0 || d.doubts.length > 0)],
         ["values of faces that lean on positions", d.domain === FACE && d.leans > 0],
         ["seams where there are no corners", d.seamsOf > 0 && d.domain !== CORNER],
     ];

@@ -2,9 +2,11 @@
 import { NOT_FINITE, type Changes } from "./assembly";
 import { Coder } from "./entropy";
 import { CorruptError, NumericError } from "./errors";
-import type { Header } from "./header";
+import { Floats } from "./floats";
+import { EXACT, type Header } from "./header";
 import type { Argument, Doubles, Ints, Memory } from "./kernels";
 import { upTo } from "./numbers";
+import { Cursor } from "./reader";
 
 const LIGHT_SLOTS = 24 * 151;
 
@@ -65,6 +67,7 @@ export class Grid {
     private readonly values: Ints;
     private readonly places: Doubles;
     private readonly frame: Doubles;
+    private readonly floats?: Floats;
     private coded = 0;
 
     constructor(
@@ -80,14 +83,18 @@ export class Grid {
         const largest = memory.ints(3);
         largest.view.set(header.grid);
         this.values = zeros(memory.ints(3 * size, 3));
+        if (header.light === EXACT) this.floats = new Floats(memory, header);
         this.kernel = makeKernel(memory, header, faces, [largest, this.values, zeros(memory.ints(3 * size, 3))]);
     }
 
     decode(first: number, count: number, payload: Uint8Array): Changes {
         const { memory, header, places, kernel } = this;
         if (first !== this.coded) throw new CorruptError(`positions from number ${this.coded} on are missing; others depend on them`);
-        decodeChunk(memory, kernel.name, kernel.state, payload, first, count);
+        const cursor = new Cursor(payload);
+        const values = this.floats ? cursor.take(cursor.varint()) : payload;
+        decodeChunk(memory, kernel.name, kernel.state, values, first, count);
         this.coded += count;
+        if (this.floats) return this.placed(kernel.order.part(first, count).view.slice(), this.floats, cursor.rest());
         return memory.scratch(() => {
             const [cells, points] = header.lattice.length > 0 ? header.lattice.map(BigInt) : [0n, 0n];
             const vertices = kernel.order.part(first, count);
@@ -96,6 +103,16 @@ export class Grid {
             if (!finite) throw new NumericError(NOT_FINITE);
             return { vertices: vertices.view.slice(), positions: moved.view.slice(), final: new Uint8Array(count).fill(1) };
         });
+    }
+
+    /** Vertices at the floats that a payload tells (V 16). */
+    private placed(vertices: Int32Array, floats: Floats, payload: Uint8Array): Changes {
+        const values = this.values.view;
+        const own = Int32Array.from({ length: 3 * vertices.length }, (_, i) => values[3 * vertices[Math.floor(i / 3)] + (i % 3)]);
+        const positions = floats.decode(payload, own);
+        const places = this.places.view; // memory may have grown
+        vertices.forEach((vertex, row) => places.set(positions.subarray(3 * row, 3 * row + 3), 3 * vertex));
+        return { vertices, positions, final: new Uint8Array(vertices.length).fill(1) };
     }
 
     /** In the unit of the mesh, as vertices are numbered in the decoded faces. */

@@ -1,18 +1,17 @@
 /** A stream of a static mesh on a light grid to the mesh, while it arrives: as `decoder.ts` decodes it, without all else. */
 import { begun } from "./begun";
 import { Allowance } from "./chain";
-import { CONNECTIVITY_METHOD, ConnectivityDecoder, decodeArrangement } from "./connectivity";
+import { ConnectivityDecoder } from "./connectivity";
 import type { BlockEvent, ConnectivityEvent, EndEvent, HeaderEvent, Mesh, MetadataEvent } from "./decoder";
 import { BsmError, UnsupportedError } from "./errors";
 import { Grid, lightKernel } from "./grid";
 import type { Header } from "./header";
 import type { Kernels, Memory } from "./kernels";
 import { DEFAULT_LIMITS, type Limits } from "./limits";
-import { Numbering, permuted } from "./numbering";
+import { Numbering } from "./numbering";
+import { decodeOrder } from "./order";
 import { END_OF_STREAM, NEED_DATA, Reader, type Packet, type Signal } from "./reader";
 import { LIGHT_COST, meshCost, orderCost } from "./work";
-
-const ORDER_METHOD = 1;
 
 export type Event = HeaderEvent | MetadataEvent | ConnectivityEvent | BlockEvent | EndEvent;
 
@@ -84,9 +83,9 @@ export class Decoder {
             case "metadata":
                 return void this.queue.push(packet);
             case "connectivity":
-                return this.acceptConnectivity(packet.method, packet.data);
+                return this.acceptConnectivity(packet.data);
             case "order":
-                return this.acceptOrder(packet.method, packet.data);
+                return this.acceptOrder(packet.data);
             case "grid":
                 return this.acceptGrid(packet.first, packet.count, packet.data);
             case "end":
@@ -95,25 +94,23 @@ export class Decoder {
     }
 
     private acceptHeader(header: Header): void {
-        if (!header.light) throw new UnsupportedError("this build decodes light grids alone, which this is not; small.js and bsm.js decode more");
+        if (header.light !== 1) throw new UnsupportedError("this build decodes light grids alone, which this is not; small.js and bsm.js decode more");
         this.header = header;
         this.connectivity = new ConnectivityDecoder(this.memory, header, this.limits);
         this.queue.push({ type: "header", header });
     }
 
-    private acceptConnectivity(method: number, data: Uint8Array): void {
+    private acceptConnectivity(data: Uint8Array): void {
         const { vertices, faces } = begun(this.header);
-        if (method !== CONNECTIVITY_METHOD) throw new UnsupportedError(`connectivity method ${method} is unknown to this decoder`);
         begun(this.connectivity).take(data);
         this.allowance.grant(vertices);
         this.allowance.spend(meshCost(vertices, faces, data.length, { vertices: 0, faces: 0 }), data.length);
     }
 
-    private acceptOrder(method: number, data: Uint8Array): void {
+    private acceptOrder(data: Uint8Array): void {
         const { vertices, faces } = begun(this.header);
-        if (method !== ORDER_METHOD) throw new UnsupportedError(`this build decodes no order of method ${method}; bsm.js may`);
         this.allowance.spend(orderCost(vertices, faces, data.length), data.length);
-        this.numbering = permuted(decodeArrangement(this.memory, data, begun(this.connectivity).faces, vertices));
+        this.numbering = decodeOrder(this.memory, data, begun(this.connectivity).faces, begun(this.header), this.limits);
     }
 
     private acceptGrid(first: number, count: number, data: Uint8Array): void {

@@ -56,6 +56,8 @@ export function sectionsOf({ blocks, faces, sections }: Header): Section[] {
 }
 
 const COUNT = 2 ** 31 - 1;
+/** `light`: floats in the cells of a grid follow its values (V 16). */
+export const EXACT = 2;
 
 const FIELDS: Fields<keyof Header> = {
     vertices: { key: 1, type: "int", low: 1, high: COUNT },
@@ -88,7 +90,7 @@ const FIELDS: Fields<keyof Header> = {
     attributes: { key: 33, type: "int", low: 0, high: 255, default: 0 },
     corner: { key: 40, type: "ints", low: -(2 ** 31), high: COUNT, default: [], lengths: [0, 3] },
     sections: { key: 41, type: "ints", low: 1, high: COUNT, default: [], lengths: [0, 14] },
-    light: { key: 42, type: "method", low: 0, high: 1, default: 0 },
+    light: { key: 42, type: "method", low: 0, high: 2, default: 0 },
 };
 
 /** Rows of all blocks together that so many vertices may have (F 4.6). */
@@ -129,6 +131,7 @@ function gridRules(header: Header): [string, boolean][] {
         ["a lattice with fewer points than the grid has values", points > 0 && points < Math.max(...grid)],
         ["a lattice of more points than cells", points > cells],
         ["a corner that is not one of three axes", corner.length % 3 !== 0],
+        ["floats in the cells of a lattice, or of cells that are counted", header.light === EXACT && lattice.length + corner.length > 0],
         ["a corner and a center", corner.length > 0 && !same(center, FIELDS.center.default)],
         ["a grid, and fields of blocks", others.some((name) => !same(header[name], FIELDS[name].default))],
     ];

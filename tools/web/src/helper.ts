@@ -82,9 +82,9 @@ export class Helper {
             this.header = packet.header;
             this.structure = new Structure(memory, packet.header, limits, allowance);
         } else if (packet.type === "connectivity") {
-            begun(structure).accept(packet.method, packet.data);
+            begun(structure).accept(packet.data);
             this.chains = undefined;
-        } else if (packet.type === "partition") begun(structure).acceptPartition(packet.method, packet.data);
+        } else if (packet.type === "partition") begun(structure).acceptPartition(packet.data);
         else if (packet.type === "block" && isMine(begun(header), packet.index, this.share)) return this.decode(packet);
         return undefined;
     }

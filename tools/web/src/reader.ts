@@ -23,7 +23,7 @@ export type Metadata = Map<string, string | number | bigint | Uint8Array>;
 export type Packet =
     | { type: "header"; header: Header }
     | { type: "metadata"; entries: Metadata }
-    | { type: "connectivity" | "partition" | "order"; method: number; data: Uint8Array }
+    | { type: "connectivity" | "partition" | "order"; data: Uint8Array }
     | { type: "block"; index: number; coefficients: number; data: Uint8Array }
     | { type: "gop"; index: number; data: Uint8Array }
     | { type: "grid"; first: number; count: number; data: Uint8Array }
@@ -131,9 +131,9 @@ const PARSERS: Record<Kind, (payload: Cursor, limits: Limits) => Packet> = {
         }
         return { type: "metadata", entries };
     },
-    connectivity: (payload) => ({ type: "connectivity", method: payload.take(1)[0], data: payload.rest() }),
-    partition: (payload) => ({ type: "partition", method: payload.take(1)[0], data: payload.rest() }),
-    order: (payload) => ({ type: "order", method: payload.take(1)[0], data: payload.rest() }),
+    connectivity: (payload) => ({ type: "connectivity", data: payload.rest() }),
+    partition: (payload) => ({ type: "partition", data: payload.rest() }),
+    order: (payload) => ({ type: "order", data: payload.rest() }),
     block: (payload) => ({ type: "block", index: payload.varint(), coefficients: payload.varint(), data: payload.rest() }),
     gop: (payload) => ({ type: "gop", index: payload.varint(), data: payload.rest() }),
     grid: (payload) => ({ type: "grid", first: payload.varint(), count: payload.varint(), data: payload.rest() }),
@@ -287,7 +287,7 @@ class Grammar {
         if (index < following || (index > following && !this.lossy) || index >= header.attributes) {
             throw new CorruptError(`attribute ${index} of ${header.attributes}, where attribute ${following} must follow`);
         }
-        const { name, domain, seamsOf, leans, relief, coding } = declaration;
+        const { name, domain, seamsOf, leans, coding } = declaration;
         if (others.some((other) => other.name === name)) throw new CorruptError(`a second attribute is called "${name}"`);
         if (seams.length > 0 && (domain !== CORNER || seamsOf)) throw new CorruptError("seams of an attribute that has none of its own");
         if (seamsOf) {
@@ -295,13 +295,8 @@ class Grammar {
             if (!shared && !(this.lossy && seamsOf <= index)) throw new CorruptError(`the seams of attribute ${seamsOf - 1}, which does not come before`);
             if (shared && (shared.domain !== CORNER || shared.seamsOf)) throw new CorruptError(`the seams of attribute ${seamsOf - 1}, which has none of its own`);
         }
-        const first = leans > 0 && !others.some((other) => other.leans);
-        if (relief > 0 !== (first && header.grid.length === 0) && !this.lossy) {
-            throw new CorruptError("relief belongs to the first attribute that leans on the positions of blocks, and to no other");
-        }
-        if (header.gopFrames > 0 && (leans || coding === RECOMPUTED)) {
-            throw new CorruptError("an attribute of a sequence that leans on positions, or is recomputed from them");
-        }
+        if (leans && header.grid.length === 0) throw new CorruptError("an attribute that leans on positions which are on no grid");
+        if (header.gopFrames > 0 && coding === RECOMPUTED) throw new CorruptError("an attribute of a sequence that is recomputed from positions");
     }
 
     private checkValues({ attribute, first, count }: Extract<Packet, { type: "values" }>): void {

@@ -4,10 +4,10 @@ import { parseMap, type Value } from "./maps";
 
 type Content = number | number[] | string | Uint8Array;
 
-/** A field: its key, and what is legal; of text and binary, `low` and `high` bound the bytes. */
+/** A field: its key, and what is legal; of text, `low` and `high` bound the bytes. */
 export interface Field {
     key: number;
-    type: "int" | "method" | "float" | "ints" | "floats" | "string" | "binary";
+    type: "int" | "method" | "float" | "ints" | "floats" | "string";
     low: number;
     high: number;
     default?: Content;
@@ -61,7 +61,7 @@ function contentOf(name: string, { type }: Field, value: Value, what: string): C
                 throw new CorruptError(`an entry of the ${what} field ${name} is of type ${item.type}`);
             });
         }
-    } else if (type === "string" || type === "binary") {
+    } else if (type === "string") {
         if (value.type === type) return value.value;
     } else if (value.type === (type === "float" ? "float" : "int")) {
         return Number(value.value);

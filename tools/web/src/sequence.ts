@@ -253,7 +253,7 @@ export class Sequence {
     /** A model that has learnt nothing (S 4.1); what lies behind the parts is given back. */
     private startModel(): void {
         this.memory.release(this.behindParts);
-        this.bank = makeBank(this.memory, { slots: SLOTS, selectors: 3 * SPAN, inputs: INPUTS, limit: 400, rate: 10 });
+        this.bank = makeLevelBank(this.memory);
         this.behindBank = this.memory.mark();
     }
 
@@ -393,6 +393,11 @@ export class Sequence {
         this.history = { levels, moments: history.moments, latest, before: history.latest };
         return () => field.view.slice();
     }
+}
+
+/** A model of levels that has learnt nothing (S 4.1). */
+export function makeLevelBank(memory: Memory): Bank {
+    return makeBank(memory, { slots: SLOTS, selectors: 3 * SPAN, inputs: INPUTS, limit: 400, rate: 10 });
 }
 
 function core({ members, starts, cores }: Blocks, index: number): Ints {

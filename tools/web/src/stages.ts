@@ -4,25 +4,22 @@ import { Attributes, type Solid } from "./attributes";
 import { Assembly, inMeshUnits } from "./assembly";
 import type { Blocks } from "./blocks";
 import type { Allowance, DecodedBlock } from "./chain";
-import { decodeArrangement } from "./connectivity";
 import type { Declaration } from "./declaration";
 import { BsmError, CorruptError, UnsupportedError } from "./errors";
 import type { BlockEvent, Event, Wishes } from "./events";
 import { gridKernel, Refinement } from "./fields";
 import { Grid, lightKernel } from "./grid";
-import type { Header } from "./header";
+import { EXACT, type Header } from "./header";
 import { isMine } from "./helper";
 import type { Memory } from "./kernels";
 import { checkLimit, type Limits } from "./limits";
-import { Numbering, permuted } from "./numbering";
-import { Cursor, type Damaged, type Packet } from "./reader";
+import { Numbering } from "./numbering";
+import { decodeOrder } from "./order";
+import { type Damaged, type Packet } from "./reader";
 import { Sequence } from "./sequence";
-import { split } from "./splits";
 import { Structure, type Chains } from "./structure";
-import { chunkCost, GRID_COST, layerCost, LIGHT_COST, orderCost, type GridCost } from "./work";
+import { chunkCost, exactCost, GRID_COST, layerCost, LIGHT_COST, orderCost, type GridCost } from "./work";
 
-const ORDER_METHOD = 1;
-const SPLITS_METHOD = 2;
 
 /** A frame that is made when it is its turn. */
 export interface ComingFrame {
@@ -116,11 +113,11 @@ export class Stages {
             case "metadata":
                 return void this.queue.push(packet);
             case "connectivity":
-                return this.acceptConnectivity(packet.method, packet.data);
+                return this.acceptConnectivity(packet.data);
             case "partition":
-                return this.structure.acceptPartition(packet.method, packet.data);
+                return this.structure.acceptPartition(packet.data);
             case "order":
-                return this.acceptOrder(packet.method, packet.data);
+                return this.acceptOrder(packet.data);
             case "block":
                 return this.acceptBlock(packet.index, packet.coefficients, packet.data);
             case "gop":
@@ -175,26 +172,21 @@ export class Stages {
         this.lose(error);
     }
 
-    private acceptConnectivity(method: number, data: Uint8Array): void {
+    private acceptConnectivity(data: Uint8Array): void {
         const { connectivity } = this.structure;
         if (connectivity.section > 0) {
             this.built();
             this.skipTo(connectivity.blocks);
             this.assembled.leave();
         }
-        this.structure.accept(method, data);
+        this.structure.accept(data);
         this.chains = undefined;
     }
 
-    private acceptOrder(method: number, data: Uint8Array): void {
+    private acceptOrder(data: Uint8Array): void {
         const { memory, structure, header, limits } = this;
-        const splits = method === SPLITS_METHOD && !header.gopFrames;
-        if (!splits && method !== ORDER_METHOD) throw new UnsupportedError(`order method ${method} is unknown to this decoder`);
         this.allowance.spend(orderCost(header.vertices, header.faces, data.length), data.length);
-        const cursor = new Cursor(data);
-        const order = splits ? cursor.take(cursor.varint()) : data;
-        const arrangement = decodeArrangement(memory, order, structure.faces, header.vertices);
-        this.numbering = splits ? split(cursor.rest(), arrangement, limits) : permuted(arrangement);
+        this.numbering = decodeOrder(memory, data, structure.faces, header, limits);
     }
 
     private acceptAttribute(index: number, declaration: Declaration, seams: Uint8Array): void {
@@ -259,14 +251,15 @@ export class Stages {
     }
 
     private get gridCost(): GridCost {
-        return this.header.light ? LIGHT_COST : GRID_COST;
+        const { light, grid } = this.header;
+        return light === 1 ? LIGHT_COST : light === EXACT ? exactCost(Math.max(...grid)) : GRID_COST;
     }
 
     private begunGrid(): Grid {
         if (this.grid) return this.grid;
         this.announce();
         this.allowance.spend(this.gridCost.whole(this.header.vertices, this.header.faces));
-        return (this.grid = new Grid(this.memory, this.structure.faces, this.header, this.header.light ? lightKernel : gridKernel));
+        return (this.grid = new Grid(this.memory, this.structure.faces, this.header, this.header.light === 1 ? lightKernel : gridKernel));
     }
 
     private acceptGop(index: number, data: Uint8Array): void {

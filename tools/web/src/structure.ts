@@ -2,14 +2,13 @@
 import { begun } from "./begun";
 import { derivePartition, groupLabels, growBlocks, largestPart, lastOf, makeGraph, type Blocks, type Graph, type Partition } from "./blocks";
 import { chainLength, ChainDecoder, type Allowance, type DecodedBlock, type Surface } from "./chain";
-import { CONNECTIVITY_METHOD, ConnectivityDecoder, decodeLabels } from "./connectivity";
-import { CorruptError, UnsupportedError } from "./errors";
+import { ConnectivityDecoder, decodeLabels } from "./connectivity";
+import { CorruptError } from "./errors";
 import { sectionsOf, type Header } from "./header";
 import type { Ints, Memory } from "./kernels";
 import type { Limits } from "./limits";
 import { labelsCost, meshCost, partitionCost, type Earlier } from "./work";
 
-const PARTITION_METHOD = 0;
 /** Made of the packets in front of the blocks of each section. */
 export class Structure {
     readonly connectivity: ConnectivityDecoder;
@@ -34,9 +33,8 @@ export class Structure {
     }
 
     /** Take the faces of the next section; nothing that the memory holds of the one before it is needed any more. */
-    accept(method: number, data: Uint8Array): void {
+    accept(data: Uint8Array): void {
         const { connectivity, allowance } = this;
-        if (method !== CONNECTIVITY_METHOD) throw new UnsupportedError(`connectivity method ${method} is unknown to this decoder`);
         this.before = { faces: connectivity.known, vertices: connectivity.vertices };
         connectivity.take(data);
         const { known, vertices } = connectivity;
@@ -61,8 +59,7 @@ export class Structure {
         if (blocks > this.connectivity.blocks) throw new CorruptError("the faces of a section are missing");
     }
 
-    acceptPartition(method: number, data: Uint8Array): void {
-        if (method !== PARTITION_METHOD) throw new UnsupportedError(`partition method ${method} is unknown to this decoder`);
+    acceptPartition(data: Uint8Array): void {
         const { size, offsets, neighbours } = this.graph;
         this.allowance.spend(labelsCost(size, neighbours.length, data.length), data.length);
         const labels = decodeLabels(this.memory, data, offsets, neighbours, this.header.blocks);

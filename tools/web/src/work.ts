@@ -52,6 +52,11 @@ export const GRID_COST: GridCost = {
     frame: (received) => 3.5e4 + CODED * received,
 };
 
+/** Of a grid with floats, whose largest axis has so many values. */
+export function exactCost(largest: number): GridCost {
+    return { ...GRID_COST, whole: (vertices, faces) => GRID_COST.whole(vertices, faces) + 400 * vertices + 4 * largest };
+}
+
 export const LIGHT_COST: GridCost = {
     whole: (vertices, faces) => 200 * vertices + 40 * faces,
     frame: (received) => 3.5e4 + 120 * received,
@@ -63,9 +68,7 @@ export function layerCost(vertices: number, faces: number, axes: number): number
 }
 
 /** Of the declaration of an attribute. */
-export function declarationCost(doubts: number): number {
-    return 6e5 + 30 * doubts;
-}
+export const DECLARED = 6e5;
 
 /** Of the seams of an attribute, and of joining corners between them. */
 export function seamsCost(vertices: number, faces: number, received: number): number {
