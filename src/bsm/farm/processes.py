@@ -7,6 +7,7 @@ import multiprocessing.connection
 import os
 import signal
 import threading
+import time
 from collections.abc import Generator, Iterator
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
@@ -19,6 +20,8 @@ from bsm.files.output import Terminated, termination_as_exception
 
 AHEAD = 2
 """Jobs handed out for each process."""
+GRACE = 3.0
+"""Seconds that a process has to clear away, once its parent is gone, and once it was told to end."""
 
 Handed = dict[int, Task]
 Ends = Generator[tuple[int, Outcome], None, Handed]
@@ -96,6 +99,10 @@ def _end_with_parent() -> None:
 
     def watch() -> None:
         multiprocessing.connection.wait([sentinel])
+        # It may have told this process to end, which is then clearing away what it has begun.
+        time.sleep(GRACE)
+        os.kill(os.getpid(), signal.SIGTERM)
+        time.sleep(GRACE)
         os._exit(1)
 
     threading.Thread(target=watch, daemon=True).start()
