@@ -20,7 +20,7 @@ FLOORS = {
         ("batch",),
         ("encoding",),
         ("api",),
-        ("blender", "gltf", "pyvista", "trimesh", "viewer"),
+        ("blender", "gltf", "pyvista", "trimesh", "viewer", "vtk"),
         # Finds the module of a command by its name.
         ("cli",),
         ("commands",),
