@@ -23,11 +23,11 @@ const LARGEST_WEIGHT = 8;
 const BEND = 2 ** -6;
 
 const INPUTS = 6;
-const SPAN = unsignedSpan(14) + 2;
+const SPAN = unsignedSpan(14) + 4;
 const SLOTS = (5 * 12 * 12 + 12 * 40) * SPAN;
 const LEADING = 24;
-/** Forgetting, ridge, noise, largest level, dense rows, renewal (S 6). */
-const RULES = [0.985, 0.005, 30, 2 ** 23 - 1, 16n, 8n] as const;
+/** Forgetting, ridge, noise, dense rows, renewal (S 6). */
+const RULES = [0.985, 0.005, 30, 16n, 8n] as const;
 
 /** The data of a GOP (S 2). */
 interface Gop {
@@ -281,6 +281,17 @@ export class Sequence {
         });
     }
 
+    /** What levels stand for, in half steps (S 4.4). */
+    private points(values: Int32Array): Int32Array {
+        const { memory } = this;
+        return memory.scratch(() => {
+            const [levels, points] = [memory.ints(values.length, 1), memory.ints(values.length, 1)];
+            levels.view.set(values);
+            memory.run("points_of_levels", levels, points);
+            return points.view.slice();
+        });
+    }
+
     /** What a closed loop makes of levels (S 6); `moments` is updated. */
     private follow(known: Float64Array, count: number, levels: Levels, columns: number, moments: Float64Array, step: number): Float64Array {
         const { memory } = this;
@@ -292,7 +303,7 @@ export class Sequence {
             const state = memory.copy(moments, width);
             const factor = memory.copy(new Float64Array(moments.length), width);
             memory.run(
-                "follow_rows", memory.copy(known, count), decoded, given, decoded, state, step, 0, 0, RULES, factor,
+                "follow_rows", memory.copy(known, count), given, decoded, state, step, RULES, factor,
                 memory.doubles(width), memory.doubles(width),
             );
             moments.set(state.view);
@@ -348,8 +359,9 @@ export class Sequence {
         const cosines = temporalCosines(this.memory, frames);
         const columns = new Float64Array(3 * frames * components);
         matrices.forEach(({ values }, d) => {
-            const spectrum = Float64Array.from(values, (level, i) => level * steps[i % components]);
-            if (components > 0) columns.set(reconstruct(this.memory, cosines, spectrum, components), d * frames * components);
+            if (components === 0) return;
+            const spectrum = Float64Array.from(this.points(values), (point, i) => 0.5 * point * steps[i % components]);
+            columns.set(reconstruct(this.memory, cosines, spectrum, components), d * frames * components);
         });
         return columns;
     }
