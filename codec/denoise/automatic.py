@@ -40,6 +40,8 @@ CANDIDATES = (
 HERALDS = (CANDIDATES[0], *CANDIDATES[1:3], CANDIDATES[7], CANDIDATES[-2])
 """Those that compete for the second guess."""
 LARGEST_KEEP = max(recipe.keep for recipe in CANDIDATES)
+LEARNT_MORE = 0.025
+"""Movement over noise with the learnt normals, above that without them, from which on they are left out."""
 SLIDING = 0.6
 """Noise across the normals, over noise along them, from which on vertices may slide along the surface."""
 BLOCK_SIZE = 500
@@ -124,6 +126,7 @@ def denoise_automatically(
     finding = find_noise(calmed, patient.probe)
     choice = choose(calmed, finding, patient, goal).after(outliers)
     result, verdict = treat(choice, calmed, finding, patient)
+    choice = replace(choice, learnt=verdict.learnt)
     if not verdict.holds:
         choice = replace(choice, steps=(), reason=verdict.reason)
     moved = (result != welded).any(axis=1)[index]
@@ -202,19 +205,27 @@ def treat(choice: AutomaticChoice, noisy: Positions, finding: Finding, patient: 
     if not choice.steps:
         return noisy, Verdict(np.ones(len(noisy), dtype=np.bool_), 0.0, 0.0, "")
     results = {step: _perform(step, choice, noisy, patient) for step in set(choice.steps)}
-    result = blend([results[step] for step in choice.steps])
+    result, verdict = _judged(blend([results[step] for step in choice.steps]), noisy, finding, patient)
     if choice.learnt > 0.0:
-        result = joined(result, patient.learner(noisy), choice.learnt, patient.topology)
-    result = keep_good(noisy, result, finding.levels > 0.0)
-    if finding.grid is not None:
-        result = finding.grid.within_cells(noisy, result)
-    verdict = judge(noisy, result, finding, patient.probe)
+        mean = joined(result, patient.learner(noisy), choice.learnt, patient.topology)
+        other, judgement = _judged(mean, noisy, finding, patient)
+        # Made shapes have less detail than real ones: where the networks move more than the recipes, they take it away.
+        if judgement.movement < verdict.movement + LEARNT_MORE:
+            result, verdict = other, replace(judgement, learnt=choice.learnt)
     if not verdict.holds:
         return noisy, verdict
     share = restraint(verdict.movement, finding)
     if share < 1.0:
         result = noisy + share * (result - noisy)
     return keep_good(noisy, result, verdict.good), verdict
+
+
+def _judged(result: Positions, noisy: Positions, finding: Finding, patient: Patient) -> tuple[Positions, Verdict]:
+    """The result where there is noise, as far as it may go, and what is to be said of it."""
+    result = keep_good(noisy, result, finding.levels > 0.0)
+    if finding.grid is not None:
+        result = finding.grid.within_cells(noisy, result)
+    return result, judge(noisy, result, finding, patient.probe)
 
 
 def _perform(step: Step, choice: AutomaticChoice, noisy: Positions, patient: Patient) -> Positions:
