@@ -1,4 +1,5 @@
 /** What an ATTRIBUTE frame declares (specification, D 1). */
+import { DECLARATION_FIELDS } from "./constants";
 import { CorruptError } from "./errors";
 import { parseFields, type Fields } from "./record";
 
@@ -28,21 +29,7 @@ export interface Declaration {
     seamsOf: number;
 }
 
-const FIELDS: Fields<keyof Declaration> = {
-    name: { key: 1, type: "string", low: 1, high: 255 },
-    domain: { key: 2, type: "method", low: 0, high: 2, default: 0 },
-    origin: { key: 3, type: "method", low: 0, high: 1, default: 0 },
-    semantic: { key: 4, type: "method", low: 0, high: 3, default: 0 },
-    kind: { key: 5, type: "method", low: 0, high: 7, default: FLOAT32 },
-    components: { key: 6, type: "int", low: 1, high: 4, default: 1 },
-    coding: { key: 7, type: "method", low: 0, high: 3, default: 0 },
-    rows: { key: 8, type: "int", low: 0, high: 2 ** 31 - 1, default: 0 },
-    largest: { key: 9, type: "ints", low: 0, high: MOST_LEVEL, default: [], lengths: [0, 8] },
-    offset: { key: 10, type: "floats", low: -1e300, high: 1e300, default: [], lengths: [0, 8] },
-    step: { key: 11, type: "floats", low: 1e-300, high: 1e300, default: [], lengths: [0, 4] },
-    leans: { key: 12, type: "method", low: 0, high: 1, default: 0 },
-    seamsOf: { key: 15, type: "int", low: 0, high: 65535, default: 0 },
-};
+const FIELDS: Fields<keyof Declaration> = DECLARATION_FIELDS;
 
 /** Bytes of the map (F 5.8). */
 const MOST_DECLARATION = 2 ** 16;

@@ -1,4 +1,5 @@
 /** The header: fields, legal values, contradictions (specification, F 4). */
+import { HEADER_FIELDS } from "./constants";
 import { CorruptError } from "./errors";
 import { checkLimit, type Limits } from "./limits";
 import { parseFields, same, type Fields } from "./record";
@@ -55,43 +56,10 @@ export function sectionsOf({ blocks, faces, sections }: Header): Section[] {
     return [...found, { first, blocks, faces }];
 }
 
-const COUNT = 2 ** 31 - 1;
 /** `light`: floats in the cells of a grid follow its values (V 16). */
 export const EXACT = 2;
 
-const FIELDS: Fields<keyof Header> = {
-    vertices: { key: 1, type: "int", low: 1, high: COUNT },
-    faces: { key: 2, type: "int", low: 1, high: COUNT },
-    blocks: { key: 3, type: "int", low: 0, high: COUNT, default: 0 },
-    blockSize: { key: 4, type: "int", low: 0, high: COUNT, default: 0 },
-    coefficients: { key: 5, type: "int", low: 0, high: COUNT, default: 0 },
-    keyInterval: { key: 8, type: "int", low: 0, high: COUNT, default: 0 },
-    power: { key: 9, type: "int", low: 1, high: 64, default: 3 },
-    iterations: { key: 10, type: "int", low: 1, high: 1024, default: 1 },
-    keyIterations: { key: 11, type: "int", low: 1, high: 1024, default: 4 },
-    shift: { key: 12, type: "float", low: 2 ** -30, high: 2 ** 30, default: 0.0078125 },
-    coding: { key: 14, type: "method", low: 0, high: 1, default: 1 },
-    bits: { key: 15, type: "int", low: 1, high: 32, default: 12 },
-    step: { key: 16, type: "float", low: 2 ** -40, high: 2 ** 20, default: 2 ** -8 },
-    center: { key: 17, type: "floats", low: -1e300, high: 1e300, default: [0, 0, 0], lengths: [3, 3] },
-    scale: { key: 18, type: "float", low: 1e-300, high: 1e300, default: 1 },
-    stiffness: { key: 19, type: "float", low: 0, high: 65536, default: 8 },
-    smoothing: { key: 20, type: "float", low: 0, high: 1e6, default: 0 },
-    frames: { key: 21, type: "int", low: 0, high: COUNT, default: 0 },
-    gopFrames: { key: 23, type: "int", low: 0, high: COUNT, default: 0 },
-    detailStep: { key: 25, type: "float", low: 0, high: 2 ** 20, default: 0 },
-    details: { key: 26, type: "int", low: 0, high: COUNT, default: 0 },
-    coarser: { key: 27, type: "int", low: 0, high: 30, default: 0 },
-    grid: { key: 28, type: "ints", low: 0, high: 2 ** 20 - 1, default: [], lengths: [0, 3] },
-    lattice: { key: 29, type: "ints", low: 1, high: COUNT, default: [], lengths: [0, 2] },
-    refinements: { key: 30, type: "floats", low: 0, high: 64, default: [], lengths: [0, 8] },
-    keySeed: { key: 31, type: "method", low: 0, high: 1, default: 0 },
-    borders: { key: 32, type: "method", low: 0, high: 1, default: 0 },
-    attributes: { key: 33, type: "int", low: 0, high: 255, default: 0 },
-    corner: { key: 40, type: "ints", low: -(2 ** 31), high: COUNT, default: [], lengths: [0, 3] },
-    sections: { key: 41, type: "ints", low: 1, high: COUNT, default: [], lengths: [0, 14] },
-    light: { key: 42, type: "method", low: 0, high: 2, default: 0 },
-};
+const FIELDS: Fields<keyof Header> = HEADER_FIELDS;
 
 /** Rows of all blocks together that so many vertices may have (F 4.6). */
 export function mostCopies(vertices: number): number {

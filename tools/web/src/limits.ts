@@ -1,3 +1,4 @@
+import { LIMITS } from "./constants";
 import { LimitError } from "./errors";
 
 /** Upper bounds that a decoder checks before it allocates or works (specification, M 14.1). */
@@ -30,28 +31,7 @@ export interface Limits {
     memory: number;
 }
 
-export const DEFAULT_LIMITS: Readonly<Limits> = {
-    vertices: 2 ** 24,
-    faces: 2 ** 25,
-    blocks: 2 ** 17,
-    blockSize: 8192,
-    coefficients: 4096,
-    frames: 2 ** 20,
-    gopFrames: 1024,
-    frameBytes: 2 ** 28,
-    metadataBytes: 2 ** 23,
-    attributes: 255,
-    attributeValues: 2 ** 28,
-    sequenceBytes: 2 ** 31,
-    keptBytes: 2 ** 30,
-    work: 8e8,
-    workPerVertex: 3.2e4,
-    workPerByte: 1.6e4,
-    blockMemory: 2 ** 26,
-    blockMemoryPerVertex: 2 ** 10,
-    memoryPerByte: 64,
-    memory: 2 ** 31,
-};
+export const DEFAULT_LIMITS: Readonly<Limits> = { ...LIMITS, keptBytes: 2 ** 30, memory: 2 ** 31 };
 
 /** Throw `LimitError` if `value` exceeds the limit called `name`. */
 export function checkLimit(limits: Limits, name: keyof Limits, value: number): void {

@@ -1,4 +1,5 @@
 /** Bytes to packets, without input or output of its own (specification, F 2, F 3, F 5). */
+import { BEFORE_METADATA, FOLLOWERS, FOLLOWERS_IN_SECTIONS, KINDS, PREAMBLE, SHORT } from "./constants";
 import { crc16, crc32 } from "./checksums";
 import { BsmError, CorruptError, FormatError, TruncatedError, UnsupportedError } from "./errors";
 import { CORNER, parseDeclaration, RECOMPUTED, wordsOf, type Declaration } from "./declaration";
@@ -43,49 +44,15 @@ export interface Damaged {
 
 type Kind = Packet["type"];
 
-const PREAMBLE = Uint8Array.of(0x89, 0x42, 0x53, 0x4d, 0);
 const MAGIC_SIZE = 4;
-const KINDS: Record<number, Kind> = {
-    0: "values",
-    1: "header",
-    2: "metadata",
-    3: "connectivity",
-    4: "partition",
-    5: "order",
-    6: "block",
-    7: "gop",
-    12: "grid",
-    13: "refinement",
-    14: "attribute",
-    15: "end",
-};
 const BLOCK_TAG = 6;
-/** A payload of fewer bytes has a short checksum (F 3). */
-const SHORT = 128;
 
-/** What may follow a frame of each type, metadata and skippable frames left aside (F 3.7, F 3.8). */
-const FOLLOWERS: Record<Kind | "start", Kind[]> = {
-    start: ["header"],
-    header: ["connectivity"],
-    metadata: [],
-    connectivity: ["partition", "order", "attribute", "block", "gop", "grid", "refinement", "end"],
-    partition: ["order", "attribute", "block", "gop", "grid", "refinement", "end"],
-    order: ["attribute", "block", "gop", "grid", "refinement", "end"],
-    attribute: ["attribute", "block", "gop", "grid", "refinement", "values", "end"],
-    block: ["block", "gop", "refinement", "values", "end"],
-    gop: ["gop", "end"],
-    grid: ["grid", "values", "end"],
-    refinement: ["refinement", "values", "end"],
-    values: ["values", "gop", "end"],
-    end: [],
-};
+type Followers = Record<Kind | "start", readonly Kind[]>;
 
-/** The same in meshes that come in sections (F 3.16). */
-const FOLLOWERS_IN_SECTIONS: typeof FOLLOWERS = {
-    ...FOLLOWERS,
-    connectivity: ["attribute", "block", "refinement", "end"],
-    block: ["connectivity", ...FOLLOWERS.block],
-};
+const ALONE: Followers = FOLLOWERS;
+const IN_SECTIONS: Followers = FOLLOWERS_IN_SECTIONS;
+const kinds: Record<number, Kind> = KINDS;
+const preamble = Uint8Array.from(PREAMBLE);
 
 /** Reads a payload from front to back; what it lacks or has too much is a `CorruptError`. */
 export class Cursor {
@@ -172,7 +139,7 @@ function littleEndian(bytes: Uint8Array): number {
 }
 
 /** Everything that may come at any distance behind a packet of a kind. */
-function reachable(followers: typeof FOLLOWERS, kind: Kind | "start"): Kind[] {
+function reachable(followers: Followers, kind: Kind | "start"): Kind[] {
     const found = new Set<Kind>();
     const pending = [...followers[kind]];
     for (let next; (next = pending.pop()); ) {
@@ -189,8 +156,8 @@ class Grammar {
     /** Whether an unknown number of frames was lost. */
     lossy = false;
     private last: Kind | "start" = "start";
-    private allowed = FOLLOWERS.start;
-    private followers = FOLLOWERS;
+    private allowed: readonly Kind[] = ALONE.start;
+    private followers = ALONE;
     private metadataSeen = false;
     private sections: Section[] = [];
     /** Sections whose faces were there. */
@@ -215,8 +182,8 @@ class Grammar {
     }
 
     /** The kinds of packets that may come next. */
-    get expected(): Kind[] {
-        const metadata = !this.metadataSeen && this.begun < 2 && ["header", "connectivity", "partition", "order", "attribute"].includes(this.last);
+    get expected(): readonly Kind[] {
+        const metadata = !this.metadataSeen && this.begun < 2 && BEFORE_METADATA.includes(this.last);
         return metadata ? [...this.allowed, "metadata"] : this.allowed;
     }
 
@@ -257,7 +224,7 @@ class Grammar {
         if (packet.type === "header") {
             this.header = packet.header;
             this.sections = sectionsOf(packet.header);
-            if (this.sections.length > 1) this.followers = FOLLOWERS_IN_SECTIONS;
+            if (this.sections.length > 1) this.followers = IN_SECTIONS;
         }
         if (packet.type === "connectivity") this.begun++;
         if (packet.type === "block") this.nextBlock = packet.index + 1;
@@ -426,18 +393,18 @@ export class Reader {
     }
 
     private start(): boolean {
-        const present = this.buffer.subarray(this.begin, Math.min(this.end, this.begin + PREAMBLE.length));
+        const present = this.buffer.subarray(this.begin, Math.min(this.end, this.begin + preamble.length));
         for (let i = 0; i < present.length; i++) {
-            if (present[i] === PREAMBLE[i]) continue;
+            if (present[i] === preamble[i]) continue;
             if (i < MAGIC_SIZE) throw new FormatError("not a BSM stream: it does not begin with 89 42 53 4D", { offset: 0 });
             throw new UnsupportedError(`stream version ${present[i]} is not one that this decoder reads`, { offset: i });
         }
-        if (present.length < PREAMBLE.length) {
+        if (present.length < preamble.length) {
             this.incomplete();
             return false;
         }
-        this.crc = crc32(PREAMBLE);
-        this.drop(PREAMBLE.length);
+        this.crc = crc32(preamble);
+        this.drop(preamble.length);
         this.started = true;
         return true;
     }
@@ -471,7 +438,7 @@ export class Reader {
             const tag = parseVarint(this.buffer, this.begin + ahead, this.end);
             if (!tag) return undefined;
             const { type, end } = frameOf(tag);
-            return { kind: KINDS[type], size: end - this.begin - ahead };
+            return { kind: kinds[type], size: end - this.begin - ahead };
         } catch (error) {
             if (error instanceof BsmError) return undefined;
             throw error;
@@ -484,7 +451,7 @@ export class Reader {
             if (!this.grammar.header) throw new CorruptError("the first frame must be HEADER");
             return undefined;
         }
-        const kind = KINDS[type];
+        const kind = kinds[type];
         if (!kind || !this.grammar.announces(kind)) throw new UnsupportedError(`frame type ${type} is unknown to this decoder`);
         const packet = PARSERS[kind](new Cursor(payload), this.limits);
         this.grammar.check(packet);

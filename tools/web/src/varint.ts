@@ -1,7 +1,6 @@
 /** Integers of any size in as few bytes as they need (specification, F 1.2). */
+import { MAX_VARINT_BYTES } from "./constants";
 import { CorruptError } from "./errors";
-
-const MAX_VARINT_BYTES = 5;
 
 /** The varint at `start`, undefined if the data ends inside it (F 1.2). */
 export function parseVarint(data: Uint8Array, start: number, end: number): { value: number; end: number } | undefined {

@@ -1,0 +1,137 @@
+/** Constants of the format, which `python -m tools.web_constants --write` makes of Python's. */
+import type { Field } from "./record";
+
+/** What a stream begins with: magic and version. */
+export const PREAMBLE = [137, 66, 83, 77, 0] as const;
+/** A payload of fewer bytes has a short checksum (F 3). */
+export const SHORT = 128;
+export const MAX_VARINT_BYTES = 5;
+
+/** Types of frames (F 3.4). */
+export const KINDS = {
+    0: "values",
+    1: "header",
+    2: "metadata",
+    3: "connectivity",
+    4: "partition",
+    5: "order",
+    6: "block",
+    7: "gop",
+    12: "grid",
+    13: "refinement",
+    14: "attribute",
+    15: "end",
+} as const;
+
+/** What may follow a frame of each type, METADATA and skippable ones left aside. */
+export const FOLLOWERS = {
+    start: ["header"],
+    header: ["connectivity"],
+    connectivity: ["partition", "order", "block", "gop", "grid", "refinement", "attribute", "end"],
+    partition: ["order", "block", "gop", "grid", "refinement", "attribute", "end"],
+    order: ["block", "gop", "grid", "refinement", "attribute", "end"],
+    attribute: ["values", "block", "gop", "grid", "refinement", "attribute", "end"],
+    block: ["values", "block", "gop", "refinement", "end"],
+    gop: ["gop", "end"],
+    grid: ["values", "grid", "end"],
+    refinement: ["values", "refinement", "end"],
+    values: ["values", "gop", "end"],
+    end: [],
+    metadata: [],
+} as const;
+
+/** The same in meshes that come in sections (F 3.16). */
+export const FOLLOWERS_IN_SECTIONS = {
+    start: ["header"],
+    header: ["connectivity"],
+    connectivity: ["block", "refinement", "attribute", "end"],
+    partition: ["block", "refinement", "attribute", "end"],
+    order: ["block", "refinement", "attribute", "end"],
+    attribute: ["values", "block", "refinement", "attribute", "end"],
+    block: ["values", "connectivity", "block", "refinement", "end"],
+    gop: ["end"],
+    grid: ["values", "end"],
+    refinement: ["values", "refinement", "end"],
+    values: ["values", "end"],
+    end: [],
+    metadata: [],
+} as const;
+
+/** Frames that METADATA may follow (F 3.9). */
+export const BEFORE_METADATA: readonly string[] = ["header", "connectivity", "partition", "order", "attribute"];
+
+/** Fields of the header (F 4.4). */
+export const HEADER_FIELDS = {
+    vertices: { key: 1, type: "int", low: 1, high: 2147483647 },
+    faces: { key: 2, type: "int", low: 1, high: 2147483647 },
+    blocks: { key: 3, type: "int", low: 0, high: 2147483647, default: 0 },
+    blockSize: { key: 4, type: "int", low: 0, high: 2147483647, default: 0 },
+    coefficients: { key: 5, type: "int", low: 0, high: 2147483647, default: 0 },
+    keyInterval: { key: 8, type: "int", low: 0, high: 2147483647, default: 0 },
+    power: { key: 9, type: "int", low: 1, high: 64, default: 3 },
+    iterations: { key: 10, type: "int", low: 1, high: 1024, default: 1 },
+    keyIterations: { key: 11, type: "int", low: 1, high: 1024, default: 4 },
+    shift: { key: 12, type: "float", low: 9.313225746154785e-10, high: 1073741824, default: 0.0078125 },
+    coding: { key: 14, type: "method", low: 0, high: 1, default: 1 },
+    bits: { key: 15, type: "int", low: 1, high: 32, default: 12 },
+    step: { key: 16, type: "float", low: 9.094947017729282e-13, high: 1048576, default: 0.00390625 },
+    center: { key: 17, type: "floats", low: -1e+300, high: 1e+300, default: [0, 0, 0], lengths: [3, 3] },
+    scale: { key: 18, type: "float", low: 1e-300, high: 1e+300, default: 1 },
+    stiffness: { key: 19, type: "float", low: 0, high: 65536, default: 8 },
+    smoothing: { key: 20, type: "float", low: 0, high: 1000000, default: 0 },
+    frames: { key: 21, type: "int", low: 0, high: 2147483647, default: 0 },
+    gopFrames: { key: 23, type: "int", low: 0, high: 2147483647, default: 0 },
+    detailStep: { key: 25, type: "float", low: 0, high: 1048576, default: 0 },
+    details: { key: 26, type: "int", low: 0, high: 2147483647, default: 0 },
+    coarser: { key: 27, type: "int", low: 0, high: 30, default: 0 },
+    grid: { key: 28, type: "ints", low: 0, high: 1048575, default: [], lengths: [0, 3] },
+    lattice: { key: 29, type: "ints", low: 1, high: 2147483647, default: [], lengths: [0, 2] },
+    refinements: { key: 30, type: "floats", low: 0, high: 64, default: [], lengths: [0, 8] },
+    keySeed: { key: 31, type: "method", low: 0, high: 1, default: 0 },
+    borders: { key: 32, type: "method", low: 0, high: 1, default: 0 },
+    attributes: { key: 33, type: "int", low: 0, high: 255, default: 0 },
+    corner: { key: 40, type: "ints", low: -2147483648, high: 2147483647, default: [], lengths: [0, 3] },
+    sections: { key: 41, type: "ints", low: 1, high: 2147483647, default: [], lengths: [0, 14] },
+    light: { key: 42, type: "method", low: 0, high: 1, default: 0 },
+} satisfies Record<string, Field>;
+
+/** Fields of what an attribute declares (D 1). */
+export const DECLARATION_FIELDS = {
+    name: { key: 1, type: "string", low: 1, high: 255 },
+    domain: { key: 2, type: "method", low: 0, high: 2, default: 0 },
+    origin: { key: 3, type: "method", low: 0, high: 1, default: 0 },
+    semantic: { key: 4, type: "method", low: 0, high: 3, default: 0 },
+    kind: { key: 5, type: "method", low: 0, high: 7, default: 6 },
+    components: { key: 6, type: "int", low: 1, high: 4, default: 1 },
+    coding: { key: 7, type: "method", low: 0, high: 3, default: 0 },
+    rows: { key: 8, type: "int", low: 0, high: 2147483647, default: 0 },
+    largest: { key: 9, type: "ints", low: 0, high: 4294967295, default: [], lengths: [0, 8] },
+    offset: { key: 10, type: "floats", low: -1e+300, high: 1e+300, default: [], lengths: [0, 8] },
+    step: { key: 11, type: "floats", low: 1e-300, high: 1e+300, default: [], lengths: [0, 4] },
+    leans: { key: 12, type: "method", low: 0, high: 1, default: 0 },
+    relief: { key: 13, type: "int", low: 0, high: 20, default: 0 },
+    doubts: { key: 14, type: "binary", low: 0, high: 16777216, default: new Uint8Array(0) },
+    seamsOf: { key: 15, type: "int", low: 0, high: 65535, default: 0 },
+} satisfies Record<string, Field>;
+
+/** Limits that are Python's (M 14.1). */
+export const LIMITS = {
+    vertices: 16777216,
+    faces: 33554432,
+    blocks: 131072,
+    blockSize: 8192,
+    coefficients: 4096,
+    frames: 1048576,
+    gopFrames: 1024,
+    frameBytes: 268435456,
+    metadataBytes: 8388608,
+    attributes: 255,
+    attributeValues: 268435456,
+    sequenceBytes: 2147483648,
+    work: 800000000,
+    workPerVertex: 32000,
+    workPerByte: 16000,
+    memoryPerByte: 64,
+    blockMemory: 67108864,
+    blockMemoryPerVertex: 1024,
+} as const;
