@@ -20,7 +20,8 @@ FLOORS = {
         ("batch",),
         ("encoding",),
         ("api",),
-        ("blender", "pyvista", "trimesh", "viewer"),
+        ("blender", "trimesh", "viewer", "vtk"),
+        ("pyvista",),
         # Finds the module of a command by its name.
         ("cli",),
         ("commands",),

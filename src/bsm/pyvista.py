@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from bsm.api import decode, save
-from bsm.bitstream.errors import DependencyError
+from bsm.bitstream.errors import DependencyError, OptionError
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.splitting import split_by_attributes
 from bsm.meshes import as_mesh
@@ -66,3 +66,58 @@ def read(path: str, **keywords: Any) -> Any:
 def write(mesh: Any, path: str | os.PathLike[str], **keywords: Any) -> None:
     """What `save` of a `pyvista.PolyData` calls for a stream; keywords are those of `bsm.encode`."""
     save(from_pyvista(mesh), path, **keywords)
+
+
+class SequenceReader:
+    """A sequence for pyvista, with its times, as readers of pyvista have them.
+
+    Parameters
+    ----------
+    path : path
+        Of a stream; one of a mesh has one time.
+
+    Examples
+    --------
+    >>> reader = bsm.pyvista.SequenceReader("samba.bsm")
+    >>> plotter.add_slider_widget(lambda time: show(reader.at(time)), [0, reader.time_values[-1]])
+    """
+
+    def __init__(self, path: str | os.PathLike[str]) -> None:
+        from bsm.vtk import Playback
+
+        self._playback = Playback(os.fspath(path))
+        self._active = 0
+
+    @property
+    def number_time_points(self) -> int:
+        """Number of frames."""
+        return self._playback.count
+
+    @property
+    def time_values(self) -> list[float]:
+        """When each frame is shown, in seconds."""
+        return list(self._playback.times) or [0.0]
+
+    @property
+    def active_time_value(self) -> float:
+        """The time that `read` gives."""
+        return self.time_values[self._active]
+
+    def set_active_time_point(self, number: int) -> None:
+        """Choose a frame by its number."""
+        if not 0 <= number < self.number_time_points:
+            raise OptionError(f"there is no frame {number}; there are {self.number_time_points}")
+        self._active = number
+
+    def set_active_time_value(self, time: float) -> None:
+        """Choose the frame that is shown at a time."""
+        self._active = self._playback.number_at(time)
+
+    def read(self) -> Any:
+        """The frame that was chosen, as a `pyvista.PolyData`."""
+        return to_pyvista(self._playback.mesh(self._active))
+
+    def at(self, time: float) -> Any:
+        """The frame that is shown at a time."""
+        self.set_active_time_value(time)
+        return self.read()
