@@ -15,9 +15,10 @@ from bsm.bitstream.container import packets
 from bsm.bitstream.container.gop import GopBody, write_gop_body
 from bsm.bitstream.container.header import Header
 from bsm.bitstream.container.writer import Writer
-from bsm.bitstream.errors import MeshError, OptionError
+from bsm.bitstream.errors import ArgumentError, MeshError, OptionError
 from bsm.bitstream.limits import NAMED_LIMITS
 from bsm.codec.arrays import Matrix, Order, Positions
+from bsm.codec.choices import check_mapping
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
 from bsm.codec.sequence.cost import gop_cost, gop_memory, loop_memory
@@ -35,6 +36,7 @@ from bsm.codec.static.attributes.encoding import carry, place_of_first_frame, wi
 from bsm.codec.static.attributes.quality import qualities
 from bsm.codec.static.coding import Adaptive
 from bsm.codec.static.draft import Draft
+from bsm.codec.static.encoder import PROMISED_SIZES
 from bsm.codec.static.preamble import Parts, Prepared, prepare
 from bsm.codec.static.rules import STIFFNESS, Scheme
 from bsm.codec.static.targets import search_step
@@ -123,6 +125,9 @@ class SequenceEncoder:
         self.notes: tuple[str, ...] = ()
         self._faces = faces
         self._count = frames
+        if not isinstance(attributes, Sequence) or not all(isinstance(one, Attribute) for one in attributes):
+            raise ArgumentError("the attributes of a sequence must be a list of Attribute")
+        check_mapping("metadata", metadata)
         self._attributes = tuple(attributes)
         self._metadata = metadata
         if self.options.frame_rate:
@@ -179,6 +184,7 @@ class SequenceEncoder:
         gops = -(-self._count // (options.gop if options.mode == "gop" else 1))
         tell = _Rounds(progress if gops else None, 1 + gops)
         given = TriangleMesh(np.asarray(first), np.asarray(self._faces), self._attributes)
+        given.require_sizes(*PROMISED_SIZES)
         parts = Parts(options.block_size, options.overlap)
         prepared = prepare(given, parts, keep_order=options.keep_order)
         self.vertex_order, self.face_order = prepared.vertex_order, prepared.face_order
@@ -409,7 +415,10 @@ def encode_sequence(
     attributes: Sequence[Attribute] = (),
 ) -> bytes:
     """Encode frames, `positions` of shape (T, n, 3), to a complete stream; other arguments as of `SequenceEncoder`."""
-    frames = np.asarray(positions, np.float64)
+    try:
+        frames = np.asarray(positions, np.float64)
+    except (TypeError, ValueError) as error:
+        raise MeshError(f"the positions of a sequence are not an array of numbers: {error}") from error
     if frames.ndim != 3 or frames.shape[2] != 3 or len(frames) == 0:
         raise MeshError(f"the positions of a sequence must have shape (T, n, 3), T > 0, not {frames.shape}")
     return b"".join(SequenceEncoder(faces, options, len(frames), metadata, attributes).chunks(frames))

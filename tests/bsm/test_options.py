@@ -1,6 +1,6 @@
 """Options by keyword: what Python and the command line share."""
 
-from dataclasses import fields
+from dataclasses import fields, replace
 
 import numpy as np
 import pytest
@@ -11,10 +11,10 @@ from bsm.codec.sequence.options import SequenceOptions
 from bsm.codec.sequence.promise import PROMISES, Promise
 from bsm.codec.sequence.targets import SequenceTarget
 from bsm.codec.static.contract import Contract
-from bsm.codec.static.options import PRESETS, EncodeOptions
+from bsm.codec.static.options import BALANCED, PRESETS, EncodeOptions
 from bsm.codec.static.targets import Target
-from bsm.commands.encode_options import TARGET_FLAGS
-from bsm.options import SEQUENCE_STEPS, TARGETS, denoise_options, encode_options, sequence_options
+from bsm.commands.encode_options import BOUND_FLAGS, TARGET_FLAGS
+from bsm.options import BOUNDS, SEQUENCE_STEPS, TARGETS, denoise_options, encode_options, sequence_options
 
 
 def test_without_keywords_everything_is_the_default():
@@ -60,10 +60,8 @@ def test_targets(keyword, kind):
 
 
 def test_the_command_line_has_the_same_targets():
-    assert {name.replace("-", "_"): kind for name, kind, _, _ in TARGET_FLAGS} == {
-        **TARGETS,
-        "max_error": "max_error",
-    }
+    assert {name.replace("-", "_"): kind for name, kind, _, _ in TARGET_FLAGS} == TARGETS
+    assert tuple(name.replace("-", "_") for name, _, _ in BOUND_FLAGS) == BOUNDS
 
 
 def test_sequences():
@@ -114,8 +112,26 @@ def test_a_largest_error_may_have_a_unit():
         encode_options(max_error=2)
     with pytest.raises(ArgumentError, match="with a unit"):
         encode_options(max_error="wide")
-    with pytest.raises(OptionError, match="one target at a time"):
-        encode_options(max_error="1mm", theta=3)
+    options = encode_options(max_error="1mm", theta=3)
+    assert (options.contract, options.target) == (Contract(1.0, absolute=True), Target("theta_deg", 3.0))
+
+
+def test_what_is_asked_for_holds_together_with_a_preset_that_is_named():
+    fine = PRESETS["fine"].contract
+    assert encode_options(preset="fine", theta=5).contract == fine
+    assert encode_options(theta=5).contract is None and encode_options(theta=5).promise is None
+    assert encode_options(look=2).contract == replace(BALANCED, look=2.0)
+    assert encode_options(look=2, max_error=0.02).contract == Contract(0.02, look=2.0)
+    assert encode_options(preset="fine", look=2).contract == fine
+    assert encode_options(preset="fine", look=0.3, max_error="5%").contract == replace(fine, look=0.3)
+    assert encode_options(preset="grid14", look=0.3).contract == replace(BALANCED, look=0.3)
+    for look in (0, -1.0, float("nan")):
+        with pytest.raises(OptionError, match="1 looks the same"):
+            encode_options(look=look)
+    with pytest.raises(OptionError, match="a contract says all"):
+        encode_options(look=1, contract=Contract(0.1))
+    with pytest.raises(ArgumentError, match="look must be a number"):
+        encode_options(look="good")
 
 
 def test_a_preset_that_is_a_grid_gives_way_to_a_target():

@@ -132,7 +132,7 @@ export class Sequence {
         try {
             this.begin();
             const parts = this.parts.reduce(
-                (sum, { block, basis }) => sum + partCost(block.size, basis.columns!, gop.components) + solutionCost(block, gop.components),
+                (sum, { block, basis }) => sum + partCost(block.size, basis.width, gop.components) + solutionCost(block, gop.components),
                 0,
             );
             allowance.spend(parts + shownCost(header.vertices, gop.frames, gop.components), received);
@@ -205,7 +205,7 @@ export class Sequence {
     private extend(part: Part, field: Doubles): Float64Array {
         const { memory } = this;
         const { block, springs, total } = part;
-        const width = field.columns!;
+        const width = field.width;
         if (total === 0) return new Float64Array(block.size * width);
         return memory.scratch(() => {
             const pulls = memory.doubles(block.size * width, width);
@@ -226,14 +226,14 @@ export class Sequence {
     /** D of a field that is known (S 3.5). */
     private difference(part: Part, field: Doubles): Float64Array {
         const { memory } = this;
-        const width = field.columns!;
+        const width = field.width;
         const rest = this.extend(part, field);
         const values = field.view;
         part.block.vertices.view.forEach((vertex, row) => {
             for (let i = 0; i < width; i++) rest[row * width + i] = values[vertex * width + i] - rest[row * width + i];
         });
         return memory.scratch(() => {
-            const coefficients = memory.doubles(part.basis.columns! * width, width);
+            const coefficients = memory.doubles(part.basis.width * width, width);
             memory.run("project", part.basis, memory.copy(rest, width), coefficients);
             return coefficients.view.slice();
         });
@@ -241,7 +241,7 @@ export class Sequence {
 
     /** Fill a part of a field (S 3.5). */
     private place(part: Part, field: Doubles, difference: Float64Array): void {
-        const width = field.columns!;
+        const width = field.width;
         const rows = this.extend(part, field);
         const own = reconstruct(this.memory, part.basis, difference, width);
         const [values, vertices] = [field.view, part.block.vertices.view];
@@ -327,7 +327,7 @@ export class Sequence {
         this.startModel();
         const basis = this.learntBasis(gop);
         this.startModel();
-        const levels = this.readLevels(gop.levels, parts.map((part) => part.basis.columns!), columns);
+        const levels = this.readLevels(gop.levels, parts.map((part) => part.basis.width), columns);
         if (columns === 0) return Array.from({ length: gop.frames }, () => () => new Float64Array(3 * this.header.vertices));
         const field = this.emptyField(columns);
         parts.forEach((part, k) => {
@@ -340,7 +340,7 @@ export class Sequence {
     /** Frame t of components over a temporal basis. */
     private frameOf(field: Doubles, basis: Float64Array, frames: number, t: number): Float64Array {
         const { memory, header } = this;
-        const columns = field.columns!;
+        const columns = field.width;
         return memory.scratch(() => {
             const weights = memory.doubles(3 * columns, 3);
             for (let d = 0; d < 3; d++) {
@@ -377,7 +377,7 @@ export class Sequence {
         const { history } = this;
         if (!history) throw new CorruptError("a frame refers to one that is not there");
         memory.release(this.behindBank);
-        const levels = this.readLevels(gop.levels, parts.map((part) => part.basis.columns!), 3, history.levels);
+        const levels = this.readLevels(gop.levels, parts.map((part) => part.basis.width), 3, history.levels);
         const field = this.emptyField(3);
         const latest = parts.map((part, k) => {
             const [start, now, before] = [first[k], history.latest[k], history.before[k]];
@@ -401,7 +401,7 @@ function core({ members, starts, cores }: Blocks, index: number): Ints {
 
 /** A matrix as kernels take it, of any number of columns, none included. */
 function shaped(memory: Memory, place: Ints, rows: number): Ints | readonly [Ints, bigint] {
-    return place.columns! > 0 ? place : [memory.ints(rows), 0n];
+    return place.width > 0 ? place : [memory.ints(rows), 0n];
 }
 
 function emptyMoments(known: number, columns: number): Float64Array {
