@@ -79,6 +79,8 @@ NB_MODULE(_kernels, m) {
         "costs"_a, "ways"_a, "origins"_a, "levels"_a, "kept"_a, Unlocked());
     m.def("code_matrix", checked<code_matrix>, "coder"_a, "bank"_a, "levels"_a, "reference"_a, "rows"_a, "slow"_a,
         Unlocked());
+    m.def("price_matrix", checked<price_matrix>, "coder"_a, "bank"_a, "levels"_a, "reference"_a, "rows"_a, "slow"_a,
+        "costs"_a, "prices"_a, Unlocked());
 
     m.def("link_corners", checked<link_corners>, "corners"_a, "scratch"_a, Unlocked());
     m.def("keep_borders", checked<keep_borders>, "corners"_a, Unlocked());

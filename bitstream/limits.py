@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 
-from bsm.bitstream.errors import LimitError
+from bsm.bitstream.errors import ArgumentError, LimitError, OptionError
 
 
 @dataclass(frozen=True)
@@ -44,6 +44,15 @@ class Limits:
     attributes: int = 255
     attribute_values: int = 1 << 28
     """Numbers of all attributes of a mesh: values times their components."""
+
+    def __post_init__(self) -> None:
+        """Raises `ArgumentError` for what is no number, `OptionError` for one that bounds nothing or everything."""
+        for name in (field.name for field in fields(self)):
+            value = getattr(self, name)
+            if isinstance(value, bool) or not isinstance(value, (int, float)):
+                raise ArgumentError(f"the limit {name} must be a number, not {value!r}")
+            if not value >= 0:
+                raise OptionError(f"the limit {name} must be 0 or above, not {value}")
 
     @classmethod
     def service(cls) -> Limits:
@@ -93,6 +102,13 @@ class Limits:
                 f"{name} = {value:g} is over the limit of {bound:g} for what the stream holds; "
                 f"if you trust the source, raise Limits.{name}, or take Limits.wide()"
             )
+
+
+def as_limits(limits: Limits) -> Limits:
+    """The same; `ArgumentError` if it is something else."""
+    if not isinstance(limits, Limits):
+        raise ArgumentError(f"limits must be bsm.Limits, not {limits!r}")
+    return limits
 
 
 def _worded(value: float) -> str:

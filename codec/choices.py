@@ -6,7 +6,9 @@ from collections.abc import Mapping
 from dataclasses import fields
 from typing import Any, TypeVar
 
-from bsm.bitstream.errors import OptionError
+import numpy as np
+
+from bsm.bitstream.errors import ArgumentError, OptionError
 
 Choice = TypeVar("Choice")
 
@@ -32,16 +34,26 @@ def check_options(
 
     Raises
     ------
-    OptionError
-        If a value is none of them.
+    OptionError, ArgumentError
+        If a value is none of them, or no number.
     """
-    for name in (item.name for item in fields(options)):
-        value = getattr(options, name)
+    for item in fields(options):
+        name, value = item.name, getattr(options, item.name)
+        if isinstance(item.default, bool) and not isinstance(value, (bool, np.bool_)):
+            raise ArgumentError(f"{name} must be True or False, not {value!r}")
         if value is None:
             continue
-        if name in choices and value not in choices[name]:
+        if name in choices and not (isinstance(value, str) and value in choices[name]):
             raise OptionError(f"{name} must be one of {', '.join(choices[name])}, not {value!r}")
         if name in ranges:
             low, high = ranges[name]
+            if isinstance(value, bool) or not isinstance(value, (int, float, np.number)):
+                raise ArgumentError(f"{name} must be a number, not {value!r}")
             if not low <= value <= high:
                 raise OptionError(f"{name} = {value:g} is outside {low:.7g}..{high:.7g}")
+
+
+def check_mapping(what: str, given: object) -> None:
+    """Raise `ArgumentError` if something is no mapping."""
+    if not isinstance(given, Mapping):
+        raise ArgumentError(f"{what} must be a mapping from names, not {type(given).__name__}")

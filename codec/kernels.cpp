@@ -11,6 +11,7 @@ extern "C" {
 #include "codec/blocks/blend.h"
 #include "codec/blocks/overlap.h"
 #include "codec/blocks/partition.h"
+#include "codec/denoise/learnt/descriptors.h"
 #include "codec/denoise/noise/estimate.h"
 #include "codec/denoise/filters/fast_effective.h"
 #include "codec/denoise/filters/guidance.h"
@@ -30,12 +31,14 @@ extern "C" {
 #include "codec/look/normals.h"
 #include "codec/look/shade.h"
 #include "codec/sequence/row_prediction.h"
+#include "codec/sequence/row_search.h"
 #include "codec/signal/detail.h"
 #include "codec/signal/frames.h"
 #include "codec/signal/place.h"
 #include "codec/signal/predict.h"
 #include "codec/signal/smooth.h"
 #include "codec/signal/transform.h"
+#include "codec/static/choice/settling.h"
 #include "codec/static/choice/shaping.h"
 }
 
@@ -46,7 +49,7 @@ struct nb::detail::type_caster<Fronts>
 
 template <>
 struct nb::detail::type_caster<PredictionRules>
-    : nb::detail::TupleCaster<PredictionRules, double, double, double, double, int64_t, int64_t> {};
+    : nb::detail::TupleCaster<PredictionRules, double, double, double, int64_t, int64_t> {};
 
 BSM_STRUCT(Wanted, ConstDoubles2, ConstInts2, ConstLongs, ConstInts, ConstInts, ConstInts, ConstDoubles2, ConstDoubles)
 BSM_STRUCT(Aim, double, double, int64_t)
@@ -65,9 +68,9 @@ NB_MODULE(_kernels, m) {
     m.def("shown_normals", checked<&shown_normals>, "positions"_a, "faces"_a, "joined"_a, "starts"_a, "around"_a,
           "cosine"_a, "most"_a, "crosses"_a, "normals"_a, Unlocked());
     m.def("draw_shaded", checked<&draw_shaded>, "positions"_a, "faces"_a, "normals"_a, "camera"_a, "placed"_a,
-          "depth"_a, "lengths"_a, "picture"_a, Unlocked());
+          "depth"_a, "lengths"_a, "picture"_a, "owner"_a, Unlocked());
     m.def("likeness", checked<&likeness>, "first"_a, "second"_a, "wide"_a, "narrow"_a, "visible"_a, "plain"_a,
-          "scratch"_a, "sums"_a, Unlocked());
+          "scratch"_a, "sums"_a, "map"_a, Unlocked());
     m.def("bisection_scratch", &bisection_scratch, "size"_a);
     m.def("bisect", &bisect, "offsets"_a, "neighbours"_a, "order"_a, "bounds"_a, "scratch"_a, Unlocked());
     m.def("bisect_once", &bisect_once, "offsets"_a, "neighbours"_a, "order"_a, "bounds"_a, "scratch"_a, "second"_a,
@@ -95,6 +98,8 @@ NB_MODULE(_kernels, m) {
           Unlocked());
     m.def("filter_normals", &filter_normals, "centroids"_a, "areas"_a, "normals"_a, "guide"_a, "starts"_a, "near"_a,
           "sigma_s"_a, "sigma_r"_a, "filtered"_a, Unlocked());
+    m.def("describe_faces", &describe_faces, "centroids"_a, "areas"_a, "normals"_a, "guide"_a, "smooth"_a, "axes"_a,
+          "starts"_a, "near"_a, "distance"_a, "begin"_a, "described"_a, "frames"_a, Unlocked());
     m.def("mollify", &mollify, "positions"_a, "centroids"_a, "areas"_a, "starts"_a, "near"_a, "width"_a, "moved"_a,
           Unlocked());
     m.def("predict_from_planes", &predict_from_planes, "positions"_a, "centroids"_a, "areas"_a, "normals"_a,
@@ -155,8 +160,11 @@ NB_MODULE(_kernels, m) {
     m.def("hold", &hold, "offsets"_a, "neighbours"_a, "weights"_a, "rank"_a, "vertices"_a, "own_offsets"_a,
           "own_neighbours"_a, "inner"_a, "springs"_a, "starts"_a, "outer"_a, "stiffness"_a, Unlocked());
     m.def("pull", &pull, "starts"_a, "outer"_a, "stiffness"_a, "field"_a, "pulls"_a, Unlocked());
-    m.def("follow_rows", &follow_rows, "known"_a, "targets"_a, "levels"_a, "decoded"_a, "moments"_a, "step"_a,
-          "rounding"_a, "encoding"_a, "rules"_a, "factor"_a, "row"_a, "expected"_a, Unlocked());
+    m.def("follow_rows", &follow_rows, "known"_a, "levels"_a, "decoded"_a, "moments"_a, "step"_a, "rules"_a, "factor"_a,
+        "row"_a, "expected"_a, Unlocked());
+    m.def("search_rows", &search_rows, "known"_a, "targets"_a, "prices"_a, "weight"_a, "levels"_a, "decoded"_a,
+        "moments"_a, "step"_a, "rules"_a, "factor"_a, "row"_a, "expected"_a, "values"_a, "ways"_a, "origins"_a,
+        Unlocked());
     m.def("component_sizes", checked<&component_sizes>, "offsets"_a, "neighbours"_a, "seen"_a, "waiting"_a, "sizes"_a,
           Unlocked());
     m.def("reaches_all", checked<&reaches_all>, "offsets"_a, "neighbours"_a, "scratch"_a, Unlocked());
@@ -171,6 +179,8 @@ NB_MODULE(_kernels, m) {
     m.def("count_bends_on", checked<&count_bends_on>, "corners"_a, "step"_a, "counts"_a, Unlocked());
     m.def("shape_levels", checked<&shape_levels>, "wanted"_a, "aim"_a, "moved"_a, "levels"_a, "directions"_a,
           "scales"_a, "pull"_a, "open"_a, Unlocked());
+    m.def("settle_levels", checked<&settle_levels>, "wanted"_a, "losses"_a, "steps"_a, "reach"_a, "starts"_a, "members"_a,
+          "rates"_a, "pull"_a, "levels"_a, "counts"_a, Unlocked());
     m.def("shape_grid", checked<&shape_grid>, "wanted"_a, "aim"_a, "moved"_a, "places"_a, "step"_a, "flaps"_a,
           "starts"_a, "members"_a, "bends"_a, "rates"_a, "axes"_a, "open"_a, Unlocked());
 }

@@ -6,8 +6,11 @@ import os
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import Future, ThreadPoolExecutor
+from numbers import Integral
 from threading import Lock, Thread
 from typing import Any, Generic, TypeVar
+
+from bsm.bitstream.errors import ArgumentError, OptionError
 
 Item = TypeVar("Item")
 Result = TypeVar("Result")
@@ -18,12 +21,29 @@ def available_threads() -> int:
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
+def threads_of(wanted: int | None) -> int:
+    """How many threads are asked for; None: one per core.
+
+    Raises
+    ------
+    ArgumentError, OptionError
+        If it is no whole number, or not above 0.
+    """
+    if wanted is None:
+        return available_threads()
+    if isinstance(wanted, bool) or not isinstance(wanted, Integral):
+        raise ArgumentError(f"threads must be a whole number or None, not {wanted!r}")
+    if wanted < 1:
+        raise OptionError(f"threads must be 1 or above, or None for one per core, not {wanted}")
+    return int(wanted)
+
+
 def ordered_map(work: Callable[[Item], Result], items: Iterable[Item], threads: int | None) -> Iterator[Result]:
     """`map(work, items)` on `threads` threads (None: one per core).
 
     Works a few items ahead of the consumer, so that results do not pile up.
     """
-    count = threads or available_threads()
+    count = threads_of(threads)
 
     if count == 1:
         yield from map(work, items)
@@ -84,7 +104,7 @@ class Lanes:
     """Work in lanes: what is submitted to one lane runs in order, different lanes run side by side."""
 
     def __init__(self, threads: int | None) -> None:
-        self._count = threads or available_threads()
+        self._count = threads_of(threads)
         self._pool: ThreadPoolExecutor | None = None
         self._lock = Lock()
         self._waiting: dict[int, deque[Pending[Any]]] = {}

@@ -44,7 +44,6 @@ from reference_connectivity import (
     arrange,
     decode_labels,
     neighbours_of,
-    read_signed,
     read_unsigned,
 )
 from reference_fields import GridReader, LevelsReader, LightReader, place
@@ -724,6 +723,23 @@ class Experience:
         self.slots = numbers[second:].tolist()
 
 
+class Grids:
+    """M 9.11: which of two grids the next level is on."""
+
+    def __init__(self):
+        self.last = [0, 0, 0]
+
+    @property
+    def grid(self):
+        return self.last[-1]
+
+    def point(self, level):
+        """What the next level stands for, in half steps."""
+        point = 2 * level - self.grid * ((level > 0) - (level < 0))
+        self.last = [*self.last[1:], (level + sum(self.last)) % 2]
+        return point
+
+
 class CoefficientModel:
     """M 9: one for each chain, and another for its details."""
 
@@ -752,12 +768,11 @@ class CoefficientModel:
     def block(self, decoder, count):
         """M 9.4 to M 9.7: `count` rows in half steps."""
         points = [[0, 0, 0] for _ in range(count)]
-        grids = [0, 0, 0]
+        grids = Grids()
         for row in range(count):
             for d in range(3):
-                level = self.level(decoder, row, d, grids[-1])
-                points[row][d] = 2 * level - grids[-1] * ((level > 0) - (level < 0))  # M 9.11
-                grids = [*grids[1:], (level + sum(grids)) % 2]
+                level = self.level(decoder, row, d, grids.grid)
+                points[row][d] = grids.point(level)
                 self.now[8 + row][d] = min(abs(level), 1 << 15)
             if decoder.overran():
                 decoder.fail("levels are missing")
@@ -1230,7 +1245,7 @@ class LevelModel:
 
     def matrix(self, decoder, rows, columns, reference):
         """S 4.1 to S 4.3."""
-        levels, slow = np.zeros((rows, columns), int), [0] * columns
+        levels, slow, grids = np.zeros((rows, columns), int), [0] * columns, Grids()
 
         def a(j, i):
             return abs(int(levels[j, i])) if j >= 0 and 0 <= i < columns else 0
@@ -1255,13 +1270,30 @@ class LevelModel:
                     40 * size_class(left + around) + place,
                 ]
                 model = self.sets[0 if j == 0 else 1 if j < 12 else 2]
-                levels[j, i] = read_signed(decoder, model, contexts, 14)
+                levels[j, i] = self.level(decoder, model, contexts, grids.grid)
+                grids.point(int(levels[j, i]))
                 magnitude = min(abs(int(levels[j, i])), 4096)
                 slow[i] += (64 * magnitude - slow[i]) >> 2
                 mean += (128 * magnitude - mean) >> 2
             if decoder.overran():
                 decoder.fail("levels are missing")
         return levels
+
+    def level(self, decoder, model, contexts, grid):
+        """S 4.2: one level."""
+        if not model.bit(decoder, contexts, 41 if grid else 0):
+            return 0
+        negative = model.bit(decoder, contexts, 1)
+        magnitude = 1
+        if model.bit(decoder, contexts, 42 if grid else 2):
+            magnitude = 2 + read_unsigned(decoder, model, contexts, 13, 3)
+        return -magnitude if negative else magnitude
+
+
+def points_of(levels):
+    """S 4.4."""
+    grids = Grids()
+    return np.array([grids.point(int(level)) for level in levels.flat]).reshape(levels.shape) / 2
 
 
 def octave(value):
@@ -1286,7 +1318,7 @@ def temporal_basis(gop):
     single = cosines_over_time(gop.frames)
     matrices = LevelModel().decode(gop.basis, [(gop.frames, gop.columns)] * 3, [None] * 3)
     steps = 2.0 ** (-np.array(gop.exponents, float) / 4)
-    return np.concatenate([single @ (matrix * steps) for matrix in matrices])
+    return np.concatenate([single @ (points_of(matrix) * steps) for matrix in matrices])
 
 
 class Loop:
@@ -1297,13 +1329,13 @@ class Loop:
 
     def decode(self, known, levels, step):
         k, width = known.shape[1], self.moments.shape[1]
-        result = np.zeros((len(known), width - k))
+        result, points = np.zeros((len(known), width - k)), points_of(levels)
         for j in range(len(known)):
             if j < 16 or j % 8 == 0:
                 factor = self.factor()
             p, z = np.zeros(width), np.zeros(width)
             for b in range(width):  # S 6.3
-                z[b] = known[j, b] if b < k else p[b] + levels[j, b - k] * step
+                z[b] = known[j, b] if b < k else p[b] + points[j, b - k] * step
                 if b < len(factor):
                     p[b + 1 :] += factor[b, b + 1 :] * ((z[b] - p[b]) / factor[b, b])
             result[j] = z[k:]

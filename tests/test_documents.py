@@ -1,7 +1,7 @@
 """What README, CONTRIBUTING and the specification tell people to type: every block and every command is run.
 
-Commands stand in blocks (lines indented by four) or between backticks. What needs a folder of meshes is asked for its
-help always, and run as it stands where there are real meshes and time (`-m long`).
+Commands stand in blocks (lines indented by four, or fenced as sh or python) or between backticks. What needs a folder
+of meshes is asked for its help always, and run as it stands where there are real meshes and time (`-m long`).
 """
 
 import os
@@ -21,14 +21,26 @@ from tests.bsm.test_libraries import painted
 from tests.plugins import declare_entry_points
 
 ROOT = Path(__file__).parents[1]
-DOCUMENTS = ("README.md", "CONTRIBUTING.md", "spec/README.md", "src/bsm/SERVICE.md")
-PROGRAMS = r"(?:bsm|python3?|pytest|ruff|\.ci/run|\.venv|eval|cat)"
-BY_CI = r"\.ci/run|\.venv/bin/|^pytest|^ruff|^bsm --help$|tools\.fuzz|tools\.proof|tools\.bombs"
+PAGES = tuple(
+    str(path.relative_to(Path(__file__).parents[1]))
+    for path in sorted((Path(__file__).parents[1] / "docs").rglob("*.md"))
+    if not path.is_symlink()
+)
+DOCUMENTS = ("README.md", "CONTRIBUTING.md", "spec/README.md", "src/bsm/SERVICE.md", *PAGES)
+PROGRAMS = r"(?:bsm|python3?|pytest|mkdocs|ruff|\.ci/run|\.venv|eval|cat)"
+BY_CI = r"\.ci/run|^mkdocs|\.venv/bin/|^pytest|^ruff|^bsm --help$|tools\.fuzz|tools\.proof|tools\.bombs"
 """What .ci/run itself does, or is."""
 NEEDS_FOLDER = r"MESHES|SEQUENCES|FOLDER|MESH\.\.\.|bsm bench"
 HELP_ONLY = r"s3://|bsm view|tools\.charges|tools\.vectors|tools\.train_coefficients"
 """What would change the repository, and does so in tests of its own, needs machines of others, or takes time."""
-PLACES = {"MESH": "bunny.ply", "spec/": f"{ROOT}/spec/", "IN.bsm": "bunny.bsm", "OUT.npz": "reference.npz", " N": " 1"}
+PLACES = {
+    "COMMAND": "encode",
+    "MESH": "bunny.ply",
+    "spec/": f"{ROOT}/spec/",
+    "IN.bsm": "bunny.bsm",
+    "OUT.npz": "reference.npz",
+    " N": " 1",
+}
 
 
 SETTING = """
@@ -42,10 +54,12 @@ chunks = [data[i : i + 100] for i in range(0, len(data), 100)]
 
 
 def blocks(name):
-    """The indented blocks of a document."""
+    """The blocks of a document."""
     text = (ROOT / name).read_text()
+    fenced = re.findall(r"^```(?:sh|python)\n(.*?)^```", text, flags=re.MULTILINE | re.DOTALL)
     found = re.findall(r"(?:^|\n\n)((?: {4}[^\n]*(?:\n|$)|\n(?= {4}))+)", text)
-    return [re.sub(r"^ {4}", "", block, flags=re.MULTILINE).strip("\n") + "\n" for block in found]
+    indented = [re.sub(r"^ {4}", "", block, flags=re.MULTILINE).strip("\n") + "\n" for block in found]
+    return indented + fenced
 
 
 def commands(name):
@@ -55,7 +69,7 @@ def commands(name):
 
 
 def is_python(block):
-    return re.match(r"(?:from|import) ", block) is not None
+    return re.match(r"(?:from|import) \w", block) is not None
 
 
 BLOCKS = [(name, block) for name in DOCUMENTS for block in blocks(name)]
@@ -130,6 +144,8 @@ def filled(command):
 
 @pytest.mark.parametrize(("name", "block"), BLOCKS, ids=[f"{n}-{b[:30]}" for n, b in BLOCKS])
 def test_blocks(name, block, folder):
+    if name in PAGES and folder.name.startswith("real"):
+        pytest.skip("pages are tried on what is made")
     if re.search(BY_CI, block):
         assert block.strip() in _run_by_ci()
     elif is_python(block):
@@ -140,7 +156,10 @@ def test_blocks(name, block, folder):
     elif not re.match(PROGRAMS, block):
         pytest.skip("not a command")
     else:
-        (folder / "bunny.bsm").unlink()
+        for name in ("out.ply", "clean.ply"):
+            (folder / name).unlink(missing_ok=True)
+        if re.search(r"^bsm encode bunny\.ply(?! +-f)", block, flags=re.MULTILINE):
+            (folder / "bunny.bsm").unlink()
         try:
             # A server goes on until it is told to stop; tests/bsm/test_view.py talks to it.
             passed(run(folder, re.sub(r"^bsm view .*\n", "", block, flags=re.MULTILINE)))
@@ -156,9 +175,11 @@ def _run_by_ci():
 
 @pytest.mark.parametrize(("name", "command"), COMMANDS)
 def test_commands(name, command, folder):
+    if name in PAGES and folder.name.startswith("real"):
+        pytest.skip("pages are tried on what is made")
     if re.search(BY_CI, command):
         pytest.skip("run by CI itself")
-    if re.search(f"{NEEDS_FOLDER}|{HELP_ONLY}", command):
+    if re.search(f"{NEEDS_FOLDER}|{HELP_ONLY}", command) or re.fullmatch(r"bsm [a-z]+", command):
         program = re.match(r"bsm \w+|python -m [\w.]+", command).group()
         done = run(folder, f"{program} --help")
         passed(done)
@@ -188,3 +209,23 @@ def test_something_is_found():
     assert len(BLOCKS) >= 5 and len(COMMANDS) >= 15
     assert sum(is_python(block) for _, block in BLOCKS) >= 1
     assert any("tools.fuzz" in command for _, command in COMMANDS)
+
+
+# ------------------------------------------------------------------------------------------------- what is said exists
+
+PATH = re.compile(r"[\w.-]+(?:/[\w.-]+)+\.(?:py|c|h|hpp|md|sh|json|bin|toml|png|ts|mjs)|[\w-]+/(?:[\w-]+/)*(?=`)")
+PAPERS = (*DOCUMENTS, "codec/PAPER.md", "tools/web/README.md")
+HERE = ("", "codec", "src/bsm", "tools/web", "spec", "bitstream")
+"""Folders that paths in documents begin from."""
+
+
+@pytest.mark.parametrize("name", PAPERS)
+def test_paths_that_documents_name_exist(name):
+    spans = re.findall(r"`([^`\n]+)`", (ROOT / name).read_text())
+    named = {path for span in spans if " " not in span for path in PATH.findall(f"{span}`")}
+    missing = {path for path in named if not any((ROOT / folder / path).exists() for folder in HERE)}
+    assert missing <= EXAMPLES, f"{name} names paths that do not exist: {sorted(missing)}"
+
+
+EXAMPLES = {"out/", "streams/", "new/", "dance.glb/", "frames/"}
+"""Names of files that a reader may have, not of ours."""

@@ -10,12 +10,13 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from itertools import islice
 from pathlib import Path
+from unittest.mock import patch
 
 import numpy as np
 
 from bsm.bitstream.errors import BsmError
 from bsm.codec.arrays import Faces, Positions
-from bsm.codec.denoise import FrameDenoiser, denoise_automatically
+from bsm.codec.denoise import FrameDenoiser, denoise_automatically, rehearsal
 from bsm.codec.denoise.coarse import CoarseFilter
 from bsm.codec.denoise.filters.topology import Topology
 from bsm.codec.denoise.noise.gaussian import (
@@ -31,7 +32,7 @@ from bsm.codec.denoise.noise.gaussian import (
     uniform_along_normals,
 )
 from bsm.codec.denoise.recipe import Recipe, iterates
-from bsm.codec.geometry.metrics import Reference, mean_edge_length, theta
+from bsm.codec.geometry.metrics import Reference, mean_edge_length, rms_over_edge, theta
 from bsm.files.formats.npz import read_arrays
 from bsm.files.mesh import read_mesh
 
@@ -56,7 +57,16 @@ PAPER = Recipe("positions", 0.1, "patches", 0.35)
 RIVALS = {"guided": GUIDED, "bilateral normal": BILATERAL, "paper": PAPER}
 FIXED_ITERATIONS = {"guided": (5, 20), "bilateral normal": (10,), "paper": (5, 20)}
 MOST, PATIENCE = 60, 5
+LEVELS_BOARD = (0.1, 0.2, 0.3, 0.4)
 
+HARD = (
+    ("fandisk_6475", 0.6, 1.0),
+    ("fertility", 0.3, 1.0),
+    ("trim_star", 0.3, 1.0),
+    ("nicolo", 0.6, 0.5),
+    ("armadillo_12502", 0.05, 1.0),
+)
+"""Name, level, and share of the vertices that move."""
 QUICK = ("fandisk_6475", "gargoyle_10002", "trim_star")
 FULL = (*QUICK, "twelve_dodecahedron", "block", "fr_casting", "nicolo", "sharpsphere", "armadillo_12502", "c3d_spot")
 LEVELS_QUICK, LEVELS_FULL = (0.05, 0.2), (0.02, 0.05, 0.1, 0.2, 0.5, 1.0)
@@ -154,13 +164,17 @@ def gaussian_trials(folder: Path, full: bool) -> Figures:
 
 
 def hard_trials(folder: Path, full: bool) -> Figures:
-    """The three cases with published rivals, or with hardly any noise."""
+    """Cases with published rivals, and one with hardly any noise; those of meshes that are there."""
     values: dict[str, list[float]] = {}
     print("case                          in      out       s")
-    for name, level in (("fandisk_6475", 0.6), ("trim_star", 0.3), ("armadillo_12502", 0.05)):
+    for name, level, share in HARD:
+        if not (folder / "static" / f"{name}.ply").exists():
+            continue
         clean, faces = _static(folder, name)
         for seed in (SEED, SEED + 1, SEED + 2) if full else (SEED,):
             noisy = gaussian_along_normals(clean, faces, level, seed)
+            if share < 1.0:
+                noisy = impulsive(clean, faces, level, share, seed)
             start = time.perf_counter()
             result, _ = denoise_automatically(noisy, faces)
             seconds = time.perf_counter() - start
@@ -168,6 +182,49 @@ def hard_trials(folder: Path, full: bool) -> Figures:
             values.setdefault(f"{name} {level}", []).append(after)
             print(f"{name:16s} {level:5.2f} {theta(clean, noisy, faces):8.2f} {after:8.2f} {seconds:7.1f}", flush=True)
     return Figures("hard", {case: float(np.mean(found)) for case, found in values.items()})
+
+
+def scoreboard(folder: Path, full: bool) -> Figures:
+    """Everything that can go wrong, counted over kinds and levels: on our meshes, or on all in `static/`."""
+    names = [name for name in (FULL if full else QUICK) if (folder / "static" / f"{name}.ply").exists()]
+    names = names or sorted(path.stem for path in (folder / "static").glob("*.ply"))
+    counts = dict.fromkeys(("of", "worse", "called clean at 0.1", "left alone", "vertices worse"), 0)
+    ratios, gains, cpu = [], [], []
+    print("mesh               kind           edges       in      out  recipes   fixed   vertices      CPU   found")
+    for name in names:
+        clean, faces = _static(folder, name)
+        reference = Reference(clean, faces)
+        for kind, make in KINDS.items():
+            for level in LEVELS_BOARD if full else LEVELS_BOARD[::2]:
+                noisy = make(clean, faces, level)
+                start = time.process_time()
+                result, choice = denoise_automatically(noisy, faces)
+                cpu.append((time.process_time() - start) * 1e5 / len(faces))
+                before, after = reference.theta(noisy), reference.theta(result)
+                fixed = min(best_fixed(noisy, faces, reference), before)
+                off = [rms_over_edge(clean, positions, faces) for positions in (noisy, result)]
+                alone = after
+                if kind == "white" and choice.learnt > 0.0:
+                    with patch.object(rehearsal, "LEARNT_WORTH", 0.0):
+                        alone = reference.theta(denoise_automatically(noisy, faces)[0])
+                    gains.append(after / alone)
+                untouched = bool((result == noisy).all())
+                counts["of"] += 1
+                counts["worse"] += after > before + 0.005
+                counts["called clean at 0.1"] += level == 0.1 and kind == "white" and untouched
+                counts["left alone"] += untouched and fixed < 0.8 * before
+                counts["vertices worse"] += off[1] > off[0] * 1.001
+                ratios.append(after / fixed)
+                said = f"{choice.kind}{' WORSE' if after > before + 0.005 else ''}"
+                print(
+                    f"{name[:18]:18s} {kind:14s} {level:5.2f} {before:8.2f} {after:8.2f} {alone:8.2f} {fixed:7.2f} "
+                    f"{off[0]:.3f}>{off[1]:.3f} {cpu[-1]:7.1f}   {said}",
+                    flush=True,
+                )
+    ratio, gain = (float(np.exp(np.mean(np.log(found)))) if found else 1.0 for found in (ratios, gains))
+    values = {**counts, "ratio": ratio, "learnt": gain, "CPU s": float(np.median(cpu)), "most CPU s": max(cpu)}
+    print("; ".join(f"{name} {value:.3g}" for name, value in values.items()))
+    return Figures("scoreboard", values)
 
 
 def sequence_trials(folder: Path, full: bool) -> Figures:
@@ -255,5 +312,6 @@ TRIALS: dict[str, Callable[[Path, bool], Figures]] = {
     "kinds": kind_trials,
     "gaussian": gaussian_trials,
     "hard": hard_trials,
+    "scoreboard": scoreboard,
     "flicker": sequence_trials,
 }

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
 
 import numpy as np
 import numpy.typing as npt
@@ -19,6 +18,7 @@ from bsm.bitstream.entropy.range_coder import (
     start_writing,
 )
 from bsm.bitstream.fields.corners import Corners
+from bsm.bitstream.once import cached_property
 
 Ints = npt.NDArray[np.int32]
 Flags = npt.NDArray[np.uint8]

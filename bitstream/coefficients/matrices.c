@@ -1,17 +1,22 @@
 /* Levels of a sequence, in matrices of frequencies by components (specification, S 4). */
 #include "bitstream/coefficients/matrices.h"
 
+#include "bitstream/coefficients/trellis.h"
 #include "bitstream/entropy/integers.h"
 
 enum {
     UNARY = 14,
-    SPAN = SIGNED_SPAN(UNARY),
+    OTHER_ZERO = SIGNED_SPAN(UNARY), /* nodes of the grid without even points: whether a level is zero, whether one */
+    OTHER_ONE,
+    SPAN,
     INPUTS = 6,
     CLASSES = 12,
     PLACES = 40,
     TABLE = CLASSES * CLASSES * SPAN, /* slots of each of the first five inputs */
     MATRIX_SLOTS = 5 * TABLE + CLASSES * PLACES * SPAN,
     WEIGHT_SETS = 3,
+    COST_SHIFT = 4, /* a cost for each probability, less these bits */
+    COSTS = (ONE >> COST_SHIFT) + 1,
 };
 
 /* Magnitude class 0 .. 11 of a sum of magnitudes. */
@@ -35,9 +40,48 @@ INLINE int64_t at(const int32_t *data, int64_t rows, int64_t columns, int64_t ro
     return magnitude_of(data[row * columns + column]);
 }
 
-/* Code the number of rows that are not zero behind, and these rows; returns that number. `slow` is scratch, an entry a
- * column. */
-int64_t code_matrix(Coder given, Bank bank, Ints2 levels, ConstInts2 reference, int64_t rows, Longs slow) {
+INLINE int zero_node(int grid) { return grid ? OTHER_ZERO : 0; }
+INLINE int one_node(int grid) { return grid ? OTHER_ONE : 2; }
+
+/* Code one level of a grid (S 4.2). */
+INLINE int32_t code_level(
+    RangeCoder *coder, const Mixer *mixer, const int64_t *contexts, int64_t selector, int grid, int32_t level) {
+    if (!code_mixed_bit(coder, mixer, INPUTS, contexts, zero_node(grid), selector, level != 0)) return 0;
+    int negative = code_mixed_bit(coder, mixer, INPUTS, contexts, 1, selector, level < 0);
+    int64_t magnitude = magnitude_of(level);
+    if (code_mixed_bit(coder, mixer, INPUTS, contexts, one_node(grid), selector, magnitude > 1))
+        magnitude = 2 + code_unsigned(coder, mixer, INPUTS, contexts, selector, UNARY - 1, magnitude - 2, 3);
+    else
+        magnitude = 1;
+    return (int32_t)(negative ? -magnitude : magnitude);
+}
+
+INLINE int64_t cost_of(const Mixer *mixer, const int64_t *costs, const int64_t *contexts, int64_t selector, int node, int bit) {
+    int32_t stretched[INPUTS];
+    uint32_t probability = mixed_probability(mixer, INPUTS, contexts, node, selector, stretched);
+    return costs[(bit ? probability : ONE - probability) >> COST_SHIFT];
+}
+
+/* What the first magnitudes of both grids would cost here. */
+INLINE void note_prices(
+    const Mixer *mixer, const int64_t *costs, const int64_t *contexts, int64_t selector, int16_t *prices) {
+    int64_t larger[PRICED];
+    for (int k = 2, sum = 0; k < PRICED; k++) {
+        larger[k] = sum + cost_of(mixer, costs, contexts, selector, 1 + k, 0);
+        sum += (int)cost_of(mixer, costs, contexts, selector, 1 + k, 1);
+    }
+    for (int grid = 0; grid < 2; grid++, prices += PRICED) {
+        int64_t some = costs[ONE >> (COST_SHIFT + 1)] + cost_of(mixer, costs, contexts, selector, zero_node(grid), 1);
+        int64_t more = some + cost_of(mixer, costs, contexts, selector, one_node(grid), 1);
+        prices[0] = (int16_t)cost_of(mixer, costs, contexts, selector, zero_node(grid), 0);
+        prices[1] = (int16_t)(some + cost_of(mixer, costs, contexts, selector, one_node(grid), 0));
+        for (int k = 2; k < PRICED; k++) prices[k] = (int16_t)(more + larger[k]);
+    }
+}
+
+/* Code the number of rows that are not zero behind, and these rows; `prices` is filled if there are costs. */
+INLINE int64_t follow_matrix(Coder given, Bank bank, Ints2 levels, ConstInts2 reference, int64_t rows, Longs slow,
+    const int64_t *costs, int16_t *prices) {
     RangeCoder coder;
     Mixer mixer;
     int64_t columns = levels.columns;
@@ -47,7 +91,8 @@ int64_t code_matrix(Coder given, Bank bank, Ints2 levels, ConstInts2 reference, 
         return MISUSED;
     for (int64_t i = 0; i < columns; i++) slow.data[i] = 0;
     rows = code_uniform(&coder, rows, levels.rows + 1);
-    for (int64_t j = 0; j < rows && !overran(&coder); j++) {
+    int state = 0;
+    for (int64_t j = 0; j < (costs ? levels.rows : rows) && !overran(&coder); j++) {
 #define A(row, column) at(levels.data, levels.rows, columns, row, column)
 #define B(row, column) at(reference.data, reference.rows, columns, row, column)
         int64_t band = octave(j), selector = SPAN * (j == 0 ? 0 : j < 12 ? 1 : 2), mean = 0;
@@ -67,7 +112,9 @@ int64_t code_matrix(Coder given, Bank bank, Ints2 levels, ConstInts2 reference, 
                 5 * TABLE + SPAN * (PLACES * class_of(left + around) + place),
             };
             int32_t *level = levels.data + j * columns + i;
-            *level = (int32_t)code_signed(&coder, &mixer, INPUTS, contexts, selector, UNARY, *level);
+            if (costs) note_prices(&mixer, costs, contexts, selector, prices + 2 * PRICED * (j * columns + i));
+            *level = code_level(&coder, &mixer, contexts, selector, trellis_grid(state), *level);
+            state = trellis_following(state, *level);
             int64_t magnitude = least(magnitude_of(*level), 4096);
             slow.data[i] += (64 * magnitude - slow.data[i]) >> 2;
             mean += (128 * magnitude - mean) >> 2;
@@ -77,4 +124,18 @@ int64_t code_matrix(Coder given, Bank bank, Ints2 levels, ConstInts2 reference, 
     }
     close_coder(&coder, given);
     return rows;
+}
+
+/* Code the number of rows that are not zero behind, and these rows; returns that number. `slow` is scratch, an entry a
+ * column. */
+int64_t code_matrix(Coder given, Bank bank, Ints2 levels, ConstInts2 reference, int64_t rows, Longs slow) {
+    return follow_matrix(given, bank, levels, reference, rows, slow, 0, 0);
+}
+
+/* The same, and what the magnitudes 0 .. PRICED - 1 of both grids would have cost at each place, all rows included:
+ * `costs` are of probabilities, see COST_SHIFT. */
+int64_t price_matrix(Coder given, Bank bank, Ints2 levels, ConstInts2 reference, int64_t rows, Longs slow,
+    ConstLongs costs, Shorts prices) {
+    if (costs.size != COSTS || prices.size != 2 * PRICED * levels.rows * levels.columns) return MISUSED;
+    return follow_matrix(given, bank, levels, reference, rows, slow, costs.data, prices.data);
 }

@@ -4,6 +4,10 @@
 
 #include "bitstream/entropy/mixing.h"
 
+enum { PRICED = 6 }; /* magnitudes whose prices are told */
+
 int64_t code_matrix(Coder coder, Bank bank, Ints2 levels, ConstInts2 reference, int64_t rows, Longs slow);
+int64_t price_matrix(Coder coder, Bank bank, Ints2 levels, ConstInts2 reference, int64_t rows, Longs slow,
+    ConstLongs costs, Shorts prices);
 
 #endif

@@ -14,9 +14,11 @@ import numpy as np
 import numpy.typing as npt
 
 from bsm.bitstream import _kernels
+from bsm.bitstream.coefficients.rate_distortion import COSTS
 from bsm.bitstream.entropy.range_coder import (
     Bank,
     Coder,
+    copy_bank,
     finish_reading,
     finish_writing,
     make_bank,
@@ -27,14 +29,17 @@ from bsm.bitstream.entropy.range_coder import (
 )
 
 Levels = npt.NDArray[np.int32]
+Prices = npt.NDArray[np.int16]
 
 _INPUTS = 6
 _UNARY = 14
-_SPAN = signed_span(_UNARY)
+_SPAN = signed_span(_UNARY) + 2  # of the second grid, whether a level is zero, and whether one
 _CLASSES = 12
 _ROWS = 40
 _SLOTS = ((_INPUTS - 1) * _CLASSES * _CLASSES + _CLASSES * _ROWS) * _SPAN
 _SELECTORS = 3 * _SPAN
+PRICED = 6
+"""Magnitudes, from 0 on, that `price_levels` tells the prices of."""
 
 
 def make_level_bank() -> Bank:
@@ -56,9 +61,30 @@ def encode_levels(bank: Bank, matrices: Sequence[Levels], references: Sequence[L
     """
     coder = start_writing(16 * sum(m.size for m in matrices) + 8 * len(matrices) + 64)
     for matrix, reference in zip(matrices, references, strict=True):
-        occupied = np.flatnonzero(matrix.any(axis=1))
-        _code_matrix(coder, bank, matrix, reference, int(occupied[-1]) + 1 if len(occupied) else 0)
+        _code_matrix(coder, bank, matrix, reference, _occupied(matrix))
     return finish_writing(coder)
+
+
+def price_levels(bank: Bank, matrix: Levels, reference: Levels) -> Prices:
+    """What each place of a matrix would cost if it were coded next, and its neighbours as they are.
+
+    Parameters
+    ----------
+    bank : Bank
+        Stays as it is.
+    matrix, reference : int32 arrays
+        As of `encode_levels`.
+
+    Returns
+    -------
+    int16 array, shape (rows, columns, 2, PRICED)
+        Of magnitudes on both grids (see `bitstream.coefficients.trellis`), in 1 / 256 bit.
+    """
+    rows, columns = matrix.shape
+    prices = np.zeros((rows, columns, 2, PRICED), np.int16)
+    coder, slow = start_writing(16 * matrix.size + 64), np.empty(columns, np.int64)
+    _kernels.price_matrix(coder, copy_bank(bank), matrix, reference, _occupied(matrix), slow, COSTS, prices.reshape(-1))
+    return prices
 
 
 def decode_levels(bank: Bank, payload: bytes, matrices: Sequence[Levels], references: Sequence[Levels]) -> None:
@@ -75,6 +101,12 @@ def decode_levels(bank: Bank, payload: bytes, matrices: Sequence[Levels], refere
         if overran(coder):
             break
     finish_reading(coder)
+
+
+def _occupied(matrix: Levels) -> int:
+    """Rows but those that are zero behind."""
+    occupied = np.flatnonzero(matrix.any(axis=1))
+    return int(occupied[-1]) + 1 if len(occupied) else 0
 
 
 def _code_matrix(coder: Coder, bank: Bank, levels: Levels, reference: Levels, rows: int) -> None:

@@ -8,13 +8,14 @@ which the build makes a part of the kernels.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cache, cached_property
+from functools import cache
 
 import numpy as np
 import numpy.typing as npt
 
 from bsm.bitstream._kernels import priors
 from bsm.bitstream.coefficients.contexts import BINS, NEIGHBOURS, SITUATIONS
+from bsm.bitstream.once import cached_property
 
 EXPECTATIONS = 3
 """From everything, from the same block alone, from earlier blocks alone; each is a context of its own."""

@@ -23,9 +23,10 @@ TARGET_UNIT = 256
 
 _BIT = 256
 _SHIFT = 4
-_COSTS = np.array(
+COSTS = np.array(
     [round(_BIT * -np.log2(min(max(i, 0.5) * (1 << _SHIFT) / ONE, 1.0))) for i in range((ONE >> _SHIFT) + 1)], np.int64
 )
+"""What a decision costs by its probability, in 1 / 256 bit."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,7 +69,7 @@ def choose_levels(model: CoefficientModel, targets: npt.NDArray[np.int64], weigh
     levels, kept = np.empty((rows, 3), np.int32), np.empty(rows)
     ways, origins = np.empty((3 * rows, STATES), np.int32), np.empty((3 * rows, STATES), np.uint8)
     _kernels.search_levels(
-        model.bank, model.past, model.expectations, targets, price, _COSTS, ways, origins, levels, kept
+        model.bank, model.past, model.expectations, targets, price, COSTS, ways, origins, levels, kept
     )
     dropped = np.square(targets[::-1].astype(np.float64)).sum(axis=1).cumsum()[::-1]
     return Choice(levels, 1 + int(np.argmin(kept + np.append(dropped[1:], 0.0))) if len(targets) else 0)

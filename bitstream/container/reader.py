@@ -22,7 +22,7 @@ from bsm.bitstream.errors import (
     TruncatedError,
     UnsupportedError,
 )
-from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
+from bsm.bitstream.limits import DEFAULT_LIMITS, Limits, as_limits
 
 
 class Signal(Enum):
@@ -80,7 +80,7 @@ class Reader:
 
     def __init__(self, limits: Limits = DEFAULT_LIMITS, spend: Spend = unpaid) -> None:
         self.last_frame: FrameSpan | None = None
-        self._limits = limits
+        self._limits = as_limits(limits)
         self._spend = spend
         self._buffer = bytearray()
         self._offset = 0  # of the buffer's first byte in the stream

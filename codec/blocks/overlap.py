@@ -8,10 +8,10 @@ block are brought into the order of a full bisection, so that row r means about 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
 
 import numpy as np
 
+from bsm.bitstream.once import cached_property
 from bsm.codec import _kernels
 from bsm.codec.arrays import Indices, Order
 from bsm.codec.blocks.partition import Partition

@@ -10,12 +10,13 @@ from bsm.codec.arrays import Faces, Positions
 from bsm.codec.choices import named
 from bsm.codec.denoise.coarse import CoarseFilter
 from bsm.codec.denoise.filters.topology import Topology
+from bsm.codec.denoise.learnt.cascade import Learner, joined
 from bsm.codec.denoise.noise.estimate import NoiseLevel
 from bsm.codec.denoise.noise.finding import Finding, find_noise
 from bsm.codec.denoise.noise.outliers import Outliers, find_outliers
 from bsm.codec.denoise.noise.probe import Probe
 from bsm.codec.denoise.recipe import Recipe, Step, blend, perform
-from bsm.codec.denoise.rehearsal import GOALS, MOST_MEMBERS, Rehearsal
+from bsm.codec.denoise.rehearsal import GOALS, LEARNT_SHARE, MOST_MEMBERS, Rehearsal
 from bsm.codec.denoise.safety import Verdict, judge, keep_good, restraint
 from bsm.codec.denoise.sample import sample
 from bsm.codec.geometry.metrics import mean_edge_length
@@ -36,7 +37,13 @@ CANDIDATES = (
     Recipe("none", 0.2, "patches", 0.35),
     *(Recipe("none", 0.2, "local", sigma_r) for sigma_r in (0.35, 0.45, 0.6)),
 )
+HERALDS = (CANDIDATES[0], *CANDIDATES[1:3], CANDIDATES[7], CANDIDATES[-2])
+"""Those that compete for the second guess."""
 LARGEST_KEEP = max(recipe.keep for recipe in CANDIDATES)
+LEARNT_MORE = 0.025
+"""Movement over noise with the learnt normals, above that without them, from which on they are left out."""
+SLIDING = 0.6
+"""Noise across the normals, over noise along them, from which on vertices may slide along the surface."""
 BLOCK_SIZE = 500
 """About the paper's; half or twice of it leaves 2.4 and 0.6 % more of the angle (tools.constants)."""
 LARGE, MOST_LARGE_MEMBERS = 100_000, 2
@@ -69,6 +76,8 @@ class AutomaticChoice:
         between vertices. Real meshes have detail that the rehearsal lacks: take it as a lower bound.
     rehearsals : int
         How many there were.
+    learnt : float
+        Share of the learnt normals (`codec.denoise.learnt`) in the result.
     outliers : int
         Vertices that stood out by themselves and were put back before all else.
     """
@@ -80,6 +89,7 @@ class AutomaticChoice:
     untreated: float
     expected: float
     rehearsals: int
+    learnt: float = 0.0
     outliers: int = 0
 
     def after(self, outliers: Outliers) -> AutomaticChoice:
@@ -116,6 +126,7 @@ def denoise_automatically(
     finding = find_noise(calmed, patient.probe)
     choice = choose(calmed, finding, patient, goal).after(outliers)
     result, verdict = treat(choice, calmed, finding, patient)
+    choice = replace(choice, learnt=verdict.learnt)
     if not verdict.holds:
         choice = replace(choice, steps=(), reason=verdict.reason)
     moved = (result != welded).any(axis=1)[index]
@@ -135,6 +146,7 @@ class Patient:
         self.topology = Topology(faces, n)
         self.probe = Probe(self.topology)
         self._coarse: CoarseFilter | None = None
+        self.learner = Learner(self.topology)
         self._keep = 0.0
 
     def edge(self, positions: Positions) -> float:
@@ -154,26 +166,38 @@ def choose(positions: Positions, finding: Finding, patient: Patient, goal: str =
     if not finding.noisy:
         return AutomaticChoice((), finding.kind, finding.reason, NoiseLevel(0.0, 0.0), 0.0, 0.0, 0)
     members, part = sample(patient.topology.faces, finding.levels)
-    probe = patient.probe if len(members) == patient.topology.n else Probe(Topology(part, len(members)))
+    probe, learner = patient.probe, patient.learner
+    if len(members) < patient.topology.n:
+        probe = Probe(Topology(part, len(members)))
+        positions, learner = positions[members], Learner(probe.topology)
     coarse = CoarseFilter(part, len(members), LARGEST_KEEP, BLOCK_SIZE)
     local = finding.on(members)
-    rehearsal = Rehearsal(positions[members], local, probe, coarse, BASE, named("goal", GOALS, goal))
+    rehearsal = Rehearsal(positions, local, probe, coarse, BASE, named("goal", GOALS, goal), learner)
     most = MOST_MEMBERS if patient.topology.n <= LARGE else MOST_LARGE_MEMBERS
-    steps, expected = rehearsal.compete(CANDIDATES, most)
-    # The result is a better guess than the one it was chosen with. A third round would believe its own mistakes.
-    rehearsal.rehearse(rehearsal.perform(steps))
+    candidates, heralds = CANDIDATES, HERALDS
+    if rehearsal.level.tangential > SLIDING * rehearsal.level.normal:
+        candidates, heralds = (tuple(map(_sliding, recipes)) for recipes in (candidates, heralds))
+    # What a few of them make, in the mean with the learnt normals, is a better guess than the one that they were chosen
+    # with. A third round would believe its own mistakes.
+    rehearsal.rehearse(rehearsal.perform(rehearsal.compete(heralds, most).steps, LEARNT_SHARE))
     untreated = rehearsal.untreated
-    steps, expected = rehearsal.compete(CANDIDATES, most)
+    winner = rehearsal.compete(candidates, most)
+    steps, (share, expected) = winner.steps, rehearsal.weigh(winner)
     reason = finding.reason
     if expected > WORTH * untreated:
         steps, expected = (), untreated
         reason = f"{reason}, but any filter would cost more than it gains"
-    elif expected > HARMFUL * rehearsal.changed(steps):
+    elif expected > HARMFUL * rehearsal.changed(steps, share):
         steps, expected = (), untreated
         reason = f"{reason}, but the result is expected to be as far off as what it changes"
     level = rehearsal.level
     noise = NoiseLevel(level.normal / finding.edge, level.tangential / finding.edge)
-    return AutomaticChoice(steps, finding.kind, reason, noise, untreated, expected, rehearsal.rounds)
+    return AutomaticChoice(steps, finding.kind, reason, noise, untreated, expected, rehearsal.rounds, share)
+
+
+def _sliding(recipe: Recipe) -> Recipe:
+    """A recipe that lets vertices slide along the surface: for noise that has moved them there."""
+    return replace(recipe, hand_over="positions") if recipe.hand_over == "heights" else recipe
 
 
 def treat(choice: AutomaticChoice, noisy: Positions, finding: Finding, patient: Patient) -> tuple[Positions, Verdict]:
@@ -181,17 +205,27 @@ def treat(choice: AutomaticChoice, noisy: Positions, finding: Finding, patient: 
     if not choice.steps:
         return noisy, Verdict(np.ones(len(noisy), dtype=np.bool_), 0.0, 0.0, "")
     results = {step: _perform(step, choice, noisy, patient) for step in set(choice.steps)}
-    result = blend([results[step] for step in choice.steps])
-    result = keep_good(noisy, result, finding.levels > 0.0)
-    if finding.grid is not None:
-        result = finding.grid.within_cells(noisy, result)
-    verdict = judge(noisy, result, finding, patient.probe)
+    result, verdict = _judged(blend([results[step] for step in choice.steps]), noisy, finding, patient)
+    if choice.learnt > 0.0:
+        mean = joined(result, patient.learner(noisy), choice.learnt, patient.topology)
+        other, judgement = _judged(mean, noisy, finding, patient)
+        # Made shapes have less detail than real ones: where the networks move more than the recipes, they take it away.
+        if judgement.movement < verdict.movement + LEARNT_MORE:
+            result, verdict = other, replace(judgement, learnt=choice.learnt)
     if not verdict.holds:
         return noisy, verdict
     share = restraint(verdict.movement, finding)
     if share < 1.0:
         result = noisy + share * (result - noisy)
     return keep_good(noisy, result, verdict.good), verdict
+
+
+def _judged(result: Positions, noisy: Positions, finding: Finding, patient: Patient) -> tuple[Positions, Verdict]:
+    """The result where there is noise, as far as it may go, and what is to be said of it."""
+    result = keep_good(noisy, result, finding.levels > 0.0)
+    if finding.grid is not None:
+        result = finding.grid.within_cells(noisy, result)
+    return result, judge(noisy, result, finding, patient.probe)
 
 
 def _perform(step: Step, choice: AutomaticChoice, noisy: Positions, patient: Patient) -> Positions:

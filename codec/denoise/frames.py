@@ -9,7 +9,7 @@ from itertools import islice
 import numpy as np
 import numpy.typing as npt
 
-from bsm.bitstream.errors import HarmError, MeshError
+from bsm.bitstream.errors import HarmError, MeshError, OptionError
 from bsm.codec.arrays import Faces, Positions
 from bsm.codec.denoise.automatic import AutomaticChoice, Patient, choose, treat
 from bsm.codec.denoise.coarse import BLOCK_SIZE, KEEP, CoarseFilter
@@ -49,6 +49,8 @@ class FrameDenoiser:
         None: chosen from the noise of the first frames, see `codec.denoise.automatic`.
     goal : str
         What the automatic mode strives for: "shading" (normals) or "shape" (vertices).
+    strength : float
+        How much of every movement is made, from 0 to 1.
     force : bool
         Let the options have their way even where they do harm.
 
@@ -59,6 +61,8 @@ class FrameDenoiser:
 
     Raises
     ------
+    OptionError
+        If the strength is not from 0 to 1.
     MeshError
         If `first` is not of shape (n, 3), or has a coordinate that is not finite.
     """
@@ -70,8 +74,11 @@ class FrameDenoiser:
         options: DenoiseOptions | None = None,
         *,
         goal: str = "shading",
+        strength: float = 1.0,
         force: bool = False,
     ) -> None:
+        if not 0.0 <= strength <= 1.0:
+            raise OptionError(f"the strength must be from 0 to 1, not {strength}")
         first = np.ascontiguousarray(first, dtype=np.float64)
         if first.ndim != 2 or first.shape[1] != 3:
             raise MeshError(f"a frame must have shape (n, 3), not {first.shape}")
@@ -80,7 +87,7 @@ class FrameDenoiser:
         welded, faces, self._index = weld(first, faces)
         self._members = np.unique(self._index, return_index=True)[1]
         self._patient = Patient(faces, len(welded))
-        self._options, self._goal, self._force = options, goal, force
+        self._options, self._goal, self._strength, self._force = options, goal, strength, force
         self.choice: AutomaticChoice | None = None
 
     def __call__(self, frames: Iterable[Positions]) -> Iterator[Positions]:
@@ -100,6 +107,8 @@ class FrameDenoiser:
             displaced = given + (result - given[self._members])[self._index]
             alone = (given == given[self._members][self._index]).all(axis=1)
             displaced[alone] = result[self._index][alone]
+            if self._strength < 1.0:
+                displaced = given + self._strength * (displaced - given)
             yield np.where(moved[:, None], displaced, given)
 
     def _automatic(self, frames: Iterator[Positions]) -> Iterator[Pair]:

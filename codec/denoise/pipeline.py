@@ -12,7 +12,12 @@ from bsm.codec.geometry.mesh import TriangleMesh
 
 
 def denoise(
-    mesh: TriangleMesh, options: DenoiseOptions | None = None, *, goal: str = "shading", force: bool = False
+    mesh: TriangleMesh,
+    options: DenoiseOptions | None = None,
+    *,
+    goal: str = "shading",
+    strength: float = 1.0,
+    force: bool = False,
 ) -> TriangleMesh:
     """Remove noise from the positions of a mesh; the faces stay.
 
@@ -24,6 +29,8 @@ def denoise(
         is found comes back bit for bit.
     goal : str
         What the automatic mode strives for: "shading" (normals near the clean ones) or "shape" (vertices).
+    strength : float
+        How much of every movement is made, from 0 to 1.
     force : bool
         Let the options have their way even where they do harm.
 
@@ -32,7 +39,7 @@ def denoise(
     HarmError
         If the options would make the mesh worse.
     """
-    frames = denoise_frames(mesh.positions[None], mesh.faces, options, goal=goal, force=force)
+    frames = denoise_frames(mesh.positions[None], mesh.faces, options, goal=goal, strength=strength, force=force)
     return mesh.moved(frames[0])[0]
 
 
@@ -42,6 +49,7 @@ def denoise_frames(
     options: DenoiseOptions | None = None,
     *,
     goal: str = "shading",
+    strength: float = 1.0,
     force: bool = False,
 ) -> Frames:
     """Remove noise from every frame of a sequence that shares its faces (section 7.3 of the paper).
@@ -55,7 +63,7 @@ def denoise_frames(
     options : DenoiseOptions, optional
         None: noise that changes from frame to frame is removed in time first, then settings are chosen on the first
         frame, and used for all of them.
-    goal, force
+    goal, strength, force
         As in `denoise`.
 
     Returns
@@ -72,4 +80,5 @@ def denoise_frames(
     frames = np.ascontiguousarray(frames, dtype=np.float64)
     if frames.ndim != 3 or frames.shape[2] != 3 or len(frames) == 0:
         raise MeshError(f"frames must have shape (T, n, 3) with at least one frame, not {frames.shape}")
-    return np.stack(list(FrameDenoiser(frames[0], faces, options, goal=goal, force=force)(frames)))
+    denoiser = FrameDenoiser(frames[0], faces, options, goal=goal, strength=strength, force=force)
+    return np.stack(list(denoiser(frames)))

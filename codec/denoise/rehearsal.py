@@ -18,6 +18,7 @@ import numpy as np
 
 from bsm.codec.arrays import Positions
 from bsm.codec.denoise.coarse import CoarseFilter
+from bsm.codec.denoise.learnt.cascade import Learner, joined, learnt
 from bsm.codec.denoise.noise.estimate import NoiseLevel, estimate_noise
 from bsm.codec.denoise.noise.finding import Finding
 from bsm.codec.denoise.noise.probe import Probe
@@ -34,6 +35,12 @@ MOST_MEMBERS = 4
 """Of a blend; two leave 2.2 % more of the angle, eight 0.7 % less and take longer (tools.constants)."""
 GAIN = 1.01
 """Members join while the error stays below this multiple: what the guess lacks, several recipes miss less often."""
+LEARNT_SHARE = 0.4
+"""Of the learnt normals in the mean with those of the recipes; half costs more on uneven meshes than it gains,
+and alone they are worse on half of the meshes tried."""
+LEARNT_WORTH = 1.04
+"""The mean takes part below this multiple of the recipes' error in the rehearsal, which flatters them: they were chosen
+there among many, for a guess that a recipe has made."""
 SEED = 1
 MIRRORED = ("impulses",)
 """Kinds of which too little is known to draw such noise anew: it is taken as it was found."""
@@ -69,6 +76,15 @@ class Trial:
     result: Positions
 
 
+@dataclass(frozen=True, eq=False)
+class Winner:
+    """The steps whose mean did best in a rehearsal, its error, and what it made of the noisy mesh there."""
+
+    steps: tuple[Step, ...]
+    error: float
+    result: Positions
+
+
 class Rehearsal:
     """A mesh, a guess at it without noise, and the guess with noise again.
 
@@ -83,6 +99,8 @@ class Rehearsal:
         Makes the guess.
     goal : callable
         What is to be small: from the reference and positions to a number.
+    learner : Learner
+        Of this connectivity.
     """
 
     def __init__(
@@ -93,8 +111,10 @@ class Rehearsal:
         coarse: CoarseFilter,
         base: Recipe,
         goal: Goal,
+        learner: Learner,
     ) -> None:
         topology = probe.topology
+        self._learner = learner
         self._topology, self._coarse, self._goal = topology, coarse, goal
         self._given, self._finding, self._touched = noisy, finding, finding.levels > 0.0
         smooth = coarse(noisy, base.keep)
@@ -121,19 +141,29 @@ class Rehearsal:
             guess, 2.0 * guess - self._given if mirrored else self._synthesis.draw(guess, SEED + self.rounds)
         )
 
-    def perform(self, steps: tuple[Step, ...]) -> Positions:
-        """The steps' result on the mesh that is rehearsed for."""
+    def perform(self, steps: tuple[Step, ...], share: float = 0.0) -> Positions:
+        """The steps' result on the mesh that is rehearsed for, with so large a share of the learnt normals."""
 
         def one(step: Step) -> Positions:
             recipe = step.recipe
             smooth = self._coarse(self._given, recipe.keep) if recipe.needs_coarse else self._given
             return perform(step, self._given, smooth, self._topology)
 
-        return self._within(blend([one(step) for step in steps]), self._given)
+        result = blend([one(step) for step in steps])
+        if share > 0.0:
+            result = joined(result, self._learner(self._given), share, self._topology)
+        return self._within(result, self._given)
 
-    def changed(self, steps: tuple[Step, ...]) -> float:
-        """How far the steps' result is from the mesh that is rehearsed for, in the unit of the errors."""
-        return self._goal(Reference(self._given, self._topology.faces), self.perform(steps))
+    def changed(self, steps: tuple[Step, ...], share: float) -> float:
+        """How far the result is from the mesh that is rehearsed for, in the unit of the errors."""
+        return self._goal(Reference(self._given, self._topology.faces), self.perform(steps, share))
+
+    def weigh(self, winner: Winner) -> tuple[float, float]:
+        """The share of the learnt normals in the mean with the winner's, and the error of that."""
+        other = learnt(self.noisy, self._topology)
+        mean = self._within(joined(winner.result, other, LEARNT_SHARE, self._topology), self.noisy)
+        error = self._goal(self.truth, mean)
+        return (LEARNT_SHARE, error) if error < LEARNT_WORTH * winner.error else (0.0, winner.error)
 
     def _rehearse(self, guess: Positions, noisy: Positions) -> None:
         self.truth = Reference(guess, self._topology.faces)
@@ -158,8 +188,8 @@ class Rehearsal:
                 break
         return best
 
-    def compete(self, recipes: tuple[Recipe, ...], members: int = MOST_MEMBERS) -> tuple[tuple[Step, ...], float]:
-        """The steps whose mean is best, found greedily, and its error."""
+    def compete(self, recipes: tuple[Recipe, ...], members: int = MOST_MEMBERS) -> Winner:
+        """The steps whose mean is best, found greedily."""
         trials = sorted(ordered_map(self.attempt, recipes, None), key=lambda trial: trial.error)
         chosen, error = [trials[0]], trials[0].error
         while len(chosen) < members:
@@ -170,7 +200,8 @@ class Rehearsal:
             chosen.append(trials[best])
             error = errors[best]
         steps = tuple(trial.step for trial in chosen)
-        return steps[:1] if len(set(steps)) == 1 else steps, error
+        result = blend([trial.result for trial in chosen])
+        return Winner(steps[:1] if len(set(steps)) == 1 else steps, error, result)
 
     def _within(self, positions: Positions, otherwise: Positions) -> Positions:
         """Positions where the mesh is to be touched, as far as it may be."""

@@ -45,12 +45,15 @@ class Verdict:
         Share of the windows in which the movement is too large.
     reason : str
         A sentence for the user; empty if the result may stand, here and there put back perhaps.
+    learnt : float
+        Share of the learnt normals in what was judged.
     """
 
     good: Mask
     movement: float
     failed: float
     reason: str
+    learnt: float = 0.0
 
     @property
     def holds(self) -> bool:

@@ -8,7 +8,7 @@ from typing import Any, Literal, get_args
 import numpy as np
 import numpy.typing as npt
 
-from bsm.bitstream.errors import MeshError
+from bsm.bitstream.errors import ArgumentError, MeshError
 from bsm.codec.arrays import Indices, Order
 
 Domain = Literal["vertex", "corner", "face"]
@@ -50,8 +50,14 @@ class Attribute:
     semantic: Semantic = "generic"
     indices: Indices | None = None
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        """For pickles and deep copies: made again, and so checked again."""
+        return type(self), (self.name, self.values, self.domain, self.semantic, self.indices)
+
     def __post_init__(self) -> None:
         what = f"the attribute {self.name!r}"
+        if not all(isinstance(text, str) for text in (self.name, self.domain, self.semantic)):
+            raise ArgumentError(f"{what}: name, domain and meaning must be texts")
         if not self.name or len(self.name.encode()) > MOST_NAME_BYTES:
             raise MeshError(f"the name of an attribute must have 1 to {MOST_NAME_BYTES} bytes: {self.name!r}")
         if self.domain not in get_args(Domain) or self.semantic not in get_args(Semantic):

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from bsm.bitstream.errors import MeshError
+from bsm.bitstream.errors import ArgumentError, MeshError
 from bsm.codec.arrays import Faces, Order, Positions
 from bsm.codec.geometry.attributes import Attribute
 
@@ -48,6 +48,11 @@ class TriangleMesh:
     metadata: Metadata = field(default_factory=dict)
 
     def __post_init__(self) -> None:
+        attributes: object = self.attributes
+        if not isinstance(attributes, (tuple, list)) or not all(isinstance(one, Attribute) for one in attributes):
+            raise ArgumentError("the attributes of a mesh must be a list of Attribute")
+        if not isinstance(self.metadata, Mapping):
+            raise ArgumentError(f"metadata must be a mapping from names, not {type(self.metadata).__name__}")
         positions = _as_array(self.positions, "positions", np.float64)
         faces = _as_array(self.faces, "faces")
         if positions.ndim != 2 or positions.shape[1] != 3:
@@ -78,10 +83,25 @@ class TriangleMesh:
         for attribute in self.attributes:
             attribute.check(len(positions), len(faces))
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        """For pickles and deep copies: made again, and so checked again."""
+        return type(self), (self.positions, self.faces, self.attributes, dict(self.metadata))
+
     @property
     def diagonal(self) -> float:
         """Length of the bounding box's diagonal."""
         return math.hypot(*np.ptp(self.positions, axis=0))
+
+    def require_sizes(self, smallest: float, largest: float) -> None:
+        """Raise `MeshError` where it is smaller, or goes farther from the origin, than what is to be done can bear."""
+        farthest = float(np.abs(self.positions).max(initial=0.0))
+        with np.errstate(over="ignore"):
+            extent = float(np.ptp(self.positions, axis=0).max()) if len(self.positions) else 0.0
+        if farthest > largest or 0.0 < extent < smallest:
+            raise MeshError(
+                f"the mesh is {extent:.3g} across, and {farthest:.3g} from the origin; what is from {smallest:g} to "
+                f"{largest:g} can be encoded so: scale it, and say the unit in its metadata"
+            )
 
     def moved(self, positions: Positions) -> tuple[TriangleMesh, tuple[str, ...]]:
         """The mesh with its vertices elsewhere; normals are not of it any more: the names of those left out."""

@@ -6,6 +6,7 @@
 #define KEPT (2 * WIDE + 1)
 #define WINDOW 8 /* pixels of a side of the squares that parts may be gone from */
 #define BACKGROUND 1.0f
+#define LOUD 1.0f /* what a pixel that differs visibly counts in the map, beside its dissimilarity */
 #define COVERED 0.999f
 #define STEADY_MEAN 1e-4f
 #define STEADY_SPREAD 9e-4f
@@ -81,12 +82,14 @@ INLINE int64_t densest(const float *marks, float *ring, float *columns, int64_t 
 
 /* `wide` and `narrow` are the halves of both blurs, from the middle. Over pixels that either picture covers, to `sums`:
  * of 1 - SSIM; how many differ by more than `visible` after the narrow blur; how many there are; and how many
- * differ by more than `plain` in the square that has most of these. */
+ * differ by more than `plain` in the square that has most of these. `map`, which may be empty, gets for each pixel how unlike
+ * it is: 1 - SSIM, and up to as much again by the square of its difference. */
 KERNEL int64_t likeness(ConstSingles2 first, ConstSingles2 second, ConstSingles wide, ConstSingles narrow,
-                        double visible, double plain, Singles2 scratch, Doubles sums) {
+                        double visible, double plain, Singles2 scratch, Doubles sums,
+                        Singles2 map) {
     int64_t stride = scratch.columns, box[4];
     if (first.rows != second.rows || first.columns != second.columns || wide.size != WIDE + 1 ||
-        narrow.size != NARROW + 1 || sums.size != 4 || stride < first.columns + 2 * WIDE ||
+        narrow.size != NARROW + 1 || sums.size != 4 || (map.rows && (map.rows != first.rows || map.columns != first.columns)) || stride < first.columns + 2 * WIDE ||
         scratch.rows < (FIELDS + 1) * (KEPT + 2) + WINDOW + 2)
         return MISUSED;
     float *padded = scratch.data, *down = padded + (FIELDS + 1) * stride, *ring = down + (FIELDS + 1) * stride;
@@ -131,6 +134,11 @@ KERNEL int64_t likeness(ConstSingles2 first, ConstSingles2 second, ConstSingles 
             seen += inside && (double)__builtin_fabsf(change[i]) > visible;
             count += inside;
         }
+        for (int64_t i = from; i < to && map.rows; i++)
+{
+                float part = change[i] / (float)visible, soft = part * part < 1.0f ? part * part : 1.0f;
+                map.data[at * first.columns + i] = covered(own[i], other[i]) ? one_less[i] + LOUD * soft : 0.0f;
+            }
         for (int64_t i = from; i < to; i++) marks[i] = (double)__builtin_fabsf(change[i]) > plain ? 1.0f : 0.0f;
         gone = largest(gone, densest(marks, marked + at % WINDOW * stride, columns, from, to));
     }

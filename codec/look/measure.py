@@ -12,8 +12,18 @@ from bsm.bitstream.errors import MeshError
 from bsm.codec.arrays import Faces, Matrix, Positions
 from bsm.codec.geometry.attribute_errors import at_corners
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.codec.look.pictures import BACKGROUND, SQUARE, Normals, Picture, Shape, difference, draw
-from bsm.codec.look.sides import cameras, pixels_for
+from bsm.codec.look.pictures import (
+    BACKGROUND,
+    SQUARE,
+    Normals,
+    Picture,
+    Shape,
+    difference,
+    difference_map,
+    draw,
+    draw_owned,
+)
+from bsm.codec.look.sides import CORNERS, cameras, pixels_for
 from bsm.codec.threads import ordered_map
 
 DISSIMILAR = 0.03
@@ -84,13 +94,15 @@ class Looker:
         if not any((picture < BACKGROUND).any() for picture in self._pictures):
             raise MeshError("the mesh cannot be looked at: its faces have no area")
 
-    def look(self, positions: Positions) -> Look:
+    def look(self, positions: Positions, *, every: int = 1) -> Look:
         """How these positions look on the faces of the original, with normals that follow from them.
 
         Parameters
         ----------
         positions : ndarray of float64, shape (n, 3)
             As many as the original has, in its order.
+        every : int
+            Look from the first of so many sides alone: quicker, and about the same.
 
         Raises
         ------
@@ -103,7 +115,7 @@ class Looker:
         if not np.isfinite(positions).all():
             raise MeshError("a position is not finite")
         placed = self._placed(positions)
-        return self._seen(self._pictures, placed, self._shape.faces, self._shape.normals(placed))
+        return self._seen(self._pictures, placed, self._shape.faces, self._shape.normals(placed), every)
 
     def distance(self, positions: Positions) -> float:
         """The distance alone of `look`."""
@@ -126,6 +138,29 @@ class Looker:
         shaded = self._seen(pictures, placed, shape.faces, smooth if others is None else others)
         return max(seen, shaded, key=lambda look: look.distance)
 
+    def blame(self, *versions: Positions) -> list[Matrix]:
+        """Where versions look different: how unlike the pixels are that show each face of the original, added.
+
+        That is their 1 - SSIM, and up to 1 more where they differ visibly; over all pixels that the original covers, as
+        seen from the corners of a cube around it. `versions` are positions as `look` takes them.
+        """
+        placed = [self._placed(positions) for positions in (self._mesh.positions, *versions)]
+        drawn = [(positions, self._shape.normals(positions)) for positions in placed]
+        faces = self._shape.faces
+
+        def blamed(camera: Matrix) -> tuple[int, list[Matrix]]:
+            picture, owner = draw_owned(drawn[0][0], faces, drawn[0][1], camera, self.pixels)
+            shown = owner >= 0
+            found = []
+            for positions, normals in drawn[1:]:
+                _, unlike = difference_map(picture, draw(positions, faces, normals, camera, self.pixels))
+                found.append(np.bincount(owner[shown], unlike[shown].astype(np.float64), len(faces)).astype(np.float64))
+            return int(shown.sum()), found
+
+        sides = list(ordered_map(blamed, self._cameras[CORNERS], self._threads))
+        covered = sum(count for count, _ in sides) or 1
+        return [np.sum([found[number] for _, found in sides], axis=0) / covered for number in range(len(versions))]
+
     def pictures(self, other: TriangleMesh) -> tuple[Picture, Picture]:
         """Both meshes from the side where they differ most."""
         placed = self._placed(other.positions)
@@ -144,12 +179,14 @@ class Looker:
 
         return list(ordered_map(drawn, self._cameras, self._threads))
 
-    def _seen(self, pictures: Sequence[Picture], placed: Positions, faces: Faces, normals: Normals) -> Look:
+    def _seen(
+        self, pictures: Sequence[Picture], placed: Positions, faces: Faces, normals: Normals, every: int = 1
+    ) -> Look:
         def sums(side: tuple[Picture, Matrix]) -> Matrix:
             picture, camera = side
             return difference(picture, draw(placed, faces, normals, camera, self.pixels))
 
-        sides = zip(pictures, self._cameras, strict=True)
+        sides = list(zip(pictures, self._cameras, strict=True))[::every]
         found = np.array(list(ordered_map(sums, sides, self._threads)))
         dissimilar, visible, covered, _ = (float(sum(column)) for column in found.T)
         return judged(dissimilar / covered, visible / covered, float(found[:, 3].max()) / SQUARE)

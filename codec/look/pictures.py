@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from bsm.codec import _kernels
-from bsm.codec.arrays import Faces, Matrix, Positions
+from bsm.codec.arrays import Faces, Indices, Matrix, Positions
 from bsm.codec.geometry.incidence import Rows, vertex_faces
 from bsm.codec.geometry.welding import weld
 
@@ -32,6 +32,7 @@ BACKGROUND = 1.0
 _GRID = 2.0**24
 _SPREADS = {"wide": (1.5, 5), "narrow": (0.7, 3)}
 _SCRATCH_ROWS = 88
+_NOBODY, _NOWHERE = np.empty((0, 0), np.int32), np.empty((0, 0), np.float32)
 
 
 @dataclass(frozen=True, eq=False)
@@ -69,17 +70,41 @@ class Shape:
 
 def draw(positions: Positions, faces: Faces, normals: Normals, camera: Matrix, pixels: int) -> Picture:
     """A picture of a mesh, lit alike on both sides of its faces."""
+    return _drawn(positions, faces, normals, camera, pixels, _NOBODY)
+
+
+def draw_owned(
+    positions: Positions, faces: Faces, normals: Normals, camera: Matrix, pixels: int
+) -> tuple[Picture, Indices]:
+    """The same, and which face each pixel shows; -1: none."""
+    owner = np.empty((pixels, pixels), np.int32)
+    return _drawn(positions, faces, normals, camera, pixels, owner), owner
+
+
+def _drawn(
+    positions: Positions, faces: Faces, normals: Normals, camera: Matrix, pixels: int, owner: Indices
+) -> Picture:
     picture, depth, lengths = (np.empty((pixels, pixels), np.float32) for _ in range(3))
-    _kernels.draw_shaded(positions, faces, normals, camera, np.empty(positions.shape), depth, lengths, picture)
+    _kernels.draw_shaded(positions, faces, normals, camera, np.empty(positions.shape), depth, lengths, picture, owner)
     return picture
 
 
 def difference(first: Picture, second: Picture) -> Matrix:
     """Of the pixels that either covers: the sum of 1 - SSIM; how many differ visibly; how many there are; and how many
     differ plainly in the square of 8 by 8 that has most of these."""
+    return _compared(first, second, _NOWHERE)
+
+
+def difference_map(first: Picture, second: Picture) -> tuple[Matrix, Picture]:
+    """The same, and how unlike each pixel is: 1 - SSIM, and up to 1 more where it differs visibly."""
+    found = np.zeros(first.shape, np.float32)
+    return _compared(first, second, found), found
+
+
+def _compared(first: Picture, second: Picture, found: Picture) -> Matrix:
     sums = np.zeros(4)
     scratch = np.empty((_SCRATCH_ROWS, first.shape[1] + 2 * _SPREADS["wide"][1]), np.float32)
-    _kernels.likeness(first, second, _half("wide"), _half("narrow"), VISIBLE, PLAIN, scratch, sums)
+    _kernels.likeness(first, second, _half("wide"), _half("narrow"), VISIBLE, PLAIN, scratch, sums, found)
     return sums
 
 

@@ -46,7 +46,7 @@ INLINE void swap_if_lower(const double **a, const double **b) {
 }
 
 INLINE void draw_face(const double *a, const double *b, const double *c, const float *normals, const double *light,
-                      Singles2 depth, Singles2 lengths, Singles2 picture) {
+                      int32_t face, Singles2 depth, Singles2 lengths, Singles2 picture, Ints2 owner) {
     double area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
     if (!(area > 0.0 || area < 0.0)) return;
     const double *top = a, *middle = b, *bottom = c;
@@ -79,6 +79,7 @@ INLINE void draw_face(const double *a, const double *b, const double *c, const f
             double nx = q * (double)n[0] + s * (double)n[3] + r * (double)n[6];
             double ny = q * (double)n[1] + s * (double)n[4] + r * (double)n[7];
             double nz = q * (double)n[2] + s * (double)n[5] + r * (double)n[8];
+            if (owner.rows) owner.data[pixel] = face;
             depth.data[pixel] = z;
             picture.data[pixel] = (float)(nx * light[0] + ny * light[1] + nz * light[2]);
             lengths.data[pixel] = (float)(nx * nx + ny * ny + nz * nz);
@@ -87,12 +88,13 @@ INLINE void draw_face(const double *a, const double *b, const double *c, const f
 }
 
 /* `camera` takes a position to column, row and depth (larger is nearer), four numbers each, and holds the light.
- * `placed` is room for all positions, `depth` and `lengths` for pictures. */
+ * `placed` is room for all positions, `depth` and `lengths` for pictures. `owner` has the face that each pixel shows, or
+ * -1; it may be empty. */
 int64_t draw_shaded(ConstDoubles2 positions, ConstInts2 faces, ConstSingles2 normals, ConstDoubles camera,
-                    Doubles2 placed, Singles2 depth, Singles2 lengths, Singles2 picture) {
+                    Doubles2 placed, Singles2 depth, Singles2 lengths, Singles2 picture, Ints2 owner) {
     int64_t pixels = picture.rows * picture.columns;
     if (positions.columns != 3 || placed.columns != 3 || placed.rows < positions.rows || faces.columns != 3 ||
-        normals.columns != 9 || normals.rows < faces.rows || camera.size != CAMERA ||
+        normals.columns != 9 || normals.rows < faces.rows || camera.size != CAMERA || (owner.rows && owner.rows * owner.columns < pixels) ||
         depth.rows * depth.columns < pixels || lengths.rows * lengths.columns < pixels)
         return MISUSED;
     for (int64_t k = 0; k < 3 * faces.rows; k++)
@@ -103,11 +105,15 @@ int64_t draw_shaded(ConstDoubles2 positions, ConstInts2 faces, ConstSingles2 nor
         for (int d = 0; d < 3; d++)
             placed.data[3 * v + d] = m[4 * d] * p[0] + m[4 * d + 1] * p[1] + m[4 * d + 2] * p[2] + m[4 * d + 3];
     }
-    for (int64_t i = 0; i < pixels; i++) depth.data[i] = -__builtin_inff();
+    for (int64_t i = 0; i < pixels; i++) {
+        depth.data[i] = -__builtin_inff();
+        if (owner.rows) owner.data[i] = -1;
+    }
     for (int64_t f = 0; f < faces.rows; f++) {
         const int32_t *face = faces.data + 3 * f;
         draw_face(placed.data + 3 * (int64_t)face[0], placed.data + 3 * (int64_t)face[1],
-                  placed.data + 3 * (int64_t)face[2], normals.data + 9 * f, m + 12, depth, lengths, picture);
+                  placed.data + 3 * (int64_t)face[2], normals.data + 9 * f, m + 12, (int32_t)f, depth, lengths, picture,
+                  owner);
     }
     for (int64_t i = 0; i < pixels; i++) {
         float length = lengths.data[i], facing = picture.data[i];

@@ -14,6 +14,8 @@ TOWARDS = (
     *((x, y, z) for x, y in ((101, 101), (-101, 101), (-101, -101), (101, -101)) for z in (100, -100)),
 )
 """Where the camera is, from the middle of the mesh: around it, above and below, and at the corners of a cube."""
+CORNERS = slice(6, None)
+"""Those of the cube: few, and all of a mesh is seen from them."""
 LIGHT = (0.35, 0.5, 0.79)
 """Where the light is: right, up, towards the camera."""
 AIR = 1.03

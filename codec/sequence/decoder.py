@@ -29,6 +29,7 @@ from bsm.codec.static.stages import Arrival, Ended, Stage, StreamDecoder, mispla
 from bsm.codec.static.structure import Beginning, Body, Structure
 from bsm.codec.static.ways.block_coder import FRAME, ChainDecoder
 from bsm.codec.static.work import Allowance
+from bsm.codec.threads import threads_of
 
 
 @dataclass(frozen=True, eq=False)
@@ -273,6 +274,7 @@ class SequenceDecoder(StreamDecoder[Item]):
         start: int = 0,
         rounding: Rounding = unchanged,
     ) -> None:
+        threads = threads_of(threads)
         self._attributes: list[Attribute] = []
         wishes = Wishes(threads, tolerant, start, self._attributes)
         allowance = Allowance(limits)

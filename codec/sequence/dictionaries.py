@@ -14,11 +14,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from functools import cached_property
 from typing import TypeVar
 
 import numpy as np
 
+from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Faces, Indices, Matrix, Positions
 from bsm.codec.basis.cost import Spend, factor_cost
 from bsm.codec.basis.laplacian import Factor

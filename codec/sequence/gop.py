@@ -10,18 +10,19 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from bsm.bitstream.coefficients.matrices import decode_levels, encode_levels, make_level_bank
+from bsm.bitstream.coefficients.matrices import decode_levels, make_level_bank
 from bsm.bitstream.container.gop import MAX_EXPONENT, GopBody, GopMethod
 from bsm.bitstream.entropy.range_coder import Bank
 from bsm.bitstream.errors import CorruptError
 from bsm.codec.arrays import Faces, Levels, Matrix
 from bsm.codec.sequence.dictionaries import Dictionaries, Part, Site, find_sites
+from bsm.codec.sequence.level_writer import LevelWriter
 from bsm.codec.sequence.options import SequenceOptions
 from bsm.codec.sequence.row_prediction import (
     Loop,
-    dequantize_basis,
+    basis_of,
     frames_of,
-    quantize_basis,
+    spectrum_of,
     trajectories,
 )
 from bsm.codec.sequence.temporal import learn_basis, projection
@@ -93,7 +94,7 @@ def decode_basis(body: GopBody) -> Matrix:
     """Temporal basis of a GOP, shape (3T, r)."""
     levels = np.zeros((3, body.frames, body.components), np.int32)
     decode_levels(make_level_bank(), body.basis, list(levels), level_references(list(levels), body.components))
-    return dequantize_basis(levels, body.exponents)
+    return basis_of(levels, body.exponents)
 
 
 class FrameHistory:
@@ -137,8 +138,17 @@ class GopEncoder:
         self._setting = setting
         self._parts: tuple[Part, ...] = tuple(setting.dictionaries.each(lambda _, part: part))
         self._options = options
-        self._step = float(np.float32(options.step))
+        self.step = options.step
         self._history = FrameHistory(setting.first)
+
+    @property
+    def step(self) -> float:
+        """With which the next GOP is quantized; what is set becomes a single-precision number."""
+        return self._step
+
+    @step.setter
+    def step(self, step: float) -> None:
+        self._step = float(np.float32(step))
 
     def encode(self, frames: Matrix, number: int, progress: Progress) -> GopBody:
         """Encode frames, shape (T, n, 3), from frame `number` of the sequence on."""
@@ -151,16 +161,15 @@ class GopEncoder:
             self._history = FrameHistory(self._setting.first)
         history = self._history
         frame = np.zeros_like(wanted)
-        levels, coefficients = [], []
+        writer, coefficients = LevelWriter(history.bank, 3), []
         for k, part in enumerate(self._parts):
             target = part.difference(wanted, frame) - history.base(k)
-            coded, change = history.loops[k].encode(history.known(k), target, self._step, self._options.rounding)
-            levels.append(coded)
+            change = writer.write(history.loops[k], history.known(k), target, self._step, history.levels[k])
             coefficients.append(history.base(k) + change)
             part.place(frame, coefficients[k])
-            progress(len(levels), len(self._parts))
-        payload = encode_levels(history.bank, levels, history.levels)
-        history.commit(levels, coefficients)
+            progress(k + 1, len(self._parts))
+        payload = writer.finish()
+        history.commit(writer.levels, coefficients)
         method = GopMethod.KEY_FRAME if key else GopMethod.NEXT_FRAME
         return GopBody(method, 1, self._step, 3, np.empty(0, np.int32), b"", payload)
 
@@ -169,23 +178,22 @@ class GopEncoder:
         body = self._learnt(motion)
         wanted = motion @ projection(decode_basis(body))
         field = np.zeros_like(wanted)
-        levels = []
+        writer = LevelWriter(make_level_bank(), body.components)
         for part, first in zip(self._parts, self._setting.first, strict=True):
             target = part.difference(wanted, field)
-            coded, decoded = Loop(3, body.components).encode(first, target, self._step, self._options.rounding)
-            part.place(field, decoded)
-            levels.append(coded)
-            progress(len(levels), len(self._parts))
-        payload = encode_levels(make_level_bank(), levels, level_references(levels, body.components))
-        return replace(body, levels=payload)
+            part.place(field, writer.write(Loop(3, body.components), first, target, self._step))
+            progress(len(writer.levels), len(self._parts))
+        return replace(body, levels=writer.finish())
 
     def _learnt(self, motion: Matrix) -> GopBody:
         """The temporal basis of trajectories, shape (n, 3T), without the levels of parts."""
         basis = learn_basis(motion, self._step, MAX_EXPONENT)
-        levels = quantize_basis(basis.columns, basis.exponents, self._options.rounding)
-        columns = basis.columns.shape[1]
-        coded = encode_levels(make_level_bank(), list(levels), level_references(list(levels), columns))
-        return GopBody(GopMethod.LEARNT, levels.shape[1], self._step, columns, basis.exponents, coded, b"")
+        spectrum = spectrum_of(basis.columns, basis.exponents)
+        _, frames, columns = spectrum.shape
+        writer = LevelWriter(make_level_bank(), columns)
+        for matrix in spectrum:
+            writer.write(Loop(0, columns, 0), np.empty((frames, 0)), matrix, 1.0)
+        return GopBody(GopMethod.LEARNT, frames, self._step, columns, basis.exponents, writer.finish(), b"")
 
 
 class GopDecoder:

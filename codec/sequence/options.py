@@ -5,8 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+from bsm.bitstream.errors import OptionError
 from bsm.bitstream.limits import NAMED_LIMITS
 from bsm.codec.choices import check_options
+from bsm.codec.sequence.promise import Promise
 from bsm.codec.sequence.targets import SequenceTarget
 from bsm.codec.static.attributes.quality import checked_qualities
 
@@ -22,7 +24,6 @@ RANGES: dict[str, tuple[float, float]] = {
     "overlap": (1.0, 8.0),
     "keep": (1e-6, 1.0),
     "frame_rate": (0.0, 1e6),
-    "rounding": (0.0, 0.5),
     "threads": (1, 256),
 }
 
@@ -38,7 +39,7 @@ class SequenceOptions:
     step : float
         Quantization step, relative to the bounding box's diagonal of the first frame.
     first_step : float, optional
-        That of the first frame, which all others are predicted from; None: half of `step`.
+        That of the first frame, which all others are predicted from; None: 0.4 of `step`.
     gop : int
         Frames of a GOP at most, or between key frames: what a loss costs at most, and what the encoder holds.
     keep : float
@@ -47,8 +48,6 @@ class SequenceOptions:
         Vertices of a part, about, and size of a block as a multiple of the largest part.
     frame_rate : float
         Frames per second, written to the metadata as `frame_rate`; 0: unknown.
-    rounding : float
-        Fraction added before a magnitude is cut to an integer; below 0.5 it widens the dead zone.
     keep_order : bool
         Store the order of vertices and faces, and the first corner of each face.
     attributes : mapping of str to str, or pairs
@@ -59,6 +58,8 @@ class SequenceOptions:
         None: one per core.
     target : SequenceTarget, optional
         Look for the one step for all frames that reaches it; this needs all frames in memory.
+    promise : Promise, optional
+        Look for the step of each GOP that keeps it in every frame; only with `mode` "gop", and without a target.
 
     Raises
     ------
@@ -74,13 +75,15 @@ class SequenceOptions:
     block_size: int = 400
     overlap: float = 1.0
     frame_rate: float = 0.0
-    rounding: float = 0.4
     keep_order: bool = False
     attributes: Mapping[str, str] | tuple[tuple[str, str], ...] = ()
     limits: str = "default"
     threads: int | None = None
     target: SequenceTarget | None = None
+    promise: Promise | None = None
 
     def __post_init__(self) -> None:
         check_options(self, CHOICES, RANGES)
+        if self.promise is not None and (self.target is not None or self.mode != "gop"):
+            raise OptionError("a sequence keeps a promise or meets a target, and low delay promises nothing")
         object.__setattr__(self, "attributes", checked_qualities(self.attributes))

@@ -15,6 +15,8 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
+from bsm.bitstream.coefficients.matrices import Prices
+from bsm.bitstream.coefficients.trellis import STATES, points_of_levels
 from bsm.bitstream.errors import NumericError, OptionError
 from bsm.codec import _kernels
 from bsm.codec.arrays import Levels, Matrix
@@ -32,6 +34,7 @@ half costs 0.3 %, twice saves 0.1 % (tools.constants)."""
 DENSE_ROWS = 16
 """First rows of a block, each with weights of its own; behind them the weights are renewed every `RENEWAL` rows."""
 RENEWAL = 8
+RULES = (FORGETTING, RIDGE, NOISE, DENSE_ROWS, RENEWAL)
 LARGEST_LEVEL = (1 << 23) - 1
 OCTAVE = 4
 """Exponents of the steps of a basis are in units of 1 / OCTAVE octaves."""
@@ -59,25 +62,25 @@ def basis_steps(exponents: npt.NDArray[np.int32]) -> Matrix:
     return np.exp2(-exponents.astype(np.float64) / OCTAVE)
 
 
-def quantize_basis(basis: Matrix, exponents: npt.NDArray[np.int32], rounding: float) -> Levels:
-    """Levels of a basis, shape (3T, r), as cosines over time: shape (3, T, r)."""
+def spectrum_of(basis: Matrix, exponents: npt.NDArray[np.int32]) -> Matrix:
+    """A basis, shape (3T, r), as cosines over time in steps: shape (3, T, r)."""
     rows, components = basis.shape
     spectrum = time_cosines(rows // 3).T @ basis.reshape(3, rows // 3, components) / basis_steps(exponents)
-    magnitude = np.minimum(np.floor(np.abs(spectrum) + rounding), LARGEST_LEVEL)
-    return np.ascontiguousarray(np.copysign(magnitude, spectrum).astype(np.int32))
+    return np.ascontiguousarray(spectrum)
 
 
-def dequantize_basis(levels: Levels, exponents: npt.NDArray[np.int32]) -> Matrix:
-    """The basis of `quantize_basis`, shape (3T, r), as the decoder has it; its columns are nearly orthonormal."""
+def basis_of(levels: Levels, exponents: npt.NDArray[np.int32]) -> Matrix:
+    """The basis, shape (3T, r), that levels, shape (3, T, r), stand for; its columns are nearly orthonormal."""
     _, frames, components = levels.shape
-    basis = time_cosines(frames) @ (levels * basis_steps(exponents))
+    points = np.array([points_of_levels(np.ascontiguousarray(matrix)) for matrix in levels])
+    basis = time_cosines(frames) @ (0.5 * points * basis_steps(exponents))
     return np.ascontiguousarray(basis.reshape(3 * frames, components))
 
 
 class Loop:
     """Predicts the rows of one block after the other, or of one block frame after frame, in closed loop.
 
-    Encoder and decoder call the same kernel, `encode` and `decode` differ in who brings the levels.
+    Levels are on two grids in turn (see `bitstream.coefficients.trellis`), row after row.
 
     Parameters
     ----------
@@ -85,14 +88,25 @@ class Loop:
         Columns k that the decoder knows of every row.
     targets : int
         Columns r to be coded.
+    leading : int
+        How many of them help to predict those behind.
     """
 
-    def __init__(self, known: int, targets: int) -> None:
+    def __init__(self, known: int, targets: int, leading: int = LEADING) -> None:
         self._known = known
-        self._moments = np.zeros((known + min(targets, LEADING), known + targets))
+        self._moments = np.zeros((known + min(targets, leading), known + targets))
 
-    def encode(self, known: Matrix, targets: Matrix, step: float, rounding: float) -> tuple[Levels, Matrix]:
-        """Quantize `targets`, shape (c, r), given `known`, shape (c, k).
+    def search(
+        self, known: Matrix, targets: Matrix, step: float, prices: Prices, weight: float
+    ) -> tuple[Levels, Matrix]:
+        """Choose levels for `targets`, shape (c, r), given `known`, shape (c, k).
+
+        Parameters
+        ----------
+        prices : int16 array, shape (c, r, 2, PRICED)
+            Of `bitstream.coefficients.matrices.price_levels`.
+        weight : float
+            Squared steps that a bit is worth.
 
         Returns
         -------
@@ -105,45 +119,61 @@ class Loop:
         OptionError
             If a level is larger than can be coded.
         """
-        levels = np.zeros(targets.shape, np.int32)
-        decoded = self._run(known, np.ascontiguousarray(targets), levels, step, rounding, True)
+        levels, decoded = np.zeros(targets.shape, np.int32), np.empty(targets.shape)
+        coded, width = targets.shape[1], self._moments.shape[1]
+        self._check(known, levels)
+        _kernels.search_rows(
+            np.ascontiguousarray(known),
+            np.ascontiguousarray(targets),
+            prices.reshape(-1),
+            weight,
+            levels,
+            decoded,
+            self._moments,
+            step,
+            RULES,
+            np.zeros(self._moments.shape),
+            np.empty(width),
+            np.empty((2 * STATES + 1, width)),
+            np.empty((coded, STATES)),
+            np.empty((coded, STATES), np.int32),
+            np.zeros((coded, STATES), np.uint8),
+        )
         if levels.size and max(levels.max(), -levels.min()) >= LARGEST_LEVEL:
             raise OptionError(f"a step of {step:g} is too fine for motion that far; choose a coarser one")
         return levels, decoded
 
     def decode(self, known: Matrix, levels: Levels, step: float) -> Matrix:
-        """Twin of `encode`.
+        """What the levels, shape (c, r), stand for.
 
         Raises
         ------
         NumericError
-            If the levels reconstruct to something that is not finite.
+            If that is not finite.
         """
-        levels = np.array(levels, np.int32, order="C")
-        decoded = self._run(known, np.zeros(levels.shape), levels, step, 0.0, False)
+        self._check(known, levels)
+        decoded, width = np.empty(levels.shape), self._moments.shape[1]
+        _kernels.follow_rows(
+            np.ascontiguousarray(known),
+            np.ascontiguousarray(levels),
+            decoded,
+            self._moments,
+            step,
+            RULES,
+            np.zeros(self._moments.shape),
+            np.empty(width),
+            np.empty(width),
+        )
         if not np.isfinite(decoded).all():
             raise NumericError("the levels reconstruct to coefficients that are not finite")
         return decoded
 
-    def _run(
-        self, known: Matrix, targets: Matrix, levels: Levels, step: float, rounding: float, encoding: bool
-    ) -> Matrix:
-        decoded = np.empty(targets.shape)
-        size, width = self._moments.shape
-        if known.shape != (len(targets), self._known) or targets.shape[1] != width - self._known:
-            raise ValueError(f"{known.shape} known and {targets.shape} unknown columns, of {width}")
-        _kernels.follow_rows(
-            np.ascontiguousarray(known),
-            targets,
-            levels,
-            decoded,
-            self._moments,
-            step,
-            rounding,
-            encoding,
-            (FORGETTING, RIDGE, NOISE, float(LARGEST_LEVEL), DENSE_ROWS, RENEWAL),
-            np.zeros((size, width)),
-            np.empty(width),
-            np.empty(width),
-        )
-        return decoded
+    def copy(self) -> Loop:
+        """An independent copy of the present state."""
+        twin = Loop(self._known, 0)
+        twin._moments = self._moments.copy()
+        return twin
+
+    def _check(self, known: Matrix, levels: Levels) -> None:
+        if known.shape != (len(levels), self._known) or levels.shape[1] != self._moments.shape[1] - self._known:
+            raise ValueError(f"{known.shape} known and {levels.shape} unknown columns, of {self._moments.shape[1]}")

@@ -25,6 +25,9 @@ class SequenceComparison:
         Means over the frames (of NMSVE itself, not of its decibels).
     rms_relative, max_error_relative : float
         Over all frames, in diagonals of the first frame.
+    flicker : float
+        How much the error changes from frame to frame, its second difference in time, in percent of the motion's own;
+        0 for fewer than three frames, infinity where nothing moves but the error.
     """
 
     kg: float
@@ -32,6 +35,7 @@ class SequenceComparison:
     nmsve_db: float
     rms_relative: float
     max_error_relative: float
+    flicker: float
 
 
 def compare_sequences(original: Positions, decoded: Positions, faces: Faces) -> SequenceComparison:
@@ -46,7 +50,16 @@ def compare_sequences(original: Positions, decoded: Positions, faces: Faces) -> 
         nmsve_db=10.0 * math.log10(nmsve) if nmsve > 0.0 else -math.inf,
         rms_relative=math.sqrt(float(np.mean([frame.rms**2 for frame in each]))) / diagonal,
         max_error_relative=max(frame.max_error for frame in each) / diagonal,
+        flicker=flicker_of(original, decoded),
     )
+
+
+def flicker_of(original: Positions, decoded: Positions) -> float:
+    """See `SequenceComparison`."""
+    wrong, own = (float(np.linalg.norm(np.diff(part, 2, axis=0))) for part in (decoded - original, original))
+    if wrong == 0.0:
+        return 0.0
+    return 100.0 * wrong / own if own else math.inf
 
 
 @dataclass(frozen=True)

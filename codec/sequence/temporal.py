@@ -13,9 +13,9 @@ from bsm.codec.sequence.row_prediction import OCTAVE
 WORTH = 0.5
 """A component is kept if its energy is above WORTH * 3T * step^2: below, it costs more than it brings. Half of
 it costs 0.6 %, twice saves 0.3 % (tools.constants)."""
-PRECISION = 0.27
-"""Error of the basis, times the coefficients that it multiplies, in steps; half of it saves 0.5 %, twice costs 5 %
-(tools.constants)."""
+PRECISION = 1.0
+"""Error of a column of the basis, times the root of the energy that it multiplies, in steps. A bit of the basis and one
+of the components are worth the same from 1 to 1.4; the finer, the less the error changes from frame to frame."""
 FINEST_EXPONENT = OCTAVE * 23 - 1
 """With a finer step the levels of a column of length one could not be coded."""
 
@@ -51,8 +51,7 @@ def learn_basis(motion: Matrix, step: float, limit: int) -> LearntBasis:
     width = len(energies)
     count = int(np.count_nonzero(energies > WORTH * width * step**2))
     kept = energies[: -count - 1 : -1]
-    deviation = np.sqrt(kept / len(motion))
-    exponents = np.round(OCTAVE * np.log2(deviation * np.sqrt(width) / (PRECISION * step)))
+    exponents = np.round(OCTAVE * np.log2(np.sqrt(kept) / (PRECISION * step)))
     columns = np.ascontiguousarray(vectors[:, : -count - 1 : -1])
     return LearntBasis(columns, np.clip(exponents, 0, min(limit, FINEST_EXPONENT)).astype(np.int32))
 

@@ -11,10 +11,10 @@ Algorithm 1 serves for both, so that one factorisation does.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
 
 import numpy as np
 
+from bsm.bitstream.once import cached_property
 from bsm.codec import _kernels
 from bsm.codec.arrays import Matrix
 from bsm.codec.basis.laplacian import Factor, Laplacian, check_rows, factor_room, factorize, solving_space

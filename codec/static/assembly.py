@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
-from functools import cached_property
 
 import numpy as np
 
+from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Indices, Mask, Matrix, Order
 from bsm.codec.basis.cost import Spend, free
 from bsm.codec.blocks.blend import Blend

@@ -11,7 +11,6 @@ What has no dictionary and no blocks, or comes behind them all, is no way of cod
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from functools import cached_property
 from typing import Any, Protocol
 
 import numpy as np
@@ -28,6 +27,7 @@ from bsm.bitstream.coefficients.packed import pack_coefficients, unpack_coeffici
 from bsm.bitstream.coefficients.priors import detail_experience
 from bsm.bitstream.coefficients.rate_distortion import TARGET_UNIT, choose_levels
 from bsm.bitstream.container.header import Header
+from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Faces, Integers, Levels, Matrix
 from bsm.codec.basis.dynamic_size import DynamicSize
 from bsm.codec.blocks.overlap import Block

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 from bsm.bitstream.errors import OptionError
-from bsm.codec.geometry.closeness import Closeness
 
 ANY_ANGLE = 180.0
+ANGLE_OF_LOOK = 0.8
+"""Mean angle of normals that comes with a look of 1, degrees, about: 0.4 to 1.6 on scans and models."""
 WIDEST = 0.1
 """Of the diagonal: who asks for a wider bound took one unit for another."""
 
@@ -32,6 +34,11 @@ class Contract:
         Mean angle between corresponding normals, degrees, faces counted by their area; 180: any.
     absolute : bool
         `farthest` is in the mesh's unit, and not relative to the diagonal of its bounding box.
+    look : float
+        Distance in pictures (`codec.look`): 1 looks the same; infinite: any.
+    by_part : bool
+        Each connected part is bound by its own diagonal where that is smaller, but see `FINEST_PART`; parts near each
+        other keep their order in depth.
 
     Raises
     ------
@@ -42,6 +49,8 @@ class Contract:
     farthest: float
     angle: float = ANY_ANGLE
     absolute: bool = False
+    look: float = math.inf
+    by_part: bool = False
 
     def __post_init__(self) -> None:
         if not 0.0 < self.farthest < float("inf"):
@@ -50,6 +59,18 @@ class Contract:
             _refuse_wide("the farthest vertex", self.farthest)
         if not 0.0 < self.angle <= ANY_ANGLE:
             raise OptionError(f"a mean angle must be within 0 to {ANY_ANGLE:g} degrees, not {self.angle:g}")
+        if not self.look > 0.0:
+            raise OptionError(f"a look must be above 0, not {self.look:g}: 1 looks the same, 3 is a preview")
+
+    @property
+    def shades(self) -> bool:
+        """Whether more is asked for than where vertices are."""
+        return self.angle < ANY_ANGLE or self.look < math.inf
+
+    @property
+    def about_angle(self) -> float:
+        """Mean angle of normals that is about as good as all that is asked for, degrees."""
+        return min(self.angle, ANGLE_OF_LOOK * self.look)
 
     def reach(self, diagonal: float, unit: float) -> float:
         """How far a vertex of a mesh of this diagonal may come to lie from its place, in multiples of `unit`.
@@ -63,18 +84,21 @@ class Contract:
             _refuse_wide(f"a bound of {self.farthest:g}", self.farthest / diagonal)
         return (self.farthest if self.absolute else self.farthest * diagonal) / unit
 
-    def worded(self, closeness: Closeness, reach: float) -> str:
-        """Which bounds are broken by a mesh so close, where `reach` is how far a vertex may be, in words."""
+    def worded(self, farther: float, angle: float, look: float) -> str:
+        """The bounds that are broken, in words: a vertex `farther` times as far as it may be; degrees; a distance."""
         broken = []
-        if closeness.farthest > reach:
-            broken.append(f"no vertex farther than {self.farthest * closeness.farthest / reach:.4g}")
-        if closeness.angle > self.angle:
-            broken.append(f"normals {closeness.angle:.4g} degrees wrong on average")
+        if farther > 1.0:
+            broken.append(f"no vertex farther than {self.farthest * farther:.4g}")
+        if angle > self.angle:
+            broken.append(f"normals {angle:.4g} degrees wrong on average")
+        if look > self.look:
+            broken.append(f"a look of {look:.3g}")
         return " and ".join(broken)
 
     def __str__(self) -> str:
         bound = f"no vertex farther than {self.farthest:.4g}" + ("" if self.absolute else " diagonals")
-        return bound if self.angle >= ANY_ANGLE else f"{bound}, normals {self.angle:g} degrees wrong on average"
+        angle = f", normals {self.angle:g} degrees wrong on average" if self.angle < ANY_ANGLE else ""
+        return bound + angle + (f", a look of {self.look:g}" if self.look < math.inf else "")
 
 
 @dataclass(frozen=True)

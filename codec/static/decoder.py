@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections import deque
 from dataclasses import dataclass, replace
+from numbers import Integral
 from typing import TypeAlias, TypeVar
 
 from bsm.bitstream.container import packets
 from bsm.bitstream.container.header import Header
 from bsm.bitstream.container.reader import END_OF_STREAM, Signal
 from bsm.bitstream.container.wire import FrameType
-from bsm.bitstream.errors import BsmError, CorruptError, OptionError, UnsupportedError
+from bsm.bitstream.errors import ArgumentError, BsmError, CorruptError, OptionError, UnsupportedError
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.signal.chain import Rounding, unchanged
@@ -187,6 +188,8 @@ class Decoder(StreamDecoder[Item]):
         layers: int | None = None,
         rounding: Rounding = unchanged,
     ) -> None:
+        if layers is not None and (isinstance(layers, bool) or not isinstance(layers, Integral)):
+            raise ArgumentError(f"layers must be a whole number or None, not {layers!r}")
         if layers is not None and layers < 1:
             raise OptionError("at least one layer must be decoded")
         lanes = Lanes(threads)

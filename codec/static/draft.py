@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import cached_property
 
 from bsm.bitstream.container import packets
 from bsm.bitstream.container.header import Header
 from bsm.bitstream.container.packets import Packet
 from bsm.bitstream.container.writer import Writer
+from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Levels, Positions
 
 

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
-from functools import cached_property
 
 import numpy as np
 
 from bsm.bitstream.container.header import Header
 from bsm.bitstream.errors import OptionError, TargetError
+from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Order
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.closeness import Original
@@ -20,19 +21,25 @@ from bsm.codec.static.admission import as_of_decoders
 from bsm.codec.static.attributes.encoding import Carried, carry, place_of, with_attributes
 from bsm.codec.static.attributes.quality import Quality, qualities
 from bsm.codec.static.choice.fulfilment import Fulfilment
+from bsm.codec.static.choice.judge import Sight
 from bsm.codec.static.choice.ladders import FINER, WIDEST, Blocks, Grids, Ladder, Refined
 from bsm.codec.static.choice.lattices import rounded, rounded_to_cells
 from bsm.codec.static.choice.shaping import Shaper
 from bsm.codec.static.choice.spectral import Spectral
+from bsm.codec.static.contract import Contract
 from bsm.codec.static.draft import Draft
 from bsm.codec.static.joining import Joined, join
-from bsm.codec.static.options import EncodeOptions
+from bsm.codec.static.options import EncodeOptions, finer_promises
 from bsm.codec.static.preamble import Parts, Prepared, prepare
-from bsm.codec.static.targets import search_step
+from bsm.codec.static.targets import Target, search_step
 from bsm.codec.static.ways.block_coder import Progress
 
 DETAILED_ANGLE = 4.5
 """Below this mean angle of normals, blocks alone are larger than refined ones."""
+
+
+FEW, SMALL_SHARE, FREE = 1000, 0.1, 0.02
+"""Vertices of a small mesh; share of a file that is small; and what is as good as free, of a file."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -76,6 +83,11 @@ class Attempt:
         return 8.0 * self.size / self.header.vertices
 
 
+SIZES, PROMISED_SIZES = (1e-290, 1e290), (1e-30, 1e30)
+"""Of meshes, in their own unit: what numbers of the format hold; and where errors, squared, are numbers of single
+precision."""
+
+
 class Encoder:
     """Encodes one mesh; the work begins with the first thing asked for.
 
@@ -94,6 +106,7 @@ class Encoder:
                 "borders are locked where there is a promise: a preset but grid14, or max_error; parts on one grid, "
                 "grid_cell, fit anyway"
             )
+        mesh.require_sizes(*(SIZES if self.options.promise is None else PROMISED_SIZES))
         self._given = mesh
 
     @property
@@ -160,7 +173,30 @@ class Encoder:
     def draft(self, progress: Progress | None = None) -> Draft:
         """What the options ask for, without a target."""
         self._take_attributes()
-        return self._dressed(self._bare(progress))
+        promise = self.options.promise
+        return self._dressed(self._bare(progress)) if promise is None else self._promised(promise, progress)
+
+    def _promised(self, promise: Contract, progress: Progress | None) -> Draft:
+        """The smallest draft that keeps a promise; or a better one where that is as good as free.
+
+        Of a mesh that is most of all images and attributes, positions of the next finer presets may take no more: these
+        are tried as long as that is so. Of a small one, the finest may.
+        """
+        ways = Fulfilment(self._prepared, self.options, promise, self._sight, progress)
+        bare = ways.draft()
+        best = self._dressed(bare)
+        few = len(self._prepared.positions) <= FEW
+        for finer in finer_promises(promise):
+            if bare.size > SMALL_SHARE * best.size and not (few and finer.look == math.inf):
+                continue
+            try:
+                bare = Fulfilment(self._prepared, self.options, finer, self._sight, progress).draft()
+            except TargetError:
+                break
+            dressed = self._dressed(bare)
+            if dressed.size <= (1.0 + FREE) * best.size and ways.keeps(bare):
+                best = dressed
+        return best
 
     def _bare(self, progress: Progress | None) -> Draft:
         options = self.options
@@ -168,8 +204,6 @@ class Encoder:
             return rounded(self._prepared, options.grid)
         if options.grid_cell is not None:
             return rounded_to_cells(self._prepared, options.grid_cell, options.grid_origin or (0.0, 0.0, 0.0))
-        if options.promise is not None:
-            return Fulfilment(self._prepared, options, options.promise, progress).draft()
         with as_of_decoders(options.limits):
             return self._spectral.base(options.first_step, progress).draft
 
@@ -189,6 +223,29 @@ class Encoder:
         if target is None:
             raise OptionError("there is no target to search for")
         self._take_attributes()
+        found, refused = self._reaching(target, progress)
+        promise = self.options.promise
+        if promise is not None:
+            kept = self._judged(self._promised(promise, progress))
+            ways = Fulfilment(self._prepared, self.options, promise, self._sight)
+            if target.excess(kept) > 0.0 and not any(ways.keeps(attempt.draft) for attempt in found):
+                error = TargetError(
+                    f"{target.worded(target.value)} at most cannot be had with {promise}: that comes to "
+                    f"{target.worded(target.reached(kept))}"
+                )
+                error.best = target.reached(kept)
+                raise error
+            found = [attempt for attempt in found if ways.keeps(attempt.draft)]
+            if target.excess(kept) <= 0.0:
+                found.append(kept)
+        if not found:
+            raise min(refused, key=lambda error: error.best)
+        if target.shrinks_with_step:
+            return min(found, key=lambda attempt: attempt.comparison.theta_deg)
+        return min(found, key=lambda attempt: attempt.size)
+
+    def _reaching(self, target: Target, progress: Progress | None) -> tuple[list[Attempt], list[TargetError]]:
+        """What meets the target, of each way to code, and what is said by those that do not."""
         found: list[Attempt] = []
         refused: list[TargetError] = []
         for ladder in self._ladders(progress):
@@ -198,12 +255,10 @@ class Encoder:
                     found.append(search_step(climb, target, self.options.first_step, ladder.finest))
             except TargetError as error:
                 refused.append(error)
-        if not found:
-            raise min(refused, key=lambda error: error.best)
-        if target.shrinks_with_step:
-            return min(found, key=lambda attempt: attempt.comparison.theta_deg)
-        best = min(found, key=lambda attempt: attempt.size)
-        return replace(best, draft=self._dressed(best.draft))
+        if found and not target.shrinks_with_step:
+            best = min(found, key=lambda attempt: attempt.size)
+            found = [replace(best, draft=self._dressed(best.draft))]
+        return found, refused
 
     def attempt(self, step: float, progress: Progress | None = None) -> Attempt:
         """Encode blocks with a given quantization step, and see what the decoder will."""
@@ -275,6 +330,10 @@ class Encoder:
             sections=options.sections_wanted,
             light=options.quick,
         )
+
+    @cached_property
+    def _sight(self) -> Sight:
+        return Sight(self._prepared, self.options.threads)
 
     @cached_property
     def _spectral(self) -> Spectral:

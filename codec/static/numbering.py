@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from functools import cached_property
 
 import numpy as np
 
 from bsm.bitstream.connectivity.order import Arrangement
+from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Faces, Indices, Order, Positions
 from bsm.codec.static.events import Changes, ConnectivityEvent
 

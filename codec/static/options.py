@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
 from bsm.bitstream.container.header import MOST_SECTIONS
-from bsm.bitstream.errors import OptionError
+from bsm.bitstream.errors import ArgumentError, OptionError
 from bsm.bitstream.limits import NAMED_LIMITS
 from bsm.codec.choices import check_options
 from bsm.codec.static.attributes.quality import Grade, checked_qualities
-from bsm.codec.static.contract import ANY_ANGLE, Contract, Fit
+from bsm.codec.static.contract import Contract, Fit
 from bsm.codec.static.rules import KEY_SEEDS
 from bsm.codec.static.targets import Target
 
@@ -42,7 +42,7 @@ RANGES: dict[str, tuple[float, float]] = {
 }
 
 
-BALANCED = Contract(0.01, 8.0)
+BALANCED = Contract(0.01, look=1.0, by_part=True)
 """What is promised unless something else is asked for."""
 
 
@@ -91,10 +91,11 @@ class EncodeOptions:
         eps_l and eps_h of dynamic orthogonal iterations, in units of the bounding box's diagonal: c_i follows the
         error of each block.
     target : Target, optional
-        Quality or size to reach, in place of the contract.
+        Quality or size to reach.
     contract : Contract, optional
-        What is promised; the encoder finds the cheapest way to keep it. It says nothing where `grid`, `grid_cell`,
-        `target` or any of `CODING` is given: who says how to code gets that.
+        What is promised, beside the target if there is one; the encoder finds the cheapest way to keep it. None:
+        `BALANCED`, or nothing but the target. It says nothing where `grid`, `grid_cell` or any of `CODING` is given:
+        who says how to code gets that.
     quick : bool
         Of all ways that keep a contract or reach a target only what is quick to decode: positions on a grid, without
         dictionaries. With `grid` and `grid_cell`, too, values are coded by a small model, in some more bytes.
@@ -148,7 +149,7 @@ class EncodeOptions:
     keep_order: bool = False
     doi: tuple[float, float] | None = None
     target: Target | None = None
-    contract: Contract | None = BALANCED
+    contract: Contract | None = None
     quick: bool = False
     lock_borders: Fit | None = None
     grid: int | None = None
@@ -161,10 +162,17 @@ class EncodeOptions:
     threads: int | None = None
 
     def __post_init__(self) -> None:
+        if self.target is not None and not isinstance(self.target, Target):
+            raise ArgumentError(f"target must be a Target, not {self.target!r}")
         check_options(self, CHOICES, RANGES)
         object.__setattr__(self, "attributes", checked_qualities(self.attributes))
         if self.detail_ratio and (self.bits is not None or self.doi is not None):
             raise OptionError("a detail layer excludes a fixed number of bits and dynamic subspaces")
+        doi: object = self.doi
+        if doi is not None and not (
+            isinstance(doi, tuple) and len(doi) == 2 and all(isinstance(one, (int, float)) for one in doi)
+        ):
+            raise ArgumentError(f"doi must be two thresholds, not {doi!r}")
         if self.doi is not None and not 0.0 < self.doi[0] < self.doi[1]:
             raise OptionError(f"doi = {self.doi} must be two thresholds, 0 < eps_l < eps_h")
         if self.bits is not None and self.target is not None:
@@ -186,9 +194,9 @@ class EncodeOptions:
     @property
     def promise(self) -> Contract | None:
         """The contract, where it counts."""
-        if self.is_grid or self.target is not None or self.says_how:
+        if self.is_grid or self.says_how:
             return None
-        return self.contract
+        return BALANCED if self.contract is None and self.target is None else self.contract
 
     @property
     def sections_wanted(self) -> int | None:
@@ -216,7 +224,7 @@ class EncodeOptions:
         """The step, or where it is left open that of blocks with a detail layer."""
         if self.step is not None:
             return self.step
-        return COARSE_STEP if self.contract is not None and self.contract.angle > COARSE_ANGLE else STEP
+        return STEP
 
     @property
     def says_how(self) -> bool:
@@ -248,15 +256,24 @@ CODING = ("step", "keep", "coefficients", "detail", "bits", "doi", "smoothing")
 """Options that say how blocks are coded, and not what shall come of it."""
 FINE, SMALL = 0.001, 0.02
 """Promises of positions, from which on attributes are kept better, or less well."""
-STEP, COARSE_STEP, COARSE_ANGLE = 0.004, 0.006, 10.0
-"""Of blocks with a detail layer, and of those beyond an angle."""
+STEP = 0.004
+"""Of blocks with a detail layer."""
 
 PRESETS: dict[str, EncodeOptions] = {
-    "small": EncodeOptions(block_size=1500, overlap=1.0, key_interval=0, contract=Contract(0.02, 12.0)),
-    "balanced": EncodeOptions(),
-    "fine": EncodeOptions(contract=Contract(0.005, 3.0)),
-    "near-lossless": EncodeOptions(contract=Contract(0.0005, ANY_ANGLE)),
+    "small": EncodeOptions(
+        block_size=1500, overlap=1.0, key_interval=0, contract=Contract(0.02, look=3.0, by_part=True)
+    ),
+    "balanced": EncodeOptions(contract=BALANCED),
+    "fine": EncodeOptions(contract=Contract(0.005, look=0.5, by_part=True)),
+    "near-lossless": EncodeOptions(contract=Contract(0.0005)),
     "grid14": EncodeOptions(grid=14),
 }
 """Names for what most users want, each a promise; "balanced" is the default. Larger blocks are smaller files and slower
 to decode."""
+
+
+def finer_promises(promise: Contract) -> Iterator[Contract]:
+    """What presets promise that are finer than the one with this promise, from coarse to fine; none of other ones."""
+    promises = [options.contract for options in PRESETS.values() if options.contract is not None]
+    if promise in promises:
+        yield from promises[promises.index(promise) + 1 :]

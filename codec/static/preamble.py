@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from functools import cached_property
 from itertools import pairwise
 
 import numpy as np
@@ -21,6 +20,7 @@ from bsm.bitstream.container.packets import Packet
 from bsm.bitstream.container.splits import Splits, encode_splits
 from bsm.bitstream.container.wire import write_varint
 from bsm.bitstream.errors import OptionError
+from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Faces, Indices, Matrix, Order
 from bsm.codec.blocks.overlap import Blocks, block_size, grow_blocks
 from bsm.codec.blocks.partition import Partition, derive_last_parts, derive_partition, metis_partition

@@ -9,7 +9,6 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -22,6 +21,7 @@ from bsm.bitstream.container.header import FREE_COPIES, MOST_COPIES, Header, Spa
 from bsm.bitstream.container.splits import decode_splits
 from bsm.bitstream.container.wire import Cursor, FrameType
 from bsm.bitstream.errors import BsmError, CorruptError, UnsupportedError
+from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Faces
 from bsm.codec.blocks.overlap import grow_blocks
 from bsm.codec.blocks.partition import Partition, derive_last_parts, partition_of_labels

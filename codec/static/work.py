@@ -13,7 +13,7 @@ from threading import Condition, RLock
 from bsm.bitstream.attributes.values import values_charge
 from bsm.bitstream.fields.grid import grid_charge
 from bsm.bitstream.fields.levels import levels_charge
-from bsm.bitstream.limits import Limits
+from bsm.bitstream.limits import Limits, as_limits
 from bsm.codec.basis.cost import factor_cost, iteration_memory, solve_cost
 from bsm.codec.basis.laplacian import Laplacian
 from bsm.codec.geometry.graph import Graph
@@ -185,7 +185,7 @@ class Allowance:
     """
 
     def __init__(self, limits: Limits) -> None:
-        self._limits = limits
+        self._limits = as_limits(limits)
         self._vertices = self._shown = 0
         self._spent = self._owed = 0.0
         self._held = self._kept = 0.0

@@ -11,11 +11,12 @@ from bsm import options as keywords_to
 from bsm.bitstream.errors import ArgumentError, OptionError
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.codec.arrays import Faces, Positions
+from bsm.codec.choices import check_mapping
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
 from bsm.files.formats.written import Written
 from bsm.files.mesh import WRITTEN_FORMATS, format_of_name, save_written, written_mesh
-from bsm.files.pipes import Input, Source, read_bytes, read_chunks
+from bsm.files.pipes import Input, Source, named, read_bytes, read_chunks
 from bsm.files.stream import decode_whole
 from bsm.lengths import LENGTHS, refuse_other_units
 from bsm.meshes import as_mesh, read_any, told_of
@@ -67,6 +68,7 @@ def encode(
     from bsm.codec.static.options import EncodeOptions
 
     chosen = _chosen(options, EncodeOptions, keywords, keywords_to.encode_options)
+    check_mapping("metadata", {} if metadata is None else metadata)
     told = told_of(as_mesh(mesh), chosen, metadata or {})
     refuse_other_units({name: keywords.get(name) for name in LENGTHS}, told.metadata)
     return encode_mesh(told, chosen)
@@ -128,9 +130,15 @@ def encode_many(
     from bsm.farm.run import run_many
 
     keywords_to.encode_options(**keywords)
-    run = Run(jobs=jobs, dask=dask, report=os.fspath(report) if report else None, resume=resume)
-    folder = None if target is None else os.fspath(target).rstrip("/") + "/"
-    planned = plan([os.fspath(source) for source in sources], folder, lambda _: ".bsm")
+    if isinstance(sources, (str, bytes)) or not isinstance(sources, Iterable):
+        raise ArgumentError(f"a list of the paths of files is expected, not {sources!r}")
+    if isinstance(jobs, bool) or not isinstance(jobs, int):
+        raise ArgumentError(f"jobs must be a whole number, not {jobs!r}")
+    check_mapping("metadata", {} if metadata is None else metadata)
+    names = [_name(source) for source in sources]
+    run = Run(jobs=jobs, dask=dask, report=None if report is None else _name(report), resume=resume)
+    folder = None if target is None else _name(target).rstrip("/") + "/"
+    planned = plan(names, folder, lambda _: ".bsm")
     threads = keywords.pop("threads", 1 if run.side_by_side and len(planned) > 1 else None)
     told = metadata or {}
     job = EncodeJob(force=overwrite, quiet=True, metadata=told, wishes=keywords, threads=threads, compared=False)
@@ -184,7 +192,8 @@ def encode_sequence(
         What is the same in all frames; `SequenceDecoder.attributes` gives it back. How well each is kept, the option
         `attributes` says, as of a mesh.
     **keywords
-        As on the command line: `preset`, `low_delay`, one target (`kg`, `bpvf`, `theta`, `nmsve_db`), and fields of
+        As on the command line: `preset` ("small", "balanced", "fine", "near-lossless": promises for every frame),
+        `low_delay`, bounds (`look`, `max_error`), one target (`kg`, `bpvf`, `theta`, `nmsve_db`), and fields of
         `SequenceOptions` (`step`, `gop`, `frame_rate`, ...).
     """
     from bsm.codec.sequence.encoder import encode_sequence as encode_frames
@@ -248,8 +257,7 @@ def save(mesh: Any, path: str | os.PathLike[str], *, overwrite: bool = True, **k
     FileExistsError
         If the file exists and `overwrite` is false.
     """
-    if not isinstance(path, (str, os.PathLike)):
-        raise ArgumentError(f"the path of a file is expected, not {type(path).__name__}")
+    _name(path)
     suffix = Path(path).suffix.lower()
     kind = format_of_name(path)
     if suffix == ".bsm":
@@ -269,6 +277,7 @@ def denoise(
     /,
     *,
     goal: str = "shading",
+    strength: float = 1.0,
     force: bool = False,
     **keywords: Any,
 ) -> TriangleMesh:
@@ -284,6 +293,8 @@ def denoise(
         Fields of `DenoiseOptions`; without any of them everything is chosen from the noise of the mesh.
     goal : str
         What that strives for: "shading" (normals near the clean ones) or "shape" (vertices).
+    strength : float
+        How much of every movement is made, from 0 to 1.
     force : bool
         Let the options have their way even where they do harm.
 
@@ -296,7 +307,7 @@ def denoise(
     from bsm.codec.denoise import denoise as denoise_mesh
 
     chosen = _chosen(options, DenoiseOptions, keywords, keywords_to.denoise_options)
-    return denoise_mesh(as_mesh(mesh), chosen, goal=goal, force=force)
+    return denoise_mesh(as_mesh(mesh), chosen, goal=goal, strength=strength, force=force)
 
 
 def compare(original: Any, decoded: Any, *, order: npt.ArrayLike | None = None) -> MeshComparison:
@@ -326,7 +337,10 @@ def compare(original: Any, decoded: Any, *, order: npt.ArrayLike | None = None) 
     from bsm.comparison import compare_meshes, pair
 
     first, second = (as_mesh(_opened(mesh)).without_isolated_vertices()[0] for mesh in (original, decoded))
-    return compare_meshes(first, second, pair(first, second, None if order is None else np.asarray(order, np.int64)))
+    numbers = None if order is None else np.asarray(order)
+    if numbers is not None and (numbers.ndim != 1 or numbers.dtype.kind not in "iu"):
+        raise ArgumentError(f"order must be a list of whole numbers, not {order!r}")
+    return compare_meshes(first, second, pair(first, second, None if numbers is None else numbers.astype(np.int64)))
 
 
 def look(original: Any, other: Any, *, threads: int | None = None) -> Look:
@@ -353,6 +367,13 @@ def look(original: Any, other: Any, *, threads: int | None = None) -> Look:
 
     first, second = (as_mesh(_opened(mesh)) for mesh in (original, other))
     return look_at(first, second, threads=threads)
+
+
+def _name(path: str | os.PathLike[str]) -> str:
+    """A path as a text; `ArgumentError` if it is none."""
+    if not isinstance(path, (str, os.PathLike)):
+        raise ArgumentError(f"the path of a file is expected, not {type(path).__name__}")
+    return named(path)
 
 
 def _opened(mesh: Any) -> Any:

@@ -20,6 +20,7 @@ COMMANDS = {
     "compare": "measure the error of a mesh",
     "verify": "check streams",
     "view": "show streams in a browser as they arrive",
+    "glb": "compress the geometry of glTF scenes that stay scenes",
     "denoise": "remove noise from meshes and sequences",
     "noise": "add noise to a mesh",
     "demo": "compress a sample and show what became of it",

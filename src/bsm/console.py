@@ -29,7 +29,8 @@ class Console:
     kept: list[str] | None = None
 
     def note(self, text: str) -> None:
-        """Say something by the way."""
+        """Say something by the way, in one line."""
+        text = printable(text)
         if self.kept is not None:
             self.kept.append(text)
         elif not self.quiet:
@@ -85,8 +86,17 @@ class Progress:
         self._bar.update(self._round * total + done - self._bar.n)
 
 
+def printable(text: str) -> str:
+    """With escapes in place of what would make a terminal do something, or begin a line of its own.
+
+    Names and texts in files are those of strangers.
+    """
+    return "".join(char if char.isprintable() else char.encode("unicode_escape").decode() for char in text)
+
+
 def say(text: str) -> None:
-    """Write a line to standard error, above any bar."""
+    """Write a text to standard error, above any bar."""
+    text = "\n".join(map(printable, text.split("\n")))
     bars = sys.modules.get("tqdm")
     if bars is None:
         print(text, file=sys.stderr)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import difflib
+import math
 import types
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
@@ -26,22 +27,26 @@ TARGETS = {
 }
 """Keyword of each target of a mesh, and its kind, see `codec.static.targets`."""
 
+BOUNDS = ("look", "max_error")
+"""Keywords of bounds of a mesh; any of them hold together."""
+
 SEQUENCE_TARGETS = {"kg": "kg", "bpvf": "bpvf", "theta": "theta_deg", "nmsve_db": "nmsve_db"}
 """The same for sequences."""
 
-SEQUENCE_STEPS = {"small": 0.006, "balanced": 0.002, "fine": 0.0007}
-"""The presets of sequences."""
+SEQUENCE_STEPS = {"small": 0.006, "balanced": 0.002, "fine": 0.0007, "near-lossless": 0.0001}
+"""The presets of sequences that are sent frame by frame, which promise nothing."""
 
 
-def encode_options(*, preset: str = "balanced", **keywords: Any) -> EncodeOptions:
+def encode_options(*, preset: str | None = None, **keywords: Any) -> EncodeOptions:
     """The options for a mesh that keywords ask for.
 
     Parameters
     ----------
-    preset : str
-        "small", "balanced", "fine", "near-lossless" or "grid14": what everything has that is not given.
+    preset : str, optional
+        "small", "balanced", "fine", "near-lossless" or "grid14". Its promise holds beside all bounds and targets that
+        are given; None: that of "balanced", unless there are others.
     **keywords
-        Fields of `EncodeOptions`, and at most one of `max_error` and `TARGETS`.
+        Fields of `EncodeOptions`, the bounds `look` and `max_error`, and at most one of `TARGETS`.
 
     Raises
     ------
@@ -53,17 +58,20 @@ def encode_options(*, preset: str = "balanced", **keywords: Any) -> EncodeOption
     from bsm.codec.static.options import CODING, PRESETS, EncodeOptions
     from bsm.codec.static.targets import Target
 
-    base: EncodeOptions = _named("preset", PRESETS, preset)
-    given = _fields("a mesh", EncodeOptions, _with_lengths(keywords), TARGETS, Target)
-    others = ("target", "grid_cell", *CODING)
+    base: EncodeOptions = EncodeOptions() if preset is None else _named("preset", PRESETS, preset)
+    given = _fields("a mesh", EncodeOptions, _with_bounds(base, keywords), TARGETS, Target)
+    others = ("target", "contract", "grid_cell", *CODING)
     if base.grid is not None and any(given.get(name) is not None for name in others):
         base = EncodeOptions()  # a preset that is a grid has nothing that could be changed
     return replace(base, **given)
 
 
-def _with_lengths(keywords: Mapping[str, Any]) -> dict[str, Any]:
-    """Keywords, `max_error` among them as the contract that it is, and `lock_borders` as what it asks."""
-    from bsm.codec.static.contract import Contract, Fit
+def _with_bounds(base: EncodeOptions, keywords: Mapping[str, Any]) -> dict[str, Any]:
+    """Keywords, `max_error` and `look` among them as the contract that they are beside that of a preset, and
+    `lock_borders` as what it asks.
+    """
+    from bsm.codec.static.contract import WIDEST, Contract, Fit
+    from bsm.codec.static.options import BALANCED
 
     given = dict(keywords)
     locked = given.get("lock_borders")
@@ -74,28 +82,55 @@ def _with_lengths(keywords: Mapping[str, Any]) -> dict[str, Any]:
     elif isinstance(locked, (str, Real)):
         gap, absolute = parse_length("lock_borders", locked)
         given["lock_borders"] = Fit(gap, absolute)
-    if given.get("max_error") is None:
+    farthest, look = given.pop("max_error", None), given.pop("look", None)
+    if farthest is None and look is None:
         return given
-    farthest, absolute = parse_length("max_error", given["max_error"])
-    del given["max_error"]
-    taken = [name for name in (*TARGETS, "target", "contract") if given.get(name) is not None]
-    if taken:
-        raise OptionError(f"one target at a time, not max_error and {' and '.join(taken)}")
-    given["contract"] = Contract(farthest, absolute=absolute)
+    if given.get("contract") is not None:
+        raise OptionError("a contract says all that is promised: look and max_error are its bounds")
+    contract = base.contract
+    if farthest is not None:
+        number, absolute = parse_length("max_error", farthest)
+        least = number if absolute or contract is None or contract.absolute else min(number, contract.farthest)
+        contract = replace(contract or Contract(WIDEST), farthest=least, absolute=absolute)
+    if look is not None:
+        asked = replace(contract or BALANCED, look=_checked("look", look, float))
+        contract = asked if contract is None else replace(asked, look=min(contract.look, asked.look))
+    given["contract"] = contract
     return given
 
 
-def sequence_options(*, preset: str = "balanced", low_delay: bool = False, **keywords: Any) -> SequenceOptions:
-    """The options for a sequence that keywords ask for: fields of `SequenceOptions`, at most one of `SEQUENCE_TARGETS`.
+def sequence_options(*, preset: str | None = None, low_delay: bool = False, **keywords: Any) -> SequenceOptions:
+    """The options for a sequence that keywords ask for.
+
+    Parameters
+    ----------
+    preset : str, optional
+        "small", "balanced", "fine" or "near-lossless": what is promised for every frame where neither a step nor a
+        target is given; with `low_delay`, a step. None: "balanced".
+    low_delay : bool
+    **keywords
+        Fields of `SequenceOptions`; the bounds `look` and `max_error`, or at most one of `SEQUENCE_TARGETS`.
 
     Raises as `encode_options`.
     """
     from bsm.codec.sequence.options import SequenceOptions
+    from bsm.codec.sequence.promise import PROMISES, Promise
     from bsm.codec.sequence.targets import SequenceTarget
 
+    name = "balanced" if preset is None else preset
+    bounds = {bound: keywords.pop(bound) for bound in ("look", "max_error") if keywords.get(bound) is not None}
     given = _fields("a sequence", SequenceOptions, keywords, SEQUENCE_TARGETS, SequenceTarget)
     mode = "low-delay" if _checked("low_delay", low_delay, bool) else "gop"
-    return replace(SequenceOptions(step=_named("preset", SEQUENCE_STEPS, preset), mode=mode), **given)
+    base = SequenceOptions(step=_named("preset", SEQUENCE_STEPS, name), mode=mode)
+    if bounds:
+        if given.get("target") is not None or given.get("step") is not None:
+            raise OptionError(f"{' and '.join(bounds)} of a sequence cannot be combined with a target or a step")
+        farthest, absolute = parse_length("max_error", bounds.get("max_error", PROMISES[name].farthest))
+        look = _checked("look", bounds.get("look", math.inf), float)
+        given["promise"] = Promise(farthest, look, absolute)
+    elif mode == "gop" and not {"target", "step", "promise"} & {key for key in given if given[key] is not None}:
+        given["promise"] = PROMISES[name]
+    return replace(base, **given)
 
 
 def denoise_options(**keywords: Any) -> DenoiseOptions | None:
@@ -127,7 +162,7 @@ def _fields(
                 wanted.append(name)
                 given["target"] = target(targets[name], _checked(name, value, float))
         else:
-            _refuse(name, what, (*hints, *targets))
+            _refuse(name, what, (*hints, *targets, *(BOUNDS if targets is TARGETS else ())))
     if keywords.get("target") is not None:
         wanted.append("target")
     if len(wanted) > 1:
@@ -181,7 +216,7 @@ def _refuse(name: str, what: str, known: Iterable[str]) -> NoReturn:
 def _names_of_meshes() -> set[str]:
     from bsm.codec.static.options import EncodeOptions
 
-    return {*get_type_hints(EncodeOptions), *TARGETS}
+    return {*get_type_hints(EncodeOptions), *TARGETS, *BOUNDS}
 
 
 def _names_of_sequences() -> set[str]:

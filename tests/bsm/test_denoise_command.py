@@ -1,6 +1,7 @@
 """bsm denoise and bsm noise: what a user types, and what comes of it."""
 
 import json
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -8,6 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from bsm import api
 from bsm.bitstream.errors import CorruptError, FormatError, MeshError
 from bsm.codec.denoise import FINE_STEPS, DenoiseOptions, FrameDenoiser, denoise_automatically
 from bsm.codec.denoise import GOALS as LIBRARY_GOALS
@@ -67,7 +69,7 @@ def test_without_options_it_says_what_it_chose(noisy_file, tmp_path):
     assert result["automatic"]["noise"]["normal"] == pytest.approx(0.25, rel=0.3)
     assert result["options"] is None
     assert f"{choice.steps[0].iterations} iterations" in ran.stderr
-    assert f"{choice.noise.normal:.2f} mean edges" in ran.stderr
+    assert f"{choice.noise.normal:.2f} edges" in ran.stderr
     assert choice.reason in ran.stderr
     before, after = (theta(CLEAN.positions, positions, CLEAN.faces) for positions in (NOISY, denoised.positions))
     assert after < 0.5 * before
@@ -271,3 +273,35 @@ def test_noise_refuses_what_makes_no_sense(tmp_path):
     for wrong in (("--sigma", "-1"), ("--sigma", "1", "--fraction", "0.5"), ("--sigma", "1", "--seed", "-4")):
         assert bsm("noise", tmp_path / "clean.npz", "-o", tmp_path / "out.npz", *wrong).returncode != 0
     assert not (tmp_path / "out.npz").exists()
+
+
+def test_the_default_name_a_folder_of_meshes_and_strength(noisy_file, tmp_path):
+    folder = tmp_path / "scans"
+    folder.mkdir()
+    shutil.copy(noisy_file, folder / "a.ply")
+    write_mesh(folder / "b.ply", TriangleMesh(CLEAN.positions, CLEAN.faces[:-1]))
+    ran = bsm("denoise", folder, "-o", tmp_path / "out")
+    assert ran.returncode == 0, ran.stderr
+    assert sorted(path.name for path in (tmp_path / "out").iterdir()) == ["a.ply", "b.ply"]
+    whole = read_mesh(tmp_path / "out" / "a.ply").mesh.positions
+    ran = bsm("denoise", folder / "a.ply", "--strength", "0.5", "--look", "--json")
+    assert ran.returncode == 0, ran.stderr
+    half = read_mesh(folder / "a.denoised.ply").mesh.positions
+    noisy = read_mesh(noisy_file).mesh.positions
+    assert half == pytest.approx(0.5 * (noisy + whole), abs=1e-6)
+    facts = json.loads(ran.stdout)
+    far = np.linalg.norm(half - noisy, axis=1)
+    assert facts["moved"]["farthest"] == pytest.approx(far.max(), rel=1e-3)
+    assert facts["moved"]["mean"] == pytest.approx(far[far > 0.0].mean(), rel=1e-3)
+    assert facts["look"]["distance"] > 0.0
+    assert "edges" in ran.stderr and "on average" in ran.stderr and "from the input" in ran.stderr
+    assert bsm("denoise", noisy_file, "-o", tmp_path / "x.ply", "--strength", "2").returncode != 0
+
+
+def test_streams_are_written_as_well(noisy_file, tmp_path):
+    assert bsm("denoise", noisy_file, "-o", tmp_path / "a.bsm").returncode == 0
+    assert bsm("denoise", noisy_file, "-o", tmp_path / "a.ply").returncode == 0
+    streamed, written = api.load(tmp_path / "a.bsm"), read_mesh(tmp_path / "a.ply").mesh
+    diagonal = np.linalg.norm(np.ptp(written.positions, axis=0))
+    assert len(streamed.positions) == len(written.positions)
+    assert np.ptp(streamed.positions, axis=0) == pytest.approx(np.ptp(written.positions, axis=0), abs=2e-3 * diagonal)

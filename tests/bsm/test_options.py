@@ -1,6 +1,6 @@
 """Options by keyword: what Python and the command line share."""
 
-from dataclasses import fields
+from dataclasses import fields, replace
 
 import numpy as np
 import pytest
@@ -8,17 +8,18 @@ import pytest
 from bsm.bitstream.errors import ArgumentError, OptionError
 from bsm.codec.denoise import DenoiseOptions
 from bsm.codec.sequence.options import SequenceOptions
+from bsm.codec.sequence.promise import PROMISES, Promise
 from bsm.codec.sequence.targets import SequenceTarget
 from bsm.codec.static.contract import Contract
-from bsm.codec.static.options import PRESETS, EncodeOptions
+from bsm.codec.static.options import BALANCED, PRESETS, EncodeOptions
 from bsm.codec.static.targets import Target
-from bsm.commands.encode_options import TARGET_FLAGS
-from bsm.options import SEQUENCE_STEPS, TARGETS, denoise_options, encode_options, sequence_options
+from bsm.commands.encode_options import BOUND_FLAGS, TARGET_FLAGS
+from bsm.options import BOUNDS, SEQUENCE_STEPS, TARGETS, denoise_options, encode_options, sequence_options
 
 
 def test_without_keywords_everything_is_the_default():
     assert encode_options() == EncodeOptions()
-    assert sequence_options() == SequenceOptions()
+    assert sequence_options() == SequenceOptions(promise=PROMISES["balanced"])
     assert denoise_options() is None
 
 
@@ -29,7 +30,19 @@ def test_presets(preset):
 
 @pytest.mark.parametrize("preset", SEQUENCE_STEPS)
 def test_presets_of_sequences(preset):
-    assert sequence_options(preset=preset).step == SEQUENCE_STEPS[preset]
+    assert sequence_options(preset=preset).promise == PROMISES[preset]
+    low_delay = sequence_options(preset=preset, low_delay=True)
+    assert low_delay.step == SEQUENCE_STEPS[preset] and low_delay.promise is None
+    assert sequence_options(preset=preset, kg=1).promise is None
+
+
+def test_bounds_of_sequences():
+    assert sequence_options(max_error="0.2%").promise == Promise(0.002)
+    assert sequence_options(max_error="3mm", look=2).promise == Promise(3.0, 2.0, absolute=True)
+    assert sequence_options(preset="fine", look=2).promise == Promise(PROMISES["fine"].farthest, 2.0)
+    for others in ({"kg": 1}, {"step": 0.01}, {"low_delay": True}):
+        with pytest.raises(OptionError):
+            sequence_options(max_error=0.01, **others)
 
 
 def test_keywords_are_put_on_top_of_a_preset():
@@ -47,10 +60,8 @@ def test_targets(keyword, kind):
 
 
 def test_the_command_line_has_the_same_targets():
-    assert {name.replace("-", "_"): kind for name, kind, _, _ in TARGET_FLAGS} == {
-        **TARGETS,
-        "max_error": "max_error",
-    }
+    assert {name.replace("-", "_"): kind for name, kind, _, _ in TARGET_FLAGS} == TARGETS
+    assert tuple(name.replace("-", "_") for name, _, _ in BOUND_FLAGS) == BOUNDS
 
 
 def test_sequences():
@@ -101,8 +112,26 @@ def test_a_largest_error_may_have_a_unit():
         encode_options(max_error=2)
     with pytest.raises(ArgumentError, match="with a unit"):
         encode_options(max_error="wide")
-    with pytest.raises(OptionError, match="one target at a time"):
-        encode_options(max_error="1mm", theta=3)
+    options = encode_options(max_error="1mm", theta=3)
+    assert (options.contract, options.target) == (Contract(1.0, absolute=True), Target("theta_deg", 3.0))
+
+
+def test_what_is_asked_for_holds_together_with_a_preset_that_is_named():
+    fine = PRESETS["fine"].contract
+    assert encode_options(preset="fine", theta=5).contract == fine
+    assert encode_options(theta=5).contract is None and encode_options(theta=5).promise is None
+    assert encode_options(look=2).contract == replace(BALANCED, look=2.0)
+    assert encode_options(look=2, max_error=0.02).contract == Contract(0.02, look=2.0)
+    assert encode_options(preset="fine", look=2).contract == fine
+    assert encode_options(preset="fine", look=0.3, max_error="5%").contract == replace(fine, look=0.3)
+    assert encode_options(preset="grid14", look=0.3).contract == replace(BALANCED, look=0.3)
+    for look in (0, -1.0, float("nan")):
+        with pytest.raises(OptionError, match="1 looks the same"):
+            encode_options(look=look)
+    with pytest.raises(OptionError, match="a contract says all"):
+        encode_options(look=1, contract=Contract(0.1))
+    with pytest.raises(ArgumentError, match="look must be a number"):
+        encode_options(look="good")
 
 
 def test_a_preset_that_is_a_grid_gives_way_to_a_target():

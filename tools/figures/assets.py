@@ -1,6 +1,6 @@
 """A picture of whole assets before and after: textures, colours and values drawn on original and decoded meshes.
 
-python -m tools.figures.assets FOLDER [-o tools/assets.png]
+python -m tools.figures.assets FOLDER [-o docs/guides/assets.png]
 """
 
 from __future__ import annotations
@@ -161,7 +161,7 @@ def _size(count: int) -> str:
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(prog="python -m tools.figures.assets", description=__doc__)
     parser.add_argument("assets", metavar="FOLDER", help=f"folder of {', '.join(asset.name for asset in ASSETS)}")
-    parser.add_argument("-o", "--output", metavar="FILE", default="tools/assets.png", help="the picture")
+    parser.add_argument("-o", "--output", metavar="FILE", default="docs/guides/assets.png", help="the picture")
     return parser
 
 

@@ -28,6 +28,7 @@ import numpy as np
 from bsm.bitstream import errors
 from bsm.bitstream.errors import BsmError, LimitError, NumericError
 from bsm.steadiness import check_steadiness
+from tools.bombs.walk import bases, cases, problem_of
 from tools.fuzz.targets import LIMITS
 from tools.proof.decoding import piecewise, whole
 from tools.proof.encodes import random_streams, stored
@@ -44,6 +45,10 @@ FRESH = 3
 """Streams of new options that each shard mutates beside the vectors."""
 PATIENT = replace(LIMITS, work=3e7, vertices=1 << 10, faces=1 << 11, blocks=1 << 7)
 """What the reference decoder, which is slow, can do in seconds."""
+
+
+SHORT_CASE, LONG_CASE = 20_000, 1 << 20
+"""Bytes of what is made large in the suite `walk`."""
 
 
 class Shard:
@@ -264,8 +269,25 @@ def reference(stream: bytes) -> Outcome:
             return kind(str(error))
 
 
+def walk(shard: Shard, number: int, size: int) -> None:
+    """Frames and fields, each as large as its bytes allow: what decoding takes is within the law.
+
+    Shard `number` of `size`, which together do all of it.
+    """
+    if sys.platform != "linux":
+        return
+    every = list(cases(SHORT_CASE if shard.short else LONG_CASE))
+    whole(next(iter(bases().values())))  # what is loaded once is nobody's fault
+    for case in every[number::size]:
+        stream = case.make()
+        for how in ("whole", "tolerant"):
+            for limits in ("default", "service"):
+                shard.tally.inputs += 1
+                shard.found(stream, (problem := problem_of(stream, how, limits)) and f"{case.name}, {how}: {problem}")
+
+
 SUITES: dict[str, Callable[[Shard, int, int], None]] = {
-    suite.__name__: suite for suite in (vectors, mutants, differential, encodes, surroundings)
+    suite.__name__: suite for suite in (vectors, mutants, differential, encodes, surroundings, walk)
 }
 
 

@@ -77,6 +77,30 @@ def wild(mesh: TriangleMesh, kind: str, domain: Domain = "vertex", components: i
     return Attribute(kind, values.reshape(count, components), domain)
 
 
+_HALVES = bytes.fromhex(
+    "89504e470d0a1a0a0000000d49484452000000080000000808020000004b6d29dc0000001849444154789c633cc1801d30e1102743829161"
+    "01cded0000df5c0177668f05260000000049454e44ae426082"
+)
+"""A PNG of 8 x 8 pixels, red above and green below."""
+
+
+def _textured() -> TriangleMesh:
+    """A wall that the upper half of an image is on above, where z points up."""
+    mesh = patch(9, 9)
+    low, high = mesh.positions.min(axis=0), mesh.positions.max(axis=0)
+    across = (mesh.positions - low) / (high - low)
+    wall = np.stack([2 * across[:, 0] - 1, 0.1 * across[:, 2], 2 * across[:, 1] - 1], axis=1)
+    material: dict[str, str | int | float | bytes] = {"baseColorTexture": 0, "metallicFactor": 0.0, "doubleSided": 1}
+    material |= {"name": "halves"}
+    metadata = {f"material.0.{name}": value for name, value in material.items()}
+    return replace(
+        mesh,
+        positions=wall,
+        attributes=(Attribute("texcoord", across[:, :2].astype(np.float32), "vertex", "texcoord"),),
+        metadata=metadata | {"image.0.data": _HALVES, "up": "z"},
+    )
+
+
 def worn(mesh: TriangleMesh, *make: Callable[[TriangleMesh], Attribute]) -> TriangleMesh:
     """A mesh with attributes."""
     return replace(mesh, attributes=tuple(one(mesh) for one in make))
@@ -285,6 +309,9 @@ ATTRIBUTES: dict[str, Good] = {
     "good-attribute-metadata": Good(
         "METADATA, ORDER and attributes",
         lambda: encode(replace(worn(torus(8, 7), colors), metadata={"name": "torus", "unit": "mm"}), ORDERED),
+    ),
+    "good-attribute-textured": Good(
+        "a wall with texture coordinates, a material with an image, and z up", lambda: encode(_textured(), GRID)
     ),
     "good-sequence-attributes": Good("a sequence with attributes that are the same in all frames", _sequence),
 }

@@ -6,12 +6,11 @@ each vertex by the norm of its row makes white noise of standard deviation s com
 
 from __future__ import annotations
 
-from functools import cached_property
-
 import numpy as np
 import numpy.typing as npt
 from scipy import sparse
 
+from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Positions
 from bsm.codec.denoise.filters.topology import Mask, Topology
 from bsm.codec.denoise.filters.vertex_update import Floats, face_geometry, vertex_normals

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from functools import cached_property
 from typing import Any, Protocol
 
 import numpy as np
@@ -16,6 +15,7 @@ from bsm.bitstream.container.declaration import CORNER, FACE, RECOMPUTED, Declar
 from bsm.bitstream.container.reader import Signal
 from bsm.bitstream.errors import BsmError, CorruptError
 from bsm.bitstream.fields.corners import Corners, corners_of
+from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Faces, Levels
 from bsm.codec.geometry.attributes import Attribute, Semantic
 from bsm.codec.geometry.mesh import TriangleMesh

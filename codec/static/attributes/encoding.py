@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
-from functools import cached_property
 
 import numpy as np
 
@@ -21,6 +20,7 @@ from bsm.bitstream.container.declaration import (
 )
 from bsm.bitstream.container.packets import Packet
 from bsm.bitstream.fields.corners import Corners, corners_of
+from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Indices, Levels, Order
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh

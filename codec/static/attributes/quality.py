@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
-from bsm.bitstream.errors import OptionError
+from bsm.bitstream.errors import ArgumentError, OptionError
 from bsm.codec.geometry.attributes import Attribute
 
 Way = Literal["exact", "bits", "bound", "share", "angle", "recompute", "none"]
@@ -83,7 +83,10 @@ def parse_quality(text: str) -> Quality:
 
 def checked_qualities(asked: Mapping[str, str] | tuple[tuple[str, str], ...]) -> tuple[tuple[str, str], ...]:
     """What is asked of attributes by name, as pairs; raises `OptionError` for a quality that there is not."""
-    pairs = tuple(sorted(dict(asked).items()))
+    try:
+        pairs = tuple(sorted((str(name), str(quality)) for name, quality in dict(asked).items()))
+    except (TypeError, ValueError):
+        raise ArgumentError(f"attributes must be a mapping from names to qualities, not {asked!r}") from None
     for _, text in pairs:
         parse_quality(text)
     return pairs

@@ -7,24 +7,26 @@ models and assets; they decide about bytes and time, never about whether a contr
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import replace
-from functools import cached_property
 
 import numpy as np
 
 from bsm.bitstream.container.header import Layer
 from bsm.bitstream.errors import LimitError, TargetError
+from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Levels, Matrix
-from bsm.codec.geometry.closeness import Closeness, Original
 from bsm.codec.static.choice.borders import borders_of
 from bsm.codec.static.choice.grid_search import COARSEST, GridSearch
+from bsm.codec.static.choice.judge import Judge, Sight
 from bsm.codec.static.choice.lattices import rounded
-from bsm.codec.static.choice.search import Trial, widest_step
-from bsm.codec.static.choice.shaping import Aim, Shaper
-from bsm.codec.static.choice.spectral import Base, Spectral, Stack, base_step
-from bsm.codec.static.contract import ANY_ANGLE, Contract
+from bsm.codec.static.choice.reaches import reaches
+from bsm.codec.static.choice.search import Trial, looked_for, widest_step
+from bsm.codec.static.choice.settling import Sensitivity
+from bsm.codec.static.choice.shaping import Aim
+from bsm.codec.static.choice.spectral import Base, Spectral, Stack, base_step, layer_steps
+from bsm.codec.static.contract import Contract
 from bsm.codec.static.draft import Draft
 from bsm.codec.static.options import EncodeOptions
 from bsm.codec.static.preamble import FEW_VERTICES, Prepared
@@ -56,6 +58,8 @@ COARSE = 0.016
 """A step, in BSM units, at which blocks carry nothing but what they are for."""
 FINEST = 2.0**-38
 """Smallest step, in BSM units."""
+FINEST_BITS = 20
+"""Of the grid that is tried where nothing else will do."""
 ALL_AXES = 6.0
 """How much coarser levels in the plane are than those along the normal."""
 HEIGHTS, HEIGHTS_OF_MODELS = 1.34, 2.6
@@ -66,6 +70,23 @@ STEEP, STEEP_HEIGHTS = 1.05, 0.65
 """How angles grow with the step of a layer, in their logarithms: of one along all axes, and along normals alone."""
 FLATTER = 0.6
 """And how much less they may."""
+AXES_OF_LOOK, WORTH_OF_LOOK, STEEP_LOOK = 4.0, 0.11, (0.9, 1.8)
+"""Where a look is asked for: how much coarser levels in the plane are; what a bit is worth, over the mean cost of an
+error of one step along the normal, which is about what it saves where all is rounded; and how pictures get worse with
+the step, in their logarithms."""
+LOOK_BASE, LOOK_BASE_IF_ROUGH, COARSEST_LOOK_BASE = 18.0, 0.0006, 0.016
+"""The step of blocks below a layer, in steps of that; at least so much for each degree between faces beside each other,
+for what is rough is not in low frequencies; and at most."""
+FIRST_LOOK, NEAR_SEEN = 1.6, 16.0
+"""Noise that sensitivity is measured with, over the step that angles would have; and how far a vertex may be brought
+from its place where nobody sees it, in steps of the layer."""
+NEAR = 8.0
+"""How far shaping may bring a vertex from its place, in steps of the layer."""
+FEW_LOOKS = 4000
+"""Meshes of more vertices are looked at in one way to code alone, the one that is likely to be smaller."""
+DENSE, TINY, PREVIEW = 0.0062, 0.0012, 2.0
+"""Below this look, meshes with sharp edges are smaller on grids, unless the mean edge is shorter than the first; and so
+are all where it is shorter than the second: pictures do not show their faces."""
 MARGIN = 1e-9
 """Of a bound on distances, for what rounding may add."""
 
@@ -78,26 +99,35 @@ class Fulfilment:
     prepared : Prepared
     options : EncodeOptions
     contract : Contract
+    sight : Sight
+        Of the same mesh.
     progress : callable, optional
         Called with the number of blocks done and of all blocks, and with none and all of them around every other trial.
     """
 
     def __init__(
-        self, prepared: Prepared, options: EncodeOptions, contract: Contract, progress: Progress | None = None
+        self,
+        prepared: Prepared,
+        options: EncodeOptions,
+        contract: Contract,
+        sight: Sight,
+        progress: Progress | None = None,
     ) -> None:
         self._prepared = prepared
         self._options = options
         self._contract = contract
         self._progress = progress
-        self._original = Original(prepared.positions, prepared.mesh.faces)
-        self._shaper = Shaper(self._original, prepared.graph)
-        self._reach = contract.reach(prepared.mesh.diagonal, prepared.units.scale) * (1.0 - MARGIN)
-        self._borders = borders_of(prepared, options.lock_borders, self._reach)
+        self._sight = sight
+        self._original = sight.original
+        self._shaper = sight.shaper
+        self._reaches = reaches(prepared, contract) * (1.0 - MARGIN)
+        self._reach = float(self._reaches.max())
+        self._borders = borders_of(prepared, options.lock_borders, float(self._reaches.min()))
         self._edge = self._shaper.mean_edge or 1.0
+        self._judge = Judge(prepared, sight, contract, self._reaches, self._borders)
         self._grids = GridSearch(
-            prepared, self._original, self._shaper, contract, self._reach, self._borders, self._told
+            prepared, self._shaper, contract, float(self._reaches.min()), self._borders, self._judge, self._told
         )
-        self._best_seen: Closeness | None = None
 
     def draft(self) -> Draft:
         """The smallest draft that was found.
@@ -109,37 +139,42 @@ class Fulfilment:
         """
         if not self._prepared.mesh.diagonal > 0.0:
             return rounded(self._prepared, 1)  # a point
+        for every in (False, True):
+            for draft in sorted(self._drafts(every=every), key=lambda draft: draft.size):
+                if self.keeps(draft):
+                    return draft
+        finest = rounded(self._prepared, FINEST_BITS)
+        if self.keeps(finest):
+            return finest
+        raise TargetError(self._refusal())
+
+    def keeps(self, draft: Draft) -> bool:
+        """Whether what its decoder makes of a draft keeps the contract."""
+        return self._judge.keeps(self._prepared.units.into(draft.decoded))
+
+    def _drafts(self, *, every: bool) -> list[Draft]:
+        """Those that may be smallest; with `every`, grids even where they should be larger."""
         found: list[Draft] = []
         try:
-            if self._blocks_may_win():
-                found.extend(draft for draft in self._spectral() if self._keeps(draft))
+            if not every and self._blocks_may_win():
+                found.extend(self._spectral())
         except LimitError:
             pass  # blocks that decoders would refuse: a grid asks for little
         smallest = min((draft.size for draft in found), default=None)
-        if smallest is None or len(self._prepared.connectivity.data) + self._grids.bytes < smallest:
-            found.extend(draft for draft in self._grids.drafts() if self._keeps(draft))
-        if not found:
-            raise TargetError(self._refusal())
-        return min(found, key=lambda draft: draft.size)
+        if smallest is None or self._grids_may_win(smallest):
+            found.extend(self._grids.drafts())
+        return found
 
-    # What a draft must be.
-
-    def _keeps(self, draft: Draft) -> bool:
-        """Whether what its decoder makes of a draft keeps the contract."""
-        decoded = self._prepared.units.into(draft.decoded)
-        closeness = self._original.closeness(decoded)
-        best = self._best_seen
-        if best is None or closeness.farthest < best.farthest:
-            self._best_seen = closeness
-        return self._within(closeness) and self._borders.kept(self._prepared.positions, decoded)
-
-    def _within(self, closeness: Closeness) -> bool:
-        return closeness.farthest <= self._reach and closeness.angle <= self._contract.angle
+    def _grids_may_win(self, smallest: int) -> bool:
+        """Whether grids may take fewer bytes than blocks did."""
+        if self._contract.look < math.inf:
+            return self._prepared.graph.size < FEW_LOOKS
+        return len(self._prepared.connectivity.data) + self._grids.bytes < smallest
 
     def _refusal(self) -> str:
-        if self._best_seen is not None and self._within(self._best_seen):
+        had = self._judge.had
+        if not had:
             return f"{self._options.lock_borders} cannot be had on this mesh: they are too fine"
-        had = "nothing" if self._best_seen is None else self._contract.worded(self._best_seen, self._reach)
         return f"{self._contract} cannot be kept on this mesh; the best that can be had is {had}"
 
     @contextmanager
@@ -158,11 +193,14 @@ class Fulfilment:
         """Whether most of what is worth coding is at low frequencies; or only blocks can be fine at borders."""
         if self._options.quick:
             return False
-        if self._contract.angle >= ANY_ANGLE and self._reach < FINE_REACH:
+        if not self._contract.shades and self._reach < FINE_REACH:
             return False
         if self._borders.vertices.any():
             return self._prepared.graph.size >= FEW_VERTICES
-        if self._grids.fits_model or (self._contract.angle <= MODEL_ANGLE and self._shaper.character.is_model):
+        if self._grids.fits_model or (self._contract.about_angle <= MODEL_ANGLE and self._shaper.character.is_model):
+            return False
+        sharp = self._shaper.character.is_sharp and self._edge >= DENSE
+        if self._contract.look < PREVIEW and (sharp or self._edge < TINY):
             return False
         return self._prepared.has_low_frequencies and not self._blocks.is_flat(COARSE, FLAT)
 
@@ -171,16 +209,25 @@ class Fulfilment:
         return Spectral(self._prepared, self._options, WIDEST)
 
     def _spectral(self) -> Iterator[Draft]:
-        angle = self._contract.angle
+        angle = self._contract.about_angle
         coarse = Spectral(self._prepared, replace(self._options, detail=0.0), WIDEST)
         if angle >= PLAIN_ANGLE and self._is_smooth:
             plain = self._plain(coarse if self._shaper.character.roughness < SHEET * angle else self._blocks)
             if plain is not None:
                 yield plain
                 return
-        stack = self._refined(coarse.base(base_step(angle), self._progress))
+        stack = self._refined(coarse.base(self._base_step, self._progress))
         if stack is not None:
             yield stack.draft()
+
+    @property
+    def _base_step(self) -> float:
+        """That of blocks which are refined."""
+        if self._sensitivity is None:
+            return base_step(self._contract.about_angle)
+        step = LOOK_BASE * self._sensitivity.step_for(self._contract.look, AXES_OF_LOOK)
+        rough = LOOK_BASE_IF_ROUGH * self._shaper.character.roughness
+        return min(max(step, rough), COARSEST_LOOK_BASE)
 
     def _plain(self, blocks: Spectral) -> Draft | None:
         """The smallest of a few steps without refinement, except for vertices out of reach: these cost more at coarser
@@ -191,15 +238,13 @@ class Fulfilment:
 
         def measure(step: float) -> Trial[Stack]:
             plain = self._with_outliers(blocks.base(step, self._progress), [])
-            closeness = self._original.closeness(plain.positions)
-            if closeness.angle <= self._contract.angle:
+            trial = self._judge.trial(step, plain.positions, plain)
+            if trial.excess <= 0.0:
                 found.append(plain.draft())
-            return Trial(step, closeness, plain)
+            return trial
 
-        first = SHEET_STEP if sheet else PLAIN_STEP * self._contract.angle
-        widest = widest_step(
-            measure, first, self._contract.angle, math.inf, tries=3, most=COARSEST, slopes=PLAIN_SLOPES
-        )
+        first = SHEET_STEP if sheet else PLAIN_STEP * self._contract.about_angle
+        widest = widest_step(measure, first, tries=3, most=COARSEST, slopes=PLAIN_SLOPES)
         if widest is not None:
             measure(math.sqrt(first * widest.step) if widest.step > first else PLAIN_STRIDE * first)
         return min(found, key=lambda draft: draft.size, default=None)
@@ -208,7 +253,7 @@ class Fulfilment:
     def _is_smooth(self) -> bool:
         """Whether normals can be right without refinement: they cannot where faces are flat, or bent at random."""
         character = self._shaper.character
-        return not character.is_model and character.roughness < min(ROUGH * self._contract.angle, ROUGHEST)
+        return not character.is_model and character.roughness < min(ROUGH * self._contract.about_angle, ROUGHEST)
 
     def _with_outliers(self, base: Base, layers: list[tuple[Layer, Levels]]) -> Stack:
         """With one more layer, if vertices are out of reach: of levels for these alone; and one for borders."""
@@ -224,12 +269,12 @@ class Fulfilment:
 
     def _back(self, base: Base, positions: Matrix) -> tuple[Layer, Levels] | None:
         """The layer that brings vertices back that are out of reach, borders aside."""
-        offsets = base.offsets_of(positions)
-        out = (np.square(offsets).sum(axis=1) > self._reach**2) & ~self._borders.vertices
+        out = self._judge.out(positions)
         if not out.any():
             return None
-        layer = base.layer(self._reach, 1.0)
-        return layer, np.where(out[:, None], np.rint(offsets / layer.step), 0.0).astype(np.int32)
+        layer = base.layer(float(self._reaches[out].min()), 1.0)
+        levels = np.rint(base.offsets_of(positions) / layer.step)
+        return layer, np.where(out[:, None], levels, 0.0).astype(np.int32)
 
     def _brought_back(self, base: Base, positions: Matrix) -> Matrix:
         """Positions after that layer."""
@@ -246,19 +291,20 @@ class Fulfilment:
 
     def _outliers(self, positions: Matrix) -> int:
         """How many vertices are out of reach, borders aside."""
-        out = np.square(positions - self._prepared.positions).sum(axis=1) > self._reach**2
-        return int((out & ~self._borders.vertices).sum())
+        return int(self._judge.out(positions).sum())
 
     def _refined(self, base: Base) -> Stack | None:
         """A base with heights along the normals, if these can bring normals right; with all axes if not."""
         many = MANY_OUTLIERS * len(base.positions)
-        heights = self._original.angle(base.upright) <= self._contract.angle and self._outliers(base.upright) <= many
+        heights = (
+            self._original.angle(base.upright) <= self._contract.about_angle and self._outliers(base.upright) <= many
+        )
         if heights:
             layer = base.layer(self._first_layer(0.0), 0.0)
             heights = self._outliers(base.moved(layer, base.wanted(layer)[0])) <= many
-        best = self._refinement(base, 0.0 if heights else ALL_AXES)
+        best = self._refinement(base, 0.0 if heights else self._ratio)
         if heights and (best is None or self._outliers(base.moved(*best.found)) > many):
-            best = self._refinement(base, ALL_AXES)
+            best = self._refinement(base, self._ratio)
         return None if best is None else self._with_outliers(base, [best.found])
 
     def _refinement(self, base: Base, ratio: float) -> Trial[tuple[Layer, Levels]] | None:
@@ -266,27 +312,60 @@ class Fulfilment:
         lock, still = self._lock(base), self._borders.vertices
         start = base.positions if lock is None else base.moved(*lock)
 
-        def measure(step: float) -> Trial[tuple[Layer, Levels]]:
+        tries = 2 if self._shaper.character.is_model else 3
+        choose = self._bent_levels(base, start) if self._sensitivity is None else self._seen_levels(base, start)
+
+        def measure(step: float, whole: bool = False) -> Trial[tuple[Layer, Levels]]:
             layer = base.layer(step, ratio)
+            with self._told():
+                levels = choose(layer)
+                levels[still] = 0
+                moved = self._brought_back(base, base.moved(layer, levels, start))
+                return self._judge.trial(step, moved, (layer, levels), whole=whole)
+
+        if self._sensitivity is not None:
+            first = self._sensitivity.step_for(self._contract.look, ratio)
+            return looked_for(measure, min(first, COARSEST), most=COARSEST, slopes=STEEP_LOOK)
+        steep = STEEP if ratio else STEEP_HEIGHTS
+        slopes = FLATTER * steep, steep
+        return widest_step(measure, self._first_layer(ratio), tries=tries, most=COARSEST, slopes=slopes)
+
+    def _bent_levels(self, base: Base, start: Matrix) -> Callable[[Layer], Levels]:
+        """Levels of a layer, on positions, that bend faces least."""
+        still = self._borders.vertices
+
+        def choose(layer: Layer) -> Levels:
             wanted, directions = base.wanted(layer)
             wanted[still] = 0
-            aim = Aim(layer.step / self._edge, self._reach, 6)
-            with self._told():
-                levels = self._shaper.levels(start, wanted, directions, aim)
-                levels[still] = 0
-                closeness = self._original.closeness(self._brought_back(base, base.moved(layer, levels, start)))
-            return Trial(step, closeness, (layer, levels))
+            aim = Aim(layer.step / self._edge, min(self._reach, NEAR * layer.step), 6)
+            return self._shaper.levels(start, wanted, directions, aim)
 
-        steep = STEEP if ratio else STEEP_HEIGHTS
-        return widest_step(
-            measure,
-            self._first_layer(ratio),
-            self._contract.angle,
-            math.inf,
-            tries=2 if self._shaper.character.is_model else 3,
-            most=COARSEST,
-            slopes=(FLATTER * steep, steep),
-        )
+        return choose
+
+    def _seen_levels(self, base: Base, start: Matrix) -> Callable[[Layer], Levels]:
+        """Levels of a layer, on positions, of which least is seen."""
+        sensitivity, offsets = self._sensitivity, base.offsets_of(start)
+        assert sensitivity is not None
+
+        def choose(layer: Layer) -> Levels:
+            reach = np.minimum(self._reaches, NEAR_SEEN * layer.step)
+            return sensitivity.levels(offsets[:, : layer.axes], layer_steps(layer), WORTH_OF_LOOK, reach)
+
+        return choose
+
+    @cached_property
+    def _sensitivity(self) -> Sensitivity | None:
+        """None: nothing is asked of pictures, or to be seen in them."""
+        looker = None if self._contract.look == math.inf else self._sight.looker
+        if looker is None:
+            return None
+        step = FIRST_LOOK * self._first_layer(AXES_OF_LOOK)
+        positions, faces = self._prepared.positions, self._prepared.mesh.faces
+        return Sensitivity(positions, faces, self._prepared.graph, looker, (step, AXES_OF_LOOK * step))
+
+    @property
+    def _ratio(self) -> float:
+        return ALL_AXES if self._contract.look == math.inf else AXES_OF_LOOK
 
     def _first_layer(self, ratio: float) -> float:
         """The step of a layer that should be about right."""
@@ -295,4 +374,4 @@ class Fulfilment:
             factor = min(max(LAYER - LAYER_IF_ROUGH * character.roughness, LEAST_LAYER), MOST_LAYER)
         else:
             factor = HEIGHTS_OF_MODELS if character.is_model else HEIGHTS
-        return factor * math.radians(self._contract.angle) * self._edge
+        return factor * math.radians(self._contract.about_angle) * self._edge

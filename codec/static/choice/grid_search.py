@@ -6,17 +6,17 @@ import math
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager
 from dataclasses import dataclass
-from functools import cached_property
 
 import numpy as np
 
+from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Levels
-from bsm.codec.geometry.closeness import Closeness, Original
 from bsm.codec.static.choice.borders import ROUND, Borders
+from bsm.codec.static.choice.judge import Judge
 from bsm.codec.static.choice.lattices import Shaped
-from bsm.codec.static.choice.search import Trial, widest_step
+from bsm.codec.static.choice.search import GLANCES, Trial, looked_for, widest_step
 from bsm.codec.static.choice.shaping import Aim, Shaper
-from bsm.codec.static.contract import ANY_ANGLE, Contract
+from bsm.codec.static.contract import Contract
 from bsm.codec.static.draft import Draft
 from bsm.codec.static.preamble import FEW_VERTICES, Prepared
 
@@ -25,6 +25,8 @@ COARSEST = 0.05
 WORTH, WORTH_ANGLE, WORTH_GROWTH, WORTH_OF_MODELS = 0.4, 3.0, 0.7, 1.6
 """What a nat is worth, in angles that a step bends a mean face by: where 3 degrees are asked for, how it grows with
 what is asked for, and of models, whose bits are not where their area is."""
+WORTH_OF_LOOK, STEEP_LOOK = 0.8, (0.7, 1.5)
+"""The same where pictures count; and how these get worse with the step, in their logarithms."""
 HELPED, HELPED_MODELS = 0.62, 0.75
 """Angle that shaping leaves, of what rounding gives."""
 ON_MODEL = 1.0
@@ -53,6 +55,8 @@ SHARE, SHARE_VERTICES, SHARE_OF_FEWER, SHARE_OF_BITS, MEAN_BITS = 0.575, 50_000,
 when vertices are half as many as so many, and with bits of a vertex above the mean."""
 MOST_EXTENTS = 256.0
 """How many times its diagonal a model may be from the origin, for its places to be counted from there."""
+COARSEST_LOOKS, FITS_LOOK = 6, 0.002
+"""Of these, so many are looked at; and how far off vertices may be on them, in BSM units, over the look."""
 MOST_PARTS, COARSEST_GRIDS = 256, 3
 """Of models of few vertices: cells along the longest side, and how many of the coarsest grids that fit are tried."""
 
@@ -81,12 +85,12 @@ class GridSearch:
     Parameters
     ----------
     prepared : Prepared
-    original : Original
     shaper : Shaper
     contract : Contract
     reach : float
         How far a vertex may come to lie from its place, in BSM units.
     borders : Borders
+    judge : Judge
     told : callable
         A context in which one trial is made.
     """
@@ -94,18 +98,20 @@ class GridSearch:
     def __init__(
         self,
         prepared: Prepared,
-        original: Original,
         shaper: Shaper,
         contract: Contract,
         reach: float,
         borders: Borders,
+        judge: Judge,
         told: Callable[[], AbstractContextManager[None]],
     ) -> None:
         self._prepared = prepared
-        self._original = original
         self._shaper = shaper
         self._character = shaper.character
-        self._angle = contract.angle
+        self._angle = contract.about_angle
+        self._shades = contract.shades
+        self._look, self._looks = contract.look, contract.look < math.inf
+        self._judge = judge
         self._reach = reach
         self._borders = borders
         self._told = told
@@ -121,7 +127,7 @@ class GridSearch:
         for trial in tried[:MOST_COMPARED]:
             if trial.found.estimate <= CLOSE * tried[0].found.estimate:
                 yield shaped.draft(trial.found.step, trial.found.places)
-        if self._prepared.graph.size < FEW_VERTICES and self._angle < ANY_ANGLE:
+        if self._prepared.graph.size < FEW_VERTICES and self._shades:
             yield from self._coarsest(shaped)
 
     @property
@@ -151,7 +157,7 @@ class GridSearch:
     @cached_property
     def first_step(self) -> float:
         """The step of a grid that should be about right."""
-        if self._angle >= ANY_ANGLE:
+        if not self._shades:
             return self._widest
         helped = HELPED_MODELS if self._character.is_model else HELPED
         return self._character.step_of(self._angle / helped, self._most)
@@ -163,32 +169,28 @@ class GridSearch:
             if kept:
                 return kept
         first, trials = self.first_step, list[Trial[Placed]]()
-        if self._angle >= ANY_ANGLE:
+        if not self._shades:
             trials.append(self._trial(shaped, first, 0.8, axes=3, sweeps=6))
         else:
             worth, few = self._worth, self._prepared.graph.size < QUICK_VERTICES
 
-            def measure(step: float) -> Trial[Placed]:
-                trials.append(self._trial(shaped, step, worth))
+            def measure(step: float, whole: bool = True) -> Trial[Placed]:
+                trials.append(self._trial(shaped, step, worth, whole=whole))
                 return trials[-1]
 
-            steep = self._steepness(first)
-            slopes = FLATTER * steep, steep
-            widest_step(
-                measure,
-                first,
-                self._angle,
-                self._reach,
-                tries=TRIES[few],
-                most=self._most,
-                slack=SLACK[few],
-                slopes=slopes,
-            )
-        kept = [trial for trial in trials if self._keeps(trial.closeness)]
+            if self._looks:
+                tiny = self._prepared.graph.size < FEW_VERTICES
+                found = looked_for(measure, first, most=self._most, slopes=STEEP_LOOK, glances=0 if tiny else GLANCES)
+                trials = [] if found is None else [found]
+            else:
+                steep = self._steepness(first)
+                slopes = FLATTER * steep, steep
+                widest_step(measure, first, tries=TRIES[few], most=self._most, slack=SLACK[few], slopes=slopes)
+        kept = [trial for trial in trials if trial.kept]
         for finer in range(1, LAST_RESORTS + 1):
             if not kept:
                 trial = self._trial(shaped, min(first, self._widest) / 4.0**finer, WORTH)
-                kept = [trial] if self._keeps(trial.closeness) else []
+                kept = [trial] if trial.kept else []
         if self._prepared.graph.size >= FEW_VERTICES:
             best = min(kept, key=lambda trial: trial.found.estimate, default=None)
             grids = self._model_grids if best is None else sorted(self._made_on(best.step))
@@ -200,7 +202,7 @@ class GridSearch:
             if entropy > ALIKE * grids[0][0]:
                 break
             trial = self._trial(shaped, step, WORTH_OF_MODELS)
-            if self._keeps(trial.closeness):
+            if trial.kept:
                 yield trial
 
     def _made_on(self, right: float) -> Iterator[tuple[float, float]]:
@@ -223,32 +225,36 @@ class GridSearch:
         """
         from_origin = Shaped(self._prepared, self._shaper, np.zeros(3), still=self._borders.vertices)
         farthest = float(np.abs(self._prepared.mesh.positions).max())
+        reach = min(self._reach, self._borders.cell / ROUND, FITS_LOOK * self._look)
         grids = [shaped, from_origin] if farthest < MOST_EXTENTS * self._prepared.mesh.diagonal else [shaped]
         for grid in grids:
-            left = COARSEST_GRIDS
+            left, tries = COARSEST_GRIDS, COARSEST_LOOKS if self._looks else MOST_PARTS
             for parts in range(1, MOST_PARTS):
-                if left and grid.fits(self._extent / parts, min(self._reach, self._borders.cell / ROUND)):
-                    trial = self._trial(grid, self._extent / parts, 0.8)
-                    if self._keeps(trial.closeness):
+                if left and tries and grid.fits(self._extent / parts, reach):
+                    trial = self._trial(grid, self._extent / parts, 0.8, whole=False)
+                    tries -= 1
+                    if trial.kept:
                         left -= 1
                         step, places = trial.found.step, trial.found.places
                         yield grid.draft(step, places) if grid is shaped else grid.draft_from_origin(step, places)
 
-    def _trial(self, shaped: Shaped, step: float, worth: float, *, axes: int = 2, sweeps: int = 3) -> Trial[Placed]:
+    def _trial(
+        self, shaped: Shaped, step: float, worth: float, *, axes: int = 2, sweeps: int = 3, whole: bool = True
+    ) -> Trial[Placed]:
         step = max(step, shaped.finest)
         with self._told():
             aim = Aim(worth * step / self._edge, self._reach, sweeps)
             held, places, decoded, estimate = shaped.places(step, aim, axes)
-            closeness = self._original.closeness(self._prepared.units.into(decoded))
-        return Trial(step, closeness, Placed(held, places, estimate))
-
-    def _keeps(self, closeness: Closeness) -> bool:
-        return closeness.farthest <= self._reach and closeness.angle <= self._angle
+            return self._judge.trial(
+                step, self._prepared.units.into(decoded), Placed(held, places, estimate), whole=whole
+            )
 
     @property
     def _worth(self) -> float:
         if self._character.is_model:
             return WORTH_OF_MODELS
+        if self._looks:
+            return WORTH_OF_LOOK
         return WORTH * min(max(math.pow(self._angle / WORTH_ANGLE, WORTH_GROWTH), 0.5), 2.0)
 
     def _steepness(self, step: float) -> float:

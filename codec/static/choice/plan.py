@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from functools import cached_property
 
 import numpy as np
 
 from bsm.bitstream.errors import OptionError
+from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Faces, Indices, Matrix
 from bsm.codec.blocks.overlap import Blocks
 from bsm.codec.geometry.metrics import Reference

@@ -7,28 +7,44 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Generic, TypeVar
 
-from bsm.codec.geometry.closeness import Closeness
-
 SLACK = 0.03
-"""How far below a bound on angles the search for a step may stay."""
+"""How far below a bound the search for a step may stay."""
+ROOM = 0.08
+"""How far below a look its pictures may stay, in logarithms; half of it is aimed at."""
+GLANCES, CONFIRMATIONS = 2, 5
+"""Steps that are looked at from a few sides, and from all."""
 
 Found = TypeVar("Found")
 
 
 @dataclass(frozen=True)
 class Trial(Generic[Found]):
-    """What a step came to."""
+    """What a step came to.
+
+    Parameters
+    ----------
+    step : float
+    excess : float
+        Logarithm of what came over what may, of normals or pictures: above 0 they are too far off.
+    near : bool
+        Whether every vertex is near enough.
+    found : object
+    """
 
     step: float
-    closeness: Closeness
+    excess: float
+    near: bool
     found: Found
+
+    @property
+    def kept(self) -> bool:
+        """Whether all bounds are kept."""
+        return self.near and self.excess <= 0.0
 
 
 def widest_step(
     measure: Callable[[float], Trial[Found]],
     first: float,
-    angle: float,
-    reach: float,
     *,
     tries: int,
     most: float,
@@ -43,18 +59,15 @@ def widest_step(
         Tries a step.
     first : float
         To begin with.
-    angle : float
-        Degrees; the search ends where the trial's is at most `slack` below (a share of it).
-    reach : float
-        How far a vertex may be from its place.
     tries : int
     most : float
         The largest step that may be tried.
     slack : float
+        The search ends where a trial is below its bound by at most this share of it.
     slopes : (float, float)
-        How the angle grows with the step, in their logarithms, at least and at most; at most as long as nobody knows.
+        How the excess grows with the step's logarithm, at least and at most; at most as long as nobody knows.
     """
-    aim = math.log(angle * (1.0 - slack / 2.0))
+    aim = math.log(1.0 - slack / 2.0)
     best: Trial[Found] | None = None
     good: tuple[float, float] | None = None
     bad: tuple[float, float] | None = None
@@ -62,29 +75,73 @@ def widest_step(
     before: tuple[float, float] | None = None
     for _ in range(tries):
         trial = measure(step)
-        kept = trial.closeness.angle <= angle
-        near = trial.closeness.farthest <= reach
-        at = math.log(step), math.log(max(trial.closeness.angle, 1e-6))
+        within = trial.excess <= 0.0
+        at = math.log(step), trial.excess
         if before is not None and at[0] != before[0]:
             slope = min(max((at[1] - before[1]) / (at[0] - before[0]), slopes[0]), slopes[1])
         before = at
-        if kept and near:
+        if trial.kept:
             if best is None or step > best.step:
                 best, good = trial, at
-            if trial.closeness.angle > angle * (1.0 - slack) or step >= most:
+            if trial.excess > math.log(1.0 - slack) or step >= most:
                 break
         elif bad is None or at[0] < bad[0]:
-            bad = at[0], math.log(1.05 * angle) if kept else at[1]
+            bad = at[0], math.log(1.05) if within else at[1]
         if good is not None and bad is not None:
             if bad[0] - good[0] < slack:
                 break
             share = (aim - good[1]) / max(bad[1] - good[1], 1e-9)
             step = math.exp(good[0] + min(max(share, 0.15), 0.85) * (bad[0] - good[0]))
-        elif kept and not near:
+        elif within and not trial.near:
             step *= 0.8
         else:
             # Too fine a step can be coarser next time; too coarse ones come to nothing.
-            gentle = slope if kept else math.sqrt(slopes[0] * slope)
+            gentle = slope if within else math.sqrt(slopes[0] * slope)
             step *= math.exp(min(max((aim - at[1]) / gentle, -1.2), 1.2))
         step = min(step, most)
+    return best
+
+
+def looked_for(
+    measure: Callable[[float, bool], Trial[Found]],
+    first: float,
+    *,
+    most: float,
+    slopes: tuple[float, float],
+    glances: int = GLANCES,
+) -> Trial[Found] | None:
+    """About the widest step that keeps a look: from a few sides first, and from all of them in the end.
+
+    Parameters
+    ----------
+    measure : callable
+        Tries a step, and looks at what it comes to; from all sides if its second argument is true.
+    first, most, slopes
+        As of `widest_step`.
+    glances : int
+        Steps that are looked at from a few sides.
+    """
+    trials = list[Trial[Found]]()
+
+    def glance(step: float) -> Trial[Found]:
+        trials.append(measure(step, False))
+        return trials[-1]
+
+    slope = math.sqrt(slopes[0] * slopes[1])
+
+    def following(trial: Trial[Found]) -> float:
+        more = trial.excess + ROOM / 2.0 if trial.near else max(trial.excess, 0.3)
+        return min(trial.step * math.exp(min(max(-more / slope, -1.2), 1.2)), most)
+
+    widest_step(glance, first, tries=glances, most=most, slopes=slopes, slack=ROOM)
+    near = min(trials, key=lambda trial: abs(trial.excess + ROOM / 2.0), default=None)
+    step = min(first, most) if near is None else following(near)
+    best: Trial[Found] | None = None
+    for number in range(CONFIRMATIONS):
+        trial = measure(step, True)
+        if trial.kept and (best is None or trial.step > best.step):
+            best = trial
+        if best is not None and (number or trial.excess > -2.0 * ROOM or step >= most):
+            break
+        step = following(trial)
     return best

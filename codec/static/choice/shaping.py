@@ -7,11 +7,11 @@ angle between normals the levels can be twice as coarse. The cost of a level is 
 
 from __future__ import annotations
 
-from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
 
+from bsm.bitstream.once import cached_property
 from bsm.codec import _kernels
 from bsm.codec.arrays import Indices, Levels, Matrix, Positions
 from bsm.codec.geometry.closeness import Original

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from functools import cached_property
 
 import numpy as np
 
 from bsm.bitstream.container.header import Header, Layer
 from bsm.bitstream.limits import NAMED_LIMITS
+from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Levels, Matrix
 from bsm.codec.signal.frames import displaced, in_frames, local_frames
 from bsm.codec.signal.smooth import smooth
@@ -62,7 +62,7 @@ class Base:
 
     def wanted(self, layer: Layer) -> tuple[Levels, Matrix]:
         """The nearest levels of a layer, shape (n, axes), and what one of each moves, shape (n, axes, 3)."""
-        steps = np.array([layer.step, layer.step * layer.ratio, layer.step * layer.ratio][: layer.axes])
+        steps = layer_steps(layer)
         directions = self.frames.reshape(-1, 3, 3)[:, : layer.axes] * steps[:, None]
         return np.rint(self.offsets[:, : layer.axes] / steps).astype(np.int32), directions
 
@@ -110,6 +110,11 @@ class Stack:
         numbers = tuple(number for layer, _ in self.added for number in (layer.step, layer.ratio))
         header = replace(base.draft.header, refinements=numbers, borders=int(self.borders))
         return Draft(header, body, base.prepared.units.back(self.positions))
+
+
+def layer_steps(layer: Layer) -> Matrix:
+    """How far a level of each axis moves a vertex, shape (axes,)."""
+    return np.array([layer.step, layer.step * layer.ratio, layer.step * layer.ratio][: layer.axes])
 
 
 def base_step(angle: float) -> float:

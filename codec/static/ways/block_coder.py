@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from functools import cached_property
 
 import numpy as np
 
 from bsm.bitstream.container import packets
 from bsm.bitstream.errors import BsmError, CorruptError, NumericError
+from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Matrix
 from bsm.codec.basis.cost import Spend, free
 from bsm.codec.basis.dynamic_size import DynamicSize

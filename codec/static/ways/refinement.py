@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from collections import deque
 from dataclasses import dataclass
-from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -17,6 +16,7 @@ from bsm.bitstream.container.reader import Signal
 from bsm.bitstream.container.wire import FrameType
 from bsm.bitstream.errors import CorruptError
 from bsm.bitstream.fields.levels import LevelsDecoder, LevelsEncoder
+from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Indices, Levels, Mask, Matrix
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.signal.frames import displaced, local_frames

@@ -11,7 +11,7 @@ from bsm.codec.arrays import Positions
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.commands.limits import add_limits_flag, limits_of
 from bsm.commands.reader import add_reader_flag
-from bsm.console import Console, finite, print_json
+from bsm.console import Console, finite, print_json, printable
 from bsm.files.about import about
 from bsm.files.mesh import read_mesh
 from bsm.files.output import open_output, refuse_to_overwrite
@@ -36,8 +36,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--look",
         action="store_true",
-        help="of meshes, whose faces may differ, also how much alike they look in pictures: nobody can tell them "
-        "apart at a distance of 1",
+        help="also how much alike they look in pictures: nobody can tell them apart at a distance of 1; faces of "
+        "meshes may differ; of a sequence every frame",
     )
     parser.add_argument(
         "--picture",
@@ -113,7 +113,7 @@ def _known(errors: dict[str, float | None]) -> dict[str, float]:
 
 
 def _worded(attribute: tuple[str, dict[str, float] | None]) -> str:
-    name, errors = attribute
+    name, errors = printable(attribute[0]), attribute[1]
     if errors is None:
         return f"{name}: not there any more\n"
     return f"{name}: {', '.join(f'{what} {value:.4g}' for what, value in errors.items())}\n"

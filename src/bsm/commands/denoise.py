@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 import time
-from collections import Counter
 from collections.abc import Iterator
 from dataclasses import asdict, dataclass, field, replace
 from itertools import chain
@@ -14,22 +13,34 @@ from typing import TYPE_CHECKING, Any
 from bsm.batch import Facts, plan, run_jobs, size_of
 from bsm.bitstream.errors import OptionError
 from bsm.codec.arrays import Positions
+from bsm.codec.geometry.metrics import mean_edge_length
+from bsm.commands import denoise_report
 from bsm.commands.inputs import add_inputs, asked, run_of
 from bsm.commands.reader import add_reader_flag
 from bsm.console import Console, Progress
 from bsm.farm.jobs import Task
-from bsm.files.mesh import MESH_FORMATS, format_of_name, read_mesh, save_written, written_mesh
+from bsm.files.formats.written import Written
+from bsm.files.mesh import (
+    MESH_FORMATS,
+    WRITTEN_FORMATS,
+    format_of_name,
+    read_mesh,
+    save_written,
+    written_mesh,
+)
+from bsm.files.motion.folder import separate_meshes
 from bsm.files.motion.frames import Frames
 from bsm.files.naming import output_inside, refuse_terminal
 from bsm.files.output import refuse_to_overwrite
 from bsm.files.sequence import open_sequence, sequence_kind, sequence_writer
 
 if TYPE_CHECKING:
-    from bsm.codec.denoise import AutomaticChoice, DenoiseOptions, Step
+    from bsm.codec.denoise import AutomaticChoice, DenoiseOptions
 
 FINE = ("guided", "bilateral", "non-iterative", "fast-effective", "bilateral-normal", "l0")
 HAND_OVERS = ("positions", "heights", "normals", "none")
 GOALS = ("shading", "shape")
+STREAM = "bsm"
 _OPTIONS = ("fine", "hand_over", "iterations", "keep", "block_size")
 
 
@@ -40,6 +51,8 @@ class DenoiseJob(Task):
     format: str | None = None
     reader: str | None = None
     goal: str = GOALS[0]
+    strength: float = 1.0
+    look: bool = False
     options: dict[str, Any] = field(default_factory=dict)
 
 
@@ -48,7 +61,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_inputs(
         parser,
         "mesh file (OBJ, OFF, PLY, STL, npz), - for standard input, or a sequence: npz, folder, or quoted pattern",
-        "file, in the format of its name, or folder for any number of inputs",
+        "file, in the format of its name, or folder for any number of inputs (default: IN with .denoised before its "
+        "suffix); a stream (.bsm) is near-lossless",
     )
     parser.add_argument("--format", choices=(*MESH_FORMATS, "npy"), help="format of the input, and of a piped output")
     add_reader_flag(parser)
@@ -58,6 +72,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         choices=GOALS,
         default=GOALS[0],
         help="what the automatic mode strives for: normals near the clean ones (shading), or vertices (shape)",
+    )
+    parser.add_argument(
+        "--strength", type=float, default=1.0, metavar="S", help="how much of every movement is made, 0 to 1 (1)"
+    )
+    parser.add_argument(
+        "--look", action="store_true", help="say how far the result is from the input in pictures, see bsm compare"
     )
     ways = parser.add_argument_group(
         "instead of the automatic mode",
@@ -98,9 +118,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace, console: Console) -> int:
     """Denoise all inputs."""
-    if args.output is None:
-        raise OptionError("say with -o where to write")
-    jobs = plan(args.inputs, args.output, _suffix, sole_folder=True)
+    found = {given: separate_meshes(given, args.format, args.reader) for given in args.inputs}
+    inputs = [name for given in args.inputs for name in (found[given] or [given])]
+    if args.output is not None and any(found.values()) and not Path(args.output).is_dir():
+        # A folder of meshes becomes a folder, whether its name ends in / or not.
+        args.output = args.output.rstrip("/") + "/"
+    beside = "" if args.output else ".denoised"
+    jobs = plan(inputs, args.output, lambda name: beside + _suffix(name), sole_folder=True)
     if jobs[0].output == "-" and args.json:
         raise OptionError("--json and -o - would both write to standard output")
     refuse_terminal(jobs[0].output)
@@ -126,6 +150,11 @@ def _suffix(name: str) -> str:
     return f".{format_of_name(name) or ('npz' if Path(name).is_dir() else 'ply')}"
 
 
+def _format_of(name: str) -> str | None:
+    """The format that a name tells, ours included."""
+    return STREAM if name.lower().endswith(f".{STREAM}") else format_of_name(name)
+
+
 def _options(args: DenoiseJob) -> DenoiseOptions | None:
     """What was asked for; None: nothing."""
     if not args.options:
@@ -136,11 +165,13 @@ def _options(args: DenoiseJob) -> DenoiseOptions | None:
 
 
 def _denoise_mesh(args: DenoiseJob, console: Console, options: DenoiseOptions | None) -> dict[str, Any]:
-    kind = args.format if args.output == "-" else format_of_name(args.output)
-    if kind not in MESH_FORMATS:
-        raise OptionError(f"{args.output}: the name tells no mesh format; use one of .{', .'.join(MESH_FORMATS)}")
+    kind = args.format if args.output == "-" else _format_of(args.output)
+    if kind not in (*WRITTEN_FORMATS, STREAM):
+        known = ", .".join((*WRITTEN_FORMATS, STREAM))
+        raise OptionError(f"{args.output}: the name tells no mesh format; use one of .{known}")
     refuse_to_overwrite(args.output, args.may_replace(args.output))
 
+    from bsm.api import encode, look
     from bsm.codec.denoise import FrameDenoiser
 
     source = read_mesh(args.input, args.format, reader=args.reader)
@@ -148,19 +179,30 @@ def _denoise_mesh(args: DenoiseJob, console: Console, options: DenoiseOptions | 
         console.note(f"{args.input}: {note}")
     mesh = source.mesh
     begin = time.perf_counter()
-    denoiser = FrameDenoiser(mesh.positions, mesh.faces, options, goal=args.goal, force=args.force)
+    denoiser = FrameDenoiser(
+        mesh.positions, mesh.faces, options, goal=args.goal, strength=args.strength, force=args.force
+    )
     (positions,) = denoiser([mesh.positions])
-    _tell(console, denoiser.choice)
-    _tell_moved(console, mesh.positions, positions)
+    unit = denoise_report.unit_of(mesh.metadata)
+    _tell(console, denoiser.choice, args, mean_edge_length(mesh.positions, mesh.faces), unit)
+    far = denoise_report.moved(mesh.positions, positions)
+    console.note(denoise_report.moved_line(far, len(positions), unit))
     seconds = time.perf_counter() - begin
     moved, stale = mesh.moved(positions)
+    more: dict[str, Any] = {"moved": far}
+    if args.look:
+        seen = look(mesh, moved)
+        console.note(f"looks      {seen.distance:.2g} from the input (nobody can tell them apart at 1)")
+        more["look"] = asdict(seen)
     overwrite = args.may_replace(args.output)
-    written = written_mesh(moved, kind, args.output)
+    written = (
+        Written(encode(moved, preset="near-lossless")) if kind == STREAM else written_mesh(moved, kind, args.output)
+    )
     left_out = save_written(args.output, written, overwrite=overwrite, overwrite_beside=args.force)
     if left_out or stale:
         console.note(f"{args.input}: left out: {', '.join((*stale, *left_out))}")
     console.note(f"{args.input}: {len(mesh.positions)} vertices -> {args.output}, {seconds:.2f} s")
-    return _result(len(positions), len(mesh.faces), 1, seconds, denoiser.choice, options)
+    return {**_result(len(positions), len(mesh.faces), 1, seconds, denoiser.choice, options), **more}
 
 
 def _denoise_sequence(
@@ -170,9 +212,11 @@ def _denoise_sequence(
 
     from bsm.codec.denoise import FrameDenoiser
 
+    if args.look:
+        raise OptionError("--look compares single meshes; leave it out for a sequence")
     first = next(source.frames)
     begin = time.perf_counter()
-    denoiser = FrameDenoiser(first, source.faces, options, goal=args.goal, force=args.force)
+    denoiser = FrameDenoiser(first, source.faces, options, goal=args.goal, strength=args.strength, force=args.force)
     count = 0
     writer = sequence_writer(args.output, kind, source.faces, source.count, overwrite=args.may_replace(args.output))
     with writer as write, console.progress("denoising", "frames") as progress:
@@ -180,7 +224,7 @@ def _denoise_sequence(
             write(frame)
             count += 1
             if count == 1:
-                _tell(console, denoiser.choice)
+                _tell(console, denoiser.choice, args, mean_edge_length(first, source.faces))
     seconds = time.perf_counter() - begin
     console.note(
         f"{args.input}: {count} frames of {len(first)} vertices -> {args.output}, "
@@ -196,43 +240,10 @@ def _counted(frames: Iterator[Positions], total: int, progress: Progress) -> Ite
             progress(number, total)
 
 
-def _tell(console: Console, choice: AutomaticChoice | None) -> None:
+def _tell(console: Console, choice: AutomaticChoice | None, args: DenoiseJob, edge: float, unit: str = "") -> None:
     """What the automatic mode found and chose."""
-    if choice is None:
-        return
-    if choice.outliers:
-        console.note(f"put back   {choice.outliers} vertices that stood out by themselves")
-    if not choice.steps:
-        if not choice.outliers:
-            said = "steadied   " if choice.kind == "unsteady" else "left       as it was: "
-            console.note(f"{said}{choice.reason}")
-        return
-    noise = choice.noise
-    console.note(f"found      {choice.reason}")
-    console.note(f"noise      {noise.normal:.2f} mean edges along the normals, {noise.tangential:.2f} across")
-    for step, times in Counter(choice.steps).items():
-        share = "" if times == len(choice.steps) else f"{100 * times / len(choice.steps):.0f} % "
-        console.note(f"chosen     {share}{_described(step)}")
-    console.note(f"expected   {choice.expected:.1f} after {choice.untreated:.1f}, more where there is fine detail")
-
-
-def _described(step: Step) -> str:
-    recipe = step.recipe
-    guide = {
-        "patches": "guided normal filter",
-        "own": "bilateral normal filter",
-        "local": "local bilateral normal filter",
-    }[recipe.guide]
-    begun = f"hand-over of {recipe.hand_over}, c = {100 * recipe.keep:g} % of a block"
-    if not recipe.needs_coarse:
-        begun = "no hand-over"
-    return f"{begun}; {step.iterations} iterations of the {guide}, sigma_r {recipe.sigma_r:g}"
-
-
-def _tell_moved(console: Console, before: Positions, after: Positions) -> None:
-    moved = int((before != after).any(axis=1).sum())
-    if 0 < moved < len(before):
-        console.note(f"left       {len(before) - moved} of {len(before)} vertices as they were")
+    for line in denoise_report.found(choice, args.goal, edge, unit):
+        console.note(line)
 
 
 def _result(

@@ -140,20 +140,25 @@ SETTINGS = (
 
 PRESETS = ("small", "balanced", "fine", "near-lossless", "grid14")
 PROMISES = (
-    "how far a vertex may be off, of the diagonal, and normals on average: small 2 %% and 12 degrees, balanced 1 %% "
-    "and 8 (default), fine 0.5 %% and 3, near-lossless 0.05 %%; grid14: exactly as on a grid of 14 bits"
+    "how far from the original a mesh may look (see --look), and a vertex be off, of the diagonal of its part: small 3 "
+    "(a preview) and 2 %%; balanced, the default, 1 (looks the same) and 1 %%; fine 0.5 and 0.5 %%; near-lossless any "
+    "and 0.05 %%; grid14: exactly as on a grid of 14 bits"
 )
 """Of the presets; written out, since importing what they are takes time."""
+
+BOUND_FLAGS = (
+    ("look", "D", "distance from the original in pictures at most D: 1 looks the same, 3 is a preview"),
+    (
+        "max-error",
+        "REL",
+        "no vertex farther off than REL diagonals of the bounding box; with a unit (0.05mm), in the mesh's own",
+    ),
+)
+"""Flag, metavar and help."""
 
 TARGET_FLAGS = (
     ("nmsve-db", "nmsve_db", "X", "visual error, 10 log10 NMSVE, at most X"),
     ("theta", "theta_deg", "DEG", "mean angle between the faces' normals before and after at most DEG"),
-    (
-        "max-error",
-        "max_error",
-        "REL",
-        "no vertex farther off than REL diagonals of the bounding box; with a unit (0.05mm), in the mesh's own",
-    ),
     ("bpv", "bpv", "X", "at most X bits per vertex, the whole file counted"),
     ("size", "size", "BYTES", "at most BYTES"),
 )
@@ -185,12 +190,13 @@ def add_encode_flags(parser: argparse.ArgumentParser) -> None:
 
 def add_preset_flags(parser: argparse.ArgumentParser) -> None:
     """Add presets and targets."""
-    wishes = parser.add_argument_group("what to reach", "a target is met in closed loop, on what the decoder will see")
-    wishes.add_argument("--preset", choices=PRESETS, default="balanced", help=PROMISES)
+    wishes = parser.add_argument_group("what to reach", "checked on what the decoder will see; all that is given holds")
+    wishes.add_argument("--preset", choices=PRESETS, help=PROMISES)
+    for name, metavar, text in BOUND_FLAGS:
+        wishes.add_argument(f"--{name}", type=number_or_length, metavar=metavar, help=text)
     targets = wishes.add_mutually_exclusive_group()
     for name, kind, metavar, text in TARGET_FLAGS:
-        reads = number_or_length if name == "max-error" else float
-        targets.add_argument(f"--{name}", dest=f"target_{kind}", type=reads, metavar=metavar, help=text)
+        targets.add_argument(f"--{name}", dest=f"target_{kind}", type=float, metavar=metavar, help=text)
     wishes.add_argument(
         "--lock-borders",
         nargs="?",
@@ -241,5 +247,5 @@ def wishes_of(args: argparse.Namespace) -> dict[str, Any]:
     if getattr(args, "attributes", None):
         given["attributes"] = dict(args.attributes)
     values = {name.replace("-", "_"): getattr(args, f"target_{kind}") for name, kind, _, _ in TARGET_FLAGS}
-    targets = {keyword: value for keyword, value in values.items() if value is not None}
-    return {"preset": args.preset, **given, **settings_of(args), **targets}
+    values |= {"preset": args.preset, "look": args.look, "max_error": args.max_error}
+    return {**given, **settings_of(args), **{name: value for name, value in values.items() if value is not None}}

@@ -11,7 +11,7 @@ from bsm.batch import Facts, Job, input_names, run_jobs
 from bsm.bitstream.container.wire import VERSION
 from bsm.commands.inputs import add_inputs, asked, run_of
 from bsm.commands.limits import add_limits_flag, limits_of
-from bsm.console import Console
+from bsm.console import Console, printable
 from bsm.farm.jobs import Task
 from bsm.files.pipes import read_chunks
 from bsm.files.stream import StreamInfo, inspect_stream
@@ -137,14 +137,14 @@ def _rate_lines(summary: dict[str, Any]) -> list[str]:
 def _metadata_lines(summary: dict[str, Any]) -> list[str]:
     sizes = summary["metadata_bytes"]
     said = {name: f"{sizes[name]} bytes" if name in sizes else value for name, value in summary["metadata"].items()}
-    return ["metadata:", *(f"  {name}: {value}" for name, value in said.items())] if said else []
+    return ["metadata:", *(printable(f"  {name}: {value}") for name, value in said.items())] if said else []
 
 
 def _attribute_line(attribute: dict[str, Any]) -> str:
     what = f"{attribute['components']} x {attribute['kind']} per {attribute['domain']}, {attribute['semantic']}"
     seams = f", {attribute['seams']} of them for seams" if attribute["seams"] else ""
     return (
-        f"attribute {attribute['name']}: {what}, {attribute['values']} values, {attribute['coding']}, "
+        f"attribute {printable(attribute['name'])}: {what}, {attribute['values']} values, {attribute['coding']}, "
         f"{attribute['bytes']} bytes{seams}"
     )
 

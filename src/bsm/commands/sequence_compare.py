@@ -56,6 +56,8 @@ def compare_loaded(args: argparse.Namespace, original: Sequence, decoded: Sequen
     rows = numbers_of(in_order_of(mesh, numbered(other.faces, len(other_kept)), order))
     one, two = first[:, kept], second[:, other_kept[rows]]
     result = asdict(compare_sequences(one, two, mesh.faces))
+    if args.look:
+        result.update(looks(one, two, mesh.faces))
     if _is_stream(args.decoded):
         result["bpvf_total"] = 8 * Path(args.decoded).stat().st_size / second[..., 0].size
     of_frames = _of_frames(one, two)
@@ -92,6 +94,25 @@ def _repeats(frames: Positions) -> tuple[str, ...]:
 def _loaded(path: str, args: argparse.Namespace, wanted: Wanted | None = None) -> Sequence | None:
     with about(path):
         return load_sequence(path, args.reader, limits_of(args.limits), wanted)
+
+
+def looks(original: Positions, decoded: Positions, faces: Faces) -> dict[str, float]:
+    """How frames look, the worst and the mean of those of which something is seen; see `codec.look`."""
+    from bsm.codec.look.measure import Looker
+
+    found = []
+    for one, other in zip(original, decoded, strict=True):
+        try:
+            found.append(Looker(TriangleMesh(one, faces)).look(other))
+        except MeshError:
+            continue
+    if not found:
+        raise MeshError("the sequence cannot be looked at: its faces have no area in any frame")
+    return {
+        "look_worst": max(look.distance for look in found),
+        "look_mean": float(np.mean([look.distance for look in found])),
+        "dissimilarity_worst": max(look.dissimilarity for look in found),
+    }
 
 
 def compare_if_sequences(args: argparse.Namespace) -> bool:

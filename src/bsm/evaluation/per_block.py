@@ -18,6 +18,7 @@ from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.static.choice.plan import Planner
 from bsm.codec.static.decoder import decode
 from bsm.codec.static.encoder import Encoder
+from bsm.codec.static.joining import join
 from bsm.codec.static.options import EncodeOptions
 from bsm.codec.static.preamble import Parts, prepare
 from bsm.codec.static.ways.block_coder import encode_blocks
@@ -116,7 +117,7 @@ def boundary_table(mesh: TriangleMesh, options: EncodeOptions) -> dict[str, dict
 def blend_blocks(mesh: TriangleMesh, options: EncodeOptions, weigh: Weighing) -> BlockView:
     """The error of a mesh whose blocks are coded as by `view_blocks`, and joined with other weights."""
     view = view_blocks(mesh, options)
-    prepared = prepare(mesh, Parts(options.block_size, options.overlap), keep_order=False)
+    prepared = prepare(join(mesh, keep=False).mesh, Parts(options.block_size, options.overlap), keep_order=False)
     schemes = Planner(prepared, options).schemes(options.step or options.first_step)
     blocks, blend = view.blocks(), Blend(view.graph.size)
     for coded in encode_blocks(schemes, prepared.positions, threads=options.threads, doi=options.doi):

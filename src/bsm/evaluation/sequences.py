@@ -16,7 +16,7 @@ from bsm.bitstream.connectivity.faces import encode_connectivity
 from bsm.bitstream.container.gop import MAX_EXPONENT
 from bsm.codec.arrays import Faces, Matrix, Positions
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.codec.sequence.row_prediction import quantize_basis, time_cosines, trajectories
+from bsm.codec.sequence.row_prediction import spectrum_of, time_cosines, trajectories
 from bsm.codec.sequence.targets import compare_sequences
 from bsm.codec.sequence.temporal import learn_basis
 from bsm.evaluation.draco import decode_draco, encode_draco, positions_in_order
@@ -78,10 +78,10 @@ def temporal_bits(positions: Positions, step: float) -> dict[str, float]:
     """
     motion = trajectories((positions - positions[0].mean(axis=0)) / np.linalg.norm(np.ptp(positions[0], axis=0)))
     learnt = learn_basis(motion, step, MAX_EXPONENT)
-    spectrum = quantize_basis(learnt.columns, learnt.exponents, 0.5)
+    spectrum = spectrum_of(learnt.columns, learnt.exponents)
     cosines = time_cosines(len(positions))
     components: dict[str, tuple[Matrix, ...]] = {
-        "learnt": (motion @ learnt.columns / step, spectrum.astype(np.float64)),
+        "learnt": (motion @ learnt.columns / step, spectrum),
         "cosines": (motion.reshape(len(motion), 3, -1) @ cosines / step,),
     }
     return {

@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import traceback
 from collections.abc import Callable, Generator, Iterable
-from dataclasses import dataclass
-from typing import Any, TypeAlias
+from dataclasses import dataclass, replace
+from typing import Any, TypeAlias, TypeVar
 
 from bsm.console import Console
 from bsm.exits import behind, is_expected
 from bsm.files.about import about
 from bsm.files.output import remove_abandoned
 
+Same = TypeVar("Same", bound="Task")
 Facts = dict[str, Any]
 """What came of an input, ready for JSON; `input_bytes`, `output_bytes` are summed up."""
 
@@ -39,8 +40,9 @@ class Task:
     before : dict, optional
         What came of the same job in an earlier run.
     replaceable : frozenset of str
-        Outputs that may be written over without `force`: they were not there when the run began, or an earlier run was
-        to make them.
+        Outputs that may be written over without `force`: an earlier run was to make them.
+    fresh : frozenset of str
+        Those that were not there when the run began; what is there later is somebody else's, or of an attempt of ours.
     """
 
     input: str = ""
@@ -49,6 +51,11 @@ class Task:
     quiet: bool = False
     before: Facts | None = None
     replaceable: frozenset[str] = frozenset()
+    fresh: frozenset[str] = frozenset()
+
+    def repeated(self: Same) -> Same:
+        """The same after an attempt that was cut off."""
+        return replace(self, replaceable=self.replaceable | self.fresh)
 
     def may_replace(self, path: str) -> bool:
         """Whether this job may write over a file."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import multiprocessing
+import multiprocessing.connection
 import os
 import signal
 import threading
@@ -33,7 +34,8 @@ def in_processes(work: Work, tasks: Tasks, processes: int) -> Outcomes:
     with termination_as_exception():
         while suspects := (yield from _until_one_dies(work, waiting, processes)):
             for task in suspects.items():
-                for number in (yield from _until_one_dies(work, iter([task]), 1)):
+                again = (task[0], task[1].repeated())
+                for number in (yield from _until_one_dies(work, iter([again]), 1)):
                     yield (
                         number,
                         Outcome({}, MemoryError(f"{task[1].input}: its process died, twice")),
@@ -43,7 +45,7 @@ def in_processes(work: Work, tasks: Tasks, processes: int) -> Outcomes:
 def _until_one_dies(work: Work, tasks: Iterator[Numbered], processes: int) -> Ends:
     """Do jobs until there are none, or a process dies; returns what was handed out and has not ended."""
     # Not forked: threads of this process may hold locks.
-    pool = ProcessPoolExecutor(processes, multiprocessing.get_context("spawn"))
+    pool = ProcessPoolExecutor(processes, multiprocessing.get_context("spawn"), initializer=_end_with_parent)
     handed: Handed = {}
     futures: dict[Future[Outcome], int] = {}
     whole = True
@@ -83,6 +85,20 @@ def _end(pool: ProcessPoolExecutor, *, at_once: bool) -> None:
             process.terminate()
         for process in processes:
             process.join()
+
+
+def _end_with_parent() -> None:
+    """Let this process not outlive the one that began it, however that ends."""
+    parent = multiprocessing.parent_process()
+    if parent is None:
+        return
+    sentinel = parent.sentinel
+
+    def watch() -> None:
+        multiprocessing.connection.wait([sentinel])
+        os._exit(1)
+
+    threading.Thread(target=watch, daemon=True).start()
 
 
 def _task(work: Work, task: Task) -> Outcome:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+import math
 import time
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass
@@ -17,7 +18,7 @@ from bsm.files.output import open_output, remove_abandoned
 from bsm.files.pipes import read_bytes, read_chunks
 from bsm.files.state import files_behind, state_of
 
-_ABOUT_THE_RUN = {"input", "output", "folder", "quiet", "force", "threads", "replaceable", "before"}
+_ABOUT_THE_RUN = {"input", "output", "folder", "quiet", "force", "threads", "replaceable", "fresh", "before"}
 _EVERY = 1.0
 """Seconds between two versions of a report, at least."""
 _SHARE = 0.02
@@ -114,13 +115,30 @@ def read_report(path: str, command: str, options: Facts) -> Earlier:
     """
     try:
         report = json.loads(read_bytes(path))
-        files = {str(entry["output"]): dict(entry) for entry in report["files"]}
+        files = {str(entry["output"]): _entry(entry) for entry in report["files"]}
         same = (report["command"], report["options"]) == (command, options)
     except FileNotFoundError:
         return NOTHING
-    except (ValueError, KeyError, TypeError) as error:
+    except (ValueError, KeyError, TypeError, AttributeError, RecursionError) as error:
         raise FormatError(f"{path}: this is no report of ours to go on from; name another with --report") from error
     return Earlier(frozenset(files), files if same else {})
+
+
+_NUMBERS = ("input_bytes", "output_bytes", "seconds", "max_error_relative", "kg")
+_TEXTS = ("input", "output", "error", "output_sha256")
+
+
+def _entry(given: Any) -> Facts:
+    """What a report says of a file; raises as `read_report` catches."""
+    entry = dict(given)
+    for name in _NUMBERS:
+        value = entry.get(name)
+        if isinstance(value, bool) or not (value is None or (isinstance(value, int | float) and math.isfinite(value))):
+            raise ValueError(f"{name} is {value!r}")
+    if not all(isinstance(entry[name], str) for name in ("input", "output", *(set(_TEXTS) & set(entry)))):
+        raise ValueError("names are no texts")
+    json.dumps(entry, allow_nan=False)
+    return entry
 
 
 def recorded(work: Work, task: Task, console: Console) -> Facts:

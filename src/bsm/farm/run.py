@@ -58,7 +58,7 @@ def run_many(
     done: list[Facts] = [{} for _ in jobs]
     ended: dict[int, Outcome] = {}
     told = 0
-    tasks = _tasks(asked, jobs, earlier)
+    tasks = _tasks(asked, jobs, earlier, repeats=run.dask is not None)
     try:
         with console.progress("files", "files") as progress, closing(_outcomes(run, console, work, tasks)) as outcomes:
             for count, (number, outcome) in enumerate(outcomes, 1):
@@ -80,13 +80,16 @@ def task_of(asked: Task, job: Job, earlier: Earlier = NOTHING) -> Task:
     """What is asked, for one job."""
     before = earlier.files.get(job.output)
     replaceable = {job.output, *([before["output"]] if before else [])} - {"", "-"}
-    mine = frozenset(name for name in replaceable if name in earlier.outputs or not _is_there(name))
-    return replace(asked, input=job.input, output=job.output, before=before, replaceable=mine)
+    mine = frozenset(replaceable & earlier.outputs)
+    fresh = frozenset(name for name in replaceable - mine if not _is_there(name))
+    return replace(asked, input=job.input, output=job.output, before=before, replaceable=mine, fresh=fresh)
 
 
-def _tasks(asked: Task, jobs: Sequence[Job], earlier: Earlier) -> Iterator[Numbered]:
+def _tasks(asked: Task, jobs: Sequence[Job], earlier: Earlier, *, repeats: bool) -> Iterator[Numbered]:
     for number, job in enumerate(jobs):
-        yield number, task_of(asked, job, earlier)
+        task = task_of(asked, job, earlier)
+        # A cluster may do a job once more whose worker died, and does not say so.
+        yield number, task.repeated() if repeats else task
 
 
 def _outcomes(run: Run, console: Console, work: Work, tasks: Tasks) -> Outcomes:

@@ -8,19 +8,15 @@ they are read: what claims more than it holds is refused before anything is allo
 from __future__ import annotations
 
 import codecs
-import gzip
-import io
 import os
 import re
-import zlib
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
-from typing import BinaryIO, cast
 
 from bsm.bitstream.container.wire import MAGIC
-from bsm.bitstream.errors import CorruptError, FormatError, OptionError, TruncatedError
-from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
+from bsm.bitstream.errors import FormatError, OptionError
+from bsm.bitstream.limits import DEFAULT_LIMITS, Limits, as_limits
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.files.formats.glb import write_glb
 from bsm.files.formats.materials import fetched
@@ -34,8 +30,9 @@ from bsm.files.formats.with_openmesh import read_with_openmesh
 from bsm.files.formats.with_trimesh import read_with_trimesh
 from bsm.files.formats.written import Written
 from bsm.files.output import can_be_replaced, open_output, refuse_to_overwrite
-from bsm.files.pipes import Input, Source, as_input
+from bsm.files.pipes import Source, as_input
 from bsm.files.remote import is_url
+from bsm.files.room import gunzipped, require_archive, require_room
 
 _READERS: dict[str, Callable[[bytes], Polygons]] = {
     "obj": read_obj,
@@ -93,13 +90,13 @@ def read_mesh(
     OSError
         If the file cannot be read.
     """
-    given = as_input(source)
+    given, limits = as_input(source), as_limits(limits)
     path, name = (given.name if given.is_file else None), given.name
     if reader not in (None, *READERS):
         raise OptionError(f"a reader must be one of {', '.join(READERS)}, not {reader!r}")
     data = given.read_all()
     if data.startswith(b"\x1f\x8b"):
-        path, name, data = None, name.removesuffix(".gz"), _unzipped(data)
+        path, name, data = None, name.removesuffix(".gz"), gunzipped(data, limits)
     data = data.removeprefix(codecs.BOM_UTF8)
     if not data:
         raise FormatError("the file is empty")
@@ -113,26 +110,18 @@ def read_mesh(
 
         return read_usd_mesh(path)
     if reader == "trimesh" or kind not in MESH_FORMATS:
+        if data.startswith(b"PK\x03\x04"):
+            require_archive(data, limits)
         return read_with_trimesh(data, path, kind, limits).checked(limits)
     if kind == "npz":
-        return read_npz(io.BytesIO(data), limits)
+        return read_npz(data, limits)
+    require_room(kind, data, limits)
     polygons = _READERS[kind](data)
     metadata, notes = fetched(polygons.metadata, Path(path).parent if path else None, limits.metadata_bytes)
     ours = replace(polygons, metadata=metadata, notes=(*polygons.notes, *notes)).checked(limits)
     if reader == "openmesh":
         return read_with_openmesh(data, kind, ours.mesh, limits)
     return ours
-
-
-def _unzipped(data: bytes) -> bytes:
-    """What gzip has compressed; `LimitError` beyond 4 GiB."""
-    try:
-        with gzip.GzipFile(fileobj=io.BytesIO(data)) as file:
-            return Input(cast(BinaryIO, file)).read_all()
-    except EOFError as error:
-        raise TruncatedError("the file is cut short: what gzip has compressed does not end") from error
-    except (gzip.BadGzipFile, zlib.error) as error:
-        raise CorruptError(f"what gzip has compressed is damaged: {error}") from error
 
 
 def format_mesh(mesh: TriangleMesh, file_format: str) -> bytes:
@@ -223,6 +212,6 @@ def format_of_bytes(data: bytes) -> str | None:
         return "stl"
     if b"OFF" in head[:8]:
         return "off"
-    if re.search(rb"^\s*v[ \t]", data[: 1 << 16], re.MULTILINE):
+    if re.search(rb"(?:\A|[\r\n])[ \t]*v[ \t]", data[: 1 << 16]):
         return "obj"
     return None

@@ -18,6 +18,14 @@ _CHUNK = 1 << 18
 _MAX_BYTES = 1 << 32
 
 
+def named(path: str | os.PathLike[str]) -> str:
+    """A path as a text; `ArgumentError` for what no file can be called."""
+    name = without_scheme_of_files(os.fsdecode(path))
+    if "\0" in name:
+        raise ArgumentError(f"no file can be called {name!r}: there is a NUL in it")
+    return name
+
+
 class Input:
     """Bytes to be read once, from the beginning to the end.
 
@@ -45,7 +53,7 @@ class Input:
         self._opened = False
         self._held = b""
         if isinstance(source, (str, os.PathLike)):
-            self.name = without_scheme_of_files(os.fsdecode(source))
+            self.name = named(source)
         elif hasattr(source, "read"):
             self._file = cast(BinaryIO, source)
             self.name = str(getattr(source, "name", ""))
@@ -118,7 +126,10 @@ class Input:
             raise ArgumentError("a binary file is expected, not one of text; open it with mode 'rb'")
         if not piece:
             self.close()
-        return bytes(piece or b"")
+            return b""
+        if not isinstance(piece, (bytes, bytearray, memoryview)):
+            raise ArgumentError(f"a binary file is expected, whose read() gives bytes, not {type(piece).__name__}")
+        return bytes(piece)
 
     def close(self) -> None:
         """Close what was opened here; nothing more is read."""

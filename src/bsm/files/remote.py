@@ -156,15 +156,21 @@ def open_remote_output(url: str, *, overwrite: bool) -> Iterator[BinaryIO]:
 def _send(whole: BinaryIO, url: str) -> None:
     """Write a file; where file systems can, nothing of it is seen before all of it is there."""
     files, path = _system(url)
+    there = files.exists(path)
     file = files.open(path, "wb", autocommit=False)
+    # Some file systems show a file as soon as it is opened: then it is ours, and none before.
+    shown = not there and files.exists(path)
     try:
         shutil.copyfileobj(whole, file, _PIECE)
         file.close()
+        file.commit()
     except BaseException:
         with suppress(Exception):
             file.discard()
+        if shown:
+            with suppress(Exception):
+                files.rm_file(path)
         raise
-    file.commit()
 
 
 def refuse_to_replace(url: str, overwrite: bool) -> None:

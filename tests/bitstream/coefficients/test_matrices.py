@@ -4,7 +4,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import array_shapes, arrays
 
-from bsm.bitstream.coefficients.matrices import decode_levels, encode_levels, make_level_bank
+from bsm.bitstream.coefficients.matrices import PRICED, decode_levels, encode_levels, make_level_bank, price_levels
+from bsm.bitstream.coefficients.trellis import points_of_levels
 from bsm.bitstream.container.gop import MAX_EXPONENT, GopBody, GopMethod, parse_gop_body, write_gop_body
 from bsm.bitstream.errors import BsmError, CorruptError, OptionError, TruncatedError, UnsupportedError
 
@@ -41,7 +42,7 @@ def test_references_are_worth_their_while_and_may_be_earlier_matrices():
     related = first + np.random.default_rng(2).integers(-1, 2, first.shape, dtype=np.int32) * (first != 0)
     alone = encode_levels(make_level_bank(), [first, related], [empty(20), empty(20)])
     informed = encode_levels(make_level_bank(), [first, related], [empty(20), first])
-    assert len(informed) < 0.97 * len(alone)
+    assert len(informed) < 0.98 * len(alone)
     payload = encode_levels(make_level_bank(), [first, second], [empty(20), first])
     decoded = [np.zeros_like(first), np.zeros_like(second)]
     decode_levels(make_level_bank(), payload, decoded, [empty(20), decoded[0]])
@@ -72,6 +73,24 @@ def test_small_magnitudes_cost_about_their_entropy():
     payload, _ = round_trip([matrix], [empty(50)])
     entropy = -(0.8 * np.log2(0.8) + 0.2 * np.log2(0.1)) * matrix.size / 8
     assert len(payload) < 1.05 * entropy
+
+
+def test_prices_are_what_coding_takes():
+    matrix = np.clip(decaying(5), 1 - PRICED, PRICED - 1)
+    bank = make_level_bank()
+    encode_levels(bank, [decaying(6)], [empty(20)])
+    slots, weights = bank.slots.copy(), bank.weights.copy()
+    prices = price_levels(bank, matrix, empty(20))
+    assert np.array_equal(bank.slots, slots) and np.array_equal(bank.weights, weights)
+    points = points_of_levels(matrix)
+    grids = np.where(matrix, points % 2, 0)  # zero is on both
+    paid = np.take_along_axis(
+        np.take_along_axis(prices, grids[..., None, None].astype(np.intp), 2)[:, :, 0],
+        np.abs(matrix)[..., None].astype(np.intp),
+        2,
+    )
+    total = paid[matrix != 0].sum() + prices[matrix == 0][:, :, 0].mean(axis=1).sum()
+    assert total / 256 / 8 == pytest.approx(len(encode_levels(bank, [matrix], [empty(20)])), rel=0.03)
 
 
 def test_no_columns():

@@ -294,14 +294,34 @@ def test_the_side_that_differs_most_is_drawn():
     assert np.abs(first - second).max() > 12 / 255
 
 
+def test_blame_lies_where_the_difference_is():
+    dented = MESH.positions.copy()
+    top = dented[:, 2] > 0.8 * dented[:, 2].max()
+    dented[top, 2] *= 0.9
+    looker = Looker(MESH, threads=2)
+    none, blame = looker.blame(MESH.positions, dented)
+    assert none.max() < 1e-6
+    near = top[MESH.faces].any(axis=1)
+    assert blame[near].sum() > 2 * blame[~near].sum()
+    assert blame.sum() > looker.look(dented).dissimilarity
+
+
 def test_kernels_refuse_what_does_not_fit():
     shape = Shape.of(MESH.positions, MESH.faces)
     normals = shape.normals(MESH.positions)
     camera = cameras(MESH.positions, 64)[0]
     room = [np.empty((64, 64), np.float32) for _ in range(3)]
-    good = (MESH.positions, shape.faces, normals, camera, np.empty(MESH.positions.shape), *room)
+    good = (
+        MESH.positions,
+        shape.faces,
+        normals,
+        camera,
+        np.empty(MESH.positions.shape),
+        *room,
+        np.empty((64, 64), np.int32),
+    )
     _kernels.draw_shaded(*good)
-    for place in (0, 2, 3, 4, 5, 6):
+    for place in (0, 2, 3, 4, 5, 6, 8):
         with pytest.raises(ValueError, match="fit together"):
             _kernels.draw_shaded(*(value[:-1] if k == place else value for k, value in enumerate(good)))
     with pytest.raises(ValueError, match="fit together"):
@@ -309,7 +329,8 @@ def test_kernels_refuse_what_does_not_fit():
     wide, narrow = np.ones(6, np.float32), np.ones(4, np.float32)
     for first, second, scratch in ((room[0], room[1][:-1], 88), (room[0], room[1], 87)):
         with pytest.raises(ValueError, match="fit together"):
-            _kernels.likeness(first, second, wide, narrow, 0.1, 0.2, np.empty((scratch, 80), np.float32), np.zeros(4))
+            rows = np.empty((scratch, 80), np.float32)
+            _kernels.likeness(first, second, wide, narrow, 0.1, 0.2, rows, np.zeros(4), np.empty((0, 0), np.float32))
     starts, around = shape.around
     given = [MESH.positions, shape.faces, shape.joined, starts, around, 0.7, 128, np.empty((len(normals), 4)), normals]
     _kernels.shown_normals(*given)

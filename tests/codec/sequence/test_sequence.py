@@ -86,7 +86,7 @@ def diagonal(frame):
 @pytest.mark.parametrize("way", WAYS)
 def test_the_error_is_within_what_quantization_allows(way):
     positions, faces = bending(20)
-    data, original = encoded(positions, faces, rounding=0.4, **way)
+    data, original = encoded(positions, faces, **way)
     decoded, decoded_faces = decode_sequence(data)
     assert decoded.shape == original.shape and decoded_faces.shape == faces.shape
     error = np.linalg.norm(decoded - original)

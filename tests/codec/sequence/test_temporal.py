@@ -28,7 +28,7 @@ def test_the_components_of_motion_are_found_by_descending_energy() -> None:
 def test_the_finer_the_larger_what_a_component_multiplies() -> None:
     deviations = [4.0, 2.0, 1.0]
     learnt = learn_basis(motion_of(deviations)[0], STEP, 1000)
-    exact = OCTAVE * np.log2(np.array(deviations) * np.sqrt(COLUMNS) / (PRECISION * STEP))
+    exact = OCTAVE * np.log2(np.array(deviations) * np.sqrt(ROWS) / (PRECISION * STEP))
     assert learnt.exponents.tolist() == np.round(exact).tolist()
     assert learn_basis(motion_of(deviations)[0], STEP, 7).exponents.tolist() == [7, 7, 7]
     assert learn_basis(motion_of([1e9])[0], 1e-9, 10**9).exponents[0] == FINEST_EXPONENT

@@ -62,12 +62,14 @@ def test_parts_gape_by_no_more_than_they_may(mesh, keywords, gap):
 
 def test_it_takes_a_layer_of_borders_and_little_more():
     mesh = curved(patch(60, 50))
-    plain, locked = (encode(mesh, encode_options(block_size=300, **more)) for more in ({}, {"lock_borders": True}))
+    promise = Contract(0.01, 8.0)
+    ways = ({}, {"lock_borders": True})
+    plain, locked = (encode(mesh, encode_options(block_size=300, contract=promise, **more)) for more in ways)
     assert header_of(plain).borders == 0
     assert header_of(locked).borders == 1 and header_of(locked).layers[-1].axes == 3
     assert len(plain) < len(locked) < 2 * len(plain)
     sides = (np.arange(3000) % 50 % 49 == 0) | (np.arange(3000) // 50 % 59 == 0)
-    encoder = Encoder(mesh, encode_options(lock_borders=True))
+    encoder = Encoder(mesh, encode_options(lock_borders=True, contract=promise))
     moved = np.linalg.norm(bsm.decode(encoder.encode()).positions[encoder.vertex_index] - mesh.positions, axis=1)
     assert moved[sides].max() <= Fit().gap / 2 * mesh.diagonal < moved[~sides].mean()
     assert moved.max() <= 0.01 * mesh.diagonal
@@ -177,7 +179,7 @@ def test_on_the_command_line(tmp_path, capsys):
 @pytest.mark.parametrize("name", ["static/bunny_34834.ply", "static/c3d_spot.ply", "assets/cloth.obj"])
 def test_halves_of_real_meshes(meshes, name):
     mesh = read_mesh(str(meshes / name)).mesh.without_isolated_vertices()[0]
-    assert gaps(mesh, lock_borders=True).max() <= 1e-4 * mesh.diagonal < 0.02 * gaps(mesh).mean()
+    assert gaps(mesh, lock_borders=True).max() <= 1e-4 * mesh.diagonal < 0.5 * gaps(mesh).mean()
 
 
 @pytest.mark.real
@@ -185,5 +187,5 @@ def test_vertices_that_are_brought_back_count_for_normals(meshes):
     """A search that left them out would stop just where they bend normals too much, and only a grid would be left."""
     mesh = read_mesh(str(meshes / "static" / "armadillo_20002_derived.ply")).mesh
     for part in halves(mesh):
-        header = header_of(encode(part, encode_options(lock_borders=True)))
+        header = header_of(encode(part, encode_options(lock_borders=True, contract=Contract(0.01, 8.0))))
         assert len(header.layers) == 3 and header.borders == 1

@@ -14,10 +14,11 @@ from hypothesis import strategies as st
 from bsm.bitstream.errors import MeshError, OptionError, TargetError
 from bsm.codec.geometry.closeness import Original
 from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.look.measure import Looker
 from bsm.codec.static.choice.fulfilment import Fulfilment
 from bsm.codec.static.contract import Contract
 from bsm.codec.static.decoder import decode
-from bsm.codec.static.encoder import Encoder
+from bsm.codec.static.encoder import Encoder, encode
 from bsm.codec.static.options import PRESETS, EncodeOptions
 from bsm.codec.static.targets import Target
 from bsm.files.mesh import read_mesh
@@ -39,6 +40,14 @@ def kept(encoder: Encoder, data: bytes) -> tuple[float, float]:
     """Farthest vertex over the diagonal, and mean angle, of what a stream decodes to."""
     closeness = Original(encoder.mesh.positions, encoder.mesh.faces).closeness(decode(data).positions)
     return closeness.farthest / (encoder.mesh.diagonal or 1.0), closeness.angle
+
+
+def looks(encoder: Encoder, data: bytes) -> float:
+    """Distance in pictures of what a stream decodes to; 0 where nothing can be seen."""
+    try:
+        return Looker(encoder.mesh.bare).look(decode(data).positions).distance
+    except MeshError:
+        return 0.0
 
 
 @pytest.mark.parametrize("preset", ["small", "balanced", "fine", "near-lossless"])
@@ -63,9 +72,11 @@ def test_presets_keep_what_they_promise(mesh: TriangleMesh, preset: str) -> None
     contract = PRESETS[preset].contract
     assert contract is not None
     encoder = Encoder(mesh, PRESETS[preset])
-    farthest, angle = kept(encoder, encoder.encode())
+    data = encoder.encode()
+    farthest, angle = kept(encoder, data)
     assert farthest <= contract.farthest * (1 + 1e-9)
     assert angle <= contract.angle + 1e-9
+    assert looks(encoder, data) <= contract.look
 
 
 @given(st.integers(0, 2**32 - 1), st.floats(1e-4, 0.1), st.floats(0.5, 30.0))
@@ -87,9 +98,11 @@ def test_what_is_quick_to_decode_is_on_a_grid_and_as_good(mesh: TriangleMesh, pr
     assert contract is not None
     encoder = Encoder(mesh, replace(PRESETS[preset], quick=True))
     assert encoder.draft().header.grid and encoder.draft().header.light
-    farthest, angle = kept(encoder, encoder.encode())
+    data = encoder.encode()
+    farthest, angle = kept(encoder, data)
     assert farthest <= contract.farthest * (1 + 1e-9)
     assert angle <= contract.angle + 1e-9
+    assert looks(encoder, data) <= contract.look
 
 
 @pytest.mark.parametrize("option", [{"grid": 9}, {"grid_cell": 0.01}])
@@ -147,7 +160,7 @@ def test_who_says_how_to_code_gets_that() -> None:
 def test_a_rough_mesh_is_refined_and_every_way_decodes_to_what_was_checked() -> None:
     mesh = noisy(torus(80, 40), 0.003)
     encoder = Encoder(mesh, EncodeOptions(block_size=300, contract=Contract(0.004, 4.0)))
-    ways = Fulfilment(encoder._prepared, encoder.options, Contract(0.004, 4.0))
+    ways = Fulfilment(encoder._prepared, encoder.options, Contract(0.004, 4.0), encoder._sight)
     drafts = [*ways._spectral(), *ways._grids.drafts()]
     assert any(draft.header.refinements for draft in drafts)
     assert any(draft.header.grid for draft in drafts)
@@ -225,6 +238,62 @@ def test_every_real_mesh_keeps_the_default_promise(path: Path) -> None:
     if len(mesh.positions) > QUICK:
         pytest.skip("long")
     encoder = Encoder(mesh, replace(EncodeOptions(), threads=1))
-    farthest, angle = kept(encoder, encoder.encode())
-    assert farthest <= 0.01 + 1e-9
-    assert angle <= 8.0 + 1e-9
+    data = encoder.encode()
+    assert kept(encoder, data)[0] <= 0.01 + 1e-9
+    assert looks(encoder, data) <= 1.0
+
+
+def test_small_parts_keep_their_shape() -> None:
+    """A small part far from a large one is bound by its own diagonal, down to a tenth of the bound of the whole."""
+    small = torus(12, 8)
+    large = torus(60, 40)
+    mesh = TriangleMesh(
+        np.concatenate([large.positions, 0.04 * small.positions + (0.0, 0.0, large.diagonal)]),
+        np.concatenate([large.faces, small.faces + len(large.positions)]),
+    )
+    for way in (EncodeOptions(block_size=300), EncodeOptions(quick=True)):
+        encoder = Encoder(mesh, replace(way, contract=Contract(0.02, 12.0, by_part=True)))
+        moved = np.linalg.norm(decode(encoder.encode()).positions - encoder.mesh.positions, axis=1) / mesh.diagonal
+        part = encoder.vertex_order >= len(large.positions)
+        assert moved[part].max() <= 0.02 * 0.1 * (1 + 1e-9) and moved.max() <= 0.02 * (1 + 1e-9)
+
+
+@pytest.mark.parametrize("preset", ["small", "balanced"])
+def test_a_label_does_not_sink_into_its_wall(preset: str) -> None:
+    wall = patch(8, 8)
+    label = TriangleMesh([(0.3, 0.3, 0), (0.7, 0.3, 0), (0.7, 0.6, 0), (0.3, 0.6, 0)], [(0, 1, 2), (0, 2, 3)])
+    low, size = wall.positions.min(axis=0), np.ptp(wall.positions, axis=0).max()
+    above = low + size * (label.positions + np.array([0.0, 0.0, 0.002]))
+    flat = wall.positions * (1.0, 1.0, 0.0) + low * (0.0, 0.0, 1.0)
+    random = np.random.default_rng(0).normal(size=flat.shape) * (1e-3, 1e-3, 0.0)
+    mesh = TriangleMesh(np.concatenate([flat + random, above]), np.concatenate([wall.faces, label.faces + len(flat)]))
+    encoder = Encoder(mesh, PRESETS[preset])
+    decoded = decode(encoder.encode()).positions
+    part = encoder.vertex_order >= len(flat)
+    assert decoded[part, 2].min() > decoded[~part, 2].max()
+
+
+def test_a_look_that_cannot_be_had_says_what_can() -> None:
+    with pytest.raises(TargetError, match=r"a look of 1e-09 cannot be kept .* can be had is .*a look of "):
+        Encoder(noisy(torus(20, 12), 0.01), EncodeOptions(contract=Contract(0.01, look=1e-9))).encode()
+
+
+def test_a_promise_holds_beside_a_target() -> None:
+    mesh, promise = noisy(torus(40, 24), 0.002), Contract(0.0005)
+    loose = Encoder(mesh, EncodeOptions(contract=promise, target=Target("theta_deg", 20.0)))
+    assert kept(loose, loose.encode())[0] <= 0.0005 * (1 + 1e-9)
+    assert len(loose.encode()) == len(encode(mesh, EncodeOptions(contract=promise)))
+    with pytest.raises(TargetError, match=r"1000 bytes at most cannot be had with no vertex farther than 0\.0005"):
+        Encoder(mesh, EncodeOptions(contract=promise, target=Target("size", 1000.0))).encode()
+    both = Encoder(mesh, EncodeOptions(contract=promise, target=Target("size", 6000.0)))
+    assert len(both.encode()) <= 6000 and kept(both, both.encode())[0] <= 0.0005 * (1 + 1e-9)
+
+
+def test_a_stream_that_is_nearly_all_attributes_has_finer_positions() -> None:
+    mesh = torus(30, 20)
+    heavy = replace(mesh, metadata={"picture": np.random.default_rng(0).bytes(200_000)})
+    plain, fine = (
+        np.linalg.norm(Encoder(one).draft().decoded - Encoder(mesh).mesh.positions, axis=1).max()
+        for one in (mesh, heavy)
+    )
+    assert fine < 0.5 * plain

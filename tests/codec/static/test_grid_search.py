@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -12,6 +13,7 @@ from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.static.choice.character import Character
 from bsm.codec.static.choice.shaping import Shaper
+from bsm.codec.static.contract import Contract
 from bsm.codec.static.decoder import decode
 from bsm.codec.static.encoder import Encoder, encode
 from bsm.codec.static.joining import join
@@ -97,7 +99,9 @@ def test_it_is_found_however_much_coarser_a_grid_would_do(meshes: Path) -> None:
 @pytest.mark.parametrize("gap", [0.01, 0.001])
 def test_what_locks_borders_makes_no_stream_smaller(gap: float) -> None:
     mesh = curved(patch(40, 40))
-    plain, locked = (encode(mesh, encode_options(**more)) for more in ({}, {"lock_borders": gap}))
+    promise = Contract(0.01, 8.0)
+    ways: tuple[dict[str, Any], ...] = ({}, {"lock_borders": gap})
+    plain, locked = (encode(mesh, encode_options(contract=promise, **more)) for more in ways)
     assert len(plain) <= 1.01 * len(locked)
 
 

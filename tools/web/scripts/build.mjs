@@ -18,11 +18,17 @@ const instead = (modules, name) => ({
     },
 });
 
-/**
- * Leaves out what most meshes can do without: sequences, attributes, split vertices, damage, packed coefficients, and
- * decoding while the page does something else.
- */
-const SMALL = instead(["sequence", "attributes", "declaration", "splits", "station", "tolerant", "zstd"], "absent.ts");
+/** Leaves out what most meshes can do without: sequences, attributes, split vertices, damage, packed coefficients. */
+const SMALL = instead(["sequence", "attributes", "declaration", "splits", "tolerant", "zstd"], "absent.ts");
+
+/** Modules that are files of their own beside the one that asks for them. */
+const BESIDE = { errors: "errors.js", index: "bsm.js", quick: "quick.js", pool: "pool.js", three: "three.js" };
+const beside = (...names) => ({
+    name: "beside",
+    setup({ onResolve }) {
+        onResolve({ filter: new RegExp(`^\\./(${names.join("|")})$`) }, ({ path, kind }) => (kind === "entry-point" ? undefined : { path: `./${BESIDE[path.slice(2)]}`, external: true }));
+    },
+});
 
 /**
  * Names of private members, which may be shortened: those by which nothing else is called than a member of `this`, so that
@@ -42,28 +48,34 @@ async function bundle(entry, options = {}) {
     return result.outputFiles[0].text;
 }
 
-/** A decoder as a module. */
-function plain(entry, plugins = []) {
+/** A module that others call by all of its names. */
+function open(entry, plugin) {
+    return bundle(join(SOURCES, entry), { plugins: [plugin], external: ["three", "@react-three/fiber"] });
+}
+
+/** A module of the decoder: private names are short. */
+function plain(entry, plugins) {
     return bundle(join(SOURCES, entry), { plugins, mangleProps: new RegExp(`^(${privateNames().join("|")})$`) });
 }
 
-/** The same inside of one function, `bsm`, whose text threads are made of. */
-async function decoder(entry, plugins) {
-    const text = await plain(entry, plugins);
+/** The whole decoder inside of one function, `bsm`, whose text threads are made of that need no file. */
+async function inlined() {
+    const text = await plain("index.ts", []);
     const [exports, list] = /export\{([^}]*)\};\s*$/.exec(text);
     const names = list.split(",").map((item) => item.split(" as ").reverse());
     const given = names.map(([name, own]) => (own ? `${name}:${own}` : name));
-    return `const made=function bsm(){${text.slice(0, -exports.length)}return{${given}}};export const{${names.map(([name]) => name)}}=made();\n`;
+    const code = `const made=function bsm(){${text.slice(0, -exports.length)}return{${given}}};export const bsm=made;export const{${names.map(([name]) => name)}}=made();\n`;
+    return {
+        name: "inlined",
+        setup({ onResolve, onLoad }) {
+            onResolve({ filter: /\/(index|errors)$/ }, () => ({ path: "bsm.js", namespace: "decoder" }));
+            onLoad({ filter: /./, namespace: "decoder" }, () => ({ contents: code, loader: "js" }));
+        },
+    };
 }
 
-/** Takes the decoder from another script, or from its text. */
-const using = (resolved) => ({
-    name: "using",
-    setup({ onResolve, onLoad }) {
-        onResolve({ filter: /\/index$/ }, () => (resolved.path ? { path: resolved.path, external: true } : { path: "bsm.js", namespace: "decoder" }));
-        onLoad({ filter: /./, namespace: "decoder" }, () => ({ contents: resolved.text, loader: "js" }));
-    },
-});
+/** A thread: the decoder, told to be one. */
+const thread = (decoder) => `import{serve}from"./${decoder}";serve();\n`;
 
 function licences(packages) {
     return packages.map((name) => `${name}\n\n${readFileSync(join(WEB, "node_modules", name, "LICENSE"), "utf8").trim()}`).join("\n\n\n");
@@ -72,13 +84,23 @@ function licences(packages) {
 /** Path and content of everything that is built of TypeScript. */
 async function products() {
     const define = { LICENCES: JSON.stringify(licences(BUNDLED)) };
-    const whole = await decoder("index.ts");
-    const script = (await bundle(join(SOURCES, "viewer/viewer.ts"), { define, plugins: [using({ text: whole })] })).replaceAll("</script", "<\\/script");
+    const script = (await bundle(join(SOURCES, "viewer/viewer.ts"), { define, plugins: [await inlined()] })).replaceAll("</script", "<\\/script");
+    const built = {
+        "errors.js": await plain("errors.ts", []),
+        "bsm.js": await plain("index.ts", [beside("errors")]),
+        "small.js": await plain("small.ts", [SMALL, beside("errors")]),
+        "quick.js": await plain("quick.ts", [SMALL, beside("errors")]),
+        "worker.js": thread("bsm.js"),
+        "small-worker.js": thread("small.js"),
+        "quick-worker.js": thread("quick.js"),
+        "pool.js": await open("pool.ts", beside("errors", "index", "quick")),
+        "main.js": await open("facade.ts", beside("errors", "index", "pool")),
+        "three.js": await open("three.ts", beside("errors", "index", "pool")),
+        "gltf.js": await open("gltf.ts", beside("errors", "index", "pool")),
+        "react.js": await open("react.ts", beside("three")),
+    };
     return [
-        [join(WEB, "built/bsm.js"), whole],
-        [join(WEB, "built/small.js"), await decoder("small.ts", [SMALL])],
-        [join(WEB, "built/quick.js"), await plain("quick.ts", [SMALL])],
-        [join(WEB, "built/three.js"), await bundle(join(SOURCES, "three.ts"), { external: ["three"], plugins: [using({ path: "./bsm.js" })] })],
+        ...Object.entries(built).map(([name, text]) => [join(WEB, "built", name), text]),
         [join(WEB, "built/LICENSES.txt"), `${licences(BUNDLED)}\n`],
         [join(VIEWER, "page.html"), readFileSync(join(SOURCES, "viewer/page.html"), "utf8")],
         [join(VIEWER, "viewer.js"), script],

@@ -115,10 +115,10 @@ function decodeInPage(address) {
     return withPage(async (page) => {
         await page.goto(`${address}empty`);
         return page.evaluate(async ([rounds]) => {
-            const { decode, Kernels, Team } = await import("/bsm.js");
+            const { decode, Kernels, startTeam } = await import("/main.js");
             const kernels = await Kernels.compile(await (await fetch("/kernels.wasm")).arrayBuffer());
             const stream = new Uint8Array(await (await fetch("/bunny-balanced.bsm")).arrayBuffer());
-            const team = new Team();
+            const team = startTeam();
             const [alone, together] = [[], []];
             for (let k = 0; k < rounds; k++) {
                 const before = performance.now();
@@ -226,7 +226,7 @@ const ours = { quick: (stream) => `(async () => {
     const wasm = WebAssembly.compileStreaming(fetch("/small.wasm"));
     const bytes = fetch("/${stream}").then((response) => response.arrayBuffer());
     const { Kernels, Team } = await import("/small.js");
-    const team = new Team();
+    const team = new Team(Array.from({ length: Math.min(navigator.hardwareConcurrency, 4) - 1 }, () => new Worker("/small-worker.js", { type: "module" })));
     const [module, whole] = await Promise.all([wasm, bytes]);
     const again = () => team.decode(new Kernels(module), new Uint8Array(whole));
     await again();
@@ -371,7 +371,7 @@ async function measure(meshes, folder) {
     python(PREPARE, meshes, folder, ...PRESETS);
     const read = (name) => readFileSync(join(folder, name));
     const streams = ["samba.bsm", "samba-groups.bsm", ...PRESETS.map((preset) => `bunny-${preset}.bsm`)];
-    const { server, address } = await serve(compressed(Object.fromEntries(streams.map((name) => [name, read(name)])), ["bsm.js", "kernels.wasm"]));
+    const { server, address } = await serve(compressed(Object.fromEntries(streams.map((name) => [name, read(name)])), ["main.js", "pool.js", "bsm.js", "errors.js", "worker.js", "kernels.wasm"]));
     try {
         for (const preset of PRESETS) {
             const { first, bytes, work } = await beginInPage(address, `bunny-${preset}.bsm`);
@@ -406,7 +406,7 @@ async function raceAll(meshes, folder) {
     const streams = races.flatMap(({ bits }) => Object.keys(WAYS).map((way) => `${way}-${bits}`));
     const rivals = Object.fromEntries(WAYS.draco.decoder.map((name) => [name, draco(name)]));
     const contents = Object.fromEntries(streams.map((name) => [name, readFileSync(join(folder, name))]));
-    const files = compressed({ ...contents, ...rivals }, [...WAYS.quick.decoder, ...WAYS.smallest.decoder]);
+    const files = compressed({ ...contents, ...rivals }, ["errors.js", "small-worker.js", ...WAYS.quick.decoder, ...WAYS.smallest.decoder]);
     const { server, address } = await serve(files);
     try {
         for (const one of races) await race(address, files, one);

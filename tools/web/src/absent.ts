@@ -40,9 +40,3 @@ export function unpackZstd(): never {
 export function split(): never {
     return absent("split vertices");
 }
-
-export class DecodersDesk {
-    constructor() {
-        absent("streams in a thread of its own");
-    }
-}

@@ -1,4 +1,5 @@
 /** Attributes: seams, values, and how the user is given them (specification, D, A). */
+import { begun } from "./begun";
 import { Cursor } from "./reader";
 import { BITS, CORNER, FACE, isByVertex, LEVELS, OCTAHEDRAL, RECOMPUTED, scaleOf, TEXCOORD, VERTEX, wordsOf, type Declaration } from "./declaration";
 import { Coder, makeBank } from "./entropy";
@@ -172,7 +173,7 @@ export class Attributes {
             return shared;
         }
         if (valued.size < index) throw new CorruptError(`the seams of "${declaration.name}" depend on an attribute that is missing`);
-        const earlier = [...valued.values()].filter((one) => one.joins && !one.declaration.seamsOf).map((one) => one.joins!.seams);
+        const earlier = [...valued.values()].flatMap((one) => (one.joins && !one.declaration.seamsOf ? [one.joins.seams] : []));
         allowance.keep(faces.length, seams.length);
         allowance.spend(seamsCost(header.vertices, header.faces, seams.length), seams.length);
         return memory.scratch(() => {
@@ -280,7 +281,7 @@ export class Attributes {
     private reliefOf(surface: Surface, solid: () => Solid | undefined): Int32Array {
         this.relief ??= this.makeRelief(solid());
         const places = new Int32Array(3 * surface.vertices.length);
-        surface.vertices.forEach((vertex, row) => vertex >= 0 && places.set(this.relief!.subarray(3 * vertex, 3 * vertex + 3), 3 * row));
+        surface.vertices.forEach((vertex, row) => vertex >= 0 && places.set(begun(this.relief).subarray(3 * vertex, 3 * vertex + 3), 3 * row));
         return places;
     }
 
@@ -316,7 +317,7 @@ export class Attributes {
             const from = Int32Array.from({ length: rows }, (_, face) => (corners ? Math.floor(corners[3 * face] / 3) : face));
             return { ...shape, domain: "face", values: chosen(from) };
         }
-        const indices = corners ? corners.map((corner) => surface!.faces[corner]) : surface!.faces;
+        const indices = corners ? corners.map((corner) => begun(surface).faces[corner]) : begun(surface).faces;
         if (!isByVertex(declaration) || (declaration.domain !== VERTEX && !isSplit)) return { ...shape, domain: "corner", values, indices };
         if (!source) return { ...shape, domain: "vertex", values };
         let loose = rows - numbering.loose.vertices.length;
@@ -365,7 +366,7 @@ function ringOfTwins(vertices: Int32Array): Int32Array {
         else twin[before] = row;
         last.set(vertex, row);
     });
-    for (const [vertex, row] of last) twin[row] = first.get(vertex)!;
+    for (const [vertex, row] of last) twin[row] = begun(first.get(vertex));
     return twin;
 }
 

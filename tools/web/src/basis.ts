@@ -73,7 +73,7 @@ export function factorize(memory: Memory, block: Block, shift: Float64Array): Fa
 }
 
 export function solve(memory: Memory, block: Block, factor: Factor, columns: Doubles): Doubles {
-    const width = columns.columns!;
+    const width = columns.width;
     const solution = memory.doubles(columns.length, width);
     memory.scratch(() => {
         const scratch = memory.doubles(solvingSpace(block.size, width));
@@ -107,7 +107,7 @@ export function cosineColumns(memory: Memory, rows: number, columns: number): Do
 /** The start of a block that follows: the predecessor's columns, and noise where the block is in pieces (M 8.3). */
 export function followColumns(memory: Memory, block: Block, previous: Doubles, width: number): Doubles {
     if (inPieces(block)) return withNoise(memory, resized(memory, previous, block.size, width), FOLLOWING_NOISE);
-    return previous.columns! >= width ? previous : resized(memory, previous, block.size, width);
+    return previous.width >= width ? previous : resized(memory, previous, block.size, width);
 }
 
 /** The start of a block that follows none: cosines, and noise where the block is in pieces or the basis exact (M 8.3). */
@@ -193,7 +193,7 @@ function iterationScratch(memory: Memory, rows: number, columns: number): Double
 /** Overwrite U by Onorm(R U). */
 function solveOnorm(memory: Memory, block: Block, factor: Factor, subspace: Doubles, allowance: Allowance): void {
     const { rows } = subspace;
-    const columns = subspace.columns!;
+    const columns = subspace.width;
     memory.scratch(() => {
         const solved = solve(memory, block, factor, subspace);
         const independence = memory.run("cholesky_onorm", solved, ONCE, iterationScratch(memory, rows, columns), subspace);
@@ -206,7 +206,7 @@ function solveOnorm(memory: Memory, block: Block, factor: Factor, subspace: Doub
 /** Q of the QR factorisation with positive diagonal of columns close to dependent (M 8.1); they are overwritten. */
 function householder(memory: Memory, columns: Doubles, q: Doubles): void {
     if (!areFinite(columns.view)) throw new NumericError("the subspace iteration produced a value that is not finite");
-    memory.scratch(() => memory.run("householder", columns, memory.doubles(3 * columns.columns!), q));
+    memory.scratch(() => memory.run("householder", columns, memory.doubles(3 * columns.width), q));
 }
 
 /** The exact basis of L + springs (M 8.5). */

@@ -1,4 +1,5 @@
 /** One chain of blocks: what its blocks know of those before them (specification, M 7 to M 11). */
+import { begun } from "./begun";
 import {
     degreesOf, EXACT, exactBasis, factorize, firstColumns, followColumns, orthogonalIteration, reconstruct, roundingCost, solutionCost, suspend, whole,
     type Factor, type Schedule,
@@ -211,7 +212,7 @@ export class ChainDecoder {
             const coder = new Coder(memory, payload);
             const points = Float64Array.from(this.model.points(coder, width).view);
             const rows = this.details?.rowCount(coder);
-            const details = rows === undefined ? nothing : Float64Array.from(this.details!.points(coder, rows).view);
+            const details = rows === undefined ? nothing : Float64Array.from(begun(this.details).points(coder, rows).view);
             coder.finish();
             return { points, details: details.subarray(0, Math.min(header.details, block.size)) };
         });
@@ -251,7 +252,7 @@ export class ChainDecoder {
         const { memory, surface, header } = this;
         const heights = reconstruct(memory, subspace, details.map((point) => (point * header.detailStep) / 2), 1);
         memory.scratch(() => {
-            const { faces, starts, members, place } = surface!;
+            const { faces, starts, members, place } = begun(surface);
             const normals = memory.doubles(positions.length, 3);
             const given = memory.copy(positions, 3);
             memory.run("block_normals", faces, starts, members, block.vertices, place, given, SOFTNESS, LEAST_NORMAL, normals);

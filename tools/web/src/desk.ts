@@ -1,10 +1,9 @@
-/** What runs in a thread: a decoder, or a helper of one. */
-import { END_OF_STREAM, NEED_DATA, type Event, type FrameEvent } from "./decoder";
+/** What a thread does: it decodes streams, or helps others that do, as it is told by messages. */
+import { END_OF_STREAM, NEED_BLOCK, NEED_DATA, type Event, type FrameEvent } from "./decoder";
+import { Drawing, type Picture } from "./drawing";
 import { BsmError, type Described } from "./errors";
-import { Helper, type Share, type SharedBlock } from "./helper";
-import { Kernels } from "./kernels";
+import type { Share, SharedBlock } from "./helper";
 import type { Limits } from "./limits";
-import { DecodersDesk } from "./station";
 
 /** What a thread says of a stream; frames come in single precision, as they are drawn. */
 export type DrawnEvent = Exclude<Event, FrameEvent> | FrameEvent<Float32Array>;
@@ -14,83 +13,136 @@ export interface Start {
     kernels: WebAssembly.Module;
     limits: Partial<Limits>;
     tolerant?: boolean;
-    /** Vertices from which on a decoder has helpers. */
+    /** Say pictures, not events: only the whole one, or each that can be drawn. */
+    drawing?: "whole" | "growing";
+    /** Threads that help this one, and vertices from which on that is worthwhile. */
+    helpers?: MessagePort[];
     worthwhile?: number;
     share?: Share;
-    /** Comes back with every block. */
-    task?: number;
 }
 
-/** What is said to a thread: first how to begin, then pieces of the stream, then null for its end. */
-export type Order = Start | Uint8Array | null;
+/** What is said to a thread of one of its tasks: how to begin, a piece of the stream, null for its end; or to help another thread. */
+export type Order = { task: number } & ({ start: Start } | { data: Uint8Array | null } | { stop: true });
+export type Message = Order | { help: MessagePort };
 
-/**
- * What it says: that it runs, an event, a block, that no more of them come, what is wrong, or that all
- * bytes so far are decoded.
- */
-export type Answer =
-    | { ready: true }
+/** What it says of a task: an event or a picture, a block, that no more of them come, what is wrong, what is decoded, that all is. */
+export type Said =
     | { event: DrawnEvent }
-    | { shared: SharedBlock; task?: number }
-    | { through: true; task?: number }
+    | { picture: Picture }
+    | { shared: SharedBlock }
+    | { through: true }
     | { problem: Described }
+    | { fault: string }
     | { taken: number }
-    | { fault: string };
+    | { over: true };
 
-export type Say = (answer: Answer, moved?: Transferable[]) => void;
+export type Answer = { ready: true } | ({ task: number } & Said);
+
+export type Say = (said: Said, moved?: Transferable[]) => void;
+
+/** One end of a line between threads. */
+export interface Endpoint {
+    onmessage: ((event: MessageEvent) => void) | null;
+    postMessage(message: unknown, transfer: Transferable[]): void;
+}
 
 /** Takes the bytes of a stream, and null for their end. */
 export interface Desk {
-    take: (data: Uint8Array | null) => void;
+    take(data: Uint8Array | null): void;
+    /** Say nothing more. */
+    stop(): void;
 }
 
+export type Guard = (work: () => void) => void;
+export type Open = (start: Start, say: Say, guarded: Guard) => Pick<Desk, "take"> & { close?: () => void };
+
 /** Someone to take the bytes of a stream; after a fault nothing more is said. */
-export function openDesk(start: Start, say: Say): Desk {
+export function openDesk(open: Open, start: Start, say: Say): Desk {
     let over = false;
-    const guarded = (work: () => void): void => {
+    let desk: ReturnType<Open> | undefined;
+    const guarded: Guard = (work) => {
         if (over) return;
         try {
             work();
         } catch (error) {
             over = true;
+            desk?.close?.();
             say(error instanceof BsmError ? { problem: error.described } : { fault: `${error}` });
         }
     };
-    const desk = start.share ? new HelpersDesk(start, start.share, say) : new DecodersDesk(start, say, guarded);
-    return { take: (data) => guarded(() => desk.take(data)) };
+    guarded(() => (desk = open(start, (said, moved) => over || say(said, moved), guarded)));
+    return {
+        take: (data) => guarded(() => desk?.take(data)),
+        stop: () => {
+            over = true;
+            desk?.close?.();
+        },
+    };
 }
 
-class HelpersDesk implements Desk {
-    private readonly helper: Helper;
-
-    constructor(
-        private readonly start: Start,
-        share: Share,
-        private readonly say: Say,
-    ) {
-        this.helper = new Helper(new Kernels(start.kernels), share, start.limits, start.tolerant);
-    }
-
-    take(data: Uint8Array | null): void {
-        const { helper } = this;
-        if (data) helper.receiveData(data);
-        else helper.receiveEof();
-        const { task } = this.start;
-        for (let shared; (shared = helper.nextBlock()) !== NEED_DATA; ) {
-            if (shared === END_OF_STREAM) return this.say({ through: true, task });
-            const { block } = shared;
-            this.say({ shared, task }, block && [block.vertices.buffer, block.positions.buffer, block.weights.buffer]);
-        }
-    }
+/** Take orders from one end of a line. */
+export function attend(end: Endpoint, open: Open): void {
+    const desks = new Map<number, Desk>();
+    end.onmessage = ({ data: order }: MessageEvent<Message>) => {
+        if ("help" in order) return attend(order.help, open);
+        const { task } = order;
+        if ("start" in order) {
+            desks.set(task, openDesk(open, order.start, (said, moved = []) => end.postMessage({ task, ...said }, moved)));
+        } else if ("stop" in order) {
+            desks.get(task)?.stop();
+            desks.delete(task);
+        } else desks.get(task)?.take(order.data);
+    };
 }
 
 /** Be a thread: take orders, and answer them. */
-export function serve(): void {
-    const say: Say = (answer, moved = []) => self.postMessage(answer, { transfer: moved });
-    let desk: Desk | undefined;
-    self.onmessage = ({ data }: MessageEvent<Order>) => {
-        if (data === null || data instanceof Uint8Array) desk?.take(data);
-        else desk = openDesk(data, say);
-    };
-    say({ ready: true });
+export function serveWith(open: Open): void {
+    const end = self as unknown as Endpoint;
+    attend(end, open);
+    end.postMessage({ ready: true } satisfies Answer, []);
+}
+
+/** What a desk needs of a decoder. */
+export interface Decoding {
+    receiveData(data: Uint8Array): void;
+    receiveEof(): void;
+    nextEvent(): Event | typeof NEED_DATA | typeof NEED_BLOCK | typeof END_OF_STREAM;
+}
+
+/** Says what a decoder decodes. */
+export class Teller {
+    private readonly drawing?: Drawing;
+    private taken = 0;
+
+    constructor(
+        private readonly decoder: Decoding,
+        { drawing, limits }: Start,
+        private readonly say: Say,
+    ) {
+        if (drawing) this.drawing = new Drawing(drawing === "growing", limits, (picture, moved) => say({ picture }, moved));
+    }
+
+    take(data: Uint8Array | null): void {
+        if (data) this.decoder.receiveData(data);
+        else this.decoder.receiveEof();
+        this.taken += data?.length ?? 0;
+    }
+
+    /** Say everything that is known now; what the decoder waits for then. */
+    tell(): typeof NEED_DATA | typeof NEED_BLOCK | typeof END_OF_STREAM {
+        for (;;) {
+            const event = this.decoder.nextEvent();
+            if (typeof event === "string") {
+                this.drawing?.flush();
+                if (event === NEED_DATA) this.say({ taken: this.taken });
+                if (event === END_OF_STREAM) this.say({ over: true });
+                return event;
+            }
+            if (this.drawing) this.drawing.accept(event);
+            else if (event.type === "frame") {
+                const positions = Float32Array.from(event.positions);
+                this.say({ event: { ...event, positions } }, [positions.buffer]);
+            } else this.say({ event });
+        }
+    }
 }

@@ -1,4 +1,5 @@
 /** Fields of integers on a mesh: positions on a grid, and levels that refine what blocks decoded to (specification, V, M 17). */
+import { begun } from "./begun";
 import { inMeshUnits, type Changes } from "./assembly";
 import { CorruptError, NumericError } from "./errors";
 import { decodeChunk, linkCorners, zeros, type Gridded, type GridKernel } from "./grid";
@@ -97,7 +98,7 @@ export class Refinement {
         this.coded += count;
         const [step, ratio] = header.refinements.slice(2 * layer, 2 * layer + 2);
         const moved = this.positions.part(3 * first, 3 * count, 3);
-        const levels = this.levels!.part(this.axes * first, this.axes * count, this.axes);
+        const levels = begun(this.levels).part(this.axes * first, this.axes * count, this.axes);
         const before = moved.view.slice();
         memory.call("add_levels", moved, this.frames.part(9 * first, 9 * count, 9), levels, step, ratio);
         const spoilt = this.spoilt.subarray(first, first + count);

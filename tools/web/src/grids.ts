@@ -1,7 +1,8 @@
 /** A stream of a static mesh on a light grid to the mesh, while it arrives: as `decoder.ts` decodes it, without all else. */
+import { begun } from "./begun";
 import { Allowance } from "./chain";
 import { CONNECTIVITY_METHOD, ConnectivityDecoder, decodeArrangement } from "./connectivity";
-import type { BlockEvent, ConnectivityEvent, EndEvent, HeaderEvent, Mesh } from "./decoder";
+import type { BlockEvent, ConnectivityEvent, EndEvent, HeaderEvent, Mesh, MetadataEvent } from "./decoder";
 import { BsmError, UnsupportedError } from "./errors";
 import { Grid, lightKernel } from "./grid";
 import type { Header } from "./header";
@@ -13,7 +14,7 @@ import { LIGHT_COST, meshCost, orderCost } from "./work";
 
 const ORDER_METHOD = 1;
 
-export type Event = HeaderEvent | ConnectivityEvent | BlockEvent | EndEvent;
+export type Event = HeaderEvent | MetadataEvent | ConnectivityEvent | BlockEvent | EndEvent;
 
 /** Takes the bytes of a stream as they come, and gives events as soon as they can be known. */
 export class Decoder {
@@ -23,8 +24,8 @@ export class Decoder {
     private readonly allowance: Allowance;
     private readonly queue: Event[] = [];
     private error?: BsmError;
-    private header!: Header;
-    private connectivity!: ConnectivityDecoder;
+    private header?: Header;
+    private connectivity?: ConnectivityDecoder;
     private numbering?: Numbering;
     private grid?: Grid;
     private chunks = 0;
@@ -72,14 +73,16 @@ export class Decoder {
     finish(): Mesh {
         this.receiveEof();
         while (this.nextEvent() !== END_OF_STREAM);
-        const { numbering, grid } = this;
-        return { positions: numbering!.arranged(grid!.positions), faces: numbering!.faces, attributes: [] };
+        const [numbering, grid] = [begun(this.numbering), begun(this.grid)];
+        return { positions: numbering.arranged(grid.positions), faces: numbering.faces, attributes: [] };
     }
 
     private accept(packet: Packet): void {
         switch (packet.type) {
             case "header":
                 return this.acceptHeader(packet.header);
+            case "metadata":
+                return void this.queue.push(packet);
             case "connectivity":
                 return this.acceptConnectivity(packet.method, packet.data);
             case "order":
@@ -99,34 +102,34 @@ export class Decoder {
     }
 
     private acceptConnectivity(method: number, data: Uint8Array): void {
-        const { vertices, faces } = this.header;
+        const { vertices, faces } = begun(this.header);
         if (method !== CONNECTIVITY_METHOD) throw new UnsupportedError(`connectivity method ${method} is unknown to this decoder`);
-        this.connectivity.take(data);
+        begun(this.connectivity).take(data);
         this.allowance.grant(vertices);
         this.allowance.spend(meshCost(vertices, faces, data.length, { vertices: 0, faces: 0 }), data.length);
     }
 
     private acceptOrder(method: number, data: Uint8Array): void {
-        const { vertices, faces } = this.header;
+        const { vertices, faces } = begun(this.header);
         if (method !== ORDER_METHOD) throw new UnsupportedError(`this build decodes no order of method ${method}; bsm.js may`);
         this.allowance.spend(orderCost(vertices, faces, data.length), data.length);
-        this.numbering = permuted(decodeArrangement(this.memory, data, this.connectivity.faces, vertices));
+        this.numbering = permuted(decodeArrangement(this.memory, data, begun(this.connectivity).faces, vertices));
     }
 
     private acceptGrid(first: number, count: number, data: Uint8Array): void {
         const grid = (this.grid ??= this.begunGrid());
         this.allowance.spend(LIGHT_COST.frame(data.length), data.length);
         const changes = grid.decode(first, count, data);
-        this.queue.push({ type: "block", index: this.chunks++, ...this.numbering!.spread(changes) });
+        this.queue.push({ type: "block", index: this.chunks++, ...begun(this.numbering).spread(changes) });
     }
 
     private begunGrid(): Grid {
-        const { vertices, faces } = this.header;
-        this.numbering ??= new Numbering(this.connectivity.faces.view.slice(), vertices);
+        const { vertices, faces } = begun(this.header);
+        this.numbering ??= new Numbering(begun(this.connectivity).faces.view.slice(), vertices);
         const { size, loose } = this.numbering;
         this.queue.push({ type: "connectivity", faces: this.numbering.faces.slice(), vertices: size, loose, section: 0, sections: 1 });
         this.allowance.spend(LIGHT_COST.whole(vertices, faces));
-        return new Grid(this.memory, this.connectivity.faces, this.header, lightKernel);
+        return new Grid(this.memory, begun(this.connectivity).faces, begun(this.header), lightKernel);
     }
 }
 

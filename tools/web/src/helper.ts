@@ -1,4 +1,5 @@
 /** Decodes some of the chains of a stream beside a decoder, which has the others: chains know nothing of each other. */
+import { begun } from "./begun";
 import { Allowance, type DecodedBlock } from "./chain";
 import { BsmError, type Described } from "./errors";
 import type { Header } from "./header";
@@ -81,16 +82,16 @@ export class Helper {
             this.header = packet.header;
             this.structure = new Structure(memory, packet.header, limits, allowance);
         } else if (packet.type === "connectivity") {
-            structure!.accept(packet.method, packet.data);
+            begun(structure).accept(packet.method, packet.data);
             this.chains = undefined;
-        } else if (packet.type === "partition") structure!.acceptPartition(packet.method, packet.data);
-        else if (packet.type === "block" && isMine(header!, packet.index, this.share)) return this.decode(packet);
+        } else if (packet.type === "partition") begun(structure).acceptPartition(packet.method, packet.data);
+        else if (packet.type === "block" && isMine(begun(header), packet.index, this.share)) return this.decode(packet);
         return undefined;
     }
 
     private decode({ index, coefficients, data }: Extract<Packet, { type: "block" }>): SharedBlock {
-        this.structure!.expectFaces(index + 1);
-        this.chains ??= this.structure!.chains;
+        begun(this.structure).expectFaces(index + 1);
+        this.chains ??= begun(this.structure).chains;
         try {
             return { index, block: this.chains.decode(index, coefficients, data) };
         } catch (error) {

@@ -3,9 +3,17 @@ export * from "./errors";
 export { checkLimit, DEFAULT_LIMITS, type Limits } from "./limits";
 export type { Attribute } from "./attributes";
 export type { Header } from "./header";
-export { hasVectors, Kernels } from "./kernels";
+export { Kernels } from "./kernels";
+export { hasVectors } from "./threads";
 export * from "./decoder";
+export type * from "./drawing";
 export { Helper, type Share, type SharedBlock } from "./helper";
-export { Team } from "./team";
-export { DecoderThread, type DrawnEvent, type Listener } from "./thread";
-export { serve } from "./desk";
+export { Team, type Member } from "./team";
+export type { DrawnEvent } from "./desk";
+export { openDesk, serve } from "./station";
+
+/**
+ * The function that all of this is inside of where `scripts/build.mjs` inlines it, whose text a thread can be made of.
+ * @internal
+ */
+export declare const bsm: unknown;

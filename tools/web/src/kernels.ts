@@ -32,8 +32,15 @@ export class Place<View extends Numbers> {
     /** Its numbers, until the next allocation. */
     get view(): View {
         const { buffer } = this.memory;
-        if (this.numbers?.buffer !== buffer) this.numbers = new this.kind(buffer, this.pointer, this.length);
-        return this.numbers!;
+        const { numbers } = this;
+        if (numbers?.buffer === buffer) return numbers;
+        return (this.numbers = new this.kind(buffer, this.pointer, this.length));
+    }
+
+    /** Its columns, of an array that has some. */
+    get width(): number {
+        if (this.columns === undefined) throw new RangeError("an array of one dimension is asked for its columns");
+        return this.columns;
     }
 
     /** How many rows it has. */
@@ -75,13 +82,6 @@ export class Kernels {
     instantiate(limit: number): Memory {
         return new Memory(new WebAssembly.Instance(this.module).exports as Exports, limit);
     }
-}
-
-/** Whether this machine has the vector instructions of WebAssembly. */
-export function hasVectors(): boolean {
-    // A function that makes a vector: (func (result v128) i32.const 0 i8x16.splat)
-    const probe = [0, 97, 115, 109, 1, 0, 0, 0, 1, 5, 1, 96, 0, 1, 123, 3, 2, 1, 0, 10, 8, 1, 6, 0, 65, 0, 253, 15, 11];
-    return WebAssembly.validate(Uint8Array.from(probe));
 }
 
 /** A stack of arrays, and the kernels that take them. */

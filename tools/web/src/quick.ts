@@ -1,5 +1,7 @@
 /** The decoder of static meshes on grids alone. */
 export * from "./errors";
 export { DEFAULT_LIMITS, type Limits } from "./limits";
-export { hasVectors, Kernels } from "./kernels";
+export { Kernels } from "./kernels";
+export { hasVectors } from "./threads";
 export * from "./grids";
+export { openDesk, serve } from "./lightdesk";

@@ -5,6 +5,7 @@ import { CORNER, parseDeclaration, RECOMPUTED, wordsOf, type Declaration } from 
 import { parseHeader, sectionsOf, type Header, type Section } from "./header";
 import { checkLimit, type Limits } from "./limits";
 import { parseMap } from "./maps";
+import { parseVarint } from "./varint";
 
 /** Nanoseconds of a processor core for reading a frame, whatever it is, and for each of its bytes (M 14.3). */
 const [FRAME, BYTE] = [8e3, 8];
@@ -16,8 +17,8 @@ export const NEED_DATA = "need data";
 export const END_OF_STREAM = "end of stream";
 export type Signal = typeof NEED_DATA | typeof END_OF_STREAM;
 
-/** What the author of a stream says of it, by name (F 5.1). */
-export type Metadata = Record<string, string | number | bigint | Uint8Array>;
+/** What the author says of a mesh, by names. */
+export type Metadata = Map<string, string | number | bigint | Uint8Array>;
 
 export type Packet =
     | { type: "header"; header: Header }
@@ -61,7 +62,6 @@ const KINDS: Record<number, Kind> = {
 const BLOCK_TAG = 6;
 /** A payload of fewer bytes has a short checksum (F 3). */
 const SHORT = 128;
-const MAX_VARINT_BYTES = 5;
 
 /** What may follow a frame of each type, metadata and skippable frames left aside (F 3.7, F 3.8). */
 const FOLLOWERS: Record<Kind | "start", Kind[]> = {
@@ -119,30 +119,15 @@ export class Cursor {
     }
 }
 
-/** The varint at `start`, undefined if the data ends inside it (F 1.2). */
-export function parseVarint(data: Uint8Array, start: number, end: number): { value: number; end: number } | undefined {
-    let value = 0;
-    for (let k = 0; k < MAX_VARINT_BYTES && start + k < end; k++) {
-        const byte = data[start + k];
-        value += (byte & 127) * 2 ** (7 * k);
-        if (byte < 128) {
-            if (byte === 0 && k > 0) throw new CorruptError("a varint is not in its shortest form");
-            return { value, end: start + k + 1 };
-        }
-    }
-    if (end - start < MAX_VARINT_BYTES) return undefined;
-    throw new CorruptError("a varint is longer than five bytes");
-}
-
 const PARSERS: Record<Kind, (payload: Cursor, limits: Limits) => Packet> = {
     header: (payload, limits) => ({ type: "header", header: parseHeader(payload.rest(), limits) }),
     metadata: (payload, limits) => {
         const data = payload.rest();
         checkLimit(limits, "metadataBytes", data.length);
-        const entries: Metadata = {};
+        const entries: Metadata = new Map();
         for (const [key, value] of parseMap(data)) {
             if (key.type !== "string" || value.type === "array") throw new CorruptError("metadata of a wrong type");
-            Object.defineProperty(entries, key.value, { value: value.value, enumerable: true }); // also "__proto__"
+            entries.set(key.value, value.value);
         }
         return { type: "metadata", entries };
     },

@@ -23,11 +23,11 @@ const LARGEST_WEIGHT = 8;
 const BEND = 2 ** -6;
 
 const INPUTS = 6;
-const SPAN = unsignedSpan(14) + 2;
+const SPAN = unsignedSpan(14) + 4;
 const SLOTS = (5 * 12 * 12 + 12 * 40) * SPAN;
 const LEADING = 24;
-/** Forgetting, ridge, noise, largest level, dense rows, renewal (S 6). */
-const RULES = [0.985, 0.005, 30, 2 ** 23 - 1, 16n, 8n] as const;
+/** Forgetting, ridge, noise, dense rows, renewal (S 6). */
+const RULES = [0.985, 0.005, 30, 16n, 8n] as const;
 
 /** The data of a GOP (S 2). */
 interface Gop {
@@ -132,7 +132,7 @@ export class Sequence {
         try {
             this.begin();
             const parts = this.parts.reduce(
-                (sum, { block, basis }) => sum + partCost(block.size, basis.columns!, gop.components) + solutionCost(block, gop.components),
+                (sum, { block, basis }) => sum + partCost(block.size, basis.width, gop.components) + solutionCost(block, gop.components),
                 0,
             );
             allowance.spend(parts + shownCost(header.vertices, gop.frames, gop.components), received);
@@ -205,7 +205,7 @@ export class Sequence {
     private extend(part: Part, field: Doubles): Float64Array {
         const { memory } = this;
         const { block, springs, total } = part;
-        const width = field.columns!;
+        const width = field.width;
         if (total === 0) return new Float64Array(block.size * width);
         return memory.scratch(() => {
             const pulls = memory.doubles(block.size * width, width);
@@ -226,14 +226,14 @@ export class Sequence {
     /** D of a field that is known (S 3.5). */
     private difference(part: Part, field: Doubles): Float64Array {
         const { memory } = this;
-        const width = field.columns!;
+        const width = field.width;
         const rest = this.extend(part, field);
         const values = field.view;
         part.block.vertices.view.forEach((vertex, row) => {
             for (let i = 0; i < width; i++) rest[row * width + i] = values[vertex * width + i] - rest[row * width + i];
         });
         return memory.scratch(() => {
-            const coefficients = memory.doubles(part.basis.columns! * width, width);
+            const coefficients = memory.doubles(part.basis.width * width, width);
             memory.run("project", part.basis, memory.copy(rest, width), coefficients);
             return coefficients.view.slice();
         });
@@ -241,7 +241,7 @@ export class Sequence {
 
     /** Fill a part of a field (S 3.5). */
     private place(part: Part, field: Doubles, difference: Float64Array): void {
-        const width = field.columns!;
+        const width = field.width;
         const rows = this.extend(part, field);
         const own = reconstruct(this.memory, part.basis, difference, width);
         const [values, vertices] = [field.view, part.block.vertices.view];
@@ -281,6 +281,17 @@ export class Sequence {
         });
     }
 
+    /** What levels stand for, in half steps (S 4.4). */
+    private points(values: Int32Array): Int32Array {
+        const { memory } = this;
+        return memory.scratch(() => {
+            const [levels, points] = [memory.ints(values.length, 1), memory.ints(values.length, 1)];
+            levels.view.set(values);
+            memory.run("points_of_levels", levels, points);
+            return points.view.slice();
+        });
+    }
+
     /** What a closed loop makes of levels (S 6); `moments` is updated. */
     private follow(known: Float64Array, count: number, levels: Levels, columns: number, moments: Float64Array, step: number): Float64Array {
         const { memory } = this;
@@ -292,7 +303,7 @@ export class Sequence {
             const state = memory.copy(moments, width);
             const factor = memory.copy(new Float64Array(moments.length), width);
             memory.run(
-                "follow_rows", memory.copy(known, count), decoded, given, decoded, state, step, 0, 0, RULES, factor,
+                "follow_rows", memory.copy(known, count), given, decoded, state, step, RULES, factor,
                 memory.doubles(width), memory.doubles(width),
             );
             moments.set(state.view);
@@ -316,7 +327,7 @@ export class Sequence {
         this.startModel();
         const basis = this.learntBasis(gop);
         this.startModel();
-        const levels = this.readLevels(gop.levels, parts.map((part) => part.basis.columns!), columns);
+        const levels = this.readLevels(gop.levels, parts.map((part) => part.basis.width), columns);
         if (columns === 0) return Array.from({ length: gop.frames }, () => () => new Float64Array(3 * this.header.vertices));
         const field = this.emptyField(columns);
         parts.forEach((part, k) => {
@@ -329,7 +340,7 @@ export class Sequence {
     /** Frame t of components over a temporal basis. */
     private frameOf(field: Doubles, basis: Float64Array, frames: number, t: number): Float64Array {
         const { memory, header } = this;
-        const columns = field.columns!;
+        const columns = field.width;
         return memory.scratch(() => {
             const weights = memory.doubles(3 * columns, 3);
             for (let d = 0; d < 3; d++) {
@@ -348,8 +359,9 @@ export class Sequence {
         const cosines = temporalCosines(this.memory, frames);
         const columns = new Float64Array(3 * frames * components);
         matrices.forEach(({ values }, d) => {
-            const spectrum = Float64Array.from(values, (level, i) => level * steps[i % components]);
-            if (components > 0) columns.set(reconstruct(this.memory, cosines, spectrum, components), d * frames * components);
+            if (components === 0) return;
+            const spectrum = Float64Array.from(this.points(values), (point, i) => 0.5 * point * steps[i % components]);
+            columns.set(reconstruct(this.memory, cosines, spectrum, components), d * frames * components);
         });
         return columns;
     }
@@ -365,7 +377,7 @@ export class Sequence {
         const { history } = this;
         if (!history) throw new CorruptError("a frame refers to one that is not there");
         memory.release(this.behindBank);
-        const levels = this.readLevels(gop.levels, parts.map((part) => part.basis.columns!), 3, history.levels);
+        const levels = this.readLevels(gop.levels, parts.map((part) => part.basis.width), 3, history.levels);
         const field = this.emptyField(3);
         const latest = parts.map((part, k) => {
             const [start, now, before] = [first[k], history.latest[k], history.before[k]];
@@ -389,7 +401,7 @@ function core({ members, starts, cores }: Blocks, index: number): Ints {
 
 /** A matrix as kernels take it, of any number of columns, none included. */
 function shaped(memory: Memory, place: Ints, rows: number): Ints | readonly [Ints, bigint] {
-    return place.columns! > 0 ? place : [memory.ints(rows), 0n];
+    return place.width > 0 ? place : [memory.ints(rows), 0n];
 }
 
 function emptyMoments(known: number, columns: number): Float64Array {

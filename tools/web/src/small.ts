@@ -1,7 +1,8 @@
 /** The decoder of static meshes alone. */
 export * from "./errors";
 export { DEFAULT_LIMITS, type Limits } from "./limits";
-export { hasVectors, Kernels } from "./kernels";
+export { Kernels } from "./kernels";
+export { hasVectors } from "./threads";
 export * from "./decoder";
-export { Team } from "./team";
-export { serve } from "./desk";
+export { Team, type Member } from "./team";
+export { openDesk, serve } from "./station";

@@ -1,14 +1,16 @@
-/** A decoder that says what it decodes, and has helpers where that is worthwhile. */
+/** The desks of the whole decoder: one decodes and has helpers where that is worthwhile, the other helps. */
 import { Decoder, END_OF_STREAM, NEED_BLOCK, NEED_DATA } from "./decoder";
-import type { Desk, Say, Start } from "./desk";
+import { openDesk as opened, serveWith, Teller, type Desk, type Guard, type Say, type Start } from "./desk";
 import type { Header } from "./header";
-import type { SharedBlock } from "./helper";
+import { Helper, type Share, type SharedBlock } from "./helper";
 import { Kernels } from "./kernels";
 import { helpersFor, Team } from "./team";
 
-export class DecodersDesk implements Desk {
+type Taking = Pick<Desk, "take">;
+
+class DecodersDesk implements Taking {
+    private readonly teller: Teller;
     private readonly decoder: Decoder;
-    private taken = 0;
     /** All pieces, until the header tells whether there will be helpers. */
     private pieces?: (Uint8Array | null)[] = [];
     private team?: Team;
@@ -17,28 +19,32 @@ export class DecodersDesk implements Desk {
 
     constructor(
         private readonly start: Start,
-        private readonly say: Say,
-        private readonly guarded: (work: () => void) => void,
+        say: Say,
+        private readonly guarded: Guard,
     ) {
         const { kernels, limits, tolerant } = start;
         this.decoder = new Decoder(new Kernels(kernels), limits, { tolerant, helpers: (header) => this.findHelpers(header) });
+        this.teller = new Teller(this.decoder, start, say);
     }
 
     take(data: Uint8Array | null): void {
         this.pieces?.push(data);
         this.pass(data);
-        if (data) this.decoder.receiveData(data);
-        else this.decoder.receiveEof();
-        this.taken += data?.length ?? 0;
+        this.teller.take(data);
         this.tell();
     }
 
+    close(): void {
+        this.team?.close();
+    }
+
     private findHelpers(header: Header): number {
-        const pieces = this.pieces!;
-        const count = helpersFor(header, this.start.worthwhile);
+        const { helpers, worthwhile } = this.start;
+        const pieces = this.pieces ?? [];
+        const count = Math.min(helpers?.length ?? 0, helpersFor(header, worthwhile));
         this.pieces = undefined;
-        if (count === 0) return 0;
-        this.team = new Team(count);
+        if (count === 0 || !helpers) return 0;
+        this.team = new Team(helpers);
         const onBlock = (shared: SharedBlock): void =>
             this.guarded(() => {
                 this.decoder.receiveBlock(shared);
@@ -49,7 +55,8 @@ export class DecodersDesk implements Desk {
                 this.over = why;
                 this.tell();
             });
-        const found = this.team.begin(this.start, count, { onBlock, onOver });
+        const { kernels, limits, tolerant } = this.start;
+        const found = this.team.begin({ kernels, limits, tolerant }, count, { onBlock, onOver });
         for (const piece of pieces) this.pass(piece);
         return found;
     }
@@ -59,18 +66,46 @@ export class DecodersDesk implements Desk {
         else this.team?.receiveEof();
     }
 
-    /** Say everything that is known now. */
     private tell(): void {
-        for (let event; (event = this.decoder.nextEvent()) !== NEED_BLOCK; ) {
-            if (event === NEED_DATA || event === END_OF_STREAM) {
-                if (event === END_OF_STREAM) this.team?.close();
-                return this.say({ taken: this.taken });
-            }
-            if (event.type === "frame") {
-                const positions = Float32Array.from(event.positions);
-                this.say({ event: { ...event, positions } }, [positions.buffer]);
-            } else this.say({ event });
-        }
-        if (this.over !== undefined) throw new Error(`a block does not come: ${this.over}`);
+        const wait = this.teller.tell();
+        if (wait === END_OF_STREAM) this.close();
+        if (wait === NEED_BLOCK && this.over !== undefined) throw new Error(`a block does not come: ${this.over}`);
     }
+}
+
+class HelpersDesk implements Taking {
+    private readonly helper: Helper;
+
+    constructor(
+        { kernels, limits, tolerant }: Start,
+        share: Share,
+        private readonly say: Say,
+    ) {
+        this.helper = new Helper(new Kernels(kernels), share, limits, tolerant);
+    }
+
+    take(data: Uint8Array | null): void {
+        const { helper } = this;
+        if (data) helper.receiveData(data);
+        else helper.receiveEof();
+        for (let shared; (shared = helper.nextBlock()) !== NEED_DATA; ) {
+            if (shared === END_OF_STREAM) return this.say({ through: true });
+            const { block } = shared;
+            this.say({ shared }, block && [block.vertices.buffer, block.positions.buffer, block.weights.buffer]);
+        }
+    }
+}
+
+function open(start: Start, say: Say, guarded: Guard): Taking {
+    return start.share ? new HelpersDesk(start, start.share, say) : new DecodersDesk(start, say, guarded);
+}
+
+/** Decode a stream in this thread, as another one would. */
+export function openDesk(start: Start, say: Say): Desk {
+    return opened(open, start, say);
+}
+
+/** Be a thread that decodes, or helps. */
+export function serve(): void {
+    serveWith(open);
 }

@@ -1,4 +1,5 @@
 /** What all blocks of a mesh share: its faces, their graph, and which vertices each block has (specification, M 2 to M 5). */
+import { begun } from "./begun";
 import { derivePartition, groupLabels, growBlocks, largestPart, lastOf, makeGraph, type Blocks, type Graph, type Partition } from "./blocks";
 import { chainLength, ChainDecoder, type Allowance, type DecodedBlock, type Surface } from "./chain";
 import { CONNECTIVITY_METHOD, ConnectivityDecoder, decodeLabels } from "./connectivity";
@@ -118,7 +119,7 @@ export class Chains {
             this.next = first;
         }
         if (this.next !== index) throw new CorruptError(`the block depends on block ${this.next}, which is lost`);
-        const block = this.chain!.decode(index, coefficients, data);
+        const block = begun(this.chain).decode(index, coefficients, data);
         this.next++;
         return block;
     }

@@ -4,9 +4,9 @@ import type { Header } from "./header";
 import type { SharedBlock } from "./helper";
 import type { Kernels } from "./kernels";
 import type { Limits } from "./limits";
-import type { Answer, Start } from "./desk";
+import type { Answer, Endpoint, Order, Start } from "./desk";
 import { chainOf } from "./structure";
-import { processors, startWorker } from "./workers";
+import { processors } from "./threads";
 
 const MOST = 3;
 /** Vertices from which on more is won than threads cost. */
@@ -25,45 +25,50 @@ export function helpersFor(header: Header, worthwhile = WORTHWHILE): number {
     return Math.max(0, Math.min(chainOf(header, header.blocks - 1).number + 1, processors(), MOST + 1) - 1);
 }
 
-/** Starts its threads at once, and keeps them for one stream after the other. */
+/** A line to a thread, and what closes it. */
+export interface Member extends Endpoint {
+    onerror?: ((event: ErrorEvent) => void) | null;
+    terminate?: () => void;
+    close?: () => void;
+}
+
+/** Threads, or lines to them, that run `serve`; one stream after the other is shared with them. */
 export class Team {
-    private readonly members: Worker[] = [];
+    private readonly members: Member[];
     private listener?: TeamListener;
     private task = 0;
     private busy = 0;
     private last: Promise<unknown> = Promise.resolve();
 
     constructor(
-        size = Math.min(processors() - 1, MOST),
+        members: Member[],
         private readonly worthwhile = WORTHWHILE,
     ) {
-        for (let k = 0; k < size; k++) {
-            const member = startWorker("BSM helper");
-            if (!member) break;
+        this.members = [...members];
+        for (const member of members) {
             member.onmessage = ({ data }: MessageEvent<Answer>) => this.hear(data);
             member.onerror = ({ message }) => this.fail(message ?? "a helper could not be started");
-            this.members.push(member);
         }
     }
 
     /** Begin with another stream: `count` helpers at most, who take all of its bytes; how many they are. */
-    begin(start: Omit<Start, "share" | "task">, count: number, listener: TeamListener): number {
+    begin(start: Omit<Start, "share" | "helpers">, count: number, listener: TeamListener): number {
         const among = 1 + Math.min(count, this.members.length);
         this.listener = listener;
         this.task++;
         this.busy = among - 1;
         this.members.forEach((member, k) => {
-            if (k + 1 < among) member.postMessage({ ...start, task: this.task, share: { number: k + 1, among } } satisfies Start);
+            if (k + 1 < among) this.say(member, { task: this.task, start: { ...start, share: { number: k + 1, among } } });
         });
         return among - 1;
     }
 
     receiveData(data: Uint8Array): void {
-        for (const member of this.members) member.postMessage(data.slice());
+        for (const member of this.members) this.say(member, { task: this.task, data });
     }
 
     receiveEof(): void {
-        for (const member of this.members) member.postMessage(null);
+        for (const member of this.members) this.say(member, { task: this.task, data: null });
     }
 
     /** Decode a complete stream in this thread and its helpers; in this one alone where there are none. Streams wait for each other. */
@@ -74,7 +79,11 @@ export class Team {
     }
 
     close(): void {
-        for (const member of this.members) member.terminate();
+        for (const member of this.members) {
+            this.say(member, { task: this.task, stop: true });
+            member.terminate?.();
+            member.close?.();
+        }
         this.members.length = 0;
     }
 
@@ -106,11 +115,15 @@ export class Team {
         }
     }
 
+    private say(member: Member, order: Order): void {
+        member.postMessage(order, []);
+    }
+
     private hear(answer: Answer): void {
         if ("fault" in answer) this.fail(answer.fault);
         if (!("task" in answer) || answer.task !== this.task) return;
         if ("shared" in answer) this.listener?.onBlock(answer.shared);
-        else if (--this.busy === 0) this.listener?.onOver("all helpers are through");
+        else if ("through" in answer && --this.busy === 0) this.listener?.onOver("all helpers are through");
     }
 
     private fail(problem: string): void {

@@ -1,320 +1,57 @@
-/** BSM streams in three.js: a geometry that fills while the bytes arrive, and a loader. */
-import { BufferAttribute, BufferGeometry, Loader, type LoadingManager } from "three";
-import {
-    checkLimit, DecoderThread, DEFAULT_LIMITS, type Attribute, type BlockEvent, type ConnectivityEvent, type DrawnEvent, type Event, type Header,
-    type Kernels, type Limits, type LossEvent, type Metadata, type RefinementEvent,
-} from "./index";
+/** BSM streams in three.js: a loader that is used as DRACOLoader is, and one of whole scenes. */
+import { BufferGeometry, Group, Loader, Mesh, type LoadingManager, type MeshStandardMaterial } from "three";
+import { BSMGeometry, type Progress } from "./geometry";
+import type { Limits } from "./index";
+import { imagesOf, materialsOf, turnOf } from "./materials";
+import { placeOf, Pool, type Build, type StreamDecoding } from "./pool";
+import { BSMSequence, type SequenceEvents } from "./sequences";
 
-/** What happens to a geometry while it is filled. */
-export interface Progress {
-    /** Faces are there, all or those of one more section; those whose corners have no position yet are not drawn. */
-    onConnectivity?: (geometry: BSMGeometry) => void;
-    /** A block, a chunk of a grid, or levels of a layer are in the geometry: what they moved, and the geometry. */
-    onBlock?: (block: BlockEvent | RefinementEvent, geometry: BSMGeometry) => void;
-    /** A frame of a sequence is there to be shown: its number, and the geometry. */
-    onFrame?: (index: number, geometry: BSMGeometry) => void;
-}
+export { BSMGeometry, BSMSequence, type Progress, type SequenceEvents };
+
+/** Threads of all loaders that name no decoder's path of their own. */
+let shared: Pool | undefined;
 
 /**
- * A geometry made of the events of a stream.
- *
- * Attributes are drawn once the mesh is whole: texture coordinates are `uv`, colours `color`, normals `normal`, others have
- * their names, and second ones of a kind a number behind it. The index has room for all faces that have come; those whose corners are
- * known come first, and the draw range ends behind them: a block makes its faces visible. Each section of a mesh makes the
- * arrays larger, and takes with it what is there.
- */
-export class BSMGeometry extends BufferGeometry {
-    /** What the stream says of itself, as soon as that is there. */
-    header?: Header;
-    /** The block that each vertex came with, -1 as long as it is not there. */
-    origin = new Int32Array(0);
-    /** How many quality layers have moved each vertex. */
-    depth = new Uint8Array(0);
-    /** Quality layers that are there for every vertex. */
-    layers = 0;
-    /** Blocks, or chunks of a grid, that are there. */
-    blocks = 0;
-    /** Sections whose faces are there. */
-    sections = 0;
-    /** Attributes that are there, as the stream has them; the geometry has those that it can draw once it is whole. */
-    readonly carried: Attribute[] = [];
-    /** Positions of the vertices, shape (n, 3). */
-    points = new Float32Array(0);
-    /** The vertex that each drawn one is, where attributes of corners or faces have parted them. */
-    parted?: Int32Array;
-    /** Positions of the frames of a sequence that are there, for `showFrame`. */
-    readonly frames: Float32Array[] = [];
-    private readonly limits: Limits;
-    private faces: Int32Array = new Int32Array(0);
-    private waiting = new Uint8Array(0);
-    private metadata: Metadata = {};
-    private facesAround: { starts: Int32Array; members: Int32Array } = { starts: new Int32Array(1), members: new Int32Array(0) };
-    private touched = new Uint8Array(0);
-    private normals = new Float32Array(0);
-    private drawn = 0;
-
-    constructor(
-        private readonly progress: Progress = {},
-        limits: Partial<Limits> = {},
-    ) {
-        super();
-        this.limits = { ...DEFAULT_LIMITS, ...limits };
-    }
-
-    /** Frames per second; 0: the stream is no sequence, or does not say. */
-    get frameRate(): number {
-        const { frame_rate: rate } = this.metadata;
-        return typeof rate === "number" && rate > 0 && rate < Infinity ? rate : 0;
-    }
-
-    /** Bring the geometry up to an event. */
-    accept(event: Event | DrawnEvent): void {
-        if (event.type === "header") this.header = event.header;
-        if (event.type === "metadata") this.metadata = event.entries;
-        if (event.type === "connectivity") this.acceptFaces(event);
-        if (event.type === "block" || event.type === "refinement") this.acceptBlock(event);
-        if (event.type === "frame") this.acceptFrame(event.index, event.positions);
-        if (event.type === "loss") this.acceptLoss(event);
-        if (event.type === "attribute") this.carried.push(event);
-        if (event.type === "end") this.finish();
-    }
-
-    /** Take the positions of a frame that is there. */
-    showFrame(index: number): void {
-        this.points.set(this.frames[index]);
-        this.renewNormals();
-        this.redraw();
-    }
-
-    /** Numbers of vertices, `width` for each, as those of the drawn ones. */
-    spread(numbers: Float32Array, width: number): Float32Array {
-        const { parted } = this;
-        if (!parted) return numbers;
-        const spread = new Float32Array(width * parted.length);
-        parted.forEach((vertex, i) => spread.set(numbers.subarray(width * vertex, width * vertex + width), width * i));
-        return spread;
-    }
-
-    private acceptFaces({ faces: added, vertices: size, loose, section }: ConnectivityEvent): void {
-        this.sections = section + 1;
-        const [known, before, index] = [this.faces.length, this.origin.length, this.getIndex()];
-        const faces = grown(this.faces, known + added.length);
-        faces.set(added, known);
-        this.faces = faces;
-        this.origin = grown(this.origin, size).fill(-1, before);
-        this.depth = grown(this.depth, size);
-        this.touched = grown(this.touched, size);
-        this.waiting = grown(this.waiting, faces.length / 3);
-        this.facesAround = aroundVertices(faces, size);
-        this.points = grown(this.points, 3 * size);
-        this.normals = grown(this.normals, 3 * size);
-        loose.vertices.forEach((vertex, i) => this.points.set(loose.positions.subarray(3 * i, 3 * i + 3), 3 * vertex));
-        if (index) this.dispose(); // what is drawn has no room for more
-        this.deleteAttribute("color");
-        this.setAttribute("position", new BufferAttribute(this.points, 3));
-        this.setAttribute("normal", new BufferAttribute(this.normals, 3));
-        this.setIndex(new BufferAttribute(grown((index?.array ?? new Uint32Array(0)) as Uint32Array, faces.length), 1));
-        for (let corner = known; corner < faces.length; corner += 3) this.drawOrWait(corner / 3);
-        this.updateNormals();
-        this.setDrawRange(0, this.drawn);
-        this.progress.onConnectivity?.(this);
-    }
-
-    /** Draw a face that has come if all of its corners are there; wait for the others. */
-    private drawOrWait(face: number): void {
-        const corners = this.faces.subarray(3 * face, 3 * face + 3);
-        this.waiting[face] = corners.filter((vertex) => this.origin[vertex] < 0).length;
-        if (this.waiting[face] > 0) return;
-        this.draw(face, this.getIndex()!);
-        for (const vertex of corners) this.touched[vertex] = 1;
-    }
-
-    private acceptBlock(block: BlockEvent | RefinementEvent): void {
-        const { starts, members } = this.facesAround;
-        const { points } = this;
-        const index = this.getIndex()!;
-        block.vertices.forEach((vertex, i) => {
-            for (let d = 0; d < 3; d++) points[3 * vertex + d] = block.positions[3 * i + d];
-            for (let k = starts[vertex]; k < starts[vertex + 1]; k++) for (let c = 0; c < 3; c++) this.touched[this.faces[3 * members[k] + c]] = 1;
-            if (this.origin[vertex] >= 0) return;
-            this.origin[vertex] = this.blocks;
-            for (let k = starts[vertex]; k < starts[vertex + 1]; k++) if (--this.waiting[members[k]] === 0) this.draw(members[k], index);
-        });
-        this.updateNormals();
-        this.redraw();
-        index.needsUpdate = true;
-        this.setDrawRange(0, this.drawn);
-        if (block.type === "block") this.blocks++;
-        else this.deepen(block);
-        this.progress.onBlock?.(block, this);
-    }
-
-    private deepen({ layer, vertices }: RefinementEvent): void {
-        for (const vertex of vertices) this.depth[vertex] = layer + 1;
-        if (this.depth.every((depth) => depth > layer)) this.layers = layer + 1;
-    }
-
-    private acceptFrame(index: number, positions: ArrayLike<number>): void {
-        checkLimit(this.limits, "keptBytes", 4 * positions.length * (this.frames.length + 1));
-        this.frames.push(positions instanceof Float32Array ? positions : Float32Array.from(positions));
-        this.progress.onFrame?.(index, this);
-    }
-
-    /** Where frames are lost, the one before them stays. */
-    private acceptLoss({ frames }: LossEvent): void {
-        const before = this.frames.at(-1) ?? this.points.slice();
-        for (let k = 0; k < (frames?.count ?? 0); k++) this.frames.push(before);
-    }
-
-    private draw(face: number, index: BufferAttribute): void {
-        (index.array as Uint32Array).set(this.faces.subarray(3 * face, 3 * face + 3), this.drawn);
-        this.drawn += 3;
-    }
-
-    /** Normals of the vertices that were touched, from the faces that are there. */
-    private updateNormals(): void {
-        const { faces, touched, waiting, normals, points: p } = this;
-        const { starts, members } = this.facesAround;
-        for (let vertex = 0; vertex < touched.length; vertex++) {
-            if (!touched[vertex]) continue;
-            touched[vertex] = 0;
-            let [x, y, z] = [0, 0, 0];
-            for (let k = starts[vertex]; k < starts[vertex + 1]; k++) {
-                const face = members[k];
-                if (waiting[face] > 0) continue;
-                const a = 3 * faces[3 * face];
-                const b = 3 * faces[3 * face + 1];
-                const c = 3 * faces[3 * face + 2];
-                const ux = p[b] - p[a];
-                const uy = p[b + 1] - p[a + 1];
-                const uz = p[b + 2] - p[a + 2];
-                const vx = p[c] - p[a];
-                const vy = p[c + 1] - p[a + 1];
-                const vz = p[c + 2] - p[a + 2];
-                x += uy * vz - uz * vy;
-                y += uz * vx - ux * vz;
-                z += ux * vy - uy * vx;
-            }
-            const length = Math.sqrt(x * x + y * y + z * z) || 1;
-            normals[3 * vertex] = x / length;
-            normals[3 * vertex + 1] = y / length;
-            normals[3 * vertex + 2] = z / length;
-        }
-    }
-
-    /** Normals of all vertices: each face is looked at once, and not from each of its corners. */
-    private renewNormals(): void {
-        const { faces, waiting, normals: n, points: p } = this;
-        n.fill(0);
-        for (let face = 0, k = 0; face < waiting.length; face++, k += 3) {
-            if (waiting[face] > 0) continue;
-            const [a, b, c] = [3 * faces[k], 3 * faces[k + 1], 3 * faces[k + 2]];
-            const ux = p[b] - p[a];
-            const uy = p[b + 1] - p[a + 1];
-            const uz = p[b + 2] - p[a + 2];
-            const vx = p[c] - p[a];
-            const vy = p[c + 1] - p[a + 1];
-            const vz = p[c + 2] - p[a + 2];
-            const x = uy * vz - uz * vy;
-            const y = uz * vx - ux * vz;
-            const z = ux * vy - uy * vx;
-            n[a] += x;
-            n[a + 1] += y;
-            n[a + 2] += z;
-            n[b] += x;
-            n[b + 1] += y;
-            n[b + 2] += z;
-            n[c] += x;
-            n[c + 1] += y;
-            n[c + 2] += z;
-        }
-        for (let i = 0; i < n.length; i += 3) {
-            const length = Math.sqrt(n[i] * n[i] + n[i + 1] * n[i + 1] + n[i + 2] * n[i + 2]) || 1;
-            n[i] /= length;
-            n[i + 1] /= length;
-            n[i + 2] /= length;
-        }
-    }
-
-    /** Bring what is drawn up to points and normals. */
-    private redraw(): void {
-        const own = this.carried.some(({ semantic, domain }) => semantic === "normal" && domain !== "face");
-        for (const [name, numbers] of [["position", this.points], ["normal", this.normals]] as const) {
-            if (name === "normal" && own && this.parted) continue;
-            const attribute = this.getAttribute(name) as BufferAttribute;
-            if (this.parted) (attribute.array as Float32Array).set(this.spread(numbers, 3));
-            attribute.needsUpdate = true;
-        }
-    }
-
-    /** The mesh is whole: draw the attributes that came with it. */
-    private finish(): void {
-        if (this.carried.some(({ domain }) => domain !== "vertex")) this.part();
-        const used = new Map<string, number>();
-        for (const attribute of this.carried) {
-            const base = { texcoord: "uv", color: "color", normal: "normal", generic: attribute.name }[attribute.semantic];
-            const count = used.get(base) ?? 0;
-            used.set(base, count + 1);
-            this.setAttribute(count ? `${base}${count}` : base, new BufferAttribute(this.numbersOf(attribute), attribute.components));
-        }
-        this.computeBoundingSphere();
-    }
-
-    /** Give each corner of the drawn faces a vertex of its own. */
-    private part(): void {
-        this.parted = Int32Array.from(this.wholeFaces().flatMap((face) => [...this.faces.subarray(3 * face, 3 * face + 3)]));
-        this.setAttribute("position", new BufferAttribute(this.spread(this.points, 3), 3));
-        this.setAttribute("normal", new BufferAttribute(this.spread(this.normals, 3), 3));
-        this.setIndex(null);
-        this.setDrawRange(0, this.parted.length);
-    }
-
-    private wholeFaces(): number[] {
-        return [...this.waiting.keys()].filter((face) => this.waiting[face] === 0);
-    }
-
-    /** Numbers of the drawn vertices; integers of colours are shares of their range. */
-    private numbersOf({ domain, semantic, kind, components, values, indices }: Attribute): Float32Array {
-        const most = semantic === "color" ? { uint8: 255, uint16: 65535 }[kind as string] ?? 1 : 1;
-        const numbers = Float32Array.from(values, (value) => value / most);
-        if (domain === "vertex") return this.spread(numbers, components);
-        const drawn = this.wholeFaces().flatMap((face) => [0, 1, 2].map((k) => (domain === "face" ? face : indices![3 * face + k])));
-        const spread = new Float32Array(components * drawn.length);
-        drawn.forEach((row, i) => spread.set(numbers.subarray(components * row, components * row + components), components * i));
-        return spread;
-    }
-}
-
-/** Numbers with room for more behind them. */
-function grown<Numbers extends Int32Array | Uint32Array | Uint8Array | Float32Array>(numbers: Numbers, length: number): Numbers {
-    const more = new (numbers.constructor as new (length: number) => Numbers)(length);
-    more.set(numbers);
-    return more;
-}
-
-function aroundVertices(faces: Int32Array, size: number): { starts: Int32Array; members: Int32Array } {
-    const starts = new Int32Array(size + 1);
-    for (const vertex of faces) starts[vertex + 1]++;
-    for (let v = 0; v < size; v++) starts[v + 1] += starts[v];
-    const filled = starts.slice();
-    const members = new Int32Array(faces.length);
-    faces.forEach((vertex, i) => (members[filled[vertex]++] = Math.floor(i / 3)));
-    return { starts, members };
-}
-
-/**
- * Loads BSM streams, as DRACOLoader loads its own; `progress` hears of the geometry while it fills.
- *
- * Decoding is done in a thread of its own. The geometry of a sequence is that of its first frame; `frames` and
- * `showFrame` have the others.
+ * Loads BSM streams; everything is done in threads of their own, which are kept for the next stream. The geometry of a
+ * sequence is that of its first frame; `frames` and `showFrame` have the others, and `BSMSequence` plays them.
  */
 export class BSMLoader extends Loader<BSMGeometry> {
-    constructor(
-        private readonly kernels: Kernels | Promise<Kernels>,
-        manager?: LoadingManager,
-        private readonly limits: Partial<Limits> = {},
-    ) {
+    private own?: Pool;
+    private limits: Partial<Limits> = {};
+
+    constructor(manager?: LoadingManager) {
         super(manager);
+    }
+
+    /** Take the decoder's files (`*-worker.js`, `*.wasm`, and what they import) from a folder of one's own. */
+    setDecoderPath(path: string): this {
+        this.own?.dispose();
+        this.own = new Pool(placeOf(path));
+        return this;
+    }
+
+    /** Have at most so many threads. */
+    setWorkerLimit(limit: number): this {
+        this.pool.setLimit(limit);
+        return this;
+    }
+
+    /** Refuse streams that ask for more. */
+    setLimits(limits: Partial<Limits>): this {
+        this.limits = limits;
+        return this;
+    }
+
+    /** Have a thread and the decoder ready before there is a stream: of all meshes, static ones, or those of `--quick`. */
+    preload(build: Build = "small"): this {
+        this.pool.preload(build).catch((error) => console.error(error));
+        return this;
+    }
+
+    /** Stop the threads, which all loaders share that have no decoder's path of their own. */
+    dispose(): this {
+        this.pool.dispose();
+        return this;
     }
 
     override load(
@@ -324,64 +61,164 @@ export class BSMLoader extends Loader<BSMGeometry> {
         onError?: (error: unknown) => void,
         progress?: Progress,
     ): void {
-        this.manager.itemStart(url);
-        this.stream(url, onProgress, progress)
+        const { manager } = this;
+        manager.itemStart(url);
+        this.fetched(url, onProgress, progress)
             .then(onLoad)
             .catch((error) => {
                 if (onError) onError(error);
                 else console.error(error);
-                this.manager.itemError(url);
+                manager.itemError(url);
             })
-            .finally(() => this.manager.itemEnd(url));
+            .finally(() => manager.itemEnd(url));
     }
 
-    private async stream(url: string, onProgress?: (event: ProgressEvent) => void, progress?: Progress): Promise<BSMGeometry> {
-        const response = await fetch(new URL(this.path + url, globalThis.document?.baseURI ?? url), {
+    /** The geometry of a stream that is there. */
+    parse(data: ArrayBuffer | Uint8Array, onLoad: (geometry: BSMGeometry) => void, onError: (error: unknown) => void = console.error): void {
+        this.parseAsync(data).then(onLoad).catch(onError);
+    }
+
+    parseAsync(data: ArrayBuffer | Uint8Array, progress?: Progress): Promise<BSMGeometry> {
+        return new Promise((keep, fail) => {
+            const stream = this.open(keep, fail, progress);
+            stream.receiveData(new Uint8Array(data instanceof Uint8Array ? data : new Uint8Array(data)));
+            stream.receiveEof();
+        });
+    }
+
+    /** A group of meshes, one for each part and material, with their textures; y is up. */
+    async loadScene(url: string, onProgress?: (event: ProgressEvent) => void): Promise<Group> {
+        const geometry = await this.loadAsync(url, onProgress);
+        return sceneOf(geometry);
+    }
+
+    /** A sequence that can be played as soon as its first frame is there. */
+    loadSequence(url: string, onProgress?: (event: ProgressEvent) => void): Promise<BSMSequence> {
+        let sequence: BSMSequence | undefined;
+        return new Promise((keep, fail) => {
+            const onFrame = (index: number, geometry: BSMGeometry): void => {
+                if (index === 0) keep((sequence = new BSMSequence(geometry)));
+            };
+            const onLoad = (): void => {
+                if (sequence) sequence.complete = true;
+                else fail(new Error(`${url}: this stream is no sequence`));
+            };
+            const onError = (error: unknown): void => {
+                if (sequence) sequence.fail(error);
+                else fail(error);
+            };
+            this.load(url, onLoad, onProgress, onError, { onFrame });
+        });
+    }
+
+    private get pool(): Pool {
+        return this.own ?? (shared ??= new Pool());
+    }
+
+    private open(keep: (geometry: BSMGeometry) => void, fail: (error: unknown) => void, progress?: Progress): StreamDecoding {
+        const geometry = new BSMGeometry(progress);
+        const stream = this.pool.open(
+            {
+                onPicture: (picture) => {
+                    try {
+                        geometry.accept(picture);
+                    } catch (error) {
+                        stream.close();
+                        fail(error);
+                    }
+                },
+                onEnd: () => keep(geometry),
+                onError: fail,
+            },
+            { drawing: progress?.onBlock || progress?.onConnectivity ? "growing" : "whole", limits: this.limits },
+        );
+        return stream;
+    }
+
+    private fetched(url: string, onProgress?: (event: ProgressEvent) => void, progress?: Progress): Promise<BSMGeometry> {
+        return new Promise((keep, fail) => {
+            const failed = (error: unknown): void => fail(naming(url, error));
+            const stream = this.open(keep, failed, progress);
+            this.pass(url, stream, onProgress).catch((error) => {
+                stream.close();
+                failed(error);
+            });
+        });
+    }
+
+    /** Give a stream its bytes as they come. */
+    private async pass(url: string, stream: StreamDecoding, onProgress?: (event: ProgressEvent) => void): Promise<void> {
+        const address = this.manager.resolveURL(this.path + url);
+        const response = await fetch(new URL(address, globalThis.document?.baseURI ?? globalThis.location?.href), {
             headers: this.requestHeader,
             credentials: this.withCredentials ? "include" : "same-origin",
         });
-        if (!response.ok || !response.body) throw new Error(`${url}: ${response.status} ${response.statusText}`);
+        if (!response.ok || !response.body) throw new Error(`${response.status} ${response.statusText}`);
         const total = Number(response.headers.get("content-length") ?? 0);
-        const geometry = new BSMGeometry(progress, this.limits);
-        const decoding = new Decoding(await this.kernels, geometry, this.limits);
-        try {
-            const reader = response.body.getReader();
-            let loaded = 0;
-            for (let piece; !(piece = await Promise.race([reader.read(), decoding.failure])).done; ) {
-                loaded += piece.value.length;
-                decoding.thread.receiveData(piece.value);
-                onProgress?.(new ProgressEvent("progress", { lengthComputable: total > 0, loaded, total }));
-            }
-            decoding.thread.receiveEof();
-            await decoding.end;
-            return geometry;
-        } finally {
-            decoding.thread.close();
+        const reader = response.body.getReader();
+        let loaded = 0;
+        for (let piece; !(piece = await reader.read()).done; ) {
+            loaded += piece.value.length;
+            stream.receiveData(piece.value);
+            onProgress?.(new ProgressEvent("progress", { lengthComputable: total > 0, loaded, total }));
         }
+        stream.receiveEof();
     }
 }
 
-/** A thread that fills a geometry, as promises. */
-class Decoding {
-    readonly thread: DecoderThread;
-    /** Kept when the stream has come to its end; broken by what goes wrong before. */
-    readonly end: Promise<void>;
-    /** Never kept. */
-    readonly failure: Promise<never>;
+/** Loads streams as groups of meshes, where a loader is to give one thing. */
+export class BSMSceneLoader extends Loader<Group> {
+    /** What loads the geometry; ask it for threads and paths. */
+    readonly geometries: BSMLoader;
 
-    constructor(kernels: Kernels, geometry: BSMGeometry, limits: Partial<Limits>) {
-        let [ended, failed]: [() => void, (error: unknown) => void] = [() => {}, () => {}];
-        this.end = new Promise((keep, fail) => ([ended, failed] = [keep, fail]));
-        this.failure = new Promise((_, fail) => void this.end.catch(fail));
-        this.failure.catch(() => {});
-        const onEvent = (event: DrawnEvent): void => {
-            try {
-                geometry.accept(event);
-            } catch (error) {
-                return failed(error);
-            }
-            if (event.type === "end") ended();
-        };
-        this.thread = new DecoderThread(kernels, { onEvent, onError: failed }, limits);
+    constructor(manager?: LoadingManager) {
+        super(manager);
+        this.geometries = new BSMLoader(manager);
     }
+
+    override load(url: string, onLoad: (group: Group) => void, onProgress?: (event: ProgressEvent) => void, onError: (error: unknown) => void = console.error): void {
+        this.geometries.setPath(this.path).setRequestHeader(this.requestHeader).setWithCredentials(this.withCredentials);
+        this.geometries.loadScene(url, onProgress).then(onLoad).catch(onError);
+    }
+}
+
+/** The same error, which says of which address it is. */
+function naming(url: string, error: unknown): Error {
+    const given = error instanceof Error ? error : new Error(`${error}`);
+    given.message = `${url}: ${given.message}`;
+    return given;
+}
+
+/** A whole geometry as a group of meshes: materials, textures, names of parts, and y up, as its metadata say. */
+export async function sceneOf(geometry: BSMGeometry): Promise<Group> {
+    const { metadata, pieces } = geometry;
+    const images = await imagesOf(metadata);
+    const materials = materialsOf(metadata, images, 1 + Math.max(0, ...pieces.map(({ material }) => material)));
+    const group = new Group();
+    group.name = String(metadata.get("name") ?? "");
+    group.userData = Object.fromEntries([...metadata].filter(([, value]) => !(value instanceof Uint8Array)));
+    const coloured = geometry.hasAttribute("color");
+    for (const material of materials) material.vertexColors = coloured;
+    const parts = new Set(pieces.map(({ part }) => part));
+    if (parts.size < 2) group.add(new Mesh<BSMGeometry, MeshStandardMaterial | MeshStandardMaterial[]>(geometry, materials.length > 1 ? materials : materials[0]));
+    else for (const piece of pieces) group.add(meshOf(geometry, piece, materials[piece.material], nameOf(metadata, piece.part)));
+    group.rotation.set(...turnOf(metadata));
+    return group;
+}
+
+/** A mesh of some of the faces; the arrays are those of all. */
+function meshOf(geometry: BSMGeometry, { start, count }: { start: number; count: number }, material: MeshStandardMaterial, name: string): Mesh {
+    const piece = new BufferGeometry();
+    for (const key of Object.keys(geometry.attributes)) piece.setAttribute(key, geometry.getAttribute(key));
+    piece.setIndex(geometry.getIndex());
+    piece.setDrawRange(start, count);
+    [piece.boundingBox, piece.boundingSphere] = [geometry.boundingBox, geometry.boundingSphere];
+    const mesh = new Mesh(piece, material);
+    mesh.name = name;
+    return mesh;
+}
+
+function nameOf(metadata: Map<string, unknown>, part: number): string {
+    const names = metadata.get("part.names");
+    return String(metadata.get(`part.${part}.name`) ?? (typeof names === "string" ? names.split("\n")[part] : undefined) ?? `part ${part}`);
 }

@@ -8,20 +8,15 @@ import { inflateSync } from "node:zlib";
 import { chromium, type BrowserContext, type Page } from "playwright-core";
 import { Decoder } from "../src/index";
 import { readNpz } from "./npz";
-import { base64, compile, savedPage, VECTORS, VIEWER, WEB } from "./shared";
+import { base64, CHROMIUM, compile, FLAGS, savedPage, VECTORS, VIEWER } from "./shared";
 
-const CHROMIUM = process.env.CHROMIUM ?? "/usr/bin/chromium";
-const FLAGS = [
-    "--no-sandbox", "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update",
-    "--disable-sync", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
-];
 const STREAM = "good-labels";
 const SECTIONS = "good-sections";
 /** One of the specification, and a real one if it is named. */
 const SEQUENCES = [join(VECTORS, "good-sequence-learnt.bsm"), ...(process.env.BSM_SEQUENCE ? [process.env.BSM_SEQUENCE] : [])];
 
-/** Share of the pixels that differ from the corner, and where their middle is; of an 8-bit PNG. */
-function silhouette(png: Buffer): { share: number; x: number; y: number } {
+/** Rows of an 8-bit PNG, and how wide its pixels are. */
+function* rowsOf(png: Buffer): Generator<{ row: Uint8Array; channels: number; y: number; width: number; height: number }> {
     const [width, height, channels] = [png.readUInt32BE(16), png.readUInt32BE(20), png[25] === 6 ? 4 : 3];
     const parts: Buffer[] = [];
     for (let at = 8; at < png.length; at += 12 + png.readUInt32BE(at)) {
@@ -30,8 +25,6 @@ function silhouette(png: Buffer): { share: number; x: number; y: number } {
     const rows = inflateSync(Buffer.concat(parts));
     const stride = width * channels;
     let above = new Uint8Array(stride);
-    let [count, sumX, sumY] = [0, 0, 0];
-    let corner: Uint8Array | undefined;
     for (let y = 0; y < height; y++) {
         const filter = rows[y * (stride + 1)];
         const row = Uint8Array.from(rows.subarray(y * (stride + 1) + 1, (y + 1) * (stride + 1)));
@@ -40,13 +33,39 @@ function silhouette(png: Buffer): { share: number; x: number; y: number } {
             const paeth = [a, b, c].sort((p, q) => Math.abs(a + b - c - p) - Math.abs(a + b - c - q))[0];
             row[i] += [0, a, b, (a + b) >> 1, paeth][filter];
         }
+        yield { row, channels, y, width, height };
+        above = row;
+    }
+}
+
+/** Share of the pixels that differ from the corner, and where their middle is. */
+function silhouette(png: Buffer): { share: number; x: number; y: number } {
+    let [count, sumX, sumY, size] = [0, 0, 0, [1, 1]];
+    let corner: Uint8Array | undefined;
+    for (const { row, channels, y, width, height } of rowsOf(png)) {
         corner ??= row.slice(0, 3);
+        size = [width, height];
         for (let x = 0; x < width; x++) {
             if ([0, 1, 2].some((d) => Math.abs(row[x * channels + d] - corner![d]) > 8)) [count, sumX, sumY] = [count + 1, sumX + x, sumY + y];
         }
-        above = row;
     }
+    const [width, height] = size;
     return { share: count / (width * height), x: sumX / count / width, y: sumY / count / height };
+}
+
+/** Shares of the pixels that are red and green, and how high these are on the mean, from the top. */
+function coloursIn(png: Buffer): { red: number; green: number; redHeight: number; greenHeight: number } {
+    const [counts, heights] = [[0, 0], [0, 0]];
+    let all = 1;
+    for (const { row, channels, y, width, height } of rowsOf(png)) {
+        all = width * height;
+        for (let i = 0; i < row.length; i += channels) {
+            const [r, g, b] = row.subarray(i, i + 3);
+            const which = r > 2 * g && r > 2 * b ? 0 : g > 2 * r && g > 2 * b ? 1 : undefined;
+            if (which !== undefined) [counts[which], heights[which]] = [counts[which] + 1, heights[which] + y];
+        }
+    }
+    return { red: counts[0] / all, green: counts[1] / all, redHeight: heights[0] / counts[0], greenHeight: heights[1] / counts[1] };
 }
 
 describe("the page in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromium at ${CHROMIUM}` }, () => {
@@ -59,6 +78,8 @@ describe("the page in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromium a
         const options = { executablePath: CHROMIUM, headless: true, args: FLAGS, viewport: { width: 800, height: 500 } };
         context = await chromium.launchPersistentContext(join(folder, "profile"), options);
         page = await context.newPage();
+        // The panel is folded at first.
+        await page.addInitScript(() => document.addEventListener("DOMContentLoaded", () => document.querySelector("details.bsm-panel")?.setAttribute("open", "")));
         page.on("pageerror", (error) => complaints.push(error.message));
         page.on("request", (request) => /^(file|data|blob):/.test(request.url()) || complaints.push(request.url()));
     });
@@ -150,11 +171,11 @@ describe("the page in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromium a
             });
         await page.locator("canvas").focus();
         const met = [await name()];
-        for (let k = 0; k < 7; k++) {
+        for (let k = 0; k < 8; k++) {
             await page.keyboard.press("Tab");
             met.push(await name());
         }
-        const expected = ["The mesh", "Stream whole", "Cut the stream behind byte", "Link", "Stream again", "Colour", "Wireframe", "Licences"];
+        const expected = ["The mesh", "Controls", "Stream whole", "Cut the stream behind byte", "Link", "Stream again", "Colour", "Wireframe", "Licences"];
         assert.deepEqual(met.map((found, i) => found.startsWith(expected[i])), expected.map(() => true), met.join(" | "));
         await page.getByRole("group", { name: "Link" }).getByRole("slider", { name: "Cut the stream" }).focus();
         await page.getByRole("combobox", { name: "Colour" }).selectOption("blocks");
@@ -193,109 +214,20 @@ describe("the page in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromium a
         });
     }
 
-    test("fills a geometry of three.js from an address", async () => {
-        const script = `
-            import { BSMLoader } from "/bsm/three.js";
-            import { decode, Kernels } from "/bsm/bsm.js";
-            const kernels = Kernels.compile(await (await fetch("/bsm/kernels.wasm")).arrayBuffer());
-            const seen = { blocks: 0, frames: 0, bytes: 0 };
-            const take = (name) => new Promise((keep, fail) => new BSMLoader(kernels).load(name, keep, (event) => (seen.bytes = event.loaded), fail, {
-                onBlock: () => seen.blocks++,
-                onFrame: () => seen.frames++,
-            }));
-            const whole = await take("/stream/${STREAM}.bsm");
-            const sequence = await take("/stream/good-sequence-learnt.bsm");
-            const textured = await take("/stream/good-attribute-uv-blocks.bsm");
-            const coloured = await take("/stream/good-attribute-colors.bsm");
-            const colours = coloured.getAttribute("color");
-            const parts = { uv: textured.getAttribute("uv").count, corners: textured.getAttribute("position").count, colours: colours.count / coloured.getAttribute("position").count, brightest: Math.max(...colours.array) };
-            const sections = { begun: [], drawn: [], early: 0 };
-            const look = (geometry) => {
-                const corners = geometry.index.array.subarray(0, geometry.drawRange.count);
-                sections.drawn.push(corners.length);
-                sections.early += corners.filter((vertex) => geometry.origin[vertex] < 0).length;
-            };
-            const parted = await new Promise((keep, fail) => new BSMLoader(kernels).load("/stream/${SECTIONS}.bsm", keep, undefined, fail, {
-                onConnectivity: (geometry) => (sections.begun.push(geometry.index.count), look(geometry)),
-                onBlock: (_, geometry) => look(geometry),
-            }));
-            const sorted = (faces) => Array.from({ length: faces.length / 3 }, (_, i) => faces.slice(3 * i, 3 * i + 3).join()).sort().join(" ");
-            const bytes = new Uint8Array(await (await fetch("/stream/${SECTIONS}.bsm")).arrayBuffer());
-            const mesh = decode(await kernels, bytes);
-            sections.faces = sorted(parted.index.array) === sorted(mesh.faces);
-            sections.positions = parted.points.every((x, i) => Math.abs(x - mesh.positions[i]) < 1e-5);
-            const n = parted.getAttribute("normal").array;
-            sections.normals = Array.from({ length: n.length / 3 }, (_, i) => Math.hypot(n[3 * i], n[3 * i + 1], n[3 * i + 2])).every((length) => Math.abs(length - 1) < 1e-4);
-            const problem = await take("/stream/bad-sequence-long.bsm").catch((error) => error.name);
-            window.found = { ...seen, drawn: whole.drawRange.count, faces: whole.index.count, kept: sequence.frames.length, problem, sections, ...parts };`;
-        const html = `<script type="importmap">{"imports": {"three": "/three/three.module.js"}}</script><script type="module">${script}</script>`;
-        await page.route("https://bsm.test/**", (route) => {
-            const [, place, name] = /test\/(\w*)\/?(.*)$/.exec(route.request().url())!;
-            const folders: Record<string, string> = { bsm: join(WEB, "built"), three: join(WEB, "node_modules/three/build"), stream: VECTORS };
-            return place ? route.fulfill({ path: join(folders[place], name) }) : route.fulfill({ contentType: "text/html", body: html });
-        });
-        await page.goto("https://bsm.test/");
-        const found = (await (await page.waitForFunction(() => (window as unknown as { found: unknown }).found, undefined, { timeout: 20_000 })).jsonValue()) as Record<string, number | string>;
-        const { begun, drawn, ...sections } = found.sections as unknown as { begun: number[]; drawn: number[] };
-        assert.deepEqual(sections, { early: 0, faces: true, positions: true, normals: true });
-        assert.ok(begun.length > 1 && begun.every((count, i) => i === 0 || count > begun[i - 1]), `${begun}`);
-        assert.ok(drawn[0] === 0 && drawn[1] > 0 && drawn[1] < begun[0] && drawn.every((count, i) => i === 0 || count >= drawn[i - 1]), `${drawn}`);
-        assert.equal(drawn.at(-1), begun.at(-1));
-        complaints.splice(0, complaints.length, ...complaints.filter((address) => !address.startsWith("https://bsm.test/")));
-        assert.equal(found.drawn, found.faces);
-        assert.ok(Number(found.blocks) > 2 && Number(found.bytes) > 0);
-        assert.equal(found.frames, found.kept);
-        assert.ok(Number(found.kept) > 1);
-        assert.equal(found.problem, "CorruptError");
-        assert.ok(found.uv === found.corners && Number(found.corners) % 3 === 0 && Number(found.corners) > 0);
-        assert.ok(found.colours === 1 && Number(found.brightest) > 0.1 && Number(found.brightest) <= 1);
-        assert.deepEqual(complaints, []);
+    test("wears the textures of a stream, has its axis up, and its panel folded", async () => {
+        const fresh = await context.newPage();
+        // Half of the image is red, half is green: a page without the texture has neither.
+        await fresh.goto(savedPage(folder, { worn: readFileSync(join(VECTORS, "good-attribute-textured.bsm")) }));
+        await fresh.waitForSelector("body[data-state=complete]", { timeout: 20_000 });
+        await fresh.waitForFunction(() => document.querySelector<HTMLSelectElement>("[name=colour]")!.value === "own");
+        assert.equal(await fresh.locator("details.bsm-panel").getAttribute("open"), null);
+        await fresh.waitForTimeout(300);
+        const counts = coloursIn(await fresh.locator("canvas").screenshot());
+        assert.ok(counts.red > 0.02 && counts.green > 0.02, JSON.stringify(counts));
+        // The red half is the upper one along z, which this mesh calls up.
+        assert.ok(counts.redHeight < counts.greenHeight, JSON.stringify(counts));
+        await fresh.close();
     });
-
-    for (const [place, headers] of [["free", {}], ["locked", { "Content-Security-Policy": "worker-src 'none'" }]] as [string, Record<string, string>][]) {
-        test(`decodes with helpers where threads are ${place === "free" ? "allowed" : "forbidden"}`, async () => {
-            const script = `
-                import { decode, DecoderThread, Kernels, Team } from "/bsm/bsm.js";
-                let shared = 0;
-                window.Worker = class extends Worker {
-                    constructor(...given) {
-                        super(...given);
-                        this.addEventListener("message", ({ data }) => (shared += Number("shared" in data)));
-                    }
-                };
-                const kernels = await Kernels.compile(await (await fetch("/bsm/kernels.wasm")).arrayBuffer());
-                const data = new Uint8Array(await (await fetch("/stream/good-keys.bsm")).arrayBuffer());
-                const alone = decode(kernels, data);
-                const same = ({ positions }) => positions.length === alone.positions.length && positions.every((x, i) => x === alone.positions[i]);
-                const team = new Team(1, 0);
-                const meshes = await Promise.all([team.decode(kernels, data), team.decode(kernels, data)]);
-                const helped = shared;
-                const problem = await team.decode(kernels, data.slice(0, -20)).catch((error) => error.name);
-                team.close();
-                const positions = new Float64Array(alone.positions.length);
-                await new Promise((keep, fail) => {
-                    const onEvent = (event) => {
-                        if (event.type === "block") event.vertices.forEach((vertex, i) => positions.set(event.positions.subarray(3 * i, 3 * i + 3), 3 * vertex));
-                        if (event.type === "end") keep();
-                    };
-                    const thread = new DecoderThread(kernels, { onEvent, onError: fail }, {}, { worthwhile: 0 });
-                    for (let at = 0; at < data.length; at += 100) thread.receiveData(data.subarray(at, at + 100));
-                    thread.receiveEof();
-                });
-                window.found = { whole: meshes.every(same), streamed: same({ positions }), helped, problem };`;
-            await page.route("https://bsm.test/**", (route) => {
-                const [, folder, name] = /test\/(\w*)\/?(.*)$/.exec(route.request().url())!;
-                const folders: Record<string, string> = { bsm: join(WEB, "built"), stream: VECTORS };
-                return folders[folder] ? route.fulfill({ path: join(folders[folder], name) }) : route.fulfill({ headers: { ...headers, "Content-Type": "text/html" }, body: `<script type="module">${script}</script>` });
-            });
-            await page.goto(`https://bsm.test/${place}`);
-            const found = await (await page.waitForFunction(() => (window as unknown as { found: unknown }).found, undefined, { timeout: 20_000 })).jsonValue();
-            complaints.splice(0, complaints.length, ...complaints.filter((address) => !address.startsWith("https://bsm.test/")));
-            await page.unroute("https://bsm.test/**");
-            assert.deepEqual(found, { whole: true, streamed: true, helped: place === "free" ? 4 : 0, problem: "TruncatedError" });
-            assert.deepEqual(complaints, []);
-        });
-    }
 
     test("says how far a mesh is from its original, and how long Draco's file takes", async () => {
         const { positions } = readNpz(readFileSync(join(VECTORS, `${STREAM}.npz`)));
@@ -331,6 +263,7 @@ describe("the page in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromium a
         await shown.waitFor({ timeout: 20_000 });
         const { share } = silhouette(await page.locator("canvas").screenshot());
         assert.ok(share > 0.02 && share < 0.6, `share ${share}`);
+        await page.evaluate(() => document.querySelector("details.bsm-panel")!.setAttribute("open", ""));
         assert.equal(await page.getByRole("combobox", { name: "Stream" }).locator("option").textContent(), "a stream");
         assert.ok(Math.abs((await page.locator("main > div").boundingBox())!.height - 400) < 2);
         await page.evaluate(() => (window as unknown as { change: () => void }).change());

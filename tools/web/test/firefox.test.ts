@@ -6,7 +6,8 @@ import { join } from "node:path";
 import test, { after, before, describe } from "node:test";
 import puppeteer, { type Browser, type Page } from "puppeteer-core";
 import { decode } from "../src/index";
-import { base64, BUILDS, compile, savedPage, VECTORS, WEB } from "./shared";
+import { serveSite, POLICY, type Site } from "./server";
+import { BUILDS, compile, savedPage, VECTORS } from "./shared";
 
 const FIREFOX = process.env.FIREFOX ?? "/usr/bin/firefox-esr";
 const NAMES = ["good-labels", "good-grid", "good-layers", "good-sequence-learnt", "good-attribute-uv-blocks", "good-sections"];
@@ -16,58 +17,67 @@ describe("Firefox", { skip: !existsSync(FIREFOX) && `no Firefox at ${FIREFOX}`, 
     const read = (name: string): Buffer => readFileSync(join(VECTORS, `${name}.bsm`));
     let browser: Browser;
     let page: Page;
+    let site: Site;
 
     before(async () => {
         browser = await puppeteer.launch({ browser: "firefox", executablePath: FIREFOX, headless: true });
         page = await browser.newPage();
+        site = await serveSite();
+        site.headers["Content-Security-Policy"] = POLICY;
     });
     after(async () => {
         await browser?.close();
+        site?.close();
         rmSync(folder, { recursive: true, force: true });
     });
 
     test("decodes to the last bit what node does", async () => {
         const kernels = await compile(BUILDS[0]);
-        const [script, wasm] = ["bsm.js", BUILDS[0]].map((name) => base64(readFileSync(join(WEB, "built", name))));
+        site.extra.set("/script.js", 'import * as bsm from "bsm"; window.bsm = bsm;');
+        await page.goto(site.address);
+        await page.waitForFunction("window.bsm");
         for (const name of NAMES) {
-            const found = await page.evaluate(
-                async (script, wasm, stream) => {
-                    const bytes = (text: string): Uint8Array<ArrayBuffer> => Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
-                    const bsm = await import(`data:text/javascript;base64,${script}`);
-                    return [...bsm.decode(await bsm.Kernels.compile(bytes(wasm)), bytes(stream)).positions];
-                },
-                script,
-                wasm,
-                base64(read(name)),
-            );
+            const found = await page.evaluate(async (name) => {
+                const { decode, loadKernels } = (window as any).bsm;
+                const bytes = new Uint8Array(await (await fetch(`/stream/${name}.bsm`)).arrayBuffer());
+                return [...decode(await loadKernels(), bytes).positions];
+            }, name);
             assert.deepEqual(found, [...decode(kernels, read(name)).positions], name);
         }
     });
 
-    test("decodes with a helper", async () => {
-        await page.goto(savedPage(folder, {}));
-        const [script, wasm, stream] = [join(WEB, "built/bsm.js"), join(WEB, "built", BUILDS[0]), join(VECTORS, "good-keys.bsm")].map((path) => base64(readFileSync(path)));
-        const found = await page.evaluate(
-            async (script, wasm, stream) => {
-                const bytes = (text: string): Uint8Array<ArrayBuffer> => Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
-                const bsm = await import(`data:text/javascript;base64,${script}`);
-                let shared = 0;
-                window.Worker = class extends Worker {
-                    constructor(url: string | URL, options?: WorkerOptions) {
-                        super(url, options);
-                        this.addEventListener("message", ({ data }) => (shared += Number("shared" in data)));
-                    }
-                };
-                const team = new bsm.Team(1, 0);
-                const { positions } = await team.decode(await bsm.Kernels.compile(bytes(wasm)), bytes(stream));
-                team.close();
-                return { positions: [...positions], shared };
-            },
-            script,
-            wasm,
-            stream,
-        );
-        assert.deepEqual(found, { positions: [...decode(await compile(BUILDS[0]), read("good-keys")).positions], shared: 2 });
+    test("decodes with a helper, in threads that are used again", async () => {
+        await page.goto(site.address);
+        await page.waitForFunction("window.bsm");
+        const found = await page.evaluate(async () => {
+            const { loadKernels, startTeam, Pool } = (window as any).bsm;
+            let [shared, workers] = [0, 0];
+            window.Worker = class extends Worker {
+                constructor(url: string | URL, options?: WorkerOptions) {
+                    super(url, options);
+                    workers++;
+                    this.addEventListener("message", ({ data }) => (shared += Number("shared" in data)));
+                }
+            };
+            const bytes = new Uint8Array(await (await fetch("/stream/good-keys.bsm")).arrayBuffer());
+            const team = startTeam(1, 0);
+            const { positions } = await team.decode(await loadKernels(), bytes);
+            team.close();
+            workers = 0;
+            const pool = new Pool(undefined, 2);
+            const ends = [0, 1, 2, 3, 4].map(
+                () =>
+                    new Promise((keep, fail) => {
+                        const stream = pool.open({ onEnd: () => keep(true), onError: fail }, { drawing: "whole" });
+                        stream.receiveData(bytes.slice());
+                        stream.receiveEof();
+                    }),
+            );
+            await Promise.all(ends);
+            pool.dispose();
+            return { positions: [...positions], shared, workers };
+        });
+        assert.deepEqual(found, { positions: [...decode(await compile(BUILDS[0]), read("good-keys")).positions], shared: 2, workers: 2 });
     });
 
     test("draws and plays, or says that this machine cannot draw", async (t) => {

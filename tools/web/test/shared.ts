@@ -3,13 +3,19 @@ import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { pathToFileURL } from "node:url";
 import { crc16, crc32 } from "../src/checksums";
-import { parseVarint } from "../src/reader";
+import { parseVarint } from "../src/varint";
 import { decode, Decoder, END_OF_STREAM, Kernels, NEED_DATA, type Attribute, type Event, type Limits, type Mesh } from "../src/index";
 
 export const WEB = process.cwd();
 export const VECTORS = join(WEB, "../../spec/vectors");
 export const VIEWER = join(WEB, "../../src/bsm/viewer");
 export const BUILDS = ["kernels.wasm", "kernels-scalar.wasm"];
+
+export const CHROMIUM = process.env.CHROMIUM ?? "/usr/bin/chromium";
+export const FLAGS = [
+    "--no-sandbox", "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update",
+    "--disable-sync", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
+];
 
 /** A build of less than all, as the decoder that tests of the sources take. */
 export async function lesserDecode(build: "small" | "quick"): Promise<(data: Uint8Array) => Mesh> {

@@ -8,6 +8,7 @@ import re
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
+from urllib.parse import unquote
 
 import numpy as np
 
@@ -20,6 +21,7 @@ from bsm.files.rows import Doubles
 
 _NO_NAMES = re.compile(r"geometry_\d+|GLTF(_\d+)?")
 _KNOWN_TO_TRIMESH = re.compile(r"POSITION|NORMAL|TEXCOORD_0|COLOR_0|_.*")
+_READ_BY_TRIMESH = ("EXT_texture_webp", "KHR_materials_pbrSpecularGlossiness", "KHR_mesh_quantization")
 _PADDING = re.compile(rb"(?<=IEND\xaeB`\x82)\0{1,3}\Z|(?<=\xff\xd9)\0{1,3}\Z")
 """What GLB files have behind a PNG or JPEG."""
 _OF_TRIMESH = ("units", "from_gltf_primitive", "gltf_extensions", "file_path", "file_name", "node", "processed")
@@ -65,6 +67,7 @@ def read_with_trimesh(data: bytes, path: str | None, kind: str, limits: Limits) 
         scene = trimesh.load_scene(path or io.BytesIO(data), file_type=kind, process=False)
         found = joined(scene, limits)
         up, unread = _up_axis(data, kind), _unread(data, kind)
+        absent = _absent_images(data, kind, path)
     except (BsmError, MemoryError):
         raise
     except Exception as error:  # it promises nothing about what damaged files raise
@@ -72,7 +75,7 @@ def read_with_trimesh(data: bytes, path: str | None, kind: str, limits: Limits) 
     metadata = {**up, **found.metadata}
     if metadata.get("name") == Path(path or "").name:
         del metadata["name"]  # trimesh calls it like the file
-    return replace(found, metadata=metadata, dropped=(*found.dropped, *unread))
+    return replace(found, metadata=metadata, notes=(*found.notes, *absent), dropped=(*found.dropped, *unread))
 
 
 def _up_axis(data: bytes, kind: str) -> dict[str, str]:
@@ -83,14 +86,35 @@ def _up_axis(data: bytes, kind: str) -> dict[str, str]:
     return {"up": match[1].decode().lower()} if match else {}
 
 
-def _unread(data: bytes, kind: str) -> list[str]:
-    """What a glTF holds and trimesh does not tell of."""
+def _tree(data: bytes, kind: str) -> dict[str, Any]:
+    """The JSON of a glTF; of anything else nothing."""
     if kind == "glb":
         data = data[20 : 20 + int.from_bytes(data[12:16], "little")]
     elif kind != "gltf":
-        return []
-    tree = json.loads(data)
+        return {}
+    tree: dict[str, Any] = json.loads(data)
+    return tree
+
+
+def _absent_images(data: bytes, kind: str, path: str | None) -> list[str]:
+    """Notes about images that a glTF names, and that do not lie in its folder or below."""
+    named = [image["uri"] for image in _tree(data, kind).get("images", []) if "uri" in image]
+    notes = []
+    for name in (unquote(one) for one in named if not one.startswith("data:")):
+        folder = None if path is None else Path(path).resolve().parent
+        image = None if folder is None else (folder / name).resolve()
+        if folder is None or image is None or not image.is_relative_to(folder):
+            notes.append(f"the image {name} was left out: it is not in the folder of the mesh")
+        elif not image.is_file():
+            notes.append(f"the image {name} was left out: there is no such file")
+    return notes
+
+
+def _unread(data: bytes, kind: str) -> list[str]:
+    """What a glTF holds and trimesh does not tell of."""
+    tree = _tree(data, kind)
     found = [name for name in ("animations", "skins", "cameras") if tree.get(name)]
+    found += [name for name in tree.get("extensionsUsed", []) if name not in _READ_BY_TRIMESH]
     for mesh in tree.get("meshes", []):
         for primitive in mesh["primitives"]:
             found += [name for name in primitive["attributes"] if not _KNOWN_TO_TRIMESH.fullmatch(name)]

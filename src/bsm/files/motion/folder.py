@@ -19,6 +19,8 @@ from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.files.about import about
 from bsm.files.mesh import WRITTEN_FORMATS, format_of_name, read_mesh, save_written, written_mesh
 from bsm.files.motion.frames import Frames
+from bsm.files.pipes import is_pipe
+from bsm.files.remote import is_url
 
 _NUMBERS = re.compile(r"(\d+)")
 _PLACE = re.compile(r"%(0?)(\d*)d")
@@ -39,6 +41,20 @@ def frame_files(path: str) -> list[str]:
     if not found:
         raise FormatError(f"there are no mesh files in {path}; the formats are {', '.join(WRITTEN_FORMATS)}")
     return in_order(found)
+
+
+def separate_meshes(path: str, file_format: str | None = None, reader: str | None = None) -> list[str]:
+    """The mesh files of a folder or pattern if they are meshes by themselves: one, or the last has other faces than
+    the first; none if they are the frames of a sequence, or the path is that of a file.
+    """
+    if is_pipe(path) or is_url(path) or not names_many(path):
+        return []
+    names = frame_files(path)
+    if len(names) > 1:
+        first, last = (read_mesh(name, file_format, reader=reader).mesh for name in (names[0], names[-1]))
+        if first.positions.shape == last.positions.shape and np.array_equal(first.faces, last.faces):
+            return []
+    return names
 
 
 def in_order(names: Sequence[str]) -> list[str]:

@@ -13,6 +13,7 @@ from bsm.bitstream.errors import BsmError, OptionError, TargetError
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.splitting import split_by_attributes
+from bsm.codec.static.contract import Contract
 from bsm.codec.static.decoder import Decoder, decode
 from bsm.codec.static.encoder import Encoder, encode
 from bsm.codec.static.events import AttributeEvent, EndEvent, LossEvent
@@ -300,7 +301,7 @@ def tolerated(stream: bytes) -> tuple[set[str], int, int]:
 
 def test_what_is_lost_of_one_attribute_spoils_no_other():
     mesh = dressed(curved(patch(60, 50)))
-    stream = encode(mesh)
+    stream = encode(mesh, EncodeOptions(contract=Contract(0.01, 8.0)))
     everything = {one.name for one in mesh.attributes}
     for packet, begin, end in frames(stream):
         if isinstance(packet, packets.Values):

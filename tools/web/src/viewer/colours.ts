@@ -1,6 +1,6 @@
 /** What colours say of a mesh: the block, the layers, or the distance from the original, vertex by vertex. */
 import { Color } from "three";
-import type { BSMGeometry } from "../three";
+import type { BSMGeometry } from "../geometry";
 
 export type Scheme = "plain" | "own" | "blocks" | "layers" | "error";
 
@@ -69,7 +69,9 @@ export function errorsOf(geometry: BSMGeometry, original: Float32Array): Errors 
         farthest = Math.max(farthest, distances[v]);
         there++;
     }
-    const drawn = geometry.parted ?? geometry.getIndex()!.array.subarray(0, geometry.drawRange.count);
+    const { parted } = geometry;
+    const corners = geometry.getIndex()?.array.slice(0, geometry.drawRange.count) ?? [];
+    const drawn = parted ? corners.map((corner) => parted[corner]) : corners;
     return { distances, rms: Math.sqrt(squares / Math.max(there, 1)), farthest, angle: meanAngle(drawn, positions, original) };
 }
 

@@ -1,5 +1,5 @@
 /** Camera, light and the mesh on a canvas. */
-import { AmbientLight, type BufferAttribute, BufferGeometry, DirectionalLight, DoubleSide, Mesh, MeshLambertMaterial, PerspectiveCamera, Scene, Spherical, WebGLRenderer } from "three";
+import { AmbientLight, type BufferAttribute, BufferGeometry, DirectionalLight, DoubleSide, Group, type Material, Mesh, MeshLambertMaterial, PerspectiveCamera, Scene, Spherical, WebGLRenderer } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 
 const TURN = Math.PI / 24;
@@ -14,7 +14,10 @@ export class Stage {
     private readonly controls: OrbitControls;
     private readonly material = new MeshLambertMaterial({ color: PLAIN, side: DoubleSide });
     private readonly watch = new ResizeObserver(() => this.fit());
-    private mesh = new Mesh(new BufferGeometry(), this.material);
+    /** What turns the axis that a mesh calls up to the top. */
+    private readonly turned = new Group();
+    private mesh = new Mesh<BufferGeometry, Material | Material[]>(new BufferGeometry(), this.material);
+    private clothes?: Material[];
 
     constructor(private readonly canvas: HTMLCanvasElement) {
         this.renderer = new WebGLRenderer({ canvas, antialias: isFast(), alpha: true });
@@ -25,32 +28,43 @@ export class Stage {
         const light = new DirectionalLight(0xffffff, 2.2);
         light.position.set(1, 2, 3);
         this.camera.add(light);
-        this.scene.add(this.camera, new AmbientLight(0xffffff, 0.8), this.mesh);
+        this.scene.add(this.camera, new AmbientLight(0xffffff, 0.8), this.turned);
+        this.turned.add(this.mesh);
         this.controls.update();
         canvas.addEventListener("keydown", (event) => this.turn(event));
         this.watch.observe(canvas.parentElement!);
     }
 
-    /** Show a geometry whose bounding box has this centre and diagonal. */
-    show(geometry: BufferGeometry, center: number[], diagonal: number): void {
-        this.scene.remove(this.mesh);
+    /** Show a geometry whose bounding box has this centre and diagonal, turned by these angles. */
+    show(geometry: BufferGeometry, center: number[], diagonal: number, turn: [number, number, number]): void {
+        this.turned.remove(this.mesh);
         this.mesh.geometry.dispose();
+        this.dress();
+        this.turned.rotation.set(...turn);
         this.mesh = new Mesh(geometry, this.material);
         this.mesh.frustumCulled = false;
         this.mesh.scale.setScalar(1 / diagonal);
         this.mesh.position.set(-center[0] / diagonal, -center[1] / diagonal, -center[2] / diagonal);
-        this.scene.add(this.mesh);
+        this.turned.add(this.mesh);
         this.draw();
+    }
+
+    /** Draw with materials of its own, or with none again. */
+    dress(materials?: Material[]): void {
+        if (materials !== this.clothes) this.clothes?.forEach((material) => material.dispose());
+        this.clothes = materials;
     }
 
     set wireframe(on: boolean) {
-        this.material.wireframe = on;
+        for (const material of [this.material, ...(this.clothes ?? [])]) (material as MeshLambertMaterial).wireframe = on;
         this.draw();
     }
 
-    /** Colour the drawn vertices; or none of them. */
-    colour(colours?: BufferAttribute): void {
+    /** Colour the drawn vertices; or none of them; or draw the materials that there are. */
+    colour(colours?: BufferAttribute, dressed = false): void {
         const on = colours !== undefined;
+        const { clothes } = this;
+        this.mesh.material = dressed && clothes ? (clothes.length > 1 ? clothes : clothes[0]) : this.material;
         if (colours) this.mesh.geometry.setAttribute("color", colours);
         if (this.material.vertexColors !== on) {
             this.material.vertexColors = on;
@@ -69,6 +83,7 @@ export class Stage {
         this.watch.disconnect();
         this.controls.dispose();
         this.mesh.geometry.dispose();
+        this.dress();
         this.material.dispose();
         this.renderer.dispose();
     }

@@ -1,9 +1,11 @@
 /** A stream as it arrives, cut at any byte, over a link of any speed; sequences play. */
 import { BufferAttribute } from "three";
-import { DecoderThread, errorLike, type Header, type Kernels, type LossEvent } from "../index";
-import { BSMGeometry } from "../three";
+import { BSMGeometry } from "../geometry";
+import { imagesOf, materialsOf, turnOf } from "../materials";
+import { errorLike, type Header, type LossEvent } from "../index";
+import type { Pool, StreamDecoding } from "../pool";
 import { coloursOf, errorsOf, LEGENDS, type Errors, type Scheme } from "./colours";
-import { Playback } from "./playback";
+import { Playback } from "../playback";
 import { Stage } from "./stage";
 import template from "./view.html";
 
@@ -23,6 +25,8 @@ export interface Content {
 }
 
 const SECOND = 1000;
+/** Of materials, the most that mirrors. */
+const PALE = 0.3;
 
 /** Middle and diagonal of the box that a mesh fills, about, in its own unit. */
 function extentOf({ center, scale, grid, lattice }: Header): { center: number[]; diagonal: number } {
@@ -50,10 +54,11 @@ export class View {
     private readonly play: HTMLButtonElement;
     private content: Content = { name: "", stream: new Uint8Array(0) };
     private geometry = new BSMGeometry();
-    private thread?: DecoderThread;
+    private decoding?: StreamDecoding;
     private playback?: Playback;
     private errors?: Errors;
     private ownColours?: BufferAttribute;
+    private dressed = false;
     private fed = 0;
     private started = 0;
     private firstDrawn?: number;
@@ -67,7 +72,7 @@ export class View {
 
     constructor(
         private readonly root: HTMLElement,
-        private readonly kernels: Kernels,
+        private readonly pool: Pool,
         licences: string,
     ) {
         root.classList.add("bsm");
@@ -131,7 +136,7 @@ export class View {
     /** Stop, and give back what it holds. */
     close(): void {
         this.closed = true;
-        this.thread?.close();
+        this.decoding?.close();
         this.stage.dispose();
     }
 
@@ -145,7 +150,7 @@ export class View {
 
     /** Decode from the first byte on; what is shown stays until there is something else. */
     private restart(): void {
-        this.thread?.close();
+        this.decoding?.close();
         const geometry = new BSMGeometry({ onConnectivity: () => (this.stale = true), onBlock: () => this.drawn(), onFrame: () => this.begin(geometry) });
         this.geometry = geometry;
         this.playback = undefined;
@@ -154,24 +159,28 @@ export class View {
         this.firstDrawn = this.completed = undefined;
         this.errors = undefined;
         this.ownColours = undefined;
+        this.dressed = false;
         this.allow("own", false);
         this.losses = [];
         this.shown = this.over = false;
         this.started = performance.now();
         this.part("problem").textContent = "";
         this.root.dataset.state = "loading";
-        this.thread = new DecoderThread(this.kernels, {
-            onEvent: (event) => {
-                geometry.accept(event);
-                if (event.type === "loss") this.lose(event);
-                if (event.type === "end") this.end();
+        this.decoding = this.pool.open(
+            {
+                onPicture: (picture) => {
+                    geometry.accept(picture);
+                    if (picture.type === "loss") this.lose(picture);
+                    if (picture.type === "end") this.end();
+                },
+                onError: (error) => this.fail(`This stream cannot be decoded further. ${error.name}: ${error.message}`),
+                onTaken: (bytes) => {
+                    this.root.dataset.taken = String(bytes);
+                    if (bytes === this.fed) this.show();
+                },
             },
-            onError: (error) => this.fail(`This stream cannot be decoded further. ${error.name}: ${error.message}`),
-            onTaken: (bytes) => {
-                this.root.dataset.taken = String(bytes);
-                if (bytes === this.fed) this.show();
-            },
-        }, {}, { tolerant: true });
+            { tolerant: true, drawing: "growing" },
+        );
     }
 
     /** Go on for one picture. */
@@ -179,9 +188,9 @@ export class View {
         if (Number(this.cut.value) < this.fed) this.restart();
         const allowed = this.allowed();
         if (!this.over && this.fed < allowed) {
-            this.thread!.receiveData(this.content.stream.subarray(this.fed, allowed));
+            this.decoding?.receiveData(this.content.stream.subarray(this.fed, allowed));
             this.fed = allowed;
-            if (allowed === this.content.stream.length) this.thread!.receiveEof();
+            if (allowed === this.content.stream.length) this.decoding?.receiveEof();
         }
         this.playOn(now);
         if (this.stale && this.shown) this.paint();
@@ -200,7 +209,7 @@ export class View {
         if (this.shown || this.closed) return;
         this.shown = this.stale = true;
         const { center, diagonal } = header ? extentOf(header) : { center: [0, 0, 0], diagonal: 1 };
-        this.stage.show(this.geometry, center, diagonal);
+        this.stage.show(this.geometry, center, diagonal, turnOf(this.geometry.metadata));
     }
 
     /** Say what is lost; what could be decoded stays to be seen. */
@@ -224,10 +233,33 @@ export class View {
         this.over = true;
         this.stale = true;
         this.ownColours = this.geometry.getAttribute("color") as BufferAttribute | undefined;
-        this.allow("own", this.ownColours !== undefined);
-        if (this.ownColours && this.colour.value === "plain") this.colour.value = "own";
+        if (this.ownColours) this.wear();
+        void this.dress(this.geometry);
         this.completed = performance.now() - this.started;
         this.root.dataset.state = this.losses.length > 0 ? "damaged" : "complete";
+    }
+
+    /** Offer what the stream has of colours and materials, and show it. */
+    private wear(): void {
+        this.allow("own", true);
+        if (this.colour.value === "plain") this.colour.value = "own";
+        this.stale = true;
+    }
+
+    /** Make materials of what the metadata say, once images are there. */
+    private async dress(geometry: BSMGeometry): Promise<void> {
+        const named = [...geometry.metadata.keys()].some((key) => key.startsWith("material."));
+        if (!named) return;
+        const images = await imagesOf(geometry.metadata);
+        if (geometry !== this.geometry || this.closed) return;
+        const materials = materialsOf(geometry.metadata, images, 1 + Math.max(0, ...geometry.pieces.map(({ material }) => material)));
+        for (const material of materials) {
+            material.vertexColors = this.ownColours !== undefined;
+            material.metalness = Math.min(material.metalness, PALE); // there is nothing here that metal could mirror
+        }
+        this.stage.dress(materials);
+        this.dressed = true;
+        this.wear();
     }
 
     /** Frames are there: begin to play them, unless the page's reader wants less motion. */
@@ -283,7 +315,7 @@ export class View {
         this.errors = original && this.geometry.origin.length > 0 ? errorsOf(this.geometry, original) : undefined;
         this.part("legend").textContent = LEGENDS[scheme];
         const colours = coloursOf(this.geometry, scheme, this.errors?.distances);
-        this.stage.colour(scheme === "own" ? this.ownColours : colours && new BufferAttribute(colours, 3));
+        this.stage.colour(scheme === "own" ? this.ownColours : colours && new BufferAttribute(colours, 3), scheme === "own" && this.dressed);
     }
 
     private report(): void {

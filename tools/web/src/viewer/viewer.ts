@@ -1,5 +1,6 @@
 /** The page of `bsm view`, and the widget of notebooks: one module that is either, by where it finds itself. */
-import { inlinedKernels } from "../inlined";
+import { Pool } from "../pool";
+import { inlined } from "./inlined";
 import { View, type Content, type Rival } from "./view";
 
 declare const LICENCES: string;
@@ -43,7 +44,7 @@ function floats(bytes: Uint8Array): Float32Array {
 /** Fill the page with the streams that are listed in it. */
 async function fillPage(list: HTMLElement): Promise<void> {
     const sources = JSON.parse(list.textContent!) as Source[];
-    const view = new View(document.body, await inlinedKernels(), LICENCES);
+    const view = new View(document.body, new Pool(inlined), LICENCES);
     const open = async (index: number): Promise<void> => {
         try {
             view.open(await contentOf(sources[index]));
@@ -59,7 +60,7 @@ async function fillPage(list: HTMLElement): Promise<void> {
 async function render({ model, el }: { model: Model; el: HTMLElement }): Promise<() => void> {
     const root = el.appendChild(document.createElement("div"));
     root.style.height = `${model.get("height")}px`;
-    const view = new View(root, await inlinedKernels(), LICENCES);
+    const view = new View(root, new Pool(inlined), LICENCES);
     const bytes = (name: string): Uint8Array => {
         const { buffer, byteOffset, byteLength } = model.get(name) as DataView<ArrayBuffer>;
         return new Uint8Array(buffer, byteOffset, byteLength);

@@ -10,7 +10,8 @@ export class Playback {
     loop = true;
     private at = 0;
     private before = 0;
-    private waiting = true;
+    /** Whether it waits for frames. */
+    waiting = true;
 
     /** Frames per second; 0: unknown. */
     constructor(

@@ -1,10 +1,10 @@
-"""The README's tables of denoising, made from figures that the benchmark wrote.
+"""The documents' tables of denoising, made from figures that the benchmark wrote.
 
     F=tools/figures/denoising.json
     python -m tools.benchmark_denoise MESHES automatic clean kinds gaussian hard flicker --json $F
-    python -m tools.readme_tables
+    python -m tools.measured_tables
 
-The first measures, the second writes what stands in the README between the two marks.
+The first measures, the second writes what stands in docs/measured.md between the two marks.
 """
 
 from __future__ import annotations
@@ -15,8 +15,8 @@ from typing import Any
 
 ROOT = Path(__file__).parents[1]
 FIGURES = ROOT / "tools" / "figures" / "denoising.json"
-README = ROOT / "README.md"
-BEGIN, END = "<!-- denoising: made by tools.readme_tables -->", "<!-- denoising: end -->"
+PAGE = ROOT / "docs" / "measured.md"
+BEGIN, END = "<!-- denoising: made by tools.measured_tables -->", "<!-- denoising: end -->"
 
 
 def denoising_tables(figures: dict[str, Any]) -> str:
@@ -51,9 +51,9 @@ def put_in(text: str, tables: str) -> str:
 
 
 def main() -> None:
-    """Write the README's tables."""
+    """Write the tables."""
     tables = denoising_tables(json.loads(FIGURES.read_text(encoding="utf-8")))
-    README.write_text(put_in(README.read_text(encoding="utf-8"), tables), encoding="utf-8")
+    PAGE.write_text(put_in(PAGE.read_text(encoding="utf-8"), tables), encoding="utf-8")
 
 
 if __name__ == "__main__":

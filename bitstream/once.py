@@ -1,0 +1,36 @@
+"""What an object works out once: `functools.cached_property` without the lock that Python 3.11's shares.
+
+There, one lock of a class is held while any of its objects works: threads that factorise different matrices wait for
+each other, and a child that is forked meanwhile waits for ever. Here two threads that ask one object at the same time
+may both work, and get equal answers.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, Generic, TypeVar, overload
+
+Value = TypeVar("Value")
+Self = TypeVar("Self")
+
+
+class cached_property(Generic[Value]):
+    """A method that is called at the first access; its result is kept as an attribute of the same name."""
+
+    def __init__(self, work: Callable[[Any], Value]) -> None:
+        self._work = work
+        self.__doc__ = work.__doc__
+
+    def __set_name__(self, owner: type, name: str) -> None:
+        self._name = name
+
+    @overload
+    def __get__(self: Self, instance: None, owner: type | None = None) -> Self: ...
+    @overload
+    def __get__(self, instance: object, owner: type | None = None) -> Value: ...
+    def __get__(self, instance: object | None, owner: type | None = None) -> Any:
+        if instance is None:
+            return self
+        value = self._work(instance)
+        instance.__dict__[self._name] = value
+        return value

@@ -1,0 +1,1 @@
+"""Normals by small networks that were trained on made shapes."""

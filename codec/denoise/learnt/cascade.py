@@ -1,0 +1,86 @@
+"""Denoising by learnt networks, one after the other: each sees the mesh that the one before it left."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from bsm.codec.arrays import Positions
+from bsm.codec.denoise.filters.topology import Topology
+from bsm.codec.denoise.filters.vertex_update import Floats, face_geometry, follow_normals
+from bsm.codec.denoise.learnt.descriptors import descriptions, mirrored
+from bsm.codec.denoise.learnt.network import Network, read_networks
+
+VERTEX_ITERATIONS = 15
+IMAGES = ((False, False), (True, True))
+"""Frames that are averaged over: nothing tells the two ends of an axis apart."""
+
+
+def regressed_normals(positions: Positions, topology: Topology, network: Network) -> Floats:
+    """Unit normals of the faces, shape (m, 3), as a network sees them."""
+    found = []
+    for numbers, frames in descriptions(positions, topology):
+        local = np.zeros((len(numbers), 3))
+        for image in IMAGES:
+            order, signs = mirrored(*image)
+            local += network(numbers[:, order] * signs) * signs[:3]
+        found.append(np.einsum("kij,ki->kj", frames, local))
+    normals = np.concatenate(found) if found else np.zeros((0, 3))
+    return np.asarray(normals / np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-12))
+
+
+@dataclass(frozen=True, eq=False)
+class Learnt:
+    """What the networks make of a mesh.
+
+    Attributes
+    ----------
+    positions : ndarray of float64, shape (n, 3)
+        Those that follow the normals.
+    normals : ndarray of float64, shape (m, 3)
+        Unit normals of the faces.
+    """
+
+    positions: Positions
+    normals: Floats
+
+
+def learnt(positions: Positions, topology: Topology) -> Learnt:
+    """Denoise by all networks in turn."""
+    normals = np.zeros((len(topology.faces), 3))
+    for network in read_networks():
+        normals = regressed_normals(positions, topology, network)
+        positions = follow_normals(positions, topology, normals, VERTEX_ITERATIONS)
+    return Learnt(positions, normals)
+
+
+class Learner:
+    """`learnt` for the meshes of one connectivity, which remembers the last one that it was asked for.
+
+    Parameters
+    ----------
+    topology : Topology
+    """
+
+    def __init__(self, topology: Topology) -> None:
+        self._topology = topology
+        self._last: tuple[Positions, Learnt] | None = None
+
+    def __call__(self, positions: Positions) -> Learnt:
+        """What the networks make of positions, which nobody may change in place; any number of threads may ask."""
+        last = self._last
+        if last is None or last[0] is not positions:
+            last = (positions, learnt(positions, self._topology))
+            self._last = last
+        return last[1]
+
+
+def joined(positions: Positions, other: Learnt, share: float, topology: Topology) -> Positions:
+    """Positions that follow the mean of their own normals and the learnt ones, which have `share` of it."""
+    if share == 0.0:
+        return positions
+    normals = (1.0 - share) * face_geometry(positions, topology.faces).normals + share * other.normals
+    normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-12)
+    start = (1.0 - share) * positions + share * other.positions
+    return follow_normals(start, topology, normals, VERTEX_ITERATIONS)

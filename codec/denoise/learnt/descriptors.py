@@ -1,0 +1,109 @@
+"""What a small network is told of a face: how the surface goes about it, in a frame of the face's own.
+
+The frame looks where the surface looks at large (z), and along the direction in which normals vary most (x). Normals
+filtered in many ways come first; then mean normals and heights in eight directions on two circles; then how many
+neighbours are alike. Nothing depends on where the mesh is, how it is turned, or on its unit.
+
+References
+----------
+P.-S. Wang, Y. Liu, X. Tong, "Mesh denoising via cascaded normal regression", ACM Transactions on Graphics 35, 2016.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+import numpy.typing as npt
+
+from bsm.codec import _kernels
+from bsm.codec.arrays import Positions
+from bsm.codec.denoise.filters.guidance import patch_guidance
+from bsm.codec.denoise.filters.kernel import filter_normals
+from bsm.codec.denoise.filters.reach import reach, themselves
+from bsm.codec.denoise.filters.topology import Topology
+from bsm.codec.denoise.filters.vertex_update import FaceGeometry, Floats, face_geometry, mean_centroid_distance
+from bsm.codec.geometry.incidence import Rows
+
+Singles = npt.NDArray[np.float32]
+
+RADIUS = 4.0
+"""Of the surroundings, in mean distances of adjacent centroids."""
+RANGES, SCALES, SECTORS, RINGS = 4, 2, 8, 2
+FILTERED = SCALES * (2 * RANGES + 1)
+OWN = 3 * (1 + FILTERED) + 4 * SECTORS * RINGS + SCALES * (2 * RANGES + 1) + 1
+"""Numbers that the kernel gives."""
+REPEATED = ((0.3, 3), (0.3, 10), (0.5, 3), (0.5, 10))
+"""sigma_r and iterations of the repeated filters."""
+NUMBERS = OWN + 3 * len(REPEATED) + 1
+"""The last one is the same for the whole mesh: how much its normals differ from the smoothed ones."""
+BASE = slice(45, 48)
+"""The filtered normal to which a network adds: guided by patches, both kernels wide."""
+BATCH = 8192
+
+
+def descriptions(positions: Positions, topology: Topology, batch: int = BATCH) -> Iterator[tuple[Singles, Floats]]:
+    """Describe all faces, so many at a time.
+
+    Parameters
+    ----------
+    positions : ndarray of float64, shape (n, 3)
+    topology : Topology
+    batch : int
+
+    Yields
+    ------
+    ndarray of float32, shape (k, NUMBERS)
+    ndarray of float64, shape (k, 3, 3)
+        The frames: x, y and z.
+    """
+    if len(topology.faces) == 0:
+        return
+    geometry = face_geometry(positions, topology.faces)
+    distance = mean_centroid_distance(geometry.centroids, topology.pairs)
+    itself = themselves(len(geometry.areas))
+    near = reach(geometry.centroids, itself, geometry.centroids, topology.patches, RADIUS * distance)
+    guide = patch_guidance(geometry, topology)
+    smooth, axes = (filter_normals(geometry, geometry.normals, near, scale * distance, np.inf) for scale in (1.0, 2.0))
+    repeated = [_repeated(geometry, topology.patches, distance, *setting) for setting in REPEATED]
+    rough = float(np.linalg.norm(geometry.normals - smooth, axis=1).mean())
+    for begin in range(0, len(geometry.areas), batch):
+        count = min(batch, len(geometry.areas) - begin)
+        described, frames = np.empty((count, OWN)), np.empty((count, 9))
+        _kernels.describe_faces(
+            *geometry, guide, smooth, axes, near.starts, near.members, distance, begin, described, frames
+        )
+        axis = frames.reshape(count, 3, 3)
+        local = [np.einsum("kij,kj->ki", axis, normals[begin : begin + count]) for normals in repeated]
+        row = np.concatenate([described, *local, np.full((count, 1), rough)], axis=1)
+        yield row.astype(np.float32), axis
+
+
+def _repeated(geometry: FaceGeometry, near: Rows, distance: float, sigma_r: float, iterations: int) -> Floats:
+    normals: Floats = geometry.normals
+    for _ in range(iterations):
+        geometry = geometry._replace(normals=normals)
+        normals = filter_normals(geometry, normals, near, distance, sigma_r)
+    return normals
+
+
+def mirrored(x: bool, y: bool) -> tuple[npt.NDArray[np.int64], Singles]:
+    """The numbers of a face as seen in a frame with x, y or both the other way round: their order, and signs."""
+    order = np.arange(NUMBERS)
+    signs = np.ones(NUMBERS, dtype=np.float32)
+    flip = np.array([-1.0 if x else 1.0, -1.0 if y else 1.0, 1.0], dtype=np.float32)
+    vectors = [3 * k for k in range(1 + FILTERED)] + [OWN + 3 * k for k in range(len(REPEATED))]
+    circles = 3 * (1 + FILTERED)
+    for ring in range(RINGS):
+        for sector in range(SECTORS):
+            turned = sector
+            if x:
+                turned = (SECTORS // 2 - turned) % SECTORS
+            if y:
+                turned = -turned % SECTORS
+            place = circles + 4 * (ring * SECTORS + sector)
+            order[place : place + 4] = circles + 4 * (ring * SECTORS + turned) + np.arange(4)
+            vectors.append(place)
+    for place in vectors:
+        signs[place : place + 3] = flip
+    return order, signs

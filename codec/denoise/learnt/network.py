@@ -1,0 +1,85 @@
+"""A small network of dense layers, as numbers in a file."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+
+from bsm.codec.denoise.learnt.descriptors import BASE, NUMBERS, Singles
+
+FARTHEST = np.float32(6.0)
+"""Bound of standardised numbers."""
+MOST_NEGATIVE = np.float32(80.0)
+WEIGHTS = Path(__file__).with_name("weights.npz")
+
+
+@dataclass(frozen=True, eq=False)
+class Network:
+    """Numbers of faces to normals in the faces' frames.
+
+    Attributes
+    ----------
+    mean, scale : ndarray of float32, shape (NUMBERS,)
+        What the numbers are shifted by, and then multiplied with.
+    layers : tuple of pairs of ndarray of float32
+        Matrix, shape (in, out), and shift, shape (out,), of each layer.
+    """
+
+    mean: Singles
+    scale: Singles
+    layers: tuple[tuple[Singles, Singles], ...]
+
+    def standardised(self, numbers: Singles) -> Singles:
+        """Numbers of mean 0 and deviation 1, within bounds: what was hardly ever seen counts no more than that."""
+        return np.asarray(np.clip((numbers - self.mean) * self.scale, -FARTHEST, FARTHEST))
+
+    def __call__(self, numbers: Singles) -> Singles:
+        """Unit normals, shape (k, 3), of faces with `numbers`, shape (k, NUMBERS)."""
+        values = self.standardised(numbers)
+        for matrix, shift in self.layers[:-1]:
+            values = silu(values @ matrix + shift)
+        matrix, shift = self.layers[-1]
+        normals = numbers[:, BASE] + values @ matrix + shift
+        return np.asarray(normals / np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), np.float32(1e-6)))
+
+
+def sigmoid(values: Singles) -> Singles:
+    """``1 / (1 + exp(-x))``, where it can be told from 0."""
+    return np.asarray(np.float32(1.0) / (np.float32(1.0) + np.exp(np.minimum(-values, MOST_NEGATIVE))))
+
+
+def silu(values: Singles) -> Singles:
+    """``x / (1 + exp(-x))``, the activation."""
+    return np.asarray(values * sigmoid(values))
+
+
+def write_networks(path: Path, networks: list[Network]) -> None:
+    """Networks into a file, in half precision but for the scales."""
+    arrays = {}
+    for stage, network in enumerate(networks):
+        arrays[f"mean{stage}"], arrays[f"scale{stage}"] = network.mean, network.scale
+        for depth, (matrix, shift) in enumerate(network.layers):
+            arrays[f"matrix{stage}.{depth}"] = matrix.astype(np.float16)
+            arrays[f"shift{stage}.{depth}"] = shift.astype(np.float16)
+    with path.open("wb") as file:
+        np.savez_compressed(file, **arrays)  # type: ignore[arg-type]
+
+
+@cache
+def read_networks(path: Path = WEIGHTS) -> tuple[Network, ...]:
+    """The networks of a file, the one for the first pass first."""
+    networks: list[Network] = []
+    with np.load(path) as arrays:
+        while f"mean{len(networks)}" in arrays:
+            stage = len(networks)
+            layers: list[tuple[Singles, Singles]] = []
+            while f"matrix{stage}.{len(layers)}" in arrays:
+                key = f"{stage}.{len(layers)}"
+                layers.append((arrays[f"matrix{key}"].astype(np.float32), arrays[f"shift{key}"].astype(np.float32)))
+            networks.append(Network(arrays[f"mean{stage}"], arrays[f"scale{stage}"], tuple(layers)))
+    if not networks or any(len(network.mean) != NUMBERS for network in networks):
+        raise ValueError(f"{path}: made for other numbers of faces; train it again: python -m tools.train_denoiser")
+    return tuple(networks)

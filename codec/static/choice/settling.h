@@ -1,0 +1,10 @@
+/* See settling.c. */
+#ifndef BSM_SETTLING_H
+#define BSM_SETTLING_H
+
+#include "bitstream/kernel.h"
+
+int64_t settle_levels(ConstDoubles2 wanted, ConstDoubles2 losses, ConstDoubles steps, ConstDoubles reach, ConstInts starts,
+                      ConstInts members, ConstDoubles2 rates, double pull, Ints2 levels, Doubles2 counts);
+
+#endif

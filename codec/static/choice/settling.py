@@ -1,0 +1,119 @@
+"""Levels chosen by what errors cost where they are seen, which is measured in pictures. Encoder only.
+
+Errors show where there are contours, creases and reflections, and hardly where a surface is rough anyway, hidden, or
+flat and moved in its plane. How much, two pictures of a noisy mesh tell for every vertex, along its normal and across;
+what is cheap to code is taken where it costs little.
+"""
+
+from __future__ import annotations
+
+import math
+from functools import cached_property
+
+import numpy as np
+
+from bsm.codec import _kernels
+from bsm.codec.arrays import Levels, Matrix, Positions
+from bsm.codec.geometry.graph import Graph
+from bsm.codec.look.measure import DISSIMILAR, POWER, Looker
+from bsm.codec.signal.frames import local_frames
+
+PULL = 0.8
+"""A level is expected at so much of the mean of its neighbours'."""
+AROUND, SIZES = 10, 16
+"""Classes of the neighbours' mean size, and sizes of what is left of a level, that bits are estimated for."""
+BITS = 2.0 * np.log2(1.0 + np.arange(SIZES)) + 0.5
+"""What they are before any is counted."""
+TRUST = 1.0
+"""Levels that each size is counted with from the start."""
+LEAST = 0.1
+"""What errors cost at least, of their mean cost: nothing is hidden from all sides that somebody may look from."""
+SWEEPS = 8
+_MOST = 1 << 30
+
+
+class Sensitivity:
+    """What errors of each vertex cost in pictures.
+
+    Parameters
+    ----------
+    positions : float64 array, shape (n, 3)
+        Of the original, in BSM units, as `looker` has them.
+    graph : Graph
+        Of its faces.
+    looker : Looker
+    faces : int32 array, shape (m, 3)
+    steps : (float, float)
+        Errors that are about those to come, along normals and across, in BSM units.
+    """
+
+    def __init__(
+        self, positions: Positions, faces: Levels, graph: Graph, looker: Looker, steps: tuple[float, float]
+    ) -> None:
+        self._positions, self._faces, self._graph = positions, faces, graph
+        self._looker, self._steps = looker, steps
+
+    @cached_property
+    def costs(self) -> tuple[Matrix, Matrix]:
+        """What pictures differ by per square of an error, along the normal and along a tangent, shapes (n,)."""
+        frames = local_frames(self._positions, self._faces).reshape(-1, 3, 3)
+        noise = np.random.default_rng(0).uniform(-0.5, 0.5, self._positions.shape)
+        along, across = self._steps
+        upright = self._positions + noise[:, :1] * along * frames[:, 0]
+        aside = self._positions + np.einsum("na,nad->nd", noise[:, 1:] * across, frames[:, 1:])
+        first, second = self._looker.blame(upright, aside)
+        return self._spread(12.0 * first / along**2), self._spread(6.0 * second / across**2)
+
+    def step_for(self, distance: float, ratio: float) -> float:
+        """The step, in BSM units, at which rounding, `ratio` times as wide across, is about as bad."""
+        normal, tangent = self.costs
+        unlike = DISSIMILAR * distance ** (1.0 / POWER)
+        return math.sqrt(12.0 * unlike / float(normal.sum() + 2.0 * ratio**2 * tangent.sum()))
+
+    def levels(self, offsets: Matrix, steps: Matrix, worth: float, reach: Matrix) -> Levels:
+        """Levels that are worth their bits, shape (n, axes).
+
+        Parameters
+        ----------
+        offsets : float64 array, shape (n, axes)
+            What is wanted, along normals and, if there are three axes, along tangents.
+        steps : float64 array, shape (axes,)
+        worth : float
+            What a bit is worth, over the mean cost of an error of one step along the normal.
+        reach : float64 array, shape (n,)
+            How far a vertex may come to lie from its place, but for rounding.
+        """
+        normal, tangent = self.costs
+        losses = np.column_stack([normal, tangent, tangent][: len(steps)]) * np.square(steps)
+        losses /= max(worth * float(normal.mean()) * float(steps[0]) ** 2, 1e-300)
+        wanted = np.ascontiguousarray(offsets / steps)
+        levels = np.rint(wanted).clip(-_MOST, _MOST).astype(np.int32)
+        rates, counts = np.tile(BITS, (AROUND * len(steps), 1)), np.empty((AROUND * len(steps), SIZES))
+        for _ in range(SWEEPS):
+            moved = _kernels.settle_levels(
+                wanted, np.ascontiguousarray(losses), np.ascontiguousarray(steps, np.float64),
+                np.ascontiguousarray(reach, np.float64), self._graph.offsets, self._graph.neighbours,
+                rates, PULL, levels, counts,
+            )  # fmt: skip
+            if not moved:
+                break
+            rates = _bits(counts)
+        return levels
+
+    def _spread(self, blame: Matrix) -> Matrix:
+        """From faces to vertices, half of it to their neighbours."""
+        graph, count = self._graph, len(self._positions)
+        own = np.bincount(self._faces.ravel(), np.repeat(blame / 3.0, 3), count)
+        degree = np.diff(graph.offsets)
+        rows = np.repeat(np.arange(count), degree)
+        around = np.bincount(rows, own[graph.neighbours], count) / np.maximum(degree, 1)
+        cost = (own + around) / 2.0
+        return np.maximum(cost, max(LEAST * float(cost.mean()), 1e-300))
+
+
+def _bits(counts: Matrix) -> Matrix:
+    """Of sizes that come so often, in each class; one of any sign has a bit more than none."""
+    trusted = counts + TRUST * np.exp2(-BITS)
+    bits = np.log2(trusted.sum(axis=1, keepdims=True) / trusted)
+    bits[:, 1:] += 1.0
+    return np.ascontiguousarray(bits)

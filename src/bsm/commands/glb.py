@@ -1,0 +1,62 @@
+"""bsm glb: a scene of glTF with its geometry coded."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+from typing import Any
+
+from bsm.bitstream.errors import OptionError
+from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.console import Console
+from bsm.files.output import open_output
+from bsm.gltf.compress import compress
+from bsm.gltf.document import read_document
+from bsm.gltf.images import ImageRule
+
+PRESETS = ("balanced", "fine", "near-lossless", "grid14")
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare what the command takes."""
+    parser.add_argument("input", metavar="SCENE", help=".glb, or .gltf with the files beside it")
+    parser.add_argument("-o", "--output", metavar="OUT.glb", required=True, help="the smaller scene")
+    parser.add_argument(
+        "--preset",
+        choices=PRESETS,
+        default="near-lossless",
+        help="what is promised of each primitive, as of meshes (default: near-lossless)",
+    )
+    parser.add_argument("--quick", action="store_true", help="grids alone, which pages decode with a small decoder")
+    parser.add_argument(
+        "--images",
+        metavar="RULE",
+        help="write images smaller with Pillow: webp, webp:85 for a quality, webp:85@1024 for a largest side, too; "
+        "jpeg and png as well",
+    )
+
+
+def run(args: argparse.Namespace, console: Console) -> None:
+    """Read, code, write, and say what stayed as it was."""
+    import bsm
+
+    rule = ImageRule.parse(args.images) if args.images else None
+    if Path(args.output).suffix.lower() != ".glb":
+        raise OptionError(f"the output is a .glb, not {args.output}")
+    keywords: dict[str, Any] = {"preset": args.preset, "quick": args.quick}
+
+    def coder(mesh: TriangleMesh) -> bytes:
+        return bsm.encode(mesh, **keywords)
+
+    document = read_document(args.input)
+    found = compress(document, coder, rule)
+    with open_output(args.output, overwrite=args.force) as file:
+        file.write(found.data)
+    size = Path(args.input).stat().st_size + sum(map(len, document.images.values()))
+    size += sum(len(b) for b, told in zip(document.buffers, document.tree.get("buffers", [])) if "uri" in told)
+    console.note(
+        f"{args.input} -> {args.output}: {found.coded} of {found.coded + sum(found.left.values())} primitives coded, "
+        f"{size} -> {len(found.data)} bytes"
+    )
+    for reason, count in found.left.items():
+        console.note(f"{args.input}: {count} stayed as {'it was' if count == 1 else 'they were'}: {reason}")

@@ -1,0 +1,132 @@
+"""How much memory a mesh file may take to be read, before anything is made of what it holds.
+
+As a stream, a file may take what limits grant for its bytes and its vertices; what it inflates to counts, too.
+"""
+
+from __future__ import annotations
+
+import io
+import zipfile
+import zlib
+from typing import Protocol
+
+import numpy as np
+
+from bsm.bitstream.errors import CorruptError, FormatError, LimitError, TruncatedError
+from bsm.bitstream.limits import Limits
+
+LINE, WORD = 250.0, 250.0
+"""Bytes that a line of text, and a word of it, are kept in while numbers are made of them."""
+_PIECE = 1 << 18
+_KEYWORDS = {"v": "vertices", "f": "faces"}
+
+
+class Readable(Protocol):
+    """What is read piece by piece."""
+
+    def read(self, size: int, /) -> bytes:
+        """The next bytes; none at the end."""
+
+
+def most_inflated(compressed: int, limits: Limits) -> int:
+    """Bytes that so many compressed ones may become."""
+    return int(min(limits.memory_for(0, compressed), 1 << 62))
+
+
+def require_inflated(size: int, compressed: int, limits: Limits) -> None:
+    """Raise `LimitError` where so many compressed bytes become too many."""
+    most = most_inflated(compressed, limits)
+    if size > most:
+        raise LimitError(
+            f"{compressed} compressed bytes become {size} or more, over the limit of {most}; if you trust the file, "
+            "decompress it yourself, or raise Limits.memory"
+        )
+
+
+def require_archive(data: bytes, limits: Limits) -> None:
+    """Raise `LimitError` if a zip archive says that it becomes too much; no reader goes beyond what it says."""
+    try:
+        with zipfile.ZipFile(io.BytesIO(data)) as archive:
+            require_inflated(sum(entry.file_size for entry in archive.infolist()), len(data), limits)
+    except (zipfile.BadZipFile, NotImplementedError, ValueError) as error:
+        raise FormatError(f"this is no archive that can be read: {error}") from error
+
+
+def gunzipped(data: bytes, limits: Limits) -> bytes:
+    """What gzip has compressed, in one member or several.
+
+    Raises
+    ------
+    LimitError
+        If it becomes too much, before all of it is there.
+    TruncatedError, CorruptError
+        If it is cut short or damaged.
+    """
+    pieces, size, left = [], 0, data
+    try:
+        while left:
+            member = zlib.decompressobj(wbits=31)
+            source = io.BytesIO(left)
+            while not member.eof:
+                given = member.unconsumed_tail or source.read(_PIECE)
+                if not given:
+                    raise TruncatedError("the file is cut short: what gzip has compressed does not end")
+                pieces.append(member.decompress(given, _PIECE))
+                size += len(pieces[-1])
+                require_inflated(size, len(data), limits)
+            left = (member.unused_data + source.read()).lstrip(b"\0")
+    except zlib.error as error:
+        raise CorruptError(f"what gzip has compressed is damaged: {error}") from error
+    return b"".join(pieces)
+
+
+def require_room(kind: str, data: bytes, limits: Limits) -> None:
+    """Count lines and words of a text before objects are made of them.
+
+    Parameters
+    ----------
+    kind : str
+        "obj", "off", "ply" or "stl"; binary files are left to their own headers.
+
+    Raises
+    ------
+    LimitError
+        If there are more vertices or faces than are granted, or lines and words would take more memory.
+    """
+    if kind in ("ply", "stl") and not _is_text(kind, data):
+        return
+    lines = data.count(b"\n") + data.count(b"\r") + 1
+    vertices = lines // 3  # the other two are faces; where they are none, too many lines are refused all the same
+    if kind == "obj":
+        counts = {name: _lines_that_begin(data, key) for key, name in _KEYWORDS.items()}
+        for name, count in counts.items():
+            limits.check(name, count)
+        vertices = counts["vertices"]
+    memory = LINE * lines + WORD * _words(data)
+    granted = limits.memory_for(vertices, len(data))
+    if memory > granted:
+        raise LimitError(
+            f"{lines} lines of text take {memory:.3g} bytes of memory, over the limit of {granted:.3g}; if you trust "
+            "the file, raise Limits.memory, or save it in a binary format"
+        )
+
+
+def _is_text(kind: str, data: bytes) -> bool:
+    if kind == "stl":
+        return len(data) != 84 + 50 * int.from_bytes(data[80:84], "little")
+    return b"format ascii" in data[:1024]
+
+
+def _lines_that_begin(data: bytes, keyword: str) -> int:
+    return sum(data.count(f"{end}{keyword}{gap}".encode()) for end in "\n\r" for gap in " \t")
+
+
+def _words(data: bytes) -> int:
+    """Words of a text, and corners of faces as words of their own."""
+    count, before = 0, True
+    for start in range(0, len(data), _PIECE):
+        codes = np.frombuffer(data, np.uint8, min(_PIECE, len(data) - start), start)
+        gap = (codes <= 32) | (codes == ord("/"))
+        count += int((gap[:-1] & ~gap[1:]).sum()) + int(before and not gap[0])
+        before = bool(gap[-1])
+    return count

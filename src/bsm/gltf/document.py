@@ -1,0 +1,149 @@
+"""A glTF document: its tree and its bytes, from and to files."""
+
+from __future__ import annotations
+
+import base64
+import json
+import struct
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+from urllib.parse import unquote
+
+import numpy as np
+import numpy.typing as npt
+
+from bsm.bitstream.errors import FormatError
+
+Tree = dict[str, Any]
+
+_MAGIC, _JSON, _BIN = b"glTF", 0x4E4F534A, 0x004E4942
+_TYPES: dict[int, type[np.generic]] = {
+    5120: np.int8,
+    5121: np.uint8,
+    5122: np.int16,
+    5123: np.uint16,
+    5125: np.uint32,
+    5126: np.float32,
+}
+_WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4}
+
+
+@dataclass(frozen=True, eq=False)
+class Document:
+    """A document.
+
+    Parameters
+    ----------
+    tree : dict
+        What its JSON says.
+    buffers : list of bytes
+        The bytes of its buffers.
+    images : dict from int to bytes
+        The bytes of images that lie in files beside it, or in their addresses.
+    """
+
+    tree: Tree
+    buffers: list[bytes]
+    images: dict[int, bytes]
+
+    def view(self, index: int) -> bytes:
+        """The bytes of a bufferView."""
+        view = self._entry("bufferViews", index)
+        start, length = view.get("byteOffset", 0), view["byteLength"]
+        data = self.buffers[view["buffer"]]
+        if start + length > len(data):
+            raise FormatError(f"bufferView {index} ends behind its buffer")
+        return data[start : start + length]
+
+    def array(self, index: int) -> npt.NDArray[Any] | None:
+        """The values of an accessor, shape (n, c), as they are stored; None if it is sparse or without bytes."""
+        accessor = self._entry("accessors", index)
+        if "sparse" in accessor or "bufferView" not in accessor or accessor["type"] not in _WIDTHS:
+            return None
+        view = self._entry("bufferViews", accessor["bufferView"])
+        if view.get("extensions"):
+            return None
+        kind, width = np.dtype(_TYPES[accessor["componentType"]]).newbyteorder("<"), _WIDTHS[accessor["type"]]
+        count, size = accessor["count"], kind.itemsize * width
+        stride, data = view.get("byteStride") or size, self.view(accessor["bufferView"])
+        start = accessor.get("byteOffset", 0)
+        if count < 1 or start + stride * (count - 1) + size > len(data):
+            raise FormatError(f"accessor {index} ends behind its bufferView")
+        rows = np.lib.stride_tricks.as_strided(
+            np.frombuffer(data, np.uint8, offset=start), (count, size), (stride, 1), writeable=False
+        )
+        return np.ascontiguousarray(rows).view(kind).reshape(count, width)
+
+    def _entry(self, kind: str, index: int) -> Tree:
+        try:
+            entry: Tree = self.tree[kind][index]
+        except (KeyError, IndexError) as error:
+            raise FormatError(f"this glTF has no {kind}[{index}]") from error
+        return entry
+
+
+def read_document(path: str) -> Document:
+    """A document from a .glb, or from a .gltf and the files beside it.
+
+    Raises
+    ------
+    FormatError
+        If it is none, or names files that are not beside it.
+    """
+    data = Path(path).read_bytes()
+    folder = Path(path).parent.resolve()
+    chunk = b""
+    try:
+        if data.startswith(_MAGIC):
+            chunks = dict(_chunks(data))
+            data, chunk = chunks.get(_JSON, b""), chunks.get(_BIN, b"")
+        tree: Tree = json.loads(data)
+        tree["asset"]["version"]
+    except (ValueError, KeyError, TypeError, struct.error) as error:
+        raise FormatError(f"{path} is no glTF: {error}") from error
+    buffers = [
+        _resource(buffer["uri"], folder) if "uri" in buffer else chunk if number == 0 else b""
+        for number, buffer in enumerate(tree.get("buffers", []))
+    ]
+    images = {
+        number: _resource(image["uri"], folder)
+        for number, image in enumerate(tree.get("images", []))
+        if "uri" in image and not _is_remote(image["uri"])
+    }
+    return Document(tree, buffers, images)
+
+
+def _chunks(data: bytes) -> Iterator[tuple[int, bytes]]:
+    at = 12
+    while at + 8 <= len(data):
+        length, kind = struct.unpack_from("<II", data, at)
+        if at + 8 + length > len(data):
+            raise ValueError("a chunk ends behind the file")
+        yield kind, data[at + 8 : at + 8 + length]
+        at += 8 + length + -length % 4
+
+
+def _is_remote(uri: str) -> bool:
+    return "://" in uri
+
+
+def _resource(uri: str, folder: Path) -> bytes:
+    """What a relative address beside the document names, or a data address holds."""
+    if uri.startswith("data:"):
+        return base64.b64decode(uri.partition(",")[2])
+    path = (folder / unquote(uri)).resolve()
+    if _is_remote(uri) or not path.is_relative_to(folder) or not path.is_file():
+        raise FormatError(f"{uri} is no file beside the glTF")
+    return path.read_bytes()
+
+
+def glb(tree: Tree, data: bytes) -> bytes:
+    """A .glb of a tree and the bytes of its first buffer."""
+    text = json.dumps(tree, separators=(",", ":"), ensure_ascii=False).encode()
+    text += b" " * (-len(text) % 4)
+    data += b"\0" * (-len(data) % 4)
+    total = 12 + 8 + len(text) + 8 + len(data)
+    head = struct.pack("<4sIIII", _MAGIC, 2, total, len(text), _JSON)
+    return head + text + struct.pack("<II", len(data), _BIN) + data

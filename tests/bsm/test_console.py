@@ -1,0 +1,31 @@
+"""What strangers have written into files does nothing to a terminal."""
+
+import pytest
+
+from bsm.cli import main
+from bsm.console import Console, printable
+from tools.vectors.meshes import torus
+
+HOSTILE = "a\nb: forged\x1b]0;title\x07\x1b[2J\u202e"
+
+
+def test_what_is_not_printable_is_escaped():
+    assert printable("plain, größer 網") == "plain, größer 網"
+    assert printable(HOSTILE) == r"a\nb: forged\x1b]0;title\x07\x1b[2J\u202e"
+
+
+def test_a_note_is_one_line(capsys):
+    Console().note(f"left out: {HOSTILE}")
+    assert capsys.readouterr().err.count("\n") == 1
+
+
+@pytest.mark.parametrize("command", ["info", "decode"])
+def test_commands_escape_names_and_metadata(command, tmp_path, capsys):
+    import bsm
+
+    path = tmp_path / "mesh.bsm"
+    path.write_bytes(bsm.encode(torus(6, 6), grid=8, metadata={HOSTILE: HOSTILE}))
+    assert main([command, str(path), *(["-o", str(tmp_path / "mesh.ply")] if command == "decode" else [])]) == 0
+    said = capsys.readouterr()
+    assert not set("\x1b\x07\u202e") & set(said.out + said.err)
+    assert "\nb: forged" not in said.out + said.err

@@ -1,0 +1,52 @@
+"""Sizes that no mesh has end in a sentence, and never in warnings of numpy."""
+
+import json
+import warnings
+
+import numpy as np
+import pytest
+
+import bsm
+from bsm.bitstream.errors import MeshError
+from bsm.files.mesh import read_mesh
+from tools.vectors.meshes import torus
+
+
+@pytest.mark.parametrize("scale", [1e307, 1e300, 1e31, 1e-31, 1e-320])
+@pytest.mark.parametrize("options", [{}, {"preset": "near-lossless"}])
+def test_a_size_that_no_promise_can_be_kept_for_is_told(scale, options):
+    mesh = torus(6, 6)
+    with warnings.catch_warnings(), pytest.raises(MeshError, match="scale it"):
+        warnings.simplefilter("error")
+        bsm.encode((mesh.positions * scale, mesh.faces), **options)
+
+
+@pytest.mark.parametrize("scale", [1e29, 1e-29, 1e12])
+def test_large_and_small_meshes_come_back(scale):
+    mesh = torus(6, 6)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        decoded = bsm.decode(bsm.encode((mesh.positions * scale, mesh.faces), preset="near-lossless"))
+    assert np.abs(decoded.positions).max() == pytest.approx(scale * np.abs(mesh.positions).max(), rel=0.01)
+
+
+def test_an_image_that_is_missing_is_named(tmp_path):
+    pytest.importorskip("trimesh")
+    points = np.eye(3, dtype="<f4").tobytes()
+    (tmp_path / "points.bin").write_bytes(points)
+    tree = {
+        "asset": {"version": "2.0"},
+        "buffers": [{"uri": "points.bin", "byteLength": 36}],
+        "bufferViews": [{"buffer": 0, "byteLength": 36}],
+        "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+        "nodes": [{"mesh": 0}],
+        "scenes": [{"nodes": [0]}],
+        "scene": 0,
+        "images": [{"uri": "lost.png"}, {"uri": "../secret.png"}],
+        "textures": [{"source": 0}],
+    }
+    (tmp_path / "mesh.gltf").write_text(json.dumps(tree))
+    notes = " ".join(read_mesh(tmp_path / "mesh.gltf").notes)
+    assert "the image lost.png was left out: there is no such file" in notes
+    assert "the image ../secret.png was left out: it is not in the folder" in notes

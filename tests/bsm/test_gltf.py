@@ -1,0 +1,245 @@
+"""Scenes of glTF: geometry is coded, all else stays as it was."""
+
+import copy
+import io
+import json
+from itertools import pairwise
+
+import numpy as np
+import pytest
+
+import bsm
+from bsm.cli import main
+from bsm.gltf.compress import EXTENSION, compress
+from bsm.gltf.document import glb, read_document
+from bsm.gltf.images import ImageRule, smaller
+from bsm.gltf.primitives import drawn
+from tests.shapes import torus
+
+
+def picture():
+    image = pytest.importorskip("PIL.Image")
+    noise = np.random.default_rng(3).integers(0, 255, (64, 64, 3), np.uint8)
+    written = io.BytesIO()
+    image.fromarray(noise).save(written, "PNG")
+    return written.getvalue()
+
+
+def scene():
+    """Two instances of a skinned and textured torus, a morphing one, an animation, and materials with extensions."""
+    mesh = torus(40, 24)
+    across = (mesh.positions - mesh.positions.min(axis=0)) / np.ptp(mesh.positions, axis=0)
+    count = len(mesh.positions)
+    weights = np.zeros((count, 4), np.float32)
+    weights[:, 0], weights[:, 1] = across[:, 0], 1 - across[:, 0]
+    arrays = [
+        ("VEC3", mesh.positions.astype(np.float32), {"min": [-2, -2, -2], "max": [2, 2, 2]}),
+        ("VEC2", across[:, :2].astype(np.float32), {}),
+        ("VEC4", np.tile(np.array([0, 1, 0, 0], np.uint8), (count, 1)), {}),
+        ("VEC4", weights, {}),
+        ("SCALAR", mesh.faces.astype(np.uint16).reshape(-1, 1), {}),
+        ("VEC3", mesh.positions.astype(np.float32) + 1, {"min": [-1, -1, -1], "max": [3, 3, 3]}),
+        ("VEC3", np.full((count, 3), 0.25, np.float32), {}),
+        ("MAT4", np.tile(np.eye(4, dtype=np.float32).reshape(1, 16), (2, 1)), {}),
+        ("SCALAR", np.array([[0], [1]], np.float32), {"min": [0], "max": [1]}),
+        ("VEC3", np.array([[0, 0, 0], [1, 2, 3]], np.float32), {}),
+        ("SCALAR", mesh.faces.astype(np.uint16).reshape(-1, 1), {}),
+    ]
+    kinds = {"float32": 5126, "uint8": 5121, "uint16": 5123}
+    views, accessors, data = [], [], b""
+    for kind, array, more in arrays:
+        views.append({"buffer": 0, "byteOffset": len(data), "byteLength": array.nbytes})
+        component = kinds[array.dtype.name]
+        accessors.append(
+            {"bufferView": len(views) - 1, "componentType": component, "count": len(array), "type": kind, **more}
+        )
+        data += array.tobytes() + b"\0" * (-array.nbytes % 4)
+    image = picture()
+    views.append({"buffer": 0, "byteOffset": len(data), "byteLength": len(image)})
+    data += image
+    textured = {"index": 0, "extensions": {"KHR_texture_transform": {"scale": [30, 30]}}}
+    sheen = {"KHR_materials_sheen": {"sheenRoughnessFactor": 0.5}}
+    skinned = {"POSITION": 0, "TEXCOORD_0": 1, "JOINTS_0": 2, "WEIGHTS_0": 3}
+    tree = {
+        "asset": {"version": "2.0"},
+        "extensionsUsed": ["KHR_texture_transform", "KHR_materials_sheen"],
+        "scenes": [{"nodes": [0, 1, 2, 3]}],
+        "nodes": [
+            {"mesh": 0, "skin": 0},
+            {"mesh": 0, "skin": 0, "translation": [3, 0, 0]},
+            {"mesh": 1, "name": "morphing"},
+            {"children": [4]},
+            {},
+        ],
+        "skins": [{"joints": [3, 4], "inverseBindMatrices": 7}],
+        "meshes": [
+            {"primitives": [{"attributes": skinned, "indices": 4, "material": 0}]},
+            {"primitives": [{"attributes": {"POSITION": 5}, "indices": 10, "targets": [{"POSITION": 6}]}]},
+        ],
+        "animations": [
+            {
+                "samplers": [{"input": 8, "output": 9}],
+                "channels": [{"sampler": 0, "target": {"node": 1, "path": "translation"}}],
+            }
+        ],
+        "materials": [{"pbrMetallicRoughness": {"baseColorTexture": textured}, "extensions": sheen}],
+        "textures": [{"source": 0}],
+        "images": [{"bufferView": len(views) - 1, "mimeType": "image/png"}],
+        "accessors": accessors,
+        "bufferViews": views,
+        "buffers": [{"byteLength": len(data)}],
+    }
+    return tree, data
+
+
+@pytest.fixture
+def source(tmp_path):
+    path = tmp_path / "scene.glb"
+    path.write_bytes(glb(*scene()))
+    return path
+
+
+def coded_of(document):
+    """The streams of a document, and what each accessor says of one."""
+    views = document.tree["bufferViews"]
+    found = {}
+    for number, accessor in enumerate(document.tree["accessors"]):
+        told = views[accessor["bufferView"]].get("extensions", {}).get(EXTENSION)
+        if told:
+            found[number] = (told, accessor)
+    return found
+
+
+def test_geometry_is_coded_and_all_else_stays(source, tmp_path, capsys):
+    target = tmp_path / "small.glb"
+    assert main(["glb", str(source), "-o", str(target)]) == 0
+    assert "1 of 2 primitives coded" in (said := capsys.readouterr().err)
+    assert "1 stayed as it was: morph targets" in said
+    before, after = read_document(str(source)), read_document(str(target))
+    assert target.stat().st_size < 0.6 * source.stat().st_size
+    for name in ("nodes", "scenes", "materials", "textures"):
+        assert after.tree[name] == before.tree[name]
+    assert after.tree["extensionsUsed"] == [*before.tree["extensionsUsed"], EXTENSION]
+    assert after.tree["extensionsRequired"] == [EXTENSION]
+    assert after.view(after.tree["images"][0]["bufferView"]) == before.view(before.tree["images"][0]["bufferView"])
+
+    def value(document, *path):
+        node = document.tree
+        for key in path:
+            node = node[key]
+        return document.array(node)
+
+    for path in (
+        ("animations", 0, "samplers", 0, "input"),
+        ("animations", 0, "samplers", 0, "output"),
+        ("meshes", 1, "primitives", 0, "attributes", "POSITION"),
+        ("meshes", 1, "primitives", 0, "targets", 0, "POSITION"),
+        ("meshes", 1, "primitives", 0, "indices"),
+    ):
+        np.testing.assert_array_equal(value(after, *path), value(before, *path))
+    matrices = after.tree["accessors"][after.tree["skins"][0]["inverseBindMatrices"]]
+    assert after.view(matrices["bufferView"]) == before.view(7)
+
+
+def test_accessors_say_what_the_stream_holds(source):
+    document = read_document(str(source))
+    found = compress(document, lambda mesh: bsm.encode(mesh, preset="near-lossless"))
+    path = source.with_name("small.glb")
+    path.write_bytes(found.data)
+    after = read_document(str(path))
+    coded = coded_of(after)
+    assert len({told["stream"] for told, _ in coded.values()}) == 1
+    (stream, *_), _ = zip(*[(told["stream"], accessor) for told, accessor in coded.values()])
+    mesh = bsm.decode(after.view(stream))
+    shape = drawn(mesh)
+    kinds = {told["attribute"]: (a["count"], a["componentType"], a["type"]) for told, a in coded.values()}
+    assert kinds == {
+        "POSITION": (shape.vertices, 5126, "VEC3"),
+        "TEXCOORD_0": (shape.vertices, 5126, "VEC2"),
+        "JOINTS_0": (shape.vertices, 5121, "VEC4"),
+        "WEIGHTS_0": (shape.vertices, 5121, "VEC4"),
+        "indices": (shape.corners, 5125, "SCALAR"),
+    }
+    primitive = after.tree["meshes"][0]["primitives"][0]
+    positions = after.tree["accessors"][primitive["attributes"]["POSITION"]]
+    np.testing.assert_allclose(positions["min"], mesh.positions.min(axis=0), atol=1e-6)
+    weights = next(a for a in mesh.attributes if a.name == "WEIGHTS_0")
+    assert (weights.values.sum(axis=1) == 255).all()
+    sizes = {v["byteOffset"]: v["byteLength"] for v in after.tree["bufferViews"] if v["buffer"] == 1}
+    ends = sorted(sizes.items())
+    assert all(at + size <= following for (at, size), (following, _) in pairwise(ends))
+    assert after.tree["buffers"][1]["byteLength"] >= ends[-1][0] + ends[-1][1]
+
+
+def test_images_by_a_rule(source, tmp_path):
+    target = tmp_path / "small.glb"
+    assert main(["glb", str(source), "-o", str(target), "--images", "webp:80@32"]) == 0
+    after = read_document(str(target))
+    image = after.view(after.tree["images"][0]["bufferView"])
+    assert image.startswith(b"RIFF") and after.tree["images"][0]["mimeType"] == "image/webp"
+    assert after.tree["textures"] == [{"extensions": {"EXT_texture_webp": {"source": 0}}}]
+    assert "EXT_texture_webp" in after.tree["extensionsRequired"]
+    from PIL import Image
+
+    assert Image.open(io.BytesIO(image)).size == (32, 32)
+    assert smaller(b"no image", ImageRule("webp")) is None
+
+
+def test_a_gltf_with_files_beside_it(tmp_path):
+    tree, data = scene()
+    tree["buffers"][0]["uri"] = "some data.bin".replace(" ", "%20")
+    (tmp_path / "some data.bin").write_bytes(data)
+    (tmp_path / "scene.gltf").write_text(json.dumps(tree))
+    assert main(["glb", str(tmp_path / "scene.gltf"), "-o", str(tmp_path / "small.glb")]) == 0
+    assert coded_of(read_document(str(tmp_path / "small.glb")))
+    tree["buffers"][0]["uri"] = "../elsewhere.bin"
+    (tmp_path / "scene.gltf").write_text(json.dumps(tree))
+    with pytest.raises(bsm.FormatError, match="no file beside"):
+        read_document(str(tmp_path / "scene.gltf"))
+
+
+def test_shared_accessors_stay(source):
+    document = read_document(str(source))
+    primitive = copy.deepcopy(document.tree["meshes"][0]["primitives"][0])
+    primitive["indices"] = 10
+    document.tree["meshes"][0]["primitives"].append(primitive)
+    found = compress(document, bsm.encode)
+    assert found.coded == 0 and found.left == {"accessors that others use, too": 3}
+
+
+@pytest.mark.parametrize(
+    "damage",
+    [
+        lambda tree: tree["meshes"][0]["primitives"][0].update(indices=99),
+        lambda tree: tree["bufferViews"][0].update(byteOffset=10**9),
+        lambda tree: tree["bufferViews"][0].update(byteOffset=-4),
+        lambda tree: tree["accessors"][0].update(count=10**9),
+        lambda tree: tree["accessors"][0].update(componentType=1),
+        lambda tree: tree["accessors"][4].update(count="many"),
+        lambda tree: tree.update(meshes={"primitives": []}),
+        lambda tree: tree["images"][0].update(bufferView=77),
+        lambda tree: tree.update(extensionsUsed=["KHR_draco_mesh_compression"]),
+    ],
+)
+def test_scenes_that_contradict_themselves(tmp_path, damage):
+    tree, data = scene()
+    damage(tree)
+    path = tmp_path / "bad.glb"
+    path.write_bytes(glb(tree, data))
+    with pytest.raises(bsm.FormatError):
+        compress(read_document(str(path)), bsm.encode)
+
+
+def test_no_gltf(tmp_path):
+    for content in (b"", b"glTF", b"{}", b"[1]", glb({"asset": 3}, b"")):
+        path = tmp_path / "bad.glb"
+        path.write_bytes(content)
+        with pytest.raises(bsm.FormatError):
+            read_document(str(path))
+
+
+def test_what_a_stream_cannot_hold_is_named(source, tmp_path, capsys):
+    pytest.importorskip("trimesh")
+    assert main(["encode", str(source), "-o", str(tmp_path / "scene.bsm")]) == 0
+    said = capsys.readouterr().err
+    assert "KHR_texture_transform" in said and "KHR_materials_sheen" in said

@@ -1,0 +1,126 @@
+"""Calls with arguments that make no sense: each ends well, or with an error of ours that says what is wrong."""
+
+import math
+import warnings
+from dataclasses import fields
+from functools import cache
+
+import numpy as np
+import pytest
+
+import bsm
+from bsm.bitstream.errors import ArgumentError, BsmError, OptionError
+from bsm.bitstream.limits import Limits
+from bsm.codec.geometry.attributes import Attribute
+from bsm.codec.sequence.decoder import SequenceDecoder
+from bsm.codec.static.decoder import Decoder
+from bsm.codec.static.options import EncodeOptions
+from tools.vectors.meshes import torus
+
+
+class Five:
+    """A file whose bytes are a number."""
+
+    def read(self, size=-1):
+        return 5
+
+
+class Text:
+    """A file of text."""
+
+    def read(self, size=-1):
+        return "x"
+
+
+WRONG = [
+    None, 5, -1, 1.5, math.nan, math.inf, "text", "a\0b", b"", [], {}, object(), True, print, np.full(3, np.nan),
+    np.array([None]), Five(), Text(), 1j, (1, 2, 3),
+]  # fmt: skip
+
+
+@cache
+def stream():
+    return bsm.encode(torus(5, 5), grid=8)
+
+
+@cache
+def arrays():
+    mesh = torus(5, 5)
+    return np.asarray(mesh.positions), np.asarray(mesh.faces)
+
+
+CALLS = {
+    "encode": lambda wrong: bsm.encode(wrong),
+    "encode with options": lambda wrong: bsm.encode(torus(5, 5), wrong) if wrong is not None else None,
+    "encode positions": lambda wrong: bsm.encode((wrong, arrays()[1])),
+    "encode faces": lambda wrong: bsm.encode((arrays()[0], wrong)),
+    "encode metadata": lambda wrong: bsm.encode(torus(5, 5), grid=8, metadata=wrong),
+    "decode": lambda wrong: bsm.decode(wrong),
+    "decode limits": lambda wrong: bsm.decode(stream(), limits=wrong),
+    "decode threads": lambda wrong: bsm.decode(stream(), threads=wrong),
+    "decode a sequence": lambda wrong: bsm.decode_sequence(wrong),
+    "sequence of positions": lambda wrong: bsm.encode_sequence(wrong, arrays()[1]),
+    "sequence with attributes": lambda wrong: bsm.encode_sequence(
+        np.zeros((0, 25, 3)), arrays()[1], mesh_attributes=wrong
+    ),
+    "load": lambda wrong: bsm.load(wrong),
+    "load limits": lambda wrong: bsm.load(stream(), limits=wrong),
+    "save": lambda wrong: bsm.save(wrong, "nothing.obj"),
+    "save to": lambda wrong: bsm.save(torus(5, 5), wrong),
+    "compare": lambda wrong: bsm.compare(torus(5, 5), wrong),
+    "compare order": lambda wrong: bsm.compare(torus(5, 5), torus(5, 5), order=wrong),
+    "denoise": lambda wrong: bsm.denoise(wrong),
+    "denoise goal": lambda wrong: bsm.denoise(wrong, goal=wrong),
+    "Decoder limits": lambda wrong: Decoder(wrong),
+    "Decoder threads": lambda wrong: Decoder(threads=wrong),
+    "Decoder layers": lambda wrong: Decoder(layers=wrong),
+    "SequenceDecoder limits": lambda wrong: SequenceDecoder(wrong),
+    "SequenceDecoder threads": lambda wrong: SequenceDecoder(threads=wrong),
+    "receive_data": lambda wrong: Decoder().receive_data(wrong),
+    "encode_many": lambda wrong: bsm.encode_many(wrong),
+    "encode_many into": lambda wrong: bsm.encode_many(["missing.obj"], wrong),
+    "encode_many report": lambda wrong: bsm.encode_many(["missing.obj"], report=wrong),
+    "encode_many jobs": lambda wrong: bsm.encode_many(["missing.obj"], jobs=wrong) if wrong != 5 else None,
+    "mesh attributes": lambda wrong: bsm.TriangleMesh(*arrays(), wrong),
+    "mesh metadata": lambda wrong: bsm.TriangleMesh(*arrays(), (), wrong),
+    "attribute name": lambda wrong: Attribute(wrong, np.ones(3)),
+    "attribute values": lambda wrong: Attribute("a", wrong),
+    "attribute domain": lambda wrong: Attribute("a", np.ones(3), wrong),
+    "attribute indices": lambda wrong: Attribute("a", np.ones(3), "corner", "generic", wrong),
+    **{f"Limits {field.name}": (lambda wrong, name=field.name: Limits(**{name: wrong})) for field in fields(Limits)},
+    **{
+        f"EncodeOptions {field.name}": (lambda wrong, name=field.name: EncodeOptions(**{name: wrong}))
+        for field in fields(EncodeOptions)
+    },
+}
+
+
+@pytest.mark.parametrize("name", CALLS)
+def test_wrong_arguments_end_in_our_errors(name, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    foreign = []
+    for wrong in WRONG:
+        if name.startswith("encode_many jobs") and isinstance(wrong, np.ndarray):
+            continue
+        try:
+            with warnings.catch_warnings():
+                warnings.simplefilter("error")
+                CALLS[name](wrong)
+        except (BsmError, OSError):
+            pass
+        except Exception as error:
+            foreign.append(f"{wrong!r}: {type(error).__name__}: {error}")
+    assert not foreign
+
+
+@pytest.mark.parametrize("value", [math.nan, -1, -math.inf])
+def test_limits_that_bound_nothing_are_refused(value):
+    for field in fields(Limits):
+        with pytest.raises(OptionError, match=field.name):
+            Limits(**{field.name: value})
+
+
+@pytest.mark.parametrize(("threads", "error"), [(0, OptionError), (-1, OptionError), ("2", ArgumentError)])
+def test_threads_are_a_number_above_0(threads, error):
+    with pytest.raises(error, match="threads"):
+        bsm.decode(stream(), threads=threads)

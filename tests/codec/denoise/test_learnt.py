@@ -1,0 +1,137 @@
+"""The learnt candidate: what it is told does not depend on where a mesh is, and what it says is worth something."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from bsm.codec.denoise import automatic
+from bsm.codec.denoise.filters.topology import Topology
+from bsm.codec.denoise.filters.vertex_update import face_geometry
+from bsm.codec.denoise.learnt.cascade import Learner, joined, learnt, regressed_normals
+from bsm.codec.denoise.learnt.descriptors import BASE, NUMBERS, descriptions, mirrored
+from bsm.codec.denoise.learnt.network import WEIGHTS, Network, read_networks, write_networks
+from bsm.codec.denoise.noise.gaussian import gaussian_along_normals
+from bsm.codec.geometry.metrics import rms_over_edge, theta
+from tests.codec.denoise.denoise_shapes import cube, grid, sphere
+
+TURN = np.linalg.qr(np.random.default_rng(4).normal(size=(3, 3)))[0]
+TURN *= np.sign(np.linalg.det(TURN))
+
+
+def zeros(size: int) -> Network:
+    """A network for so many numbers that adds nothing."""
+    layer = (np.zeros((size, 3), np.float32), np.zeros(3, np.float32))
+    return Network(np.zeros(size, np.float32), np.ones(size, np.float32), (layer,))
+
+
+def noisy_sphere(size: int = 16):  # type: ignore[no-untyped-def]
+    clean, faces = sphere(size)
+    return clean, gaussian_along_normals(clean, faces, 0.3, seed=3), faces
+
+
+def test_the_same_mesh_elsewhere_gives_the_same_normals_there() -> None:
+    _, noisy, faces = noisy_sphere()
+    topology = Topology(faces, len(noisy))
+    here = learnt(noisy, topology)
+    there = learnt(1000.0 * noisy @ TURN.T + [5.0, -7.0, 1.0], topology)
+    assert there.normals == pytest.approx(here.normals @ TURN.T, abs=2e-2)
+    assert np.abs(there.normals - here.normals @ TURN.T).mean() < 1e-4
+
+
+def test_batches_make_no_difference() -> None:
+    _, noisy, faces = noisy_sphere(10)
+    topology = Topology(faces, len(noisy))
+    whole = next(descriptions(noisy, topology))
+    parts = list(descriptions(noisy, topology, batch=97))
+    assert whole[0].shape == (len(faces), NUMBERS) and whole[0].dtype == np.float32
+    for index in range(2):
+        assert (np.concatenate([part[index] for part in parts]) == whole[index]).all()
+
+
+def test_frames_are_orthonormal_and_normals_in_them_have_length_one() -> None:
+    _, noisy, faces = noisy_sphere(8)
+    numbers, frames = next(descriptions(noisy, Topology(faces, len(noisy))))
+    assert frames @ frames.transpose(0, 2, 1) == pytest.approx(np.broadcast_to(np.eye(3), frames.shape), abs=1e-12)
+    assert np.linalg.norm(numbers[:, BASE], axis=1) == pytest.approx(1.0, abs=1e-5)
+    own = np.einsum("kij,kj->ki", frames, face_geometry(noisy, faces).normals)
+    assert numbers[:, :3] == pytest.approx(own, abs=1e-6)
+
+
+@pytest.mark.parametrize("flipped", [0, 1])
+def test_a_mirrored_mesh_is_described_by_mirrored_numbers(flipped: int) -> None:
+    """Of a flat square with bumps, seen in a mirror across x or y: frames differ by signs alone."""
+    flat, faces = grid(12)
+    bumpy = flat + np.random.default_rng(1).normal(size=flat.shape) * [0.0, 0.0, 0.2]
+    mirror = np.where(np.arange(3) == flipped, -1.0, 1.0)
+    numbers, frames = next(descriptions(bumpy, Topology(faces, len(bumpy))))
+    # Turned about, faces look to the same side as before.
+    other, turned = next(descriptions(bumpy * mirror, Topology(np.ascontiguousarray(faces[:, [0, 2, 1]]), len(bumpy))))
+    signs = np.sign(np.einsum("kij,kij->ki", turned, frames * mirror))
+    assert (signs[:, 2] == 1.0).all()
+    for x in (False, True):
+        for y in (False, True):
+            chosen = (signs[:, 0] == (-1.0 if x else 1.0)) & (signs[:, 1] == (-1.0 if y else 1.0))
+            order, sign = mirrored(x, y)
+            assert other[chosen] == pytest.approx(numbers[chosen][:, order] * sign, abs=1e-4)
+
+
+@pytest.mark.parametrize("shape", [cube, sphere])
+def test_it_takes_noise_away(shape) -> None:  # type: ignore[no-untyped-def]
+    clean, faces = shape(16)
+    noisy = gaussian_along_normals(clean, faces, 0.3, seed=3)
+    topology = Topology(faces, len(clean))
+    other = learnt(noisy, topology)
+    assert theta(clean, other.positions, faces) < 0.3 * theta(clean, noisy, faces)
+    assert rms_over_edge(clean, other.positions, faces) < 0.6 * rms_over_edge(clean, noisy, faces)
+    assert joined(noisy, other, 0.0, topology) is noisy
+    half = theta(clean, joined(noisy, other, 0.5, topology), faces)
+    assert theta(clean, joined(noisy, other, 1.0, topology), faces) < half < theta(clean, noisy, faces)
+
+
+def test_a_mesh_without_faces_and_one_without_area_pass() -> None:
+    assert learnt(np.zeros((3, 3)), Topology(np.zeros((0, 3), np.int32), 3)).normals.shape == (0, 3)
+    flat = learnt(np.zeros((3, 3)), Topology(np.array([[0, 1, 2]], np.int32), 3))
+    assert np.isfinite(flat.positions).all() and np.isfinite(flat.normals).all()
+
+
+def test_weights_are_small_and_written_as_they_are_read(tmp_path: Path) -> None:
+    assert WEIGHTS.stat().st_size <= 600_000
+    networks = list(read_networks())
+    write_networks(tmp_path / "again.npz", networks)
+    again = read_networks(tmp_path / "again.npz")
+    numbers = np.random.default_rng(0).normal(size=(7, NUMBERS)).astype(np.float32)
+    assert len(again) == len(networks)
+    assert all((one(numbers) == other(numbers)).all() for one, other in zip(networks, again, strict=True))
+
+
+def test_weights_for_other_numbers_are_refused(tmp_path: Path) -> None:
+    short = zeros(5)
+    write_networks(tmp_path / "short.npz", [short])
+    with pytest.raises(ValueError, match="train"):
+        read_networks(tmp_path / "short.npz")
+
+
+def test_a_network_of_zeros_says_the_filtered_normal() -> None:
+    _, noisy, faces = noisy_sphere(8)
+    topology = Topology(faces, len(noisy))
+    numbers, frames = next(descriptions(noisy, topology))
+    filtered = np.einsum("kij,ki->kj", frames, numbers[:, BASE])
+    assert regressed_normals(noisy, topology, zeros(NUMBERS)) == pytest.approx(filtered, abs=1e-5)
+
+
+def test_the_choice_says_how_much_of_it_is_learnt(monkeypatch: pytest.MonkeyPatch) -> None:
+    clean, noisy, faces = noisy_sphere(20)
+    result, choice = automatic.denoise_automatically(noisy, faces)
+    assert 0.0 <= choice.learnt <= 1.0
+    assert theta(clean, result, faces) < 0.2 * theta(clean, noisy, faces)
+
+
+def test_a_learner_remembers_one_mesh_alone() -> None:
+    _, noisy, faces = noisy_sphere(8)
+    learner = Learner(Topology(faces, len(noisy)))
+    first = learner(noisy)
+    assert learner(noisy) is first
+    other = learner(2.0 * noisy)
+    assert other is not first and learner(noisy) is not first
+    assert (learner(noisy).positions == first.positions).all()

@@ -1,0 +1,110 @@
+"""Promises that hold in every frame, on what is decoded."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from bsm.bitstream.errors import OptionError, TargetError
+from bsm.codec.arrays import Faces, Positions
+from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.look.measure import Looker
+from bsm.codec.sequence.decoder import decode_sequence
+from bsm.codec.sequence.encoder import SequenceEncoder
+from bsm.codec.sequence.options import SequenceOptions
+from bsm.codec.sequence.promise import PROMISES, Promise, normal_error
+from bsm.codec.sequence.targets import SequenceTarget, flicker_of
+from tests.motion import bending
+
+
+def kept(
+    positions: Positions, faces: Faces, promise: Promise, **changes: int
+) -> tuple[int, Positions, Positions, Faces]:
+    """Bytes, the frames in the decoder's order, what is decoded, and the faces."""
+    options = SequenceOptions(block_size=100, promise=promise, threads=1, **changes)
+    encoder = SequenceEncoder(faces, options, len(positions))
+    data = b"".join(encoder.chunks(positions))
+    decoded, found = decode_sequence(data, threads=1)
+    return len(data), positions[:, encoder.vertex_order], decoded, found
+
+
+def looks(original: Positions, decoded: Positions, faces: Faces) -> list[float]:
+    return [Looker(TriangleMesh(a, faces), threads=1).distance(b) for a, b in zip(original, decoded, strict=True)]
+
+
+def farthest(original: Positions, decoded: Positions) -> float:
+    """In diagonals of the first frame."""
+    return float(np.linalg.norm(decoded - original, axis=2).max() / np.linalg.norm(np.ptp(original[0], axis=0)))
+
+
+@pytest.mark.parametrize("gop", [5, 256])
+def test_every_frame_looks_the_same(gop: int) -> None:
+    _, original, decoded, faces = kept(*bending(12), Promise(0.01, 1.0), gop=gop)
+    found = looks(original, decoded, faces)
+    assert max(found) <= 1.0 and farthest(original, decoded) <= 0.01
+    assert max(found) > 0.8  # with little to spare
+
+
+@pytest.mark.parametrize("absolute", [False, True])
+def test_no_vertex_is_farther_off_than_is_said(absolute: bool) -> None:
+    positions, faces = bending(12)
+    diagonal = float(np.linalg.norm(np.ptp(positions[0], axis=0)))
+    bound = 0.002
+    promise = Promise(bound * diagonal if absolute else bound, absolute=absolute)
+    _, original, decoded, _ = kept(positions, faces, promise)
+    assert 0.7 * bound < farthest(original, decoded) <= bound
+
+
+def test_a_frame_that_looks_worse_than_its_neighbours_is_found() -> None:
+    positions, faces = bending(40)
+    positions[17] += 0.02 * np.random.default_rng(0).standard_normal(positions[17].shape)
+    _, original, decoded, found = kept(positions, faces, Promise(0.01, 1.0))
+    assert max(looks(original, decoded, found)) <= 1.0
+
+
+def test_presets_are_ordered() -> None:
+    sizes = [kept(*bending(6), PROMISES[name])[0] for name in ("small", "balanced", "fine")]
+    assert sizes == sorted(sizes) and sizes[0] < sizes[2]
+
+
+def test_frames_of_which_nothing_is_seen_are_no_obstacle() -> None:
+    positions, faces = bending(6)
+    positions[3] = positions[3, :1]  # all vertices at one place
+    _, original, decoded, _ = kept(positions, faces, Promise(0.01, 1.0))
+    assert farthest(original, decoded) <= 0.01
+
+
+def test_what_cannot_be_kept_is_an_error() -> None:
+    with pytest.raises(TargetError, match="cannot be kept"):
+        kept(*bending(3), Promise(1e-9))
+    for bounds in ((0.0, 1.0), (0.01, 0.0), (float("inf"), 1.0)):
+        with pytest.raises(OptionError, match="bounds"):
+            Promise(*bounds)
+
+
+def test_a_promise_is_one_of_gops_and_without_a_target() -> None:
+    with pytest.raises(OptionError, match="promise"):
+        SequenceOptions(promise=PROMISES["fine"], mode="low-delay")
+    with pytest.raises(OptionError, match="promise"):
+        SequenceOptions(promise=PROMISES["fine"], target=SequenceTarget("kg", 1.0))
+
+
+def test_errors_of_normals_are_angles() -> None:
+    positions, faces = bending(1)
+    angle = 0.1
+    turned = positions[0] @ np.array(
+        [[np.cos(angle), np.sin(angle), 0.0], [-np.sin(angle), np.cos(angle), 0.0], [0.0, 0.0, 1.0]]
+    )
+    assert normal_error(positions[0], positions[0], faces) == pytest.approx(0.0, abs=1e-7)
+    assert 0.3 * angle < normal_error(positions[0], turned, faces) < angle
+
+
+def test_flicker_is_what_changes_from_frame_to_frame() -> None:
+    positions, _ = bending(9)
+    still = positions + 0.01
+    assert flicker_of(positions, positions) == 0.0
+    assert flicker_of(positions, still) == pytest.approx(0.0, abs=1e-9)
+    shaking = positions + 0.01 * (-1.0) ** np.arange(9)[:, None, None]
+    own = np.linalg.norm(np.diff(positions, 2, axis=0))
+    assert flicker_of(positions, shaking) == pytest.approx(100 * 0.04 * np.sqrt(7 * positions[0].size) / own)
+    assert flicker_of(np.repeat(positions[:1], 9, axis=0), shaking) == np.inf

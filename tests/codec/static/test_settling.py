@@ -1,0 +1,107 @@
+"""Levels that are worth their bits: where errors are seen they are right, and elsewhere cheap."""
+
+import numpy as np
+import pytest
+
+from bsm.codec import _kernels
+from bsm.codec.geometry.graph import graph_of_faces
+from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.look.measure import Looker
+from bsm.codec.signal.frames import local_frames
+from bsm.codec.static.choice.settling import AROUND, SIZES, Sensitivity
+from tests.shapes import patch, together, torus
+
+MESH = torus(40, 30)
+GRAPH = graph_of_faces(MESH.faces, len(MESH.positions))
+ANYWHERE = np.full(len(MESH.positions), np.inf)
+
+
+@pytest.fixture(scope="module")
+def sensitivity():
+    steps = 0.002 * MESH.diagonal, 0.008 * MESH.diagonal
+    return Sensitivity(MESH.positions, MESH.faces, GRAPH, Looker(MESH), steps)
+
+
+def offsets(size, seed=0):
+    return np.random.default_rng(seed).normal(0, size, MESH.positions.shape)
+
+
+def entropy(levels):
+    counts = np.unique(levels, return_counts=True)[1] / levels.size
+    return -(counts * np.log2(counts)).sum()
+
+
+def test_free_bits_are_rounding(sensitivity):
+    wanted, steps = offsets(0.01), np.array([0.002, 0.006, 0.006])
+    levels = sensitivity.levels(wanted, steps, 0.0, ANYWHERE)
+    assert (levels == np.rint(wanted / steps)).all()
+
+
+def test_bits_that_cost_are_saved(sensitivity):
+    wanted, steps = offsets(0.01), np.array([0.002, 0.006, 0.006])
+    sizes, errors = [], []
+    for worth in (0.0, 0.1, 0.3, 1.0):
+        levels = sensitivity.levels(wanted, steps, worth, ANYWHERE)
+        sizes.append(sum(entropy(levels[:, axis]) for axis in range(3)))
+        errors.append(np.square(levels * steps - wanted).sum())
+    assert sizes == sorted(sizes, reverse=True)
+    assert errors == sorted(errors)
+
+
+def test_no_vertex_ends_up_out_of_reach(sensitivity):
+    wanted, steps = offsets(0.01), np.array([0.002, 0.006, 0.006])
+    rounded = np.sqrt(np.square(np.rint(wanted / steps) * steps - wanted).sum(axis=1))
+    reach = np.full(len(wanted), 0.004)
+    levels = sensitivity.levels(wanted, steps, 3.0, reach)
+    moved = np.sqrt(np.square(levels * steps - wanted).sum(axis=1))
+    assert (moved <= np.maximum(reach, rounded) + 1e-12).all()
+
+
+def test_errors_along_normals_cost_more(sensitivity):
+    normal, tangent = sensitivity.costs
+    assert normal.shape == tangent.shape == (len(MESH.positions),)
+    assert np.median(normal) > 4 * np.median(tangent)
+    assert tangent.min() > 0
+
+
+def test_what_is_hidden_costs_little():
+    inner = TriangleMesh(patch(12, 12).positions * 0.1, patch(12, 12).faces)
+    shell = TriangleMesh(MESH.positions / MESH.diagonal, MESH.faces)
+    # The patch lies inside the tube of the torus.
+    ring = shell.positions[np.argmax(shell.positions[:, 0])] * (0.8, 1, 0)
+    both = together(shell, TriangleMesh(inner.positions * 0.3 + ring, inner.faces))
+    graph = graph_of_faces(both.faces, len(both.positions))
+    measured = Sensitivity(both.positions, both.faces, graph, Looker(both), (0.002, 0.008))
+    normal, _ = measured.costs
+    outside, hidden = normal[: len(shell.positions)], normal[len(shell.positions) :]
+    assert np.median(hidden) < 0.5 * np.median(outside)
+
+
+def test_the_step_for_a_look_is_about_right(sensitivity):
+    step = sensitivity.step_for(1.0, 4.0)
+    assert sensitivity.step_for(2.0, 4.0) == pytest.approx(step * 2 ** (0.5 / 0.8))
+    frames = local_frames(MESH.positions, MESH.faces).reshape(-1, 3, 3)
+    noise = np.random.default_rng(1).uniform(-0.5, 0.5, MESH.positions.shape) * step * (1, 4, 4)
+    seen = Looker(MESH).distance(MESH.positions + np.einsum("na,nad->nd", noise, frames))
+    assert 0.4 < seen < 2.5
+
+
+def test_one_axis_will_do(sensitivity):
+    levels = sensitivity.levels(offsets(0.01)[:, :1], np.array([0.002]), 0.2, ANYWHERE)
+    assert levels.shape == (len(MESH.positions), 1)
+
+
+def test_the_kernel_refuses_what_does_not_fit():
+    count = len(MESH.positions)
+    rates = np.ones((3 * AROUND, SIZES))
+    given = [
+        np.zeros((count, 3)), np.ones((count, 3)), np.ones(3), ANYWHERE, GRAPH.offsets, GRAPH.neighbours, rates, 0.8,
+        np.zeros((count, 3), np.int32), np.empty_like(rates),
+    ]  # fmt: skip
+    assert _kernels.settle_levels(*given) == 0
+    for place in (0, 1, 2, 3, 4, 5, 6, 8, 9):
+        with pytest.raises(ValueError, match="fit together"):
+            _kernels.settle_levels(*(value[:-1] if k == place else value for k, value in enumerate(given)))
+    _kernels.settle_levels(np.full((count, 3), 1e300), *given[1:])
+    with pytest.raises(ValueError, match="fit together"):
+        _kernels.settle_levels(*given[:5], GRAPH.neighbours + count, *given[6:])

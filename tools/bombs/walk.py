@@ -1,0 +1,242 @@
+"""Every frame type and every field, each as large as its bytes allow; what decoding takes is held against the law.
+
+`python -m tools.bombs.walk` walks all of it, with `--web` in the decoder for browsers, too. The list of what there is
+to make large is that of the code: a field that is new is walked without a word here.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import subprocess
+import sys
+import tempfile
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+from functools import cache, partial
+from pathlib import Path
+from random import Random
+from typing import Any
+
+from bsm.bitstream.container.declaration import Declaration
+from bsm.bitstream.container.header import HEADER_FIELDS, Field, fields_of
+from bsm.bitstream.container.maps import MAX_ENTRIES, write_map
+from bsm.bitstream.container.wire import SKIPPABLE_TYPES, FrameType, write_varint
+from bsm.bitstream.limits import NAMED_LIMITS
+from tools.bombs.measure import Taken, decode_all, forget_peak, resident, seconds_of_cpu
+from tools.surgery import frames_of, stream_of, with_declaration, with_header
+
+VECTORS = Path(__file__).parents[2] / "spec" / "vectors"
+WEB = Path(__file__).parents[2] / "tools" / "web" / "scripts" / "measure.mjs"
+COUNTS = {"BLOCK": 2, "GOP": 1, "GRID": 2, "REFINEMENT": 3, "VALUES": 3, "ATTRIBUTE": 2, "END": 1}
+"""Varints at the beginning of a payload."""
+MOST_VARINT = 2**31 - 1
+NOISE = 64 << 20
+"""Bytes by which what is measured may differ from what is promised: an allocator's, of libraries, of other threads."""
+
+
+@dataclass(frozen=True)
+class Case:
+    """A stream that is large in one place."""
+
+    name: str
+    make: Callable[[], bytes]
+
+
+@cache
+def _good() -> dict[str, bytes]:
+    """The smallest sound vector that has a frame of each type."""
+    smallest: dict[str, bytes] = {}
+    for path in sorted(VECTORS.glob("good-*.bsm"), key=lambda path: path.stat().st_size):
+        stream = path.read_bytes()
+        for kind, _ in frames_of(stream):
+            smallest.setdefault(FrameType(kind).name if kind not in SKIPPABLE_TYPES else "SKIPPABLE", stream)
+    return smallest
+
+
+def bases() -> dict[str, bytes]:
+    """Streams of each kind: blocks, a grid, layers, a sequence, attributes."""
+    return {kind: _good()[kind] for kind in ("BLOCK", "GRID", "REFINEMENT", "GOP", "ATTRIBUTE")}
+
+
+def _fill(size: int) -> dict[str, bytes]:
+    return {"zeros": bytes(size), "ones": b"\xff" * size, "noise": Random(size).randbytes(size)}
+
+
+def _longer(kind: str, fill: bytes) -> bytes:
+    """The first frame of a type with so much behind it."""
+    stream = _good()[kind]
+    frames = frames_of(stream)
+    place = next(i for i, (found, _) in enumerate(frames) if found == FrameType[kind])
+    frames[place] = (frames[place][0], frames[place][1] + fill)
+    return stream_of(frames)
+
+
+def _counted(kind: str, which: int, size: int) -> bytes:
+    """One of the counts of a payload as large as it may be written, and bytes behind them."""
+    frames = frames_of(_good()[kind])
+    place = next(i for i, (found, _) in enumerate(frames) if found == FrameType[kind])
+    counts = [1 if number != which else MOST_VARINT for number in range(COUNTS[kind])]
+    frames[place] = (frames[place][0], b"".join(map(write_varint, counts)) + bytes(size))
+    return stream_of(frames)
+
+
+def _many(kind: str, size: int) -> bytes:
+    """As many frames of a type as so many bytes are, all alike but for those of the stream."""
+    frames = frames_of(_good()[kind])
+    place = next(i for i, (found, _) in enumerate(frames) if found == FrameType[kind])
+    count = max(1, size // (len(frames[place][1]) + 4))
+    return stream_of([*frames[:place], *[frames[place]] * count, *frames[place + 1 :]])
+
+
+def _largest(declared: Field, size: int) -> list[Any]:
+    """The largest values that a field may have, or more."""
+    high = declared.high
+    if declared.type is tuple:
+        return [[declared.item(high)] * count for count in (declared.lengths[1], MAX_ENTRIES)]
+    if declared.type is str:
+        return ["x" * int(high), "x" * size]
+    if declared.type is bytes:
+        return [bytes(min(int(high), size)), bytes([127]) * min(int(high), size)]
+    return [declared.type(value) for value in (high, declared.low, MOST_VARINT)]
+
+
+def _maps(size: int) -> Iterator[tuple[str, bytes]]:
+    """Maps that are as large as so many bytes allow."""
+    yield "entries", write_map((64 + i, i) for i in range(MAX_ENTRIES))
+    yield "arrays", write_map([(64, [1] * MAX_ENTRIES)])
+    yield "binary", write_map([(64, bytes(size))])
+    yield "text", write_map([(64, "x" * size)])
+    yield "nested", b"\x81\x40" + b"\x91" * size + b"\x01"
+    yield "many", b"\x81\x40\xdd" + size.to_bytes(4, "big") + b"\x01" * size
+
+
+def cases(size: int) -> Iterator[Case]:
+    """All of them, of about so many bytes each."""
+    for base, stream in bases().items():
+        for name, declared in HEADER_FIELDS.items():
+            for number, value in enumerate(_largest(declared, size)):
+                yield Case(
+                    f"{base} header {name} {number}",
+                    partial(with_header, stream, **{name: value}),
+                )
+    for name, declared in fields_of(Declaration).items():
+        for number, value in enumerate(_largest(declared, size)):
+            yield Case(
+                f"declaration {name} {number}",
+                partial(with_declaration, _good()["ATTRIBUTE"], 0, **{name: value}),
+            )
+    for kind in FrameType:
+        if kind.name not in _good() and kind is not FrameType.END:
+            raise ValueError(f"no vector has a frame of type {kind.name}")
+        if kind is FrameType.END:
+            continue
+        for what, fill in _fill(size).items():
+            yield Case(f"{kind.name} and {what}", partial(_longer, kind.name, fill))
+        for which in range(COUNTS.get(kind.name, 0)):
+            yield Case(f"{kind.name} count {which}", partial(_counted, kind.name, which, 1000))
+        yield Case(f"{kind.name}, many", partial(_many, kind.name, size))
+    for kind in (FrameType.HEADER, FrameType.METADATA):
+        for what, payload in _maps(size):
+            yield Case(f"{kind.name} map of {what}", partial(_mapped, kind, payload))
+    for what, payload in _maps(size):
+        whole = write_varint(0) + write_varint(len(payload)) + payload
+        yield Case(f"ATTRIBUTE map of {what}", partial(_mapped, FrameType.ATTRIBUTE, whole))
+    for number in SKIPPABLE_TYPES:
+        yield Case(f"skippable {number}, many", partial(_skipped, number, b"", size // 3))
+        yield Case(f"skippable {number}, long", partial(_skipped, number, bytes(size), 1))
+
+
+def _mapped(kind: FrameType, payload: bytes) -> bytes:
+    frames = frames_of(_good()["BLOCK" if kind is not FrameType.ATTRIBUTE else "ATTRIBUTE"])
+    if kind is FrameType.METADATA:
+        return stream_of([frames[0], (kind, payload), *frames[1:]])
+    place = next(i for i, (found, _) in enumerate(frames) if found == kind)
+    return stream_of([*frames[:place], (kind, payload), *frames[place + 1 :]])
+
+
+def _skipped(kind: int, payload: bytes, count: int) -> bytes:
+    frames = frames_of(_good()["BLOCK"])
+    return stream_of([frames[0], *[(kind, payload)] * count, *frames[1:]])
+
+
+def bounds(limits: str, taken: Taken, size: int) -> tuple[float, float]:
+    """Bytes and seconds that a stream may take (M 14.8, M 14.9)."""
+    if limits == "service":
+        return float(1 << 30), 10.0
+    vertices = taken.vertices
+    return (1 << 26) + 1024.0 * vertices + 64.0 * size, 1.0 + 4e-5 * (vertices + taken.shown) + 2e-5 * size
+
+
+def taken_in_child(stream: bytes, how: str, limits: str) -> Taken:
+    """What a stream takes in a process of its own, forked from this one."""
+    reading, writing = os.pipe()
+    child = os.fork()
+    if child == 0:
+        try:
+            forget_peak()
+            seconds, memory = seconds_of_cpu(), resident("VmRSS")
+            taken = decode_all(stream, how, NAMED_LIMITS[limits]())
+            taken = replace(taken, seconds=seconds_of_cpu() - seconds, memory=resident("VmHWM") - memory)
+        except BaseException as error:
+            taken = Taken(f"escaped: {type(error).__name__}: {error}")
+        os.write(writing, json.dumps(vars(taken)).encode())
+        os._exit(0)
+    os.close(writing)
+    with os.fdopen(reading, "rb") as pipe:
+        told = pipe.read()
+    os.waitpid(child, 0)
+    return Taken(**json.loads(told)) if told else Taken("died")
+
+
+def problem_of(stream: bytes, how: str, limits: str) -> str | None:
+    """Where a stream takes more than it may, or something else than an error of ours comes out."""
+    taken = taken_in_child(stream, how, limits)
+    memory, seconds = bounds(limits, taken, len(stream))
+    if taken.outcome == "died" or taken.outcome.startswith("escaped"):
+        return taken.outcome
+    if taken.memory > memory or taken.seconds > seconds:
+        return f"{taken.memory / 2**20:.0f} of {memory / 2**20:.0f} MiB, {taken.seconds:.2f} of {seconds:.2f} s"
+    return None
+
+
+def web_problems(streams: dict[str, bytes]) -> list[str]:
+    """The same by the decoder for browsers: one process, which tells what each stream took."""
+    with tempfile.TemporaryDirectory() as folder:
+        for number, stream in enumerate(streams.values()):
+            (Path(folder) / f"{number}.bsm").write_bytes(stream)
+        done = subprocess.run(["node", "--expose-gc", str(WEB), folder], capture_output=True, text=True, check=True)
+    found = []
+    for name, (line, stream) in zip(streams, zip(done.stdout.splitlines(), streams.values(), strict=True), strict=True):
+        told = json.loads(line)
+        memory, seconds = bounds("default", Taken(vertices=told["vertices"], shown=told["shown"]), len(stream))
+        if told["escaped"] or told["memory"] > memory + NOISE or told["seconds"] > 2.0 * seconds:
+            found.append(f"{name}: {told}")
+    return found
+
+
+def main() -> int:
+    """Run the command."""
+    parser = argparse.ArgumentParser(prog="python -m tools.bombs.walk", description=__doc__)
+    parser.add_argument("--bytes", type=int, default=1 << 20, help="of a case (default: %(default)s)")
+    parser.add_argument("--web", action="store_true", help="by the decoder for browsers, too")
+    args = parser.parse_args()
+    found, count = [], 0
+    decode_all(_good()["BLOCK"], "whole", NAMED_LIMITS["default"]())  # what is loaded once is nobody's fault
+    every = {case.name: case.make() for case in cases(args.bytes)}
+    for name, stream in every.items():
+        for limits in ("default", "service"):
+            for how in ("whole", "tolerant"):
+                count += 1
+                if problem := problem_of(stream, how, limits):
+                    found.append(f"{name} ({how}, {limits}): {problem}")
+    if args.web:
+        count += len(every)
+        found += [f"{problem} (web)" for problem in web_problems(every)]
+    print("\n".join([*found, f"{len(every)} streams, {count} decodes, {len(found)} findings"]))
+    return 1 if found else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

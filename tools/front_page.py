@@ -1,0 +1,105 @@
+"""The pictures of the README: a scan, a noisy part, and a moving mesh.
+
+    python -m tools.front_page FOLDER
+
+FOLDER has static/, noisy/ and dynamic/. Writes tools/front.png and tools/motion.gif.
+"""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+import numpy as np
+
+import bsm
+from bsm.codec.arrays import Faces, Positions
+from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.console import Console
+from bsm.evaluation.draco import decode_draco, encode_draco
+from bsm.evaluation.render import Image, bounds_of, render, view_matrix
+from tools.command import run_command
+
+TOOLS = Path(__file__).parent
+FRONT = view_matrix(-90.0, 15.0)
+PIXELS = 480
+FRAMES = 24
+
+
+def main(args: argparse.Namespace, console: Console) -> None:
+    """Write both pictures."""
+    folder = Path(args.folder)
+    _save_row([*scan(folder / "static" / "bunny_34834.ply"), *part(folder)], TOOLS / "front.png")
+    text = _save_motion(folder / "dynamic" / "samba.npz", TOOLS / "motion.gif")
+    console.note(text)
+
+
+def scan(path: Path) -> list[tuple[str, Image]]:
+    """A scan, what the default makes of it, and the finest Draco file that is no larger."""
+    mesh = bsm.load(path)
+    data = bsm.encode(mesh)
+    theirs = max((encode_draco(mesh, bits, 10) for bits in range(4, 15)), key=lambda file: _fits(file, len(data)))
+    upright = np.array([[1, 0, 0], [0, 0, -1], [0, 1, 0]], float)
+    bounds = bounds_of(mesh.positions @ upright.T, FRONT)
+    rows = (
+        (f"scan: {path.stat().st_size // 1000} kB", mesh),
+        (f"BSM, default: {len(data) / 1000:.1f} kB", bsm.decode(data)),
+    )
+    last = (f"Draco at that size: {len(theirs) / 1000:.1f} kB", decode_draco(theirs))
+    return [(name, _drawn(one.positions @ upright.T, one.faces, bounds)) for name, one in (*rows, last)]
+
+
+def _fits(file: bytes, size: int) -> int:
+    return len(file) if len(file) <= size else -len(file)
+
+
+def part(folder: Path) -> list[tuple[str, Image]]:
+    """A noisy part, and what denoising makes of it."""
+    noisy = bsm.load(folder / "noisy" / "fandisk_0.3_noisy.ply")
+    clean = bsm.denoise(noisy)
+    bounds = bounds_of(noisy.positions)
+    pairs: tuple[tuple[str, TriangleMesh], ...] = (("noisy", noisy), ("denoised", clean))
+    return [(name, render(mesh.positions, mesh.faces, PIXELS, bounds=bounds)) for name, mesh in pairs]
+
+
+def _drawn(positions: Positions, faces: Faces, bounds: tuple[Image, float]) -> Image:
+    return render(positions, faces, PIXELS, view=FRONT, bounds=bounds)
+
+
+def _save_row(pictures: list[tuple[str, Image]], path: Path) -> None:
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
+
+    figure = Figure(figsize=(3.2 * len(pictures), 3.6), dpi=100)
+    FigureCanvasAgg(figure)
+    for axes, (title, picture) in zip(figure.subplots(1, len(pictures)), pictures, strict=True):
+        axes.imshow(picture)
+        axes.set_title(title, fontsize=11)
+        axes.axis("off")
+    figure.tight_layout()
+    figure.savefig(path)
+
+
+def _save_motion(path: Path, target: Path) -> str:
+    from PIL import Image as Pictures
+
+    frames = np.load(path)
+    data = bsm.encode_sequence(frames["positions"], frames["faces"])
+    positions, faces = bsm.decode_sequence(data)
+    chosen = positions[:: max(1, len(positions) // FRAMES)][:FRAMES]
+    upright = np.array([[1, 0, 0], [0, 0, -1], [0, 1, 0]], float)
+    bounds = bounds_of(chosen.reshape(-1, 3) @ upright.T, FRONT)
+    drawn = [render(frame @ upright.T, faces, 280, view=FRONT, bounds=bounds) for frame in chosen]
+    images = [Pictures.fromarray(np.uint8(255 * image)).quantize(32) for image in drawn]
+    images[0].save(target, save_all=True, append_images=images[1:], duration=80, loop=0, optimize=True)
+    return f"{path.stem}: {frames['positions'].nbytes} bytes as float32, {len(data)} as a stream"
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(prog="python -m tools.front_page", description=__doc__)
+    parser.add_argument("folder", metavar="FOLDER", help="folder of meshes")
+    return parser
+
+
+if __name__ == "__main__":
+    run_command(_parser(), main)

@@ -1,0 +1,1 @@
+import{useLoader as o}from"@react-three/fiber";import{BSMLoader as t,BSMSceneLoader as S}from"./three.js";function d(e,r){return o(t,e,r)}function B(e,r){return o(S,e,r)}export{d as useBSM,B as useBSMScene};

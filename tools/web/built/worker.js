@@ -1,0 +1,1 @@
+import{serve}from"./bsm.js";serve();

@@ -1,0 +1,36 @@
+// `node --expose-gc measure.mjs FOLDER`: decode 0.bsm, 1.bsm, ... there, and print for each, as a line of JSON, what it took:
+// bytes of memory beyond what there was before, and seconds of CPU; `escaped` is what is no error of a stream.
+import { readdirSync, readFileSync } from "node:fs";
+import { dirname, join } from "node:path";
+import { fileURLToPath, pathToFileURL } from "node:url";
+
+const built = join(dirname(fileURLToPath(import.meta.url)), "../built");
+const { BsmError, Decoder, END_OF_STREAM, Kernels } = await import(pathToFileURL(join(built, "bsm.js")).href);
+const kernels = await Kernels.compile(readFileSync(join(built, "kernels.wasm")));
+const seconds = () => process.cpuUsage().user / 1e6 + process.cpuUsage().system / 1e6;
+const folder = process.argv[2];
+
+for (let number = 0; number < readdirSync(folder).length; number++) {
+    const data = new Uint8Array(readFileSync(join(folder, `${number}.bsm`)));
+    globalThis.gc();
+    const [before, begin] = [process.memoryUsage.rss(), seconds()];
+    const told = { vertices: 0, shown: 0, memory: 0, seconds: 0, escaped: "", outcome: "decoded" };
+    let size = 0;
+    try {
+        const decoder = new Decoder(kernels);
+        decoder.receiveData(data);
+        decoder.receiveEof();
+        for (let event; (event = decoder.nextEvent()) !== END_OF_STREAM; ) {
+            if (event.type === "header") size = event.header.vertices;
+            if (event.type === "connectivity") told.vertices = event.vertices;
+            if (event.type === "frame") told.shown += size;
+            told.memory = Math.max(told.memory, process.memoryUsage.rss() - before);
+        }
+    } catch (error) {
+        told.outcome = `${error}`.slice(0, 100);
+        if (!(error instanceof BsmError)) told.escaped = `${error}`;
+    }
+    told.memory = Math.max(told.memory, process.memoryUsage.rss() - before);
+    told.seconds = seconds() - begin;
+    console.log(JSON.stringify(told));
+}

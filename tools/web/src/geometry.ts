@@ -1,0 +1,198 @@
+/** A geometry of three.js that is made of pictures, while they come. */
+import { Box3, BufferAttribute, BufferGeometry, Sphere, Vector3 } from "three";
+import type { AttributePicture, BegunPicture, FramePicture, GrownPicture, Header, LossEvent, Metadata, Picture, Piece, Shape } from "./index";
+
+/** What happens to a geometry while it is filled. */
+export interface Progress {
+    /** Faces are there, all or those of one more section; those whose corners have no position yet are not drawn. */
+    onConnectivity?: (geometry: BSMGeometry) => void;
+    /** Vertices have come, or moved. */
+    onBlock?: (geometry: BSMGeometry) => void;
+    /** A frame of a sequence is there to be shown. */
+    onFrame?: (index: number, geometry: BSMGeometry) => void;
+    /** What the author says of the mesh is there; it may come in several maps. */
+    onMetadata?: (metadata: Metadata, geometry: BSMGeometry) => void;
+}
+
+/** A frame of a sequence, for the drawn vertices. */
+interface Frame {
+    positions: Float32Array;
+    normals: Int16Array;
+}
+
+/**
+ * Texture coordinates are `uv`, colours `color`, normals `normal`, others have their names, and second ones of a kind a
+ * number behind it. While it grows the index has room for all faces; those whose corners are known come first, and the draw
+ * range ends behind them. At the end it is indexed by all that a corner has, and its groups have one material each.
+ */
+export class BSMGeometry extends BufferGeometry {
+    /** What the stream says of itself, as soon as that is there. */
+    header?: Header;
+    /** What its author says of it. */
+    readonly metadata: Metadata = new Map();
+    /** The block that each vertex came with, -1 as long as it is not there; only of a geometry that grows. */
+    origin = new Int32Array(0);
+    /** How many quality layers have moved each vertex; only of a geometry that grows. */
+    depth = new Uint8Array(0);
+    /** Quality layers that are there for every vertex. */
+    layers = 0;
+    /** Blocks, or chunks of a grid, that are there. */
+    blocks = 0;
+    /** Sections whose faces are there. */
+    sections = 0;
+    /** Attributes that are there, and are drawn once the mesh is whole. */
+    readonly carried: AttributePicture[] = [];
+    /** Positions of the stream's vertices, shape (n, 3); only of a geometry that grows. */
+    points = new Float32Array(0);
+    /** The stream's vertex that each drawn one is, where seams have parted them. */
+    parted?: Int32Array;
+    /** Faces of one part and one material each. */
+    pieces: Piece[] = [];
+    /** Frames of a sequence that are there, for `showFrame`. */
+    readonly frames: Frame[] = [];
+    /** The frame that is shown. */
+    shown = -1;
+    private normals = new Float32Array(0);
+    private drawn = 0;
+
+    constructor(private readonly progress: Progress = {}) {
+        super();
+    }
+
+    /** Frames per second; 0: the stream is no sequence, or does not say. */
+    get frameRate(): number {
+        const rate = this.metadata.get("frame_rate");
+        return typeof rate === "number" && rate > 0 && rate < Infinity ? rate : 0;
+    }
+
+    /** Bring the geometry up to a picture. */
+    accept(picture: Picture): void {
+        switch (picture.type) {
+            case "header":
+                this.restart();
+                this.header = picture.header;
+                return;
+            case "metadata":
+                picture.entries.forEach((value, name) => this.metadata.set(name, value));
+                return this.progress.onMetadata?.(picture.entries, this);
+            case "begun":
+                return this.begin(picture);
+            case "grown":
+                return this.grow(picture);
+            case "whole":
+                return this.take(picture.shape);
+            case "attribute":
+                return void this.carried.push(picture);
+            case "frame":
+                return this.keep(picture);
+            case "loss":
+                return this.lose(picture);
+        }
+    }
+
+    /** Take the positions of a frame that is there. */
+    showFrame(index: number): void {
+        const { positions, normals } = this.frames[index];
+        if (index === this.shown) return;
+        this.shown = index;
+        // Arrays change hands; nothing is copied but to the graphics.
+        const position = this.getAttribute("position") as BufferAttribute;
+        position.array = positions;
+        position.needsUpdate = true;
+        let normal = this.getAttribute("normal") as BufferAttribute;
+        if (!(normal.array instanceof Int16Array)) this.setAttribute("normal", (normal = new BufferAttribute(normals, 3, true)));
+        normal.array = normals;
+        normal.needsUpdate = true;
+    }
+
+    /** Numbers of the stream's vertices, `width` for each, as those of the drawn ones. */
+    spread(numbers: Float32Array, width: number): Float32Array {
+        const { parted } = this;
+        if (!parted) return numbers;
+        const spread = new Float32Array(width * parted.length);
+        parted.forEach((vertex, i) => spread.set(numbers.subarray(width * vertex, width * vertex + width), width * i));
+        return spread;
+    }
+
+    /** A decoder that knows more begins again. */
+    private restart(): void {
+        if (this.header) this.dispose();
+        for (const name of Object.keys(this.attributes)) this.deleteAttribute(name);
+        this.setIndex(null);
+        this.clearGroups();
+        this.metadata.clear();
+        [this.carried.length, this.frames.length] = [0, 0];
+        [this.layers, this.blocks, this.sections, this.drawn, this.shown] = [0, 0, 0, 0, -1];
+        [this.points, this.normals, this.origin, this.depth] = [new Float32Array(0), new Float32Array(0), new Int32Array(0), new Uint8Array(0)];
+    }
+
+    private begin({ vertices, corners, loose, section }: BegunPicture): void {
+        this.sections = section + 1;
+        const before = this.origin.length;
+        const index = this.getIndex()?.array ?? new Uint32Array(0);
+        if (this.getIndex()) this.dispose(); // what is drawn has no room for more
+        this.points = grown(this.points, 3 * vertices);
+        this.normals = grown(this.normals, 3 * vertices);
+        this.origin = grown(this.origin, vertices).fill(-1, before);
+        this.depth = grown(this.depth, vertices);
+        loose.vertices.forEach((vertex, i) => this.points.set(loose.positions.subarray(3 * i, 3 * i + 3), 3 * vertex));
+        this.setAttribute("position", new BufferAttribute(this.points, 3));
+        this.setAttribute("normal", new BufferAttribute(this.normals, 3));
+        this.setIndex(new BufferAttribute(grown(index as Uint32Array, corners), 1));
+        this.setDrawRange(0, this.drawn);
+        this.progress.onConnectivity?.(this);
+    }
+
+    private grow({ vertices, positions, normals, origin, depth, index, blocks, layers }: GrownPicture): void {
+        const { points: p, normals: n } = this;
+        for (let row = 0; row < vertices.length; row++) {
+            const [to, from] = [3 * vertices[row], 3 * row];
+            [p[to], p[to + 1], p[to + 2]] = [positions[from], positions[from + 1], positions[from + 2]];
+            [n[to], n[to + 1], n[to + 2]] = [normals[from], normals[from + 1], normals[from + 2]];
+            this.origin[vertices[row]] = origin[row];
+            this.depth[vertices[row]] = depth[row];
+        }
+        const corners = this.getIndex();
+        corners?.array.set(index, this.drawn);
+        this.drawn += index.length;
+        for (const attribute of [corners, this.getAttribute("position"), this.getAttribute("normal")]) {
+            if (attribute) (attribute as BufferAttribute).needsUpdate = true;
+        }
+        this.setDrawRange(0, this.drawn);
+        [this.blocks, this.layers] = [blocks, layers];
+        this.progress.onBlock?.(this);
+    }
+
+    private take({ index, positions, normals, attributes, vertices, pieces, center, radius, low, high }: Shape): void {
+        if (this.getIndex()) this.dispose();
+        this.parted = vertices;
+        this.pieces = pieces;
+        this.setIndex(new BufferAttribute(index, 1));
+        this.setAttribute("position", new BufferAttribute(positions, 3));
+        this.setAttribute("normal", new BufferAttribute(normals, 3));
+        for (const { name, values, components } of attributes) this.setAttribute(name, new BufferAttribute(values, components));
+        this.setDrawRange(0, index.length);
+        if (pieces.some(({ material }) => material > 0)) pieces.forEach(({ start, count, material }) => this.addGroup(start, count, material));
+        this.boundingBox = new Box3(new Vector3(...low), new Vector3(...high));
+        this.boundingSphere = new Sphere(new Vector3(...center), radius);
+    }
+
+    private keep({ index, positions, normals }: FramePicture): void {
+        this.frames.push({ positions, normals });
+        if (index === 0) this.showFrame(0);
+        this.progress.onFrame?.(index, this);
+    }
+
+    /** Where frames are lost, the one before them stays. */
+    private lose({ frames }: LossEvent): void {
+        const before = this.frames.at(-1);
+        for (let k = 0; before && k < (frames?.count ?? 0); k++) this.frames.push(before);
+    }
+}
+
+/** Numbers with room for more behind them. */
+function grown<Numbers extends Int32Array | Uint32Array | Uint8Array | Float32Array>(numbers: Numbers, length: number): Numbers {
+    const more = new (numbers.constructor as new (length: number) => Numbers)(length);
+    more.set(numbers);
+    return more;
+}

@@ -1,0 +1,101 @@
+/** Materials and images that metadata speak of, in the words of glTF, for three.js. */
+import { Color, DoubleSide, FrontSide, MeshStandardMaterial, NoColorSpace, RepeatWrapping, SRGBColorSpace, Texture } from "three";
+import type { Metadata } from "./index";
+
+/** Angles that turn the axis which a mesh calls up to y. */
+export function turnOf(metadata: Metadata): [number, number, number] {
+    const up = metadata.get("up");
+    return up === "z" ? [-Math.PI / 2, 0, 0] : up === "x" ? [0, 0, Math.PI / 2] : [0, 0, 0];
+}
+
+type Words = Map<string, string | number>;
+type Slot = "map" | "emissiveMap" | "normalMap" | "metalnessMap" | "roughnessMap" | "aoMap";
+
+/** Textures of glTF, and of MTL, and where three.js has them. */
+const TEXTURES: Record<string, Slot[]> = {
+    baseColorTexture: ["map"],
+    map_Kd: ["map"],
+    emissiveTexture: ["emissiveMap"],
+    map_Ke: ["emissiveMap"],
+    normalTexture: ["normalMap"],
+    norm: ["normalMap"],
+    metallicRoughnessTexture: ["metalnessMap", "roughnessMap"],
+    occlusionTexture: ["aoMap"],
+};
+const COLOURED = ["map", "emissiveMap"];
+
+/** The images of metadata, by their numbers. */
+export async function imagesOf(metadata: Metadata): Promise<Map<number, Texture>> {
+    const found = [...metadata].flatMap(([key, value]) => {
+        const match = /^image\.(\d+)\.data$/.exec(key);
+        return match && value instanceof Uint8Array ? [[Number(match[1]), value] as const] : [];
+    });
+    const textures = await Promise.all(found.map(async ([number, data]) => [number, await textureOf(data)] as const));
+    return new Map(textures.flatMap(([number, texture]) => (texture ? [[number, texture] as const] : [])));
+}
+
+/** An image as a texture whose first row is at the bottom; undefined if the browser does not know its format. */
+async function textureOf(data: Uint8Array): Promise<Texture | undefined> {
+    try {
+        const image = await createImageBitmap(new Blob([data as Uint8Array<ArrayBuffer>]), { imageOrientation: "flipY", colorSpaceConversion: "none" });
+        const texture = new Texture(image);
+        texture.flipY = false;
+        texture.wrapS = texture.wrapT = RepeatWrapping;
+        texture.needsUpdate = true;
+        return texture;
+    } catch {
+        return undefined;
+    }
+}
+
+/** The materials of metadata by their numbers; what has none has `count` plain ones. */
+export function materialsOf(metadata: Metadata, images: Map<number, Texture>, count: number): MeshStandardMaterial[] {
+    const words = Array.from({ length: count }, (): Words => new Map());
+    for (const [key, value] of metadata) {
+        const match = /^material\.(\d+)\.(.+)$/s.exec(key);
+        if (match && Number(match[1]) < count && (typeof value === "string" || typeof value === "number")) words[Number(match[1])].set(match[2], value);
+    }
+    return words.map((said) => materialOf(said, images));
+}
+
+function numbersIn(value: string | number | undefined): number[] {
+    return String(value ?? "").split(/\s+/).filter(Boolean).map(Number);
+}
+
+function materialOf(words: Words, images: Map<number, Texture>): MeshStandardMaterial {
+    const isMtl = !["baseColorFactor", "baseColorTexture", "metallicFactor", "roughnessFactor"].some((name) => words.has(name));
+    const material = new MeshStandardMaterial({ name: String(words.get("name") ?? ""), metalness: isMtl ? 0 : 1, roughness: 1 });
+    const [r = 1, g = 1, b = 1, a = 1] = numbersIn(words.get("baseColorFactor") ?? words.get("Kd"));
+    if (words.has("baseColorFactor")) material.color.setRGB(r, g, b);
+    else material.color = new Color().setRGB(r, g, b, SRGBColorSpace);
+    const emissive = numbersIn(words.get("emissiveFactor") ?? words.get("Ke"));
+    if (emissive.length === 3) material.emissive.setRGB(emissive[0], emissive[1], emissive[2]);
+    for (const [name, set] of [["metallicFactor", "metalness"], ["Pm", "metalness"], ["roughnessFactor", "roughness"], ["Pr", "roughness"]] as const) {
+        if (words.has(name)) material[set] = Number(words.get(name));
+    }
+    for (const [name, slots] of Object.entries(TEXTURES)) {
+        const texture = images.get(Number(words.get(name) ?? NaN));
+        if (texture) for (const slot of slots) material[slot] = inSpace(texture, COLOURED.includes(slot));
+    }
+    if (material.emissiveMap && emissive.length === 0) material.emissive.set(0xffffff);
+    const opacity = a * Number(words.get("d") ?? 1);
+    const mode = words.get("alphaMode");
+    material.opacity = opacity;
+    material.transparent = mode === "BLEND" || (mode === undefined && opacity < 1);
+    if (mode === "MASK") material.alphaTest = Number(words.get("alphaCutoff") ?? 0.5);
+    material.side = isMtl || Number(words.get("doubleSided") ?? 0) ? DoubleSide : FrontSide;
+    return material;
+}
+
+/** A texture in the space of its colours; an image that is used as both is so two textures. */
+function inSpace(texture: Texture, coloured: boolean): Texture {
+    const space = coloured ? SRGBColorSpace : NoColorSpace;
+    if (texture.colorSpace === space) return texture;
+    if (texture.userData.taken) {
+        texture = texture.clone();
+        texture.needsUpdate = true;
+    }
+    texture.userData.taken = true;
+    texture.colorSpace = space;
+    return texture;
+}

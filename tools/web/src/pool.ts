@@ -1,0 +1,316 @@
+/** Threads that decode, kept warm: streams are shared among them, and large ones are decoded by several. */
+import type { Answer, Desk, DrawnEvent, Message, Said, Start } from "./desk";
+import type { Picture } from "./drawing";
+import { errorLike, type BsmError } from "./errors";
+import type { Limits } from "./limits";
+import { needOf, type Build, type Need } from "./peek";
+import { here, type Source } from "./source";
+import { processors } from "./threads";
+
+export { here, placeOf, type Source } from "./source";
+export type { Build } from "./peek";
+
+/** What is to be done with what is decoded: events, or pictures where these are wished for. */
+export interface Listener {
+    onEvent?: (event: DrawnEvent) => void;
+    onPicture?: (picture: Picture) => void;
+    /** The stream is decoded to its end; nothing follows. */
+    onEnd?: () => void;
+    /** Nothing follows it. */
+    onError: (error: BsmError | Error) => void;
+    /** All of the first so many bytes are decoded. */
+    onTaken?: (bytes: number) => void;
+}
+
+export type StreamWishes = Pick<Start, "tolerant" | "drawing" | "worthwhile"> & { limits?: Partial<Limits> };
+
+/** A stream whose bytes are given as they come; what they say is heard later, in its order. */
+export interface StreamDecoding {
+    /** Take a piece, which nobody may change any more. */
+    receiveData(data: Uint8Array): void;
+    receiveEof(): void;
+    /** Stop at once; nothing more is heard. */
+    close(): void;
+}
+
+const LIMIT = 4;
+const WORTHWHILE = 8192;
+/** Other builds are asked what a lesser one does not know. */
+const UNSUPPORTED = "UnsupportedError";
+
+/** A thread, and the streams that it works on, as their decoder or as a helper. */
+interface Hand {
+    build: Build;
+    worker: Worker;
+    ready: boolean;
+    streams: Set<PooledStream>;
+}
+
+/**
+ * At most so many threads, started when they are needed. Where a page may have none, the decoder runs in the one
+ * that there is, a piece at a time.
+ */
+export class Pool {
+    private readonly hands: Hand[] = [];
+    private readonly waiting: PooledStream[] = [];
+    private task = 0;
+    private alone = false;
+    private told = false;
+
+    constructor(
+        private source: Source = here,
+        private limit = LIMIT,
+    ) {}
+
+    /** Have at most so many threads. */
+    setLimit(limit: number): void {
+        this.limit = Math.max(1, limit);
+    }
+
+    /** Take threads and kernels from elsewhere, from now on. */
+    setSource(source: Source): void {
+        this.source = source;
+    }
+
+    /** Have a thread and the kernels of a build ready. */
+    async preload(build: Build = "small"): Promise<void> {
+        if (!this.alone && !this.hands.some((hand) => hand.build === build)) this.start(build);
+        await this.source.kernels(build);
+    }
+
+    /** Begin with a stream. */
+    open(listener: Listener, wishes: StreamWishes = {}): StreamDecoding {
+        return new PooledStream(listener, wishes, {
+            begin: (stream, need) => void this.begin(stream, need),
+            end: (stream) => this.end(stream),
+        });
+    }
+
+    /** Stop all threads; streams that are not whole fail. */
+    dispose(): void {
+        for (const hand of this.hands.splice(0)) this.lose(hand, new Error("the decoder's threads were stopped"));
+        for (const stream of this.waiting.splice(0)) stream.fail(new Error("the decoder's threads were stopped"));
+    }
+
+    private async begin(stream: PooledStream, need: Need): Promise<void> {
+        let kernels: WebAssembly.Module;
+        try {
+            kernels = await this.source.kernels(need.build);
+        } catch (error) {
+            return stream.fail(error instanceof Error ? error : new Error(`${error}`));
+        }
+        stream.prepare(kernels, need);
+        if (!stream.closed) this.place(stream);
+    }
+
+    /** Give a stream to a thread that has none, or to a new one; or let it wait for the next that is free. */
+    private place(stream: PooledStream): void {
+        const { build } = stream.need;
+        const hand = this.alone ? undefined : this.free(build);
+        if (this.alone) return void this.stay(stream);
+        if (!hand) return void this.waiting.push(stream);
+        const helpers = this.helpersFor(stream, hand);
+        stream.task = this.task++;
+        const ports = helpers.map((helper) => {
+            const { port1, port2 } = new MessageChannel();
+            helper.worker.postMessage({ help: port2 } satisfies Message, [port2]);
+            return port1;
+        });
+        for (const one of [hand, ...helpers]) one.streams.add(stream);
+        stream.work((message, moved) => hand.worker.postMessage(message, moved), ports);
+    }
+
+    /** A thread of a build without work, started if there may be one more, in the place of another that has none if there may not. */
+    private free(build: Build): Hand | undefined {
+        const idle = this.hands.filter((hand) => hand.streams.size === 0);
+        const found = idle.find((hand) => hand.build === build);
+        if (found) return found;
+        if (this.hands.length >= this.limit) {
+            if (idle.length === 0) return undefined;
+            this.hands.splice(this.hands.indexOf(idle[0]), 1);
+            idle[0].worker.terminate();
+        }
+        return this.start(build);
+    }
+
+    private helpersFor({ need, wishes }: PooledStream, hand: Hand): Hand[] {
+        const most = Math.min(processors(), this.limit) - 1;
+        if (need.build === "quick" || need.vertices < (wishes.worthwhile ?? WORTHWHILE) || this.waiting.length > 0) return [];
+        const busy = this.hands.filter((other) => other !== hand && other.streams.size > 0).length;
+        hand.streams.add(PLACEHOLDER); // it is not free itself
+        const found: Hand[] = [];
+        while (found.length < most - busy) {
+            const helper = this.free(need.build);
+            if (!helper) break;
+            helper.streams.add(PLACEHOLDER);
+            found.push(helper);
+        }
+        for (const one of [hand, ...found]) one.streams.delete(PLACEHOLDER);
+        return found;
+    }
+
+    private start(build: Build): Hand | undefined {
+        const worker = this.source.worker(build);
+        if (!worker) return this.settle();
+        const hand: Hand = { build, worker, ready: false, streams: new Set() };
+        worker.onmessage = ({ data }: MessageEvent<Answer>) => {
+            if ("ready" in data) hand.ready = true;
+            else for (const stream of hand.streams) if (stream.task === data.task) stream.hear(data);
+        };
+        worker.onerror = (event) => {
+            event.preventDefault?.();
+            this.lose(hand, new Error(`the decoder's thread does not run: ${event.message ?? "it was stopped"}`));
+        };
+        this.hands.push(hand);
+        return hand;
+    }
+
+    /** Do without threads. */
+    private settle(): undefined {
+        this.alone = true;
+        if (!this.told && typeof Worker !== "undefined") console.warn("BSM: this page may have no threads of its own, it decodes in the one that draws");
+        this.told = true;
+        return undefined;
+    }
+
+    /** A thread is gone: what it worked on fails, unless it never began. */
+    private lose(hand: Hand, error: Error): void {
+        const streams = [...hand.streams];
+        hand.worker.terminate();
+        hand.streams.clear();
+        if (this.hands.includes(hand)) this.hands.splice(this.hands.indexOf(hand), 1);
+        for (const other of this.hands) for (const stream of streams) other.streams.delete(stream);
+        if (hand.ready || !error.message.includes("does not run")) return streams.forEach((stream) => stream.fail(error));
+        this.settle();
+        for (const stream of [...streams, ...this.waiting.splice(0)]) void this.stay(stream);
+    }
+
+    /** Decode in this thread. */
+    private async stay(stream: PooledStream): Promise<void> {
+        const { openDesk } = await this.source.local(stream.need.build);
+        let desk: Desk | undefined;
+        stream.task = this.task++;
+        stream.work((message) => {
+            setTimeout(() => {
+                if (stream.closed) return desk?.stop();
+                if ("start" in message) desk = openDesk({ ...message.start, helpers: [] }, (said) => stream.hear(said));
+                else if ("data" in message) desk?.take(message.data);
+            });
+        }, []);
+    }
+
+    private end(stream: PooledStream): void {
+        for (const hand of this.hands) hand.streams.delete(stream);
+        const at = this.waiting.indexOf(stream);
+        if (at >= 0) this.waiting.splice(at, 1);
+        const next = this.waiting.shift();
+        if (next) this.place(next);
+    }
+}
+
+interface Places {
+    begin: (stream: PooledStream, need: Need) => void;
+    end: (stream: PooledStream) => void;
+}
+
+/** A stream of a pool. All that came is kept until its end, for a build that knows more. */
+class PooledStream implements StreamDecoding {
+    closed = false;
+    task = -1;
+    need: Need = { build: "whole", vertices: 0 };
+    private readonly pieces: (Uint8Array | null)[] = [];
+    private known = false;
+    private kernels?: WebAssembly.Module;
+    private say?: (message: Message, moved: Transferable[]) => void;
+
+    constructor(
+        private readonly listener: Listener,
+        readonly wishes: StreamWishes,
+        private readonly places: Places,
+    ) {}
+
+    receiveData(data: Uint8Array): void {
+        this.take(data);
+    }
+
+    receiveEof(): void {
+        this.take(null);
+    }
+
+    close(): void {
+        if (this.closed) return;
+        this.closed = true;
+        this.say?.({ task: this.task, stop: true }, []);
+        this.places.end(this);
+    }
+
+    fail(error: BsmError | Error): void {
+        if (this.closed) return;
+        this.close();
+        this.listener.onError(error);
+    }
+
+    /** Be decoded by kernels that are there. */
+    prepare(kernels: WebAssembly.Module, need: Need): void {
+        [this.kernels, this.need] = [kernels, need];
+    }
+
+    /** Be decoded by who hears what is said. */
+    work(say: (message: Message, moved: Transferable[]) => void, helpers: MessagePort[]): void {
+        const { tolerant, drawing, worthwhile, limits = {} } = this.wishes;
+        if (!this.kernels) return;
+        this.say = say;
+        say({ task: this.task, start: { kernels: this.kernels, limits, tolerant, drawing, worthwhile, helpers } }, helpers);
+        for (const data of this.pieces) say({ task: this.task, data }, []);
+    }
+
+    hear(said: Said): void {
+        const { listener } = this;
+        if (this.closed) return;
+        if ("picture" in said) listener.onPicture?.(said.picture);
+        else if ("event" in said) listener.onEvent?.(said.event);
+        else if ("taken" in said) listener.onTaken?.(said.taken);
+        else if ("problem" in said) {
+            if (said.problem.name === UNSUPPORTED && this.need.build !== "whole") this.again();
+            else this.fail(errorLike(said.problem));
+        } else if ("fault" in said) this.fail(new Error(said.fault));
+        else if ("over" in said) {
+            this.close();
+            listener.onEnd?.();
+        }
+    }
+
+    private take(data: Uint8Array | null): void {
+        if (this.closed) return;
+        this.pieces.push(data);
+        if (this.say) this.say({ task: this.task, data }, []);
+        else if (!this.known) {
+            const need = this.wishes.tolerant ? { build: "whole" as const, vertices: 0 } : needOf(joined(this.pieces));
+            this.known = need !== undefined || data === null;
+            if (this.known) this.places.begin(this, need ?? this.need);
+        }
+    }
+
+    /** Begin again with the decoder of everything. */
+    private again(): void {
+        this.say?.({ task: this.task, stop: true }, []);
+        this.say = undefined;
+        this.places.end(this);
+        this.places.begin(this, { ...this.need, build: "whole" });
+    }
+}
+
+/** Keeps a thread from being taken twice. */
+const PLACEHOLDER = new PooledStream({ onError: () => {} }, {}, { begin: () => {}, end: () => {} });
+
+function joined(pieces: (Uint8Array | null)[]): Uint8Array {
+    const there = pieces.flatMap((piece) => piece ?? []);
+    if (there.length === 1) return there[0];
+    const whole = new Uint8Array(there.reduce((sum, { length }) => sum + length, 0));
+    let at = 0;
+    for (const piece of there) {
+        whole.set(piece, at);
+        at += piece.length;
+    }
+    return whole;
+}

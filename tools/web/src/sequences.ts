@@ -1,0 +1,129 @@
+/** Plays the frames of a geometry, as they are there. */
+import { EventDispatcher, Mesh, type Material } from "three";
+import type { BSMGeometry } from "./geometry";
+import { Playback } from "./playback";
+
+export interface SequenceEvents {
+    play: object;
+    pause: object;
+    /** Another frame is shown. */
+    frame: { index: number };
+    /** It begins again. */
+    loop: object;
+    /** The last frame was shown, and it does not begin again. */
+    ended: object;
+    /** Frames come more slowly than they are shown. */
+    waiting: object;
+    /** What comes of the stream cannot be decoded; the frames before are there. */
+    error: { error: unknown };
+}
+
+const SECOND = 1000;
+
+/** A sequence that plays: `update` is to be called for every picture, as that of an AnimationMixer. */
+export class BSMSequence extends EventDispatcher<SequenceEvents> {
+    /** Whether all frames are there. */
+    complete = false;
+    /** How many times faster than it was encoded to be. */
+    speed = 1;
+    private readonly playback: Playback;
+    private now = 0;
+    private wasWaiting = false;
+
+    constructor(
+        readonly geometry: BSMGeometry,
+        playing = true,
+    ) {
+        super();
+        this.playback = new Playback(geometry.frameRate, playing);
+    }
+
+    /** Frames per second. */
+    get rate(): number {
+        return this.playback.rate;
+    }
+
+    /** Frames that there are; as long as not all have come, those that the stream announces. */
+    get length(): number {
+        return this.complete ? this.geometry.frames.length : Math.max(this.geometry.header?.frames ?? 0, this.geometry.frames.length);
+    }
+
+    /** Seconds from the first frame to the end of the last. */
+    get duration(): number {
+        return this.length / this.rate;
+    }
+
+    get frame(): number {
+        return Math.max(0, this.geometry.shown);
+    }
+
+    get playing(): boolean {
+        return this.playback.playing;
+    }
+
+    get loop(): boolean {
+        return this.playback.loop;
+    }
+
+    set loop(loop: boolean) {
+        this.playback.loop = loop;
+    }
+
+    play(): this {
+        if (this.complete && !this.loop && this.frame >= this.length - 1) this.playback.seek(0);
+        this.playback.playing = true;
+        this.dispatchEvent({ type: "play" });
+        return this;
+    }
+
+    pause(): this {
+        this.playback.playing = false;
+        this.dispatchEvent({ type: "pause" });
+        return this;
+    }
+
+    /** Show a frame, or the last of those that are there. */
+    seek(frame: number): this {
+        this.playback.seek(Math.min(Math.max(0, Math.floor(frame)), this.geometry.frames.length - 1));
+        this.show(this.playback.frame);
+        return this;
+    }
+
+    /** Go on by so many seconds. */
+    update(seconds: number): void {
+        const { playback, geometry } = this;
+        const [before, wasPlaying] = [playback.frame, playback.playing];
+        this.now += seconds * this.speed * SECOND;
+        playback.step(this.now, geometry.frames.length, this.complete);
+        if (playback.waiting && !this.wasWaiting) this.dispatchEvent({ type: "waiting" });
+        this.wasWaiting = playback.waiting;
+        if (playback.frame < before && playback.playing) this.dispatchEvent({ type: "loop" });
+        this.show(playback.frame);
+        if (wasPlaying && !playback.playing) this.dispatchEvent({ type: "ended" });
+    }
+
+    /** A mesh of it. */
+    mesh(material?: Material): Mesh {
+        const mesh = new Mesh(this.geometry, material);
+        mesh.frustumCulled = false; // the bounds are those of the first frame
+        return mesh;
+    }
+
+    /** No more frames will come. */
+    fail(error: unknown): void {
+        this.complete = true;
+        this.dispatchEvent({ type: "error", error });
+    }
+
+    dispose(): void {
+        this.playback.playing = false;
+        this.geometry.frames.length = 0;
+        this.geometry.dispose();
+    }
+
+    private show(index: number): void {
+        if (index === this.geometry.shown || index >= this.geometry.frames.length) return;
+        this.geometry.showFrame(index);
+        this.dispatchEvent({ type: "frame", index });
+    }
+}

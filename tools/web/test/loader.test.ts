@@ -1,0 +1,244 @@
+/** The package in pages of headless Chromium: threads, the loader of three.js, and what a page may forbid. */
+import assert from "node:assert/strict";
+import { existsSync, readFileSync } from "node:fs";
+import { join } from "node:path";
+import test, { after, before, describe } from "node:test";
+import { chromium, type Browser, type Page } from "playwright-core";
+import { serveSite, POLICY, type Site } from "./server";
+import { decode } from "../src/index";
+import { BUILDS, CHROMIUM, compile, FLAGS, VECTORS } from "./shared";
+
+const STREAM = "good-labels";
+const SECTIONS = "good-sections";
+
+/** A scene of one stream, by EXT_bsm_compression; it is said to have so many vertices and corners. */
+function sceneOf(stream: Uint8Array, vertices: number, corners: number): Uint8Array {
+    const name = "EXT_bsm_compression";
+    const sizes = [["POSITION", "VEC3", 12, vertices], ["NORMAL", "VEC3", 12, vertices], ["TEXCOORD_0", "VEC2", 8, vertices], ["indices", "SCALAR", 4, corners]] as const;
+    let at = 0;
+    const views = sizes.map(([attribute, , size, count]) => {
+        const view = { buffer: 1, byteOffset: at, byteLength: size * count, extensions: { [name]: { stream: 0, attribute, componentType: attribute === "indices" ? 5125 : 5126 } } };
+        at += size * count;
+        return view;
+    });
+    const tree = {
+        asset: { version: "2.0" }, extensionsUsed: [name], extensionsRequired: [name], scene: 0, scenes: [{ nodes: [0] }], nodes: [{ mesh: 0 }],
+        meshes: [{ primitives: [{ attributes: { POSITION: 0, NORMAL: 1, TEXCOORD_0: 2 }, indices: 3 }] }],
+        accessors: sizes.map(([attribute, type, , count], i) => ({ bufferView: i + 1, componentType: attribute === "indices" ? 5125 : 5126, count, type, ...(i === 0 ? { min: [-1, -1, -1], max: [1, 1, 1] } : {}) })),
+        bufferViews: [{ buffer: 0, byteLength: stream.length }, ...views],
+        buffers: [{ byteLength: stream.length }, { byteLength: at, extensions: { [name]: { fallback: true } } }],
+    };
+    const text = Buffer.from(JSON.stringify(tree));
+    const [json, data] = [Buffer.alloc(Math.ceil(text.length / 4) * 4, " "), Buffer.alloc(Math.ceil(stream.length / 4) * 4)];
+    text.copy(json);
+    data.set(stream);
+    const chunk = (kind: number, content: Buffer): Buffer => Buffer.concat([Buffer.from(Uint32Array.of(content.length, kind).buffer), content]);
+    const chunks = Buffer.concat([chunk(0x4e4f534a, json), chunk(0x004e4942, data)]);
+    return Buffer.concat([Buffer.from("glTF"), Buffer.from(Uint32Array.of(2, 12 + chunks.length).buffer), chunks]);
+}
+
+describe("the package in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromium at ${CHROMIUM}`, timeout: 180_000 }, () => {
+    let browser: Browser;
+    let page: Page;
+    let site: Site;
+    const complaints: string[] = [];
+
+    before(async () => {
+        browser = await chromium.launch({ executablePath: CHROMIUM, headless: true, args: FLAGS });
+        site = await serveSite();
+        page = await browser.newPage({ viewport: { width: 400, height: 300 } });
+        page.on("pageerror", (error) => complaints.push(error.message));
+    });
+    after(async () => {
+        await browser?.close();
+        site?.close();
+    });
+
+    /** What a module finds in a page with such headers. */
+    async function found(script: string, headers: Record<string, string> = { "Content-Security-Policy": POLICY }): Promise<Record<string, unknown>> {
+        for (const name of Object.keys(site.headers)) delete site.headers[name];
+        Object.assign(site.headers, headers);
+        site.extra.set("/script.js", `import { decode, loadKernels, Pool, startTeam } from "bsm";
+            import { BSMLoader, BSMGeometry, BSMSequence, sceneOf } from "bsm/three";
+            let workers = 0;
+            window.Worker = class extends Worker {
+                constructor(...given) {
+                    super(...given);
+                    workers++;
+                    this.addEventListener("message", ({ data }) => (window.shared = (window.shared ?? 0) + Number("shared" in data)));
+                }
+            };
+            const bytesOf = async (name) => new Uint8Array(await (await fetch("/stream/" + name + ".bsm")).arrayBuffer());
+            try { window.found = await (async () => { ${script} })(); } catch (error) { window.found = { failed: error.stack }; }`);
+        complaints.length = 0;
+        await page.goto(site.address);
+        const value = await (await page.waitForFunction(() => (window as unknown as { found: unknown }).found, undefined, { timeout: 30_000 })).jsonValue();
+        assert.deepEqual(complaints, []);
+        return value as Record<string, unknown>;
+    }
+
+    test("fills a geometry of three.js from an address", async () => {
+        const seen = await found(`
+            const seen = { blocks: 0, frames: 0, bytes: 0 };
+            const take = (name, progress) => new Promise((keep, fail) => new BSMLoader().load("/stream/" + name + ".bsm", keep, (event) => (seen.bytes = event.loaded), fail, progress));
+            const grown = { begun: [], drawn: [], early: 0 };
+            const look = (geometry) => {
+                const corners = geometry.index.array.subarray(0, geometry.drawRange.count);
+                grown.drawn.push(corners.length);
+                grown.early += corners.filter((vertex) => geometry.origin[vertex] < 0).length;
+            };
+            const whole = await take("${STREAM}", { onBlock: () => seen.blocks++ });
+            const sequence = await take("good-sequence-learnt", { onFrame: () => seen.frames++ });
+            const parted = await take("${SECTIONS}", { onConnectivity: (geometry) => (grown.begun.push(geometry.index.count), look(geometry)), onBlock: look });
+            const mesh = decode(await loadKernels(), await bytesOf("${SECTIONS}"));
+            const n = parted.getAttribute("normal").array;
+            return {
+                ...seen, grown, kept: sequence.frames.length, workers,
+                drawn: whole.drawRange.count === whole.index.count && whole.index.count > 0,
+                faces: mesh.faces.join() === [...parted.index.array].join(),
+                positions: [...parted.getAttribute("position").array].every((x, i) => Math.abs(x - mesh.positions[i]) < 1e-5),
+                normals: Array.from({ length: n.length / 3 }, (_, i) => Math.hypot(n[3 * i], n[3 * i + 1], n[3 * i + 2])).every((length) => Math.abs(length - 1) < 1e-4),
+            };`);
+        const { begun, drawn, early } = seen.grown as { begun: number[]; drawn: number[]; early: number };
+        assert.ok(begun.length > 1 && begun.every((count, i) => i === 0 || count > begun[i - 1]), `${begun}`);
+        assert.ok(drawn[0] === 0 && drawn.every((count, i) => i === 0 || count >= drawn[i - 1]), `${drawn}`);
+        assert.equal(drawn.at(-1), begun.at(-1));
+        assert.equal(early, 0);
+        assert.ok(Number(seen.blocks) > 0 && Number(seen.bytes) > 0 && Number(seen.kept) > 1);
+        assert.equal(seen.frames, seen.kept);
+        assert.deepEqual([seen.drawn, seen.faces, seen.positions, seen.normals], [true, true, true, true]);
+        assert.ok(Number(seen.workers) <= 2, `${seen.workers} threads`);
+    });
+
+    test("indexes a mesh by all that its corners have", async () => {
+        const seen = await found(`
+            const load = (name) => new BSMLoader().loadAsync("/stream/" + name + ".bsm");
+            const kernels = await loadKernels();
+            const [textured, coloured] = [await load("good-attribute-uv-blocks"), await load("good-attribute-colors")];
+            const mesh = decode(kernels, await bytesOf("good-attribute-uv-blocks"));
+            const [{ values, indices }] = mesh.attributes.filter(({ semantic }) => semantic === "texcoord");
+            const [index, uv, position] = [textured.index.array, textured.getAttribute("uv"), textured.getAttribute("position")];
+            const same = mesh.faces.every((vertex, i) => Math.abs(position.getX(index[i]) - mesh.positions[3 * vertex]) < 1e-5 && Math.abs(uv.getX(index[i]) - values[2 * indices[i]]) < 1e-5);
+            const pairs = new Set(mesh.faces.map((vertex, i) => vertex * 1e6 + indices[i]).map(String).map((_, i) => mesh.faces[i] + " " + indices[i])).size;
+            const colours = coloured.getAttribute("color");
+            return { same, expected: new Set([...mesh.faces].map((vertex, i) => vertex + " " + indices[i])).size, drawn: position.count, corners: index.length, colours: colours.count === coloured.getAttribute("position").count, brightest: Math.max(...colours.array) };`);
+        assert.equal(seen.same, true);
+        assert.equal(seen.drawn, seen.expected);
+        assert.ok(Number(seen.drawn) < Number(seen.corners));
+        assert.ok(seen.colours && Number(seen.brightest) > 0.1 && Number(seen.brightest) <= 1);
+    });
+
+    test("keeps its threads, and goes on behind bad streams", async () => {
+        const seen = await found(`
+            const loader = new BSMLoader().setWorkerLimit(2);
+            const names = ["${STREAM}", "bad-sequence-long", "good-grid", "no-such-file", "good-light"].flatMap((name) => [name, name, name]);
+            const told = await Promise.all(names.map((name) => loader.loadAsync("/stream/" + name + ".bsm").then((geometry) => geometry.index.count > 0, (error) => error.name + ": " + error.message)));
+            const after = await loader.loadAsync("/stream/${STREAM}.bsm").then(() => true, String);
+            const cut = await loader.parseAsync((await bytesOf("${STREAM}")).slice(0, -20)).catch((error) => error.name);
+            const stray = await loader.parseAsync(new TextEncoder().encode("<!doctype html><html></html>")).catch((error) => error.name);
+            const before = workers;
+            for (let k = 0; k < 5; k++) await loader.parseAsync((await bytesOf("${STREAM}")).buffer);
+            return { told, after, cut, stray, more: workers - before };`);
+        const told = seen.told as (boolean | string)[];
+        assert.deepEqual(told.slice(0, 3), [true, true, true]);
+        assert.ok(told.slice(3, 6).every((text) => /^CorruptError: .stream.bad-sequence-long.bsm: /.test(String(text))), `${told}`);
+        assert.deepEqual(told.slice(6, 9), [true, true, true]);
+        assert.ok(told.slice(9, 12).every((text) => /no-such-file.bsm: 404/.test(String(text))), `${told}`);
+        assert.deepEqual(told.slice(12), [true, true, true]);
+        assert.deepEqual([seen.after, seen.cut, seen.stray, seen.more], [true, "TruncatedError", "FormatError", 0]);
+    });
+
+    test("is used as other loaders are", async () => {
+        const seen = await found(`
+            const { LoadingManager } = await import("three");
+            const manager = new LoadingManager();
+            const urls = [];
+            manager.setURLModifier((url) => (urls.push(url), "/stream/" + url + ".bsm"));
+            const loaded = new Promise((keep) => (manager.onLoad = () => keep(true)));
+            const loader = new BSMLoader(manager).setDecoderPath("/bsm/").preload();
+            const geometry = await loader.loadAsync("${STREAM}");
+            const parsed = await new Promise((keep, fail) => bytesOf("${STREAM}").then((bytes) => loader.parse(bytes, keep, fail)));
+            loader.dispose();
+            return { urls, loaded: await loaded, same: parsed.index.count === geometry.index.count };`);
+        assert.deepEqual(seen, { urls: [STREAM], loaded: true, same: true });
+    });
+
+    test("plays a sequence", async () => {
+        const seen = await found(`
+            const sequence = await new BSMLoader().loadSequence("/stream/good-sequence-learnt.bsm");
+            while (!sequence.complete) await new Promise((go) => setTimeout(go, 5));
+            const heard = [];
+            for (const type of ["play", "pause", "loop", "ended"]) sequence.addEventListener(type, () => heard.push(type));
+            const shown = new Set();
+            sequence.addEventListener("frame", ({ index }) => shown.add(index));
+            sequence.update(0);
+            for (let k = 0; k < 3 * sequence.length; k++) sequence.update(1 / sequence.rate);
+            sequence.pause();
+            const held = sequence.frame;
+            sequence.update(1);
+            const still = sequence.frame === held;
+            sequence.loop = false;
+            sequence.seek(0).play();
+            for (let k = 0; k < 2 * sequence.length; k++) sequence.update(1 / sequence.rate);
+            const last = sequence.frame === sequence.length - 1 && !sequence.playing;
+            const normals = sequence.geometry.getAttribute("normal");
+            return { heard, shown: shown.size, length: sequence.length, still, last, unit: Math.abs(Math.hypot(normals.getX(0), normals.getY(0), normals.getZ(0)) - 1) < 1e-3 };`);
+        assert.equal(seen.shown, seen.length);
+        assert.deepEqual([seen.still, seen.last, seen.unit], [true, true, true]);
+        assert.deepEqual([...new Set(seen.heard as string[])].sort(), ["ended", "loop", "pause", "play"]);
+    });
+
+    test("makes scenes with textures", async () => {
+        const seen = await found(`
+            const scene = await new BSMLoader().loadScene("/stream/good-attribute-textured.bsm");
+            const [{ material, geometry }] = scene.children;
+            return { name: material.name, size: [material.map.image.width, material.map.image.height], space: material.map.colorSpace, metalness: material.metalness, uv: geometry.hasAttribute("uv"), turned: scene.rotation.x < -1 };`);
+        assert.deepEqual(seen, { name: "halves", size: [8, 8], space: "srgb", metalness: 0, uv: true, turned: true });
+    });
+
+    test("is a plug-in of GLTFLoader", async () => {
+        const kernels = await compile(BUILDS[0]);
+        const stream = readFileSync(join(VECTORS, "good-attribute-textured.bsm"));
+        const { positions, faces } = decode(kernels, stream);
+        site.extra.set("/scene.glb", sceneOf(stream, positions.length / 3, faces.length));
+        site.extra.set("/wrong.glb", sceneOf(stream, positions.length / 3 + 1, faces.length));
+        site.extra.set("/broken.glb", sceneOf(stream.subarray(0, -30), positions.length / 3, faces.length));
+        const seen = await found(`
+            const { GLTFLoader } = await import("three/addons/loaders/GLTFLoader.js");
+            const { GLTFBSMExtension } = await import("/bsm/gltf.js");
+            const load = (url) => new GLTFLoader().register((parser) => new GLTFBSMExtension(parser)).loadAsync(url);
+            const { geometry } = (await load("/scene.glb")).scene.children[0];
+            const own = await new BSMLoader().loadAsync("/stream/good-attribute-textured.bsm");
+            const same = (name) => [...geometry.getAttribute(name).array].join() === [...own.getAttribute(name).array].join();
+            const problems = await Promise.all(["/wrong.glb", "/broken.glb"].map((url) => load(url).then(() => "none", (error) => error.name + " " + error.message)));
+            return { same: ["position", "normal", "uv"].map(same), index: [...geometry.index.array].join() === [...own.index.array].join(), problems };`);
+        assert.deepEqual([seen.same, seen.index], [[true, true, true], true]);
+        const [wrong, broken] = seen.problems as string[];
+        assert.match(wrong, /bufferView 1: POSITION has \d+ bytes, not \d+/);
+        assert.match(broken, /TruncatedError/);
+    });
+
+    for (const [place, headers] of [["free", {}], ["locked", { "Content-Security-Policy": "worker-src 'none'" }]] as [string, Record<string, string>][]) {
+        test(`decodes with helpers where threads are ${place === "free" ? "allowed" : "forbidden"}`, async () => {
+            const seen = await found(`
+                const kernels = await loadKernels();
+                const data = await bytesOf("good-keys");
+                const alone = decode(kernels, data);
+                const same = ({ positions }) => positions.length === alone.positions.length && positions.every((x, i) => x === alone.positions[i]);
+                const team = startTeam(1, 0);
+                const meshes = await Promise.all([team.decode(kernels, data), team.decode(kernels, data)]);
+                const helped = window.shared;
+                const problem = await team.decode(kernels, data.slice(0, -20)).catch((error) => error.name);
+                team.close();
+                const positions = new Float64Array(alone.positions.length);
+                await new Promise((keep, fail) => {
+                    const onEvent = (event) => event.type === "block" && event.vertices.forEach((vertex, i) => positions.set(event.positions.subarray(3 * i, 3 * i + 3), 3 * vertex));
+                    const stream = new Pool(undefined, 2).open({ onEvent, onEnd: keep, onError: fail }, { worthwhile: 0 });
+                    for (let at = 0; at < data.length; at += 100) stream.receiveData(data.slice(at, at + 100));
+                    stream.receiveEof();
+                });
+                return { whole: meshes.every(same), streamed: same({ positions }), helped: helped ?? 0, problem };`, headers);
+            assert.deepEqual(seen, { whole: true, streamed: true, helped: place === "free" ? 4 : 0, problem: "TruncatedError" });
+        });
+    }
+});

@@ -1,0 +1,74 @@
+/** What `npm pack` makes: it has types, runs in Node, and is of the version that the Python package has. */
+import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
+import { mkdirSync, mkdtempSync, readFileSync, rmSync, symlinkSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import test, { after, before, describe } from "node:test";
+import { VECTORS, WEB } from "./shared";
+
+const CONSUMER = `
+import { decode, loadKernels, Pool, type Metadata } from "bsm-decoder";
+import * as quick from "bsm-decoder/quick";
+import { BSMLoader, BSMSequence, type BSMGeometry } from "bsm-decoder/three";
+import { GLTFBSMExtension } from "bsm-decoder/gltf";
+import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
+import { Mesh, type Group } from "three";
+const gltf: GLTFLoader = new GLTFLoader().register((parser) => new GLTFBSMExtension(parser));
+const loader: BSMLoader = new BSMLoader().setWorkerLimit(2).preload("quick");
+loader.load("a.bsm", (geometry) => new Mesh(geometry), (event) => event.loaded, (error: unknown) => error);
+const scene: Promise<Group> = loader.loadScene("a.bsm");
+const sequence: Promise<BSMSequence> = loader.loadSequence("a.bsm");
+const geometry: Promise<BSMGeometry> = loader.parseAsync(new ArrayBuffer(8));
+const told: Metadata = new Map();
+export { gltf, decode, loadKernels, Pool, quick, scene, sequence, geometry, told };
+`;
+const PROGRAM = `
+import { readFileSync } from "node:fs";
+import { decode, loadKernels, Pool } from "bsm-decoder";
+const data = new Uint8Array(readFileSync(process.argv[2]));
+const { positions, faces } = decode(await loadKernels(), data);
+const drawn = await new Promise((keep, fail) => {
+    const stream = new Pool().open({ onPicture: (picture) => picture.type === "whole" && keep(picture.shape.index.length), onError: fail }, { drawing: "whole" });
+    stream.receiveData(data);
+    stream.receiveEof();
+});
+console.log(JSON.stringify([positions.length > 0, faces.length === drawn]));
+`;
+
+describe("the package", () => {
+    const folder = mkdtempSync(join(tmpdir(), "bsm-package-"));
+    const run = (program: string, ...args: string[]): string => execFileSync(program, args, { cwd: folder, encoding: "utf8", stdio: ["ignore", "pipe", "inherit"] });
+    const own = JSON.parse(readFileSync(join(WEB, "package.json"), "utf8")) as { name: string; version: string };
+    let files: string[] = [];
+
+    before(() => {
+        const [packed] = JSON.parse(execFileSync("npm", ["pack", "--json", "--silent", "--pack-destination", folder], { cwd: WEB, encoding: "utf8" })) as { filename: string; files: { path: string }[] }[];
+        files = packed.files.map(({ path }) => path);
+        const place = join(folder, "node_modules", own.name);
+        mkdirSync(place, { recursive: true });
+        run("tar", "xzf", join(folder, packed.filename), "-C", place, "--strip-components=1");
+        for (const name of ["three", "@types"]) symlinkSync(join(WEB, "node_modules", name), join(folder, "node_modules", name));
+        writeFileSync(join(folder, "package.json"), '{"type": "module"}');
+    });
+    after(() => rmSync(folder, { recursive: true, force: true }));
+
+    test("has the version of the Python package, and nothing that is not needed", () => {
+        const [, version] = /__version__ = "(.*)"/.exec(readFileSync(join(WEB, "../../src/bsm/__init__.py"), "utf8")) ?? [];
+        assert.equal(own.version, version);
+        assert.ok(files.every((path) => /^(built\/[\w-]+\.(js|wasm)|built\/LICENSES\.txt|types\/\w+\.d\.ts|package\.json|README\.md|LICENSE)$/.test(path)), files.join(" "));
+    });
+
+    for (const resolution of [["esnext", "bundler"], ["nodenext", "nodenext"]]) {
+        test(`has strict types under ${resolution[1]}`, () => {
+            writeFileSync(join(folder, "consumer.ts"), CONSUMER);
+            const options = ["--strict", "--noEmit", "--skipLibCheck", "false", "--target", "es2022", "--lib", "es2023,dom,dom.iterable", "--types", "node", "--module", resolution[0], "--moduleResolution", resolution[1]];
+            run(process.execPath, join(WEB, "node_modules/typescript/bin/tsc"), ...options, "consumer.ts");
+        });
+    }
+
+    test("decodes in Node", () => {
+        writeFileSync(join(folder, "program.js"), PROGRAM);
+        for (const name of ["good-labels", "good-light"]) assert.deepEqual(JSON.parse(run(process.execPath, "program.js", join(VECTORS, `${name}.bsm`))), [true, true]);
+    });
+});
