@@ -9,7 +9,15 @@ import numpy as np
 import pytest
 from scipy.spatial import cKDTree
 
-from bsm.bitstream.errors import BsmError, FormatError, MeshError, OptionError, TruncatedError, UnsupportedError
+from bsm.bitstream.errors import (
+    BsmError,
+    FormatError,
+    LimitError,
+    MeshError,
+    OptionError,
+    TruncatedError,
+    UnsupportedError,
+)
 from bsm.cli import main
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
@@ -438,6 +446,25 @@ def test_a_node_below_itself_ends(tmp_path):
     tree["nodes"][0]["children"] = [0]
     (tmp_path / "a.glb").write_bytes(glb_of(tree, binary))
     with pytest.raises(FormatError, match="two places"):
+        frames_of(tmp_path / "a.glb")
+
+
+def test_bytes_that_are_used_many_times_are_bounded(tmp_path):
+    tree, binary = parsed((MOVING / "morphing.glb").read_bytes())
+    moving = next(node for node in tree["nodes"] if "mesh" in node)
+    many = json.loads(json.dumps(tree))
+    many["nodes"] += [moving] * 200_000
+    many["scenes"][0]["nodes"] = list(range(len(many["nodes"])))
+    (tmp_path / "a.glb").write_bytes(glb_of(many, binary))
+    with pytest.raises(LimitError, match="vertices"):
+        frames_of(tmp_path / "a.glb")
+    zeros = json.loads(json.dumps(tree))
+    zeros["accessors"].append({"componentType": 5126, "type": "VEC3", "count": 1 << 23})
+    primitive = zeros["meshes"][0]["primitives"][0]
+    primitive["attributes"]["POSITION"] = len(zeros["accessors"]) - 1
+    primitive["targets"] = [{"POSITION": len(zeros["accessors"]) - 1}] * 50
+    (tmp_path / "a.glb").write_bytes(glb_of(zeros, binary))
+    with pytest.raises(LimitError, match=r"morph targets"):
         frames_of(tmp_path / "a.glb")
 
 

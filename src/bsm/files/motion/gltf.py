@@ -22,8 +22,8 @@ KINDS = {5120: "<i1", 5121: "<u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: 
 WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT2": 4, "MAT3": 9, "MAT4": 16}
 MAGIC = b"glTF"
 _COMPRESSED = ("KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_meshopt_compression")
-_MOST_NUMBERS = 1 << 28
-"""In one accessor: those without a buffer are zeros, for which no byte pays."""
+MOST_NUMBERS = 1 << 27
+"""In one accessor, and in all morph targets: those without a buffer are zeros, for which no byte pays."""
 
 
 class Document:
@@ -61,13 +61,16 @@ class Document:
                 "take that out first, for instance with gltf-transform copy"
             )
         self._buffers: dict[int, bytes] = {}
+        self._lists: dict[str, list[Tree]] = {}
 
     def items(self, name: str) -> list[Tree]:
         """A list of the tree; empty if there is none."""
-        found = self.tree.get(name, [])
-        if not isinstance(found, list) or not all(isinstance(item, dict) for item in found):
-            raise FormatError(f"the {name} of this glTF are no list of objects")
-        return found
+        if name not in self._lists:
+            found = self.tree.get(name, [])
+            if not isinstance(found, list) or not all(isinstance(item, dict) for item in found):
+                raise FormatError(f"the {name} of this glTF are no list of objects")
+            self._lists[name] = found
+        return self._lists[name]
 
     def item(self, name: str, index: object) -> Tree:
         """One of a list of the tree."""
@@ -97,8 +100,8 @@ class Document:
         if kind is None or width is None:
             raise FormatError(f"accessor {index} of this glTF is of no type that is known")
         count = _count(accessor, "count")
-        if count * width > _MOST_NUMBERS:
-            raise LimitError(f"accessor {index} of this glTF has {count} values; the limit is {_MOST_NUMBERS} numbers")
+        if count * width > MOST_NUMBERS:
+            raise LimitError(f"accessor {index} of this glTF has {count} values; the limit is {MOST_NUMBERS} numbers")
         size = np.dtype(kind).itemsize
         # Columns of matrices begin at multiples of four bytes.
         rows = {"MAT2": 2, "MAT3": 3}.get(accessor["type"], 0) if size < 4 else 0
@@ -113,6 +116,10 @@ class Document:
         if accessor.get("normalized") and not whole and found.dtype.kind in "iu":
             return np.maximum(found / np.iinfo(found.dtype).max, -1.0)
         return found
+
+    def count(self, index: object) -> int:
+        """How many values an accessor claims."""
+        return _count(self.item("accessors", index), "count")
 
     def image(self, index: object) -> tuple[str, bytes]:
         """Name and bytes of an image."""

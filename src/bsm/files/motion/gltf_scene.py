@@ -7,11 +7,12 @@ from typing import Any
 
 import numpy as np
 
-from bsm.bitstream.errors import FormatError
+from bsm.bitstream.errors import FormatError, LimitError
+from bsm.bitstream.limits import DEFAULT_LIMITS
 from bsm.codec.geometry.splitting import row_numbers
 from bsm.files.formats.columns import Column, color_column, meaning_of
 from bsm.files.motion.curves import Array, Curve, matrix_of
-from bsm.files.motion.gltf import Document, Tree
+from bsm.files.motion.gltf import MOST_NUMBERS, Document, Tree
 from bsm.files.rows import Doubles, Ints
 
 _TRIANGLES = 4
@@ -82,9 +83,24 @@ class Scene:
         self._document = document
         self._nodes = document.items("nodes")
         self._parents = self._ordered()
+        self._check_sizes()
         self._curves = self._animated(animation)
         self.notes: list[str] = []
         self.parts = [part for node in self._parents for part in self._parts(node)]
+
+    def _check_sizes(self) -> None:
+        """Bound what will be allocated: the same bytes may be used many times, and zeros take none."""
+        vertices = numbers = 0
+        for node in self._parents:
+            mesh = self._nodes[node].get("mesh")
+            for primitive in [] if mesh is None else self._document.item("meshes", mesh)["primitives"]:
+                if "POSITION" in primitive["attributes"]:
+                    count = self._document.count(primitive["attributes"]["POSITION"])
+                    vertices += count
+                    numbers += 3 * count * len(primitive.get("targets", []))
+        DEFAULT_LIMITS.check("vertices", vertices)
+        if numbers > MOST_NUMBERS:
+            raise LimitError(f"the morph targets of this glTF have {numbers} numbers; the limit is {MOST_NUMBERS}")
 
     @property
     def moves(self) -> bool:
@@ -225,8 +241,8 @@ class Scene:
 
     def _part(self, node: int, primitive: Tree, skin: Skin | None, name: str) -> Part:
         given, document = primitive["attributes"], self._document
-        base = document.numbers(given["POSITION"]).astype(np.float64)
-        count = len(base)
+        count = document.count(given["POSITION"])
+        base = self._of(given["POSITION"], count, 3, "positions")
         targets = [
             self._of(target.get("POSITION"), count, 3, "a morph target") for target in primitive.get("targets", [])
         ]
