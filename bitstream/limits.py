@@ -105,7 +105,7 @@ class Limits:
 
 
 def as_limits(limits: Limits) -> Limits:
-    """The same; `ArgumentError` if it is something else."""
+    """The limits that were given; `ArgumentError` if it is something else."""
     if not isinstance(limits, Limits):
         raise ArgumentError(f"limits must be bsm.Limits, not {limits!r}")
     return limits

@@ -211,7 +211,7 @@ def judged(dissimilarity: float, visible: float, gone: float) -> Look:
 
 
 def own_normals(mesh: TriangleMesh) -> Normals | None:
-    """Those that the mesh has as an attribute of its vertices or corners, of length 1; None: it has none."""
+    """Normals that the mesh has as an attribute of its vertices or corners, of length 1; None: it has none."""
     for attribute in mesh.attributes:
         if attribute.semantic == "normal" and attribute.components == 3 and attribute.domain != "face":
             corners = np.asarray(at_corners(attribute, mesh.faces), np.float64)

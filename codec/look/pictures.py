@@ -45,7 +45,7 @@ class Shape:
 
     @classmethod
     def of(cls, positions: Positions, faces: Faces) -> Shape:
-        """Of positions within a box of diagonal 1; those that are equal at 24 bits of it are one."""
+        """The shape of positions within a box of diagonal 1; those that are equal at 24 bits of it are one."""
         _, joined, index = weld(np.rint(positions * _GRID), faces)
         joined = np.ascontiguousarray(joined, np.int32)
         return cls(np.ascontiguousarray(faces, np.int32), joined, vertex_faces(joined, int(index.max()) + 1))
@@ -76,7 +76,7 @@ def draw(positions: Positions, faces: Faces, normals: Normals, camera: Matrix, p
 def draw_owned(
     positions: Positions, faces: Faces, normals: Normals, camera: Matrix, pixels: int
 ) -> tuple[Picture, Indices]:
-    """The same, and which face each pixel shows; -1: none."""
+    """A picture, and which face each pixel shows; -1: none."""
     owner = np.empty((pixels, pixels), np.int32)
     return _drawn(positions, faces, normals, camera, pixels, owner), owner
 
@@ -90,13 +90,13 @@ def _drawn(
 
 
 def difference(first: Picture, second: Picture) -> Matrix:
-    """Of the pixels that either covers: the sum of 1 - SSIM; how many differ visibly; how many there are; and how many
+    """Sums over the pixels that either covers: the sum of 1 - SSIM; how many differ visibly; how many there are; and how many
     differ plainly in the square of 8 by 8 that has most of these."""
     return _compared(first, second, _NOWHERE)
 
 
 def difference_map(first: Picture, second: Picture) -> tuple[Matrix, Picture]:
-    """The same, and how unlike each pixel is: 1 - SSIM, and up to 1 more where it differs visibly."""
+    """Sums as of `difference`, and how unlike each pixel is: 1 - SSIM, and up to 1 more where it differs visibly."""
     found = np.zeros(first.shape, np.float32)
     return _compared(first, second, found), found
 

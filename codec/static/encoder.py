@@ -274,7 +274,7 @@ class Encoder:
         return lambda step: self._judged(ladder.draft(step))
 
     def _ladders(self, progress: Progress | None) -> Iterator[Ladder]:
-        """Those that may hold what is looked for."""
+        """Ladders that may hold what is looked for."""
         prepared, options = self._prepared, self.options
         finest = smallest_step(prepared.size)
         if options.says_how:

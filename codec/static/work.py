@@ -152,7 +152,7 @@ def seams_memory(vertices: int, faces: int) -> float:
 
 
 def seams_cost(vertices: int, faces: int, received: int) -> float:
-    """Of the seams of an attribute, and of joining corners between them, which is done twice."""
+    """Work of the seams of an attribute, and of joining corners between them, which is done twice."""
     return 5e4 + 10.0 * vertices + 120.0 * faces + CODED * received
 
 
@@ -200,7 +200,7 @@ class Allowance:
 
     @property
     def vertices(self) -> int:
-        """Those that the stream really has."""
+        """Vertices that the stream really has."""
         return self._vertices
 
     @property

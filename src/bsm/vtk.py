@@ -62,7 +62,7 @@ class Playback:
         return stream, stream.frames()
 
     def positions(self, number: int) -> Positions:
-        """Those of a frame of a sequence, shape (n, 3), in the stream's order."""
+        """Positions of a frame of a sequence, shape (n, 3), in the stream's order."""
         if not 0 <= number < self.count:
             raise OptionError(f"there is no frame {number}; there are {self.count}")
         if number != self._shown:

@@ -202,7 +202,7 @@ def problem_of(stream: bytes, how: str, limits: str) -> str | None:
 
 
 def web_problems(streams: dict[str, bytes]) -> list[str]:
-    """The same by the decoder for browsers: one process, which tells what each stream took."""
+    """Problems in the decoder for browsers: one process tells what each stream took."""
     with tempfile.TemporaryDirectory() as folder:
         for number, stream in enumerate(streams.values()):
             (Path(folder) / f"{number}.bsm").write_bytes(stream)

@@ -153,7 +153,7 @@ class Fulfilment:
         return self._judge.keeps(self._prepared.units.into(draft.decoded))
 
     def _drafts(self, *, every: bool) -> list[Draft]:
-        """Those that may be smallest; with `every`, grids even where they should be larger."""
+        """Drafts that may be smallest; with `every`, grids even where they should be larger."""
         found: list[Draft] = []
         try:
             if not every and self._blocks_may_win():
@@ -222,7 +222,7 @@ class Fulfilment:
 
     @property
     def _base_step(self) -> float:
-        """That of blocks which are refined."""
+        """The step of blocks that are refined."""
         if self._sensitivity is None:
             return base_step(self._contract.about_angle)
         step = LOOK_BASE * self._sensitivity.step_for(self._contract.look, AXES_OF_LOOK)

@@ -121,7 +121,7 @@ class GridSearch:
         self._widest = min(ROUND * reach, borders.cell)
 
     def drafts(self) -> Iterator[Draft]:
-        """Those that may be smallest."""
+        """Drafts that may be smallest."""
         shaped = Shaped(self._prepared, self._shaper, still=self._borders.vertices)
         tried = sorted(self._tried(shaped), key=lambda trial: trial.found.estimate)
         for trial in tried[:MOST_COMPARED]:
@@ -132,7 +132,7 @@ class GridSearch:
 
     @property
     def bytes(self) -> float:
-        """Of the places, rather too few."""
+        """Bytes of the places, rather too few."""
         first, size = self.first_step, self._prepared.graph.size
         entropy = min([self._character.entropy(first), *(entropy for entropy, _ in self._model_grids)])
         if self._character.is_model:
@@ -163,7 +163,7 @@ class GridSearch:
         return self._character.step_of(self._angle / helped, self._most)
 
     def _tried(self, shaped: Shaped) -> list[Trial[Placed]]:
-        """Those that keep the bounds."""
+        """Drafts that keep the bounds."""
         if self.fits_model:
             kept = [*self._on_grids(shaped, self._model_grids)]
             if kept:

@@ -112,7 +112,7 @@ class Sensitivity:
 
 
 def _bits(counts: Matrix) -> Matrix:
-    """Of sizes that come so often, in each class; one of any sign has a bit more than none."""
+    """Bits of sizes that come so often, in each class; one of any sign has a bit more than none."""
     trusted = counts + TRUST * np.exp2(-BITS)
     bits = np.log2(trusted.sum(axis=1, keepdims=True) / trusted)
     bits[:, 1:] += 1.0

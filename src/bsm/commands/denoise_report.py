@@ -56,7 +56,7 @@ def moved(before: Positions, after: Positions) -> dict[str, float]:
 
 
 def moved_line(facts: dict[str, float], vertices: int, unit: str) -> str:
-    """The same in words."""
+    """How far vertices moved, in words."""
     if not facts["vertices"]:
         return "moved      no vertex"
     who = "all vertices" if facts["vertices"] == vertices else f"{facts['vertices']:.0f} of {vertices} vertices"

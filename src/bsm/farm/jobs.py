@@ -54,7 +54,7 @@ class Task:
     fresh: frozenset[str] = frozenset()
 
     def repeated(self: Same) -> Same:
-        """The same after an attempt that was cut off."""
+        """This task after an attempt that was cut off."""
         return replace(self, replaceable=self.replaceable | self.fresh)
 
     def may_replace(self, path: str) -> bool:

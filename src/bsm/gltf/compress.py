@@ -89,7 +89,7 @@ def _accessors_of(primitive: Tree) -> dict[str, int]:
 
 
 def _key(primitive: Tree) -> str:
-    """The same for primitives that are drawn of the same accessors."""
+    """A key that is equal for primitives that are drawn of the same accessors."""
     return str((sorted(_accessors_of(primitive).items()), primitive.get("targets"), primitive.get("mode")))
 
 

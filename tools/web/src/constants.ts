@@ -92,7 +92,7 @@ export const HEADER_FIELDS = {
     attributes: { key: 33, type: "int", low: 0, high: 255, default: 0 },
     corner: { key: 40, type: "ints", low: -2147483648, high: 2147483647, default: [], lengths: [0, 3] },
     sections: { key: 41, type: "ints", low: 1, high: 2147483647, default: [], lengths: [0, 14] },
-    light: { key: 42, type: "method", low: 0, high: 1, default: 0 },
+    light: { key: 42, type: "method", low: 0, high: 2, default: 0 },
 } satisfies Record<string, Field>;
 
 /** Fields of what an attribute declares (D 1). */
@@ -109,8 +109,6 @@ export const DECLARATION_FIELDS = {
     offset: { key: 10, type: "floats", low: -1e+300, high: 1e+300, default: [], lengths: [0, 8] },
     step: { key: 11, type: "floats", low: 1e-300, high: 1e+300, default: [], lengths: [0, 4] },
     leans: { key: 12, type: "method", low: 0, high: 1, default: 0 },
-    relief: { key: 13, type: "int", low: 0, high: 20, default: 0 },
-    doubts: { key: 14, type: "binary", low: 0, high: 16777216, default: new Uint8Array(0) },
     seamsOf: { key: 15, type: "int", low: 0, high: 65535, default: 0 },
 } satisfies Record<string, Field>;
 
