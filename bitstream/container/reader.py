@@ -35,6 +35,12 @@ class Signal(Enum):
 FRAME_COST, BYTE_COST = 8e3, 8.0
 """Nanoseconds of a processor core for reading a frame, whatever it is, and for each of its bytes."""
 
+
+def reading_cost(size: int) -> float:
+    """Work of reading a frame of so many bytes, nanoseconds."""
+    return FRAME_COST + BYTE_COST * size
+
+
 Buffer: TypeAlias = bytes | bytearray | memoryview | npt.NDArray[Any]
 Spend: TypeAlias = Callable[[float, int], None]
 """Is told of work, and of the bytes that ask for it, and may refuse it by raising `LimitError`."""
@@ -145,7 +151,7 @@ class Reader:
             frame = parse_frame(self._buffer, 0, self._limits)
             if frame is None:
                 return self._incomplete()
-            self._spend(FRAME_COST + BYTE_COST * frame.size, frame.size)
+            self._spend(reading_cost(frame.size), frame.size)
             packet = self._parse(frame)
             self._consume(frame, packet)
             if packet is not None:

@@ -90,7 +90,7 @@ def _drawn(
 
 
 def difference(first: Picture, second: Picture) -> Matrix:
-    """Sums over the pixels that either covers: the sum of 1 - SSIM; how many differ visibly; how many there are; and how many
+    """Sums over pixels that either covers: 1 - SSIM; how many differ visibly; how many there are; and how many
     differ plainly in the square of 8 by 8 that has most of these."""
     return _compared(first, second, _NOWHERE)
 

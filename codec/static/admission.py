@@ -7,16 +7,21 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
 
+from bsm.bitstream.container.reader import reading_cost
 from bsm.bitstream.errors import LimitError, OptionError
 from bsm.bitstream.limits import NAMED_LIMITS
 from bsm.codec.basis.cost import Spend
 from bsm.codec.static.preamble import Prepared
-from bsm.codec.static.ways.block_coder import CodedBlock
+from bsm.codec.static.ways.block_coder import FRAME, CodedBlock
 from bsm.codec.static.work import Allowance, MeshMemory, mesh_cost, partition_cost
 
 PATIENCE = 8.0
 """How many times longer an encoder may take over dictionaries than decoders may over the whole stream: what it tries is
 wider than what it sends."""
+
+
+AROUND, AROUND_BYTES = 4, 256
+"""Frames around connectivity and blocks (header, labels, order, END), and about their bytes."""
 
 
 def patience(limits: str, vertices: int) -> Spend:
@@ -37,15 +42,17 @@ def admit(allowance: Allowance, prepared: Prepared, blocks: Sequence[CodedBlock]
         If that is too much.
     """
     memory, done, before = MeshMemory(allowance), 0, (0, 0)
+    allowance.spend(AROUND * reading_cost(AROUND_BYTES))
     for area, piece, grown in zip(prepared.areas, prepared.pieces, prepared.blocks, strict=True):
         vertices, count = area.graph.size, grown.count
         memory.grow(vertices, len(area.faces), len(piece.data))
+        allowance.spend(reading_cost(len(piece.data) + FRAME))
         allowance.spend(mesh_cost(vertices, len(area.faces), len(piece.data), before))
         before = (vertices, len(area.faces))
         allowance.spend(partition_cost(area.graph, area.first, count, count * min(prepared.size, vertices)))
         own = blocks[done : done + count]
         allowance.afford(max(block.memory for block in own))
-        allowance.spend(sum(block.work for block in own))
+        allowance.spend(sum(block.work + reading_cost(len(block.packet.data) + FRAME) for block in own))
         done += count
 
 
