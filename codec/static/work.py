@@ -127,7 +127,7 @@ def chunk_cost(received: int) -> float:
 
 
 def floats_cost(vertices: int, largest: int) -> float:
-    """Of the floats behind a grid, before their bytes are counted."""
+    """Work of the floats behind a grid, before their bytes are counted."""
     return 400.0 * vertices + 4.0 * largest
 
 

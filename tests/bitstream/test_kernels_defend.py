@@ -21,14 +21,14 @@ from bsm.bitstream.connectivity.faces import decode_connectivity, encode_connect
 from bsm.bitstream.connectivity.partition import decode_labels, encode_labels
 from bsm.bitstream.container.splits import decode_order, encode_order
 from bsm.bitstream.entropy import range_coder
-from bsm.bitstream.fields import corners, grid, levels, light
+from bsm.bitstream.fields import corners, floats, grid, levels, light
 from bsm.bitstream.limits import DEFAULT_LIMITS
 from bsm.codec.geometry.graph import graph_of_faces
 
 MODULES = (
     *(adaptive, contexts, matrices, rate_distortion, trellis),
     *(conquest, faces, halfedges, partition, permutation, seams, range_coder),
-    *(corners, grid, levels, light),
+    *(corners, floats, grid, levels, light),
     *(attribute_seams, face_values, values),
 )
 
@@ -98,6 +98,11 @@ def test_every_kernel_defends_itself(refusals: dict[str, int]) -> None:
     payload = light.LightEncoder(decoded, positions, (6, 6, 6)).chunk(vertices)
     places, found = light.LightDecoder(decoded, vertices, (6, 6, 6)).chunk(payload, vertices)
     np.testing.assert_array_equal(found, positions[places])
+    low, high = (np.int64(10) * (positions + more) for more in (0, 1))
+    payload = floats.Floats((6, 6, 6)).encode(positions.astype(np.int32), low, high, low + 3)
+    np.testing.assert_array_equal(
+        floats.Floats((6, 6, 6)).decode(payload, positions.astype(np.int32), low, high), low + 3
+    )
     payload = levels.LevelsEncoder(decoded, positions - 3).chunk(vertices)
     np.testing.assert_array_equal(levels.LevelsDecoder(decoded, vertices, 3).chunk(payload, vertices)[1], positions - 3)
     payload = levels.LevelsEncoder(decoded, 0 * positions, borders=True).chunk(vertices)
@@ -129,6 +134,7 @@ def test_every_kernel_defends_itself(refusals: dict[str, int]) -> None:
     found = adaptive.decode_layers(CoefficientModel(60), CoefficientModel(60), payload, len(chosen))
     np.testing.assert_array_equal(np.concatenate(found), np.concatenate([chosen, chosen[:7]]))
     payload = matrices.encode_levels(matrices.make_level_bank(), [chosen], [chosen])
+    assert matrices.price_levels(matrices.make_level_bank(), chosen, chosen).min() >= 0
     matrix = np.zeros_like(chosen)
     matrices.decode_levels(matrices.make_level_bank(), payload, [matrix], [chosen])
     np.testing.assert_array_equal(matrix, chosen)

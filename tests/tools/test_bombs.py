@@ -24,7 +24,7 @@ REFUSED = {
     "sequence-power": (LimitError, "work"),
     "seams-many": (LimitError, "work"),
     "nested-header": (CorruptError, "a header of"),
-    "nested-attribute": (CorruptError, "a map may not hold"),
+    "nested-attribute": (CorruptError, "a declaration of"),
     "sections-claimed": (LimitError, "work"),
     "sections-claimed-wide": (LimitError, "work"),
     "sections-claimed-most": (CorruptError, "rows at section 0"),

@@ -321,15 +321,6 @@ def test_a_piece_that_is_too_long_or_too_short():
             decode(stream_of([frames[0], (kind, other), *frames[2:]]))
 
 
-def test_methods_are_those_of_each_section():
-    data = encoded(sections=2)
-    frames = frames_of(data)
-    second = [number for number, (kind, _) in enumerate(frames) if kind == FrameType.CONNECTIVITY][1]
-    frames[second] = (FrameType.CONNECTIVITY, b"\x07" + frames[second][1][1:])
-    with pytest.raises(BsmError, match="method 7"):
-        decode(stream_of(frames))
-
-
 def test_a_section_with_fewer_vertices_than_blocks():
     encoded_faces = encode_connectivity(MESH.faces, len(MESH.positions), [2])
     (cut,) = encoded_faces.cuts

@@ -24,6 +24,8 @@ const BEND = 2 ** -6;
 
 const INPUTS = 6;
 const SPAN = unsignedSpan(14) + 4;
+/** 2^(-q/4). */
+const QUARTERS = [1, 0.8408964152537145, 0.7071067811865476, 0.5946035575013605];
 const SLOTS = (5 * 12 * 12 + 12 * 40) * SPAN;
 const LEADING = 24;
 /** Forgetting, ridge, noise, dense rows, renewal (S 6). */
@@ -354,7 +356,7 @@ export class Sequence {
 
     /** B, 3 T rows (S 5.2). */
     private learntBasis({ frames, components, exponents, basis }: Gop): Float64Array {
-        const steps = exponents.map((exponent) => 2 ** (-exponent / 4));
+        const steps = exponents.map(fineness);
         const matrices = this.readLevels(basis, [frames, frames, frames], components);
         const cosines = temporalCosines(this.memory, frames);
         const columns = new Float64Array(3 * frames * components);
@@ -393,6 +395,11 @@ export class Sequence {
         this.history = { levels, moments: history.moments, latest, before: history.latest };
         return () => field.view.slice();
     }
+}
+
+/** 2^(-e/4): powers with fractions are not the same in all browsers. */
+function fineness(exponent: number): number {
+    return QUARTERS[exponent & 3] * 2 ** -(exponent >> 2);
 }
 
 /** A model of levels that has learnt nothing (S 4.1). */
