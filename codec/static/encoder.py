@@ -83,9 +83,8 @@ class Attempt:
         return 8.0 * self.size / self.header.vertices
 
 
-SIZES, PROMISED_SIZES = (1e-290, 1e290), (1e-60, 1e60)
-"""Of meshes, in their own unit: what numbers of the format hold; and where errors may be
-squared."""
+SIZES, PROMISED_SIZES = (1e-290, 1e290), (1e-42, 1e30)
+"""Of meshes, in their own unit: what numbers of the format hold; and where bounds are numbers of single precision."""
 
 
 class Encoder:
