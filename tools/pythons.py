@@ -85,14 +85,14 @@ def attempt(python: Path, numpy: str) -> None:
         subprocess.run([python, "-m", "venv", environment], check=True)
         own = environment / "bin" / "python"
         clean = {name: value for name, value in os.environ.items() if name not in ("PYTHONPATH", "VIRTUAL_ENV")}
-        pip = [own, "-m", "pip", "install", "-q", "--disable-pip-version-check"]
+        pip: list[str | Path] = [own, "-m", "pip", "install", "-q", "--disable-pip-version-check"]
         subprocess.run([*pip, str(ROOT), numpy, "pytest"], check=True, env=clean)
         code = "import sys, numpy; print(f'Python {sys.version.split()[0]}, numpy {numpy.__version__}')"
         subprocess.run([own, "-c", code], check=True, env=clean)
         bsm = environment / "bin" / "bsm"
         subprocess.run([bsm, "demo", "-q", "-o", "plain", "--vertices", "2000"], check=True, env=clean, cwd=folder)
         subprocess.run([bsm, "verify", "plain/bsm_demo.bsm"], check=True, env=clean, cwd=folder)
-        tests = [own, "-m", "pytest", "-q", "-x", "-p", "no:cacheprovider", "-k", LEFT_OUT, *TESTS]
+        tests: list[str | Path] = [own, "-m", "pytest", "-q", "-x", "-p", "no:cacheprovider", "-k", LEFT_OUT, *TESTS]
         subprocess.run(tests, check=True, env=clean, cwd=ROOT)
 
 

@@ -2,12 +2,12 @@
 
     python -m tools.release                   all of it, into dist/
     python -m tools.release --only sdist npm  parts of it
-    python -m tools.release --tests tests     and the whole test suite from the wheel, as README's second command runs it
+    python -m tools.release --tests tests     with the whole test suite from each wheel, README's second command
 
 Needs the extra `release`, Linux on x86-64, Python 3.11 and a later one, and npm. Nothing is published. Checks:
-versions agree; the source distribution builds where there is nothing but Python and a compiler; wheels hold one name and no
-sources, are what auditwheel calls manylinux, satisfy twine, and run both commands of README where no compiler is;
-npm takes the package, and Node decodes with it.
+versions agree; the source distribution builds where there is nothing but Python and a compiler; wheels hold one name
+and no sources, are what auditwheel calls manylinux, satisfy twine, and run both commands of README where no compiler
+is; npm takes the package, and Node decodes with it.
 """
 
 from __future__ import annotations
