@@ -10,6 +10,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TypeAlias
 
+import numpy as np
+
 from bsm.codec.arrays import Matrix
 from bsm.codec.basis.cost import Spend, careful_dictionary_cost, dictionary_cost, free
 from bsm.codec.basis.laplacian import laplacian_of
@@ -26,11 +28,37 @@ from bsm.codec.geometry.graph import Graph, is_connected
 from bsm.codec.signal.predict import Known, Surroundings, Suspended, unheld
 
 Rounding: TypeAlias = Callable[[Matrix], Matrix]
+Columns: TypeAlias = Callable[[int], Matrix]
+Dictionary: TypeAlias = Callable[[Surroundings, int, Columns], Matrix]
+Predictor: TypeAlias = Callable[[Surroundings], Matrix]
 
 
 def unchanged(values: Matrix) -> Matrix:
     """The values themselves."""
     return values
+
+
+@dataclass(frozen=True)
+class Trial:
+    """What is tried in place of what the specification says; nothing, unless somebody asks for it.
+
+    Parameters
+    ----------
+    rounding : callable
+        What becomes of the numbers that dictionaries and predictions start from, see `codec.steadiness`.
+    dictionary : callable, optional
+        Takes what holds a block, the number c of columns, and a function that gives ours with so many; gives U, shape
+        (n_i, c). See `research`.
+    predictor : callable, optional
+        Takes what holds a block; gives positions, shape (n_i, 3), of which only the differences are coded.
+    """
+
+    rounding: Rounding = unchanged
+    dictionary: Dictionary | None = None
+    predictor: Predictor | None = None
+
+
+AS_SPECIFIED = Trial()
 
 
 @dataclass(frozen=True)
@@ -48,9 +76,8 @@ class ChainRules:
         z, t_max, t_max of a block without predecessor, and delta.
     stiffness : float
         Of the springs in the prediction, see `codec.signal.predict`; 0: no prediction.
-    rounding : callable
-        What becomes of the numbers that dictionaries and predictions start from: nothing, but where it is tried whether
-        a stream bears other rounding errors, see `codec.steadiness`.
+    trial : Trial
+        What is tried in place of what the specification says.
     """
 
     exact: bool
@@ -60,7 +87,7 @@ class ChainRules:
     key_iterations: int
     shift: float
     stiffness: float
-    rounding: Rounding = unchanged
+    trial: Trial = AS_SPECIFIED
 
     def schedule(self, follows: bool) -> tuple[int, int]:
         """Power and iterations of a block that follows another, or of one that does not."""
@@ -95,7 +122,7 @@ def even_interval(interval: int, blocks: int) -> int:
 def key_dictionary(rules: ChainRules, around: Suspended, width: int, spend: Spend = free) -> Matrix:
     """U of a block that follows no other, with `width` columns; `spend` is told of the work."""
     block = around.laplacian.block
-    start = rules.rounding(first_columns(block.size, width, rules.exact or in_pieces(block)))
+    start = rules.trial.rounding(first_columns(block.size, width, rules.exact or in_pieces(block)))
     if rules.exact:
         return exact_basis(around.laplacian, start, around.springs, spend)
     return orthogonal_iteration(around.factor, start, power=rules.power, iterations=rules.key_iterations, spend=spend)
@@ -141,12 +168,22 @@ class Chain:
 
     def dictionary(self, around: Surroundings, width: int) -> Matrix:
         """U of a block with `width` columns (at most its rows), a function of connectivity and earlier widths only."""
+        width, own = min(width, around.laplacian.block.size), self._rules.trial.dictionary
+        if own is None:
+            return self._specified(around, width)
+        return np.ascontiguousarray(own(around, width, lambda width: self._specified(around, width)), np.float64)
+
+    def continuation(self, around: Surroundings) -> Matrix:
+        """What a block is predicted to be, shape (n_i, 3)."""
+        own = self._rules.trial.predictor
+        return around.continuation if own is None else np.ascontiguousarray(own(around), np.float64)
+
+    def _specified(self, around: Surroundings, width: int) -> Matrix:
         rules, laplacian = self._rules, around.laplacian
-        width = min(width, laplacian.block.size)
         if not self._follows(laplacian.block):
             return key_dictionary(rules, around, width, self._spend)
         assert self._subspace is not None
-        start = rules.rounding(follow_columns(self._subspace, width, in_pieces(laplacian.block)))
+        start = rules.trial.rounding(follow_columns(self._subspace, width, in_pieces(laplacian.block)))
         return orthogonal_iteration(
             around.factor, start, power=rules.power, iterations=rules.iterations, width=width, spend=self._spend
         )
@@ -155,4 +192,4 @@ class Chain:
         """Make a block, its subspace and its decoded positions, shape (n_i, 3), the predecessor's."""
         self._subspace = subspace
         if self._known is not None:
-            self._known.add(block, self._rules.rounding(positions))
+            self._known.add(block, self._rules.trial.rounding(positions))

@@ -78,7 +78,7 @@ class ChainEncoder:
         around = chain.around(block)
         self._told.clear()
         dictionary = chain.dictionary(around, coding.width)
-        ground = Ground(block, around.continuation, dictionary)
+        ground = Ground(block, chain.continuation(around), dictionary)
         levels = coding.choose(ground, positions[block.vertices], self._sizes)
         decoded = coding.positions(ground, levels)
         work = (
@@ -149,7 +149,7 @@ class ChainDecoder:
         with allowance.hold(block_memory(around.laplacian, levels.width)):
             dictionary = chain.dictionary(around, levels.width)
             allowance.spend(ground_cost(around.laplacian, levels.width))
-            ground = Ground(block, around.continuation, dictionary)
+            ground = Ground(block, chain.continuation(around), dictionary)
             decoded = coding.positions(ground, levels)
             chain.commit(block, dictionary, decoded)
         if not np.isfinite(decoded).all():
