@@ -20,7 +20,7 @@ FLOORS = {
         ("batch",),
         ("encoding",),
         ("api",),
-        ("blender", "gltf", "trimesh", "viewer", "vtk"),
+        ("blender", "gltf", "research", "trimesh", "viewer", "vtk"),
         ("pyvista",),
         # Finds the module of a command by its name.
         ("cli",),

@@ -114,18 +114,17 @@ def _with_own(path: str) -> str:
 
 def _cross(folder: Path, processor: Processor) -> dict[str, str]:
     """Compilers for another processor, and what makes Python's tools believe in it."""
-    paths = {}
-    for name, program in (("CC", "cc"), ("CXX", "c++")):
-        path = folder / f"zig-{program}"
-        # Zig's headers for C++ do not bring stdio.h along, as GNU's do.
-        path.write_text(
-            f'#!/bin/sh\nexec "{sys.executable}" -m ziglang {program} -target {processor.zig} -include stdio.h "$@"\n'
-        )
+    told = [f"-DCMAKE_SYSTEM_NAME=Linux -DCMAKE_SYSTEM_PROCESSOR={processor.name}"]
+    # Zig's headers for C++ do not bring stdio.h along, as GNU's do.
+    compiled = f"-target {processor.zig} -include stdio.h"
+    programs = {"C_COMPILER": f"cc {compiled}", "CXX_COMPILER": f"c++ {compiled}", "AR": "ar", "RANLIB": "ranlib"}
+    for name, program in programs.items():
+        path = folder / f"zig-{name.lower()}"
+        path.write_text(f'#!/bin/sh\nexec "{sys.executable}" -m ziglang {program} "$@"\n')
         path.chmod(path.stat().st_mode | stat.S_IXUSR)
-        paths[name] = str(path)
+        told.append(f"-DCMAKE_{name}={path}")
     return {
-        **paths,
-        "CMAKE_ARGS": f"-DCMAKE_SYSTEM_NAME=Linux -DCMAKE_SYSTEM_PROCESSOR={processor.name}",
+        "CMAKE_ARGS": " ".join(told),
         "_PYTHON_HOST_PLATFORM": f"linux-{processor.name}",
         "ZIG_GLOBAL_CACHE_DIR": str(folder / "cache"),
         "ZIG_LOCAL_CACHE_DIR": str(folder / "cache"),
