@@ -86,7 +86,7 @@ def attempt(python: Path, numpy: str) -> None:
         own = environment / "bin" / "python"
         clean = {name: value for name, value in os.environ.items() if name not in ("PYTHONPATH", "VIRTUAL_ENV")}
         pip: list[str | Path] = [own, "-m", "pip", "install", "-q", "--disable-pip-version-check"]
-        subprocess.run([*pip, f"{ROOT}[eval]", numpy, "pytest"], check=True, env=clean)
+        subprocess.run([*pip, f"{ROOT}[eval]", numpy, "pytest", "zstandard"], check=True, env=clean)
         code = "import sys, numpy; print(f'Python {sys.version.split()[0]}, numpy {numpy.__version__}')"
         subprocess.run([own, "-c", code], check=True, env=clean)
         bsm = environment / "bin" / "bsm"
