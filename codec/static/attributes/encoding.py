@@ -192,11 +192,13 @@ def _rows(place: Place, attribute: Attribute) -> tuple[Order, Order, Order]:
 
 
 def with_attributes(draft: Draft, carried: tuple[Carried, ...], metadata: Metadata) -> Draft:
-    """A draft that carries attributes and metadata, too."""
+    """A draft that carries attributes and metadata, too; images and other bytes come last."""
     shape = packets.Connectivity | packets.Partition | packets.Order
     before = 1 + max(place for place, packet in enumerate(draft.body) if isinstance(packet, shape))
     head, body = draft.body[:before], draft.body[before:]
-    told: tuple[Packet, ...] = (packets.Metadata(dict(metadata)),) if metadata else ()
+    late = {name: value for name, value in metadata.items() if isinstance(value, bytes)}
+    early = {name: value for name, value in metadata.items() if name not in late}
+    told, images = (((packets.Metadata(entries),) if entries else ()) for entries in (early, late))
     declared: list[Packet] = []
     values: list[Packet] = []
     header = draft.header
@@ -207,7 +209,7 @@ def with_attributes(draft: Draft, carried: tuple[Carried, ...], metadata: Metada
             for (first, count), data in zip(ranges(declaration.rows, CHUNK), chunks, strict=True):
                 values.append(packets.Values(index, first, count, data))
         header = replace(header, attributes=len(carried))
-    return replace(draft, header=header, body=(*told, *head, *declared, *body, *values))
+    return replace(draft, header=header, body=(*told, *head, *declared, *body, *values, *images))
 
 
 def cheaper(one: Carried, places: Levels | None) -> tuple[Declaration, tuple[bytes, ...]]:
