@@ -14,7 +14,7 @@ from bsm.codec.static.options import EncodeOptions
 from bsm.files.mesh import read_mesh, write_mesh
 from bsm.options import encode_options
 from tests.shapes import curved, patch, torus
-from tools.borders import halves
+from tools.measure.borders import halves
 
 
 def apart(mesh, **keywords):
