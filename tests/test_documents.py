@@ -181,7 +181,7 @@ def test_commands(name, command, folder):
     if re.search(BY_CI, command):
         pytest.skip("run by CI itself")
     if re.search(f"{NEEDS_FOLDER}|{HELP_ONLY}", command) or re.fullmatch(r"bsm [a-z]+", command):
-        program = re.match(r"bsm \w+|python -m [\w.]+", command).group()
+        program = re.match(r"bsm \w+|python -m tools\.measure \w+|python -m [\w.]+", command).group()
         done = run(folder, f"{program} --help")
         passed(done)
         for option in re.findall(r" (--[a-z-]+|-[a-z])\b", command[len(program) :]):

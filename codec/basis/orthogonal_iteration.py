@@ -7,12 +7,14 @@ first c columns do not depend on later ones.
 
 from __future__ import annotations
 
+from functools import partial
+
 import numpy as np
 
 from bsm.bitstream.errors import NumericError
 from bsm.codec import _kernels
 from bsm.codec.arrays import Matrix
-from bsm.codec.basis.cost import Spend, careful_dictionary_cost, dictionary_cost, free, reflection_cost
+from bsm.codec.basis.cost import Steps, careful_dictionary_cost, dictionary_cost, reflection_cost, unpaid
 from bsm.codec.basis.laplacian import Factor, Laplacian, check_rows, factorize, solve
 
 ONCE, TWICE = 1e-5, 1e-13
@@ -39,22 +41,27 @@ def cosine_columns(rows: int, first: int, last: int) -> Matrix:
     return columns
 
 
-def onorm(columns: Matrix, spend: Spend = free) -> Matrix:
+def onorm(columns: Matrix) -> Matrix:
     """Q of the QR factorisation with positive diagonal of `columns`, shape (n, c), n >= c.
 
     Cholesky QR panel by panel, and Householder reflections where the columns are too close to dependent for that. Both
-    compute the same Q. `spend` is told of reflections.
+    compute the same Q.
 
     Raises
     ------
     NumericError
         If a value is not finite.
     """
+    return unpaid(onorm_steps(columns))
+
+
+def onorm_steps(columns: Matrix) -> Steps:
+    """`onorm`, with the price of reflections; the first pass is part of the price of what calls it."""
     q, scratch = np.empty(columns.shape), np.empty(_kernels.iteration_space(*columns.shape))
     independence = _kernels.cholesky_onorm(np.ascontiguousarray(columns), ONCE, scratch, q)
     if independence >= TWICE:
         return q
-    spend(reflection_cost(*columns.shape))
+    yield partial(reflection_cost, len(columns))
     return householder_orthonormalize(columns)
 
 
@@ -68,7 +75,7 @@ def householder_orthonormalize(columns: Matrix) -> Matrix:
 
 
 def orthogonal_iteration(
-    factor: Factor, start: Matrix, *, power: int, iterations: int, width: int | None = None, spend: Spend = free
+    factor: Factor, start: Matrix, *, power: int, iterations: int, width: int | None = None
 ) -> Matrix:
     """U(t) = Onorm(R^z U(t-1)), `iterations` times (Algorithm 1).
 
@@ -82,15 +89,18 @@ def orthogonal_iteration(
         z and t_max.
     width : int, optional
         c, where `start` has more columns than are taken.
-    spend : callable, optional
-        Is told of the work before it is done.
 
     Returns
     -------
     float64 array, shape (n, c), C-contiguous
     """
+    return unpaid(iteration_steps(factor, start, power=power, iterations=iterations, width=width))
+
+
+def iteration_steps(factor: Factor, start: Matrix, *, power: int, iterations: int, width: int | None = None) -> Steps:
+    """`orthogonal_iteration`, with the price of each step."""
     rows, width = len(start), start.shape[1] if width is None else min(width, start.shape[1])
-    spend(dictionary_cost(factor.fronts, width, power, iterations))
+    yield partial(dictionary_cost, factor.fronts, power=power, iterations=iterations)
     start = np.ascontiguousarray(start)
     check_rows(factor, rows)
     subspace, scratch = np.empty((rows, width)), np.empty(_kernels.iteration_space(rows, width))
@@ -100,10 +110,10 @@ def orthogonal_iteration(
     if independence < TWICE:
         # R^z has all but lost the higher columns. Orthonormalised after every R they stay, and the subspaces of the
         # first columns, which is all that Q depends on, are the same.
-        spend(careful_dictionary_cost(factor.fronts, width, power, iterations))
+        yield partial(careful_dictionary_cost, factor.fronts, power=power, iterations=iterations)
         subspace = start[:, :width]
         for _ in range(iterations * power):
-            subspace = onorm(solve(factor, subspace, 1), spend)
+            subspace = yield from onorm_steps(solve(factor, subspace, 1))
     return subspace
 
 
@@ -134,14 +144,19 @@ def resized(previous: Matrix, width: int) -> Matrix:
     return columns
 
 
-def exact_basis(laplacian: Laplacian, start: Matrix, springs: float | Matrix = 0.0, spend: Spend = free) -> Matrix:
+def exact_basis(laplacian: Laplacian, start: Matrix, springs: float | Matrix = 0.0) -> Matrix:
     """The lowest eigenvectors of L + diag(springs): many orthogonal iterations from `start`, see `first_columns`.
 
     No eigensolver: within a space of equal eigenvalues that may return any rotation. This is a smooth function of the
     matrix, the same for all who compute it. The noise in the start is for blocks as symmetric as cosines are.
     """
+    return unpaid(exact_steps(laplacian, start, springs))
+
+
+def exact_steps(laplacian: Laplacian, start: Matrix, springs: float | Matrix) -> Steps:
+    """`exact_basis`, with the price of each step."""
     factor = factorize(laplacian, springs + EXACT_SHIFT)
-    return orthogonal_iteration(factor, start, power=EXACT_POWER, iterations=EXACT_ITERATIONS, spend=spend)
+    return (yield from iteration_steps(factor, start, power=EXACT_POWER, iterations=EXACT_ITERATIONS))
 
 
 def hash_columns(rows: int, columns: int) -> Matrix:

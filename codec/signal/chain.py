@@ -11,15 +11,13 @@ from dataclasses import dataclass
 from typing import TypeAlias
 
 from bsm.codec.arrays import Matrix
-from bsm.codec.basis.cost import Spend, careful_dictionary_cost, dictionary_cost, free
+from bsm.codec.basis.cost import Steps, unpaid
 from bsm.codec.basis.laplacian import laplacian_of
 from bsm.codec.basis.orthogonal_iteration import (
-    EXACT_ITERATIONS,
-    EXACT_POWER,
-    exact_basis,
+    exact_steps,
     first_columns,
     follow_columns,
-    orthogonal_iteration,
+    iteration_steps,
 )
 from bsm.codec.blocks.overlap import Block
 from bsm.codec.geometry.graph import Graph, is_connected
@@ -62,12 +60,6 @@ class ChainRules:
     stiffness: float
     rounding: Rounding = unchanged
 
-    def schedule(self, follows: bool) -> tuple[int, int]:
-        """Power and iterations of a block that follows another, or of one that does not."""
-        if self.exact and not follows:
-            return EXACT_POWER, EXACT_ITERATIONS
-        return self.power, self.iterations if follows else self.key_iterations
-
     @property
     def alone(self) -> bool:
         """Whether every block is a chain of its own, so that none knows of another."""
@@ -92,13 +84,13 @@ def even_interval(interval: int, blocks: int) -> int:
     return -(-blocks // -(-blocks // interval)) if interval else 0
 
 
-def key_dictionary(rules: ChainRules, around: Suspended, width: int, spend: Spend = free) -> Matrix:
-    """U of a block that follows no other, with `width` columns; `spend` is told of the work."""
+def key_steps(rules: ChainRules, around: Suspended, width: int) -> Steps:
+    """U of a block that follows no other, with `width` columns, and the price of each step."""
     block = around.laplacian.block
     start = rules.rounding(first_columns(block.size, width, rules.exact or in_pieces(block)))
     if rules.exact:
-        return exact_basis(around.laplacian, start, around.springs, spend)
-    return orthogonal_iteration(around.factor, start, power=rules.power, iterations=rules.key_iterations, spend=spend)
+        return exact_steps(around.laplacian, start, around.springs)
+    return iteration_steps(around.factor, start, power=rules.power, iterations=rules.key_iterations)
 
 
 def in_pieces(block: Block) -> bool:
@@ -114,13 +106,10 @@ class Chain:
     rules : ChainRules
     graph : Graph
         Of the whole mesh.
-    spend : callable, optional
-        Is told of the work of each dictionary before it is done.
     """
 
-    def __init__(self, rules: ChainRules, graph: Graph, spend: Spend = free) -> None:
+    def __init__(self, rules: ChainRules, graph: Graph) -> None:
         self._rules = rules
-        self._spend = spend
         self._known = None if rules.stiffness == 0.0 or rules.alone else Known(graph, rules.stiffness)
         self._subspace: Matrix | None = None
 
@@ -130,26 +119,18 @@ class Chain:
         shift = self._rules.shift
         return unheld(laplacian, shift) if self._known is None else self._known.around(laplacian, shift)
 
-    def costs(self, around: Surroundings, width: int) -> tuple[float, float]:
-        """What `dictionary` of some width costs, and what it costs besides where it would lose columns."""
-        fronts, block = around.laplacian.fronts, around.laplacian.block
-        schedule = self._rules.schedule(self._follows(block))
-        return dictionary_cost(fronts, width, *schedule), careful_dictionary_cost(fronts, width, *schedule)
-
-    def _follows(self, block: Block) -> bool:
-        return self._subspace is not None and len(self._subspace) == block.size
-
     def dictionary(self, around: Surroundings, width: int) -> Matrix:
         """U of a block with `width` columns (at most its rows), a function of connectivity and earlier widths only."""
-        rules, laplacian = self._rules, around.laplacian
-        width = min(width, laplacian.block.size)
-        if not self._follows(laplacian.block):
-            return key_dictionary(rules, around, width, self._spend)
-        assert self._subspace is not None
-        start = rules.rounding(follow_columns(self._subspace, width, in_pieces(laplacian.block)))
-        return orthogonal_iteration(
-            around.factor, start, power=rules.power, iterations=rules.iterations, width=width, spend=self._spend
-        )
+        return unpaid(self.steps(around, width))
+
+    def steps(self, around: Surroundings, width: int) -> Steps:
+        """`dictionary`, with the price of each step."""
+        rules, block, previous = self._rules, around.laplacian.block, self._subspace
+        width = min(width, block.size)
+        if previous is None or len(previous) != block.size:
+            return key_steps(rules, around, width)
+        start = rules.rounding(follow_columns(previous, width, in_pieces(block)))
+        return iteration_steps(around.factor, start, power=rules.power, iterations=rules.iterations, width=width)
 
     def commit(self, block: Block, subspace: Matrix, positions: Matrix) -> None:
         """Make a block, its subspace and its decoded positions, shape (n_i, 3), the predecessor's."""

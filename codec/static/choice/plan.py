@@ -9,6 +9,7 @@ import numpy as np
 from bsm.bitstream.errors import OptionError
 from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Faces, Indices, Matrix
+from bsm.codec.basis.cost import settle
 from bsm.codec.blocks.overlap import Blocks
 from bsm.codec.geometry.metrics import Reference
 from bsm.codec.signal.bandwidth import MeasuredSpectrum
@@ -135,10 +136,11 @@ class Planner:
         def largest(place: tuple[Blocks, range]) -> Matrix:
             """Largest coefficient in the first row of any block of a chain, and in all others."""
             blocks, indices = place
-            chain, found = Chain(rules, blocks.graph, spend), np.zeros(2)
+            chain, found = Chain(rules, blocks.graph), np.zeros(2)
             for index in indices:
                 block = blocks.block(index)
-                dictionary = chain.dictionary(chain.around(block), width)
+                steps = chain.steps(chain.around(block), width)
+                dictionary = settle(steps, lambda price: spend(price(width)))
                 coefficients = np.abs(project(dictionary, positions[block.vertices], dictionary.shape[1]))
                 chain.commit(block, dictionary, positions[block.vertices])
                 found = np.maximum(found, [coefficients[:1].max(), coefficients[1:].max(initial=0.0)])
