@@ -192,11 +192,11 @@ def test_formats_that_nobody_knows(trimesh, tmp_path):
 def test_where_trimesh_is_missing_the_way_out_is_said(tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, "trimesh", None)
     (tmp_path / "a.glb").write_bytes(b"glTF and more")
-    with pytest.raises(DependencyError, match=r"\.glb files are read with trimesh; run: pip install 'bsm-codec\[form"):
+    with pytest.raises(DependencyError, match=r"\.glb files are read with trimesh; run: pip install .*\[form"):
         read_mesh(tmp_path / "a.glb")
 
 
 def test_where_openmesh_is_missing_the_way_out_is_said(monkeypatch):
     monkeypatch.setitem(sys.modules, "openmesh", None)
-    with pytest.raises(DependencyError, match=r"pip install 'bsm-codec\[openmesh\]'"):
+    with pytest.raises(DependencyError, match=r"pip install .*\[openmesh\]'"):
         read_mesh(format_mesh(tetrahedron(), "ply"), reader="openmesh")

@@ -13,6 +13,7 @@ from urllib.parse import unquote
 import numpy as np
 
 from bsm.bitstream.errors import BsmError, DependencyError, FormatError
+from bsm.bitstream.extras import how_to_install
 from bsm.bitstream.limits import Limits
 from bsm.files.formats.columns import PLURALS, Array, Column, color_column, compact, meaning_of
 from bsm.files.formats.materials import Material, Value, described, kind_of_image, named
@@ -36,7 +37,7 @@ def import_trimesh(what: str) -> Any:
     try:
         import trimesh
     except ImportError as error:
-        raise DependencyError(f"{what} with trimesh; run: pip install 'bsm-codec[formats]'") from error
+        raise DependencyError(f"{what} with trimesh; run: {how_to_install('formats')}") from error
     return trimesh
 
 
@@ -66,7 +67,7 @@ def read_with_trimesh(data: bytes, path: str | None, kind: str, limits: Limits) 
     if kind not in trimesh.available_formats():
         raise FormatError(
             f"{f'.{kind} is' if kind else 'this is'} no mesh format that is known here (trimesh reads more of them, "
-            "3MF and DAE among them, after: pip install 'bsm-codec[formats]')"
+            f"3MF and DAE among them, after: {how_to_install('formats')})"
         )
     try:
         with np.errstate(all="ignore"):  # what is not finite is refused later

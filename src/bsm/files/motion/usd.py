@@ -14,6 +14,7 @@ from typing import Any, BinaryIO
 import numpy as np
 
 from bsm.bitstream.errors import DependencyError, FormatError, LimitError, MeshError
+from bsm.bitstream.extras import how_to_install
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.codec.arrays import Faces, Positions
 from bsm.codec.geometry.attributes import MOST_COMPONENTS, Attribute, Domain, Semantic
@@ -47,9 +48,7 @@ def import_usd() -> Any:
         import pxr.UsdUtils
         import pxr.Vt
     except ImportError as error:
-        raise DependencyError(
-            "USD files are read and written with usd-core; run: pip install 'bsm-codec[usd]'"
-        ) from error
+        raise DependencyError(f"USD files are read and written with usd-core; run: {how_to_install('usd')}") from error
     return pxr
 
 
