@@ -29,10 +29,10 @@ PAGES = tuple(
 )
 DOCUMENTS = ("README.md", "CONTRIBUTING.md", "spec/README.md", "src/bsm/SERVICE.md", *PAGES)
 PROGRAMS = r"(?:bsm|python3?|pytest|mkdocs|ruff|\.ci/run|\.venv|eval|cat)"
-BY_CI = r"\.ci/run|^mkdocs|\.venv/bin/|^pytest|^ruff|^bsm --help$|tools\.fuzz|tools\.proof|tools\.bombs"
+BY_CI = r"\.ci/|^mkdocs|\.venv/bin/|^pytest|^ruff|^bsm --help$|tools\.fuzz|tools\.proof|tools\.bombs"
 """What .ci/run itself does, or is."""
 NEEDS_FOLDER = r"MESHES|SEQUENCES|FOLDER|MESH\.\.\.|bsm bench"
-HELP_ONLY = r"s3://|bsm view|tools\.blender|tools\.charges|tools\.vectors|tools\.train_coefficients"
+HELP_ONLY = r"tools\.release|s3://|bsm view|tools\.blender|tools\.charges|tools\.vectors|tools\.train_coefficients"
 """What would change the repository, and does so in tests of its own, needs machines of others, or takes time."""
 PLACES = {
     "COMMAND": "encode",

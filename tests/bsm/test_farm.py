@@ -238,7 +238,7 @@ def test_packages_that_are_missing(monkeypatch):
     with pytest.raises(DependencyError, match=r"s3:// needs a package that is missing: pip install 's3fs'"):
         bsm.load("s3://bucket/a.ply")
     monkeypatch.setitem(sys.modules, "fsspec", None)
-    with pytest.raises(DependencyError, match=r"pip install 'bsm-codec\[remote\]'"):
+    with pytest.raises(DependencyError, match=r"pip install .*\[remote\]'"):
         bsm.load("https://host/a.ply")
 
 

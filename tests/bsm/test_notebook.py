@@ -28,6 +28,15 @@ def test_mesh_is_encoded_and_compared_with_itself():
     assert sorted(map(tuple, original)) == sorted(map(tuple, MESH.positions.astype(np.float32)))
 
 
+def test_mesh_is_shown_without_scipy(monkeypatch):
+    for name in [name for name in sys.modules if name.startswith("bsm.evaluation")]:
+        monkeypatch.delitem(sys.modules, name)
+    monkeypatch.delattr(bsm, "evaluation", raising=False)
+    monkeypatch.setitem(sys.modules, "scipy", None)
+    widget = bsm.show(MESH)
+    assert len(widget.original) == 12 * len(MESH.positions)
+
+
 def test_file_is_read(tmp_path):
     path = tmp_path / "ball.bsm"
     path.write_bytes(bsm.encode(MESH))
@@ -49,5 +58,5 @@ def test_what_is_encoded_is_not_encoded_again():
 def test_missing_anywidget_is_named(monkeypatch):
     monkeypatch.setitem(sys.modules, "anywidget", None)
     monkeypatch.delitem(sys.modules, "bsm.viewer.widget", raising=False)
-    with pytest.raises(bsm.DependencyError, match=r"bsm-codec\[notebook\]"):
+    with pytest.raises(bsm.DependencyError, match=r"pip install .*\[notebook\]"):
         bsm.show(bsm.encode(MESH))
