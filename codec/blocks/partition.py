@@ -42,7 +42,7 @@ class Partition:
 
 
 def partition_of_labels(labels: Indices) -> Partition:
-    """Partition whose parts are the distinct labels, numbered by the first vertex that has them."""
+    """Partition whose parts are the distinct labels, shape (n,), numbered by the first vertex that has them."""
     _, first, compact = np.unique(labels, return_index=True, return_inverse=True)
     rank = np.empty(len(first), np.int32)
     rank[np.argsort(first)] = np.arange(len(first), dtype=np.int32)

@@ -32,7 +32,7 @@ Predictor: TypeAlias = Callable[[Surroundings], Matrix]
 
 
 def unchanged(values: Matrix) -> Matrix:
-    """The values themselves."""
+    """The values themselves, of any shape."""
     return values
 
 
@@ -147,7 +147,10 @@ class Chain:
         return unheld(laplacian, shift) if self._known is None else self._known.around(laplacian, shift)
 
     def dictionary(self, around: Surroundings, width: int) -> Matrix:
-        """U of a block with `width` columns (at most its rows), a function of connectivity and earlier widths only."""
+        """U of a block of n_i rows, shape (n_i, width), a function of connectivity and earlier widths only.
+
+        `width` is cut to the block's rows.
+        """
         return unpaid(self.steps(around, width))
 
     def steps(self, around: Surroundings, width: int) -> Steps:

@@ -179,7 +179,7 @@ def test_trimesh_can_be_asked_for_our_formats(trimesh, tmp_path):
 @pytest.mark.parametrize("data", [b"glTF", b"glTF\2\0\0\0\xff\xff\xff\xff\0\0\0\0JSON{}", b"glTF" + bytes(100)])
 def test_damaged_scenes(trimesh, data, tmp_path):
     (tmp_path / "a.glb").write_bytes(data)
-    with pytest.raises((FormatError, MeshError), match=r"trimesh cannot read this file|no faces"):
+    with pytest.raises((FormatError, TruncatedError), match=r"this is no GLB|this GLB should|a GLB begins"):
         read_mesh(tmp_path / "a.glb")
 
 
