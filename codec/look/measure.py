@@ -119,7 +119,7 @@ class Looker:
         return self.glance(positions, 0.0, math.inf)[0]
 
     def glance(self, positions: Positions, least: float, most: float) -> tuple[Look, bool]:
-        """The same as `look`, but from a few sides alone where these come to a distance outside `least` to `most`.
+        """Look as `look` does, but from a few sides alone where these come to a distance outside `least` to `most`.
 
         That is quicker, and about right; the second is whether all sides were seen. Raises as `look`.
         """

@@ -244,7 +244,7 @@ class Shading:
         return float(areas @ np.sqrt(1.0 - cosines)) / total if total else 0.0
 
     def _normals(self, positions: Positions) -> tuple[Matrix, Matrix]:
-        """Of vertices, with the areas around them."""
+        """Normals of vertices, and the areas around them."""
         a, b, c = (positions[self._faces[:, k]] for k in range(3))
         crosses = np.cross(b - a, c - a)
         sums = self._around @ crosses
