@@ -44,7 +44,12 @@ faces = np.concatenate([np.stack([a, b, c], 1), np.stack([b, d, c], 1)]).astype(
 squares = (np.add.outer(np.arange(64) // 8, np.arange(64) // 8) % 2)[..., None]
 image = np.where(squares, [230, 60, 40], [40, 90, 220]).astype(np.uint8)
 coordinates = Attribute("TEXCOORD_0", np.stack([8 * u, 3 * v], 1).astype(np.float32), "vertex", "texcoord")
-told = {"material.0.baseColorTexture": 0, "material.0.metallicFactor": 0.0, "image.0.data": png(image)}
+told: dict[str, str | int | float | bytes] = {"material.0.baseColorTexture": 0, "material.0.metallicFactor": 0.0}
+told["image.0.data"] = png(image)
+    "material.0.baseColorTexture": 0,
+    "material.0.metallicFactor": 0.0,
+    "image.0.data": png(image),
+}
 ring = bsm.TriangleMesh(positions, faces, (coordinates,), told)
 (folder / "ring.bsm").write_bytes(bsm.encode(ring))
 bsm.save(ring, folder / "plain.glb")
