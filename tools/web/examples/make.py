@@ -46,10 +46,6 @@ image = np.where(squares, [230, 60, 40], [40, 90, 220]).astype(np.uint8)
 coordinates = Attribute("TEXCOORD_0", np.stack([8 * u, 3 * v], 1).astype(np.float32), "vertex", "texcoord")
 told: dict[str, str | int | float | bytes] = {"material.0.baseColorTexture": 0, "material.0.metallicFactor": 0.0}
 told["image.0.data"] = png(image)
-    "material.0.baseColorTexture": 0,
-    "material.0.metallicFactor": 0.0,
-    "image.0.data": png(image),
-}
 ring = bsm.TriangleMesh(positions, faces, (coordinates,), told)
 (folder / "ring.bsm").write_bytes(bsm.encode(ring))
 bsm.save(ring, folder / "plain.glb")
