@@ -30,6 +30,8 @@ DISSIMILAR = 0.03
 """1 - SSIM at distance 1."""
 VISIBLE_SHARE = 0.005
 """Share of covered pixels that differ visibly, at distance 1."""
+MOVING = 0.05
+"""1 - SSIM of a frame of a moving picture at distance 1; no pixel of it counts by itself."""
 POWER = 0.8
 """Of the larger of both over its bound: so that a distance is about linear in the step of a quantizer."""
 GONE, GONE_POWER = 0.5, 2.0
@@ -58,6 +60,11 @@ class Look:
     dissimilarity: float
     visible: float
     gone: float
+
+    @property
+    def moving(self) -> float:
+        """The distance of a frame that is one of many, and soon gone, see `spec/look.md`, L 5."""
+        return math.pow(self.dissimilarity / MOVING, POWER)
 
 
 class Looker:
