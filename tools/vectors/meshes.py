@@ -81,7 +81,7 @@ def hub() -> TriangleMesh:
 
 
 def tent() -> TriangleMesh:
-    """A patch, and two vertices joined to every second neighbour along its boundary: they come last, with 72 corners each.
+    """A patch, and two vertices over every second edge along its boundary, which come last, with 72 corners each.
 
     All edges to the first of them are its own, so it sees no flap when it comes, and the second one sees 72.
     """
