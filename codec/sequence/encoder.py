@@ -157,7 +157,10 @@ class SequenceEncoder:
             yield from self.search([np.asarray(frame, np.float64) for frame in frames], progress).chunks
 
     def search(self, frames: Sequence[Matrix], progress: Progress | None = None) -> SequenceAttempt:
-        """Look for the step that meets the options' target; `TargetError` says what can be had where none does."""
+        """Look for the step with which `frames`, each of shape (n, 3), meet the options' target.
+
+        `TargetError` says what can be had where none does.
+        """
         target = self.options.target
         if target is None:
             raise OptionError("there is no target to search for")
@@ -172,7 +175,7 @@ class SequenceEncoder:
         return float(2.0 * reach * np.sqrt(values) / LARGEST_LEVEL)
 
     def attempt(self, frames: Sequence[Matrix], step: float, progress: Progress | None = None) -> SequenceAttempt:
-        """Encode with a given step, and see what the decoder will."""
+        """Encode frames, each of shape (n, 3), with a given step, and see what the decoder will."""
         chunks = tuple(self._chunks(frames, replace(self.options, step=step), progress))
         decoded, faces = decode_sequence(b"".join(chunks), NAMED_LIMITS[self.options.limits](), self.options.threads)
         original = np.array([frame[self.vertex_order] for frame in frames])

@@ -56,7 +56,7 @@ class Setting:
         return self.dictionaries.sites
 
     def empty_levels(self, columns: int) -> list[Levels]:
-        """Levels of all parts, to be read."""
+        """Levels of all parts, each of shape (c_i, columns), to be read."""
         return [np.zeros((site.width, columns), np.int32) for site in self.sites]
 
     def field(self, columns: int, decoded: Callable[[int], Matrix]) -> Matrix:
@@ -86,7 +86,10 @@ def make_setting(
 
 
 def level_references(matrices: list[Levels], columns: int) -> list[Levels]:
-    """What the levels of each block are expected to resemble within a GOP: those of the block before."""
+    """What the levels of each block, shape (c_i, columns), are expected to resemble within a GOP.
+
+    That is those of the block before.
+    """
     return [np.zeros((0, columns), np.int32), *matrices[:-1]]
 
 
@@ -122,11 +125,11 @@ class FrameHistory:
         return np.concatenate([self._first[block], latest, latest - self._before[block]], axis=1)
 
     def base(self, block: int) -> Matrix:
-        """Coefficients that the change is added to."""
+        """Coefficients that the change of a block is added to, shape (c_i, 3)."""
         return self._latest[block]
 
     def commit(self, levels: list[Levels], coefficients: list[Matrix]) -> None:
-        """Make a frame the latest."""
+        """Make a frame the latest: its levels and coefficients, each of shape (c_i, 3)."""
         self.levels = levels
         self._latest, self._before = coefficients, self._latest
 
