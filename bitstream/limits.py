@@ -45,6 +45,11 @@ class Limits:
     attribute_values: int = 1 << 28
     """Numbers of all attributes of a mesh: values times their components."""
 
+    def __repr__(self) -> str:
+        """Name what differs from the defaults, so that signatures fit a line."""
+        own = [(one.name, getattr(self, one.name)) for one in fields(self) if getattr(self, one.name) != one.default]
+        return f"Limits({', '.join(f'{name}={value!r}' for name, value in own)})"
+
     def __post_init__(self) -> None:
         """Raises `ArgumentError` for what is no number, `OptionError` for one that bounds nothing or everything."""
         for name in (field.name for field in fields(self)):
@@ -83,9 +88,13 @@ class Limits:
                 f"if you trust the source, raise Limits.{name}"
             )
 
-    def check_work(self, value: float, vertices: int) -> None:
-        """Raise `LimitError` if a stream of so many vertices takes more work, besides what its bytes grant."""
-        self._check_sum("work", value, self.work + self.work_per_vertex * vertices)
+    def check_work(self, value: float, vertices: int, received: int = 0) -> None:
+        """Raise `LimitError` if a stream of so many vertices, and bytes received, takes more work."""
+        self._check_sum("work", value, self.work_for(vertices, received))
+
+    def work_for(self, vertices: int, received: int) -> float:
+        """Nanoseconds of work that a stream of so many vertices, and bytes received, may take."""
+        return min(self.work + self.work_per_vertex * vertices + self.work_per_byte * received, self.most_work)
 
     def check_memory(self, value: float, vertices: int, received: int = 0) -> None:
         """Raise `LimitError` if a stream of so many vertices, and bytes received, needs more memory."""

@@ -31,7 +31,7 @@ Steps: TypeAlias = Generator[Price, None, Matrix]
 
 
 def settle(steps: Steps, pay: Callable[[Price], None]) -> Matrix:
-    """The columns that `steps` lead to; each price is handed to `pay` before the step is taken."""
+    """The columns, shape (n, c), that `steps` lead to; each price is handed to `pay` before the step is taken."""
     while True:
         try:
             price = next(steps)
@@ -42,7 +42,7 @@ def settle(steps: Steps, pay: Callable[[Price], None]) -> Matrix:
 
 
 def unpaid(steps: Steps) -> Matrix:
-    """The columns that `steps` lead to, whatever they cost."""
+    """The columns, shape (n, c), that `steps` lead to, whatever they cost."""
     return settle(steps, lambda price: None)
 
 

@@ -34,7 +34,8 @@ components (M 8.3); half or twice of it changes bytes by nothing, and by 0.3 % a
 def cosine_columns(rows: int, first: int, last: int) -> Matrix:
     """Cosines along the rows, frequencies `first` to `last - 1`: the start that needs no predecessor.
 
-    Column j is cos(pi j (2 r + 1) / (2 n)), the eigenvectors of a path of n vertices, orthogonal to each other.
+    Returns shape (rows, last - first). Column j is cos(pi j (2 r + 1) / (2 n)), the eigenvectors of a path of n
+    vertices, orthogonal to each other.
     """
     columns, table = np.empty((rows, last - first)), np.empty(rows + 8)
     _kernels.cosines(first, table, columns)
@@ -56,7 +57,10 @@ def onorm(columns: Matrix) -> Matrix:
 
 
 def onorm_steps(columns: Matrix) -> Steps:
-    """`onorm`, with the price of reflections; the first pass is part of the price of what calls it."""
+    """`onorm` of `columns`, shape (n, c), with the price of reflections.
+
+    The first pass is part of the price of what calls it.
+    """
     q, scratch = np.empty(columns.shape), np.empty(_kernels.iteration_space(*columns.shape))
     independence = _kernels.cholesky_onorm(np.ascontiguousarray(columns), ONCE, scratch, q)
     if independence >= TWICE:
@@ -66,7 +70,7 @@ def onorm_steps(columns: Matrix) -> Steps:
 
 
 def householder_orthonormalize(columns: Matrix) -> Matrix:
-    """`onorm` by Householder reflections, for any condition number."""
+    """`onorm` of `columns`, shape (n, c), by Householder reflections, for any condition number."""
     if not np.isfinite(columns).all():
         raise NumericError("the subspace iteration produced a value that is not finite")
     q = np.empty(columns.shape)
@@ -98,7 +102,7 @@ def orthogonal_iteration(
 
 
 def iteration_steps(factor: Factor, start: Matrix, *, power: int, iterations: int, width: int | None = None) -> Steps:
-    """`orthogonal_iteration`, with the price of each step."""
+    """`orthogonal_iteration` from `start`, shape (n, c) or wider, with the price of each step."""
     rows, width = len(start), start.shape[1] if width is None else min(width, start.shape[1])
     yield partial(dictionary_cost, factor.fronts, power=power, iterations=iterations)
     start = np.ascontiguousarray(start)
@@ -118,8 +122,9 @@ def iteration_steps(factor: Factor, start: Matrix, *, power: int, iterations: in
 
 
 def follow_columns(previous: Matrix, width: int, noisy: bool) -> Matrix:
-    """The start of a block that follows, of `width` columns or more: the predecessor's columns, and noise where
-    `resized` might lack something.
+    """The start of a block that follows: the predecessor's columns, shape (n, c), and noise where it is `noisy`.
+
+    Noise is for what `resized` might lack. Returns shape (n, width), or wider where the predecessor is.
     """
     if noisy:
         return resized(previous, width) + FOLLOWING_NOISE * hash_columns(len(previous), width)
@@ -127,7 +132,7 @@ def follow_columns(previous: Matrix, width: int, noisy: bool) -> Matrix:
 
 
 def first_columns(rows: int, width: int, noisy: bool) -> Matrix:
-    """The start of a block that follows none: cosines, and noise where they might lack something.
+    """The start of a block that follows none, shape (rows, width): cosines, and noise where they might lack something.
 
     What a start does not hold would grow from rounding errors: where a block has several components, each of which is
     a lowest frequency of its own, or where there are many iterations and the block is as symmetric as cosines are.
@@ -137,7 +142,7 @@ def first_columns(rows: int, width: int, noisy: bool) -> Matrix:
 
 
 def resized(previous: Matrix, width: int) -> Matrix:
-    """The predecessor's columns, `width` of them, and cosines where it has fewer."""
+    """The predecessor's columns, shape (n, c), `width` of them, and cosines where it has fewer: shape (n, width)."""
     rows = len(previous)
     columns, table = np.empty((rows, width)), np.empty(rows + 8)
     _kernels.resize_columns(np.ascontiguousarray(previous), table, columns)
@@ -147,14 +152,15 @@ def resized(previous: Matrix, width: int) -> Matrix:
 def exact_basis(laplacian: Laplacian, start: Matrix, springs: float | Matrix = 0.0) -> Matrix:
     """The lowest eigenvectors of L + diag(springs): many orthogonal iterations from `start`, see `first_columns`.
 
-    No eigensolver: within a space of equal eigenvalues that may return any rotation. This is a smooth function of the
-    matrix, the same for all who compute it. The noise in the start is for blocks as symmetric as cosines are.
+    `start` has shape (n, c), as the result has; `springs` is one number, or has shape (n,). No eigensolver:
+    within a space of equal eigenvalues that may return any rotation. This is a smooth function of the matrix, the same
+    for all who compute it. The noise in the start is for blocks as symmetric as cosines are.
     """
     return unpaid(exact_steps(laplacian, start, springs))
 
 
 def exact_steps(laplacian: Laplacian, start: Matrix, springs: float | Matrix) -> Steps:
-    """`exact_basis`, with the price of each step."""
+    """`exact_basis` from `start`, shape (n, c), with the price of each step."""
     factor = factorize(laplacian, springs + EXACT_SHIFT)
     return (yield from iteration_steps(factor, start, power=EXACT_POWER, iterations=EXACT_ITERATIONS))
 

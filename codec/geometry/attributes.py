@@ -50,6 +50,11 @@ class Attribute:
     semantic: Semantic = "generic"
     indices: Indices | None = None
 
+    def __repr__(self) -> str:
+        count, components = self.values.shape
+        kind = f"{count} x {components} {self.values.dtype}"
+        return f"Attribute({self.name!r}, {kind} per {self.domain}, {self.semantic})"
+
     def __reduce__(self) -> tuple[Any, ...]:
         """For pickles and deep copies: made again, and so checked again."""
         return type(self), (self.name, self.values, self.domain, self.semantic, self.indices)
@@ -93,7 +98,10 @@ class Attribute:
             )
 
     def taken(self, vertices: Order, faces: Order) -> Attribute:
-        """The attribute of a mesh whose vertex j was vertex `vertices[j]` and whose face i was face `faces[i]` here."""
+        """The attribute of a mesh whose vertex j was vertex `vertices[j]` and whose face i was face `faces[i]` here.
+
+        `vertices` has shape (n,), `faces` has shape (m,): as many as that mesh has.
+        """
         if self.indices is None:
             return replace(self, values=self.values[vertices if self.domain == "vertex" else faces])
         used, where = np.unique(self.indices[faces], return_inverse=True)

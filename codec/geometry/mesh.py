@@ -83,6 +83,10 @@ class TriangleMesh:
         for attribute in self.attributes:
             attribute.check(len(positions), len(faces))
 
+    def __repr__(self) -> str:
+        names = "".join(f", {attribute.name}" for attribute in self.attributes)
+        return f"TriangleMesh({len(self.positions)} vertices, {len(self.faces)} faces{names})"
+
     def __reduce__(self) -> tuple[Any, ...]:
         """For pickles and deep copies: made again, and so checked again."""
         return type(self), (self.positions, self.faces, self.attributes, dict(self.metadata))
@@ -104,7 +108,7 @@ class TriangleMesh:
             )
 
     def moved(self, positions: Positions) -> tuple[TriangleMesh, tuple[str, ...]]:
-        """The mesh with its vertices elsewhere; normals are not of it any more: the names of those left out."""
+        """The mesh with its vertices elsewhere, shape (n, 3), and the names of its normals, which are left out."""
         normals = tuple(one.name for one in self.attributes if one.semantic == "normal")
         kept = tuple(one for one in self.attributes if one.semantic != "normal")
         return replace(self, positions=positions, attributes=kept), normals
@@ -115,7 +119,7 @@ class TriangleMesh:
         return replace(self, attributes=(), metadata={})
 
     def without_isolated_vertices(self) -> tuple[TriangleMesh, Order]:
-        """The mesh of the vertices that some face uses, and their indices here, ascending."""
+        """The mesh of the vertices that some face uses, and their indices here, shape (k,), ascending."""
         used = np.zeros(len(self.positions), dtype=bool)
         used[self.faces] = True
         kept = np.flatnonzero(used)

@@ -21,7 +21,7 @@ from bsm.codec.blocks.blend import Blend
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.sequence.cost import gop_cost, gop_memory, loop_memory
 from bsm.codec.sequence.gop import GopDecoder, make_setting
-from bsm.codec.signal.chain import Rounding, unchanged
+from bsm.codec.signal.chain import AS_SPECIFIED, Trial
 from bsm.codec.static.attributes.decoding import AttributeDecoders, without_positions
 from bsm.codec.static.events import AttributeEvent, ConnectivityEvent, EndEvent, HeaderEvent, LossEvent, unreadable
 from bsm.codec.static.rules import chain_rules
@@ -38,6 +38,9 @@ class FrameEvent:
 
     index: int
     positions: Positions
+
+    def __repr__(self) -> str:
+        return f"FrameEvent(frame {self.index}, {len(self.positions)} vertices)"
 
 
 Event: TypeAlias = HeaderEvent | ConnectivityEvent | AttributeEvent | FrameEvent | LossEvent | EndEvent | Signal
@@ -261,8 +264,8 @@ class SequenceDecoder(StreamDecoder[Item]):
         whole in any case.
     start : int
         Give no frame before this one; GOPs that it does not need are not decoded.
-    rounding : callable, optional
-        What is done to the numbers that dictionaries and predictions start from; see `ChainRules`.
+    trial : Trial, optional
+        What is tried in place of what the specification says; see `codec.signal.chain`.
     """
 
     def __init__(
@@ -272,7 +275,7 @@ class SequenceDecoder(StreamDecoder[Item]):
         *,
         tolerant: bool = False,
         start: int = 0,
-        rounding: Rounding = unchanged,
+        trial: Trial = AS_SPECIFIED,
     ) -> None:
         threads = threads_of(threads)
         self._attributes: list[Attribute] = []
@@ -282,7 +285,7 @@ class SequenceDecoder(StreamDecoder[Item]):
             allowance,
             check=lambda header: check_header(header, limits),
             begin=lambda structure: FirstFrame(structure, request),
-            rounding=rounding,
+            trial=trial,
             threads=threads,
         )
         super().__init__(HeaderStage(setup), allowance, tolerant=tolerant)

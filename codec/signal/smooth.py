@@ -21,7 +21,7 @@ NODES = (0.4, 0.9, 1.4, 1.8)
 
 
 def filter_polynomial(amount: float) -> Matrix:
-    """Coefficients p_2 .. p_5 of p(x) = 1 + p_2 x^2 + ... + p_5 x^5.
+    """Coefficients p_2 .. p_5 of p(x) = 1 + p_2 x^2 + ... + p_5 x^5, shape (DEGREE - 1,).
 
     p(0) = 1 and p'(0) = 0; at four nodes in the spectrum of K, p equals 1 / (1 + alpha x^2), with alpha = `amount`.
     Newton's divided differences of (p(x) - 1) / x^2 = -alpha / (1 + alpha x^2), expanded.
@@ -63,13 +63,13 @@ class Spectrum:
     terms: Matrix
 
     def smoothed(self, amount: float) -> Matrix:
-        """`smooth` of the positions by `amount`."""
+        """`smooth` of the positions by `amount`, shape (n, 3)."""
         smoothed = np.empty(self.positions.shape)
         _kernels.combine_powers(self.positions, self.terms.reshape(-1), filter_polynomial(amount), smoothed)
         return smoothed
 
     def only(self, vertices: npt.NDArray[np.integer]) -> Spectrum:
-        """Smoothing of some of the vertices only."""
+        """Smoothing of some of the vertices only, shape (k,)."""
         return Spectrum(self.positions[vertices], np.ascontiguousarray(self.terms[:, vertices]))
 
     def __post_init__(self) -> None:
@@ -130,7 +130,7 @@ class LocalFilter:
         self._rows = np.empty(graph.size, np.int32)
 
     def around(self, vertices: Indices, rings: int) -> Rings:
-        """`vertices`, all different, and all others at most `rings` edges away."""
+        """`vertices`, shape (k,), all different, and all others at most `rings` edges away."""
         starts = np.empty(rings + 1, np.int64)
         count = _kernels.find_rings(
             self._graph.offsets, self._graph.neighbours, self._number, vertices, self._rows, starts

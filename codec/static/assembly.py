@@ -34,7 +34,7 @@ class DecodedBlock:
 
 
 def blended(size: int, blocks: Iterable[DecodedBlock]) -> Matrix:
-    """Positions of all `size` vertices, in BSM units, from all blocks."""
+    """Positions of all `size` vertices, shape (size, 3), in BSM units, from all blocks."""
     blend = Blend(size)
     for block in blocks:
         blend.add(block.vertices, block.positions, block.weights)

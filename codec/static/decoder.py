@@ -14,7 +14,7 @@ from bsm.bitstream.container.wire import FrameType
 from bsm.bitstream.errors import ArgumentError, BsmError, CorruptError, OptionError, UnsupportedError
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.codec.signal.chain import Rounding, unchanged
+from bsm.codec.signal.chain import AS_SPECIFIED, Trial
 from bsm.codec.static.assembly import Assembly, DecodedBlock, Place
 from bsm.codec.static.attributes.decoding import PendingValues, ValuesStage, completed
 from bsm.codec.static.events import (
@@ -175,8 +175,8 @@ class Decoder(StreamDecoder[Item]):
     layers : int, optional
         How many to decode: 1 is the base alone, and each layer of refinement one more; None: all. What comes behind
         them is not waited for.
-    rounding : callable, optional
-        What is done to the numbers that dictionaries and predictions start from; see `ChainRules`.
+    trial : Trial, optional
+        What is tried in place of what the specification says; see `codec.signal.chain`.
     """
 
     def __init__(
@@ -186,7 +186,7 @@ class Decoder(StreamDecoder[Item]):
         *,
         tolerant: bool = False,
         layers: int | None = None,
-        rounding: Rounding = unchanged,
+        trial: Trial = AS_SPECIFIED,
     ) -> None:
         if layers is not None and (isinstance(layers, bool) or not isinstance(layers, Integral)):
             raise ArgumentError(f"layers must be a whole number or None, not {layers!r}")
@@ -208,7 +208,7 @@ class Decoder(StreamDecoder[Item]):
             check=lambda header: check_header(header, limits),
             begin=begin,
             tolerant=tolerant,
-            rounding=rounding,
+            trial=trial,
             threads=threads,
         )
         super().__init__(HeaderStage(setup), allowance, tolerant=tolerant)

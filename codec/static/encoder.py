@@ -123,7 +123,7 @@ class Encoder:
 
     @property
     def vertex_order(self) -> Order:
-        """The decoder's vertex j is vertex `vertex_order[j]` of the given mesh, or at its place; int64."""
+        """The decoder's vertex j is vertex `vertex_order[j]` of the given mesh, or at its place; int64, shape (k,)."""
         if self._joined.splits is not None:
             return np.arange(len(self._given.positions))
         return self._joined.first[self._prepared.vertex_order]
@@ -132,7 +132,7 @@ class Encoder:
     def vertex_index(self) -> Order:
         """The given mesh's vertex i is the decoder's vertex `vertex_index[i]`; -1: it is in no face, and not there.
 
-        int64, as long as the given mesh has vertices.
+        int64, shape (n,), with n the vertices of the given mesh.
         """
         if self._joined.splits is not None:
             return np.arange(len(self._given.positions))

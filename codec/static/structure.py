@@ -26,7 +26,7 @@ from bsm.codec.arrays import Faces
 from bsm.codec.blocks.overlap import grow_blocks
 from bsm.codec.blocks.partition import Partition, derive_last_parts, partition_of_labels
 from bsm.codec.geometry.graph import Graph, graph_of_faces
-from bsm.codec.signal.chain import Rounding, unchanged
+from bsm.codec.signal.chain import AS_SPECIFIED, Trial
 from bsm.codec.static.assembly import Assembly
 from bsm.codec.static.attributes.decoding import Declarations
 from bsm.codec.static.events import HeaderEvent, LossEvent, unreadable
@@ -191,7 +191,7 @@ class Structure:
         if largest > header.block_size:
             raise CorruptError(f"a part of {largest} vertices in blocks of {header.block_size}")
         grown = grow_blocks(self.graph, partition, header.block_size)
-        return scheme_of(header, self.faces, grown, setup.rounding, section.span.blocks.start)
+        return scheme_of(header, self.faces, grown, setup.trial, section.span.blocks.start)
 
     def following(self, assembly: Assembly) -> ConnectivityStage:
         """What takes the next section, which is added to `assembly`."""
@@ -200,15 +200,15 @@ class Structure:
 
 @dataclass(frozen=True)
 class DecoderSetup:
-    """How a decoder reads the preamble: which headers it takes, what it may spend, which stage comes behind, and how
-    numbers are rounded.
+    """How a decoder reads the preamble: which headers it takes, what it may spend, which stage comes behind, and what
+    is tried.
     """
 
     allowance: Allowance
     check: Callable[[Header], None]
     begin: Callable[[Structure], Stage[Any]]
     tolerant: bool = False
-    rounding: Rounding = unchanged
+    trial: Trial = AS_SPECIFIED
     threads: int | None = 1
 
 

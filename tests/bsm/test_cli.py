@@ -302,7 +302,7 @@ def test_scipy_is_asked_for_where_it_is_needed(words, folder, tmp_path):
         text=True,
         check=False,
     )
-    assert done.returncode == 8 and "pip install 'bsm-codec[" in done.stderr and done.stderr.count("\n") == 1
+    assert done.returncode == 8 and "pip install " in done.stderr and done.stderr.count("\n") == 1
 
 
 def test_force_overwrites(folder, tmp_path):

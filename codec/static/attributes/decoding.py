@@ -185,7 +185,10 @@ class AttributeDecoder:
         self._coder: PieceDecoder | None = None
 
     def decode(self, packet: packets.Values, places: Levels | None) -> AttributeEvent:
-        """Decode a chunk of its values; what decodes them is given up behind the last."""
+        """Decode a chunk of its values; what decodes them is given up behind the last.
+
+        `places`, shape (n, 3), are positions on their grid, if values lean on these.
+        """
         if self.complete:
             raise CorruptError("it has all its values already")
         allowance, faces = self._structure.allowance, len(self._surface.faces)
@@ -258,7 +261,7 @@ class AttributeDecoders:
         return any(one.declaration.coding == RECOMPUTED for one in self._valued.values())
 
     def add(self, packet: packets.Values, places: Callable[[], Levels]) -> AttributeEvent:
-        """Decode a chunk of values; `places` gives positions if they lean on these.
+        """Decode a chunk of values; `places` gives positions, shape (n, 3), if they lean on these.
 
         Raises
         ------
@@ -314,7 +317,7 @@ class AttributedMesh:
 
 
 def without_positions() -> Levels:
-    """For attributes of sequences."""
+    """For attributes of sequences: raises `CorruptError` in place of positions, shape (n, 3)."""
     raise CorruptError("attributes of a sequence cannot lean on positions")
 
 

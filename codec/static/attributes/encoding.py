@@ -107,7 +107,7 @@ class PreparedAttribute:
         return self.chunks(None, CHUNK)
 
     def chunks(self, places: Levels | None, size: int) -> tuple[bytes, ...]:
-        """The chunks of its values, of so many each."""
+        """The chunks of its values, `size` each, predicted from `places`, shape (n, 3), if there are any."""
         if self.declaration.coding == RECOMPUTED:
             return ()
         pieces = to_pieces(self.declaration, self.levels)
@@ -213,7 +213,10 @@ def with_attributes(draft: Draft, carried: tuple[PreparedAttribute, ...], metada
 
 
 def cheaper(one: PreparedAttribute, places: Levels | None) -> tuple[Declaration, tuple[bytes, ...]]:
-    """What an attribute declares, and its chunks: leaning on a grid's values, or not where that takes fewer bytes."""
+    """What an attribute declares, and its chunks.
+
+    It leans on a grid's values, `places`, shape (n, 3), where that takes fewer bytes.
+    """
     if places is not None and leans(one.declaration):
         chunks = one.chunks(places, CHUNK)
         if sum(map(len, chunks)) < sum(map(len, one.plain)):

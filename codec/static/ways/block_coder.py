@@ -72,7 +72,7 @@ class ChainEncoder:
         block = scheme.blocks.block(index)
         around = chain.around(block)
         dictionary, prices = self._priced_dictionary(around)
-        ground = Ground(block, around.continuation, dictionary)
+        ground = Ground(block, chain.continuation(around), dictionary)
         levels = coding.choose(ground, positions[block.vertices], self._sizes)
         decoded = coding.positions(ground, levels)
         work = sum(price(levels.width) for price in prices) + self._work_of(index, around, levels)
@@ -151,7 +151,7 @@ class ChainDecoder:
             steps = chain.steps(around, levels.width)
             dictionary = settle(steps, lambda price: allowance.spend(price(levels.width)))
             allowance.spend(ground_cost(around.laplacian, levels.width))
-            ground = Ground(block, around.continuation, dictionary)
+            ground = Ground(block, chain.continuation(around), dictionary)
             decoded = coding.positions(ground, levels)
             chain.commit(block, dictionary, decoded)
         if not np.isfinite(decoded).all():
