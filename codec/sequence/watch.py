@@ -194,14 +194,17 @@ class Shading:
         self._around = csr_array(corners, shape=(count, len(faces)))
 
     def error(self, original: Positions, decoded: Positions) -> float:
-        """How far normals of vertices are off: the root of 1 - cosine, mean by area."""
+        """How far normals of vertices of `decoded` are off those of `original`, both of shape (n, 3).
+
+        That is the root of 1 - cosine, mean by area.
+        """
         (own, areas), (other, _) = self._normals(original), self._normals(decoded)
         cosines = np.minimum(np.einsum("ij,ij->i", own, other), 1.0)
         total = float(areas.sum())
         return float(areas @ np.sqrt(1.0 - cosines)) / total if total else 0.0
 
     def _normals(self, positions: Positions) -> tuple[Matrix, Matrix]:
-        """Of vertices, with the areas around them."""
+        """Normals of vertices, shape (n, 3), with the areas around them, shape (n,)."""
         a, b, c = (positions[self._faces[:, k]] for k in range(3))
         crosses = np.cross(b - a, c - a)
         sums = self._around @ crosses
