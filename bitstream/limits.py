@@ -83,9 +83,13 @@ class Limits:
                 f"if you trust the source, raise Limits.{name}"
             )
 
-    def check_work(self, value: float, vertices: int) -> None:
-        """Raise `LimitError` if a stream of so many vertices takes more work, besides what its bytes grant."""
-        self._check_sum("work", value, self.work + self.work_per_vertex * vertices)
+    def check_work(self, value: float, vertices: int, received: int = 0) -> None:
+        """Raise `LimitError` if a stream of so many vertices, and bytes received, takes more work."""
+        self._check_sum("work", value, self.work_for(vertices, received))
+
+    def work_for(self, vertices: int, received: int) -> float:
+        """Nanoseconds of work that a stream of so many vertices, and bytes received, may take."""
+        return min(self.work + self.work_per_vertex * vertices + self.work_per_byte * received, self.most_work)
 
     def check_memory(self, value: float, vertices: int, received: int = 0) -> None:
         """Raise `LimitError` if a stream of so many vertices, and bytes received, needs more memory."""

@@ -66,9 +66,9 @@ NB_MODULE(_kernels, m) {
           "distances"_a, Unlocked());
     m.def("nearest_faces", &nearest_faces, "corners"_a, "owner"_a, "depth"_a, Unlocked());
     m.def("shown_normals", checked<&shown_normals>, "positions"_a, "faces"_a, "joined"_a, "starts"_a, "around"_a,
-          "cosine"_a, "most"_a, "crosses"_a, "normals"_a, Unlocked());
+          "cosine"_a, "half"_a, "most"_a, "crosses"_a, "normals"_a, Unlocked());
     m.def("draw_shaded", checked<&draw_shaded>, "positions"_a, "faces"_a, "normals"_a, "camera"_a, "placed"_a,
-          "depth"_a, "lengths"_a, "picture"_a, "owner"_a, Unlocked());
+          "depth"_a, "lengths"_a, "farthest"_a, "picture"_a, "owner"_a, Unlocked());
     m.def("likeness", checked<&likeness>, "first"_a, "second"_a, "wide"_a, "narrow"_a, "visible"_a, "plain"_a,
           "scratch"_a, "sums"_a, "map"_a, Unlocked());
     m.def("bisection_scratch", &bisection_scratch, "size"_a);

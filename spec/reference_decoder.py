@@ -324,7 +324,7 @@ def parse_stream(stream):
 
 def read_frames(stream, packets):
     """Checks frame after frame, and puts what they hold into `packets`."""
-    header, last, metadata_seen = None, None, False
+    header, last, told, told_bytes = None, None, set(), 0
     order = {HEADER: 0, CONNECTIVITY: 1, PARTITION: 2, ORDER: 3, BLOCK: 4, GOP: 5, GRID: 5, REFINEMENT: 5, END: 6}
     order |= {ATTRIBUTE: 3.5, VALUES: 5.5}
     for kind, payload, offset, number in frames_of(stream):
@@ -342,9 +342,10 @@ def read_frames(stream, packets):
             require_limit(len(payload), MOST_METADATA_BYTES, "metadata")
             entries = canonical_map(payload)  # F 5.1
             require(all(type(k) is str and type(v) is not list for k, v in entries), "metadata of a wrong type")
-            early = last < order[BLOCK] and not packets[BLOCK]
-            require(not metadata_seen and early, "METADATA may not come here")  # F 3.9
-            metadata_seen = True
+            names, told_bytes = {k for k, _ in entries}, told_bytes + len(payload)
+            require(not names & told, "METADATA speaks of a name again")  # F 3.9
+            require_limit(told_bytes, MOST_METADATA_BYTES, "metadata")
+            told |= names
             continue
         if kind == HEADER:
             parsed = parse_header(payload)

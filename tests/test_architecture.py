@@ -8,7 +8,7 @@ import pytest
 
 ROOT = Path(__file__).parent.parent
 KNOW_BYTES = ("bsm.codec.static", "bsm.codec.sequence")
-KNOWN_TO_ALL = ("bsm.bitstream.errors", "bsm.bitstream.limits", "bsm.bitstream.once")
+KNOWN_TO_ALL = ("bsm.bitstream.errors", "bsm.bitstream.extras", "bsm.bitstream.limits", "bsm.bitstream.once")
 FLOORS = {
     "bsm": (
         ("bitstream", "__version__", "_kernels"),
@@ -20,7 +20,7 @@ FLOORS = {
         ("batch",),
         ("encoding",),
         ("api",),
-        ("blender", "gltf", "trimesh", "viewer", "vtk"),
+        ("blender", "gltf", "research", "trimesh", "viewer", "vtk"),
         ("pyvista",),
         # Finds the module of a command by its name.
         ("cli",),
@@ -37,7 +37,7 @@ FLOORS = {
         ("sequence",),
     ),
     "bsm.bitstream": (
-        ("_kernels", "errors", "once"),
+        ("_kernels", "errors", "extras", "once"),
         ("limits",),
         ("entropy",),
         ("connectivity", "coefficients", "fields"),

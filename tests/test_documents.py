@@ -29,10 +29,10 @@ PAGES = tuple(
 )
 DOCUMENTS = ("README.md", "CONTRIBUTING.md", "spec/README.md", "src/bsm/SERVICE.md", *PAGES)
 PROGRAMS = r"(?:bsm|python3?|pytest|mkdocs|ruff|\.ci/run|\.venv|eval|cat)"
-BY_CI = r"\.ci/run|^mkdocs|\.venv/bin/|^pytest|^ruff|^bsm --help$|tools\.fuzz|tools\.proof|tools\.bombs"
+BY_CI = r"\.ci/|^mkdocs|\.venv/bin/|^pytest|^ruff|^bsm --help$|tools\.fuzz|tools\.proof|tools\.bombs"
 """What .ci/run itself does, or is."""
 NEEDS_FOLDER = r"MESHES|SEQUENCES|FOLDER|MESH\.\.\.|bsm bench"
-HELP_ONLY = r"s3://|bsm view|tools\.blender|tools\.charges|tools\.vectors|tools\.train_coefficients"
+HELP_ONLY = r"tools\.release|s3://|bsm view|tools\.blender|tools\.charges|tools\.vectors|tools\.train_coefficients"
 """What would change the repository, and does so in tests of its own, needs machines of others, or takes time."""
 PLACES = {
     "COMMAND": "encode",
@@ -181,7 +181,7 @@ def test_commands(name, command, folder):
     if re.search(BY_CI, command):
         pytest.skip("run by CI itself")
     if re.search(f"{NEEDS_FOLDER}|{HELP_ONLY}", command) or re.fullmatch(r"bsm [a-z]+", command):
-        program = re.match(r"bsm \w+|python -m [\w.]+", command).group()
+        program = re.match(r"bsm \w+|python -m tools\.measure \w+|python -m [\w.]+", command).group()
         done = run(folder, f"{program} --help")
         passed(done)
         for option in re.findall(r" (--[a-z-]+|-[a-z])\b", command[len(program) :]):
@@ -241,3 +241,88 @@ def test_docstrings_can_be_read_alone(room):
     named = [(path, node) for path, node in nodes if isinstance(node, (ast.FunctionDef, ast.ClassDef))]
     leaning = [f"{path}:{node.lineno}" for path, node in named if LEANING.match(ast.get_docstring(node) or "")]
     assert not leaning
+
+
+# ------------------------------------------------------------------------------------- what arrays are, is said
+
+SHAPE = re.compile(r"\bshapes? (?:of )?[(`]|\b(?:any|same) shape\b", flags=re.IGNORECASE)
+PROSE_TO_COME = ("codec/static/choice/", "codec/static/ways/", "codec/sequence/", "codec/look/")
+"""Rooms whose docstrings are still to say it."""
+
+
+def modules_of_arrays():
+    """Sources of bitstream/ and codec/ by the names of their modules, parsed."""
+    for room in ("bitstream", "codec"):
+        for path in sorted((ROOT / room).rglob("*.py")):
+            place = path.relative_to(ROOT)
+            yield ".".join(("bsm", *place.with_suffix("").parts)), place.as_posix(), ast.parse(path.read_text())
+
+
+def kinds_of_arrays(trees):
+    """Module and name of each alias of an array type."""
+    assigned = [(name, node) for name, tree in trees for node in tree.body if isinstance(node, ast.Assign)]
+    arrays = [(name, node) for name, node in assigned if ast.unparse(node.value).startswith("npt.NDArray[")]
+    return {(name, target.id) for name, node in arrays for target in node.targets}
+
+
+def speaks_of(annotation, kinds):
+    """Whether an annotation has an array in it."""
+    nodes = list(ast.walk(annotation))
+    named = any(isinstance(node, ast.Name) and node.id in kinds for node in nodes)
+    return named or any(isinstance(node, ast.Attribute) and node.attr in ("NDArray", "ArrayLike") for node in nodes)
+
+
+def functions_of_arrays(name, tree, kinds):
+    """Public functions and methods of a module that take or return arrays."""
+    imports = [(node.module, one) for node in tree.body if isinstance(node, ast.ImportFrom) for one in node.names]
+    known = {one.asname or one.name for module, one in imports if (module, one.name) in kinds}
+    known |= {alias for module, alias in kinds if module == name}
+    for scope in [tree, *(node for node in tree.body if isinstance(node, ast.ClassDef))]:
+        for node in scope.body:
+            if isinstance(node, ast.FunctionDef) and not node.name.startswith("_"):
+                given = (*node.args.posonlyargs, *node.args.args, *node.args.kwonlyargs)
+                said = [one.annotation for one in given if one.annotation] + ([node.returns] if node.returns else [])
+                if any(speaks_of(annotation, known) for annotation in said):
+                    yield node
+
+
+def names_no_shape(functions):
+    """Those whose docstrings name no shape; what has none says what the protocol in its module says of its name."""
+    texts = [(node, ast.get_docstring(node) or "") for node in functions]
+    named = {node.name for node, text in texts if SHAPE.search(text)}
+    return [node for node, text in texts if not SHAPE.search(text) and (text or node.name not in named)]
+
+
+def test_docstrings_of_arrays_name_shapes():
+    """One cannot call what takes an array without knowing how many rows and columns it has."""
+    sources = list(modules_of_arrays())
+    kinds = kinds_of_arrays([(name, tree) for name, _, tree in sources])
+    found = {path: list(functions_of_arrays(name, tree, kinds)) for name, path, tree in sources}
+    assert sum(map(len, found.values())) > 300
+    silent = {path: names_no_shape(nodes) for path, nodes in found.items() if not path.startswith(PROSE_TO_COME)}
+    assert not [f"{path}:{node.lineno} {node.name}" for path, nodes in silent.items() for node in nodes]
+
+
+def test_a_docstring_without_a_shape_is_found():
+    source = """
+import numpy.typing as npt
+from bsm.codec.arrays import Matrix
+from bsm.bitstream.container.packets import Order
+
+def silent(columns: Matrix) -> int:
+    'Something of columns, whatever their form and shape.'
+
+def said(columns: Matrix) -> int:
+    'Something of columns, shape (n, c).'
+
+def packet(order: Order) -> bytes:
+    'No array.'
+
+class Way:
+    def said(self, columns: Matrix) -> int: ...
+    def mute(self) -> npt.NDArray[float]: ...
+"""
+    kinds = {("bsm.codec.arrays", "Matrix"), ("bsm.codec.arrays", "Order")}
+    functions = list(functions_of_arrays("bsm.codec.some", ast.parse(source), kinds))
+    assert [node.name for node in functions] == ["silent", "said", "said", "mute"]
+    assert [node.name for node in names_no_shape(functions)] == ["silent", "mute"]

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from bsm.bitstream.container.declaration import Declaration
-from bsm.bitstream.container.grammar import FOLLOWERS, FOLLOWERS_IN_SECTIONS, METADATA_FOLLOWS
+from bsm.bitstream.container.grammar import FOLLOWERS, FOLLOWERS_IN_SECTIONS
 from bsm.bitstream.container.header import Field, Header, defaults_of, fields_of
 from bsm.bitstream.container.wire import MAGIC, MAX_VARINT_BYTES, SHORT, VERSION, FrameType
 from bsm.bitstream.limits import Limits
@@ -83,9 +83,6 @@ def source() -> str:
     limits = Limits()
     named = {name: name for name in _SAME_LIMITS} | _OTHER_LIMITS
     granted = [f"    {camel(ours)}: {_number(getattr(limits, theirs))}," for ours, theirs in named.items()]
-    behind = sorted(kind for kind in METADATA_FOLLOWS if kind is not None)
-    before = "export const BEFORE_METADATA: readonly string[] = ["
-    before += ", ".join(f'"{kind.name.lower()}"' for kind in behind) + "];"
     magic = ", ".join(map(str, (*MAGIC, VERSION)))
     return (
         "\n\n".join(
@@ -104,7 +101,6 @@ def source() -> str:
                 _followers(
                     "FOLLOWERS_IN_SECTIONS", FOLLOWERS_IN_SECTIONS, "The same in meshes that come in sections (F 3.16)."
                 ),
-                f"/** Frames that METADATA may follow (F 3.9). */\n{before}",
                 _fields("HEADER_FIELDS", Header, "Fields of the header (F 4.4)."),
                 _fields("DECLARATION_FIELDS", Declaration, "Fields of what an attribute declares (D 1)."),
                 "\n".join(

@@ -64,14 +64,17 @@ def octahedral_levels(normals: npt.ArrayLike, size: int) -> Ints:
 
 
 def octahedral_normals(levels: npt.ArrayLike, size: int) -> npt.NDArray[np.float64]:
-    """The unit vectors of levels: twin of `octahedral_levels`."""
+    """The unit vectors, shape (n, 3), of levels, shape (n, 2): twin of `octahedral_levels`."""
     points = _unfolded(np.asarray(levels, np.int64), size).astype(np.float64)
     unit: npt.NDArray[np.float64] = points / np.sqrt((points * points).sum(axis=1, keepdims=True))
     return unit
 
 
 def canonical_levels(levels: npt.ArrayLike, size: int) -> Ints:
-    """The pairs that a decoder gives for the directions of these: a point on a folded edge has several."""
+    """The pairs, shape (n, 2), that a decoder gives for the directions of `levels`, shape (n, 2).
+
+    A point on a folded edge has several.
+    """
     return _folded(_unfolded(np.asarray(levels, np.int64), size), size)
 
 

@@ -15,7 +15,7 @@ MOST_LARGEST = (1 << 20) - 1
 
 
 def checked_largest(largest: npt.ArrayLike) -> Ints:
-    """`largest` as int32; raises `OptionError`."""
+    """`largest`, shape (c,), as int32; raises `OptionError`."""
     top = np.array(largest, np.int64)
     if top.ndim != 1 or not 1 <= len(top) <= MOST_COMPONENTS or top.min() < 0 or top.max() > MOST_LARGEST:
         raise OptionError(
@@ -25,7 +25,7 @@ def checked_largest(largest: npt.ArrayLike) -> Ints:
 
 
 def checked_values(values: npt.ArrayLike, largest: Ints) -> npt.NDArray[np.integer]:
-    """`values` as an array; raises `MeshError`."""
+    """`values` as an array of integers, shape (n, c), from 0 to `largest`, shape (c,); raises `MeshError`."""
     given = np.asarray(values)
     if given.ndim != 2 or given.shape[1] != len(largest) or given.dtype.kind not in "iu":
         raise MeshError(f"values must be integers of shape (n, {len(largest)}), not {given.dtype} of {given.shape}")

@@ -61,12 +61,12 @@ class Joins:
 
     @property
     def first(self) -> Ints:
-        """First corner of each value, ascending."""
+        """First corner of each value, shape (k,), ascending."""
         return self._joined[1]
 
     @property
     def vertices(self) -> Ints:
-        """The vertex of each value."""
+        """The vertex of each value, shape (k,)."""
         return self.corners.faces.ravel()[self.first]
 
 
@@ -106,7 +106,7 @@ def encode_seams(corners: Corners, seams: Flags, earlier: tuple[Flags, ...] = ()
 
 
 def decode_seams(payload: bytes, corners: Corners, earlier: tuple[Flags, ...] = ()) -> Flags:
-    """Twin of `encode_seams`.
+    """Twin of `encode_seams`: returns the seams, shape (3 m,).
 
     Raises
     ------

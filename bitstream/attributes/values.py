@@ -169,7 +169,10 @@ class ValueDecoder(FieldDecoder):
 
 
 def ring_of_twins(places: npt.ArrayLike | None, vertices: int) -> Ints:
-    """For each vertex the next one with the same number, in a ring; itself where there is no other."""
+    """For each vertex the next one with the same number, in a ring; itself where there is no other.
+
+    `places` are the numbers, shape (n,), with n = `vertices`, or None: all different. Returns shape (n,).
+    """
     if places is None:
         return np.arange(vertices, dtype=np.int32)
     given = np.asarray(places)

@@ -86,7 +86,7 @@ class CoefficientModel:
 
     @property
     def parts(self) -> tuple[Bank, Bank, Past, npt.NDArray[np.int32], npt.NDArray[np.int64], int]:
-        """All of it as a kernel takes it."""
+        """All of it as a kernel takes it; `expectations` and `missing` have the shapes (e, NEIGHBOURS) and (1,)."""
         return self.bank, self.rows, self.past, self.expectations, self.missing, self.width
 
     def copy(self) -> CoefficientModel:
@@ -113,7 +113,7 @@ def encode_coefficients(model: CoefficientModel, levels: Levels) -> bytes:
 
 
 def decode_coefficients(model: CoefficientModel, payload: bytes, count: int) -> Levels:
-    """Twin of `encode_coefficients`: read `count` rows.
+    """Twin of `encode_coefficients`: read `count` rows, shape (count, 3).
 
     Raises
     ------
@@ -130,7 +130,9 @@ def decode_coefficients(model: CoefficientModel, payload: bytes, count: int) -> 
 
 
 def encode_blocks(model: CoefficientModel, blocks: Sequence[Levels]) -> bytes:
-    """Code consecutive blocks into one payload, with the number of rows of each; updates `model`.
+    """Code consecutive blocks, each of shape (c_i, 3), into one payload, with the number of rows of each.
+
+    Updates `model`.
 
     Raises
     ------
@@ -146,7 +148,7 @@ def encode_blocks(model: CoefficientModel, blocks: Sequence[Levels]) -> bytes:
 
 
 def decode_blocks(model: CoefficientModel, payload: bytes, count: int) -> list[Levels]:
-    """Twin of `encode_blocks`: read `count` blocks.
+    """Twin of `encode_blocks`: read `count` blocks, each of shape (c_i, 3).
 
     Raises
     ------
@@ -165,9 +167,9 @@ def decode_blocks(model: CoefficientModel, payload: bytes, count: int) -> list[L
 
 
 def encode_layers(model: CoefficientModel, levels: Levels, over: CoefficientModel, above: Levels) -> bytes:
-    """Code the levels of a block and those of a layer above them into one payload; updates both models.
+    """Code the levels of a block, shape (c, 3), and those of a layer above them, shape (r, 3), into one payload.
 
-    The reader must know the number of rows of `levels`; that of `above`, which may be 0, is coded.
+    Updates both models. The reader must know the number of rows of `levels`; that of `above`, which may be 0, is coded.
 
     Raises
     ------
@@ -183,7 +185,7 @@ def encode_layers(model: CoefficientModel, levels: Levels, over: CoefficientMode
 
 
 def decode_layers(model: CoefficientModel, over: CoefficientModel, payload: bytes, count: int) -> tuple[Levels, Levels]:
-    """Twin of `encode_layers`: read `count` rows, and the layer above them.
+    """Twin of `encode_layers`: read `count` rows, shape (count, 3), and the layer above them, shape (r, 3).
 
     Raises
     ------

@@ -76,5 +76,8 @@ def look_at_block(past: Past, levels: Magnitudes) -> Magnitudes:
 
 
 def expectation_bin(weights: Magnitudes, inputs: Magnitudes) -> int:
-    """Logarithm of an expectation, in thirds of an octave (each of them linear inside), 0 .. BINS - 1."""
+    """Logarithm of an expectation, in thirds of an octave (each of them linear inside), 0 .. BINS - 1.
+
+    `weights` and `inputs`, both of shape (NEIGHBOURS,), make the expectation.
+    """
     return _kernels.bin_of_expectation(weights, inputs)

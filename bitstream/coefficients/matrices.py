@@ -91,7 +91,7 @@ def price_levels(bank: Bank, matrix: Levels, reference: Levels) -> Prices:
 
 
 def decode_levels(bank: Bank, payload: bytes, matrices: Sequence[Levels], references: Sequence[Levels]) -> None:
-    """Twin of `encode_levels`: fill `matrices`, which hold zeros.
+    """Twin of `encode_levels`: fill `matrices`, shapes (rows_k, columns), which hold zeros.
 
     Raises
     ------
@@ -107,7 +107,9 @@ def decode_levels(bank: Bank, payload: bytes, matrices: Sequence[Levels], refere
 
 
 def code_column(coder: Coder, values: Levels) -> Coder:
-    """Write whole numbers, or read them into `values`, by a model of their own; return the coder to go on with.
+    """Write whole numbers, shape (n,), or read them into `values`, by a model of their own.
+
+    Returns the coder to go on with.
 
     Raises
     ------

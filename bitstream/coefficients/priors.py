@@ -69,13 +69,16 @@ class Experience:
 
     @cached_property
     def first_slots(self) -> npt.NDArray[np.uint32]:
-        """Slots of a fresh bank, as `bitstream.entropy.range_coder.Bank` holds them."""
+        """Slots of a fresh bank, shape (EXPECTATIONS * BINS * NODES,).
+
+        They are as `bitstream.entropy.range_coder.Bank` holds them.
+        """
         stored = self.slots.astype(np.int64)
         return (((stored >> 4) << 20) | (1 << 19) | ((stored & 15) << 2)).astype(np.uint32)
 
     @cached_property
     def first_weights(self) -> npt.NDArray[np.int32]:
-        """Mixing weights of a fresh bank."""
+        """Mixing weights of a fresh bank, shape (SELECTORS * NODES, EXPECTATIONS), 1.0 = 65536."""
         return self.mixing.astype(np.int32) << 4
 
 

@@ -47,7 +47,10 @@ def close_surface(faces: Ints, vertex_count: int) -> Surface:
 
 
 def match_halfedges(origin: Ints, vertex_count: int) -> Ints:
-    """Twin of each half-edge, -1 unless its edge has exactly one half-edge in each direction; in linear time."""
+    """Twin of each half-edge, -1 unless its edge has exactly one half-edge in each direction; in linear time.
+
+    `origin`, shape (3 m,), is the vertex where each half-edge starts; the twins have its shape.
+    """
     starts = np.empty(vertex_count + 1, np.int64)
     by_high, order, twin = (np.empty(origin.size, np.int32) for _ in range(3))
     _kernels.match_halfedges(origin, starts, by_high, order, twin)

@@ -21,7 +21,10 @@ _CONTEXTS = 16 * (_CANDIDATES + 1)
 
 
 def encode_labels(offsets: Indices, neighbours: Indices, labels: Indices, parts: int) -> bytes:
-    """Code `labels`, numbered by first appearance, over the graph (CSR) that the decoder will have."""
+    """Code `labels`, shape (n,), numbered by first appearance, over the graph that the decoder will have.
+
+    The graph is CSR: `offsets`, shape (n + 1,), and `neighbours`, shape (e,).
+    """
     coder = start_writing(8 * len(labels) + 64)
     bank = make_bank(_INPUTS * _CONTEXTS, _CANDIDATES + 1, _INPUTS)
     _kernels.code_labels(coder, bank, offsets, neighbours, np.array(labels, np.int32, order="C"), parts)
@@ -29,7 +32,7 @@ def encode_labels(offsets: Indices, neighbours: Indices, labels: Indices, parts:
 
 
 def decode_labels(data: bytes, offsets: Indices, neighbours: Indices, parts: int) -> Indices:
-    """Twin of `encode_labels`.
+    """Twin of `encode_labels`: returns the labels, shape (n,).
 
     Raises
     ------

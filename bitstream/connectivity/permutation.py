@@ -35,7 +35,7 @@ _STEP_BYTES = 128  # more than one entry can take
 
 
 def encode_permutation(order: npt.ArrayLike) -> bytes:
-    """Encode a permutation of 0 .. n - 1, n below 2**24.
+    """Encode a permutation of 0 .. n - 1, shape (n,), n below 2**24.
 
     Raises
     ------
@@ -48,7 +48,7 @@ def encode_permutation(order: npt.ArrayLike) -> bytes:
 
 
 def decode_permutation(payload: bytes, size: int) -> Ints:
-    """Decode a permutation of `size` entries.
+    """Decode a permutation of `size` entries, shape (size,).
 
     Raises
     ------
@@ -61,20 +61,20 @@ def decode_permutation(payload: bytes, size: int) -> Ints:
 
 
 def encode_rotations(rotations: npt.ArrayLike) -> bytes:
-    """Encode integers 0, 1 and 2; raises `OptionError` on others."""
+    """Encode integers 0, 1 and 2, shape (m,); raises `OptionError` on others."""
     values = np.array(rotations, np.int32)
     return finish_writing(code_rotations(start_writing(0), values))
 
 
 def decode_rotations(payload: bytes, size: int) -> Ints:
-    """Twin of `encode_rotations`; raises `CorruptError` or `TruncatedError`."""
+    """Twin of `encode_rotations`: shape (size,); raises `CorruptError` or `TruncatedError`."""
     values = np.zeros(size, np.int32)
     finish_reading(code_rotations(start_reading(payload), values))
     return values
 
 
 def code_permutation(coder: Coder, values: Ints) -> Coder:
-    """Write the permutation `values`, or read it into `values`; return the coder to go on with.
+    """Write the permutation `values`, shape (n,), or read it into `values`; return the coder to go on with.
 
     Raises
     ------
@@ -94,7 +94,7 @@ def code_permutation(coder: Coder, values: Ints) -> Coder:
 
 
 def code_rotations(coder: Coder, values: Ints) -> Coder:
-    """Write integers 0, 1 and 2, or read them into `values`; as `code_permutation`."""
+    """Write integers 0, 1 and 2, shape (m,), or read them into `values`; as `code_permutation`."""
     if not is_reading(coder):
         if values.ndim != 1 or (len(values) and (values.min() < 0 or values.max() > 2)):
             raise OptionError("rotations of a triangle's corners are 0, 1 or 2")

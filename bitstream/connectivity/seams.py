@@ -44,9 +44,10 @@ class Seams(NamedTuple):
 
 
 def code_seams(coder: Coder, faces: Ints, vertices: Ints) -> tuple[int, Ints]:
-    """Code the vertex of every fan; return the number of vertices, or -1 for nonsense, and the vertices.
+    """Code the vertex of every fan; return the number of vertices, or -1 for nonsense, and the vertices, shape (f,).
 
-    The writer gives them in `vertices`, numbered by first appearance; a reader gives as many -1.
+    `faces`, shape (m, 3), are of fans. The writer gives the vertices in `vertices`, shape (f,), numbered by
+    first appearance; a reader gives as many -1.
     """
     seams = _make_seams(_find_borders(faces, len(vertices)))
     bank = make_bank(_SLOTS, 1, 1)

@@ -15,6 +15,7 @@ from bsm.bitstream.container.packets import (
     Gop,
     Grid,
     Header,
+    Metadata,
     Packet,
     Partition,
     Refinement,
@@ -49,10 +50,6 @@ FOLLOWERS_IN_SECTIONS: dict[FrameType | None, frozenset[FrameType]] = {
 }
 """The same where the mesh comes in sections."""
 
-METADATA_FOLLOWS: frozenset[FrameType | None] = frozenset(
-    {FrameType.HEADER, FrameType.CONNECTIVITY, FrameType.PARTITION, FrameType.ORDER, FrameType.ATTRIBUTE}
-)
-
 
 def _reachable(
     followers: Mapping[FrameType | None, frozenset[FrameType]], start: FrameType | None
@@ -79,7 +76,7 @@ class Grammar:
         self.header: Header | None = None
         self._last: FrameType | None = None
         self._allowed = FOLLOWERS[None]
-        self._metadata_seen = False
+        self._told: set[str] = set()  # names of metadata
         self._spans: tuple[Span, ...] = ()
         self._sections = 0  # of which CONNECTIVITY was there
         self._next_block = 0
@@ -99,8 +96,7 @@ class Grammar:
     @property
     def expected(self) -> frozenset[FrameType]:
         """The types of frame that may come next."""
-        metadata = self._last in METADATA_FOLLOWS and self._sections <= 1 and not self._metadata_seen
-        return self._allowed | {FrameType.METADATA} if metadata else self._allowed
+        return self._allowed if self.header is None or self.ended else self._allowed | {FrameType.METADATA}
 
     def announces(self, frame_type: int) -> bool:
         """Whether the header says that frames of this type may come; of those it need not announce, always."""
@@ -141,8 +137,8 @@ class Grammar:
             self._declared[packet.index] = packet.declaration
         if isinstance(packet, Values):
             self._valued, self._next_value = packet.attribute, packet.first + packet.count
-        if frame_type is FrameType.METADATA:
-            self._metadata_seen = True
+        if isinstance(packet, Metadata):
+            self._told |= packet.entries.keys()
         else:
             self._last = frame_type
             self._allowed = self._followers[frame_type]
@@ -165,6 +161,8 @@ class Grammar:
         if last and isinstance(packet, Block | Gop | Grid | Values | End) and self._lacks_attributes(self.header):
             return f"{len(self._declared)} of {self.header.attributes} attributes are declared"
         match packet:
+            case Metadata() if again := sorted(self._told & packet.entries.keys()):
+                return f"METADATA speaks of {again[0]!r} again"
             case Attribute():
                 return self._attribute_problem(self.header, packet)
             case Values():

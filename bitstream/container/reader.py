@@ -12,7 +12,7 @@ import numpy.typing as npt
 
 from bsm.bitstream.container.grammar import Grammar
 from bsm.bitstream.container.layout import PARSERS
-from bsm.bitstream.container.packets import Damaged, End, Packet
+from bsm.bitstream.container.packets import Damaged, End, Metadata, Packet
 from bsm.bitstream.container.wire import SKIPPABLE_TYPES, Frame, FrameType, parse_frame, parse_preamble, write_preamble
 from bsm.bitstream.errors import (
     ArgumentError,
@@ -92,6 +92,7 @@ class Reader:
         self._offset = 0  # of the buffer's first byte in the stream
         self._frames = 0
         self._crc = 0
+        self._told = 0  # bytes of metadata
         self._started = False
         self._eof = False
         self._grammar = Grammar()
@@ -189,6 +190,8 @@ class Reader:
         problem = self._grammar.problem(packet)
         if problem:
             raise CorruptError(problem)
+        if isinstance(packet, Metadata):
+            self._limits.check("metadata_bytes", self._told + len(frame.payload))
         if isinstance(packet, End):
             self._check_end(packet)
         return packet
@@ -203,6 +206,8 @@ class Reader:
         self.last_frame = FrameSpan(self._frames, self._offset, frame.size)
         if packet is not None:
             self._grammar.advance(packet)
+        if isinstance(packet, Metadata):
+            self._told += len(frame.payload)
         with memoryview(self._buffer) as view:
             self._crc = zlib.crc32(view[: frame.size], self._crc)
         self._frames += 1

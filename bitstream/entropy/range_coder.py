@@ -327,7 +327,8 @@ def code_unsigned(
     Parameters
     ----------
     coder, bank, contexts, selector
-        As for `code_mixed_bit`; each context, and the selector, owns `unsigned_span(unary)` slots from `node` on.
+        As for `code_mixed_bit`, `contexts` of shape (inputs,); each context, and the selector, owns
+        `unsigned_span(unary)` slots from `node` on.
     unary : int
         Values below are coded by value + 1 mixed decisions.
     value : int
@@ -341,5 +342,8 @@ def code_unsigned(
 def code_signed(
     coder: Coder, bank: Bank, contexts: npt.NDArray[np.int64], selector: int, unary: int, value: int
 ) -> int:
-    """Code a signed integer of magnitude below 2**24, zero, sign, then the rest; takes `signed_span(unary)` nodes."""
+    """Code a signed integer of magnitude below 2**24: zero, sign, then the rest.
+
+    Takes `signed_span(unary)` nodes; `contexts`, shape (inputs,), and all else as for `code_unsigned`.
+    """
     return _kernels.code_signed(coder, bank, contexts, selector, unary, value)

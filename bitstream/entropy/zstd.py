@@ -9,6 +9,7 @@ from __future__ import annotations
 from typing import Any
 
 from bsm.bitstream.errors import CorruptError, DependencyError
+from bsm.bitstream.extras import how_to_install
 
 _MAGIC = b"\x28\xb5\x2f\xfd"
 _LEVEL = 19
@@ -60,6 +61,6 @@ def _zstandard() -> Any:
     except ImportError:
         raise DependencyError(
             "coefficients of a fixed number of bits are packed by zstd, which is not installed: "
-            "pip install 'bsm-codec[paper]'"
+            f"{how_to_install('paper')}"
         ) from None
     return zstandard

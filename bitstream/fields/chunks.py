@@ -54,7 +54,7 @@ class _FieldCoder:
 
     @property
     def order(self) -> Ints:
-        """Vertices or faces in the order in which they are coded; it follows from the faces of the mesh."""
+        """Vertices or faces in the order in which they are coded, shape (n,); it follows from the faces of the mesh."""
         return self._field.order
 
     @property

@@ -85,7 +85,10 @@ def keep_borders(corners: Corners) -> npt.NDArray[np.bool_]:
 
 
 def traverse(corners: Corners) -> Ints:
-    """Make each vertex come when as much as possible is known around it: returns the order, and sets `corners.rank`."""
+    """Make each vertex come when as much as possible is known around it.
+
+    Returns the order, shape (n,), and sets `corners.rank`.
+    """
     vertices = len(corners.rank)
     order = np.empty(vertices, np.int32)
     _kernels.order_vertices(corners, order, np.full((3, vertices), -1, np.int32))

@@ -31,7 +31,7 @@ _ROOM, _BYTES_PER_ROW = 1024, 16
 
 
 def ordered(values: npt.ArrayLike) -> Numbers:
-    """Numbers of floats in their order (V 16.1): 0 for 0.0, -1 for -0.0; any values are rounded to float32."""
+    """Numbers of floats of any shape in their order (V 16.1): 0 for 0.0, -1 for -0.0; all are rounded to float32."""
     with np.errstate(over="ignore"):
         single = np.ascontiguousarray(np.asarray(values, np.float64).astype(np.float32))
     bits = single.view(np.uint32).astype(np.int64)
@@ -39,13 +39,16 @@ def ordered(values: npt.ArrayLike) -> Numbers:
 
 
 def floats_of(numbers: Numbers) -> npt.NDArray[np.float32]:
-    """Inverse of `ordered`."""
+    """Inverse of `ordered`: floats of the same shape as their numbers."""
     bits = np.where(numbers < 0, (1 << 31) - 1 - numbers, numbers)
     return np.ascontiguousarray(bits.astype(np.uint32)).view(np.float32)
 
 
 def cells_of(values: Ints, origin: npt.NDArray[np.float64], step: float) -> tuple[Numbers, Numbers]:
-    """Numbers of the first float in the cell of each value, and of the first behind it (V 16.2), of their shape."""
+    """Numbers of the first float in the cell of each value, shape (k, 3), and of the first behind it (V 16.2).
+
+    `origin`, shape (3,), is the place of value 0; the numbers have the shape of `values`.
+    """
     with np.errstate(over="ignore"):
         return ordered((values - 0.5) * step + origin), ordered((values + 0.5) * step + origin)
 
@@ -88,7 +91,7 @@ class Floats:
         return finish_writing(coder)
 
     def decode(self, payload: bytes, values: Ints, low: Numbers, high: Numbers) -> Numbers:
-        """Twin of `encode`.
+        """Twin of `encode`: returns the numbers of the floats, shape (k, 3).
 
         Raises
         ------

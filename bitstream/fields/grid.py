@@ -40,7 +40,7 @@ def grid_charge(vertices: int, faces: int) -> int:
 
 
 def largest_of(largest: npt.ArrayLike) -> Ints:
-    """The largest values of the axes, checked; raises `OptionError` as `GridEncoder`."""
+    """The largest values of the axes, shape (3,), checked; raises `OptionError` as `GridEncoder`."""
     top = np.array(largest, np.int64)
     if top.shape != (AXES,) or top.min() < 0 or top.max() > MOST_LARGEST:
         raise OptionError(f"the largest values of a grid must be {AXES} from 0 to {MOST_LARGEST}, not {top.tolist()}")

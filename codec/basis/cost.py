@@ -1,5 +1,7 @@
 """What dictionaries cost, in nanoseconds of a processor core and in bytes, before anything is done for them.
 
+Mathematics states prices, stages pay them: `Steps` is how a price travels.
+
 The numbers are those of one machine, an x86-64 server with AVX-512; `python -m tools.charges` says how true they are of
 another. What they are for is to refuse what would take much longer than it is worth, so that a factor of two is close
 enough; what counts is that nothing is left out.
@@ -7,9 +9,10 @@ enough; what counts is that nothing is left out.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Generator
 from typing import TypeAlias
 
+from bsm.codec.arrays import Matrix
 from bsm.codec.basis.solver.fronts import Fronts
 
 ONCE = 5.0
@@ -21,8 +24,30 @@ Spend: TypeAlias = Callable[[float], None]
 """Is told of work before it is done, and may refuse it by raising `LimitError`."""
 
 
+Price: TypeAlias = Callable[[int], float]
+"""Work of one step for so many columns, nanoseconds."""
+Steps: TypeAlias = Generator[Price, None, Matrix]
+"""A computation that yields the price of each step before it takes it, and returns its columns."""
+
+
+def settle(steps: Steps, pay: Callable[[Price], None]) -> Matrix:
+    """The columns, shape (n, c), that `steps` lead to; each price is handed to `pay` before the step is taken."""
+    while True:
+        try:
+            price = next(steps)
+        except StopIteration as end:
+            columns: Matrix = end.value
+            return columns
+        pay(price)
+
+
+def unpaid(steps: Steps) -> Matrix:
+    """The columns, shape (n, c), that `steps` lead to, whatever they cost."""
+    return settle(steps, lambda price: None)
+
+
 def free(work: float) -> None:
-    """Who makes a stream need not ask."""
+    """Encoders of one's own meshes have no allowance to spend."""
 
 
 def factor_cost(fronts: Fronts) -> float:

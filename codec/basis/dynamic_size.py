@@ -41,7 +41,7 @@ def dynamic_size(positions: Matrix, coefficients: Matrix, previous: int, lowest:
     Parameters
     ----------
     positions, coefficients
-        As for `residual_norms`.
+        As for `residual_norms`, shapes (n, 3) and (c, 3).
     previous : int
         c_{i-1}.
     lowest, highest : float
@@ -79,6 +79,6 @@ class DynamicSize:
         self._size = first
 
     def follow(self, positions: Matrix, coefficients: Matrix) -> int:
-        """`dynamic_size` from the block before."""
+        """`dynamic_size` from the block before, for `positions`, shape (n, 3), and `coefficients`, shape (c, 3)."""
         self._size = dynamic_size(positions, coefficients, self._size, *self._thresholds)
         return self._size

@@ -56,7 +56,7 @@ def laplacian_of(block: Block) -> Laplacian:
 
 
 def weighted_laplacian(block: Block, weights: Matrix) -> Laplacian:
-    """`laplacian_of` with the given weights."""
+    """`laplacian_of` with the given weights, one for each entry of `block.neighbours`, shape (e,)."""
     rows = np.repeat(np.arange(block.size), block.degrees)
     diagonal: Matrix = np.bincount(rows, weights=weights, minlength=block.size).astype(np.float64)
     return Laplacian(block, find_fronts(block.offsets, block.neighbours), weights, diagonal)
@@ -94,7 +94,7 @@ def factorize(laplacian: Laplacian, shift: float | Matrix) -> Factor:
 
 
 def factor_room(fronts: Fronts) -> Matrix:
-    """Room for the values of a factor."""
+    """Room for the values of a factor, shape (fronts.places[-1] + PADDING,)."""
     return np.empty(int(fronts.places[-1]) + PADDING)
 
 

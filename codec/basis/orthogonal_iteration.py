@@ -7,12 +7,14 @@ first c columns do not depend on later ones.
 
 from __future__ import annotations
 
+from functools import partial
+
 import numpy as np
 
 from bsm.bitstream.errors import NumericError
 from bsm.codec import _kernels
 from bsm.codec.arrays import Matrix
-from bsm.codec.basis.cost import Spend, careful_dictionary_cost, dictionary_cost, free, reflection_cost
+from bsm.codec.basis.cost import Steps, careful_dictionary_cost, dictionary_cost, reflection_cost, unpaid
 from bsm.codec.basis.laplacian import Factor, Laplacian, check_rows, factorize, solve
 
 ONCE, TWICE = 1e-5, 1e-13
@@ -32,34 +34,43 @@ components (M 8.3); half or twice of it changes bytes by nothing, and by 0.3 % a
 def cosine_columns(rows: int, first: int, last: int) -> Matrix:
     """Cosines along the rows, frequencies `first` to `last - 1`: the start that needs no predecessor.
 
-    Column j is cos(pi j (2 r + 1) / (2 n)), the eigenvectors of a path of n vertices, orthogonal to each other.
+    Returns shape (rows, last - first). Column j is cos(pi j (2 r + 1) / (2 n)), the eigenvectors of a path of n
+    vertices, orthogonal to each other.
     """
     columns, table = np.empty((rows, last - first)), np.empty(rows + 8)
     _kernels.cosines(first, table, columns)
     return columns
 
 
-def onorm(columns: Matrix, spend: Spend = free) -> Matrix:
+def onorm(columns: Matrix) -> Matrix:
     """Q of the QR factorisation with positive diagonal of `columns`, shape (n, c), n >= c.
 
     Cholesky QR panel by panel, and Householder reflections where the columns are too close to dependent for that. Both
-    compute the same Q. `spend` is told of reflections.
+    compute the same Q.
 
     Raises
     ------
     NumericError
         If a value is not finite.
     """
+    return unpaid(onorm_steps(columns))
+
+
+def onorm_steps(columns: Matrix) -> Steps:
+    """`onorm` of `columns`, shape (n, c), with the price of reflections.
+
+    The first pass is part of the price of what calls it.
+    """
     q, scratch = np.empty(columns.shape), np.empty(_kernels.iteration_space(*columns.shape))
     independence = _kernels.cholesky_onorm(np.ascontiguousarray(columns), ONCE, scratch, q)
     if independence >= TWICE:
         return q
-    spend(reflection_cost(*columns.shape))
+    yield partial(reflection_cost, len(columns))
     return householder_orthonormalize(columns)
 
 
 def householder_orthonormalize(columns: Matrix) -> Matrix:
-    """`onorm` by Householder reflections, for any condition number."""
+    """`onorm` of `columns`, shape (n, c), by Householder reflections, for any condition number."""
     if not np.isfinite(columns).all():
         raise NumericError("the subspace iteration produced a value that is not finite")
     q = np.empty(columns.shape)
@@ -68,7 +79,7 @@ def householder_orthonormalize(columns: Matrix) -> Matrix:
 
 
 def orthogonal_iteration(
-    factor: Factor, start: Matrix, *, power: int, iterations: int, width: int | None = None, spend: Spend = free
+    factor: Factor, start: Matrix, *, power: int, iterations: int, width: int | None = None
 ) -> Matrix:
     """U(t) = Onorm(R^z U(t-1)), `iterations` times (Algorithm 1).
 
@@ -82,15 +93,18 @@ def orthogonal_iteration(
         z and t_max.
     width : int, optional
         c, where `start` has more columns than are taken.
-    spend : callable, optional
-        Is told of the work before it is done.
 
     Returns
     -------
     float64 array, shape (n, c), C-contiguous
     """
+    return unpaid(iteration_steps(factor, start, power=power, iterations=iterations, width=width))
+
+
+def iteration_steps(factor: Factor, start: Matrix, *, power: int, iterations: int, width: int | None = None) -> Steps:
+    """`orthogonal_iteration` from `start`, shape (n, c) or wider, with the price of each step."""
     rows, width = len(start), start.shape[1] if width is None else min(width, start.shape[1])
-    spend(dictionary_cost(factor.fronts, width, power, iterations))
+    yield partial(dictionary_cost, factor.fronts, power=power, iterations=iterations)
     start = np.ascontiguousarray(start)
     check_rows(factor, rows)
     subspace, scratch = np.empty((rows, width)), np.empty(_kernels.iteration_space(rows, width))
@@ -100,16 +114,17 @@ def orthogonal_iteration(
     if independence < TWICE:
         # R^z has all but lost the higher columns. Orthonormalised after every R they stay, and the subspaces of the
         # first columns, which is all that Q depends on, are the same.
-        spend(careful_dictionary_cost(factor.fronts, width, power, iterations))
+        yield partial(careful_dictionary_cost, factor.fronts, power=power, iterations=iterations)
         subspace = start[:, :width]
         for _ in range(iterations * power):
-            subspace = onorm(solve(factor, subspace, 1), spend)
+            subspace = yield from onorm_steps(solve(factor, subspace, 1))
     return subspace
 
 
 def follow_columns(previous: Matrix, width: int, noisy: bool) -> Matrix:
-    """The start of a block that follows, of `width` columns or more: the predecessor's columns, and noise where
-    `resized` might lack something.
+    """The start of a block that follows: the predecessor's columns, shape (n, c), and noise where it is `noisy`.
+
+    Noise is for what `resized` might lack. Returns shape (n, width), or wider where the predecessor is.
     """
     if noisy:
         return resized(previous, width) + FOLLOWING_NOISE * hash_columns(len(previous), width)
@@ -117,7 +132,7 @@ def follow_columns(previous: Matrix, width: int, noisy: bool) -> Matrix:
 
 
 def first_columns(rows: int, width: int, noisy: bool) -> Matrix:
-    """The start of a block that follows none: cosines, and noise where they might lack something.
+    """The start of a block that follows none, shape (rows, width): cosines, and noise where they might lack something.
 
     What a start does not hold would grow from rounding errors: where a block has several components, each of which is
     a lowest frequency of its own, or where there are many iterations and the block is as symmetric as cosines are.
@@ -127,21 +142,27 @@ def first_columns(rows: int, width: int, noisy: bool) -> Matrix:
 
 
 def resized(previous: Matrix, width: int) -> Matrix:
-    """The predecessor's columns, `width` of them, and cosines where it has fewer."""
+    """The predecessor's columns, shape (n, c), `width` of them, and cosines where it has fewer: shape (n, width)."""
     rows = len(previous)
     columns, table = np.empty((rows, width)), np.empty(rows + 8)
     _kernels.resize_columns(np.ascontiguousarray(previous), table, columns)
     return columns
 
 
-def exact_basis(laplacian: Laplacian, start: Matrix, springs: float | Matrix = 0.0, spend: Spend = free) -> Matrix:
+def exact_basis(laplacian: Laplacian, start: Matrix, springs: float | Matrix = 0.0) -> Matrix:
     """The lowest eigenvectors of L + diag(springs): many orthogonal iterations from `start`, see `first_columns`.
 
-    No eigensolver: within a space of equal eigenvalues that may return any rotation. This is a smooth function of the
-    matrix, the same for all who compute it. The noise in the start is for blocks as symmetric as cosines are.
+    `start` has shape (n, c), as the result has; `springs` is one number, or has shape (n,). No eigensolver:
+    within a space of equal eigenvalues that may return any rotation. This is a smooth function of the matrix, the same
+    for all who compute it. The noise in the start is for blocks as symmetric as cosines are.
     """
+    return unpaid(exact_steps(laplacian, start, springs))
+
+
+def exact_steps(laplacian: Laplacian, start: Matrix, springs: float | Matrix) -> Steps:
+    """`exact_basis` from `start`, shape (n, c), with the price of each step."""
     factor = factorize(laplacian, springs + EXACT_SHIFT)
-    return orthogonal_iteration(factor, start, power=EXACT_POWER, iterations=EXACT_ITERATIONS, spend=spend)
+    return (yield from iteration_steps(factor, start, power=EXACT_POWER, iterations=EXACT_ITERATIONS))
 
 
 def hash_columns(rows: int, columns: int) -> Matrix:

@@ -35,7 +35,7 @@ class Blend:
         _kernels.add_copies(self.sums, self.weights, vertices, positions, weights)
 
     def known(self, vertices: Indices) -> Mask:
-        """Which of `vertices` have a copy that counts."""
+        """Which of `vertices`, shape (k,), have a copy that counts; shape (k,)."""
         return self.weights[vertices] > 0
 
     def all_positions(self) -> Matrix:
@@ -48,5 +48,5 @@ class Blend:
 
 
 def degree_weights(degrees: Indices) -> Matrix:
-    """Weight of each row: its neighbours inside the block; a row without any counts as one."""
+    """Weight of each row, shape (n_i,): its neighbours inside the block; a row without any counts as one."""
     return np.maximum(degrees, 1).astype(np.float64)

@@ -41,7 +41,7 @@ class Block:
 
     @cached_property
     def degrees(self) -> Indices:
-        """Neighbours of each row inside the block: the weights of the blend."""
+        """Neighbours of each row inside the block, shape (n_i,): the weights of the blend."""
         return self.offsets[1:] - self.offsets[:-1]
 
 
@@ -77,7 +77,7 @@ class Blocks:
         return len(self.chain)
 
     def members_of(self, index: int) -> Indices:
-        """Vertices of one block in the order in which they were found."""
+        """Vertices of one block, shape (n_i,), in the order in which they were found."""
         return self.members[self.starts[index] : self.starts[index + 1]]
 
     def size_of(self, index: int) -> int:
@@ -93,7 +93,7 @@ class Blocks:
         return _ordered(self.graph, self.members_of(index))
 
     def core(self, index: int) -> Indices:
-        """Vertices of the part that one block grew from, ascending."""
+        """Vertices of the part that one block grew from, shape (cores[index],), ascending."""
         return self.members[self.starts[index] : self.starts[index] + self.cores[index]]
 
     def part(self, index: int) -> Block:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from bsm.bitstream.errors import DependencyError
+from bsm.bitstream.extras import how_to_install
 from bsm.codec import _kernels
 from bsm.codec.arrays import Indices
 from bsm.codec.blocks.bisection import bisect
@@ -41,7 +42,7 @@ class Partition:
 
 
 def partition_of_labels(labels: Indices) -> Partition:
-    """Partition whose parts are the distinct labels, numbered by the first vertex that has them."""
+    """Partition whose parts are the distinct labels, shape (n,), numbered by the first vertex that has them."""
     _, first, compact = np.unique(labels, return_index=True, return_inverse=True)
     rank = np.empty(len(first), np.int32)
     rank[np.argsort(first)] = np.arange(len(first), dtype=np.int32)
@@ -75,7 +76,7 @@ def metis_partition(graph: Graph, parts: int) -> Partition:
     try:
         import pymetis
     except ImportError:
-        raise DependencyError("METIS is not installed: pip install pymetis") from None
+        raise DependencyError(f"METIS is not installed: {how_to_install('paper')}") from None
     if parts == 1:
         return partition_of_labels(np.zeros(graph.size, np.int32))
     adjacency = pymetis.CSRAdjacency(graph.offsets, graph.neighbours)

@@ -1,11 +1,12 @@
 """Denoising: a coarse spectral step, a hand-over, a fine step on face normals, and a mode that chooses by itself."""
 
 from bsm.bitstream.errors import DependencyError
+from bsm.bitstream.extras import how_to_install
 
 try:
     import scipy.sparse  # noqa: F401  # the one library that nothing else in `codec` needs
 except ImportError:
-    raise DependencyError("denoising needs scipy: pip install 'bsm-codec[denoise]'") from None
+    raise DependencyError(f"denoising needs scipy: {how_to_install('denoise')}") from None
 
 from bsm.codec.denoise.automatic import AutomaticChoice, denoise_automatically
 from bsm.codec.denoise.coarse import CoarseFilter

@@ -150,11 +150,11 @@ class Patient:
         self._keep = 0.0
 
     def edge(self, positions: Positions) -> float:
-        """Mean edge length."""
+        """Mean edge length of `positions`, shape (n, 3)."""
         return mean_edge_length(positions, self.topology.faces)
 
     def smooth(self, positions: Positions, keep: float, most: float) -> Positions:
-        """The coarse mesh; `most` is the largest fraction that will be asked for."""
+        """The coarse mesh, shape (n, 3), as `positions` are; `most` is the largest fraction that will be asked for."""
         if self._coarse is None or self._keep < keep:
             self._keep = max(keep, most)
             self._coarse = CoarseFilter(self.topology.faces, self.topology.n, self._keep, BLOCK_SIZE)
@@ -162,7 +162,7 @@ class Patient:
 
 
 def choose(positions: Positions, finding: Finding, patient: Patient, goal: str = "shading") -> AutomaticChoice:
-    """Rehearse, on a part of the mesh if it is large, and pick what did best."""
+    """Rehearse on `positions`, shape (n, 3), or a part of them if they are many, and pick what did best."""
     if not finding.noisy:
         return AutomaticChoice((), finding.kind, finding.reason, NoiseLevel(0.0, 0.0), 0.0, 0.0, 0)
     members, part = sample(patient.topology.faces, finding.levels)
@@ -201,7 +201,7 @@ def _sliding(recipe: Recipe) -> Recipe:
 
 
 def treat(choice: AutomaticChoice, noisy: Positions, finding: Finding, patient: Patient) -> tuple[Positions, Verdict]:
-    """Do what was chosen, where there is noise and as far as the result may stand."""
+    """Do to `noisy`, shape (n, 3), what was chosen, where there is noise and as far as the result may stand."""
     if not choice.steps:
         return noisy, Verdict(np.ones(len(noisy), dtype=np.bool_), 0.0, 0.0, "")
     results = {step: _perform(step, choice, noisy, patient) for step in set(choice.steps)}

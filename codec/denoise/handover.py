@@ -23,24 +23,32 @@ class HandOver(Protocol):
 
 
 def coarse_positions(noisy: Positions, coarse: Positions, topology: Topology) -> Positions:
-    """The paper's: the fine step sees the coarse mesh alone. Good under heavy noise; elsewhere detail is lost."""
+    """The paper's: the fine step sees the coarse mesh alone, shape (n, 3).
+
+    Good under heavy noise; elsewhere detail is lost.
+    """
     return np.array(coarse)
 
 
 def coarse_heights(noisy: Positions, coarse: Positions, topology: Topology) -> Positions:
-    """Move the noisy vertices along the normals of the coarse mesh, as far as the coarse mesh is: none slides on it."""
+    """Move the noisy vertices, shape (n, 3), along the normals of the coarse mesh, shape (n, 3), as far as that is.
+
+    None slides on it.
+
+    None slides on the surface.
+    """
     normals = vertex_normals(face_geometry(np.ascontiguousarray(coarse), topology.faces).normals, topology.around)
     return np.asarray(noisy + np.einsum("ij,ij->i", coarse - noisy, normals)[:, None] * normals)
 
 
 def coarse_normals(noisy: Positions, coarse: Positions, topology: Topology) -> Positions:
-    """Keep the noisy positions, after one joint bilateral pass that the normals of the coarse mesh guide."""
+    """Keep the noisy positions, shape (n, 3), after one joint bilateral pass that the coarse mesh's normals guide."""
     guide = face_geometry(np.ascontiguousarray(coarse), topology.faces).normals
     return GuidedFilter(noisy, topology).step(noisy, lambda *_: guide, SIGMA_R)
 
 
 def noisy_positions(noisy: Positions, coarse: Positions, topology: Topology) -> Positions:
-    """No coarse step: the fine step sees the noisy mesh."""
+    """No coarse step: the fine step sees the noisy mesh, shape (n, 3)."""
     return np.array(noisy)
 
 

@@ -57,7 +57,10 @@ class Step:
 
 
 def iterates(recipe: Recipe, noisy: Positions, smooth: Positions, topology: Topology) -> Iterator[Positions]:
-    """The positions after the hand-over and 0, 1, 2, ... iterations, without end; `smooth` is the coarse mesh."""
+    """The positions, shape (n, 3), after the hand-over and 0, 1, 2, ... iterations, without end.
+
+    `noisy` and `smooth`, the coarse mesh, have that shape too.
+    """
     positions = hand_over(recipe.hand_over)(noisy, smooth, topology)
     if recipe.guide == LOCAL:
         return filtered_normals(positions, topology, recipe.sigma_r)
@@ -65,12 +68,12 @@ def iterates(recipe: Recipe, noisy: Positions, smooth: Positions, topology: Topo
 
 
 def perform(step: Step, noisy: Positions, smooth: Positions, topology: Topology) -> Positions:
-    """The positions after the step."""
+    """The positions, shape (n, 3), after the step, from the noisy and the coarse ones."""
     return next(islice(iterates(step.recipe, noisy, smooth, topology), step.iterations, None))
 
 
 def blend(results: list[Positions]) -> Positions:
-    """The mean of several results: errors of different recipes partly cancel."""
+    """The mean of several results, each of shape (n, 3): errors of different recipes partly cancel."""
     mean: Positions = results[0] if len(results) == 1 else np.mean(results, axis=0)
     return mean
 

@@ -49,18 +49,18 @@ Goal = Callable[[Reference, Positions], float]
 
 
 def shading(reference: Reference, positions: Positions) -> float:
-    """Mean angle between face normals, degrees."""
+    """Mean angle between face normals of the reference and of `positions`, shape (n, 3), degrees."""
     return reference.theta(positions)
 
 
 def shape(reference: Reference, positions: Positions) -> float:
-    """Root mean square distance of the vertices, in mean edges."""
+    """Root mean square distance of the vertices from `positions`, shape (n, 3), in mean edges."""
     distance = np.sqrt(np.square(reference.positions - positions).sum(axis=1).mean())
     return float(distance) / mean_edge_length(reference.positions, reference.faces)
 
 
 def both(reference: Reference, positions: Positions) -> float:
-    """Product of the two."""
+    """Product of `shading` and `shape` of `positions`, shape (n, 3)."""
     return shading(reference, positions) * shape(reference, positions)
 
 
@@ -134,7 +134,7 @@ class Rehearsal:
         self.rehearse(guess)
 
     def rehearse(self, guess: Positions) -> None:
-        """Make another guess noisy, with other noise."""
+        """Make another guess, shape (n, 3), noisy, with other noise."""
         self.rounds += 1
         mirrored = self._finding.kind in MIRRORED
         self._rehearse(
@@ -142,7 +142,7 @@ class Rehearsal:
         )
 
     def perform(self, steps: tuple[Step, ...], share: float = 0.0) -> Positions:
-        """The steps' result on the mesh that is rehearsed for, with so large a share of the learnt normals."""
+        """The steps' result, shape (n, 3), on the mesh that is rehearsed for, with `share` of the learnt normals."""
 
         def one(step: Step) -> Positions:
             recipe = step.recipe

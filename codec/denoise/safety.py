@@ -115,5 +115,5 @@ def restraint(movement: float, finding: Finding) -> float:
 
 
 def keep_good(noisy: Positions, result: Positions, good: Mask) -> Positions:
-    """The result where it may stand, and the input, bit for bit, where not."""
+    """The result, shape (n, 3), where it is `good`, shape (n,), and the input, bit for bit, where not."""
     return np.where(good[:, None], result, noisy)

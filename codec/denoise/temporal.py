@@ -93,14 +93,14 @@ class TemporalFilter:
 
 
 def noise_deviation(values: Floats) -> float:
-    """Standard deviation of white noise in a matrix of low rank: from the median of its singular values."""
+    """Standard deviation of white noise in a matrix of low rank, shape (k, d): by the median of its singular values."""
     energies, _ = _components(values - values.mean(axis=0))
     short, long = int(min(values.shape)), int(max(values.shape))
     return float(np.sqrt(max(np.median(energies), 0.0) / (long * _median_energy(round(short / long, 3)))))
 
 
 def shrunk(values: Floats, deviation: float) -> tuple[Floats, int]:
-    """The matrix with its singular values shrunk for white noise of this deviation, and how many are left."""
+    """The matrix, shape (k, d), its singular values shrunk for white noise of `deviation`, and how many are left."""
     mean = values.mean(axis=0)
     centred = values - mean
     short, long = int(min(values.shape)), int(max(values.shape))

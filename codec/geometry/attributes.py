@@ -93,7 +93,10 @@ class Attribute:
             )
 
     def taken(self, vertices: Order, faces: Order) -> Attribute:
-        """The attribute of a mesh whose vertex j was vertex `vertices[j]` and whose face i was face `faces[i]` here."""
+        """The attribute of a mesh whose vertex j was vertex `vertices[j]` and whose face i was face `faces[i]` here.
+
+        `vertices` has shape (n,), `faces` has shape (m,): as many as that mesh has.
+        """
         if self.indices is None:
             return replace(self, values=self.values[vertices if self.domain == "vertex" else faces])
         used, where = np.unique(self.indices[faces], return_inverse=True)

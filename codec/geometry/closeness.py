@@ -59,19 +59,22 @@ class Original:
         self.weights: Floats = counts / total if total > 0.0 else np.zeros(len(areas))
 
     def angle(self, decoded: Positions) -> float:
-        """Mean angle between corresponding normals, degrees; a face that lost its area counts as 180."""
+        """Mean angle, degrees, between corresponding normals of this and of `decoded`, shape (n, 3).
+
+        A face that lost its area counts as 180.
+        """
         decoded = np.ascontiguousarray(decoded, np.float64)
         return math.degrees(_kernels.weighted_angle(self.normals, self.weights, decoded, self.faces, LOST))
 
     def angle_of(self, rows: Mask, decoded: Positions) -> float:
-        """What some faces contribute to `angle`."""
+        """What some faces, `rows`, shape (m,), contribute to `angle` of `decoded`, shape (n, 3)."""
         normals, weights, faces = self.normals[rows], self.weights[rows], self.faces[rows]
         return math.degrees(_kernels.weighted_angle(normals, weights, decoded, faces, LOST))
 
     def farthest(self, decoded: Positions) -> float:
-        """Largest distance of a vertex from its place."""
+        """Largest distance of a vertex of `decoded`, shape (n, 3), from its place."""
         return _kernels.farthest_apart(self.positions, np.ascontiguousarray(decoded, np.float64))
 
     def closeness(self, decoded: Positions) -> Closeness:
-        """Farthest distance and mean angle of a decoded mesh."""
+        """Farthest distance and mean angle of a decoded mesh, shape (n, 3)."""
         return Closeness(self.farthest(decoded), self.angle(decoded))

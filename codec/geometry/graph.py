@@ -51,7 +51,7 @@ def graph_behind(graph: Graph, first: int) -> Graph:
 
 
 def component_sizes(graph: Graph) -> Indices:
-    """Vertices of each connected component, in the order of their first vertices."""
+    """Vertices of each connected component, shape (k,), in the order of their first vertices."""
     sizes, waiting = np.zeros(graph.size, np.int32), np.empty(graph.size, np.int32)
     seen = np.zeros(graph.size, np.uint8)
     return sizes[: _kernels.component_sizes(graph.offsets, graph.neighbours, seen, waiting, sizes)]

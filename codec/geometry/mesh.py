@@ -104,7 +104,7 @@ class TriangleMesh:
             )
 
     def moved(self, positions: Positions) -> tuple[TriangleMesh, tuple[str, ...]]:
-        """The mesh with its vertices elsewhere; normals are not of it any more: the names of those left out."""
+        """The mesh with its vertices elsewhere, shape (n, 3), and the names of its normals, which are left out."""
         normals = tuple(one.name for one in self.attributes if one.semantic == "normal")
         kept = tuple(one for one in self.attributes if one.semantic != "normal")
         return replace(self, positions=positions, attributes=kept), normals
@@ -115,7 +115,7 @@ class TriangleMesh:
         return replace(self, attributes=(), metadata={})
 
     def without_isolated_vertices(self) -> tuple[TriangleMesh, Order]:
-        """The mesh of the vertices that some face uses, and their indices here, ascending."""
+        """The mesh of the vertices that some face uses, and their indices here, shape (k,), ascending."""
         used = np.zeros(len(self.positions), dtype=bool)
         used[self.faces] = True
         kept = np.flatnonzero(used)

@@ -76,17 +76,20 @@ class Reference:
         self._shares: Floats = np.asarray(counted / max(1, int(counted.sum())), np.float64)
 
     def nmsve(self, decoded: Positions) -> float:
-        """The function `nmsve` against this original."""
+        """The function `nmsve` of `decoded`, shape (n, 3), against this original."""
         decoded = self._checked(decoded)
         detail = _length(self._laplacian - geometric_laplacian(decoded, self._neighbours))
         return (_length(self.positions - decoded) + detail) / (2 * len(decoded) * self.scale)
 
     def theta(self, decoded: Positions) -> float:
-        """The function `theta` against this original."""
+        """The function `theta` of `decoded`, shape (n, 3), against this original."""
         return self._mean_angle(self._shares, decoded)
 
     def angle(self, decoded: Positions) -> float:
-        """Mean angle between corresponding normals, degrees, faces counted by their area."""
+        """Mean angle, degrees, between corresponding normals of this and of `decoded`, shape (n, 3).
+
+        Faces are counted by their area.
+        """
         return self._mean_angle(self._areas, decoded)
 
     def _mean_angle(self, weights: Floats, decoded: Positions) -> float:
@@ -94,11 +97,11 @@ class Reference:
         return math.degrees(_kernels.weighted_angle(self._normals, weights, decoded, self.faces, _LOST))
 
     def mnd(self, decoded: Positions) -> float:
-        """The function `mnd` against this original."""
+        """The function `mnd` of `decoded`, shape (n, 3), against this original."""
         return _mean_difference(self._normals, face_normals(self._checked(decoded), self.faces))
 
     def compare(self, decoded: Positions) -> Comparison:
-        """The function `compare` against this original."""
+        """The function `compare` of `decoded`, shape (n, 3), against this original."""
         visual = self.nmsve(decoded)
         squared = np.square(self.positions - decoded).sum(axis=1)
         rms = math.sqrt(squared.mean())
@@ -139,6 +142,8 @@ def compare(original: Positions, decoded: Positions, faces: Faces) -> Comparison
 def nmsve(original: Positions, decoded: Positions, faces: Faces) -> float:
     """Normalised mean square visual error, with un-squared norms as in section 8 of Arvanitis, Lalos and Moustakas.
 
+    `original` and `decoded` have shape (n, 3), `faces` has shape (m, 3).
+
     ``(||v - v~|| + ||GL(v) - GL(v~)||) / (2 n)`` over the 3n coordinates of both meshes divided by the original's
     diagonal; GL is `geometric_laplacian` with the distances of the mesh it is applied to.
     """
@@ -147,6 +152,8 @@ def nmsve(original: Positions, decoded: Positions, faces: Faces) -> float:
 
 def theta(original: Positions, decoded: Positions, faces: Faces) -> float:
     """Mean angle between corresponding face normals, in degrees, every face counted alike.
+
+    `original` and `decoded` have shape (n, 3), `faces` has shape (m, 3).
 
     Faces without area in the original have no direction to lose and are skipped (0 if that is all of them); a face
     that lost its area only in the decoded mesh counts as 90 degrees.
@@ -157,18 +164,26 @@ def theta(original: Positions, decoded: Positions, faces: Faces) -> float:
 def mnd(original: Positions, decoded: Positions, faces: Faces) -> float:
     """Mean normal difference: the mean over faces of ``||n - n~||``, between 0 and 2.
 
+    `original` and `decoded` have shape (n, 3), `faces` has shape (m, 3).
+
     Faces without area are treated as in `theta`: skipped if degenerate in the original, ``sqrt(2)`` if only decoded so.
     """
     return Reference(original, faces).mnd(decoded)
 
 
 def rms_over_edge(original: Positions, decoded: Positions, faces: Faces) -> float:
-    """Root mean square distance of corresponding vertices over the original's mean edge length."""
+    """Root mean square distance of corresponding vertices over the original's mean edge length.
+
+    `original` and `decoded` have shape (n, 3), `faces` has shape (m, 3).
+    """
     return float(np.linalg.norm(original - decoded) / math.sqrt(len(original)) / mean_edge_length(original, faces))
 
 
 def mean_edge_length(positions: Positions, faces: Faces) -> float:
-    """Mean length of the edges, each counted once; 1 where that is zero."""
+    """Mean length of the edges of `faces`, shape (m, 3), each counted once; 1 where that is zero.
+
+    `positions` have shape (n, 3).
+    """
     a, b = mesh_edges(faces, len(positions)).T
     length = float(np.linalg.norm(positions[a] - positions[b], axis=1).mean()) if len(a) else 0.0
     return length or 1.0

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from bsm.bitstream.errors import MeshError
-from bsm.codec.arrays import Faces, Matrix, Positions
+from bsm.codec.arrays import Faces, Indices, Mask, Matrix, Positions
 from bsm.codec.geometry.attribute_errors import at_corners
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.look.pictures import (
@@ -23,13 +23,15 @@ from bsm.codec.look.pictures import (
     draw,
     draw_owned,
 )
-from bsm.codec.look.sides import CORNERS, cameras, pixels_for
+from bsm.codec.look.sides import CORNERS, FEW, cameras, pixels_for
 from bsm.codec.threads import ordered_map
 
 DISSIMILAR = 0.03
 """1 - SSIM at distance 1."""
 VISIBLE_SHARE = 0.005
 """Share of covered pixels that differ visibly, at distance 1."""
+MOVING = 0.05
+"""1 - SSIM of a frame of a moving picture at distance 1; no pixel of it counts by itself."""
 POWER = 0.8
 """Of the larger of both over its bound: so that a distance is about linear in the step of a quantizer."""
 GONE, GONE_POWER = 0.5, 2.0
@@ -59,6 +61,11 @@ class Look:
     visible: float
     gone: float
 
+    @property
+    def moving(self) -> float:
+        """The distance of a frame that is one of many, and soon gone, see `spec/look.md`, L 5."""
+        return math.pow(self.dissimilarity / MOVING, POWER)
+
 
 class Looker:
     """Pictures of an original, to compare one decoded version after another with.
@@ -77,7 +84,7 @@ class Looker:
 
     def __init__(self, mesh: TriangleMesh, *, threads: int | None = None) -> None:
         self._mesh, self._threads = mesh, threads
-        used = mesh.positions[np.unique(mesh.faces)]
+        used = mesh.positions[_used(mesh.faces, len(mesh.positions))]
         low, high = used.min(axis=0), used.max(axis=0)
         with np.errstate(over="ignore"):
             self._diagonal = math.hypot(*(high - low))
@@ -90,24 +97,31 @@ class Looker:
         self._shape = Shape.of(positions, mesh.faces)
         self.pixels = pixels_for(positions, mesh.faces)
         self._cameras = cameras(self._placed(used), self.pixels)
-        self._pictures = self._drawn(positions, self._shape.faces, self._shape.normals(positions))
-        if not any((picture < BACKGROUND).any() for picture in self._pictures):
+        drawn = self._drawn(positions, self._shape.faces, self._shape.normals(positions))
+        self._pictures = [picture for picture, _ in drawn]
+        self._owners = {number: drawn[number][1] for number in CORNERS}
+        if not any(picture.min() < BACKGROUND for picture in self._pictures):
             raise MeshError("the mesh cannot be looked at: its faces have no area")
 
-    def look(self, positions: Positions, *, every: int = 1) -> Look:
+    def look(self, positions: Positions) -> Look:
         """How these positions look on the faces of the original, with normals that follow from them.
 
         Parameters
         ----------
         positions : ndarray of float64, shape (n, 3)
             As many as the original has, in its order.
-        every : int
-            Look from the first of so many sides alone: quicker, and about the same.
 
         Raises
         ------
         MeshError
             If there are more or fewer, or one is not finite.
+        """
+        return self.glance(positions, 0.0, math.inf)[0]
+
+    def glance(self, positions: Positions, least: float, most: float) -> tuple[Look, bool]:
+        """The same as `look`, but from a few sides alone where these come to a distance outside `least` to `most`.
+
+        That is quicker, and about right; the second is whether all sides were seen. Raises as `look`.
         """
         positions = np.ascontiguousarray(positions, np.float64)
         if positions.shape != self._mesh.positions.shape:
@@ -115,7 +129,13 @@ class Looker:
         if not np.isfinite(positions).all():
             raise MeshError("a position is not finite")
         placed = self._placed(positions)
-        return self._seen(self._pictures, placed, self._shape.faces, self._shape.normals(placed), every)
+        shown = placed, self._shape.faces, self._shape.normals(placed)
+        few = self._sums(self._pictures, *shown, FEW)
+        if few[:, 2].any() and not least <= summed(few).distance <= most:
+            return summed(few), False
+        others = [side for side in range(len(self._cameras)) if side not in FEW]
+        rest = self._sums(self._pictures, *shown, others)
+        return summed(np.concatenate([few, rest])[np.argsort([*FEW, *others])]), True
 
     def distance(self, positions: Positions) -> float:
         """The distance alone of `look`."""
@@ -134,62 +154,76 @@ class Looker:
         own, others = own_normals(self._mesh), own_normals(other)
         if own is None:
             return seen
-        pictures = self._drawn(self._placed(self._mesh.positions), self._shape.faces, own)
+        pictures = [one for one, _ in self._drawn(self._placed(self._mesh.positions), self._shape.faces, own)]
         shaded = self._seen(pictures, placed, shape.faces, smooth if others is None else others)
         return max(seen, shaded, key=lambda look: look.distance)
 
-    def blame(self, *versions: Positions) -> list[Matrix]:
+    def blame(self, *versions: Positions) -> list[tuple[Matrix, Look]]:
         """Where versions look different: how unlike the pixels are that show each face of the original, added.
 
         That is their 1 - SSIM, and up to 1 more where they differ visibly; over all pixels that the original covers, as
-        seen from the corners of a cube around it. `versions` are positions as `look` takes them.
+        seen from the corners of a cube around it; and how each version looks from there. `versions` are positions as
+        `look` takes them.
         """
-        placed = [self._placed(positions) for positions in (self._mesh.positions, *versions)]
+        placed = [self._placed(positions) for positions in versions]
         drawn = [(positions, self._shape.normals(positions)) for positions in placed]
         faces = self._shape.faces
 
-        def blamed(camera: Matrix) -> tuple[int, list[Matrix]]:
-            picture, owner = draw_owned(drawn[0][0], faces, drawn[0][1], camera, self.pixels)
+        def blamed(number: int) -> tuple[int, list[tuple[Matrix, Matrix]]]:
+            picture, owner = self._pictures[number], self._owners[number]
             shown = owner >= 0
             found = []
-            for positions, normals in drawn[1:]:
-                _, unlike = difference_map(picture, draw(positions, faces, normals, camera, self.pixels))
-                found.append(np.bincount(owner[shown], unlike[shown].astype(np.float64), len(faces)).astype(np.float64))
+            for positions, normals in drawn:
+                version = draw(positions, faces, normals, self._cameras[number], self.pixels)
+                sums, unlike = difference_map(picture, version)
+                added = np.bincount(owner[shown], unlike[shown].astype(np.float64), len(faces)).astype(np.float64)
+                found.append((added, sums))
             return int(shown.sum()), found
 
-        sides = list(ordered_map(blamed, self._cameras[CORNERS], self._threads))
+        sides = list(ordered_map(blamed, CORNERS, self._threads))
         covered = sum(count for count, _ in sides) or 1
-        return [np.sum([found[number] for _, found in sides], axis=0) / covered for number in range(len(versions))]
+        return [
+            (np.sum([added for added, _ in found], axis=0) / covered, summed(np.array([sums for _, sums in found])))
+            for found in zip(*(found for _, found in sides), strict=True)
+        ]
 
     def pictures(self, other: TriangleMesh) -> tuple[Picture, Picture]:
         """Both meshes from the side where they differ most."""
         placed = self._placed(other.positions)
         shape = Shape.of(placed, other.faces)
         drawn = self._drawn(placed, shape.faces, shape.normals(placed))
-        pairs = list(zip(self._pictures, drawn, strict=True))
+        pairs = [(picture, other) for picture, (other, _) in zip(self._pictures, drawn, strict=True)]
         return max(pairs, key=lambda pair: difference(*pair)[0])
 
     def _placed(self, positions: Positions) -> Positions:
         """In units of the diagonal, from the middle of the original."""
         return np.ascontiguousarray((positions - self._middle) / self._diagonal)
 
-    def _drawn(self, placed: Positions, faces: Faces, normals: Normals) -> list[Picture]:
-        def drawn(camera: Matrix) -> Picture:
-            return draw(placed, faces, normals, camera, self.pixels)
+    def _drawn(self, placed: Positions, faces: Faces, normals: Normals) -> list[tuple[Picture, Indices]]:
+        """From all sides, with the face that each pixel shows."""
+
+        def drawn(camera: Matrix) -> tuple[Picture, Indices]:
+            return draw_owned(placed, faces, normals, camera, self.pixels)
 
         return list(ordered_map(drawn, self._cameras, self._threads))
 
-    def _seen(
-        self, pictures: Sequence[Picture], placed: Positions, faces: Faces, normals: Normals, every: int = 1
-    ) -> Look:
-        def sums(side: tuple[Picture, Matrix]) -> Matrix:
-            picture, camera = side
-            return difference(picture, draw(placed, faces, normals, camera, self.pixels))
+    def _seen(self, pictures: Sequence[Picture], placed: Positions, faces: Faces, normals: Normals) -> Look:
+        return summed(self._sums(pictures, placed, faces, normals, range(len(pictures))))
 
-        sides = list(zip(pictures, self._cameras, strict=True))[::every]
-        found = np.array(list(ordered_map(sums, sides, self._threads)))
-        dissimilar, visible, covered, _ = (float(sum(column)) for column in found.T)
-        return judged(dissimilar / covered, visible / covered, float(found[:, 3].max()) / SQUARE)
+    def _sums(
+        self,
+        pictures: Sequence[Picture],
+        placed: Positions,
+        faces: Faces,
+        normals: Normals,
+        sides: Sequence[int],
+    ) -> Matrix:
+        """What `difference` says of some sides, a row each."""
+
+        def sums(side: int) -> Matrix:
+            return difference(pictures[side], draw(placed, faces, normals, self._cameras[side], self.pixels))
+
+        return np.array(list(ordered_map(sums, sides, self._threads)))
 
 
 def look(original: TriangleMesh, other: TriangleMesh, *, threads: int | None = None) -> Look:
@@ -203,11 +237,24 @@ def look(original: TriangleMesh, other: TriangleMesh, *, threads: int | None = N
     return Looker(original, threads=threads).compare(other)
 
 
+def summed(sums: Matrix) -> Look:
+    """The look of what `difference` says of some sides, shape (sides, 4)."""
+    dissimilar, visible, covered, _ = (float(sum(column)) for column in sums.T)
+    return judged(dissimilar / covered, visible / covered, float(sums[:, 3].max()) / SQUARE)
+
+
 def judged(dissimilarity: float, visible: float, gone: float) -> Look:
     """The distance that these numbers make."""
     dissimilarity = max(0.0, dissimilarity)  # of equal pictures it is a rounding error
     distance = max(dissimilarity / DISSIMILAR, visible / VISIBLE_SHARE) ** POWER
     return Look(max(distance, (gone / GONE) ** GONE_POWER), dissimilarity, visible, gone)
+
+
+def _used(faces: Faces, count: int) -> Mask:
+    """Vertices that are in faces."""
+    used = np.zeros(count, np.bool_)
+    used[faces] = True
+    return used
 
 
 def own_normals(mesh: TriangleMesh) -> Normals | None:

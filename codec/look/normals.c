@@ -11,12 +11,39 @@ INLINE void cross_product(const double *a, const double *b, const double *c, dou
 
 INLINE double dot(const double *a, const double *b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
+/* The sum of the faces around a vertex; returns whether each is so near to it that no two of them have a crease between. */
+INLINE bool smoothly(const double *crosses, const int32_t *members, int64_t count, double half, double *sum) {
+    sum[0] = sum[1] = sum[2] = 0.0;
+    for (int64_t i = 0; i < count; i++)
+        for (int d = 0; d < 3; d++) sum[d] += crosses[4 * (int64_t)members[i] + d];
+    double bound = half * __builtin_sqrt(dot(sum, sum));
+    bool near = true;
+    for (int64_t i = 0; i < count; i++) {
+        const double *other = crosses + 4 * (int64_t)members[i];
+        near &= dot(sum, other) > bound * other[3];
+    }
+    return near;
+}
+
+/* The sum of a face, and of those around that have no crease to it. */
+INLINE void sum_around(const double *crosses, const int32_t *members, int64_t count, int64_t face, double cosine, double *sum) {
+    const double *own = crosses + 4 * face;
+    double bound = cosine * own[3];
+    for (int d = 0; d < 3; d++) sum[d] = own[d];
+    for (int64_t i = 0; i < count; i++) {
+        const double *other = crosses + 4 * (int64_t)members[i];
+        if (other == own || !(dot(own, other) > bound * other[3])) continue;
+        for (int d = 0; d < 3; d++) sum[d] += other[d];
+    }
+}
+
 /* `joined` has the vertices of faces with those at one place as one, `starts` and `around` the faces of each.
  * `normals` has nine numbers a face, three of each corner: the sum of the cross products of those around the corner's
  * vertex whose angle to the face has a cosine above `cosine`, and of the face itself; of length 1, or zero. A
- * vertex with more than `most` faces smooths nothing. `crosses` is room for four numbers a face. */
+ * vertex with more than `most` faces smooths nothing. `half` is a cosine of a little less than half that angle: where all
+ * faces are so near to their sum, that is the normal of each. `crosses` is room for four numbers a face. */
 int64_t shown_normals(ConstDoubles2 positions, ConstInts2 faces, ConstInts2 joined, ConstLongs starts, ConstInts around,
-                      double cosine, int64_t most, Doubles2 crosses, Singles2 normals) {
+                      double cosine, double half, int64_t most, Doubles2 crosses, Singles2 normals) {
     int64_t n = starts.size - 1;
     if (positions.columns != 3 || faces.columns != 3 || crosses.columns != 4 || normals.columns != 9 || n < 0 ||
         joined.columns != 3 || joined.rows != faces.rows || crosses.rows < faces.rows || normals.rows < faces.rows)
@@ -34,23 +61,19 @@ int64_t shown_normals(ConstDoubles2 positions, ConstInts2 faces, ConstInts2 join
                       positions.data + 3 * (int64_t)face[2], own);
         own[3] = __builtin_sqrt(dot(own, own));
     }
-    for (int64_t f = 0; f < faces.rows; f++) {
-        const double *own = crosses.data + 4 * f;
-        for (int k = 0; k < 3; k++) {
-            int64_t vertex = joined.data[3 * f + k], from = starts.data[vertex], to = starts.data[vertex + 1];
-            double sum[3] = {own[0], own[1], own[2]}, least_dot = cosine * own[3];
-            if (to - from <= most)
-                for (int64_t i = from; i < to; i++) {
-                    const double *other = crosses.data + 4 * (int64_t)around.data[i];
-                    if (other == own || !(dot(own, other) > least_dot * other[3])) continue;
-                    sum[0] += other[0];
-                    sum[1] += other[1];
-                    sum[2] += other[2];
-                }
-            double length = __builtin_sqrt(dot(sum, sum));
-            float *normal = normals.data + 9 * f + 3 * k;
-            for (int d = 0; d < 3; d++) normal[d] = length > 0.0 ? (float)(sum[d] / length) : 0.0f;
-        }
+    for (int64_t v = 0; v < n; v++) {
+        int64_t from = starts.data[v], to = starts.data[v + 1];
+        const int32_t *members = around.data + from;
+        double sum[3] = {0.0, 0.0, 0.0};
+        bool smooth = to - from <= most && smoothly(crosses.data, members, to - from, half, sum);
+        for (int64_t i = 0; i < to - from; i++)
+            for (int k = 0; k < 3; k++) {
+                if (joined.data[3 * (int64_t)members[i] + k] != v) continue;
+                if (!smooth) sum_around(crosses.data, members, to - from <= most ? to - from : 0, members[i], cosine, sum);
+                double length = __builtin_sqrt(dot(sum, sum));
+                float *normal = normals.data + 9 * (int64_t)members[i] + 3 * k;
+                for (int d = 0; d < 3; d++) normal[d] = length > 0.0 ? (float)(sum[d] / length) : 0.0f;
+            }
     }
     return 0;
 }

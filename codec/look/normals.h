@@ -4,6 +4,6 @@
 #include "bitstream/kernel.h"
 
 int64_t shown_normals(ConstDoubles2 positions, ConstInts2 faces, ConstInts2 joined, ConstLongs starts, ConstInts around,
-                      double cosine, int64_t most, Doubles2 crosses, Singles2 normals);
+                      double cosine, double half, int64_t most, Doubles2 crosses, Singles2 normals);
 
 #endif

@@ -20,6 +20,7 @@ Normals = npt.NDArray[np.float32]
 
 CREASE = math.cos(math.radians(40.0))
 """Cosine of the angle between faces from which on shading is not smooth."""
+_HALF_CREASE = math.cos(math.radians(19.9))
 MOST_AROUND = 128
 """Faces around a vertex, above which its corners are shaded as their faces are."""
 VISIBLE = 12.0 / 255.0
@@ -31,8 +32,8 @@ SQUARE = 64.0
 BACKGROUND = 1.0
 _GRID = 2.0**24
 _SPREADS = {"wide": (1.5, 5), "narrow": (0.7, 3)}
-_SCRATCH_ROWS = 88
-_NOBODY, _NOWHERE = np.empty((0, 0), np.int32), np.empty((0, 0), np.float32)
+_SCRATCH_ROWS, _TILE = 88, 8
+_NOWHERE = np.empty((0, 0), np.float32)
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,6 +62,7 @@ class Shape:
             self.around.starts,
             self.around.members,
             CREASE,
+            _HALF_CREASE,
             MOST_AROUND,
             np.empty((count, 4)),
             normals,
@@ -70,23 +72,19 @@ class Shape:
 
 def draw(positions: Positions, faces: Faces, normals: Normals, camera: Matrix, pixels: int) -> Picture:
     """A picture of a mesh, lit alike on both sides of its faces."""
-    return _drawn(positions, faces, normals, camera, pixels, _NOBODY)
+    return draw_owned(positions, faces, normals, camera, pixels)[0]
 
 
 def draw_owned(
     positions: Positions, faces: Faces, normals: Normals, camera: Matrix, pixels: int
 ) -> tuple[Picture, Indices]:
     """A picture, and which face each pixel shows; -1: none."""
-    owner = np.empty((pixels, pixels), np.int32)
-    return _drawn(positions, faces, normals, camera, pixels, owner), owner
-
-
-def _drawn(
-    positions: Positions, faces: Faces, normals: Normals, camera: Matrix, pixels: int, owner: Indices
-) -> Picture:
     picture, depth, lengths = (np.empty((pixels, pixels), np.float32) for _ in range(3))
-    _kernels.draw_shaded(positions, faces, normals, camera, np.empty(positions.shape), depth, lengths, picture, owner)
-    return picture
+    tiles, owner = np.empty((-(-pixels // _TILE),) * 2, np.float32), np.empty((pixels, pixels), np.int32)
+    _kernels.draw_shaded(
+        positions, faces, normals, camera, np.empty(positions.shape), depth, lengths, tiles, picture, owner
+    )
+    return picture, owner
 
 
 def difference(first: Picture, second: Picture) -> Matrix:

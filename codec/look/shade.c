@@ -4,6 +4,7 @@
 #define AMBIENT 0.12f
 #define DIFFUSE 0.78f
 #define BACKGROUND 1.0f
+#define TILE 8    /* pixels of the side of squares that faces may be hidden in */
 #define CAMERA 15 /* three rows of a rotation with an offset each, then the light in the mesh's own axes */
 
 /* The first pixel whose centre is at `x` or behind, in 0..size. */
@@ -37,35 +38,58 @@ INLINE Edge edge_between(const double *upper, const double *lower) {
 
 INLINE double crossing(Edge edge, double y) { return edge.x + (y - edge.y) * edge.slope; }
 
-INLINE void swap_if_lower(const double **a, const double **b) {
-    if ((*a)[1] > (*b)[1]) {
-        const double *kept = *a;
-        *a = *b;
-        *b = kept;
-    }
+INLINE double lower(double a, double b) { return a < b ? a : b; }
+INLINE double higher(double a, double b) { return a > b ? a : b; }
+
+typedef struct {
+    const double *a, *b, *c;
+    double area;
+} Face;
+
+INLINE Face face_at(const double *placed, const int32_t *corners) {
+    const double *a = placed + 3 * (int64_t)corners[0], *b = placed + 3 * (int64_t)corners[1], *c = placed + 3 * (int64_t)corners[2];
+    return (Face){a, b, c, (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])};
 }
 
-INLINE void draw_face(const double *a, const double *b, const double *c, const float *normals, const double *light,
-                      int32_t face, Singles2 depth, Singles2 lengths, Singles2 picture, Ints2 owner) {
-    double area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
-    if (!(area > 0.0 || area < 0.0)) return;
-    const double *top = a, *middle = b, *bottom = c;
-    swap_if_lower(&top, &middle);
-    swap_if_lower(&middle, &bottom);
-    swap_if_lower(&top, &middle);
-    int64_t first = first_centre(top[1], picture.rows), end = behind_centre(bottom[1], picture.rows);
+INLINE int64_t tile_at(double x, int64_t tiles) { return least((int64_t)(higher(x, 0.0) * (1.0 / TILE)), tiles - 1); }
+
+/* Whether something nearer than all of a face is at every pixel of the tiles that it touches. */
+INLINE bool hidden(Face face, ConstSingles2 farthest) {
+    const double *a = face.a, *b = face.b, *c = face.c;
+    int64_t first = tile_at(lower(lower(a[1], b[1]), c[1]), farthest.rows);
+    int64_t last = tile_at(higher(higher(a[1], b[1]), c[1]), farthest.rows);
+    int64_t from = tile_at(lower(lower(a[0], b[0]), c[0]), farthest.columns);
+    int64_t to = tile_at(higher(higher(a[0], b[0]), c[0]), farthest.columns);
+    float nearest = (float)(a[2] + higher(b[2] - a[2], 0.0) + higher(c[2] - a[2], 0.0));
+    bool behind = true;
+    for (int64_t row = first; row <= last && behind; row++) {
+        const float *tiles = farthest.data + row * farthest.columns;
+        behind = (nearest < tiles[from]) & (nearest < tiles[to]);
+        for (int64_t column = from + 1; column < to; column++) behind &= nearest < tiles[column];
+    }
+    return behind;
+}
+
+INLINE void draw_face(Face face, const float *normals, const double *light, int32_t number, Singles2 depth,
+                      Singles2 lengths, Singles2 picture, Ints2 owner) {
+    const double *a = face.a, *b = face.b, *c = face.c;
+    int64_t first = first_centre(lower(lower(a[1], b[1]), c[1]), picture.rows);
+    int64_t end = behind_centre(higher(higher(a[1], b[1]), c[1]), picture.rows);
     if (first >= end) return;
-    double left = a[0] < b[0] ? a[0] : b[0], right = a[0] < b[0] ? b[0] : a[0];
-    left = left < c[0] ? left : c[0];
-    right = right < c[0] ? c[0] : right;
-    if (first_centre(left, picture.columns) >= behind_centre(right, picture.columns)) return;
-    Edge whole = edge_between(top, bottom), upper = edge_between(top, middle), lower = edge_between(middle, bottom);
-    double inverse = 1.0 / area, bx = b[0] - a[0], by = b[1] - a[1], cx = c[0] - a[0], cy = c[1] - a[1];
+    if (first_centre(lower(lower(a[0], b[0]), c[0]), picture.columns) >=
+        behind_centre(higher(higher(a[0], b[0]), c[0]), picture.columns))
+        return;
+    /* Without branches, which nobody could foretell. */
+    const double *above = a[1] > b[1] ? b : a, *below = a[1] > b[1] ? a : b;
+    const double *bottom = below[1] > c[1] ? below : c, *rest = below[1] > c[1] ? c : below;
+    const double *top = above[1] > rest[1] ? rest : above, *middle = above[1] > rest[1] ? above : rest;
+    Edge whole = edge_between(top, bottom), upper = edge_between(top, middle), beneath = edge_between(middle, bottom);
+    double inverse = 1.0 / face.area, bx = b[0] - a[0], by = b[1] - a[1], cx = c[0] - a[0], cy = c[1] - a[1];
     double bz = b[2] - a[2], cz = c[2] - a[2];
     const float *n = normals;
     for (int64_t row = first; row < end; row++) {
         double y = (double)row + 0.5;
-        double from = crossing(whole, y), to = y < middle[1] ? crossing(upper, y) : crossing(lower, y);
+        double from = crossing(whole, y), to = y < middle[1] ? crossing(upper, y) : crossing(beneath, y);
         int64_t column = first_centre(from < to ? from : to, picture.columns);
         int64_t stop = behind_centre(from < to ? to : from, picture.columns);
         for (; column < stop; column++) {
@@ -74,12 +98,12 @@ INLINE void draw_face(const double *a, const double *b, const double *c, const f
             double r = within((bx * (y - a[1]) - by * (x - a[0])) * inverse);
             int64_t pixel = row * picture.columns + column;
             float z = (float)(a[2] + s * bz + r * cz);
-            if (!(z > depth.data[pixel])) continue;
+            if (!(z > depth.data[pixel]) && !(z == depth.data[pixel] && number < owner.data[pixel])) continue;
             double q = 1.0 - s - r;
             double nx = q * (double)n[0] + s * (double)n[3] + r * (double)n[6];
             double ny = q * (double)n[1] + s * (double)n[4] + r * (double)n[7];
             double nz = q * (double)n[2] + s * (double)n[5] + r * (double)n[8];
-            if (owner.rows) owner.data[pixel] = face;
+            owner.data[pixel] = number;
             depth.data[pixel] = z;
             picture.data[pixel] = (float)(nx * light[0] + ny * light[1] + nz * light[2]);
             lengths.data[pixel] = (float)(nx * nx + ny * ny + nz * nz);
@@ -87,15 +111,32 @@ INLINE void draw_face(const double *a, const double *b, const double *c, const f
     }
 }
 
+/* The farthest depth in each tile. */
+INLINE void find_farthest(Singles2 depth, Singles2 farthest) {
+    for (int64_t i = 0; i < farthest.rows * farthest.columns; i++) farthest.data[i] = __builtin_inff();
+    for (int64_t row = 0; row < depth.rows; row++) {
+        float *tiles = farthest.data + row / TILE * farthest.columns;
+        const float *depths = depth.data + row * depth.columns;
+        for (int64_t column = 0; column < depth.columns; column++)
+            tiles[column / TILE] = depths[column] < tiles[column / TILE] ? depths[column] : tiles[column / TILE];
+    }
+}
+
 /* `camera` takes a position to column, row and depth (larger is nearer), four numbers each, and holds the light.
- * `placed` is room for all positions, `depth` and `lengths` for pictures. `owner` has the face that each pixel shows, or
- * -1; it may be empty. */
-int64_t draw_shaded(ConstDoubles2 positions, ConstInts2 faces, ConstSingles2 normals, ConstDoubles camera,
-                    Doubles2 placed, Singles2 depth, Singles2 lengths, Singles2 picture, Ints2 owner) {
+ * `placed` is room for all positions, `depth` and `lengths` for pictures, `farthest` for one number of each tile. `owner`
+ * gets the face that each pixel shows, or -1.
+ *
+ * Of a closed surface one half faces the camera, and hides the other: that half comes first, and most of the other one
+ * need not be drawn. */
+KERNEL int64_t draw_shaded(ConstDoubles2 positions, ConstInts2 faces, ConstSingles2 normals, ConstDoubles camera,
+                           Doubles2 placed, Singles2 depth, Singles2 lengths, Singles2 farthest, Singles2 picture,
+                           Ints2 owner) {
     int64_t pixels = picture.rows * picture.columns;
     if (positions.columns != 3 || placed.columns != 3 || placed.rows < positions.rows || faces.columns != 3 ||
-        normals.columns != 9 || normals.rows < faces.rows || camera.size != CAMERA || (owner.rows && owner.rows * owner.columns < pixels) ||
-        depth.rows * depth.columns < pixels || lengths.rows * lengths.columns < pixels)
+        normals.columns != 9 || normals.rows < faces.rows || camera.size != CAMERA || faces.rows > INT32_MAX ||
+        owner.rows * owner.columns < pixels || depth.rows != picture.rows || depth.columns != picture.columns ||
+        lengths.rows * lengths.columns < pixels || farthest.rows * TILE < picture.rows ||
+        farthest.columns * TILE < picture.columns)
         return MISUSED;
     for (int64_t k = 0; k < 3 * faces.rows; k++)
         if (faces.data[k] < 0 || faces.data[k] >= positions.rows) return MISUSED;
@@ -107,13 +148,22 @@ int64_t draw_shaded(ConstDoubles2 positions, ConstInts2 faces, ConstSingles2 nor
     }
     for (int64_t i = 0; i < pixels; i++) {
         depth.data[i] = -__builtin_inff();
-        if (owner.rows) owner.data[i] = -1;
+        owner.data[i] = -1;
     }
+    double ahead = 0.0;
     for (int64_t f = 0; f < faces.rows; f++) {
-        const int32_t *face = faces.data + 3 * f;
-        draw_face(placed.data + 3 * (int64_t)face[0], placed.data + 3 * (int64_t)face[1],
-                  placed.data + 3 * (int64_t)face[2], normals.data + 9 * f, m + 12, (int32_t)f, depth, lengths, picture,
-                  owner);
+        Face face = face_at(placed.data, faces.data + 3 * f);
+        ahead += face.area * (face.a[2] + face.b[2] + face.c[2]);
+    }
+    ConstSingles2 behind = {farthest.data, farthest.rows, farthest.columns};
+    for (int pass = 0; pass < 2; pass++) {
+        if (pass) find_farthest(depth, farthest);
+        bool positive = (ahead > 0.0) != (pass > 0);
+        for (int64_t f = 0; f < faces.rows; f++) {
+            Face face = face_at(placed.data, faces.data + 3 * f);
+            if (!(positive ? face.area > 0.0 : face.area < 0.0) || (pass && hidden(face, behind))) continue;
+            draw_face(face, normals.data + 9 * f, m + 12, (int32_t)f, depth, lengths, picture, owner);
+        }
     }
     for (int64_t i = 0; i < pixels; i++) {
         float length = lengths.data[i], facing = picture.data[i];

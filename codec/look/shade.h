@@ -4,6 +4,6 @@
 #include "bitstream/kernel.h"
 
 int64_t draw_shaded(ConstDoubles2 positions, ConstInts2 faces, ConstSingles2 normals, ConstDoubles camera,
-                    Doubles2 placed, Singles2 depth, Singles2 lengths, Singles2 picture, Ints2 owner);
+                    Doubles2 placed, Singles2 depth, Singles2 lengths, Singles2 farthest, Singles2 picture, Ints2 owner);
 
 #endif

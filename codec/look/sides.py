@@ -14,8 +14,10 @@ TOWARDS = (
     *((x, y, z) for x, y in ((101, 101), (-101, 101), (-101, -101), (101, -101)) for z in (100, -100)),
 )
 """Where the camera is, from the middle of the mesh: around it, above and below, and at the corners of a cube."""
-CORNERS = slice(6, None)
+CORNERS = tuple(range(6, 14))
 """Those of the cube: few, and all of a mesh is seen from them."""
+FEW = (0, 3, 6, 9, 12)
+"""Those from which a mesh looks about as it does from all."""
 LIGHT = (0.35, 0.5, 0.79)
 """Where the light is: right, up, towards the camera."""
 AIR = 1.03
@@ -38,10 +40,11 @@ def axes(towards: tuple[int, int, int]) -> Matrix:
 def cameras(positions: Positions, pixels: int) -> list[Matrix]:
     """What `draw_shaded` takes for each side, so that the positions fill the picture."""
     found = []
+    across, deep, high_up = np.ascontiguousarray(positions.T)
     for towards in TOWARDS:
         rows = axes(towards)
-        seen = np.stack([positions[:, 0] * x + positions[:, 1] * y + positions[:, 2] * z for x, y, z in rows], axis=1)
-        low, high = seen.min(axis=0), seen.max(axis=0)
+        seen = [across * x + deep * y + high_up * z for x, y, z in rows]
+        low, high = (np.array([values.min() for values in seen]), np.array([values.max() for values in seen]))
         side = AIR * float((high - low)[:2].max()) or 1.0
         scale = np.array([1.0, -1.0, 1.0]) * (pixels / side)
         offset = np.array([pixels / 2, pixels / 2, 0.0]) - scale * (low + high) / 2
@@ -52,9 +55,11 @@ def cameras(positions: Positions, pixels: int) -> list[Matrix]:
 
 def pixels_for(positions: Positions, faces: Faces) -> int:
     """Pixels of a side of the pictures: enough that the mean edge has `EDGE_PIXELS`."""
-    ends = positions[faces]
-    edge = float(np.sqrt(np.square(ends - ends[:, [1, 2, 0]]).sum(axis=2)).mean())
-    side = AIR * float(np.ptp(positions[faces].reshape(-1, 3), axis=0).max())
+    first, second, third = (positions[corner] for corner in np.ascontiguousarray(faces.T))
+    sides = [first - second, second - third, third - first]
+    edge = float(sum(np.sqrt(np.einsum("fd,fd->f", side, side)).sum() for side in sides)) / (3 * len(faces))
+    ends = np.array([(corner.min(axis=0), corner.max(axis=0)) for corner in (first, second, third)])
+    side = AIR * float((ends[:, 1].max(axis=0) - ends[:, 0].min(axis=0)).max())
     if not edge * MOST_PIXELS > EDGE_PIXELS * side:
         return MOST_PIXELS
     return max(LEAST_PIXELS, math.ceil(EDGE_PIXELS * side / edge))

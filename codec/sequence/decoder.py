@@ -21,12 +21,12 @@ from bsm.codec.blocks.blend import Blend
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.sequence.cost import gop_cost, gop_memory, loop_memory
 from bsm.codec.sequence.gop import GopDecoder, make_setting
-from bsm.codec.signal.chain import Rounding, unchanged
-from bsm.codec.static.attributes.decoding import Carried, without_positions
+from bsm.codec.signal.chain import AS_SPECIFIED, Trial
+from bsm.codec.static.attributes.decoding import AttributeDecoders, without_positions
 from bsm.codec.static.events import AttributeEvent, ConnectivityEvent, EndEvent, HeaderEvent, LossEvent, unreadable
 from bsm.codec.static.rules import chain_rules
 from bsm.codec.static.stages import Arrival, Ended, Stage, StreamDecoder, misplaced
-from bsm.codec.static.structure import Beginning, Body, Structure
+from bsm.codec.static.structure import DecoderSetup, HeaderStage, Structure
 from bsm.codec.static.ways.block_coder import FRAME, ChainDecoder
 from bsm.codec.static.work import Allowance
 from bsm.codec.threads import threads_of
@@ -46,8 +46,8 @@ Result = TypeVar("Result")
 
 
 @dataclass(frozen=True)
-class Wishes:
-    """What the user of a `SequenceDecoder` has asked for; see there."""
+class DecoderRequest:
+    """What the user of a `SequenceDecoder` asks for; see its parameters."""
 
     threads: int | None
     tolerant: bool
@@ -59,13 +59,13 @@ class Wishes:
 class FirstFrame:
     """The faces are known; blocks of the first frame come, which is coded as a static mesh is."""
 
-    def __init__(self, structure: Structure, wishes: Wishes) -> None:
+    def __init__(self, structure: Structure, request: DecoderRequest) -> None:
         self._structure = structure
-        self._wishes = wishes
+        self._request = request
         self._blend = Blend(structure.header.vertices)
         self._chain = ChainDecoder(structure.scheme, 0, structure.allowance)
         self._next = 0
-        self._carried = Carried(structure)
+        self._carried = AttributeDecoders(structure)
 
     def accept(self, arrival: Arrival, queue: deque[Item]) -> Stage[Item]:
         count = self._structure.scheme.blocks.count
@@ -83,16 +83,16 @@ class FirstFrame:
                 return self
         if self._next < count:
             raise CorruptError(f"the first frame ends after {self._next} of {count} blocks")
-        return Gops(self._structure, self._blend.all_positions(), self._wishes).accept(arrival, queue)
+        return Gops(self._structure, self._blend.all_positions(), self._request).accept(arrival, queue)
 
     def _values(self, packet: packets.Values) -> AttributeEvent | LossEvent:
         try:
             event = self._carried.add(packet, without_positions)
         except BsmError as error:
-            if not self._wishes.tolerant:
+            if not self._request.tolerant:
                 raise
             return LossEvent(None, error)
-        self._wishes.attributes[:] = self._carried.attributes(None)
+        self._request.attributes[:] = self._carried.attributes(None)
         return event
 
     def _add(self, packet: packets.Block) -> None:
@@ -111,10 +111,10 @@ class FirstFrame:
 class Gops:
     """The first frame is known, shape (n, 3), in BSM units; GOPs come."""
 
-    def __init__(self, structure: Structure, first_frame: Matrix, wishes: Wishes) -> None:
+    def __init__(self, structure: Structure, first_frame: Matrix, request: DecoderRequest) -> None:
         self._structure = structure
         self._first_frame = first_frame
-        self._wishes = wishes
+        self._request = request
         self._decoder: GopDecoder | None = None  # made when a GOP is there, whose frames and bytes pay for it
         self._next = 0  # the frame that comes next in the stream
         self._skipped: list[GopBody] = []  # low-delay frames since the latest key frame, not decoded
@@ -168,7 +168,7 @@ class Gops:
         try:
             return work()
         except BsmError as error:
-            if not self._wishes.tolerant:
+            if not self._request.tolerant:
                 raise
             self._lose(error)
             return None
@@ -184,7 +184,7 @@ class Gops:
                 structure.faces,
                 self._first_frame,
                 width=header.coefficients,
-                threads=self._wishes.threads,
+                threads=self._request.threads,
                 allowance=structure.allowance,
             )
             self._decoder = GopDecoder(setting)
@@ -201,7 +201,7 @@ class Gops:
         """Frames of a GOP, or nothing of it where no frame of it is wanted and none that is depends on it."""
         if body.method is not GopMethod.NEXT_FRAME:
             self._skipped.clear()
-        if self._next + body.frames <= self._wishes.start:
+        if self._next + body.frames <= self._request.start:
             if body.method >= GopMethod.KEY_FRAME:
                 self._skipped.append(body)
             return iter(())
@@ -212,7 +212,7 @@ class Gops:
 
     def _events(self, first: int, frames: Iterator[Matrix]) -> Iterator[FrameEvent]:
         for index, frame in enumerate(frames, first):
-            if index >= self._wishes.start:
+            if index >= self._request.start:
                 yield FrameEvent(index, self._structure.numbering.arranged(self._structure.units.back(frame)))
 
     def _lose(self, error: BsmError) -> None:
@@ -221,7 +221,7 @@ class Gops:
         self._forget()
 
     def _report_loss(self, frames: int, queue: deque[Item]) -> None:
-        if not self._wishes.tolerant:
+        if not self._request.tolerant:
             raise CorruptError(f"{frames} frames from number {self._next} on are missing")
         error = self._damage or CorruptError("a GOP is missing")
         queue.append(LossEvent(None, error, range(self._next, self._next + frames)))
@@ -261,8 +261,8 @@ class SequenceDecoder(StreamDecoder[Item]):
         whole in any case.
     start : int
         Give no frame before this one; GOPs that it does not need are not decoded.
-    rounding : callable, optional
-        What is done to the numbers that dictionaries and predictions start from; see `ChainRules`.
+    trial : Trial, optional
+        What is tried in place of what the specification says; see `codec.signal.chain`.
     """
 
     def __init__(
@@ -272,20 +272,20 @@ class SequenceDecoder(StreamDecoder[Item]):
         *,
         tolerant: bool = False,
         start: int = 0,
-        rounding: Rounding = unchanged,
+        trial: Trial = AS_SPECIFIED,
     ) -> None:
         threads = threads_of(threads)
         self._attributes: list[Attribute] = []
-        wishes = Wishes(threads, tolerant, start, self._attributes)
+        request = DecoderRequest(threads, tolerant, start, self._attributes)
         allowance = Allowance(limits)
-        body = Body(
+        setup = DecoderSetup(
             allowance,
             check=lambda header: check_header(header, limits),
-            begin=lambda structure: FirstFrame(structure, wishes),
-            rounding=rounding,
+            begin=lambda structure: FirstFrame(structure, request),
+            trial=trial,
             threads=threads,
         )
-        super().__init__(Beginning(body), allowance, tolerant=tolerant)
+        super().__init__(HeaderStage(setup), allowance, tolerant=tolerant)
 
     @property
     def attributes(self) -> tuple[Attribute, ...]:

@@ -20,12 +20,12 @@ import numpy as np
 
 from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Faces, Indices, Matrix, Positions
-from bsm.codec.basis.cost import Spend, factor_cost
+from bsm.codec.basis.cost import Price, Steps, factor_cost, settle
 from bsm.codec.basis.laplacian import Factor
 from bsm.codec.basis.solver.fronts import Fronts
 from bsm.codec.basis.weighted import Held, cotangent_weights, hold
 from bsm.codec.blocks.overlap import Blocks
-from bsm.codec.signal.chain import ChainRules, key_dictionary
+from bsm.codec.signal.chain import ChainRules, key_steps
 from bsm.codec.signal.predict import Suspended, continued
 from bsm.codec.signal.transform import project, reconstruct
 from bsm.codec.static.work import Allowance, block_cost, block_memory
@@ -89,10 +89,9 @@ class Site:
         """Add the extension to what a field, shape (n, m), holds here."""
         field[self.vertices] += self.extend(field)
 
-    def furnished(self, rules: ChainRules, spend: Spend) -> Part:
-        """With its dictionary, that of a key block; `spend` is told of the work."""
-        suspended = Suspended(self.held.laplacian, self.held.springs, rules.shift)
-        return Part(self, key_dictionary(rules, suspended, self.width, spend))
+    def steps(self, rules: ChainRules) -> Steps:
+        """Its dictionary, that of a key block, with the price of each step."""
+        return key_steps(rules, Suspended(self.held.laplacian, self.held.springs, rules.shift), self.width)
 
 
 @dataclass(frozen=True, eq=False)
@@ -235,15 +234,16 @@ class Dictionaries:
 
     def _furnished(self, index: int) -> Part:
         """A part with its dictionary, whose work is spent when it is made first, and otherwise by who has reserved."""
-        told: list[float] = []
+        site, work = self.sites[index], 0.0
 
-        def spend(work: float) -> None:
-            told.append(work)
+        def pay(price: Price) -> None:
+            nonlocal work
+            work += price(site.width)
             if np.isnan(self._work[index]):
-                self._allowance.spend(work)
+                self._allowance.spend(price(site.width))
 
-        part = self.sites[index].furnished(self._rules, spend)
-        self._work[index] = sum(told)
+        part = Part(site, settle(site.steps(self._rules), pay))
+        self._work[index] = work
         return part
 
 

@@ -86,6 +86,10 @@ class SequenceAttempt:
         return 8.0 * sum(map(len, self.chunks)) / self.samples
 
 
+def _silent(done: int, blocks: int) -> None:
+    """What was told once is not told again."""
+
+
 class SequenceEncoder:
     """Encodes frames that share their faces.
 
@@ -189,11 +193,9 @@ class SequenceEncoder:
         prepared = prepare(given, parts, keep_order=options.keep_order)
         self.vertex_order, self.face_order = prepared.vertex_order, prepared.face_order
         checked = _checked(chain([first], source), np.shape(first), prepared)
-        if options.promise is not None:
-            group = list(islice(checked, options.gop))
-            options = replace(options, step=self._step_from_the_start(group, prepared, options))
-            checked = chain(group, checked)
-        opening = open_sequence(prepared, options, self._count, tell)
+        group = list(islice(checked, options.gop if options.mode == "gop" else 1))
+        coded = self._first_gop(group, prepared, options, tell)
+        opening = coded.opening
         wanted = qualities(self._attributes, dict(options.attributes), "balanced")
         carried = carry(place_of_first_frame(given, prepared), wanted)
         self.notes = tuple(one.said for one in carried)
@@ -205,70 +207,87 @@ class SequenceEncoder:
         yield writer.start()
         for packet in (draft.header, *draft.body):
             yield writer.write(packet)
-        encoder = GopEncoder(opening.setting, options)
         number = 0
-        while group := list(islice(checked, opening.header.gop_frames)):
-            if options.promise is not None and number:
-                encoder.step = self._step_from_here(group, prepared, options, opening, encoder)
-            for body in _affordable(opening, encoder, group, number, tell):
+        while group:
+            for body in coded.bodies:
+                opening.admit(body, number)
                 yield writer.write(packets.Gop(number, write_gop_body(body)))
                 number += body.frames
+            group = list(islice(checked, opening.header.gop_frames))
+            if group:
+                coded = self._later_gop(group, number, prepared, options, coded, tell)
         if self._count and number != self._count:
             raise OptionError(f"{self._count} frames were announced and {number} came")
         yield writer.end()
 
-    def _step_from_the_start(self, frames: list[Matrix], prepared: Prepared, options: SequenceOptions) -> float:
-        """The step that keeps the options' promise in the first GOP, first frame included."""
+    def _first_gop(self, frames: list[Matrix], prepared: Prepared, options: SequenceOptions, tell: Progress) -> Coded:
+        """The first frame and the first GOP, with the step that keeps the options' promise in both, if there is one."""
 
-        def attempt(step: float) -> Trial:
-            opening = open_sequence(prepared, replace(options, step=step), self._count, _silent)
-            encoder = GopEncoder(opening.setting, replace(options, step=step))
-            return Trial(opening.setting, tuple(_affordable(opening, encoder, frames, 0, _silent)))
+        def attempt(step: float, weights: Matrix | None, tell: Progress = _silent) -> Coded:
+            chosen = replace(options, step=step)
+            opening = open_sequence(prepared, chosen, self._count, tell)
+            encoder = GopEncoder(opening.setting, chosen)
+            encoder.weights = weights
+            return Coded(opening, encoder, tuple(_affordable(opening, encoder, frames, 0, tell)))
 
-        return self._kept(attempt, frames, prepared, options, None)
+        if options.promise is None:
+            return attempt(options.step, None, tell)
+        coded = self._kept(attempt, frames, prepared, options, None)
+        for _ in range(2):
+            tell(len(coded.opening.blocks), len(coded.opening.blocks))
+        return coded
 
-    def _step_from_here(
+    def _later_gop(
         self,
         frames: list[Matrix],
+        number: int,
         prepared: Prepared,
         options: SequenceOptions,
-        opening: Opening,
-        encoder: GopEncoder,
-    ) -> float:
-        """The step that keeps the options' promise in a later GOP."""
+        before: Coded,
+        tell: Progress,
+    ) -> Coded:
+        """The GOP behind another, with the step that keeps the options' promise in it, if there is one."""
+        opening, encoder = before.opening, before.encoder
 
-        def attempt(step: float) -> Trial:
-            encoder.step = step
-            return Trial(opening.setting, tuple(_affordable(opening, encoder, frames, 1, _silent, admitted=False)))
+        def attempt(step: float, weights: Matrix | None, tell: Progress = _silent) -> Coded:
+            encoder.step, encoder.weights = step, weights
+            return Coded(opening, encoder, tuple(_affordable(opening, encoder, frames, number, tell)))
 
-        return self._kept(attempt, frames, prepared, options, encoder.step)
+        if options.promise is None:
+            return attempt(encoder.step, None, tell)
+        coded = self._kept(attempt, frames, prepared, options, encoder.step)
+        tell(len(opening.blocks), len(opening.blocks))
+        return coded
 
     def _kept(
         self,
-        attempt: Callable[[float], Trial],
+        attempt: Callable[[float, Matrix | None], Coded],
         frames: list[Matrix],
         prepared: Prepared,
         options: SequenceOptions,
         first: float | None,
-    ) -> float:
+    ) -> Coded:
         promise = options.promise
         assert promise is not None
         watch = Watch(np.array(frames), prepared.mesh.faces, promise, prepared.units.scale, options.threads)
         finest = max(FINEST_STEP, self._finest_step(frames))
-        return watch.settle(attempt, first or promise.first_step, finest)[0]
+        coded = watch.settle(attempt, first or promise.first_step, finest)
+        coded.encoder.step = coded.bodies[0].step  # what the next GOP is tried with
+        return coded
 
 
 @dataclass(frozen=True, eq=False)
-class Trial:
-    """GOPs that were encoded with some step."""
+class Coded:
+    """GOPs that were encoded with some step, the first frame before them, and their encoder."""
 
-    setting: Setting
+    opening: Opening
+    encoder: GopEncoder
     bodies: tuple[GopBody, ...]
 
     @cached_property
     def decoded(self) -> Positions:
         """What the decoder makes of them, shape (T, n, 3), in BSM units."""
-        decoder = GopDecoder(self.setting)
+        decoder = GopDecoder(self.opening.setting)
         return np.array([frame for body in self.bodies for frame in decoder.decode(body)])
 
 
@@ -313,28 +332,18 @@ class Opening:
 
 
 def _affordable(
-    opening: Opening,
-    encoder: GopEncoder,
-    frames: list[Matrix],
-    number: int,
-    progress: Progress,
-    *,
-    admitted: bool = True,
+    opening: Opening, encoder: GopEncoder, frames: list[Matrix], number: int, progress: Progress
 ) -> Iterator[GopBody]:
     """Frames as one GOP, or as shorter ones where decoders would lack the memory for that."""
     body = encoder.encode(np.array(frames), number, progress)
     half = len(frames) // 2
     if half and not opening.has_room(body):
-        yield from _affordable(opening, encoder, frames[:half], number, _silent, admitted=admitted)
-        yield from _affordable(opening, encoder, frames[half:], number + half, _silent, admitted=admitted)
+        weights = encoder.weights
+        for part in (slice(half), slice(half, None)):
+            encoder.weights = None if weights is None else weights[part]
+            yield from _affordable(opening, encoder, frames[part], number + (part.start or 0), _silent)
     else:
-        if admitted:
-            opening.admit(body, number)
         yield body
-
-
-def _silent(done: int, blocks: int) -> None:
-    """What was told once is not told again."""
 
 
 def open_sequence(prepared: Prepared, options: SequenceOptions, frames: int, progress: Progress) -> Opening:

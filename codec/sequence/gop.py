@@ -132,13 +132,20 @@ class FrameHistory:
 
 
 class GopEncoder:
-    """Encodes one GOP after the other; the twin of `GopDecoder`."""
+    """Encodes one GOP after the other; the twin of `GopDecoder`.
+
+    Attributes
+    ----------
+    weights : float64 array, shape (T,), optional
+        What errors of the next GOP's frames count, beside each other; None: all the same.
+    """
 
     def __init__(self, setting: Setting, options: SequenceOptions) -> None:
         self._setting = setting
         self._parts: tuple[Part, ...] = tuple(setting.dictionaries.each(lambda _, part: part))
         self._options = options
         self.step = options.step
+        self.weights: Matrix | None = None
         self._history = FrameHistory(setting.first)
 
     @property
@@ -154,7 +161,8 @@ class GopEncoder:
         """Encode frames, shape (T, n, 3), from frame `number` of the sequence on."""
         if self._options.mode == "low-delay":
             return self._single(frames[0], number % self._options.gop == 0, progress)
-        return self._transformed(trajectories(frames), progress)
+        weights = np.ones(len(frames)) if self.weights is None else self.weights
+        return self._transformed(trajectories(frames), np.tile(weights, 3), progress)
 
     def _single(self, wanted: Matrix, key: bool, progress: Progress) -> GopBody:
         if key:
@@ -173,10 +181,11 @@ class GopEncoder:
         method = GopMethod.KEY_FRAME if key else GopMethod.NEXT_FRAME
         return GopBody(method, 1, self._step, 3, np.empty(0, np.int32), b"", payload)
 
-    def _transformed(self, motion: Matrix, progress: Progress) -> GopBody:
-        """Encode trajectories, shape (n, 3T)."""
-        body = self._learnt(motion)
-        wanted = motion @ projection(decode_basis(body))
+    def _transformed(self, motion: Matrix, weights: Matrix, progress: Progress) -> GopBody:
+        """Encode trajectories, shape (n, 3T), whose columns count by `weights`, shape (3T,)."""
+        motion = motion * weights
+        body = self._learnt(motion, weights)
+        wanted = motion @ projection(decode_basis(body) * weights[:, None])
         field = np.zeros_like(wanted)
         writer = LevelWriter(make_level_bank(), body.components)
         for part, first in zip(self._parts, self._setting.first, strict=True):
@@ -185,10 +194,10 @@ class GopEncoder:
             progress(len(writer.levels), len(self._parts))
         return replace(body, levels=writer.finish())
 
-    def _learnt(self, motion: Matrix) -> GopBody:
-        """The temporal basis of trajectories, shape (n, 3T), without the levels of parts."""
+    def _learnt(self, motion: Matrix, weights: Matrix) -> GopBody:
+        """The temporal basis of weighted trajectories, shape (n, 3T), without the levels of parts."""
         basis = learn_basis(motion, self._step, MAX_EXPONENT)
-        spectrum = spectrum_of(basis.columns, basis.exponents)
+        spectrum = spectrum_of(basis.columns / weights[:, None], basis.exponents)
         _, frames, columns = spectrum.shape
         writer = LevelWriter(make_level_bank(), columns)
         for matrix in spectrum:

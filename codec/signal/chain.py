@@ -10,27 +10,53 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TypeAlias
 
+import numpy as np
+
 from bsm.codec.arrays import Matrix
-from bsm.codec.basis.cost import Spend, careful_dictionary_cost, dictionary_cost, free
+from bsm.codec.basis.cost import Steps, unpaid
 from bsm.codec.basis.laplacian import laplacian_of
 from bsm.codec.basis.orthogonal_iteration import (
-    EXACT_ITERATIONS,
-    EXACT_POWER,
-    exact_basis,
+    exact_steps,
     first_columns,
     follow_columns,
-    orthogonal_iteration,
+    iteration_steps,
 )
 from bsm.codec.blocks.overlap import Block
 from bsm.codec.geometry.graph import Graph, is_connected
 from bsm.codec.signal.predict import Known, Surroundings, Suspended, unheld
 
 Rounding: TypeAlias = Callable[[Matrix], Matrix]
+Columns: TypeAlias = Callable[[int], Matrix]
+Dictionary: TypeAlias = Callable[[Surroundings, int, Columns], Matrix]
+Predictor: TypeAlias = Callable[[Surroundings], Matrix]
 
 
 def unchanged(values: Matrix) -> Matrix:
-    """The values themselves."""
+    """The values themselves, of any shape."""
     return values
+
+
+@dataclass(frozen=True)
+class Trial:
+    """What is tried in place of what the specification says; nothing, unless somebody asks for it.
+
+    Parameters
+    ----------
+    rounding : callable
+        What becomes of the numbers that dictionaries and predictions start from, see `codec.steadiness`.
+    dictionary : callable, optional
+        Takes what holds a block, the number c of columns, and a function that gives ours with so many; gives U, shape
+        (n_i, c). See `research`.
+    predictor : callable, optional
+        Takes what holds a block; gives positions, shape (n_i, 3), of which only the differences are coded.
+    """
+
+    rounding: Rounding = unchanged
+    dictionary: Dictionary | None = None
+    predictor: Predictor | None = None
+
+
+AS_SPECIFIED = Trial()
 
 
 @dataclass(frozen=True)
@@ -48,9 +74,8 @@ class ChainRules:
         z, t_max, t_max of a block without predecessor, and delta.
     stiffness : float
         Of the springs in the prediction, see `codec.signal.predict`; 0: no prediction.
-    rounding : callable
-        What becomes of the numbers that dictionaries and predictions start from: nothing, but where it is tried whether
-        a stream bears other rounding errors, see `codec.steadiness`.
+    trial : Trial
+        What is tried in place of what the specification says.
     """
 
     exact: bool
@@ -60,13 +85,7 @@ class ChainRules:
     key_iterations: int
     shift: float
     stiffness: float
-    rounding: Rounding = unchanged
-
-    def schedule(self, follows: bool) -> tuple[int, int]:
-        """Power and iterations of a block that follows another, or of one that does not."""
-        if self.exact and not follows:
-            return EXACT_POWER, EXACT_ITERATIONS
-        return self.power, self.iterations if follows else self.key_iterations
+    trial: Trial = AS_SPECIFIED
 
     @property
     def alone(self) -> bool:
@@ -92,13 +111,13 @@ def even_interval(interval: int, blocks: int) -> int:
     return -(-blocks // -(-blocks // interval)) if interval else 0
 
 
-def key_dictionary(rules: ChainRules, around: Suspended, width: int, spend: Spend = free) -> Matrix:
-    """U of a block that follows no other, with `width` columns; `spend` is told of the work."""
+def key_steps(rules: ChainRules, around: Suspended, width: int) -> Steps:
+    """U of a block that follows no other, with `width` columns, and the price of each step."""
     block = around.laplacian.block
-    start = rules.rounding(first_columns(block.size, width, rules.exact or in_pieces(block)))
+    start = rules.trial.rounding(first_columns(block.size, width, rules.exact or in_pieces(block)))
     if rules.exact:
-        return exact_basis(around.laplacian, start, around.springs, spend)
-    return orthogonal_iteration(around.factor, start, power=rules.power, iterations=rules.key_iterations, spend=spend)
+        return exact_steps(around.laplacian, start, around.springs)
+    return iteration_steps(around.factor, start, power=rules.power, iterations=rules.key_iterations)
 
 
 def in_pieces(block: Block) -> bool:
@@ -114,13 +133,10 @@ class Chain:
     rules : ChainRules
     graph : Graph
         Of the whole mesh.
-    spend : callable, optional
-        Is told of the work of each dictionary before it is done.
     """
 
-    def __init__(self, rules: ChainRules, graph: Graph, spend: Spend = free) -> None:
+    def __init__(self, rules: ChainRules, graph: Graph) -> None:
         self._rules = rules
-        self._spend = spend
         self._known = None if rules.stiffness == 0.0 or rules.alone else Known(graph, rules.stiffness)
         self._subspace: Matrix | None = None
 
@@ -130,29 +146,39 @@ class Chain:
         shift = self._rules.shift
         return unheld(laplacian, shift) if self._known is None else self._known.around(laplacian, shift)
 
-    def costs(self, around: Surroundings, width: int) -> tuple[float, float]:
-        """What `dictionary` of some width costs, and what it costs besides where it would lose columns."""
-        fronts, block = around.laplacian.fronts, around.laplacian.block
-        schedule = self._rules.schedule(self._follows(block))
-        return dictionary_cost(fronts, width, *schedule), careful_dictionary_cost(fronts, width, *schedule)
-
-    def _follows(self, block: Block) -> bool:
-        return self._subspace is not None and len(self._subspace) == block.size
-
     def dictionary(self, around: Surroundings, width: int) -> Matrix:
-        """U of a block with `width` columns (at most its rows), a function of connectivity and earlier widths only."""
-        rules, laplacian = self._rules, around.laplacian
-        width = min(width, laplacian.block.size)
-        if not self._follows(laplacian.block):
-            return key_dictionary(rules, around, width, self._spend)
-        assert self._subspace is not None
-        start = rules.rounding(follow_columns(self._subspace, width, in_pieces(laplacian.block)))
-        return orthogonal_iteration(
-            around.factor, start, power=rules.power, iterations=rules.iterations, width=width, spend=self._spend
+        """U of a block of n_i rows, shape (n_i, width), a function of connectivity and earlier widths only.
+
+        `width` is cut to the block's rows.
+        """
+        return unpaid(self.steps(around, width))
+
+    def steps(self, around: Surroundings, width: int) -> Steps:
+        """`dictionary`, with the price of each step."""
+        width, own = min(width, around.laplacian.block.size), self._rules.trial.dictionary
+        return self._specified(around, width) if own is None else self._tried(own, around, width)
+
+    def continuation(self, around: Surroundings) -> Matrix:
+        """What a block is predicted to be, shape (n_i, 3)."""
+        own = self._rules.trial.predictor
+        return around.continuation if own is None else np.ascontiguousarray(own(around), np.float64)
+
+    def _specified(self, around: Surroundings, width: int) -> Steps:
+        rules, block, previous = self._rules, around.laplacian.block, self._subspace
+        if previous is None or len(previous) != block.size:
+            return key_steps(rules, around, width)
+        start = rules.trial.rounding(follow_columns(previous, width, in_pieces(block)))
+        return iteration_steps(around.factor, start, power=rules.power, iterations=rules.iterations, width=width)
+
+    def _tried(self, own: Dictionary, around: Surroundings, width: int) -> Steps:
+        """A dictionary of somebody's own, whose price nobody knows."""
+        yield from ()
+        return np.ascontiguousarray(
+            own(around, width, lambda width: unpaid(self._specified(around, width))), np.float64
         )
 
     def commit(self, block: Block, subspace: Matrix, positions: Matrix) -> None:
         """Make a block, its subspace and its decoded positions, shape (n_i, 3), the predecessor's."""
         self._subspace = subspace
         if self._known is not None:
-            self._known.add(block, self._rules.rounding(positions))
+            self._known.add(block, self._rules.trial.rounding(positions))

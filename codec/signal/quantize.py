@@ -18,7 +18,7 @@ half of it costs 1.8 %, twice 2.5 % (tools.constants).
 
 
 def dequantize(levels: Integers, step: float) -> Matrix:
-    """Coefficients of `levels`."""
+    """Coefficients of `levels`, shape (c, 3)."""
     return np.asarray(levels * step, dtype=np.float64)
 
 
@@ -55,7 +55,7 @@ def quantize_packed(coefficients: Matrix, step: float, coarser: int) -> npt.NDAr
 
 
 def levels_to_unsigned(levels: Integers, bits: int, coarser: int) -> npt.NDArray[np.uint32]:
-    """Levels of `quantize_packed` as unsigned integers of `bits` bits."""
+    """Levels of `quantize_packed`, shape (c, 3), as unsigned integers of `bits` bits."""
     stored = levels.copy()
     stored[0] >>= coarser
     half = 1 << (bits - 1)

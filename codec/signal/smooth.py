@@ -14,7 +14,6 @@ import numpy.typing as npt
 
 from bsm.codec import _kernels
 from bsm.codec.arrays import Indices, Matrix, Order
-from bsm.codec.basis.cost import Spend, free
 from bsm.codec.geometry.graph import Graph
 
 DEGREE = 5
@@ -22,7 +21,7 @@ NODES = (0.4, 0.9, 1.4, 1.8)
 
 
 def filter_polynomial(amount: float) -> Matrix:
-    """Coefficients p_2 .. p_5 of p(x) = 1 + p_2 x^2 + ... + p_5 x^5.
+    """Coefficients p_2 .. p_5 of p(x) = 1 + p_2 x^2 + ... + p_5 x^5, shape (DEGREE - 1,).
 
     p(0) = 1 and p'(0) = 0; at four nodes in the spectrum of K, p equals 1 / (1 + alpha x^2), with alpha = `amount`.
     Newton's divided differences of (p(x) - 1) / x^2 = -alpha / (1 + alpha x^2), expanded.
@@ -64,13 +63,13 @@ class Spectrum:
     terms: Matrix
 
     def smoothed(self, amount: float) -> Matrix:
-        """`smooth` of the positions by `amount`."""
+        """`smooth` of the positions by `amount`, shape (n, 3)."""
         smoothed = np.empty(self.positions.shape)
         _kernels.combine_powers(self.positions, self.terms.reshape(-1), filter_polynomial(amount), smoothed)
         return smoothed
 
     def only(self, vertices: npt.NDArray[np.integer]) -> Spectrum:
-        """Smoothing of some of the vertices only."""
+        """Smoothing of some of the vertices only, shape (k,)."""
         return Spectrum(self.positions[vertices], np.ascontiguousarray(self.terms[:, vertices]))
 
     def __post_init__(self) -> None:
@@ -92,6 +91,28 @@ LOOK, CALL = 18.0, 2e4
 """Nanoseconds for looking at an edge while rings are found, and for finding them at all."""
 
 
+@dataclass(frozen=True, eq=False)
+class Rings:
+    """Vertices and the rings around them.
+
+    Parameters
+    ----------
+    inner : int
+        Number of the vertices in the middle, which come first.
+    rows : int32 array
+        All vertices, ring after ring.
+    starts : int64 array
+        Ring k ends before entry k.
+    work : float
+        What finding them cost, and what filtering costs at most, nanoseconds.
+    """
+
+    inner: int
+    rows: Indices
+    starts: Order
+    work: float
+
+
 class LocalFilter:
     """`smooth` for some vertices at a time, from positions that need to be known only `DEGREE` rings around them.
 
@@ -99,30 +120,31 @@ class LocalFilter:
     ----------
     graph : Graph
     amount : float
-    spend : callable, optional
-        Is told of the work for each call.
     """
 
-    def __init__(self, graph: Graph, amount: float, spend: Spend = free) -> None:
+    def __init__(self, graph: Graph, amount: float) -> None:
         self._graph = graph
-        self._spend = spend
         self._amount = amount
         # Number of each vertex among those at hand; -1 between calls.
         self._number = np.full(graph.size, -1, np.int32)
         self._rows = np.empty(graph.size, np.int32)
 
-    def around(self, vertices: Indices, rings: int) -> Indices:
-        """`vertices` and all others at most `rings` edges away, ring after ring."""
-        rows, _ = self._rings(vertices, rings)
+    def around(self, vertices: Indices, rings: int) -> Rings:
+        """`vertices`, shape (k,), all different, and all others at most `rings` edges away."""
+        starts = np.empty(rings + 1, np.int64)
+        count = _kernels.find_rings(
+            self._graph.offsets, self._graph.neighbours, self._number, vertices, self._rows, starts
+        )
+        rows = self._rows[:count].copy()
         self._number[rows] = -1
-        return rows
+        edges = int((self._graph.offsets[rows + 1] - self._graph.offsets[rows]).sum())
+        return Rings(len(vertices), rows, starts, CALL + LOOK * edges)
 
-    def smoothed(self, positions: Matrix, vertices: Indices) -> Matrix:
-        """The rows `vertices`, all different, of `smooth` of `positions`, shape (n, 3)."""
-        if self._amount == 0.0:
-            return positions[vertices]
-        rows, starts = self._rings(vertices, DEGREE)
-        smoothed = np.empty((len(vertices), 3))
+    def smoothed(self, positions: Matrix, rings: Rings) -> Matrix:
+        """Rows of `smooth` of `positions`, shape (n, 3): the vertices that have `DEGREE` rings around them."""
+        rows, starts = rings.rows, rings.starts
+        self._number[rows] = np.arange(len(rows), dtype=np.int32)
+        smoothed = np.empty((rings.inner, 3))
         _kernels.filter_rows(
             self._graph.offsets,
             self._graph.neighbours,
@@ -137,16 +159,3 @@ class LocalFilter:
         )
         self._number[rows] = -1
         return smoothed
-
-    def _rings(self, vertices: Indices, rings: int) -> tuple[Indices, Order]:
-        """`vertices` and the rings around them, ring k ending before entry k of the second array.
-
-        `_number` becomes the place of each in the list.
-        """
-        starts = np.empty(rings + 1, np.int64)
-        count = _kernels.find_rings(
-            self._graph.offsets, self._graph.neighbours, self._number, vertices, self._rows, starts
-        )
-        rows = self._rows[:count].copy()
-        self._spend(CALL + LOOK * int((self._graph.offsets[rows + 1] - self._graph.offsets[rows]).sum()))
-        return rows, starts

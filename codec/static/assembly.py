@@ -13,7 +13,7 @@ from bsm.codec.basis.cost import Spend, free
 from bsm.codec.blocks.blend import Blend
 from bsm.codec.blocks.overlap import Blocks
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.codec.signal.smooth import DEGREE, LocalFilter, smooth
+from bsm.codec.signal.smooth import DEGREE, LocalFilter, Rings, smooth
 from bsm.codec.static.attributes.solid import Solid
 from bsm.codec.static.events import Changes, Losses
 from bsm.codec.static.numbering import Numbering
@@ -34,7 +34,7 @@ class DecodedBlock:
 
 
 def blended(size: int, blocks: Iterable[DecodedBlock]) -> Matrix:
-    """Positions of all `size` vertices, in BSM units, from all blocks."""
+    """Positions of all `size` vertices, shape (size, 3), in BSM units, from all blocks."""
     blend = Blend(size)
     for block in blocks:
         blend.add(block.vertices, block.positions, block.weights)
@@ -120,7 +120,22 @@ class Assembly:
 
     @cached_property
     def _filter(self) -> LocalFilter:
-        return LocalFilter(self._graph, self._smoothing, self._spend)
+        return LocalFilter(self._graph, self._smoothing)
+
+    def _rings(self, vertices: Indices, rings: int) -> Rings:
+        found = self._filter.around(vertices, rings)
+        self._spend(found.work)
+        return found
+
+    def _around(self, vertices: Indices, rings: int) -> Indices:
+        """`vertices` and all others at most `rings` edges away, ring after ring."""
+        return self._rings(vertices, rings).rows
+
+    def _smoothed(self, vertices: Indices) -> Matrix:
+        """What the filter makes of blended positions, of some vertices."""
+        if self._smoothing == 0.0:
+            return self._blended[vertices]
+        return self._filter.smoothed(self._blended, self._rings(vertices, DEGREE))
 
     def add(self, block: DecodedBlock) -> None:
         """Blend one block in."""
@@ -158,7 +173,7 @@ class Assembly:
         known = self._blend.known(everything)
         positions = np.zeros((len(everything), 3))
         positions[known] = self._blend.positions(everything[known])
-        spoilt = self._filter.around(self._touched(), (DEGREE if self._smoothing else 0) + 1)
+        spoilt = self._around(self._touched(), (DEGREE if self._smoothing else 0) + 1)
         whole = np.ones(len(everything), np.bool_)
         whole[spoilt] = False
         return smooth(self._graph, positions, self._smoothing), whole
@@ -174,7 +189,7 @@ class Assembly:
         finished = self._finished(self._completed(block.vertices))
         self._final[finished] = True
         moved = seen[~self._final[seen]]
-        done = self._filter.smoothed(self._blended, finished)
+        done = self._smoothed(finished)
         return self._told(np.concatenate([moved, finished]), np.concatenate([self._blended[moved], done]), finished)
 
     def _told(self, changed: Indices, positions: Matrix, finished: Indices) -> Changes:
@@ -199,7 +214,7 @@ class Assembly:
         touched = self._touched()
         known = self._blend.known(touched)
         reach = DEGREE if self._smoothing else 0
-        around = self._filter.around(touched, reach)
+        around = self._around(touched, reach)
         degraded = around[self._blend.known(around)]
         return Losses(self._numbering.of(touched[~known]), self._numbering.of(np.sort(degraded)))
 
@@ -213,7 +228,7 @@ class Assembly:
         """Vertices that become final when all copies of `complete` have come: none that the filter sees is missing."""
         if self._smoothing == 0.0:
             return complete
-        around = self._filter.around(complete, 2 * DEGREE)
-        waiting = self._filter.around(around[self._missing[around] > 0], DEGREE)
-        candidates = self._filter.around(complete, DEGREE)
+        around = self._around(complete, 2 * DEGREE)
+        waiting = self._around(around[self._missing[around] > 0], DEGREE)
+        candidates = self._around(complete, DEGREE)
         return np.setdiff1d(candidates[~self._final[candidates]], waiting)

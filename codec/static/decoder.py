@@ -14,7 +14,7 @@ from bsm.bitstream.container.wire import FrameType
 from bsm.bitstream.errors import ArgumentError, BsmError, CorruptError, OptionError, UnsupportedError
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.codec.signal.chain import Rounding, unchanged
+from bsm.codec.signal.chain import AS_SPECIFIED, Trial
 from bsm.codec.static.assembly import Assembly, DecodedBlock, Place
 from bsm.codec.static.attributes.decoding import PendingValues, ValuesStage, completed
 from bsm.codec.static.events import (
@@ -29,7 +29,7 @@ from bsm.codec.static.events import (
 )
 from bsm.codec.static.rules import chain_rules
 from bsm.codec.static.stages import Arrival, Stage, StreamDecoder, misplaced
-from bsm.codec.static.structure import Beginning, Body, Structure
+from bsm.codec.static.structure import DecoderSetup, HeaderStage, Structure
 from bsm.codec.static.ways.block_coder import ChainDecoder
 from bsm.codec.static.ways.grid import GridStage
 from bsm.codec.static.ways.refinement import PendingLevels, RefinementStage
@@ -60,8 +60,8 @@ Item: TypeAlias = Event | PendingBlock | PendingLevels | PendingValues | Complet
 
 
 @dataclass(frozen=True)
-class Wishes:
-    """What the user of a `Decoder` has asked for; see there."""
+class DecoderRequest:
+    """What the user of a `Decoder` asks for; see its parameters."""
 
     tolerant: bool
     refinements: int
@@ -70,9 +70,9 @@ class Wishes:
 class BlockStage:
     """The faces are known, or those of one section; its blocks come, and then the next section."""
 
-    def __init__(self, structure: Structure, wishes: Wishes, lanes: Lanes) -> None:
+    def __init__(self, structure: Structure, request: DecoderRequest, lanes: Lanes) -> None:
         self._structure = structure
-        self._wishes = wishes
+        self._request = request
         self._scheme = structure.scheme
         self._lanes = lanes
         section = structure.section
@@ -83,7 +83,7 @@ class BlockStage:
             structure.units,
             structure.numbering,
             structure.allowance.spend,
-            Place(self._blocks.start, structure.opened.before, section.is_last),
+            Place(self._blocks.start, structure.connectivity.before, section.is_last),
         )
         self._chain = ChainDecoder(self._scheme, 0, structure.allowance)
         self._next = self._blocks.start
@@ -98,7 +98,7 @@ class BlockStage:
                 if (
                     self._next == self._structure.header.blocks
                     and self._structure.header.layers
-                    and not self._wishes.refinements
+                    and not self._request.refinements
                 ):
                     complete = completed(self._assembly, self._structure)
                     queue.append(complete)
@@ -115,14 +115,14 @@ class BlockStage:
                 raise CorruptError(f"the faces of section {section.number + 1} of {section.count} are missing")
             case packets.Refinement():
                 self._skip_to(self._blocks.stop, queue)
-                wishes = self._wishes
+                request = self._request
                 refinement = RefinementStage(
-                    self._assembly, self._structure, self._lanes, wishes.refinements, wishes.tolerant
+                    self._assembly, self._structure, self._lanes, request.refinements, request.tolerant
                 )
                 return refinement.accept(arrival, queue)
             case packets.Values():
                 self._skip_to(self._blocks.stop, queue)
-                values = ValuesStage(self._assembly, self._structure, self._wishes.tolerant)
+                values = ValuesStage(self._assembly, self._structure, self._request.tolerant)
                 return values.accept(arrival, queue)
             case packets.End():
                 self._end(queue)
@@ -144,7 +144,7 @@ class BlockStage:
         """Give up the blocks before `index` that did not come."""
         for lost in range(self._next, index):
             error = CorruptError("the frame of the block is missing", block=lost)
-            if not self._wishes.tolerant:
+            if not self._request.tolerant:
                 raise error
             self._assembly.lose(lost)
             queue.append(LossEvent(lost, error))
@@ -175,8 +175,8 @@ class Decoder(StreamDecoder[Item]):
     layers : int, optional
         How many to decode: 1 is the base alone, and each layer of refinement one more; None: all. What comes behind
         them is not waited for.
-    rounding : callable, optional
-        What is done to the numbers that dictionaries and predictions start from; see `ChainRules`.
+    trial : Trial, optional
+        What is tried in place of what the specification says; see `codec.signal.chain`.
     """
 
     def __init__(
@@ -186,7 +186,7 @@ class Decoder(StreamDecoder[Item]):
         *,
         tolerant: bool = False,
         layers: int | None = None,
-        rounding: Rounding = unchanged,
+        trial: Trial = AS_SPECIFIED,
     ) -> None:
         if layers is not None and (isinstance(layers, bool) or not isinstance(layers, Integral)):
             raise ArgumentError(f"layers must be a whole number or None, not {layers!r}")
@@ -194,24 +194,24 @@ class Decoder(StreamDecoder[Item]):
             raise OptionError("at least one layer must be decoded")
         lanes = Lanes(threads)
         self._most_ahead = 1
-        wishes = Wishes(tolerant, MOST_LAYERS if layers is None else layers - 1)
+        request = DecoderRequest(tolerant, MOST_LAYERS if layers is None else layers - 1)
 
         def begin(structure: Structure) -> Stage[Item]:
             if structure.header.grid:
                 return GridStage(structure, tolerant)
             self._most_ahead = most_ahead(structure.graph.size, structure.header.block_size)
-            return BlockStage(structure, wishes, lanes)
+            return BlockStage(structure, request, lanes)
 
         allowance = Allowance(limits)
-        body = Body(
+        setup = DecoderSetup(
             allowance,
             check=lambda header: check_header(header, limits),
             begin=begin,
             tolerant=tolerant,
-            rounding=rounding,
+            trial=trial,
             threads=threads,
         )
-        super().__init__(Beginning(body), allowance, tolerant=tolerant)
+        super().__init__(HeaderStage(setup), allowance, tolerant=tolerant)
         self._lanes = lanes
 
     def close(self) -> None:

@@ -18,7 +18,7 @@ from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.metrics import Comparison, Reference
 from bsm.codec.signal.quantize import smallest_step
 from bsm.codec.static.admission import as_of_decoders
-from bsm.codec.static.attributes.encoding import Carried, carry, place_of, with_attributes
+from bsm.codec.static.attributes.encoding import PreparedAttribute, carry, place_of, with_attributes
 from bsm.codec.static.attributes.quality import Quality, qualities
 from bsm.codec.static.choice.fulfilment import Fulfilment
 from bsm.codec.static.choice.judge import Sight
@@ -28,7 +28,7 @@ from bsm.codec.static.choice.shaping import Shaper
 from bsm.codec.static.choice.spectral import Spectral
 from bsm.codec.static.contract import Contract
 from bsm.codec.static.draft import Draft
-from bsm.codec.static.joining import Joined, join
+from bsm.codec.static.joining import JoinedMesh, join
 from bsm.codec.static.options import EncodeOptions, finer_promises
 from bsm.codec.static.preamble import Parts, Prepared, prepare
 from bsm.codec.static.targets import Target, search_step
@@ -123,7 +123,7 @@ class Encoder:
 
     @property
     def vertex_order(self) -> Order:
-        """The decoder's vertex j is vertex `vertex_order[j]` of the given mesh, or at its place; int64."""
+        """The decoder's vertex j is vertex `vertex_order[j]` of the given mesh, or at its place; int64, shape (k,)."""
         if self._joined.splits is not None:
             return np.arange(len(self._given.positions))
         return self._joined.first[self._prepared.vertex_order]
@@ -132,7 +132,7 @@ class Encoder:
     def vertex_index(self) -> Order:
         """The given mesh's vertex i is the decoder's vertex `vertex_index[i]`; -1: it is in no face, and not there.
 
-        int64, as long as the given mesh has vertices.
+        int64, shape (n,), with n the vertices of the given mesh.
         """
         if self._joined.splits is not None:
             return np.arange(len(self._given.positions))
@@ -310,13 +310,13 @@ class Encoder:
         return qualities(self._given.attributes, dict(options.attributes), options.grade, options.normals)
 
     @cached_property
-    def _carried(self) -> tuple[Carried, ...]:
+    def _carried(self) -> tuple[PreparedAttribute, ...]:
         if not self._wanted:
             return ()
         return carry(place_of(self._given, self._joined, self._prepared), self._wanted)
 
     @cached_property
-    def _joined(self) -> Joined:
+    def _joined(self) -> JoinedMesh:
         return join(self._given, keep=self.options.keep_order, exact=self.options.exact)
 
     @cached_property

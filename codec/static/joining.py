@@ -14,7 +14,7 @@ from bsm.codec.geometry.welding import weld
 
 
 @dataclass(frozen=True, eq=False)
-class Joined:
+class JoinedMesh:
     """What becomes of a given mesh.
 
     Parameters
@@ -41,7 +41,7 @@ class Joined:
     notes: tuple[str, ...]
 
 
-def join(mesh: TriangleMesh, *, keep: bool, exact: bool = False) -> Joined:
+def join(mesh: TriangleMesh, *, keep: bool, exact: bool = False) -> JoinedMesh:
     """Make vertices at one position one.
 
     Faces that this robs of their area are left out, unless that would leave none, or the given mesh is to be kept.
@@ -89,7 +89,7 @@ def join(mesh: TriangleMesh, *, keep: bool, exact: bool = False) -> Joined:
         notes.append(f"{int(collapsed.sum())} faces without area were left out")
     if loose and not keep:
         notes.append(f"{loose} vertices that no face uses were left out")
-    return Joined(joined, index, first, kept, splits, tuple(notes))
+    return JoinedMesh(joined, index, first, kept, splits, tuple(notes))
 
 
 def _single(mesh: TriangleMesh) -> tuple[TriangleMesh, int]:

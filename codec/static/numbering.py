@@ -47,11 +47,14 @@ class Numbering:
         return ConnectivityEvent(self.faces[known:], size, changes, section, sections)
 
     def of(self, vertices: Indices) -> Indices:
-        """The user's numbers of coded vertices, of all copies of each."""
+        """The user's numbers, shape (c,), of coded vertices, shape (k,): of all copies of each."""
         return self.spread(vertices)[0]
 
     def spread(self, vertices: Indices) -> tuple[Indices, Order | slice]:
-        """The user's numbers of coded vertices, and for each the row of `vertices` that it is a copy of."""
+        """The user's numbers of coded vertices, shape (k,), and for each the row of `vertices` that it is a copy of.
+
+        Both have shape (c,), all copies of each vertex; the rows may be a slice, where every vertex is its own.
+        """
         if self._rows is None:
             return vertices, slice(None)
         starts, members = self._rows

@@ -130,7 +130,7 @@ class Prepared:
 
     @cached_property
     def component_sizes(self) -> Indices:
-        """Vertices of each connected component."""
+        """Vertices of each connected component, shape (k,)."""
         return component_sizes(self.graph)
 
     @property

@@ -8,7 +8,7 @@ from typing import Any
 from bsm.bitstream.container.header import Header
 from bsm.codec.arrays import Faces
 from bsm.codec.blocks.overlap import Blocks
-from bsm.codec.signal.chain import ChainRules, Rounding, unchanged
+from bsm.codec.signal.chain import AS_SPECIFIED, ChainRules, Trial
 from bsm.codec.static.coding import Coding, coding_of
 
 KEY_SEEDS = ("cosines", "svd")
@@ -62,9 +62,9 @@ class Scheme:
         }
 
 
-def scheme_of(header: Header, faces: Faces, blocks: Blocks, rounding: Rounding = unchanged, first: int = 0) -> Scheme:
+def scheme_of(header: Header, faces: Faces, blocks: Blocks, trial: Trial = AS_SPECIFIED, first: int = 0) -> Scheme:
     """What the header says; `faces`, shape (m, 3), as the decoder numbers them; see `Scheme`."""
-    rules = replace(chain_rules(header), rounding=rounding)
+    rules = replace(chain_rules(header), trial=trial)
     return Scheme(blocks, rules, coding_of(header, faces, blocks.graph.size), first)
 
 

@@ -116,7 +116,7 @@ class StreamDecoder(ABC, Generic[Item]):
             if packet is NEED_DATA:
                 return False
             if isinstance(packet, Metadata):
-                self.metadata = packet.entries
+                self.metadata = {**self.metadata, **packet.entries}
             else:
                 self._stage = self._stage.accept(packet, self._queue)
         except BsmError as error:

@@ -1,7 +1,8 @@
 """What a decoder gets before positions, from what `codec.static.preamble` prepares.
 
-It comes in packets, in three stages (`codec.static.stages`): `Beginning` waits for the header, `Opened` for the faces,
-`Connected` for labels and order, until something else comes. A mesh that comes in sections is `Opened` again for each.
+They pass three stages (`codec.static.stages`): `HeaderStage` takes the header, `ConnectivityStage` the faces, and
+`PreambleStage` labels, order and declarations, until something else comes. Each further section of a mesh begins at
+`ConnectivityStage` again.
 """
 
 from __future__ import annotations
@@ -25,7 +26,7 @@ from bsm.codec.arrays import Faces
 from bsm.codec.blocks.overlap import grow_blocks
 from bsm.codec.blocks.partition import Partition, derive_last_parts, partition_of_labels
 from bsm.codec.geometry.graph import Graph, graph_of_faces
-from bsm.codec.signal.chain import Rounding, unchanged
+from bsm.codec.signal.chain import AS_SPECIFIED, Trial
 from bsm.codec.static.assembly import Assembly
 from bsm.codec.static.attributes.decoding import Declarations
 from bsm.codec.static.events import HeaderEvent, LossEvent, unreadable
@@ -76,7 +77,7 @@ class Section:
         return self.number == self.count - 1
 
 
-class Growth:
+class SectionReader:
     """The mesh, section by section, as CONNECTIVITYs come.
 
     Parameters
@@ -130,7 +131,7 @@ class Structure:
 
     Parameters
     ----------
-    opened : Opened
+    connectivity : ConnectivityStage
         Where the decoder stood before; takes the next section.
     section : Section
     numbering : Numbering
@@ -140,7 +141,7 @@ class Structure:
         Attributes.
     """
 
-    opened: Opened
+    connectivity: ConnectivityStage
     section: Section
     numbering: Numbering
     partition: Partition | None
@@ -149,7 +150,7 @@ class Structure:
     @property
     def header(self) -> Header:
         """What is said of the whole mesh."""
-        return self.opened.header
+        return self.connectivity.header
 
     @property
     def faces(self) -> Faces:
@@ -164,7 +165,7 @@ class Structure:
     @property
     def allowance(self) -> Allowance:
         """What may still be done."""
-        return self.opened.body.allowance
+        return self.connectivity.setup.allowance
 
     @property
     def units(self) -> Units:
@@ -180,72 +181,72 @@ class Structure:
         CorruptError
             If a part is larger than the header allows for a block.
         """
-        header, section, body = self.header, self.section, self.opened.body
+        header, section, setup = self.header, self.section, self.connectivity.setup
         blocks = len(section.span.blocks)
         copies = blocks * min(header.block_size, self.graph.size)
         self.allowance.keep(COPY_MEMORY * copies)
         self.allowance.spend(partition_cost(self.graph, section.first, blocks, copies))
-        partition = self.partition or derive_last_parts(self.graph, section.first, blocks, body.threads)
+        partition = self.partition or derive_last_parts(self.graph, section.first, blocks, setup.threads)
         largest = int(np.diff(partition.bounds).max())
         if largest > header.block_size:
             raise CorruptError(f"a part of {largest} vertices in blocks of {header.block_size}")
         grown = grow_blocks(self.graph, partition, header.block_size)
-        return scheme_of(header, self.faces, grown, body.rounding, section.span.blocks.start)
+        return scheme_of(header, self.faces, grown, setup.trial, section.span.blocks.start)
 
-    def following(self, assembly: Assembly) -> Opened:
+    def following(self, assembly: Assembly) -> ConnectivityStage:
         """What takes the next section, which is added to `assembly`."""
-        return replace(self.opened, before=assembly)
+        return replace(self.connectivity, before=assembly)
 
 
 @dataclass(frozen=True)
-class Body:
-    """What a decoder is for: which headers it takes, what it may do, what comes behind the preamble, and how numbers
-    are rounded.
+class DecoderSetup:
+    """How a decoder reads the preamble: which headers it takes, what it may spend, which stage comes behind, and what
+    is tried.
     """
 
     allowance: Allowance
     check: Callable[[Header], None]
     begin: Callable[[Structure], Stage[Any]]
     tolerant: bool = False
-    rounding: Rounding = unchanged
+    trial: Trial = AS_SPECIFIED
     threads: int | None = 1
 
 
 @dataclass(frozen=True, eq=False)
-class Beginning:
-    """Nothing is known."""
+class HeaderStage:
+    """Waits for the header."""
 
-    body: Body
+    setup: DecoderSetup
 
     def accept(self, arrival: Arrival, queue: deque[Any]) -> Stage[Any]:
         if not isinstance(arrival, Header):
             raise unreadable(arrival) if isinstance(arrival, packets.Damaged) else misplaced(arrival)
-        self.body.check(arrival)
+        self.setup.check(arrival)
         queue.append(HeaderEvent(arrival))
-        return Opened(self.body, arrival, Growth(arrival, self.body.allowance))
+        return ConnectivityStage(self.setup, arrival, SectionReader(arrival, self.setup.allowance))
 
 
 @dataclass(frozen=True, eq=False)
-class Opened:
-    """The header is known; or a section has come, and was put together, and there are more."""
+class ConnectivityStage:
+    """Waits for connectivity: of the mesh, or of its next section once the one before is put together."""
 
-    body: Body
+    setup: DecoderSetup
     header: Header
-    growth: Growth
+    sections: SectionReader
     before: Assembly | None = None
 
     def accept(self, arrival: Arrival, queue: deque[Any]) -> Stage[Any]:
         if not isinstance(arrival, packets.Connectivity):
             raise unreadable(arrival) if isinstance(arrival, packets.Damaged) else misplaced(arrival)
-        section = self.growth.take(arrival)
-        return Connected(self, section, Numbering(section.faces), Declarations(section.faces, section.graph.size))
+        section = self.sections.take(arrival)
+        return PreambleStage(self, section, Numbering(section.faces), Declarations(section.faces, section.graph.size))
 
 
 @dataclass(frozen=True, eq=False)
-class Connected:
-    """The faces are known, and what has come of labels, order and attributes; parts are derived unless labels come."""
+class PreambleStage:
+    """Knows the faces, and takes labels, order and declarations of attributes; parts are derived unless labels come."""
 
-    opened: Opened
+    connectivity: ConnectivityStage
     section: Section
     numbering: Numbering
     declarations: Declarations
@@ -256,7 +257,7 @@ class Connected:
             case packets.Partition(data):
                 graph = self.section.graph
                 self._body.allowance.spend(labels_cost(graph, len(data)), len(data))
-                labels = decode_labels(data, graph.offsets, graph.neighbours, self.opened.header.blocks)
+                labels = decode_labels(data, graph.offsets, graph.neighbours, self.connectivity.header.blocks)
                 return replace(self, partition=partition_of_labels(labels))
             case packets.Order(data):
                 return replace(self, numbering=self._numbering(data))
@@ -269,7 +270,7 @@ class Connected:
                 raise unreadable(arrival)
             case _:
                 section = self.section
-                structure = Structure(self.opened, section, self.numbering, self.partition, self.declarations)
+                structure = Structure(self.connectivity, section, self.numbering, self.partition, self.declarations)
                 if not self._body.tolerant:
                     for declared in self.declarations.known:
                         self.declarations.rows_of(declared, self.numbering)
@@ -279,8 +280,8 @@ class Connected:
                 return following.accept(arrival, queue)
 
     @property
-    def _body(self) -> Body:
-        return self.opened.body
+    def _body(self) -> DecoderSetup:
+        return self.connectivity.setup
 
     def _declared(self, packet: packets.Attribute, queue: deque[Any]) -> Stage[Any]:
         try:
@@ -292,7 +293,7 @@ class Connected:
             return self
 
     def _numbering(self, data: bytes) -> Numbering:
-        header, allowance = self.opened.header, self._body.allowance
+        header, allowance = self.connectivity.header, self._body.allowance
         allowance.keep(order_memory(header.vertices, header.faces), len(data))
         allowance.spend(order_cost(header.vertices, header.faces, len(data)), len(data))
         order, splits = decode_order(data, self.section.faces, header.vertices, allowance.limits)

@@ -27,11 +27,11 @@ class Units:
     scale: float
 
     def into(self, positions: Positions) -> Matrix:
-        """Positions of the mesh in BSM units."""
+        """Positions of the mesh, shape (n, 3), in BSM units."""
         return np.asarray((positions - np.array(self.center)) / self.scale)
 
     def back(self, positions: Matrix, out: Matrix | None = None) -> Positions:
-        """Positions in BSM units as the mesh has them; in `out`, which may be those given.
+        """Positions in BSM units, shape (n, 3), as the mesh has them; in `out`, which may be those given.
 
         Raises
         ------

@@ -13,6 +13,7 @@ import numpy as np
 
 from bsm.api import decode, save
 from bsm.bitstream.errors import DependencyError, OptionError
+from bsm.bitstream.extras import how_to_install
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.splitting import split_by_attributes
 from bsm.meshes import as_mesh
@@ -37,7 +38,7 @@ def to_pyvista(mesh: Any) -> Any:
     try:
         import pyvista
     except ImportError as error:
-        raise DependencyError("pyvista is not installed; run: pip install 'bsm-codec[pyvista]'") from error
+        raise DependencyError(f"pyvista is not installed; run: {how_to_install('pyvista')}") from error
     mesh = split_by_attributes(as_mesh(mesh))
     found = pyvista.PolyData.from_regular_faces(np.array(mesh.positions), mesh.faces)
     for attribute in mesh.attributes:

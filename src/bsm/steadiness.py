@@ -16,7 +16,7 @@ from bsm.bitstream.errors import NumericError
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.codec.arrays import Matrix, Positions
 from bsm.codec.sequence.decoder import FrameEvent, SequenceDecoder
-from bsm.codec.signal.chain import Rounding, unchanged
+from bsm.codec.signal.chain import Rounding, Trial, unchanged
 from bsm.codec.static.decoder import Decoder
 
 NOISE = 2.0**-46
@@ -75,14 +75,14 @@ def _decoded(stream: bytes, limits: Limits, threads: int | None, rounding: Round
     header = reader.next_packet()
     if isinstance(header, Header) and header.gop_frames:
         frames: list[Positions] = []
-        with SequenceDecoder(limits, threads, rounding=rounding) as decoder:
+        with SequenceDecoder(limits, threads, trial=Trial(rounding)) as decoder:
             decoder.receive_data(stream)
             decoder.receive_eof()
             while (event := decoder.next_event()) is not END_OF_STREAM:
                 if isinstance(event, FrameEvent):
                     frames.append(event.positions)
         return np.array(frames), header.scale
-    with Decoder(limits, threads, rounding=rounding) as static:
+    with Decoder(limits, threads, trial=Trial(rounding)) as static:
         static.receive_data(stream)
         mesh = static.finish()
     return mesh.positions, header.scale if isinstance(header, Header) else 1.0

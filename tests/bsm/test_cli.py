@@ -144,7 +144,7 @@ def test_some_blocks_are_a_part_of_the_mesh(folder, tmp_path, capsys):
 
 
 def test_sections_are_made_shown_and_decoded(folder, tmp_path, capsys, mesh):
-    words = ["encode", folder / "sample.ply", "-q", "-o", tmp_path / "a.bsm", "--sections", 3, *SMALL]
+    words = ["encode", folder / "sample.ply", "-q", "-o", tmp_path / "a.bsm", "--set", "sections=3", *SMALL]
     assert main(list(map(str, words))) == 0
     info = run_json(capsys, "info", tmp_path / "a.bsm")
     sections = info["sections"]
@@ -247,8 +247,11 @@ FAILURES = {
     "unknown output format": (["decode", "{folder}/sample.bsm", "-o", "{tmp}/a.xyz"], 2),
     "json into a pipe": (["encode", "{folder}/sample.ply", "-o", "-", "--json"], 2),
     "output is the input": (["encode", "{folder}/sample.bsm"], 2),
-    "no sections": (["encode", "{folder}/sample.ply", "-o", "{tmp}/a.bsm", "--sections", "0"], 2),
-    "sections in order": (["encode", "{folder}/sample.ply", "-o", "{tmp}/a.bsm", "--sections", "2", "--keep-order"], 2),
+    "no sections": (["encode", "{folder}/sample.ply", "-o", "{tmp}/a.bsm", "--set", "sections=0"], 2),
+    "sections in order": (
+        ["encode", "{folder}/sample.ply", "-o", "{tmp}/a.bsm", "--set", "sections=2", "--keep-order"],
+        2,
+    ),
     "no blocks": (["decode", "{folder}/sample.bsm", "-o", "{tmp}/a.ply", "--blocks", "0"], 2),
     "not a stream": (["decode", "{folder}/sample.ply", "-o", "{tmp}/a.ply"], 3),
     "not a mesh": (["encode", "{folder}/sample.bsm", "-o", "{tmp}/a.bsm"], 3),
@@ -299,7 +302,7 @@ def test_scipy_is_asked_for_where_it_is_needed(words, folder, tmp_path):
         text=True,
         check=False,
     )
-    assert done.returncode == 8 and "pip install 'bsm-codec[" in done.stderr and done.stderr.count("\n") == 1
+    assert done.returncode == 8 and "pip install " in done.stderr and done.stderr.count("\n") == 1
 
 
 def test_force_overwrites(folder, tmp_path):

@@ -13,7 +13,7 @@ from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.metrics import Reference
 from bsm.codec.static.options import EncodeOptions
-from bsm.evaluation.codecs import Curve, Draco, Spectral, paper_options
+from bsm.evaluation.codecs import Curve, Draco, Spectral, our_curve, paper_options
 from bsm.evaluation.per_block import (
     BlockView,
     boundary_deviations,
@@ -248,6 +248,12 @@ class TestBlocks:
 
 
 class TestCommands:
+    def test_our_curve_goes_as_far_as_draco(self):
+        mesh = patch(20, 25)
+        finest = our_curve(fine=True).codecs[-1]
+        point = json.loads(json.dumps(measure(finest, mesh, Reference(mesh.positions, mesh.faces))))
+        assert point["theta_deg"] <= 0.2 and point["settings"]["target"] == {"kind": "theta_deg", "value": 0.2}
+
     def test_curve(self, tmp_path, capsys):
         write_mesh(tmp_path / "torus.npz", torus(20, 20))
         folder = tmp_path / "out"

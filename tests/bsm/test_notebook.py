@@ -28,6 +28,15 @@ def test_mesh_is_encoded_and_compared_with_itself():
     assert sorted(map(tuple, original)) == sorted(map(tuple, MESH.positions.astype(np.float32)))
 
 
+def test_mesh_is_shown_without_scipy(monkeypatch):
+    for name in [name for name in sys.modules if name.startswith("bsm.evaluation")]:
+        monkeypatch.delitem(sys.modules, name)
+    monkeypatch.delattr(bsm, "evaluation", raising=False)
+    monkeypatch.setitem(sys.modules, "scipy", None)
+    widget = bsm.show(MESH)
+    assert len(widget.original) == 12 * len(MESH.positions)
+
+
 def test_file_is_read(tmp_path):
     path = tmp_path / "ball.bsm"
     path.write_bytes(bsm.encode(MESH))
@@ -49,5 +58,31 @@ def test_what_is_encoded_is_not_encoded_again():
 def test_missing_anywidget_is_named(monkeypatch):
     monkeypatch.setitem(sys.modules, "anywidget", None)
     monkeypatch.delitem(sys.modules, "bsm.viewer.widget", raising=False)
-    with pytest.raises(bsm.DependencyError, match=r"bsm-codec\[notebook\]"):
+    with pytest.raises(bsm.DependencyError, match=r"pip install .*\[notebook\]"):
         bsm.show(bsm.encode(MESH))
+
+
+HOSTILE = ["<img src=x onerror=alert(1)>", "</script><script>1</script>", "\x1b[2J", "a\nb", "`${1}`"]
+
+
+@pytest.mark.parametrize("name", HOSTILE)
+def test_a_name_is_handed_over_as_text(name, tmp_path):
+    """It is a value of the widget, never a part of its code; the page puts it into a node of text."""
+    path = tmp_path / f"{name.replace(chr(47), chr(32))}.bsm"
+    path.write_bytes(bsm.encode(MESH))
+    widget = bsm.show(path)
+    assert widget.name == path.name
+    assert path.name not in str(widget._esm)
+
+
+def test_a_damaged_stream_is_handed_to_the_page_but_not_compared():
+    data = bsm.encode(MESH)
+    with pytest.raises(bsm.BsmError):
+        bsm.show(data[: len(data) // 2], original=MESH)
+
+
+def test_limits_hold_for_what_is_compared():
+    with pytest.raises(bsm.BsmError):
+        bsm.show(b"nothing of the kind")
+    with pytest.raises(bsm.BsmError):
+        bsm.show("/dev/null")

@@ -124,7 +124,7 @@ def test_permutation_restores_the_order(npz, tmp_path, capsys):
     assert bsm("encode", npz, "-o", stream, "--permutation", order) == 0
     assert bsm("decode", stream, "-o", back, "--permutation", order) == 0
     original, decoded = np.load(npz), np.load(back)
-    assert np.abs(original["positions"] - decoded["positions"]).max() < 0.02
+    assert np.abs(original["positions"] - decoded["positions"]).max() < 0.04
     assert result(capsys, "compare", npz, stream, "--permutation", order)["kg"] < 1
 
 

@@ -20,6 +20,7 @@ import bsm
 from bsm.cli import main
 from bsm.evaluation.draco import encode_draco
 from bsm.viewer.content import DRACO_LEVEL, compared
+from tests.bitstream.streams import frame_ends
 from tests.shapes import torus
 
 needs_packages = pytest.mark.skipif(
@@ -200,10 +201,14 @@ def test_damage_is_survived_as_in_python(tmp_path):
     random = np.random.default_rng(16)
     for number in range(160):
         kind = bsm.SequenceDecoder if number % 4 == 0 else bsm.Decoder
-        data = bytearray((VECTORS / f"good-{random.choice(DAMAGED[kind])}.bsm").read_bytes())
+        whole = (VECTORS / f"good-{random.choice(DAMAGED[kind])}.bsm").read_bytes()
+        data, starts = bytearray(whole), frame_ends(whole)[1:-1]
         for _ in range(random.integers(1, 3)):
             at = random.integers(20, len(data))
-            if random.random() < 0.2:
+            if random.random() < 0.2 and len(data) == len(whole):
+                at = random.choice(starts)  # a frame that seems to be one of another type
+                data[at] = data[at] & 0xF0 | random.integers(16)
+            elif random.random() < 0.2:
                 del data[at : at + random.integers(1, 30)]
             elif at < len(data):
                 data[at] ^= random.integers(1, 256)

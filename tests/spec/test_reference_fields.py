@@ -25,7 +25,7 @@ from bsm.bitstream.fields.levels import MOST_LEVEL, LevelsDecoder, LevelsEncoder
 from bsm.bitstream.fields.light import LightDecoder, LightEncoder
 from tests.bitstream.fields.fields import KINDS, SOUPS, Chunks, encode, values
 from tools import field_tables
-from tools.grids import rounded, welded
+from tools.measure.grids import rounded, welded
 
 SPEC = Path(__file__).parents[2] / "spec"
 DOCUMENT = (SPEC / "fields.md").read_text()

@@ -20,7 +20,7 @@ from bsm.bitstream.attributes.ranges import MOST_LARGEST
 from bsm.bitstream.attributes.values import ValueDecoder, ValueEncoder
 from tests.bitstream.fields.fields import KINDS, SOUPS, encode, values
 from tests.spec.test_reference_fields import damaged, outcome, plain, product
-from tools.grids import rounded, welded
+from tools.measure.grids import rounded, welded
 
 SPEC = Path(__file__).parents[2] / "spec"
 DOCUMENT = (SPEC / "attributes.md").read_text()

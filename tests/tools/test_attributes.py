@@ -11,7 +11,7 @@ import pytest
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.static.options import EncodeOptions
-from tools import attributes
+from tools.measure import attributes
 
 CUBE = TriangleMesh(
     np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)], float),

@@ -17,7 +17,7 @@ ROOT = Path(__file__).parents[2]
 
 def tool(name, *arguments):
     return subprocess.run(
-        [sys.executable, "-m", f"tools.{name}", *map(str, arguments)],
+        [sys.executable, "-m", "tools.measure", name, *map(str, arguments)],
         capture_output=True,
         text=True,
         timeout=300,
@@ -53,7 +53,9 @@ def test_a_figure(tmp_path):
     write_mesh(tmp_path / "bunny_34834.npz", torus(60, 40))
     done = tool("figures", tmp_path, "--only", "boundary")
     assert done.returncode == 0, done.stderr
-    assert "`python -m tools.figures FOLDER --only boundary`" in done.stdout and "weighted average" in done.stdout
+    assert (
+        "`python -m tools.measure figures FOLDER --only boundary`" in done.stdout and "weighted average" in done.stdout
+    )
 
 
 def test_sequences(tmp_path):
@@ -70,11 +72,11 @@ def test_sequences(tmp_path):
 def test_assets_are_drawn(tmp_path):
     pytest.importorskip("matplotlib")
     write_mesh(tmp_path / "spot_uv.obj", painted())
-    done = tool("figures.assets", tmp_path, "-o", tmp_path / "assets.png")
+    done = tool("assets", tmp_path, "-o", tmp_path / "assets.png")
     assert done.returncode == 0, done.stderr
     from PIL import Image
 
     picture = np.asarray(Image.open(tmp_path / "assets.png").convert("RGB")).reshape(-1, 3)
     assert (picture.std(axis=1) > 20).mean() > 0.05, "something is drawn in colour"
-    done = tool("figures.assets", tmp_path / "nowhere")
+    done = tool("assets", tmp_path / "nowhere")
     assert done.returncode == 2 and "none of Duck.glb" in done.stderr

@@ -1,4 +1,4 @@
-"""What `python -m tools.look` prints."""
+"""What `python -m tools.measure look` prints."""
 
 import json
 
@@ -8,8 +8,8 @@ import pytest
 from bsm.codec.look.measure import judged
 from bsm.files.mesh import write_mesh
 from tests.shapes import torus
-from tools import look
-from tools.look import Draco, main, size_at, welded
+from tools.measure import look
+from tools.measure.look import Draco, main, size_at, welded
 
 
 def test_sizes_lie_between_those_of_two_numbers_of_bits():

@@ -16,7 +16,7 @@ from bsm.codec.sequence.options import SequenceOptions
 from bsm.codec.static.encoder import Encoder, encode
 from bsm.codec.static.options import PRESETS, EncodeOptions
 from bsm.files.formats.npz import read_arrays
-from tools.quality import joined
+from tools.measure.presets import joined
 
 Point = tuple[float, float]
 STEPS = (0.0028, 0.004, 0.0057)

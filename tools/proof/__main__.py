@@ -11,6 +11,7 @@
 | differential | mutants and random streams by both decoders |
 | encodes | random meshes and sequences with random options: threads, pieces, tolerance, every kind of processor |
 | surroundings | the same in environments of every kind |
+| readers | every reader of files with every number as large as it can be: memory and time are within the law, too |
 | walk | every frame type and field as large as its bytes allow: memory and time are within the law |
 
 Work is cut into shards, each a process of its own that follows from the seed alone. What is done is kept under
@@ -39,7 +40,9 @@ MUTANTS, DIFFERENTIAL, ENCODES, SURROUNDINGS = 4000, 1000, 50, 12
 """Inputs of one shard."""
 WALKS = 8
 """Shards of the walk, which together do all of it."""
-WATCHED = ("bitstream", "codec", "tools/proof", "tools/fuzz", "tools/vectors", "spec")
+READERS = 8
+"""Shards of the walk over readers."""
+WATCHED = ("bitstream", "codec", "src/bsm/files", "tools/bombs", "tools/proof", "tools/fuzz", "tools/vectors", "spec")
 """Where a change makes everything unproven again."""
 
 
@@ -102,6 +105,7 @@ def plan(args: argparse.Namespace) -> list[Part]:
         [Part("encodes", *cut) for cut in cuts(args.encodes, ENCODES)],
         [Part("surroundings", number, SURROUNDINGS) for number in places],
         [Part("walk", number, WALKS) for number in range(2 if args.short else WALKS)],
+        [Part("readers", number, READERS) for number in range(2 if args.short else READERS)],
     ]
     shares = [(place / len(queue), part) for queue in queues for place, part in enumerate(queue)]
     return [part for _, part in sorted(shares, key=lambda share: share[0])]

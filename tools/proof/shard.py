@@ -28,6 +28,7 @@ import numpy as np
 from bsm.bitstream import errors
 from bsm.bitstream.errors import BsmError, LimitError, NumericError
 from bsm.steadiness import check_steadiness
+from tools.bombs import readers as of_files
 from tools.bombs.walk import bases, cases, problem_of
 from tools.fuzz.targets import LIMITS
 from tools.proof.decoding import piecewise, whole
@@ -286,8 +287,22 @@ def walk(shard: Shard, number: int, size: int) -> None:
                 shard.found(stream, (problem := problem_of(stream, how, limits)) and f"{case.name}, {how}: {problem}")
 
 
+def readers(shard: Shard, number: int, size: int) -> None:
+    """Mesh files and sequences of every kind, each number as large as it can be; as `walk` in all else."""
+    if sys.platform != "linux":
+        return
+    of_files.warm_up()
+    grown = list(of_files.grown(SHORT_CASE if shard.short else LONG_CASE))
+    numbers = list(of_files.numbers())[:: 40 if shard.short else 1]
+    some = [*grown, *numbers][number::size]
+    for limits in ("default", "service"):
+        shard.tally.inputs += len(some)
+        for problem in of_files.problems(some, limits):
+            shard.found(b"", problem)
+
+
 SUITES: dict[str, Callable[[Shard, int, int], None]] = {
-    suite.__name__: suite for suite in (vectors, mutants, differential, encodes, surroundings, walk)
+    suite.__name__: suite for suite in (vectors, mutants, differential, encodes, surroundings, walk, readers)
 }
 
 

@@ -81,6 +81,9 @@ def _framed(change: Callable[[Frames], object], base: Callable[[], bytes] = _bas
     return lambda: _changed(change, base)
 
 
+_TOLD = (METADATA, b"\x81\xa1a\0")
+
+
 def _place(frames: Frames, kind: int) -> int:
     return next(i for i, frame in enumerate(frames) if frame[0] == kind)
 
@@ -194,9 +197,11 @@ FRAMING: dict[str, Bad] = {
     "bad-no-connectivity": Bad("no CONNECTIVITY", "corrupt", _framed(lambda f: f.pop(1))),
     "bad-order-first": Bad("ORDER before PARTITION", "corrupt", _framed(_swap(PARTITION, ORDER), _ordered)),
     "bad-partition-late": Bad("PARTITION behind a block", "corrupt", _framed(_swap(PARTITION, BLOCK), _ordered)),
-    "bad-metadata-late": Bad("METADATA behind a block", "corrupt", _framed(lambda f: f.append((METADATA, b"\x80")))),
-    "bad-metadata-twice": Bad(
-        "METADATA twice", "corrupt", _framed(lambda f: f.__setitem__(slice(1, 1), [(METADATA, b"\x80")] * 2))
+    "bad-metadata-first": Bad("METADATA before HEADER", "corrupt", _framed(lambda f: f.insert(0, (METADATA, b"\x80")))),
+    "bad-metadata-again": Bad(
+        "METADATA that speak of one name, before and behind a block",
+        "corrupt",
+        _framed(lambda f: f.__setitem__(slice(1, None), [_TOLD, *f[1:], _TOLD])),
     ),
     "bad-metadata-array": Bad(
         "METADATA with an array", "corrupt", _framed(lambda f: f.insert(1, (METADATA, b"\x81\xa1a\x90")))

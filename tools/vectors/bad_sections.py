@@ -211,9 +211,6 @@ PLACES: dict[str, Bad] = {
     "bad-sections-partition": Bad("PARTITION", "corrupt", _framed(_inserted(2, PARTITION, b"\0"))),
     "bad-sections-order": Bad("ORDER", "corrupt", _framed(_inserted(2, ORDER, b"\x01"))),
     "bad-sections-gop": Bad("a GOP", "corrupt", _framed(lambda f: f.append((GOP, bytes(9))))),
-    "bad-sections-metadata": Bad(
-        "METADATA in the second section", "corrupt", _framed(_inserted(SECOND + 1, METADATA, b"\x80"))
-    ),
     "bad-sections-refinement-early": Bad(
         "REFINEMENT in the first section",
         "corrupt",

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -77,6 +77,14 @@ def _metadata() -> bytes:
     frames = frames_of(encode(patch(6, 6), BASE))
     text = bytes.fromhex("83 a1 61 01 a1 62 ca 3f 00 00 00 a4 6e 61 6d 65 a3 c3 a9 21")
     return stream_of([frames[0], (FrameType.METADATA, text), *frames[1:]])
+
+
+def _metadata_everywhere() -> bytes:
+    """METADATA behind each frame, also between the sections of a mesh, each of a name of its own."""
+    frames = frames_of(encode(torus(16, 12), replace(BASE, sections=2)))
+    told = [(FrameType.METADATA, bytes([0x81, 0xA1, 0x61 + place, place])) for place in range(len(frames))]
+    told[-1] = (FrameType.METADATA, b"\x80")
+    return stream_of([frame for pair in zip(frames, told, strict=True) for frame in pair])
 
 
 STATIC: dict[str, Good] = {
@@ -177,5 +185,6 @@ STATIC: dict[str, Good] = {
         lambda: TriangleMesh(1e-3 * torus(12, 10).positions + [1e4, -3e5, 7.0], torus(12, 10).faces),
     ),
     "good-skippable": Good("skippable frames between the others", _skippable),
+    "good-metadata-everywhere": Good("metadata behind each frame, between sections too", _metadata_everywhere),
     "good-metadata": Good("metadata: an integer, a float, a string beyond ASCII", _metadata),
 }

@@ -62,7 +62,9 @@ class Fronts(NamedTuple):
 
 
 def find_fronts(offsets: npt.NDArray[np.int32], neighbours: npt.NDArray[np.int32]) -> Fronts:
-    """Fronts of a graph (CSR) whose rows are in the order of a recursive bisection; any order will do.
+    """Fronts of a graph whose rows are in the order of a recursive bisection; any order will do.
+
+    The graph is CSR: `offsets`, shape (n + 1,), and `neighbours`, shape (e,).
 
     Raises
     ------

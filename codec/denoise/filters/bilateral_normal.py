@@ -39,7 +39,7 @@ def bilateral_normal_filtering(positions: Positions, faces: Faces, iterations: i
 
 
 def filtered_normals(positions: Positions, topology: Topology, sigma_r: float) -> Iterator[Positions]:
-    """The positions after 0, 1, 2, ... times two iterations of the normal filter and twenty vertex updates."""
+    """The positions, shape (n, 3), after 0, 1, 2, ... times two iterations of the filter and twenty vertex updates."""
     geometry = face_geometry(positions, topology.faces)
     filtering = _normals(geometry, topology, sigma_r)
     while True:

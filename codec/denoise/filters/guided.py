@@ -30,7 +30,7 @@ Guide = Callable[[FaceGeometry, Topology], Floats]
 
 
 def own_normals(geometry: FaceGeometry, topology: Topology) -> Floats:
-    """The guide that makes the filter an ordinary bilateral one: the normals themselves."""
+    """The guide that makes the filter an ordinary bilateral one: the normals themselves, shape (m, 3)."""
     return geometry.normals
 
 
@@ -68,7 +68,7 @@ class GuidedFilter:
 
 
 def guided_results(positions: Positions, topology: Topology, iterations: int) -> Iterator[Positions]:
-    """The start, and what guided normal filtering makes of it after 1, 2, ... iterations."""
+    """The start, shape (n, 3), and what guided normal filtering makes of it after 1, 2, ... iterations."""
     yield positions
     guided = GuidedFilter(positions, topology)
     for _ in range(iterations):

@@ -24,7 +24,7 @@ class FaceGeometry(NamedTuple):
 
 
 def face_geometry(positions: Positions, faces: Faces) -> FaceGeometry:
-    """Centroids, areas and unit normals of the faces."""
+    """Centroids, areas and unit normals of `faces`, shape (m, 3), on `positions`, shape (n, 3)."""
     m = len(faces)
     geometry = FaceGeometry(np.empty((m, 3)), np.empty(m), np.empty((m, 3)))
     _kernels.face_geometry(
@@ -34,14 +34,20 @@ def face_geometry(positions: Positions, faces: Faces) -> FaceGeometry:
 
 
 def vertex_normals(normals: Floats, around: Rows) -> Floats:
-    """Unit vertex normals: the plain mean of the normals of the faces around; zero where they cancel."""
+    """Unit vertex normals, shape (n, 3): the plain mean of the normals, shape (m, 3), of the faces around.
+
+    They are zero where these cancel.
+    """
     averaged = np.empty((len(around.starts) - 1, 3))
     _kernels.vertex_normals(normals, around.starts, around.members, averaged)
     return averaged
 
 
 def mean_centroid_distance(centroids: Floats, pairs: Indices) -> float:
-    """Mean distance between the centroids of faces that share an edge; 1 where that is zero or no two do."""
+    """Mean distance between the centroids, shape (m, 3), of faces that share an edge, `pairs`, shape (e, 2).
+
+    It is 1 where that is zero or no two do.
+    """
     if len(pairs) == 0:
         return 1.0
     return float(np.linalg.norm(centroids[pairs[:, 0]] - centroids[pairs[:, 1]], axis=1).mean()) or 1.0

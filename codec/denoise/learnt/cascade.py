@@ -47,7 +47,7 @@ class Learnt:
 
 
 def learnt(positions: Positions, topology: Topology) -> Learnt:
-    """Denoise by all networks in turn."""
+    """Denoise `positions`, shape (n, 3), by all networks in turn."""
     normals = np.zeros((len(topology.faces), 3))
     for network in read_networks():
         normals = regressed_normals(positions, topology, network)
@@ -77,7 +77,7 @@ class Learner:
 
 
 def joined(positions: Positions, other: Learnt, share: float, topology: Topology) -> Positions:
-    """Positions that follow the mean of their own normals and the learnt ones, which have `share` of it."""
+    """Positions, shape (n, 3), that follow the mean of their own normals and the learnt ones, whose part is `share`."""
     if share == 0.0:
         return positions
     normals = (1.0 - share) * face_geometry(positions, topology.faces).normals + share * other.normals

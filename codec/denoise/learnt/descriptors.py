@@ -88,7 +88,10 @@ def _repeated(geometry: FaceGeometry, near: Rows, distance: float, sigma_r: floa
 
 
 def mirrored(x: bool, y: bool) -> tuple[npt.NDArray[np.int64], Singles]:
-    """The numbers of a face as seen in a frame with x, y or both the other way round: their order, and signs."""
+    """The numbers of a face as seen in a frame with x, y or both the other way round.
+
+    Returns their order and their signs, both of shape (NUMBERS,).
+    """
     order = np.arange(NUMBERS)
     signs = np.ones(NUMBERS, dtype=np.float32)
     flip = np.array([-1.0 if x else 1.0, -1.0 if y else 1.0, 1.0], dtype=np.float32)

@@ -33,7 +33,10 @@ class Network:
     layers: tuple[tuple[Singles, Singles], ...]
 
     def standardised(self, numbers: Singles) -> Singles:
-        """Numbers of mean 0 and deviation 1, within bounds: what was hardly ever seen counts no more than that."""
+        """Numbers, shape (k, NUMBERS), brought to mean 0 and deviation 1, within bounds.
+
+        What was hardly ever seen counts no more than that.
+        """
         return np.asarray(np.clip((numbers - self.mean) * self.scale, -FARTHEST, FARTHEST))
 
     def __call__(self, numbers: Singles) -> Singles:
@@ -47,12 +50,12 @@ class Network:
 
 
 def sigmoid(values: Singles) -> Singles:
-    """``1 / (1 + exp(-x))``, where it can be told from 0."""
+    """``1 / (1 + exp(-x))`` of values of any shape, where it can be told from 0."""
     return np.asarray(np.float32(1.0) / (np.float32(1.0) + np.exp(np.minimum(-values, MOST_NEGATIVE))))
 
 
 def silu(values: Singles) -> Singles:
-    """``x / (1 + exp(-x))``, the activation."""
+    """``x / (1 + exp(-x))`` of values of any shape, the activation."""
     return np.asarray(values * sigmoid(values))
 
 

@@ -67,7 +67,7 @@ def estimate_noise(positions: Positions, smooth: Positions, topology: Topology, 
 
 
 def add_noise(positions: Positions, level: NoiseLevel, topology: Topology, seed: int) -> Positions:
-    """Positions with white Gaussian noise of the given level."""
+    """Positions, shape (n, 3), with white Gaussian noise of the given level."""
     normals = vertex_normals(face_geometry(positions, topology.faces).normals, topology.around)
     white = np.random.default_rng(seed).normal(size=positions.shape)
     along = np.einsum("ij,ij->i", white, normals)[:, None] * normals

@@ -109,7 +109,7 @@ class Finding:
         return self.kind not in ("none", "unknown")
 
     def on(self, members: npt.NDArray[np.int64]) -> Finding:
-        """The finding for some of the vertices."""
+        """The finding for some of the vertices, `members`, shape (k,)."""
         growth = None if self.growth is None else self.growth[members]
         return replace(self, levels=self.levels[members], growth=growth)
 

@@ -38,7 +38,10 @@ def gaussian_along_normals(positions: Positions, faces: Faces, sigma: float, see
 
 
 def gaussian_isotropic(positions: Positions, faces: Faces, sigma: float, seed: int) -> Positions:
-    """Move every coordinate of every vertex by a zero-mean Gaussian amount; parameters as `gaussian_along_normals`."""
+    """Move every coordinate of every vertex, shape (n, 3), by a zero-mean Gaussian amount.
+
+    Parameters as of `gaussian_along_normals`.
+    """
     return positions + np.random.default_rng(seed).normal(0.0, _length(positions, faces, sigma), positions.shape)
 
 
@@ -48,7 +51,7 @@ def impulsive(positions: Positions, faces: Faces, sigma: float, fraction: float,
     Parameters
     ----------
     positions, faces, sigma, seed
-        As in `gaussian_along_normals`.
+        As in `gaussian_along_normals`; shapes (n, 3) and (m, 3).
     fraction : float
         Share of the vertices that move, between 0 and 1; rounded to a whole number of vertices.
 
@@ -66,7 +69,10 @@ def impulsive(positions: Positions, faces: Faces, sigma: float, fraction: float,
 
 
 def uniform_along_normals(positions: Positions, faces: Faces, sigma: float, seed: int) -> Positions:
-    """Move every vertex along its normal by an amount from a symmetric interval; parameters as above."""
+    """Move every vertex, shape (n, 3), along its normal by an amount from a symmetric interval.
+
+    Parameters as of `gaussian_along_normals`.
+    """
     largest = np.sqrt(3.0) * _length(positions, faces, sigma)
     amounts = np.random.default_rng(seed).uniform(-largest, largest, (len(positions), 1))
     return positions + amounts * _directions(positions, faces)
@@ -75,7 +81,9 @@ def uniform_along_normals(positions: Positions, faces: Faces, sigma: float, seed
 def gaussian_along_axis(
     positions: Positions, faces: Faces, sigma: float, seed: int, axis: tuple[float, float, float] = (0.0, 0.0, 1.0)
 ) -> Positions:
-    """Move every vertex along one direction by a Gaussian amount; parameters as above.
+    """Move every vertex, shape (n, 3), along one direction by a Gaussian amount.
+
+    Parameters as of `gaussian_along_normals`.
 
     Raises
     ------
@@ -95,7 +103,7 @@ def correlated_along_normals(positions: Positions, faces: Faces, sigma: float, s
     Parameters
     ----------
     positions, faces, sigma, seed
-        As in `gaussian_along_normals`.
+        As in `gaussian_along_normals`; shapes (n, 3) and (m, 3).
     rounds : int
         How often white noise is averaged half and half with its neighbours, before it is brought to strength.
     """
@@ -123,7 +131,7 @@ def gaussian_with_range(
     Parameters
     ----------
     positions, faces, sigma, seed, axis
-        As in `gaussian_along_axis`; `sigma` is the root mean square over the mesh.
+        As in `gaussian_along_axis`, shapes (n, 3) and (m, 3); `sigma` is the root mean square over the mesh.
     ratio : float
         Strength at the far end over that at the near one; it grows with the square of the distance.
     """
@@ -142,7 +150,7 @@ def ripples_along_normals(
     Parameters
     ----------
     positions, faces, sigma, seed
-        As in `gaussian_along_normals`.
+        As in `gaussian_along_normals`; shapes (n, 3) and (m, 3).
     length : float
         Of the waves, in mean edges.
     """
@@ -161,7 +169,7 @@ def rounded(positions: Positions, faces: Faces, sigma: float, seed: int) -> Posi
     Parameters
     ----------
     positions, faces
-        As in `gaussian_along_normals`.
+        As in `gaussian_along_normals`; shapes (n, 3) and (m, 3).
     sigma : float
         Standard deviation of what that changes in each coordinate, over the mean edge length.
     seed : int
@@ -178,7 +186,7 @@ def gaussian_in_part(positions: Positions, faces: Faces, sigma: float, fraction:
     Parameters
     ----------
     positions, faces, sigma, seed
-        As in `gaussian_along_normals`.
+        As in `gaussian_along_normals`; shapes (n, 3) and (m, 3).
     fraction : float
         Share of the vertices that move: those furthest along the longest side of the bounding box.
 

@@ -53,7 +53,7 @@ class Outliers:
     displacements: Floats
 
     def put_back(self, positions: Positions) -> Positions:
-        """The positions with the vertices back in their places, and all others bit for bit."""
+        """The positions, shape (n, 3), with the vertices back in their places, and all others bit for bit."""
         result = positions.copy()
         result[self.vertices] -= self.displacements
         return result

@@ -56,7 +56,7 @@ class Probe:
 
     @cached_property
     def fine_operator(self) -> tuple[sparse.csr_matrix, Floats]:
-        """Two Laplacians as one matrix, and the norms of its rows."""
+        """Two Laplacians as one matrix, shape (n, n), and the norms of its rows, shape (n,)."""
         step = sparse.identity(self.topology.n, format="csr") - self.average
         operator = (step @ step).tocsr()
         return operator, np.sqrt(np.asarray(operator.multiply(operator).sum(axis=1)).ravel())
@@ -73,12 +73,12 @@ class Probe:
         return np.asarray(operator @ values / np.where(gain > 0.0, gain, np.inf)[:, None])
 
     def finest(self, values: Floats) -> Floats:
-        """What six Laplacians leave."""
+        """What six Laplacians leave of `values`, shape (n, d), as standard deviations of white noise."""
         gain = self._finest_gain
         return self._repeated(values) / np.where(gain > 0.0, gain, np.inf)[:, None]
 
     def smooth_normals(self, positions: Positions, passes: int = NORMAL_PASSES) -> Floats:
-        """Unit vertex normals of the mesh after as many averagings of the positions; then averaged once more."""
+        """Unit vertex normals, shape (n, 3), after as many averagings of the positions; averaged once more."""
         smooth = positions
         for _ in range(passes):
             smooth = self.average @ smooth
@@ -96,7 +96,10 @@ class Probe:
         return white
 
     def levels(self, along: Floats) -> Floats:
-        """Standard deviations in the windows, robustly: from quantiles of absolute values."""
+        """Standard deviations of `along`, shape (n,), in the windows, shape (windows.count,).
+
+        Robustly: from quantiles of absolute values.
+        """
         return self.windows.quantiles(np.abs(along), SHARE) / BOUND
 
     def _repeated(self, values: npt.NDArray[np.float64]) -> Floats:

@@ -43,7 +43,7 @@ class Grid:
         return np.asarray(np.sqrt(np.square(normals * self.steps).sum(axis=1) / 12.0))
 
     def within_cells(self, rounded: Positions, moved: Positions) -> Positions:
-        """Moved positions, brought back into the cells that the rounded ones stand for."""
+        """Moved positions, shape (n, 3), brought back into the cells that the rounded ones stand for."""
         half = np.where(self.steps > 0.0, 0.5 * self.steps, np.inf)
         return np.clip(moved, rounded - half, rounded + half)
 

@@ -43,7 +43,7 @@ class Windows:
 
     @staticmethod
     def of_labels(windows: Windows, counted: Mask, fewest: int = FEWEST) -> Windows:
-        """These windows with other vertices counted, `fewest` of them in a valid one."""
+        """These windows with other vertices counted, shape (n,), `fewest` of them in a valid one."""
         other = object.__new__(Windows)
         other._graph = windows._graph
         other._count(windows.labels, counted, fewest)
@@ -75,7 +75,10 @@ class Windows:
         return self.quantiles(values, 0.5)
 
     def quantiles(self, values: Floats, share: float) -> Floats:
-        """The value below which `share` of the counted vertices of each window lie, interpolated."""
+        """The value below which `share` of the counted vertices of each window lie, interpolated.
+
+        `values` have shape (n,). Returns shape (count,); NaN where a window is not valid.
+        """
         chosen = values[self._members]
         ordered = chosen[np.lexsort((chosen, self._windows))]
         place = share * (self._sizes[self.valid] - 1)

@@ -52,7 +52,7 @@ SEMANTICS: tuple[Semantic, ...] = ("generic", "color", "normal", "texcoord")
 
 
 @dataclass(frozen=True, eq=False)
-class Declared:
+class DeclaredAttribute:
     """An attribute before its values.
 
     Parameters
@@ -74,7 +74,7 @@ class Declarations:
 
     faces: Faces
     vertices: int
-    known: tuple[Declared, ...] = ()
+    known: tuple[DeclaredAttribute, ...] = ()
 
     def add(self, packet: packets.Attribute, allowance: Allowance) -> Declarations:
         """With one more; its seams are paid for.
@@ -89,10 +89,10 @@ class Declarations:
         allowance.spend(DECLARED)
         every = [*(one.declaration for one in self.known), packet.declaration]
         allowance.limits.check("attribute_values", sum(numbers_of(one, len(self.faces)) for one in every))
-        one = Declared(packet.index, packet.declaration, self._joins(packet, allowance))
+        one = DeclaredAttribute(packet.index, packet.declaration, self._joins(packet, allowance))
         return replace(self, known=(*self.known, one))
 
-    def rows_of(self, one: Declared, numbering: Numbering) -> int:
+    def rows_of(self, one: DeclaredAttribute, numbering: Numbering) -> int:
         """How many values of an attribute are coded (D 1.2), or belong to it, if it is recomputed.
 
         Raises
@@ -153,7 +153,7 @@ class Whole(Protocol):
         """Decoded positions, in the order of coding; None where some are missing or not as the encoder had them."""
 
 
-class Shaped(Protocol):
+class MeshContext(Protocol):
     """What is known of a mesh when its attributes come; a part of `Structure`."""
 
     @property
@@ -164,10 +164,10 @@ class Shaped(Protocol):
     def allowance(self) -> Allowance: ...
 
 
-class Valued:
+class AttributeDecoder:
     """One attribute, while its values come."""
 
-    def __init__(self, declared: Declared, structure: Shaped) -> None:
+    def __init__(self, declared: DeclaredAttribute, structure: MeshContext) -> None:
         declaration, declarations = declared.declaration, structure.declarations
         self.declaration = declaration
         self.complete = declaration.coding == RECOMPUTED
@@ -185,7 +185,10 @@ class Valued:
         self._coder: PieceDecoder | None = None
 
     def decode(self, packet: packets.Values, places: Levels | None) -> AttributeEvent:
-        """Decode a chunk of its values; what decodes them is given up behind the last."""
+        """Decode a chunk of its values; what decodes them is given up behind the last.
+
+        `places`, shape (n, 3), are positions on their grid, if values lean on these.
+        """
         if self.complete:
             raise CorruptError("it has all its values already")
         allowance, faces = self._structure.allowance, len(self._surface.faces)
@@ -246,11 +249,11 @@ class Valued:
         return np.zeros((self._rows, self.declaration.components), KINDS[self.declaration.kind])
 
 
-class Carried:
+class AttributeDecoders:
     """The attributes of a mesh, while their values come."""
 
-    def __init__(self, structure: Shaped) -> None:
-        self._valued = {one.index: Valued(one, structure) for one in structure.declarations.known}
+    def __init__(self, structure: MeshContext) -> None:
+        self._valued = {one.index: AttributeDecoder(one, structure) for one in structure.declarations.known}
 
     @property
     def recomputed(self) -> bool:
@@ -258,7 +261,7 @@ class Carried:
         return any(one.declaration.coding == RECOMPUTED for one in self._valued.values())
 
     def add(self, packet: packets.Values, places: Callable[[], Levels]) -> AttributeEvent:
-        """Decode a chunk of values; `places` gives positions if they lean on these.
+        """Decode a chunk of values; `places` gives positions, shape (n, 3), if they lean on these.
 
         Raises
         ------
@@ -279,12 +282,12 @@ class Carried:
         return tuple(one for one in found if one is not None)
 
 
-class Attributed:
+class AttributedMesh:
     """A mesh with its attributes."""
 
-    def __init__(self, whole: Whole, structure: Shaped) -> None:
+    def __init__(self, whole: Whole, structure: MeshContext) -> None:
         self._whole = whole
-        self._carried = Carried(structure)
+        self._carried = AttributeDecoders(structure)
 
     def add(self, packet: packets.Values) -> AttributeEvent:
         """Decode a chunk of values.
@@ -314,7 +317,7 @@ class Attributed:
 
 
 def without_positions() -> Levels:
-    """For attributes of sequences."""
+    """For attributes of sequences: raises `CorruptError` in place of positions, shape (n, 3)."""
     raise CorruptError("attributes of a sequence cannot lean on positions")
 
 
@@ -323,19 +326,19 @@ class PendingValues:
     """Values of an attribute that wait for the positions before them."""
 
     packet: packets.Values
-    attributed: Attributed
+    attributed: AttributedMesh
 
 
-def completed(whole: Whole, structure: Shaped) -> Complete:
+def completed(whole: Whole, structure: MeshContext) -> Complete:
     """The end of a decoder's way, where no values came."""
-    return Complete(Attributed(whole, structure) if structure.declarations.known else whole)
+    return Complete(AttributedMesh(whole, structure) if structure.declarations.known else whole)
 
 
 class ValuesStage:
     """All positions are there, or known to be lost; values of attributes come."""
 
-    def __init__(self, whole: Whole, structure: Shaped, tolerant: bool) -> None:
-        self._attributed = Attributed(whole, structure)
+    def __init__(self, whole: Whole, structure: MeshContext, tolerant: bool) -> None:
+        self._attributed = AttributedMesh(whole, structure)
         self._tolerant = tolerant
         self._ended = False
 

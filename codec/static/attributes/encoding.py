@@ -30,7 +30,7 @@ from bsm.codec.static.attributes.pieces import PieceEncoder, leans, to_pieces
 from bsm.codec.static.attributes.quality import Quality
 from bsm.codec.static.attributes.surface import Surface, surface_of
 from bsm.codec.static.draft import Draft
-from bsm.codec.static.joining import Joined
+from bsm.codec.static.joining import JoinedMesh
 from bsm.codec.static.preamble import Prepared
 
 CHUNK = 1 << 15
@@ -67,7 +67,7 @@ class Place:
         return np.take_along_axis(ordered, (self.turns[:, None] + np.arange(3)) % 3, axis=1)
 
 
-def place_of(given: TriangleMesh, joined: Joined, prepared: Prepared) -> Place:
+def place_of(given: TriangleMesh, joined: JoinedMesh, prepared: Prepared) -> Place:
     """Where values of a mesh lie that was joined and prepared."""
     loose = np.flatnonzero(joined.index < 0) if joined.splits is not None else np.zeros(0, np.int64)
     corners = corners_of(prepared.mesh.faces, len(prepared.mesh.positions))
@@ -81,7 +81,7 @@ def place_of_first_frame(given: TriangleMesh, prepared: Prepared) -> Place:
 
 
 @dataclass(frozen=True, eq=False)
-class Carried:
+class PreparedAttribute:
     """An attribute in the order of coding, before positions are known.
 
     Parameters
@@ -107,7 +107,7 @@ class Carried:
         return self.chunks(None, CHUNK)
 
     def chunks(self, places: Levels | None, size: int) -> tuple[bytes, ...]:
-        """The chunks of its values, of so many each."""
+        """The chunks of its values, `size` each, predicted from `places`, shape (n, 3), if there are any."""
         if self.declaration.coding == RECOMPUTED:
             return ()
         pieces = to_pieces(self.declaration, self.levels)
@@ -115,7 +115,7 @@ class Carried:
         return tuple(encoder.chunk(count) for _, count in ranges(self.declaration.rows, size))
 
 
-def carry(place: Place, wanted: Iterable[tuple[Attribute, Quality]]) -> tuple[Carried, ...]:
+def carry(place: Place, wanted: Iterable[tuple[Attribute, Quality]]) -> tuple[PreparedAttribute, ...]:
     """Attributes in the order of coding.
 
     Raises
@@ -123,7 +123,7 @@ def carry(place: Place, wanted: Iterable[tuple[Attribute, Quality]]) -> tuple[Ca
     OptionError, TargetError
         If a quality makes no sense, or cannot be kept.
     """
-    carried: list[Carried] = []
+    carried: list[PreparedAttribute] = []
     known: list[tuple[int, Joins]] = []
     for attribute, quality in wanted:
         one, joins = _carry(place, attribute, quality, known)
@@ -135,7 +135,7 @@ def carry(place: Place, wanted: Iterable[tuple[Attribute, Quality]]) -> tuple[Ca
 
 def _carry(
     place: Place, attribute: Attribute, quality: Quality, known: list[tuple[int, Joins]]
-) -> tuple[Carried, Joins | None]:
+) -> tuple[PreparedAttribute, Joins | None]:
     used, rows, loose = _rows(place, attribute)
     values = attribute.values[used]
     result = quantized(values, attribute.semantic, quality, attribute.name)
@@ -174,7 +174,7 @@ def _carry(
     surface = surface_of(domain, place.corners.faces, vertices, len(loose), joins)
     what = "" if attribute.semantic in (attribute.name, "generic") else f"{attribute.semantic} "
     said = f"{attribute.name}: {what}per {attribute.domain}, {result.said}"
-    return Carried(declaration, seams, surface, levels, said), joins
+    return PreparedAttribute(declaration, seams, surface, levels, said), joins
 
 
 def _rows(place: Place, attribute: Attribute) -> tuple[Order, Order, Order]:
@@ -191,12 +191,14 @@ def _rows(place: Place, attribute: Attribute) -> tuple[Order, Order, Order]:
     return used, numbers[: rows.size].reshape(rows.shape), numbers[rows.size :]
 
 
-def with_attributes(draft: Draft, carried: tuple[Carried, ...], metadata: Metadata) -> Draft:
-    """A draft that carries attributes and metadata, too."""
+def with_attributes(draft: Draft, carried: tuple[PreparedAttribute, ...], metadata: Metadata) -> Draft:
+    """A draft that carries attributes and metadata, too; images and other bytes come last."""
     shape = packets.Connectivity | packets.Partition | packets.Order
     before = 1 + max(place for place, packet in enumerate(draft.body) if isinstance(packet, shape))
     head, body = draft.body[:before], draft.body[before:]
-    told: tuple[Packet, ...] = (packets.Metadata(dict(metadata)),) if metadata else ()
+    late = {name: value for name, value in metadata.items() if isinstance(value, bytes)}
+    early = {name: value for name, value in metadata.items() if name not in late}
+    told, images = (((packets.Metadata(entries),) if entries else ()) for entries in (early, late))
     declared: list[Packet] = []
     values: list[Packet] = []
     header = draft.header
@@ -207,11 +209,14 @@ def with_attributes(draft: Draft, carried: tuple[Carried, ...], metadata: Metada
             for (first, count), data in zip(ranges(declaration.rows, CHUNK), chunks, strict=True):
                 values.append(packets.Values(index, first, count, data))
         header = replace(header, attributes=len(carried))
-    return replace(draft, header=header, body=(*told, *head, *declared, *body, *values))
+    return replace(draft, header=header, body=(*told, *head, *declared, *body, *values, *images))
 
 
-def cheaper(one: Carried, places: Levels | None) -> tuple[Declaration, tuple[bytes, ...]]:
-    """What an attribute declares, and its chunks: leaning on a grid's values, or not where that takes fewer bytes."""
+def cheaper(one: PreparedAttribute, places: Levels | None) -> tuple[Declaration, tuple[bytes, ...]]:
+    """What an attribute declares, and its chunks.
+
+    It leans on a grid's values, `places`, shape (n, 3), where that takes fewer bytes.
+    """
     if places is not None and leans(one.declaration):
         chunks = one.chunks(places, CHUNK)
         if sum(map(len, chunks)) < sum(map(len, one.plain)):

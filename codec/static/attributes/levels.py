@@ -26,7 +26,7 @@ _USUAL_STEPS = (1.0, 1.0 / 255.0, 1.0 / 65535.0)
 
 
 @dataclass(frozen=True, eq=False)
-class Quantized:
+class QuantizedValues:
     """Values as whole numbers.
 
     Parameters
@@ -55,7 +55,7 @@ def restored(declaration: Declaration, levels: Words) -> Values:
     return values.astype(kind) if declaration.is_float else values.astype(np.int64).astype(kind)
 
 
-def quantized(values: Values, semantic: str, quality: Quality, name: str) -> Quantized:
+def quantized(values: Values, semantic: str, quality: Quality, name: str) -> QuantizedValues:
     """Values, shape (k, c), as whole numbers that keep what is asked.
 
     Raises
@@ -69,7 +69,7 @@ def quantized(values: Values, semantic: str, quality: Quality, name: str) -> Qua
     if quality.way == "recompute":
         if not (is_float and normals):
             raise OptionError(f"{name!r}: only normals of three floats can be recomputed")
-        return Quantized({"coding": RECOMPUTED}, np.zeros((0, 0), np.int64), "recomputed from the decoded mesh")
+        return QuantizedValues({"coding": RECOMPUTED}, np.zeros((0, 0), np.int64), "recomputed from the decoded mesh")
     if quality.way == "angle" or (quality.way == "bits" and normals and is_float):
         if not (is_float and normals):
             raise OptionError(f"{name!r}: only normals of three floats can be kept to an angle")
@@ -81,7 +81,7 @@ def quantized(values: Values, semantic: str, quality: Quality, name: str) -> Qua
     return _rounded(values, semantic, quality, name)
 
 
-def _whole(values: Values, quality: Quality) -> Quantized:
+def _whole(values: Values, quality: Quality) -> QuantizedValues:
     """Integers: exact, or in steps that are whole numbers, too."""
     wide = values.astype(np.int64)
     low = wide.min(axis=0)
@@ -104,10 +104,10 @@ def _whole(values: Values, quality: Quality) -> Quantized:
     while (low + levels.max(axis=0) * step > np.iinfo(values.dtype).max).any():
         levels = np.minimum(levels, (np.iinfo(values.dtype).max - low) // step)
     said = "exact" if step == 1 else f"in steps of {step}"
-    return Quantized(_affine(LEVELS, levels, low.astype(float), float(step)), levels, said)
+    return QuantizedValues(_affine(LEVELS, levels, low.astype(float), float(step)), levels, said)
 
 
-def _exact(values: Values) -> Quantized:
+def _exact(values: Values) -> QuantizedValues:
     """Floats, to the bit: as multiples of a usual step where they are, or as the whole numbers that their bits are."""
     for step in _USUAL_STEPS:
         low = np.floor(values.astype(np.float64).min(axis=0) / step)
@@ -120,14 +120,14 @@ def _exact(values: Values) -> Quantized:
             offset = low * step
             back = (offset + step * levels).astype(values.dtype)
             if (back.view(np.uint8) == values.view(np.uint8)).all():
-                return Quantized(_affine(LEVELS, levels, offset, step), levels, "exact")
+                return QuantizedValues(_affine(LEVELS, levels, offset, step), levels, "exact")
     words = _bits_of(values)
     low = words.min(axis=0)
     levels = words - low
-    return Quantized(_affine(BITS, levels, low.astype(float), 1.0), levels, "exact")
+    return QuantizedValues(_affine(BITS, levels, low.astype(float), 1.0), levels, "exact")
 
 
-def _rounded(values: Values, semantic: str, quality: Quality, name: str) -> Quantized:
+def _rounded(values: Values, semantic: str, quality: Quality, name: str) -> QuantizedValues:
     """Floats in steps."""
     wide = values.astype(np.float64)
     low, high = wide.min(axis=0), wide.max(axis=0)
@@ -155,10 +155,10 @@ def _rounded(values: Values, semantic: str, quality: Quality, name: str) -> Quan
     last = float(np.spacing(np.abs(values).max()))
     if error > (bound if quality.way != "bits" else bound * (1 + 1e-6) + last):
         raise TargetError(f"{name!r}: {values.dtype} cannot be kept within {bound:g}; the best is {error:g}")
-    return Quantized(fields, levels, f"within {error:.3g}" if error else "exact")
+    return QuantizedValues(fields, levels, f"within {error:.3g}" if error else "exact")
 
 
-def _octahedral(values: Values, quality: Quality, name: str) -> Quantized:
+def _octahedral(values: Values, quality: Quality, name: str) -> QuantizedValues:
     """Normals as points of an octahedron, unfolded to a square."""
     wide = values.astype(np.float64)
     lengths = np.linalg.norm(wide, axis=1, keepdims=True)
@@ -180,7 +180,7 @@ def _octahedral(values: Values, quality: Quality, name: str) -> Quantized:
     if np.abs(lengths - 1.0)[lengths > 0.0].max(initial=0.0) > 1e-3:
         said.append("all of length one now")
     fields = {"coding": OCTAHEDRAL, "largest": (largest, largest)}
-    return Quantized(fields, levels, ", ".join(said))
+    return QuantizedValues(fields, levels, ", ".join(said))
 
 
 def _affine(coding: int, levels: Words, offset: Reals, step: float) -> dict[str, Any]:

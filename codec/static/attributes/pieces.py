@@ -37,7 +37,7 @@ def to_pieces(declaration: Declaration, levels: Words) -> Levels:
 
 
 def from_pieces(declaration: Declaration, pieces: Levels) -> Words:
-    """Twin of `to_pieces`; raises `CorruptError` for levels that are too large."""
+    """Twin of `to_pieces`, of shape (k, pieces); raises `CorruptError` for levels that are too large."""
     columns, at = [], 0
     for largest in declaration.largest:
         level = pieces[:, at].astype(np.int64)

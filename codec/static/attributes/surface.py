@@ -30,7 +30,7 @@ class Surface:
 
     @property
     def places(self) -> Indices:
-        """Equal numbers for values at the same vertex."""
+        """Equal numbers for values at the same vertex, shape (k,)."""
         apart = np.iinfo(np.int32).max - np.arange(len(self.vertices), dtype=np.int32)
         return np.where(self.vertices < 0, apart, self.vertices).astype(np.int32)
 

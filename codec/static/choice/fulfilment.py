@@ -22,7 +22,7 @@ from bsm.codec.static.choice.grid_search import COARSEST, GridSearch
 from bsm.codec.static.choice.judge import Judge, Sight
 from bsm.codec.static.choice.lattices import rounded
 from bsm.codec.static.choice.reaches import reaches
-from bsm.codec.static.choice.search import Trial, looked_for, widest_step
+from bsm.codec.static.choice.search import LOOK_SLACK, LOOK_TRIES, Trial, widest_step
 from bsm.codec.static.choice.settling import Sensitivity
 from bsm.codec.static.choice.shaping import Aim
 from bsm.codec.static.choice.spectral import Base, Spectral, Stack, base_step, layer_steps
@@ -236,9 +236,9 @@ class Fulfilment:
         sheet = blocks is not self._blocks
         found: list[Draft] = []
 
-        def measure(step: float) -> Trial[Stack]:
+        def measure(step: float, sure: bool) -> Trial[Stack]:
             plain = self._with_outliers(blocks.base(step, self._progress), [])
-            trial = self._judge.trial(step, plain.positions, plain)
+            trial = self._judge.trial(step, plain.positions, plain, sure)
             if trial.excess <= 0.0:
                 found.append(plain.draft())
             return trial
@@ -246,7 +246,7 @@ class Fulfilment:
         first = SHEET_STEP if sheet else PLAIN_STEP * self._contract.about_angle
         widest = widest_step(measure, first, tries=3, most=COARSEST, slopes=PLAIN_SLOPES)
         if widest is not None:
-            measure(math.sqrt(first * widest.step) if widest.step > first else PLAIN_STRIDE * first)
+            measure(math.sqrt(first * widest.step) if widest.step > first else PLAIN_STRIDE * first, True)
         return min(found, key=lambda draft: draft.size, default=None)
 
     @property
@@ -312,20 +312,20 @@ class Fulfilment:
         lock, still = self._lock(base), self._borders.vertices
         start = base.positions if lock is None else base.moved(*lock)
 
-        tries = 2 if self._shaper.character.is_model else 3
         choose = self._bent_levels(base, start) if self._sensitivity is None else self._seen_levels(base, start)
 
-        def measure(step: float, whole: bool = False) -> Trial[tuple[Layer, Levels]]:
+        def measure(step: float, sure: bool) -> Trial[tuple[Layer, Levels]]:
             layer = base.layer(step, ratio)
             with self._told():
                 levels = choose(layer)
                 levels[still] = 0
                 moved = self._brought_back(base, base.moved(layer, levels, start))
-                return self._judge.trial(step, moved, (layer, levels), whole=whole)
+                return self._judge.trial(step, moved, (layer, levels), sure)
 
         if self._sensitivity is not None:
-            first = self._sensitivity.step_for(self._contract.look, ratio)
-            return looked_for(measure, min(first, COARSEST), most=COARSEST, slopes=STEEP_LOOK)
+            first = self._sensitivity.first_step(self._contract.look, ratio)
+            return widest_step(measure, first, tries=LOOK_TRIES, most=COARSEST, slopes=STEEP_LOOK, slack=LOOK_SLACK)
+        tries = 2 if self._shaper.character.is_model else 3
         steep = STEEP if ratio else STEEP_HEIGHTS
         slopes = FLATTER * steep, steep
         return widest_step(measure, self._first_layer(ratio), tries=tries, most=COARSEST, slopes=slopes)

@@ -14,7 +14,7 @@ from bsm.codec.arrays import Levels
 from bsm.codec.static.choice.borders import ROUND, Borders
 from bsm.codec.static.choice.judge import Judge
 from bsm.codec.static.choice.lattices import Shaped
-from bsm.codec.static.choice.search import GLANCES, Trial, looked_for, widest_step
+from bsm.codec.static.choice.search import LOOK_SLACK, LOOK_TRIES, Trial, widest_step
 from bsm.codec.static.choice.shaping import Aim, Shaper
 from bsm.codec.static.contract import Contract
 from bsm.codec.static.draft import Draft
@@ -174,18 +174,14 @@ class GridSearch:
         else:
             worth, few = self._worth, self._prepared.graph.size < QUICK_VERTICES
 
-            def measure(step: float, whole: bool = True) -> Trial[Placed]:
-                trials.append(self._trial(shaped, step, worth, whole=whole))
+            def measure(step: float, sure: bool) -> Trial[Placed]:
+                trials.append(self._trial(shaped, step, worth, sure=sure))
                 return trials[-1]
 
-            if self._looks:
-                tiny = self._prepared.graph.size < FEW_VERTICES
-                found = looked_for(measure, first, most=self._most, slopes=STEEP_LOOK, glances=0 if tiny else GLANCES)
-                trials = [] if found is None else [found]
-            else:
-                steep = self._steepness(first)
-                slopes = FLATTER * steep, steep
-                widest_step(measure, first, tries=TRIES[few], most=self._most, slack=SLACK[few], slopes=slopes)
+            steep = self._steepness(first)
+            slopes = STEEP_LOOK if self._looks else (FLATTER * steep, steep)
+            tries, slack = (LOOK_TRIES, LOOK_SLACK) if self._looks else (TRIES[few], SLACK[few])
+            widest_step(measure, first, tries=tries, most=self._most, slack=slack, slopes=slopes)
         kept = [trial for trial in trials if trial.kept]
         for finer in range(1, LAST_RESORTS + 1):
             if not kept:
@@ -231,23 +227,21 @@ class GridSearch:
             left, tries = COARSEST_GRIDS, COARSEST_LOOKS if self._looks else MOST_PARTS
             for parts in range(1, MOST_PARTS):
                 if left and tries and grid.fits(self._extent / parts, reach):
-                    trial = self._trial(grid, self._extent / parts, 0.8, whole=False)
+                    trial = self._trial(grid, self._extent / parts, 0.8, sure=False)
                     tries -= 1
-                    if trial.kept:
+                    if trial.within:
                         left -= 1
                         step, places = trial.found.step, trial.found.places
                         yield grid.draft(step, places) if grid is shaped else grid.draft_from_origin(step, places)
 
     def _trial(
-        self, shaped: Shaped, step: float, worth: float, *, axes: int = 2, sweeps: int = 3, whole: bool = True
+        self, shaped: Shaped, step: float, worth: float, *, axes: int = 2, sweeps: int = 3, sure: bool = True
     ) -> Trial[Placed]:
         step = max(step, shaped.finest)
         with self._told():
             aim = Aim(worth * step / self._edge, self._reach, sweeps)
             held, places, decoded, estimate = shaped.places(step, aim, axes)
-            return self._judge.trial(
-                step, self._prepared.units.into(decoded), Placed(held, places, estimate), whole=whole
-            )
+            return self._judge.trial(step, self._prepared.units.into(decoded), Placed(held, places, estimate), sure)
 
     @property
     def _worth(self) -> float:

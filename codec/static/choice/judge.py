@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from functools import cached_property
+from hashlib import sha256
 
 import numpy as np
 
@@ -12,16 +13,19 @@ from bsm.codec.arrays import Mask, Matrix
 from bsm.codec.geometry.closeness import Original
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.look.measure import Looker
-from bsm.codec.look.sides import TOWARDS
 from bsm.codec.static.choice.borders import Borders
 from bsm.codec.static.choice.search import Found, Trial
 from bsm.codec.static.choice.shaping import Shaper
-from bsm.codec.static.contract import Contract
+from bsm.codec.static.contract import ANY_ANGLE, Contract
 from bsm.codec.static.preamble import Prepared
 
-FEW_SIDES, MANY_PIXELS = 5, 1024
-"""While steps are searched, the mesh is looked at from one of so many sides; from one alone where pictures have more
-pixels than this on a side."""
+NEARLY = (0.85, 1.08)
+"""Over the look that is asked for: what comes to less or more from a few sides is not seen from all of them while steps
+are searched."""
+LEAST_EXCESS = math.log(1e-6)
+"""Of what is as good as it can be."""
+ALL = (0.0, math.inf)
+"""Nothing is: every distance is seen from all sides."""
 
 
 class Sight:
@@ -68,25 +72,31 @@ class Judge:
         self._reach = reach
         self._borders = borders
         self._best: tuple[float, float, float] | None = None
-        self._seen: tuple[Matrix, float] | None = None
+        self._seen: dict[bytes, float] = {}
 
     def out(self, positions: Matrix) -> Mask:
         """Vertices that are out of reach, borders aside."""
         out = np.square(positions - self._prepared.positions).sum(axis=1) > self._reach**2
         return np.asarray(out & ~self._borders.vertices)
 
-    def trial(self, step: float, positions: Matrix, found: Found, *, whole: bool = False) -> Trial[Found]:
-        """A trial of a step that came to these positions; with `whole`, seen from all sides."""
+    def trial(self, step: float, positions: Matrix, found: Found, sure: bool = True) -> Trial[Found]:
+        """A trial of a step that came to these positions; unless it has to be `sure`, a glance may do."""
         near = bool((np.square(positions - self._prepared.positions).sum(axis=1) <= self._reach**2).all())
-        return Trial(step, self._excess(positions, whole), near, found)
+        contract = self._contract
+        angle = self._angle(positions)
+        excess = math.log(max(angle, 1e-6) / contract.angle) if contract.angle < ANY_ANGLE else LEAST_EXCESS
+        distance, whole = self._distance(positions, NEARLY if not sure else ALL)
+        if distance > 0.0:
+            excess = max(excess, math.log(distance / contract.look))
+        return Trial(step, excess, near, found, whole)
 
     def keeps(self, positions: Matrix) -> bool:
         """Whether what is decoded keeps the contract, by all that it says."""
         moved = np.sqrt(np.square(positions - self._prepared.positions).sum(axis=1))
         farther = float(np.divide(moved, self._reach, out=np.zeros_like(moved), where=moved > 0.0).max())
-        angle = self._sight.original.angle(positions)
+        angle = self._angle(positions)
         kept = farther <= 1.0 and angle <= self._contract.angle
-        look = self._distance(positions, whole=True) if kept else math.inf
+        look = self._distance(positions, ALL)[0] if kept else math.inf
         if self._best is None or (farther, look, angle) < self._best:
             self._best = farther, look, angle
         return kept and look <= self._contract.look and self._borders.kept(self._prepared.positions, positions)
@@ -99,24 +109,21 @@ class Judge:
         farther, look, angle = self._best
         return self._contract.worded(farther, angle, look)
 
-    def _excess(self, positions: Matrix, whole: bool) -> float:
-        """Logarithm of how bad normals and pictures are over what they may be."""
-        contract = self._contract
-        if not contract.shades:
-            return -math.inf
-        angle = math.log(max(self._sight.original.angle(positions), 1e-6) / contract.angle)
-        distance = self._distance(positions, whole)
-        return max(angle, math.log(distance / contract.look)) if distance > 0.0 else angle
+    def _angle(self, positions: Matrix) -> float:
+        """Mean angle of normals; 0 where nothing is asked of them."""
+        return self._sight.original.angle(positions) if self._contract.angle < ANY_ANGLE else 0.0
 
-    def _distance(self, positions: Matrix, whole: bool) -> float:
-        """In pictures, from all sides or a few; 0 where nothing is asked of these, or to be seen."""
-        looker = None if self._contract.look == math.inf else self._sight.looker
+    def _distance(self, positions: Matrix, nearly: tuple[float, float]) -> tuple[float, bool]:
+        """In pictures, and whether it is sure; 0 where nothing is asked of these, or to be seen."""
+        looker, asked = None if self._contract.look == math.inf else self._sight.looker, self._contract.look
         if looker is None:
-            return 0.0
-        if not whole:
-            return looker.look(positions, every=FEW_SIDES if looker.pixels <= MANY_PIXELS else len(TOWARDS)).distance
+            return 0.0, True
         # As a decoder has them; the same positions may be asked for again as a draft's.
         seen = np.ascontiguousarray(self._prepared.units.into(self._prepared.units.back(positions)))
-        if self._seen is None or not np.array_equal(self._seen[0], seen):
-            self._seen = seen, looker.look(seen).distance
-        return self._seen[1]
+        name = sha256(seen.tobytes()).digest()
+        if name not in self._seen:
+            look, sure = looker.glance(seen, nearly[0] * asked, nearly[1] * asked)
+            if not sure:
+                return look.distance, False
+            self._seen[name] = look.distance
+        return self._seen[name], True

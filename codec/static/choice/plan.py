@@ -9,10 +9,11 @@ import numpy as np
 from bsm.bitstream.errors import OptionError
 from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Faces, Indices, Matrix
+from bsm.codec.basis.cost import settle
 from bsm.codec.blocks.overlap import Blocks
 from bsm.codec.geometry.metrics import Reference
 from bsm.codec.signal.bandwidth import MeasuredSpectrum
-from bsm.codec.signal.chain import Chain, ChainRules, even_interval
+from bsm.codec.signal.chain import AS_SPECIFIED, Chain, ChainRules, Trial, even_interval
 from bsm.codec.signal.detail import Surface, make_surface
 from bsm.codec.signal.quantize import packed_range, smallest_step
 from bsm.codec.signal.smooth import smoothing_spectrum
@@ -49,12 +50,17 @@ class Planner:
     options : EncodeOptions
     widest : float
         Columns of a dictionary that are not exceeded even where more would pay, over the rows of a block.
+    trial : Trial
+        What is tried in place of what the specification says.
     """
 
-    def __init__(self, prepared: Prepared, options: EncodeOptions, widest: float = 1.0) -> None:
+    def __init__(
+        self, prepared: Prepared, options: EncodeOptions, widest: float = 1.0, trial: Trial = AS_SPECIFIED
+    ) -> None:
         self._prepared = prepared
         self._options = options
         self._widest = max(1, int(widest * prepared.size))
+        self._trial = trial
 
     def schemes(self, step: float) -> list[Scheme]:
         """How the blocks of each section are coded at a step.
@@ -104,6 +110,7 @@ class Planner:
             key_iterations=options.key_iterations,
             shift=single(options.shift),
             stiffness=STIFFNESS if options.predict and options.bits is None else 0.0,
+            trial=self._trial,
         )
 
     def _codings(self, step: float) -> Sequence[Coding]:
@@ -135,10 +142,11 @@ class Planner:
         def largest(place: tuple[Blocks, range]) -> Matrix:
             """Largest coefficient in the first row of any block of a chain, and in all others."""
             blocks, indices = place
-            chain, found = Chain(rules, blocks.graph, spend), np.zeros(2)
+            chain, found = Chain(rules, blocks.graph), np.zeros(2)
             for index in indices:
                 block = blocks.block(index)
-                dictionary = chain.dictionary(chain.around(block), width)
+                steps = chain.steps(chain.around(block), width)
+                dictionary = settle(steps, lambda price: spend(price(width)))
                 coefficients = np.abs(project(dictionary, positions[block.vertices], dictionary.shape[1]))
                 chain.commit(block, dictionary, positions[block.vertices])
                 found = np.maximum(found, [coefficients[:1].max(), coefficients[1:].max(initial=0.0)])

@@ -9,10 +9,8 @@ from typing import Generic, TypeVar
 
 SLACK = 0.03
 """How far below a bound the search for a step may stay."""
-ROOM = 0.08
-"""How far below a look its pictures may stay, in logarithms; half of it is aimed at."""
-GLANCES, CONFIRMATIONS = 2, 5
-"""Steps that are looked at from a few sides, and from all."""
+LOOK_SLACK, LOOK_TRIES = 0.05, 6
+"""The same of a look, and how many steps are looked at."""
 
 Found = TypeVar("Found")
 
@@ -29,21 +27,29 @@ class Trial(Generic[Found]):
     near : bool
         Whether every vertex is near enough.
     found : object
+    sure : bool
+        Whether `excess` is known, and not just what a glance tells.
     """
 
     step: float
     excess: float
     near: bool
     found: Found
+    sure: bool = True
+
+    @property
+    def within(self) -> bool:
+        """Whether all bounds are kept, as far as is known."""
+        return self.near and self.excess <= 0.0
 
     @property
     def kept(self) -> bool:
         """Whether all bounds are kept."""
-        return self.near and self.excess <= 0.0
+        return self.sure and self.within
 
 
 def widest_step(
-    measure: Callable[[float], Trial[Found]],
+    measure: Callable[[float, bool], Trial[Found]],
     first: float,
     *,
     tries: int,
@@ -56,34 +62,37 @@ def widest_step(
     Parameters
     ----------
     measure : callable
-        Tries a step.
+        Tries a step; with a second argument that is true, until it is sure.
     first : float
         To begin with.
     tries : int
     most : float
         The largest step that may be tried.
-    slack : float
-        The search ends where a trial is below its bound by at most this share of it.
     slopes : (float, float)
         How the excess grows with the step's logarithm, at least and at most; at most as long as nobody knows.
+    slack : float
+        The search ends where a trial is below its bound by at most this share of it.
     """
     aim = math.log(1.0 - slack / 2.0)
     best: Trial[Found] | None = None
+    widest: Trial[Found] | None = None
     good: tuple[float, float] | None = None
     bad: tuple[float, float] | None = None
     step, slope = min(first, most), slopes[1]
     before: tuple[float, float] | None = None
     for _ in range(tries):
-        trial = measure(step)
+        trial = measure(step, False)
         within = trial.excess <= 0.0
         at = math.log(step), trial.excess
         if before is not None and at[0] != before[0]:
             slope = min(max((at[1] - before[1]) / (at[0] - before[0]), slopes[0]), slopes[1])
         before = at
-        if trial.kept:
-            if best is None or step > best.step:
-                best, good = trial, at
-            if trial.excess > math.log(1.0 - slack) or step >= most:
+        if trial.within:
+            if widest is None or step > widest.step:
+                widest, good = trial, at
+            if trial.kept and (best is None or step > best.step):
+                best = trial
+            if (trial.sure and trial.excess > math.log(1.0 - slack)) or step >= most:
                 break
         elif bad is None or at[0] < bad[0]:
             bad = at[0], math.log(1.05) if within else at[1]
@@ -99,49 +108,8 @@ def widest_step(
             gentle = slope if within else math.sqrt(slopes[0] * slope)
             step *= math.exp(min(max((aim - at[1]) / gentle, -1.2), 1.2))
         step = min(step, most)
-    return best
-
-
-def looked_for(
-    measure: Callable[[float, bool], Trial[Found]],
-    first: float,
-    *,
-    most: float,
-    slopes: tuple[float, float],
-    glances: int = GLANCES,
-) -> Trial[Found] | None:
-    """About the widest step that keeps a look: from a few sides first, and from all of them in the end.
-
-    Parameters
-    ----------
-    measure : callable
-        Tries a step, and looks at what it comes to; from all sides if its second argument is true.
-    first, most, slopes
-        As of `widest_step`.
-    glances : int
-        Steps that are looked at from a few sides.
-    """
-    trials = list[Trial[Found]]()
-
-    def glance(step: float) -> Trial[Found]:
-        trials.append(measure(step, False))
-        return trials[-1]
-
-    slope = math.sqrt(slopes[0] * slopes[1])
-
-    def following(trial: Trial[Found]) -> float:
-        more = trial.excess + ROOM / 2.0 if trial.near else max(trial.excess, 0.3)
-        return min(trial.step * math.exp(min(max(-more / slope, -1.2), 1.2)), most)
-
-    widest_step(glance, first, tries=glances, most=most, slopes=slopes, slack=ROOM)
-    near = min(trials, key=lambda trial: abs(trial.excess + ROOM / 2.0), default=None)
-    step = min(first, most) if near is None else following(near)
-    best: Trial[Found] | None = None
-    for number in range(CONFIRMATIONS):
-        trial = measure(step, True)
-        if trial.kept and (best is None or trial.step > best.step):
-            best = trial
-        if best is not None and (number or trial.excess > -2.0 * ROOM or step >= most):
-            break
-        step = following(trial)
+    if widest is not None and not widest.sure:
+        trial = measure(widest.step, True)
+        if trial.kept:
+            return trial
     return best

@@ -15,7 +15,7 @@ import numpy as np
 from bsm.codec import _kernels
 from bsm.codec.arrays import Levels, Matrix, Positions
 from bsm.codec.geometry.graph import Graph
-from bsm.codec.look.measure import DISSIMILAR, POWER, Looker
+from bsm.codec.look.measure import DISSIMILAR, POWER, VISIBLE_SHARE, Looker
 from bsm.codec.signal.frames import local_frames
 
 PULL = 0.8
@@ -28,7 +28,11 @@ TRUST = 1.0
 """Levels that each size is counted with from the start."""
 LEAST = 0.1
 """What errors cost at least, of their mean cost: nothing is hidden from all sides that somebody may look from."""
-SWEEPS = 8
+PLAIN, FINER = 2.1, 0.47
+"""Share of what is visible over dissimilarity, both over what is at distance 1, of noise where `step_for` is right; and
+how steps get finer with it, in their logarithms."""
+SWEEPS = 3
+"""More move few levels, and take no bytes off."""
 _MOST = 1 << 30
 
 
@@ -52,6 +56,7 @@ class Sensitivity:
     ) -> None:
         self._positions, self._faces, self._graph = positions, faces, graph
         self._looker, self._steps = looker, steps
+        self._finer = 1.0
 
     @cached_property
     def costs(self) -> tuple[Matrix, Matrix]:
@@ -61,8 +66,14 @@ class Sensitivity:
         along, across = self._steps
         upright = self._positions + noise[:, :1] * along * frames[:, 0]
         aside = self._positions + np.einsum("na,nad->nd", noise[:, 1:] * across, frames[:, 1:])
-        first, second = self._looker.blame(upright, aside)
+        (first, look), (second, _) = self._looker.blame(upright, aside)
+        plain = (look.visible / VISIBLE_SHARE) / max(look.dissimilarity / DISSIMILAR, 1e-300)
+        self._finer = (min(max(plain, 1.0), 8.0) / PLAIN) ** -FINER
         return self._spread(12.0 * first / along**2), self._spread(6.0 * second / across**2)
+
+    def first_step(self, distance: float, ratio: float) -> float:
+        """The step that levels should have; finer where errors are plain to see rather than many."""
+        return self.step_for(distance, ratio) * self._finer
 
     def step_for(self, distance: float, ratio: float) -> float:
         """The step, in BSM units, at which rounding, `ratio` times as wide across, is about as bad."""

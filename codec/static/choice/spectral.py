@@ -10,6 +10,7 @@ from bsm.bitstream.container.header import Header, Layer
 from bsm.bitstream.limits import NAMED_LIMITS
 from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Levels, Matrix
+from bsm.codec.signal.chain import AS_SPECIFIED, Trial
 from bsm.codec.signal.frames import displaced, in_frames, local_frames
 from bsm.codec.signal.smooth import smooth
 from bsm.codec.static.admission import admit, patience
@@ -131,12 +132,16 @@ class Spectral:
     options : EncodeOptions
     widest : float
         Columns of a dictionary that are not exceeded, over the rows of a block.
+    trial : Trial
+        What is tried in place of what the specification says.
     """
 
-    def __init__(self, prepared: Prepared, options: EncodeOptions, widest: float = 1.0) -> None:
+    def __init__(
+        self, prepared: Prepared, options: EncodeOptions, widest: float = 1.0, trial: Trial = AS_SPECIFIED
+    ) -> None:
         self._prepared = prepared
         self._options = options
-        self._planner = Planner(prepared, options, widest)
+        self._planner = Planner(prepared, options, widest, trial)
 
     def is_flat(self, step: float, share: float) -> bool:
         """Whether as large a share of all frequencies is worth coding at a step."""

@@ -11,7 +11,7 @@ from bsm.bitstream.container import packets
 from bsm.bitstream.errors import BsmError, CorruptError, NumericError
 from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Matrix
-from bsm.codec.basis.cost import Spend, free
+from bsm.codec.basis.cost import Price, Spend, free, settle
 from bsm.codec.basis.dynamic_size import DynamicSize
 from bsm.codec.blocks.blend import degree_weights
 from bsm.codec.signal.chain import Chain
@@ -60,14 +60,9 @@ class ChainEncoder:
     def __init__(self, scheme: Scheme, doi: tuple[float, float] | None = None, spend: Spend = free) -> None:
         self._scheme = scheme
         self._spend = spend
-        self._told: list[float] = []
         self._sizes = None if doi is None else DynamicSize(*doi, scheme.coding.width)
-        self._chain = Chain(scheme.rules, scheme.blocks.graph, self._tell)
+        self._chain = Chain(scheme.rules, scheme.blocks.graph)
         self._coding = scheme.coding.begin()
-
-    def _tell(self, work: float) -> None:
-        self._told.append(work)
-        self._spend(work)
 
     def encode(self, index: int, positions: Matrix) -> CodedBlock:
         """Encode the chain's next block, by its index in the scheme; `positions`, shape (n, 3), are those of all
@@ -76,21 +71,27 @@ class ChainEncoder:
         scheme, chain, coding = self._scheme, self._chain, self._coding
         block = scheme.blocks.block(index)
         around = chain.around(block)
-        self._told.clear()
-        dictionary = chain.dictionary(around, coding.width)
-        ground = Ground(block, around.continuation, dictionary)
+        dictionary, prices = self._priced_dictionary(around)
+        ground = Ground(block, chain.continuation(around), dictionary)
         levels = coding.choose(ground, positions[block.vertices], self._sizes)
         decoded = coding.positions(ground, levels)
-        work = (
-            sum(chain.costs(around, levels.width)[: len(self._told)])
-            + sum(self._told[2:])
-            + self._work_of(index, around, levels)
-        )
+        work = sum(price(levels.width) for price in prices) + self._work_of(index, around, levels)
         chain.commit(block, np.ascontiguousarray(dictionary[:, : levels.width]), decoded)
         number = scheme.first + index
         packet = packets.Block(number, len(levels.coordinates), coding.write(levels))
         result = DecodedBlock(number, block.vertices, decoded, degree_weights(block.degrees))
         return CodedBlock(packet, result, work, block_memory(around.laplacian, levels.width))
+
+    def _priced_dictionary(self, around: Surroundings) -> tuple[Matrix, list[Price]]:
+        """U as wide as may pay, and the prices of its steps, which a decoder pays for the columns that are coded."""
+        prices: list[Price] = []
+        width = min(self._coding.width, around.laplacian.block.size)
+
+        def pay(price: Price) -> None:
+            self._spend(price(width))
+            prices.append(price)
+
+        return settle(self._chain.steps(around, width), pay), prices
 
     def _work_of(self, index: int, around: Surroundings, levels: BlockLevels) -> float:
         """What all of a block costs a decoder but its dictionary."""
@@ -118,7 +119,7 @@ class ChainDecoder:
         rules, graph = self._scheme.rules, self._scheme.blocks.graph
         if (rules.stiffness and not rules.alone) or self._scheme.coding.detail_rows:
             self._allowance.spend(chain_cost(graph.size))
-        return Chain(rules, graph, self._allowance.spend)
+        return Chain(rules, graph)
 
     @cached_property
     def _coding(self) -> Coding:
@@ -147,9 +148,10 @@ class ChainDecoder:
         levels = coding.read(packet.data, packet.coefficients, block.size)
         around = chain.around(block)
         with allowance.hold(block_memory(around.laplacian, levels.width)):
-            dictionary = chain.dictionary(around, levels.width)
+            steps = chain.steps(around, levels.width)
+            dictionary = settle(steps, lambda price: allowance.spend(price(levels.width)))
             allowance.spend(ground_cost(around.laplacian, levels.width))
-            ground = Ground(block, around.continuation, dictionary)
+            ground = Ground(block, chain.continuation(around), dictionary)
             decoded = coding.positions(ground, levels)
             chain.commit(block, dictionary, decoded)
         if not np.isfinite(decoded).all():

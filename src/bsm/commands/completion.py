@@ -8,6 +8,7 @@ from __future__ import annotations
 import argparse
 
 from bsm.bitstream.errors import DependencyError
+from bsm.bitstream.extras import how_to_install
 from bsm.console import Console
 
 SHELLS = ("bash", "zsh", "fish")
@@ -26,7 +27,7 @@ def run(args: argparse.Namespace, console: Console) -> None:
         import shtab
     except ImportError as missing:
         raise DependencyError(
-            'completion scripts are made with shtab; run: pip install "bsm-codec[completion]"'
+            f"completion scripts are made with shtab; run: {how_to_install('completion')}"
         ) from missing
     from bsm.cli import program_parser
 

@@ -68,7 +68,12 @@ def _chosen(names: str, vertices: int, blocks: int | None) -> list[Curve]:
     from bsm.evaluation.codecs import draco_curve, our_curve, paper_curves
 
     paper = paper_curves(round(vertices / blocks) if blocks else 500)
-    groups = {"ours": (our_curve(),), "paper": paper, "draco": (draco_curve(),), **{c.name: (c,) for c in paper}}
+    groups = {
+        "ours": (our_curve(fine=True),),
+        "paper": paper,
+        "draco": (draco_curve(),),
+        **{c.name: (c,) for c in paper},
+    }
     unknown = [name for name in names.split(",") if name not in groups]
     if unknown:
         raise OptionError(f"no codec is called {', '.join(unknown)}; there are {', '.join(groups)}")

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from bsm.bitstream.errors import DependencyError
+from bsm.bitstream.extras import how_to_install
 from bsm.commands.encode_options import add_preset_flags, wishes_of
 from bsm.console import Console, print_json
 from bsm.files.output import open_output, refuse_to_overwrite
@@ -105,7 +106,7 @@ def _draw(
         from matplotlib.backends.backend_agg import FigureCanvasAgg
         from matplotlib.figure import Figure
     except ImportError as missing:
-        raise DependencyError('pictures are made with matplotlib; run: pip install "bsm-codec[eval]"') from missing
+        raise DependencyError(f"pictures are made with matplotlib; run: {how_to_install('eval')}") from missing
     from matplotlib import colormaps
 
     from bsm.evaluation.render import bounds_of, render

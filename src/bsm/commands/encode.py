@@ -33,7 +33,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--format",
         choices=tuple(dict.fromkeys((*MESH_FORMATS, *SEQUENCES_READ))),
-        help="format of the input (default: by its name or content)",
+        metavar="FORMAT",
+        help="format of the input: its suffix without the dot (default: by its name or content)",
     )
     parser.add_argument(
         "--permutation", metavar="FILE.npy", help="also write which input vertex each decoded vertex is"

@@ -104,17 +104,15 @@ def point(text: str) -> tuple[float, ...]:
 ENCODE_FLAGS = (
     EncodeFlag("grid", int, "BITS", "exactly the positions that a grid of so many bits per axis has (1 to 20)"),
     EncodeFlag("grid_cell", float, "H", "exactly the positions of a grid of such cells: parts on one fit exactly"),
-    EncodeFlag("grid_origin", point, "X,Y,Z", "a place of that grid (default 0,0,0); =X,Y,Z where X is negative"),
     EncodeFlag("quick", bool, "", "only what is quick to decode: grids, by a small model, no blocks"),
     EncodeFlag("keep_order", bool, "", "store the order of vertices and faces"),
-    EncodeFlag(
-        "sections", int, "N", "come in so many turns of faces and blocks, to be drawn sooner (default: 2 if large)"
-    ),
-    EncodeFlag("limits", str, "default|service|wide", "what decoders may refuse is an error (default: default)"),
     EncodeFlag("threads", int, "N", "threads to use (default: one per core)"),
 )
 
 SETTINGS = (
+    Setting("grid_origin", point, "X,Y,Z", "a place of the grid of --grid-cell (default 0,0,0)"),
+    Setting("sections", int, "N", "turns of faces and blocks, to be drawn sooner (default: 2 if large)"),
+    Setting("limits", str, "default|service|wide", "what decoders may refuse is an error (default: default)"),
     Setting("keep", float, "FRACTION", "largest c_i, as a fraction of a block's vertices (default: as many as pay)"),
     Setting("coefficients", int, "C", "coefficients kept per block and coordinate, instead of keep"),
     Setting("step", float, "S", "quantisation step, relative to the bounding box's diagonal; instead of a promise"),
@@ -135,7 +133,7 @@ SETTINGS = (
         "doi", thresholds, "EPS_L,EPS_H", "as many coefficients per block as keep its residual between two thresholds"
     ),
 )
-"""The codec's inside, for those who study it: `--set NAME=VALUE`."""
+"""What few need, and the codec's inside for those who study it: `--set NAME=VALUE`."""
 
 
 PRESETS = ("small", "balanced", "fine", "near-lossless", "grid14", "lossless")
@@ -229,7 +227,7 @@ def add_coding_flags(parser: argparse.ArgumentParser) -> None:
         type=setting,
         metavar="NAME=VALUE",
         default=argparse.SUPPRESS,
-        help="one of the codec's settings, for study; --help-all lists them",
+        help="one of the settings that few need; --help-all lists them",
     )
 
 

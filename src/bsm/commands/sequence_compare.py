@@ -109,8 +109,8 @@ def looks(original: Positions, decoded: Positions, faces: Faces) -> dict[str, fl
     if not found:
         raise MeshError("the sequence cannot be looked at: its faces have no area in any frame")
     return {
-        "look_worst": max(look.distance for look in found),
-        "look_mean": float(np.mean([look.distance for look in found])),
+        "look_worst": max(look.moving for look in found),
+        "look_mean": float(np.mean([look.moving for look in found])),
         "dissimilarity_worst": max(look.dissimilarity for look in found),
     }
 

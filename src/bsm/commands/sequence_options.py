@@ -12,9 +12,8 @@ def add_sequence_flags(parser: argparse.ArgumentParser) -> None:
     """Add what only sequences have."""
     group = parser.add_argument_group(
         "sequences",
-        "a folder or pattern of mesh files, many of them with -o NAME.bsm, npz, PC2, MDD, GLB with --animation, USD, "
-        "or npy arrays on a pipe (--frames: the faces, then the positions of each frame); a target is met by one step "
-        "for all frames, which are kept in memory then",
+        "a folder or pattern of meshes, several meshes with -o NAME.bsm, npz, PC2, MDD, USD, GLB with\n"
+        "--animation, or npy arrays on a pipe (the faces, then the positions of each frame)",
     )
     group.add_argument("--kg", type=float, metavar="PERCENT", help="Karni and Gotsman's error at most PERCENT")
     group.add_argument("--bpvf", type=float, metavar="X", help="at most X bits per vertex and frame, the whole file")
@@ -40,7 +39,7 @@ def add_sequence_flags(parser: argparse.ArgumentParser) -> None:
         help="the mesh of a PC2 or MDD (default: of the same name beside it)",
     )
     group.add_argument(
-        "--frames", dest="piped_frames", action="store_true", help="a pipe holds frames: npy arrays, as --format npy"
+        "--frames", dest="piped_frames", action="store_true", help="a pipe holds frames, as --format npy"
     )
 
 

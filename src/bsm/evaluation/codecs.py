@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, fields
+from dataclasses import asdict, dataclass, fields
 from typing import Any, Protocol
 
 from bsm.bitstream.limits import NAMED_LIMITS
@@ -12,6 +12,7 @@ from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.static.decoder import decode
 from bsm.codec.static.encoder import Encoder
 from bsm.codec.static.options import EncodeOptions
+from bsm.codec.static.targets import Target
 from bsm.evaluation.draco import decode_draco, encode_draco, positions_in_order
 from bsm.files.stream import inspect_stream
 
@@ -86,6 +87,8 @@ class Spectral:
         values = {name: getattr(self.options, name) for name in names}
         defaults = EncodeOptions()
         changed = {name: value for name, value in values.items() if value != getattr(defaults, name)}
+        if self.options.target is not None:
+            return {**changed, "target": asdict(self.options.target)}
         return changed if self.options.bits else {"step": self.options.first_step, **changed}
 
     def encode(self, mesh: TriangleMesh) -> Coded:
@@ -214,9 +217,17 @@ def paper_curves(block_size: int = 500, keeps: tuple[float, ...] = PAPER_KEEPS) 
 OUR_STEPS = (2.4e-2, 1.6e-2, 1.1e-2, 8e-3, 5.5e-3, 4e-3, 2.8e-3, 2e-3, 1.3e-3, 8e-4)
 
 
-def our_curve(**changes: Any) -> Curve:
-    """The product at a ladder of steps, everything else its defaults."""
-    codecs = (Spectral(EncodeOptions(**{"threads": 1, "step": step, **changes})) for step in OUR_STEPS)
+FINE_STEP = 4e-3
+OUR_ANGLES = (3.0, 2.0, 1.2, 0.7, 0.4, 0.2)
+"""Below this step, and at these mean angles of normals in degrees, blocks alone are no longer the smallest way."""
+
+
+def our_curve(*, fine: bool = False, **changes: Any) -> Curve:
+    """The product at a ladder of steps, everything else its defaults; with `fine`, at angles instead of fine steps."""
+    steps = [step for step in OUR_STEPS if not fine or step >= FINE_STEP]
+    codecs = [Spectral(EncodeOptions(**{"threads": 1, "step": step, **changes})) for step in steps]
+    if fine:
+        codecs += [Spectral(EncodeOptions(threads=1, target=Target("theta_deg", angle))) for angle in OUR_ANGLES]
     return Curve("ours", "ours", tuple(codecs))
 
 

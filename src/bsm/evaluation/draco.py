@@ -13,6 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from bsm.bitstream.errors import DependencyError, MeshError
+from bsm.bitstream.extras import how_to_install
 from bsm.codec.arrays import Positions
 from bsm.codec.geometry.mesh import TriangleMesh
 
@@ -99,6 +100,6 @@ def _draco() -> ModuleType:
     try:
         import DracoPy
     except ImportError as error:
-        raise DependencyError("Draco needs the package DracoPy: pip install 'bsm-codec[eval]'") from error
+        raise DependencyError(f"Draco needs the package DracoPy: {how_to_install('eval')}") from error
     module: ModuleType = DracoPy
     return module

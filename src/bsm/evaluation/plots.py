@@ -11,6 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from bsm.bitstream.errors import DependencyError
+from bsm.bitstream.extras import how_to_install
 from bsm.evaluation.rates import MEASURES
 
 Result = Mapping[str, Any]
@@ -174,7 +175,7 @@ def import_matplotlib() -> ModuleType:
     try:
         import matplotlib
     except ImportError as error:
-        raise DependencyError("pictures need matplotlib: pip install 'bsm-codec[eval]'") from error
+        raise DependencyError(f"pictures need matplotlib: {how_to_install('eval')}") from error
     return matplotlib
 
 

@@ -10,6 +10,7 @@ from contextlib import contextmanager
 from typing import Any
 
 from bsm.bitstream.errors import DependencyError
+from bsm.bitstream.extras import how_to_install
 from bsm.farm.jobs import Numbered, Outcome, Outcomes, Tasks, Work, far_outcome
 
 AHEAD = 2
@@ -37,7 +38,7 @@ def on_cluster(work: Work, tasks: Tasks, address: str) -> Outcomes:
     try:
         import distributed
     except ImportError as error:
-        raise DependencyError("a cluster needs Dask: pip install 'bsm-codec[dask]'") from error
+        raise DependencyError(f"a cluster needs Dask: {how_to_install('dask')}") from error
     try:
         client: Any = distributed.Client(address, set_as_default=False)  # type: ignore[no-untyped-call]
     except (OSError, ValueError) as error:

@@ -27,8 +27,9 @@ from bsm.files.formats.ply import read_ply, write_ply
 from bsm.files.formats.polygons import MeshFile, Polygons
 from bsm.files.formats.stl import read_stl, write_stl
 from bsm.files.formats.with_openmesh import read_with_openmesh
-from bsm.files.formats.with_trimesh import read_with_trimesh
+from bsm.files.formats.with_trimesh import import_trimesh, read_with_trimesh
 from bsm.files.formats.written import Written
+from bsm.files.motion.gltf import require_room_for_meshes
 from bsm.files.output import can_be_replaced, open_output, refuse_to_overwrite
 from bsm.files.pipes import Source, as_input
 from bsm.files.remote import is_url
@@ -108,10 +109,13 @@ def read_mesh(
     if kind in USD_FORMATS and path and reader is None:
         from bsm.files.motion.usd import read_usd_mesh
 
-        return read_usd_mesh(path)
+        return read_usd_mesh(path, limits)
     if reader == "trimesh" or kind not in MESH_FORMATS:
         if data.startswith(b"PK\x03\x04"):
             require_archive(data, limits)
+        if kind in ("glb", "gltf"):
+            import_trimesh(f".{kind} files are read")
+            require_room_for_meshes(data, limits)
         return read_with_trimesh(data, path, kind, limits).checked(limits)
     if kind == "npz":
         return read_npz(data, limits)

@@ -8,6 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from bsm.bitstream.errors import DependencyError
+from bsm.bitstream.extras import how_to_install
 
 Picture = npt.NDArray[np.float32]
 _LOUDER = 4.0
@@ -30,7 +31,7 @@ def png(picture: Picture) -> bytes:
     try:
         import PIL.Image
     except ImportError as error:
-        raise DependencyError("pictures need pillow: pip install 'bsm-codec[formats]'") from error
+        raise DependencyError(f"pictures need pillow: {how_to_install('formats')}") from error
     file = io.BytesIO()
     PIL.Image.fromarray(np.rint(255 * picture.clip(0.0, 1.0)).astype(np.uint8)).save(file, "png")
     return file.getvalue()

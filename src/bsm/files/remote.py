@@ -16,6 +16,7 @@ from dataclasses import dataclass
 from typing import Any, BinaryIO, cast
 
 from bsm.bitstream.errors import BsmError, DependencyError, OptionError
+from bsm.bitstream.extras import how_to_install
 
 _URL = re.compile(r"([a-zA-Z][a-zA-Z0-9+.-]+)(?:::|://)")
 _PIECE, _IN_MEMORY = 1 << 20, 1 << 26
@@ -226,7 +227,7 @@ def _system(url: str) -> tuple[Any, str]:
         import fsspec
         from fsspec.registry import known_implementations
     except ImportError as error:
-        raise DependencyError(f"{scheme}:// needs fsspec: pip install 'bsm-codec[remote]'") from error
+        raise DependencyError(f"{scheme}:// needs fsspec: {how_to_install('remote')}") from error
     try:
         return cast("tuple[Any, str]", fsspec.url_to_fs(url))
     except ImportError as error:

@@ -6,18 +6,26 @@ As a stream, a file may take what limits grant for its bytes and its vertices; w
 from __future__ import annotations
 
 import io
+import re
 import zipfile
 import zlib
 from typing import Protocol
 
 import numpy as np
 
-from bsm.bitstream.errors import CorruptError, FormatError, LimitError, TruncatedError
+from bsm.bitstream.errors import CorruptError, FormatError, LimitError, MeshError, TruncatedError
 from bsm.bitstream.limits import Limits
 
-LINE, WORD = 250.0, 250.0
+LINE, WORD = 250.0, 330.0
 """Bytes that a line of text, and a word of it, are kept in while numbers are made of them."""
+AS_NUMBERS = 8
+"""Bytes of a coordinate or an index as readers make it, however narrow the file has it."""
+TREE = 32
+"""Bytes that a byte of JSON may become."""
+TAG = 150
+"""Bytes that a tag of XML becomes in the tree of a library."""
 _PIECE = 1 << 18
+_OTHER = re.compile(rb"[^\0]")
 _KEYWORDS = {"v": "vertices", "f": "faces"}
 
 
@@ -38,17 +46,23 @@ def require_inflated(size: int, compressed: int, limits: Limits) -> None:
     most = most_inflated(compressed, limits)
     if size > most:
         raise LimitError(
-            f"{compressed} compressed bytes become {size} or more, over the limit of {most}; if you trust the file, "
-            "decompress it yourself, or raise Limits.memory"
+            f"{compressed} compressed bytes take {size} bytes of memory or more, over the limit of {most}; if you "
+            "trust the file, decompress it yourself, or raise Limits.memory"
         )
 
 
 def require_archive(data: bytes, limits: Limits) -> None:
-    """Raise `LimitError` if a zip archive says that it becomes too much; no reader goes beyond what it says."""
+    """Raise `LimitError` if a zip archive becomes too much: as it says, or as a tree of the tags that are in it."""
     try:
         with zipfile.ZipFile(io.BytesIO(data)) as archive:
-            require_inflated(sum(entry.file_size for entry in archive.infolist()), len(data), limits)
-    except (zipfile.BadZipFile, NotImplementedError, ValueError) as error:
+            size = sum(entry.file_size for entry in archive.infolist())
+            require_inflated(size, len(data), limits)
+            for name in archive.namelist():
+                with archive.open(name) as entry:
+                    while piece := entry.read(_PIECE):
+                        size += TAG * piece.count(b"<")
+                        require_inflated(size, len(data), limits)
+    except (zipfile.BadZipFile, NotImplementedError, ValueError, RuntimeError, EOFError, zlib.error) as error:
         raise FormatError(f"this is no archive that can be read: {error}") from error
 
 
@@ -62,22 +76,28 @@ def gunzipped(data: bytes, limits: Limits) -> bytes:
     TruncatedError, CorruptError
         If it is cut short or damaged.
     """
-    pieces, size, left = [], 0, data
+    pieces, size, begin = [], 0, 0
     try:
-        while left:
-            member = zlib.decompressobj(wbits=31)
-            source = io.BytesIO(left)
+        while begin < len(data):
+            member, at = zlib.decompressobj(wbits=31), begin
             while not member.eof:
-                given = member.unconsumed_tail or source.read(_PIECE)
+                given = member.unconsumed_tail or data[at : at + _PIECE]
                 if not given:
                     raise TruncatedError("the file is cut short: what gzip has compressed does not end")
+                at += 0 if member.unconsumed_tail else len(given)
                 pieces.append(member.decompress(given, _PIECE))
                 size += len(pieces[-1])
-                require_inflated(size, len(data), limits)
-            left = (member.unused_data + source.read()).lstrip(b"\0")
+                require_inflated(2 * size, len(data), limits)  # pieces, and all of it
+            begin = _behind_zeros(data, at - len(member.unused_data))
     except zlib.error as error:
         raise CorruptError(f"what gzip has compressed is damaged: {error}") from error
     return b"".join(pieces)
+
+
+def _behind_zeros(data: bytes, begin: int) -> int:
+    """Where something other than zeros begins, which may fill up a file."""
+    found = _OTHER.search(data, begin)
+    return found.start() if found else len(data)
 
 
 def require_room(kind: str, data: bytes, limits: Limits) -> None:
@@ -102,6 +122,8 @@ def require_room(kind: str, data: bytes, limits: Limits) -> None:
         for name, count in counts.items():
             limits.check(name, count)
         vertices = counts["vertices"]
+        if not counts["faces"] and not data.startswith((b"f ", b"f\t")) and b"\0" not in data:
+            raise MeshError("the file has no faces; point clouds are not supported")
     memory = LINE * lines + WORD * _words(data)
     granted = limits.memory_for(vertices, len(data))
     if memory > granted:

@@ -101,7 +101,7 @@ def single_suffices(positions: Doubles) -> bool:
     """Whether float32 moves no coordinate by more than a millionth of the bounding box's diagonal."""
     with np.errstate(over="ignore", invalid="ignore"):
         error = np.abs(positions.astype(np.float32) - positions).max()
-    return bool(error <= 1e-6 * np.linalg.norm(np.ptp(positions, axis=0)))
+        return bool(np.isfinite(error) and error <= 1e-6 * np.linalg.norm(np.ptp(positions, axis=0)))
 
 
 def text_table(row: str, columns: npt.NDArray[Any]) -> bytes:

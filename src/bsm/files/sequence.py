@@ -14,6 +14,7 @@ from pathlib import Path
 import numpy as np
 
 from bsm.bitstream.errors import OptionError, UnsupportedError
+from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.codec.arrays import Faces, Positions
 from bsm.files.formats.npy import NPY, write_npy
 from bsm.files.formats.npz import open_npz_sequence
@@ -38,7 +39,11 @@ SEQUENCES_READ = ("npz", "npy", *CACHES, *GLTF, *USD_FORMATS)
 
 
 def open_sequence(
-    source: Source, file_format: str | None = None, reader: str | None = None, wanted: Wanted | None = None
+    source: Source,
+    file_format: str | None = None,
+    reader: str | None = None,
+    wanted: Wanted | None = None,
+    limits: Limits = DEFAULT_LIMITS,
 ) -> Frames | None:
     """The sequence that `source` names, or None if it is not one but perhaps a mesh.
 
@@ -54,49 +59,51 @@ def open_sequence(
         Of the frames' files, see `read_mesh`.
     wanted : Wanted, optional
         None: a glTF is a mesh, animated or not.
+    limits : Limits
+        `vertices`, `faces`, `frames`, and what reading may cost.
 
     Raises
     ------
-    FormatError, MeshError, TruncatedError
+    FormatError, MeshError, TruncatedError, LimitError
         If it is one, but cannot be read; also later, while the frames are read.
     """
     if is_pipe(source) and file_format != "npy":
         return None
     given = as_input(source)
     if not is_url(given.name) and names_many(given.name):
-        return read_files(frame_files(given.name), file_format, reader)
+        return read_files(frame_files(given.name), file_format, reader, limits)
     kind = file_format or Path(given.name).suffix[1:].lower()
     if kind == "abc":
         raise UnsupportedError(
             "Alembic is not read here: open it in Blender and export it as USD, or with the extension for BSM"
         )
     if kind in (*CACHES, *USD_FORMATS) or (kind in GLTF and wanted is not None):
-        return _of_file(given.name, kind, reader, wanted or Wanted()) if given.is_file else None
+        return _of_file(given.name, kind, reader, wanted or Wanted(), limits) if given.is_file else None
     if file_format not in (None, "npz", "npy"):
         return None
     head = given.peek(len(NPY))
     if head == NPY or file_format == "npy":
-        return read_pipe(given)
+        return read_pipe(given, limits)
     if not head.startswith(ZIP) or (file_format is None and kind not in ("", "npz")):
         return None  # a 3MF is a ZIP, too
-    return read_archive(given)
+    return read_archive(given, limits)
 
 
 def open_frames(names: Sequence[str], file_format: str | None = None, reader: str | None = None) -> Frames:
     """The sequence of these mesh files, in the order of the numbers in their names; errors as of `open_sequence`."""
-    return read_files(in_order(names), file_format, reader)
+    return read_files(in_order(names), file_format, reader, DEFAULT_LIMITS)
 
 
-def _of_file(path: str, kind: str, reader: str | None, wanted: Wanted) -> Frames | None:
+def _of_file(path: str, kind: str, reader: str | None, wanted: Wanted, limits: Limits) -> Frames | None:
     if kind in CACHES:
-        return read_cache(path, kind, reader, wanted)
+        return read_cache(path, kind, reader, wanted, limits)
     if kind in GLTF:
         from bsm.files.motion.gltf_frames import read_gltf
 
-        return read_gltf(path, wanted)
+        return read_gltf(path, wanted, limits)
     from bsm.files.motion.usd import read_usd
 
-    return read_usd(path, wanted)
+    return read_usd(path, wanted, limits)
 
 
 @contextmanager

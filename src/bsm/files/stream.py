@@ -162,7 +162,7 @@ def inspect_stream(chunks: Iterator[bytes], limits: Limits = DEFAULT_LIMITS) -> 
         if isinstance(packet, packets.Header):
             header = packet
         elif isinstance(packet, packets.Metadata):
-            metadata = packet
+            metadata = packets.Metadata({**metadata.entries, **packet.entries})
             sizes[type(packet)] += len(write_metadata(packet))
         elif isinstance(packet, packets.Attribute):
             declared.append(packet)

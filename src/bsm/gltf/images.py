@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import Self
 
 from bsm.bitstream.errors import DependencyError, OptionError
+from bsm.bitstream.extras import how_to_install
 
 MIME = {"webp": "image/webp", "jpeg": "image/jpeg", "png": "image/png"}
 
@@ -40,7 +41,7 @@ def smaller(data: bytes, rule: ImageRule) -> bytes | None:
     try:
         from PIL import Image, UnidentifiedImageError
     except ImportError as error:
-        raise DependencyError("images are written with Pillow; run: pip install pillow") from error
+        raise DependencyError(f"images are written with Pillow; run: {how_to_install('formats')}") from error
     try:
         image: Image.Image = Image.open(io.BytesIO(data))
         image.load()

@@ -75,9 +75,16 @@ def compared(name: str, stream: bytes, original: TriangleMesh, limits: Limits = 
 
 
 def _rival(original: TriangleMesh, decoded: TriangleMesh) -> Rival | None:
-    """Draco's file of `original` with normals as good as those of `decoded`; None without DracoPy, or if it refuses."""
+    """Draco's file of `original` with normals as good as those of `decoded`.
+
+    None without DracoPy and what it needs (the extra eval), or if it refuses.
+    """
     from bsm.codec.geometry.metrics import Reference
-    from bsm.evaluation.draco import decode_draco, encode_draco, positions_in_order
+
+    try:
+        from bsm.evaluation.draco import decode_draco, encode_draco, positions_in_order
+    except DependencyError:
+        return None
 
     reference = Reference(original.positions, original.faces)
     theta = reference.theta(decoded.positions)

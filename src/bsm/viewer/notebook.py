@@ -10,6 +10,7 @@ import numpy as np
 
 from bsm.api import encode, encode_sequence
 from bsm.bitstream.errors import DependencyError, OptionError
+from bsm.bitstream.extras import how_to_install
 from bsm.files.pipes import Input
 from bsm.files.stream import is_stream
 from bsm.meshes import as_mesh
@@ -49,7 +50,7 @@ def show(source: Any, *, original: Any = None, height: int = 480, **keywords: An
     try:
         from bsm.viewer.widget import StreamWidget
     except ImportError as error:
-        raise DependencyError("a notebook needs the package anywidget: pip install 'bsm-codec[notebook]'") from error
+        raise DependencyError(f"a notebook needs the package anywidget: {how_to_install('notebook')}") from error
 
     return StreamWidget(_content(source, original, keywords), height)
 

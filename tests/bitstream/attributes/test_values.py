@@ -21,7 +21,7 @@ from bsm.bitstream.errors import CorruptError, LimitError, MeshError, OptionErro
 from bsm.bitstream.limits import DEFAULT_LIMITS
 from tests.bitstream.fields.fields import KINDS, SOUPS, decode, encode, values
 from tests.shapes import grid_faces
-from tools.grids import rounded, welded
+from tools.measure.grids import rounded, welded
 
 quick = settings(deadline=None, max_examples=100)
 CHUNKS = st.sampled_from([1, 3, 20, 1000])

@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 
 from bsm.bitstream.container import wire
 from bsm.bitstream.container.declaration import Declaration
+from bsm.bitstream.container.layout import write_metadata
 from bsm.bitstream.container.packets import (
     Attribute,
     Block,
@@ -244,8 +245,8 @@ ILLEGAL = [
     [HEADER, CONNECTIVITY, CONNECTIVITY],
     [HEADER, CONNECTIVITY, ORDER, PARTITION],
     [HEADER, CONNECTIVITY, PARTITION, PARTITION],
-    [HEADER, META, META, CONNECTIVITY],
-    [HEADER, CONNECTIVITY, B0, META],
+    [META, HEADER, CONNECTIVITY],
+    [HEADER, Metadata({"a": 1}), CONNECTIVITY, B0, Metadata({"b": 1, "a": 2})],
     [HEADER, CONNECTIVITY, B0, PARTITION],
     [HEADER, CONNECTIVITY, B0, B0],
     [HEADER, CONNECTIVITY, B1, B0],
@@ -258,7 +259,6 @@ ILLEGAL = [
     [GRID[0], CONNECTIVITY],
     [GRID[0], CONNECTIVITY, PARTITION, Grid(0, 100, b"")],
     [GRID[0], CONNECTIVITY, B0, Grid(0, 100, b"")],
-    [GRID[0], CONNECTIVITY, Grid(0, 100, b""), META],
     [GRID[0], CONNECTIVITY, Grid(0, 101, b"")],
     [GRID[0], CONNECTIVITY, Grid(0, 0, b""), Grid(0, 100, b"")],
     [GRID[0], CONNECTIVITY, Grid(0, 99, b"")],
@@ -282,7 +282,6 @@ ILLEGAL = [
     [SECTIONS, CONNECTIVITY, B0, B2, CONNECTIVITY],
     [SECTIONS, CONNECTIVITY, B0, B1, CONNECTIVITY, CONNECTIVITY, B2],
     [SECTIONS, CONNECTIVITY, B0, B1, CONNECTIVITY, B2, CONNECTIVITY],
-    [SECTIONS, CONNECTIVITY, B0, B1, CONNECTIVITY, META, B2],
     [SECTIONS, CONNECTIVITY, ORDER, B0, B1, CONNECTIVITY, B2],
     [SECTIONS, CONNECTIVITY, PARTITION, B0, B1, CONNECTIVITY, B2],
     [SECTIONS, CONNECTIVITY, B0, B1, CONNECTIVITY, ORDER, B2],
@@ -300,7 +299,8 @@ LEGAL = [
     [REFINED[0], CONNECTIVITY, B0, Refinement(0, 0, 3, b"")],
     [REFINED[0], CONNECTIVITY, B0, Refinement(0, 0, 3, b""), Refinement(0, 3, 2, b""), Refinement(1, 0, 3, b"")],
     [REFINED[0], CONNECTIVITY, Refinement(1, 0, 100, b"")],
-    [SECTIONS, META, CONNECTIVITY, B1, CONNECTIVITY, B2],
+    [SECTIONS, META, CONNECTIVITY, B1, META, CONNECTIVITY, META, B2, META],
+    [GRID[0], CONNECTIVITY, META, Grid(0, 100, b""), META],
     [SECTIONS, CONNECTIVITY, B0, B1, CONNECTIVITY],
     [SECTIONS, CONNECTIVITY, META, B0, B1, CONNECTIVITY, B2],
     [replace(SECTIONS, sections=(60, 1, 60, 1)), CONNECTIVITY, B0, CONNECTIVITY, B1, CONNECTIVITY, B2],
@@ -342,8 +342,20 @@ def test_frames_that_the_header_does_not_announce_are_unsupported(packets):
         read_all(stream_of(*frames_of(packets)))
 
 
-@pytest.mark.parametrize("place", [1, 2, 3, 4])
-def test_metadata_may_stand_anywhere_before_the_blocks(place):
+def test_metadata_may_be_many_and_are_bounded_together():
+    packets = [HEADER, Metadata({"a": 1}), CONNECTIVITY, PARTITION, ORDER, B0, Metadata({"b": 2})]
+    data = stream_of(*frames_of(packets))
+    assert read_all(data)[:-1] == packets
+    size = len(write_metadata(Metadata({"a": 1})))
+    assert read_all(data, reader=Reader(Limits(metadata_bytes=2 * size)))
+    with pytest.raises(LimitError, match="metadata_bytes"):
+        read_all(data, reader=Reader(Limits(metadata_bytes=2 * size - 1)))
+    with pytest.raises(CorruptError, match="'a' again"):
+        read_all(stream_of(*frames_of([*packets, Metadata({"c": 1, "a": 2})])))
+
+
+@pytest.mark.parametrize("place", [1, 2, 3, 4, 5])
+def test_metadata_may_stand_anywhere_behind_the_header(place):
     packets = [HEADER, CONNECTIVITY, PARTITION, ORDER, B0]
     packets.insert(place, META)
     assert read_all(write_stream(packets))[:-1] == packets

@@ -23,8 +23,8 @@ from bsm.bitstream.limits import DEFAULT_LIMITS
 from tests.bitstream.fields.fields import KINDS, SOUPS, decode, encode, values
 from tests.shapes import Faces, grid_faces
 from tools import field_tables
-from tools.grids import encode as encode_stream
-from tools.grids import welded
+from tools.measure.grids import encode as encode_stream
+from tools.measure.grids import welded
 
 quick = settings(deadline=None, max_examples=150)
 

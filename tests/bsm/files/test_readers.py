@@ -179,7 +179,7 @@ def test_trimesh_can_be_asked_for_our_formats(trimesh, tmp_path):
 @pytest.mark.parametrize("data", [b"glTF", b"glTF\2\0\0\0\xff\xff\xff\xff\0\0\0\0JSON{}", b"glTF" + bytes(100)])
 def test_damaged_scenes(trimesh, data, tmp_path):
     (tmp_path / "a.glb").write_bytes(data)
-    with pytest.raises((FormatError, MeshError), match=r"trimesh cannot read this file|no faces"):
+    with pytest.raises((FormatError, TruncatedError), match=r"this is no GLB|this GLB should|a GLB begins"):
         read_mesh(tmp_path / "a.glb")
 
 
@@ -192,11 +192,11 @@ def test_formats_that_nobody_knows(trimesh, tmp_path):
 def test_where_trimesh_is_missing_the_way_out_is_said(tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, "trimesh", None)
     (tmp_path / "a.glb").write_bytes(b"glTF and more")
-    with pytest.raises(DependencyError, match=r"\.glb files are read with trimesh; run: pip install 'bsm-codec\[form"):
+    with pytest.raises(DependencyError, match=r"\.glb files are read with trimesh; run: pip install .*\[form"):
         read_mesh(tmp_path / "a.glb")
 
 
 def test_where_openmesh_is_missing_the_way_out_is_said(monkeypatch):
     monkeypatch.setitem(sys.modules, "openmesh", None)
-    with pytest.raises(DependencyError, match=r"pip install 'bsm-codec\[openmesh\]'"):
+    with pytest.raises(DependencyError, match=r"pip install .*\[openmesh\]'"):
         read_mesh(format_mesh(tetrahedron(), "ply"), reader="openmesh")

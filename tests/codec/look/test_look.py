@@ -1,5 +1,7 @@
 """Looking the same: known answers, what must be seen, and what must not."""
 
+import math
+
 import numpy as np
 import pytest
 
@@ -8,7 +10,7 @@ from bsm.codec import _kernels
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.look.measure import Looker, judged, look
-from bsm.codec.look.pictures import Shape, difference, draw
+from bsm.codec.look.pictures import CREASE, Shape, difference, draw, draw_owned
 from bsm.codec.look.sides import LEAST_PIXELS, MOST_PIXELS, axes, cameras, pixels_for
 from bsm.files.mesh import read_mesh
 from tests.shapes import patch, tetrahedron, together, torus
@@ -299,11 +301,63 @@ def test_blame_lies_where_the_difference_is():
     top = dented[:, 2] > 0.8 * dented[:, 2].max()
     dented[top, 2] *= 0.9
     looker = Looker(MESH, threads=2)
-    none, blame = looker.blame(MESH.positions, dented)
+    (none, same), (blame, other) = looker.blame(MESH.positions, dented)
     assert none.max() < 1e-6
+    assert same.visible == 0
+    assert other.visible > 0
     near = top[MESH.faces].any(axis=1)
     assert blame[near].sum() > 2 * blame[~near].sum()
     assert blame.sum() > looker.look(dented).dissimilarity
+
+
+def test_a_glance_is_enough_where_it_tells_enough():
+    looker = Looker(MESH)
+    other = noisy(MESH, 0.002).positions
+    known = looker.look(other).distance
+    seen, whole = looker.glance(other, 0.5 * known, 2.0 * known)
+    assert whole
+    assert seen == looker.look(other)
+    for bounds in ((0.0, 0.5 * known), (2.0 * known, math.inf)):
+        seen, whole = looker.glance(other, *bounds)
+        assert not whole
+        assert seen.distance == pytest.approx(known, rel=0.15)
+
+
+def test_it_does_not_count_which_way_faces_are_turned():
+    shape = Shape.of(MESH.positions, MESH.faces)
+    turned = Shape.of(MESH.positions, MESH.faces[:, ::-1])
+    for camera in cameras(MESH.positions, 128):
+        first = draw(MESH.positions, shape.faces, shape.normals(MESH.positions), camera, 128)
+        other = draw(MESH.positions, turned.faces, turned.normals(MESH.positions), camera, 128)
+        assert (np.abs(first - other) > 1e-6).mean() < 1e-3
+
+
+def test_of_faces_at_one_place_the_first_is_shown():
+    square = np.array([(0.0, -1, -1), (0, 1, -1), (0, 1, 1), (0, -1, 1)])
+    faces = np.array([(0, 2, 1), (0, 3, 2), (0, 1, 2), (0, 2, 3)], np.int32)
+    for order in ([0, 1, 2, 3], [2, 3, 0, 1]):
+        mine = np.ascontiguousarray(faces[order])
+        normals = np.zeros((4, 9), np.float32)
+        normals[:2, ::3], normals[2:, 2::3] = 1.0, 1.0
+        camera = cameras(square, 64)[0]
+        picture, owner = draw_owned(square, mine, normals, camera, 64)
+        assert set(owner[owner >= 0]) == {0, 1}
+        assert np.ptp(picture[owner >= 0]) < 1e-6
+
+
+def test_normals_are_sums_of_what_is_around_and_not_behind_a_crease():
+    """By a plain sum over pairs, on a mesh that is smooth here and sharp there."""
+    mesh = together(MESH, tetrahedron())
+    shape = Shape.of(mesh.positions, mesh.faces)
+    corners = mesh.positions[mesh.faces]
+    crosses = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    unit = crosses / np.linalg.norm(crosses, axis=1, keepdims=True)
+    found = shape.normals(mesh.positions).reshape(-1, 3, 3)
+    for face in range(0, len(mesh.faces), 97):
+        for corner in range(3):
+            around = (mesh.faces == mesh.faces[face, corner]).any(axis=1) & (unit @ unit[face] > CREASE)
+            total = crosses[around].sum(axis=0)
+            assert found[face, corner] == pytest.approx(total / np.linalg.norm(total), abs=1e-6)
 
 
 def test_kernels_refuse_what_does_not_fit():
@@ -317,11 +371,13 @@ def test_kernels_refuse_what_does_not_fit():
         normals,
         camera,
         np.empty(MESH.positions.shape),
-        *room,
+        *room[:2],
+        np.empty((8, 8), np.float32),
+        room[2],
         np.empty((64, 64), np.int32),
     )
     _kernels.draw_shaded(*good)
-    for place in (0, 2, 3, 4, 5, 6, 8):
+    for place in (0, 2, 3, 4, 5, 6, 7, 9):
         with pytest.raises(ValueError, match="fit together"):
             _kernels.draw_shaded(*(value[:-1] if k == place else value for k, value in enumerate(good)))
     with pytest.raises(ValueError, match="fit together"):
@@ -332,8 +388,19 @@ def test_kernels_refuse_what_does_not_fit():
             rows = np.empty((scratch, 80), np.float32)
             _kernels.likeness(first, second, wide, narrow, 0.1, 0.2, rows, np.zeros(4), np.empty((0, 0), np.float32))
     starts, around = shape.around
-    given = [MESH.positions, shape.faces, shape.joined, starts, around, 0.7, 128, np.empty((len(normals), 4)), normals]
+    given = [
+        MESH.positions,
+        shape.faces,
+        shape.joined,
+        starts,
+        around,
+        0.7,
+        0.9,
+        128,
+        np.empty((len(normals), 4)),
+        normals,
+    ]
     _kernels.shown_normals(*given)
-    for place, wrong in ((1, shape.faces + 10**6), (2, shape.joined + 10**6), (4, around[:-1]), (7, given[7][:-1])):
+    for place, wrong in ((1, shape.faces + 10**6), (2, shape.joined + 10**6), (4, around[:-1]), (8, given[8][:-1])):
         with pytest.raises(ValueError, match="fit together"):
             _kernels.shown_normals(*(wrong if k == place else value for k, value in enumerate(given)))

@@ -12,7 +12,7 @@ from bsm.codec.look.measure import Looker
 from bsm.codec.sequence.decoder import decode_sequence
 from bsm.codec.sequence.encoder import SequenceEncoder
 from bsm.codec.sequence.options import SequenceOptions
-from bsm.codec.sequence.promise import PROMISES, Promise, normal_error
+from bsm.codec.sequence.promise import PROMISES, Promise, Shading, Watch
 from bsm.codec.sequence.targets import SequenceTarget, flicker_of
 from tests.motion import bending
 
@@ -29,7 +29,7 @@ def kept(
 
 
 def looks(original: Positions, decoded: Positions, faces: Faces) -> list[float]:
-    return [Looker(TriangleMesh(a, faces), threads=1).distance(b) for a, b in zip(original, decoded, strict=True)]
+    return [Looker(TriangleMesh(a, faces), threads=1).look(b).moving for a, b in zip(original, decoded, strict=True)]
 
 
 def farthest(original: Positions, decoded: Positions) -> float:
@@ -60,6 +60,30 @@ def test_a_frame_that_looks_worse_than_its_neighbours_is_found() -> None:
     positions[17] += 0.02 * np.random.default_rng(0).standard_normal(positions[17].shape)
     _, original, decoded, found = kept(positions, faces, Promise(0.01, 1.0))
     assert max(looks(original, decoded, found)) <= 1.0
+
+
+def test_few_frames_are_drawn_and_the_worst_is_among_them(monkeypatch: pytest.MonkeyPatch) -> None:
+    drawn: list[int] = []
+    make = Watch._looker
+
+    def noted(watch: Watch, index: int) -> Looker | None:
+        drawn.append(index)
+        return make(watch, index)
+
+    monkeypatch.setattr(Watch, "_looker", noted)
+    positions, faces = bending(60)
+    positions[23] += 0.01 * np.random.default_rng(0).standard_normal(positions[23].shape)
+    _, original, decoded, found = kept(positions, faces, Promise(0.02, 1.0))
+    seen = looks(original, decoded, found)
+    assert max(seen) <= 1.0 and len(drawn) < 30
+    assert max(seen[index] for index in drawn) > 0.9 * max(seen)
+
+
+def test_a_moving_look_is_what_pictures_differ_by() -> None:
+    positions, faces = bending(1)
+    seen = Looker(TriangleMesh(positions[0], faces), threads=1).look(positions[0] * 1.01)
+    assert seen.dissimilarity > 0.0
+    assert seen.moving == pytest.approx((seen.dissimilarity / 0.05) ** 0.8)
 
 
 def test_presets_are_ordered() -> None:
@@ -95,8 +119,10 @@ def test_errors_of_normals_are_angles() -> None:
     turned = positions[0] @ np.array(
         [[np.cos(angle), np.sin(angle), 0.0], [-np.sin(angle), np.cos(angle), 0.0], [0.0, 0.0, 1.0]]
     )
-    assert normal_error(positions[0], positions[0], faces) == pytest.approx(0.0, abs=1e-7)
-    assert 0.3 * angle < normal_error(positions[0], turned, faces) < angle
+    shading = Shading(positions[0], faces)
+    assert shading.error(positions[0], positions[0]) == pytest.approx(0.0, abs=1e-7)
+    assert 0.3 * angle < shading.error(positions[0], turned) < angle
+    assert shading.error(np.zeros_like(turned), turned) == 0.0  # no area is no error
 
 
 def test_flicker_is_what_changes_from_frame_to_frame() -> None:

@@ -14,7 +14,7 @@ from bsm.codec.static.options import EncodeOptions
 from bsm.files.mesh import read_mesh, write_mesh
 from bsm.options import encode_options
 from tests.shapes import curved, patch, torus
-from tools.borders import halves
+from tools.measure.borders import halves
 
 
 def apart(mesh, **keywords):
@@ -161,7 +161,8 @@ def test_on_the_command_line(tmp_path, capsys):
     name = str(tmp_path / "a.ply")
     assert main(["encode", "-q", name, "--lock-borders"]) == 0
     assert main(["encode", "-fq", name, "--lock-borders", "0.01mm", "--preset", "fine", "--meta", "unit=mm"]) == 0
-    assert main(["encode", "-fq", name, "--grid-cell", "0.001", "--grid-origin=-1,-2,-3", "--preset", "grid14"]) == 0
+    words = ["--grid-cell", "0.001", "--set", "grid_origin=-1,-2,-3", "--preset", "grid14"]
+    assert main(["encode", "-fq", name, *words]) == 0
     mesh = read_mesh(name).mesh
     decoded = bsm.decode(str(tmp_path / "a.bsm"))
     assert bsm.compare(mesh, decoded).max_error <= 0.001
@@ -169,7 +170,7 @@ def test_on_the_command_line(tmp_path, capsys):
     assert "cannot be had on this mesh" in capsys.readouterr().err
     assert main(["encode", "-fq", name, "--lock-borders", "--theta", "5"]) == 2
     with pytest.raises(SystemExit, match="2"):
-        main(["encode", "-fq", name, "--grid-cell", "0.001", "--grid-origin", "1,2"])
+        main(["encode", "-fq", name, "--grid-cell", "0.001", "--set", "grid_origin=1,2"])
 
 
 # -------------------------------------------------------------------------------------------------------- real meshes

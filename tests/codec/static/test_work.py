@@ -7,9 +7,9 @@ import pytest
 
 from bsm.bitstream.errors import LimitError, OptionError
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
-from bsm.codec.basis.cost import careful_dictionary_cost, dictionary_cost, reflection_cost, solve_cost
+from bsm.codec.basis.cost import careful_dictionary_cost, dictionary_cost, reflection_cost, settle, solve_cost
 from bsm.codec.basis.laplacian import factorize, laplacian_of
-from bsm.codec.basis.orthogonal_iteration import cosine_columns, orthogonal_iteration
+from bsm.codec.basis.orthogonal_iteration import cosine_columns, iteration_steps
 from bsm.codec.blocks.overlap import grow_blocks
 from bsm.codec.blocks.partition import derive_partition
 from bsm.codec.geometry.graph import graph_of_faces
@@ -82,7 +82,10 @@ def test_every_solution_counts():
 def test_columns_that_are_lost_are_paid_for_before_they_are_saved():
     laplacian, told = laplacian_of(block_of(torus(20, 20))), []
     start = cosine_columns(400, 0, 200)
-    orthogonal_iteration(factorize(laplacian, 2.0**-30), start, power=16, iterations=1, spend=told.append)
+    settle(
+        iteration_steps(factorize(laplacian, 2.0**-30), start, power=16, iterations=1),
+        lambda price: told.append(price(200)),
+    )
     schedule = laplacian.fronts, 200, 16, 1
     assert told[:2] == [dictionary_cost(*schedule), careful_dictionary_cost(*schedule)]
     assert set(told[2:]) <= {reflection_cost(400, 200)}

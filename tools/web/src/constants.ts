@@ -57,9 +57,6 @@ export const FOLLOWERS_IN_SECTIONS = {
     metadata: [],
 } as const;
 
-/** Frames that METADATA may follow (F 3.9). */
-export const BEFORE_METADATA: readonly string[] = ["header", "connectivity", "partition", "order", "attribute"];
-
 /** Fields of the header (F 4.4). */
 export const HEADER_FIELDS = {
     vertices: { key: 1, type: "int", low: 1, high: 2147483647 },

@@ -200,7 +200,9 @@ export class Pool {
     }
 
     private end(stream: PooledStream): void {
-        for (const hand of this.hands) hand.streams.delete(stream);
+        // Those that worked last come last, so that it is the others that make room for another build.
+        const worked = this.hands.filter((hand) => hand.streams.delete(stream));
+        this.hands.push(...this.hands.splice(0).filter((hand) => !worked.includes(hand)), ...worked);
         const at = this.waiting.indexOf(stream);
         if (at >= 0) this.waiting.splice(at, 1);
         const next = this.waiting.shift();

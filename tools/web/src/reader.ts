@@ -1,5 +1,5 @@
 /** Bytes to packets, without input or output of its own (specification, F 2, F 3, F 5). */
-import { BEFORE_METADATA, FOLLOWERS, FOLLOWERS_IN_SECTIONS, KINDS, PREAMBLE, SHORT } from "./constants";
+import { FOLLOWERS, FOLLOWERS_IN_SECTIONS, KINDS, PREAMBLE, SHORT } from "./constants";
 import { crc16, crc32 } from "./checksums";
 import { BsmError, CorruptError, FormatError, TruncatedError, UnsupportedError } from "./errors";
 import { CORNER, parseDeclaration, RECOMPUTED, wordsOf, type Declaration } from "./declaration";
@@ -158,7 +158,8 @@ class Grammar {
     private last: Kind | "start" = "start";
     private allowed: readonly Kind[] = ALONE.start;
     private followers = ALONE;
-    private metadataSeen = false;
+    /** Names of metadata. */
+    private readonly told = new Set<string>();
     private sections: Section[] = [];
     /** Sections whose faces were there. */
     private begun = 0;
@@ -183,8 +184,7 @@ class Grammar {
 
     /** The kinds of packets that may come next. */
     get expected(): readonly Kind[] {
-        const metadata = !this.metadataSeen && this.begun < 2 && BEFORE_METADATA.includes(this.last);
-        return metadata ? [...this.allowed, "metadata"] : this.allowed;
+        return this.header && !this.ended ? [...this.allowed, "metadata"] : this.allowed;
     }
 
     /** Take note that an unknown number of frames is missing here: everything that can come later may come now. */
@@ -198,6 +198,9 @@ class Grammar {
         if (!this.expected.includes(packet.type)) throw new CorruptError(`${packet.type} may not come here`);
         const { header } = this;
         if (!header) return;
+        if (packet.type === "metadata") {
+            for (const name of packet.entries.keys()) if (this.told.has(name)) throw new CorruptError(`metadata speak of "${name}" again`);
+        }
         this.checkSection(packet);
         if (this.begun === this.sections.length && ["block", "gop", "grid", "values", "end"].includes(packet.type) && this.declared.size < header.attributes && !this.lossy) {
             throw new CorruptError(`${this.declared.size} of ${header.attributes} attributes are declared`);
@@ -218,7 +221,7 @@ class Grammar {
     /** Take note of a packet that nothing is wrong with. */
     advance(packet: Packet): void {
         if (packet.type === "metadata") {
-            this.metadataSeen = true;
+            for (const name of packet.entries.keys()) this.told.add(name);
             return;
         }
         if (packet.type === "header") {
@@ -321,6 +324,8 @@ export class Reader {
     private offset = 0;
     private frames = 0;
     private crc = 0;
+    /** Bytes of metadata. */
+    private told = 0;
     private started = false;
     private error?: BsmError;
 
@@ -379,6 +384,7 @@ export class Reader {
             this.pay(FRAME + BYTE * frame.size, frame.size);
             const packet = this.parse(frame.type, frame.payload);
             if (packet) this.grammar.advance(packet);
+            if (packet?.type === "metadata") this.told += frame.payload.length;
             this.crc = crc32(this.buffer.subarray(this.begin, this.begin + frame.size), this.crc);
             this.skip(frame.size);
             if (packet) return packet;
@@ -455,6 +461,7 @@ export class Reader {
         if (!kind || !this.grammar.announces(kind)) throw new UnsupportedError(`frame type ${type} is unknown to this decoder`);
         const packet = PARSERS[kind](new Cursor(payload), this.limits);
         this.grammar.check(packet);
+        if (kind === "metadata") checkLimit(this.limits, "metadataBytes", this.told + payload.length);
         if (packet.type === "end" && !this.grammar.lossy) {
             if (packet.frames !== this.frames) throw new CorruptError(`END counts ${packet.frames} frames before it`);
             if (packet.crc !== this.crc) throw new CorruptError("the CRC-32 of the whole stream is wrong");

@@ -161,6 +161,7 @@ export class Stages {
         const begun = this.chains ?? this.grid;
         if (this.header.gopFrames > 0 && begun) {
             if (this.nextIndex < this.header.blocks) throw error;
+            if (kind === "values" && !this.sequence) return this.lose(error);
             const sequence = this.begunSequence();
             if (kind !== "end" || !sequence.lossy) sequence.lose(error);
             return;

@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 import io
+from tokenize import TokenError
 from typing import IO, Any, BinaryIO, Protocol
 
 import numpy as np
 import numpy.typing as npt
 
 from bsm.bitstream.errors import CorruptError, FormatError, MeshError, TruncatedError
+from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 
+# What numpy raises of a header, which it parses as Python.
+_NO_HEADER = (ValueError, TypeError, KeyError, SyntaxError, RecursionError, MemoryError, OverflowError, TokenError)
 NPY = b"\x93NUMPY"
 Array = npt.NDArray[Any]
 Kind = np.dtype[Any]
@@ -36,7 +40,7 @@ def read_header(file: Readable | IO[bytes]) -> tuple[tuple[int, ...], bool, Kind
         version = np.lib.format.read_magic(file)
         read = np.lib.format.read_array_header_1_0 if version == (1, 0) else np.lib.format.read_array_header_2_0
         shape, fortran, kind = read(file)
-    except ValueError as error:
+    except _NO_HEADER as error:
         raise CorruptError(f"there is no legal npy header: {error}") from error
     if kind.hasobject or kind.kind not in "iuf":
         raise MeshError(f"an array of {kind} does not hold numbers")
@@ -50,13 +54,15 @@ def size_of(shape: tuple[int, ...], kind: Kind) -> int:
     return int(np.prod([int(side) for side in shape], dtype=object)) * kind.itemsize
 
 
-def read_npy(file: Readable) -> Array | None:
-    """The next array of a pipe, or None at its end.
+def read_npy(file: Readable, bound: str = "vertices", limits: Limits = DEFAULT_LIMITS) -> Array | None:
+    """The next table of three columns of a pipe, or None at its end; the limit called `bound` is that of its rows.
 
     Raises
     ------
     FormatError, CorruptError, MeshError, TruncatedError
-        If no array of numbers follows, or only a part of one.
+        If no table of numbers follows, or only a part of one.
+    LimitError
+        If it claims more rows than are granted; nothing is waited for then.
     """
     magic = file.read(len(NPY))
     if not magic:
@@ -71,6 +77,9 @@ def read_npy(file: Readable) -> Array | None:
     if not length or len(text) < declared:
         raise TruncatedError("an npy array ends in its header")
     shape, fortran, kind = read_header(io.BytesIO(magic + version + length + text))
+    if len(shape) != 2 or shape[1] != 3:
+        raise FormatError(f"an array of {kind} and shape {shape} is neither faces nor a frame: (n, 3) numbers are")
+    limits.check(bound, shape[0])
     size = size_of(shape, kind)
     data = file.read(size)
     if len(data) < size:

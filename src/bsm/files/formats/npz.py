@@ -31,15 +31,25 @@ from bsm.files.formats.columns import Column, meaning_of
 from bsm.files.formats.npy import Array, read_header, size_of
 from bsm.files.formats.polygons import MeshFile, Polygons
 from bsm.files.formats.written import Written
-from bsm.files.room import require_inflated
+from bsm.files.room import AS_NUMBERS, TREE, require_inflated
 
-Archive: TypeAlias = "str | os.PathLike[str] | BinaryIO"
-"""A path, or a seekable binary file."""
+Archive: TypeAlias = "str | os.PathLike[str] | BinaryIO | zipfile.ZipFile"
+"""A path, a seekable binary file, or an archive that is open and stays so."""
 
 _MAX_BYTES = 1 << 32
+MOST_NAMED = 16
+"""Arrays that a note names, of those that are left out."""
 # A damaged archive may send zipfile to places before the beginning of the file: ValueError.
 _NO_ARCHIVE = (zipfile.BadZipFile, NotImplementedError, RuntimeError, ValueError)
 _DAMAGE = (EOFError, OSError, ValueError, zipfile.BadZipFile, zlib.error, lzma.LZMAError)
+
+
+def opened_archive(archive: str | os.PathLike[str] | BinaryIO) -> zipfile.ZipFile:
+    """A zip archive, open; `FormatError` if it is none."""
+    try:
+        return zipfile.ZipFile(archive)
+    except _NO_ARCHIVE as error:
+        raise FormatError(f"this is not an npz file: {error}") from error
 
 
 class NpzArray:
@@ -57,15 +67,13 @@ class NpzArray:
 
     def __init__(self, archive: Archive, name: str) -> None:
         self._name = name
-        try:
-            self._archive = zipfile.ZipFile(archive)
-        except _NO_ARCHIVE as error:
-            raise FormatError(f"this is not an npz file: {error}") from error
+        self._ours = not isinstance(archive, zipfile.ZipFile)
+        self._archive = archive if isinstance(archive, zipfile.ZipFile) else opened_archive(archive)
         try:
             self._entry = self._archive.open(f"{name}.npy")
             self.shape, self._fortran, self._kind = read_header(self._entry)
         except BaseException as error:
-            self._archive.close()
+            self._close_archive()
             if isinstance(error, BsmError):
                 raise
             if isinstance(error, KeyError):
@@ -81,12 +89,11 @@ class NpzArray:
 
     def __exit__(self, *_: object) -> None:
         self._entry.close()
-        self._archive.close()
+        self._close_archive()
 
-    @property
-    def others(self) -> list[str]:
-        """The names of all arrays of the archive."""
-        return [name.removesuffix(".npy") for name in self._archive.namelist()]
+    def _close_archive(self) -> None:
+        if self._ours:
+            self._archive.close()
 
     @property
     def size(self) -> int:
@@ -101,7 +108,10 @@ class NpzArray:
         data = self._read(size + 1)
         if len(data) != size:
             raise CorruptError(f"the array {self._name} should take {size} bytes, not {len(data)}")
-        return np.frombuffer(data, self._kind).reshape(self.shape, order="F" if self._fortran else "C")
+        try:
+            return np.frombuffer(data, self._kind).reshape(self.shape, order="F" if self._fortran else "C")
+        except ValueError as error:  # of the shape (0, 2**62)
+            raise CorruptError(f"the array {self._name} has no legal shape: {error}") from error
 
     def frames(self) -> Iterator[Positions]:
         """The first index' parts one after the other, as float64, without ever holding all of them."""
@@ -142,12 +152,6 @@ def read_arrays(archive: Archive, *names: str) -> tuple[Array, ...]:
     return tuple(found)
 
 
-def other_arrays(archive: Archive) -> tuple[str, ...]:
-    """The names of the arrays that neither a mesh nor a sequence needs."""
-    with NpzArray(archive, "positions") as positions:
-        return tuple(name for name in positions.others if name not in ("positions", "faces"))
-
-
 def read_npz(data: bytes, limits: Limits) -> MeshFile:
     """Read the npz of a mesh; shapes are looked at before numbers are read, and what is of no use is not read.
 
@@ -156,31 +160,39 @@ def read_npz(data: bytes, limits: Limits) -> MeshFile:
     MeshError, LimitError
         If it holds a sequence, or no mesh, or a larger one; and as `NpzArray`.
     """
-    archive, inflated = io.BytesIO(data), 0
+    with opened_archive(io.BytesIO(data)) as archive:
+        return _read_npz(archive, len(data), limits)
+
+
+def _read_npz(archive: zipfile.ZipFile, compressed: int, limits: Limits) -> MeshFile:
+    inflated = 0
     for name, bound in (("positions", "vertices"), ("faces", "faces")):
-        shape, size = _shape_of(archive, name)
+        shape, size = shape_of(archive, name)
         if len(shape) == 3 and name == "positions":
             raise MeshError(f"this npz file holds a sequence of {shape[0]} frames, not one mesh")
         limits.check(bound, math.prod(shape) // 3)
-        inflated += size
-        require_inflated(inflated, len(data), limits)
+        inflated += max(size, AS_NUMBERS * math.prod(shape))
+        require_inflated(inflated, compressed, limits)
     positions, faces = read_arrays(archive, "positions", "faces")
     mesh = TriangleMesh(positions, faces)
     columns: list[Column] = []
     dropped: list[str] = []
     metadata: Metadata = {}
-    names = other_arrays(archive)
-    for name in names:
+    every = [name.removesuffix(".npy") for name in archive.namelist()]
+    names = {name: None for name in every if name not in ("positions", "faces")}
+    for number, name in enumerate(names):
         if name.endswith("/indices") and name.removesuffix("/indices") in names:
             continue
         try:
-            shape, size = _shape_of(archive, name)
+            if number > 2 * limits.attributes:
+                raise MeshError("too many")
+            shape, size = shape_of(archive, name)
             if name != "metadata" and max(shape, default=0) > max(len(mesh.positions), 3 * len(mesh.faces)):
                 raise MeshError("of nothing here")
             if f"{name}/indices" in names:
-                size += _shape_of(archive, f"{name}/indices")[1]
-            inflated += size
-            require_inflated(inflated, len(data), limits)
+                size += AS_NUMBERS * math.prod(shape_of(archive, f"{name}/indices")[0])
+            inflated += TREE * size if name == "metadata" else size
+            require_inflated(inflated, compressed, limits)
             (values,) = read_arrays(archive, name)
             if name == "metadata" and values.dtype == np.uint8:
                 metadata = _parse_metadata(values.tobytes())
@@ -190,12 +202,14 @@ def read_npz(data: bytes, limits: Limits) -> MeshFile:
             column = None
         columns += [column] if column else []
         dropped += [] if column else [name]
+    if len(dropped) > MOST_NAMED:
+        dropped[MOST_NAMED:] = [f"{len(dropped) - MOST_NAMED} other arrays"]
     sizes, corners = np.full(len(mesh.faces), 3), mesh.faces.astype(np.int64).reshape(-1)
     ours = Polygons(mesh.positions, sizes, corners, (), tuple(dropped), tuple(columns), metadata)
     return ours.checked(limits)
 
 
-def _shape_of(archive: Archive, name: str) -> tuple[tuple[int, ...], int]:
+def shape_of(archive: Archive, name: str) -> tuple[tuple[int, ...], int]:
     """What an array says of itself: its shape, and its bytes."""
     with NpzArray(archive, name) as array:
         return array.shape, array.size

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 
-from bsm.bitstream.errors import FormatError, TruncatedError
+from bsm.bitstream.errors import FormatError, LimitError, TruncatedError
 from bsm.codec.geometry.mesh import Metadata
 from bsm.files.formats.materials import materials_in, refers_to_image
 from bsm.files.formats.remarks import parse_remarks
@@ -17,6 +17,8 @@ _TYPES = {
 }  # fmt: skip
 _ORDERS = {"ascii": "", "binary_little_endian": "<", "binary_big_endian": ">"}
 _MAX_ELEMENTS = 64
+_MAX_PROPERTIES = 256
+"""Of one element: rows are walked once for each list."""
 IMAGE = "TextureFile"
 """A comment that begins so names an image; their numbers are those of the property texnumber."""
 
@@ -122,4 +124,6 @@ def _count(text: str) -> int:
 
 def _extend(elements: list[Element], column: Property) -> None:
     last = elements[-1]
+    if len(last.properties) >= _MAX_PROPERTIES:
+        raise LimitError(f"an element of the PLY file has over {_MAX_PROPERTIES} properties")
     elements[-1] = Element(last.name, last.count, (*last.properties, column))

@@ -19,6 +19,7 @@ from pathlib import Path
 import numpy as np
 
 from bsm.bitstream.errors import DependencyError, FormatError
+from bsm.bitstream.extras import how_to_install
 from bsm.bitstream.limits import Limits
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.files.formats.polygons import MeshFile, Polygons
@@ -46,7 +47,7 @@ def read_with_openmesh(data: bytes, kind: str, ours: TriangleMesh, limits: Limit
     try:
         import openmesh
     except ImportError as error:
-        raise DependencyError("openmesh is not installed; run: pip install 'bsm-codec[openmesh]'") from error
+        raise DependencyError(f"openmesh is not installed; run: {how_to_install('openmesh')}") from error
     with tempfile.TemporaryDirectory() as folder:
         copy = Path(folder, f"mesh.{kind}")
         copy.write_bytes(data)

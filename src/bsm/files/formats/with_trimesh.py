@@ -13,12 +13,16 @@ from urllib.parse import unquote
 import numpy as np
 
 from bsm.bitstream.errors import BsmError, DependencyError, FormatError
+from bsm.bitstream.extras import how_to_install
 from bsm.bitstream.limits import Limits
 from bsm.files.formats.columns import PLURALS, Array, Column, color_column, compact, meaning_of
 from bsm.files.formats.materials import Material, Value, described, kind_of_image, named
 from bsm.files.formats.polygons import Polygons
 from bsm.files.rows import Doubles
 
+_ARCHIVES = ("zip", "gz", "bz2", "xz", "tar", "tar.gz", "tar.bz2", "tgz")
+PER_TRIANGLE, PER_PART = 150, 2000
+"""Bytes that parts take while they are joined: for each triangle, and for each part."""
 _NO_NAMES = re.compile(r"geometry_\d+|GLTF(_\d+)?")
 _KNOWN_TO_TRIMESH = re.compile(r"POSITION|NORMAL|TEXCOORD_0|COLOR_0|_.*")
 _READ_BY_TRIMESH = ("EXT_texture_webp", "KHR_materials_pbrSpecularGlossiness", "KHR_mesh_quantization")
@@ -33,7 +37,7 @@ def import_trimesh(what: str) -> Any:
     try:
         import trimesh
     except ImportError as error:
-        raise DependencyError(f"{what} with trimesh; run: pip install 'bsm-codec[formats]'") from error
+        raise DependencyError(f"{what} with trimesh; run: {how_to_install('formats')}") from error
     return trimesh
 
 
@@ -57,15 +61,18 @@ def read_with_trimesh(data: bytes, path: str | None, kind: str, limits: Limits) 
     FormatError
         If trimesh cannot read it.
     """
+    if kind in _ARCHIVES:
+        raise FormatError(f".{kind} files hold files: unpack it, and read what is in it")
     trimesh = import_trimesh(f"{f'.{kind}' if kind else 'such'} files are read")
     if kind not in trimesh.available_formats():
         raise FormatError(
             f"{f'.{kind} is' if kind else 'this is'} no mesh format that is known here (trimesh reads more of them, "
-            "3MF and DAE among them, after: pip install 'bsm-codec[formats]')"
+            f"3MF and DAE among them, after: {how_to_install('formats')})"
         )
     try:
-        scene = trimesh.load_scene(path or io.BytesIO(data), file_type=kind, process=False)
-        found = joined(scene, limits)
+        with np.errstate(all="ignore"):  # what is not finite is refused later
+            scene = trimesh.load_scene(path or io.BytesIO(data), file_type=kind, process=False)
+            found = joined(scene, limits, len(data))
         up, unread = _up_axis(data, kind), _unread(data, kind)
         absent = _absent_images(data, kind, path)
     except (BsmError, MemoryError):
@@ -122,14 +129,17 @@ def _unread(data: bytes, kind: str) -> list[str]:
     return list(dict.fromkeys(found))
 
 
-def joined(scene: Any, limits: Limits) -> Polygons:
-    """The surfaces of a scene as one, each as often and where the scene has it."""
+def joined(scene: Any, limits: Limits, received: int = 1 << 62) -> Polygons:
+    """The surfaces of a scene, which came in so many bytes, as one: each as often and where the scene has it."""
     order = {name: place for place, name in enumerate(scene.geometry)}  # that of the file; the graph has none
     places = sorted((scene.graph[node] for node in scene.graph.nodes_geometry), key=lambda place: order[place[1]])
     surfaces = [(matrix, scene.geometry[name], name) for matrix, name in places]
     surfaces = [surface for surface in surfaces if hasattr(surface[1], "faces")]
-    limits.check("vertices", sum(len(part.vertices) for _, part, _ in surfaces))
-    limits.check("faces", sum(len(part.faces) for _, part, _ in surfaces))
+    vertices = sum(len(part.vertices) for _, part, _ in surfaces)
+    limits.check("vertices", vertices)
+    triangles = sum(len(part.faces) for _, part, _ in surfaces)
+    limits.check("faces", triangles)
+    limits.check_memory(PER_TRIANGLE * triangles + PER_PART * len(surfaces), vertices, received)
     found = _polygons([_Part(part, name, matrix) for matrix, part, name in surfaces], scene.metadata)
     lost = len(places) - len(surfaces)
     notes = [f"curves and point clouds were left out: {lost}"] if lost else []

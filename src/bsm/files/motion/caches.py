@@ -18,10 +18,12 @@ from typing import BinaryIO
 import numpy as np
 
 from bsm.bitstream.errors import CorruptError, FormatError, MeshError, OptionError, TruncatedError
+from bsm.bitstream.limits import Limits
 from bsm.codec.arrays import Positions
 from bsm.files.about import about
 from bsm.files.mesh import read_mesh
 from bsm.files.motion.frames import Frames, Wanted, checked_frames, rate_of_times
+from bsm.files.rows import Doubles
 
 CACHES = ("pc2", "mdd")
 MESHES_BESIDE = ("obj", "ply", "off", "glb", "gltf", "stl", "npz")
@@ -53,7 +55,7 @@ class Cache:
     rate: float = 0.0
 
 
-def read_cache(path: str, kind: str, reader: str | None, wanted: Wanted) -> Frames:
+def read_cache(path: str, kind: str, reader: str | None, wanted: Wanted, limits: Limits) -> Frames:
     """The frames of a cache, each read when it is asked for, and the faces of the mesh that it moves.
 
     Raises
@@ -62,11 +64,15 @@ def read_cache(path: str, kind: str, reader: str | None, wanted: Wanted) -> Fram
         If it is none, or has fewer bytes than it claims.
     MeshError
         If there is no mesh beside it, or one of another number of vertices.
+    LimitError
+        If there are more points or frames than are granted.
     """
     cache = read_head(path, kind)
+    limits.check("vertices", cache.points)
+    limits.check("frames", cache.frames)
     beside = _beside(path) if wanted.mesh is None else os.fspath(wanted.mesh)
     with about(beside):
-        mesh = read_mesh(beside, reader=reader).mesh
+        mesh = read_mesh(beside, limits=limits, reader=reader).mesh
     if len(mesh.positions) != cache.points:
         raise MeshError(
             f"the cache has {cache.points} points and the mesh {beside} has {len(mesh.positions)} vertices; name the "
@@ -115,7 +121,7 @@ def _head_of_mdd(file: BinaryIO, size: int) -> Cache:
         raise TruncatedError(
             f"the MDD file claims {frames} frames, whose times alone take {start} bytes; it has {size}"
         )
-    times = np.frombuffer(file.read(start - _MDD.size), ">f4").astype(np.float64)
+    times = _doubles(file.read(start - _MDD.size), ">f4")
     return Cache(points, frames, start, ">f4", rate_of_times(times))
 
 
@@ -126,7 +132,12 @@ def _samples(path: str, cache: Cache) -> Iterator[Positions]:
             data = file.read(12 * cache.points)
             if len(data) < 12 * cache.points:
                 raise TruncatedError(f"the file ends in frame {number} of {cache.frames}")
-            yield np.frombuffer(data, cache.kind).reshape(-1, 3).astype(np.float64)
+            yield _doubles(data, cache.kind).reshape(-1, 3)
+
+
+def _doubles(data: bytes, kind: str) -> Doubles:
+    with np.errstate(invalid="ignore"):  # what is not a number is refused later
+        return np.frombuffer(data, kind).astype(np.float64)
 
 
 def _beside(path: str) -> str:

@@ -13,6 +13,7 @@ from pathlib import Path
 import numpy as np
 
 from bsm.bitstream.errors import FormatError, MeshError, OptionError
+from bsm.bitstream.limits import Limits
 from bsm.codec.arrays import Positions
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
@@ -108,7 +109,7 @@ def _numbers(ordered: Sequence[str]) -> list[int]:
     return [int(of_one[differing[0]]) for of_one in parts]
 
 
-def read_files(names: Sequence[str], file_format: str | None, reader: str | None) -> Frames:
+def read_files(names: Sequence[str], file_format: str | None, reader: str | None, limits: Limits) -> Frames:
     """The frames in files, each read when it is asked for.
 
     Raises
@@ -116,12 +117,17 @@ def read_files(names: Sequence[str], file_format: str | None, reader: str | None
     BsmError
         If one cannot be read, or has other faces than the first; also while the frames are read.
     """
-    first = _read(names[0], 0, file_format, reader)
+
+    def read(number: int) -> TriangleMesh:
+        with about(f"{names[number]} (frame {number})"):
+            return read_mesh(names[number], file_format, limits, reader).mesh
+
+    first = read(0)
 
     def frames() -> Iterator[Positions]:
         yield first.positions
         for number, name in enumerate(names[1:], 1):
-            mesh = _read(name, number, file_format, reader)
+            mesh = read(number)
             if difference := _difference(first, mesh):
                 raise MeshError(
                     f"these are different meshes, not the frames of one animation: {name} (frame {number}) has other "
@@ -130,18 +136,13 @@ def read_files(names: Sequence[str], file_format: str | None, reader: str | None
                 )
             yield mesh.positions
 
-    last = _read(names[-1], len(names) - 1, file_format, reader) if first.attributes and len(names) > 1 else first
+    last = read(len(names) - 1) if first.attributes and len(names) > 1 else first
     kept = tuple(one for one in first.attributes if one.semantic != "normal" and _has(last, one))
     moving = [one.name for one in first.attributes if one not in kept]
     notes = [f"left out, for they move or change: {', '.join(moving)}"] if moving else []
     if kept and len(names) > 1:
         notes.append(f"{', '.join(one.name for one in kept)}: as the first frame has them")
     return Frames(first.faces, len(names), frames(), kept, tuple(notes), metadata=first.metadata)
-
-
-def _read(name: str, number: int, file_format: str | None, reader: str | None) -> TriangleMesh:
-    with about(f"{name} (frame {number})"):
-        return read_mesh(name, file_format, reader=reader).mesh
 
 
 def _difference(first: TriangleMesh, other: TriangleMesh) -> str:

@@ -84,7 +84,7 @@ def checked_frames(name: str, frames: Iterable[Positions], vertices: int) -> Ite
 
 def rate_of_times(times: Positions) -> float:
     """Frames per second of equally spaced times in seconds, shape (T,); 0: they are not equally spaced."""
-    if len(times) < 2:
+    if len(times) < 2 or not np.isfinite(times).all():
         return 0.0
     step = float(times[-1] - times[0]) / (len(times) - 1)
     if step <= 0 or float(np.abs(np.diff(times) - step).max()) > 0.02 * step:

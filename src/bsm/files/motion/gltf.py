@@ -7,6 +7,7 @@ import binascii
 import json
 import struct
 import urllib.parse
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -14,6 +15,7 @@ import numpy as np
 import numpy.typing as npt
 
 from bsm.bitstream.errors import FormatError, LimitError, TruncatedError, UnsupportedError
+from bsm.bitstream.limits import Limits
 from bsm.files.pipes import Input
 
 Array = npt.NDArray[Any]
@@ -21,6 +23,10 @@ Tree = dict[str, Any]
 KINDS = {5120: "<i1", 5121: "<u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
 WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT2": 4, "MAT3": 9, "MAT4": 16}
 MAGIC = b"glTF"
+NONSENSE = (KeyError, TypeError, ValueError, IndexError, AttributeError, RecursionError, OverflowError)
+"""What a tree that may hold anything anywhere leads to."""
+PER_NUMBER = 48
+"""Bytes that a number of an accessor takes while it is made into what a mesh has."""
 _COMPRESSED = ("KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_meshopt_compression")
 MOST_NUMBERS = 1 << 27
 """In one accessor, and in all morph targets: those without a buffer are zeros, for which no byte pays."""
@@ -40,12 +46,11 @@ class Document:
     ------
     FormatError, TruncatedError
         If it is none, or ends early.
-    UnsupportedError
-        If its meshes are compressed.
     """
 
     def __init__(self, data: bytes, folder: Path | None = None) -> None:
         self._folder = folder
+        self._received = len(data)
         text, self._binary = _chunks(data) if data.startswith(MAGIC) else (data, b"")
         try:
             tree = json.loads(text)
@@ -54,14 +59,22 @@ class Document:
         if not isinstance(tree, dict) or not isinstance(tree.get("asset"), dict):
             raise FormatError("this is no glTF: it says nothing of itself as an asset")
         self.tree: Tree = tree
-        required = [name for name in _COMPRESSED if name in tree.get("extensionsRequired", [])]
+        self._buffers: dict[int, bytes] = {}
+        self._lists: dict[str, list[Tree]] = {}
+
+    def require_plain(self) -> None:
+        """Raise `UnsupportedError` if its meshes are compressed."""
+        required = [name for name in _COMPRESSED if name in self.tree.get("extensionsRequired", [])]
         if required:
             raise UnsupportedError(
                 f"the meshes are compressed with {required[0]}, which is not read here; "
                 "take that out first, for instance with gltf-transform copy"
             )
-        self._buffers: dict[int, bytes] = {}
-        self._lists: dict[str, list[Tree]] = {}
+
+    @property
+    def received(self) -> int:
+        """Bytes of the document, and of the buffers that were read so far."""
+        return self._received + sum(map(len, self._buffers.values()))
 
     def items(self, name: str) -> list[Tree]:
         """A list of the tree; empty if there is none."""
@@ -120,6 +133,15 @@ class Document:
     def count(self, index: object) -> int:
         """How many values an accessor claims."""
         return _count(self.item("accessors", index), "count")
+
+    def claimed(self, index: object) -> int:
+        """How many numbers an accessor claims; those without a buffer are zeros, for which no byte pays."""
+        return self.count(index) * WIDTHS.get(str(self.item("accessors", index).get("type")), 16)
+
+    def primitives(self) -> Iterator[Tree]:
+        """The primitives of all meshes."""
+        for mesh in self.items("meshes"):
+            yield from mesh["primitives"]
 
     def image(self, index: object) -> tuple[str, bytes]:
         """Name and bytes of an image."""
@@ -205,5 +227,38 @@ def _count(where: Tree, name: str) -> int:
 def open_document(path: str) -> Document:
     """The document in a file."""
     given = Input(path)
-    data = given.read_all()
-    return Document(data, Path(path).parent)
+    document = Document(given.read_all(), Path(path).parent)
+    document.require_plain()
+    return document
+
+
+def require_room_for_meshes(data: bytes, limits: Limits) -> None:
+    """Count what the meshes of a glTF become, before anybody makes them.
+
+    The same bytes may be used many times, and those of an accessor without a buffer are zeros, for which none pays.
+
+    Raises
+    ------
+    LimitError
+        If it is more than is granted.
+    FormatError
+        If what is counted makes no sense.
+    """
+    document = Document(data)
+    try:
+        numbers, named = 0, set()
+        for primitive in document.primitives():
+            given = [*primitive["attributes"].values(), primitive.get("indices")]
+            numbers += sum(document.claimed(index) for index in given if index is not None)
+            numbers += sum(
+                document.claimed(index) for target in primitive.get("targets", []) for index in target.values()
+            )
+            where = primitive["attributes"].get("POSITION")
+            if where is not None and ("bufferView" in document.item("accessors", where) or primitive.get("extensions")):
+                named.add(where)
+        vertices = sum(document.count(index) for index in named)
+    except NONSENSE as error:
+        raise FormatError(f"this glTF makes no sense: {type(error).__name__}: {error}") from error
+    beside = sum(_count(buffer, "byteLength") for buffer in document.items("buffers") if "uri" in buffer)
+    limits.check("vertices", vertices)
+    limits.check_memory(PER_NUMBER * numbers, vertices, len(data) + beside)

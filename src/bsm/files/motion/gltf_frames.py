@@ -7,23 +7,23 @@ from dataclasses import replace
 
 import numpy as np
 
-from bsm.bitstream.errors import BsmError, FormatError, LimitError, OptionError
-from bsm.bitstream.limits import DEFAULT_LIMITS
+from bsm.bitstream.errors import BsmError, FormatError, OptionError
+from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.codec.arrays import Positions
 from bsm.files.formats.columns import Column
 from bsm.files.formats.materials import Material, Value, described, named
 from bsm.files.formats.polygons import MeshFile, Polygons
 from bsm.files.motion.frames import LIKELY_RATES, Frames, Wanted, checked_frames, rate_of_times
-from bsm.files.motion.gltf import Document, Tree, open_document
+from bsm.files.motion.gltf import NONSENSE, Document, Tree, open_document
 from bsm.files.motion.gltf_scene import Part, Scene
 from bsm.files.rows import Doubles
 
 USUAL_RATE = 30.0
-MOST_FRAMES = 1 << 20
-_NONSENSE = (KeyError, TypeError, ValueError, IndexError, AttributeError, RecursionError, OverflowError)
+PER_TRIANGLE, PER_PART = 200, 2000
+"""Bytes that parts take while they are joined: for each triangle of each table, and for each part."""
 
 
-def read_gltf(path: str, wanted: Wanted) -> Frames:
+def read_gltf(path: str, wanted: Wanted, limits: Limits = DEFAULT_LIMITS) -> Frames:
     """The frames of a GLB or glTF.
 
     Raises
@@ -35,16 +35,17 @@ def read_gltf(path: str, wanted: Wanted) -> Frames:
     """
     try:
         document = open_document(path)
-        return _frames(path, document, wanted)
+        with np.errstate(over="ignore", invalid="ignore"):  # what is not finite is refused later
+            return _frames(path, document, wanted, limits)
     except BsmError:
         raise
-    except _NONSENSE as error:  # a tree may hold anything anywhere
+    except NONSENSE as error:  # a tree may hold anything anywhere
         raise FormatError(f"this glTF makes no sense: {type(error).__name__}: {error}") from error
 
 
-def _frames(path: str, document: Document, wanted: Wanted) -> Frames:
+def _frames(path: str, document: Document, wanted: Wanted, limits: Limits) -> Frames:
     number, animation = _chosen(document, wanted.animation)
-    scene = Scene(document, animation)
+    scene = Scene(document, animation, limits)
     if not scene.parts:
         raise FormatError("this glTF has no triangles in its scene")
     if not scene.moves:
@@ -54,10 +55,10 @@ def _frames(path: str, document: Document, wanted: Wanted) -> Frames:
     keys = scene.keys
     rate = wanted.rate or _rate(keys)
     count = int(np.floor((keys[-1] - keys[0]) * rate + 1e-3)) + 1
-    if count > MOST_FRAMES:
-        raise LimitError(f"{keys[-1] - keys[0]:g} seconds at {rate:g} frames per second are {count} frames, too many")
+    limits.check("frames", count)
+    limits.check_work(scene.work * count, scene.vertices * count, document.received)
     times = keys[0] + np.arange(count) / rate
-    still = _still(scene, document, float(times[0]))
+    still = _still(scene, document, float(times[0]), limits)
 
     def positions() -> Iterator[Positions]:
         for time in times:
@@ -102,12 +103,14 @@ def _has_normals(document: Document) -> bool:
     return any("NORMAL" in one["attributes"] for mesh in document.items("meshes") for one in mesh["primitives"])
 
 
-def _still(scene: Scene, document: Document, time: float) -> MeshFile:
+def _still(scene: Scene, document: Document, time: float, limits: Limits) -> MeshFile:
     """The mesh of the first frame."""
     parts = scene.parts
     begin = np.cumsum([0, *(len(part.base) for part in parts)])
-    DEFAULT_LIMITS.check("vertices", int(begin[-1]))
-    DEFAULT_LIMITS.check("faces", sum(len(part.faces) for part in parts))
+    triangles = sum(len(part.faces) for part in parts)
+    limits.check("faces", triangles)
+    tables = sum(1 + len(part.columns) for part in parts) * triangles // len(parts)
+    limits.check_memory(PER_TRIANGLE * tables + PER_PART * len(parts), scene.vertices, document.received)
     faces = np.concatenate([part.faces + first for part, first in zip(parts, begin)])
     columns = _columns(parts)
     metadata: dict[str, Value] = {"up": "y", "unit": "meters"}
@@ -129,7 +132,7 @@ def _still(scene: Scene, document: Document, time: float) -> MeshFile:
     sizes = np.full(len(faces), 3)
     positions = scene.at(time)
     found = Polygons(positions, sizes, faces.reshape(-1), tuple(notes), (), tuple(columns), metadata)
-    return found.checked(DEFAULT_LIMITS)
+    return found.checked(limits)
 
 
 def _columns(parts: list[Part]) -> list[Column]:

@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 
 from bsm.bitstream.errors import FormatError, LimitError
-from bsm.bitstream.limits import DEFAULT_LIMITS
+from bsm.bitstream.limits import Limits
 from bsm.codec.geometry.splitting import row_numbers
 from bsm.files.formats.columns import Column, color_column, meaning_of
 from bsm.files.motion.curves import Array, Curve, matrix_of
-from bsm.files.motion.gltf import MOST_NUMBERS, Document, Tree
+from bsm.files.motion.gltf import MOST_NUMBERS, PER_NUMBER, Document, Tree
 from bsm.files.rows import Doubles, Ints
 
 _TRIANGLES = 4
@@ -71,6 +71,8 @@ class Scene:
     document : Document
     animation : dict
         Of the document's tree.
+    limits : Limits
+        What is seen must be within them, and what it takes to make it; asked before it is made.
 
     Attributes
     ----------
@@ -79,8 +81,10 @@ class Scene:
         What is left out.
     """
 
-    def __init__(self, document: Document, animation: Tree) -> None:
-        self._document = document
+    def __init__(self, document: Document, animation: Tree, limits: Limits) -> None:
+        self._document, self._limits = document, limits
+        self._made: dict[tuple[int, int, int], Part] = {}
+        self._skins: dict[int, Skin] = {}
         self._nodes = document.items("nodes")
         self._parents = self._ordered()
         self._check_sizes()
@@ -90,48 +94,59 @@ class Scene:
 
     def _check_sizes(self) -> None:
         """Bound what will be allocated: the same bytes may be used many times, and zeros take none."""
-        vertices = numbers = 0
+        document, seen = self._document, 0
         for node in self._parents:
             mesh = self._nodes[node].get("mesh")
-            for primitive in [] if mesh is None else self._document.item("meshes", mesh)["primitives"]:
-                if "POSITION" in primitive["attributes"]:
-                    count = self._document.count(primitive["attributes"]["POSITION"])
-                    vertices += count
-                    numbers += 3 * count * len(primitive.get("targets", []))
-        DEFAULT_LIMITS.check("vertices", vertices)
+            for primitive in [] if mesh is None else document.item("meshes", mesh)["primitives"]:
+                seen += document.count(primitive["attributes"].get("POSITION", 0))
+        self._limits.check("vertices", seen)
+        numbers = 0
+        for primitive in document.primitives():
+            given = [*primitive["attributes"].values(), primitive.get("indices")]
+            given += [target.get("POSITION") for target in primitive.get("targets", [])]
+            numbers += sum(document.claimed(index) for index in given if index is not None)
         if numbers > MOST_NUMBERS:
-            raise LimitError(f"the morph targets of this glTF have {numbers} numbers; the limit is {MOST_NUMBERS}")
+            raise LimitError(f"the meshes of this glTF have {numbers} numbers; the limit is {MOST_NUMBERS}")
+        self._limits.check_memory(PER_NUMBER * numbers, 0, document.received)
+
+    @property
+    def vertices(self) -> int:
+        """Those of all parts."""
+        return sum(len(part.base) for part in self.parts)
+
+    @property
+    def work(self) -> float:
+        """Nanoseconds that a frame takes, at most."""
+        joints = sum(len(part.skin.joints) for part in self.parts if part.skin is not None)
+        numbers = sum(len(part.targets) + part.targets.size + part.joints.size for part in self.parts)
+        return 3e4 * (len(self._parents) + len(self.parts)) + 1e3 * joints + 100.0 * numbers
 
     @property
     def moves(self) -> bool:
         """Whether a curve reaches something that is seen."""
         moved = {node for node, _ in self._curves}
-        above = {node: self._line(node) for part in self.parts for node in (part.node, *self._joints(part))}
-        return any(moved & line for line in above.values())
-
-    def _joints(self, part: Part) -> list[int]:
-        return part.skin.joints if part.skin else []
-
-    def _line(self, node: int) -> set[int]:
-        found = set()
-        while node >= 0:
-            found.add(node)
-            node = self._parents[node]
-        return found
+        for node, parent in self._parents.items():  # parents come first
+            if parent in moved:
+                moved.add(node)
+        skins = {id(part.skin): part.skin for part in self.parts if part.skin is not None}
+        return any(part.node in moved for part in self.parts) or any(
+            joint in moved for skin in skins.values() for joint in skin.joints
+        )
 
     @property
     def keys(self) -> Doubles:
         """The times of all keys, each once."""
-        times = [np.empty(0), *(curve.times for curve in self._curves.values())]
-        return np.unique(np.round(np.concatenate(times), 6))
+        times = {id(curve.times): curve.times for curve in self._curves.values()}  # samplers serve many channels
+        return np.unique(np.round(np.concatenate([np.empty(0), *times.values()]), 6))
 
     def at(self, time: float) -> Doubles:
         """The positions of all parts' vertices, one part behind the other."""
         places: dict[int, Doubles] = {}
-        for node, parent in self._parents.items():
-            local = self._local(node, time)
-            places[node] = places[parent] @ local if parent >= 0 else local
-        return np.concatenate([self._placed(part, places, time) for part in self.parts])
+        with np.errstate(over="ignore", invalid="ignore"):  # what is not finite is refused later
+            for node, parent in self._parents.items():
+                local = self._local(node, time)
+                places[node] = places[parent] @ local if parent >= 0 else local
+            return np.concatenate([self._placed(part, places, time) for part in self.parts])
 
     def _placed(self, part: Part, places: dict[int, Doubles], time: float) -> Doubles:
         points = part.base
@@ -188,15 +203,22 @@ class Scene:
         return parents
 
     def _animated(self, animation: Tree) -> dict[tuple[int, str], Curve]:
-        document, found = self._document, {}
+        document, found, numbers = self._document, {}, 0
         samplers = animation.get("samplers", [])
+        tables: dict[int, tuple[Doubles, Doubles]] = {}
         for channel in animation.get("channels", []):
             node, path = channel["target"].get("node"), channel["target"]["path"]
             if node is None or path not in ("translation", "rotation", "scale", "weights"):
                 continue
             sampler = samplers[channel["sampler"]]
-            times = document.numbers(sampler["input"])[:, 0].astype(np.float64)
-            values = document.numbers(sampler["output"]).astype(np.float64)
+            if channel["sampler"] not in tables:
+                numbers += document.claimed(sampler["input"]) + document.claimed(sampler["output"])
+                self._limits.check_memory(PER_NUMBER * numbers, 0, document.received)
+                tables[channel["sampler"]] = (
+                    document.numbers(sampler["input"])[:, 0].astype(np.float64),
+                    document.numbers(sampler["output"]).astype(np.float64),
+                )
+            times, values = tables[channel["sampler"]]
             way = sampler.get("interpolation", "LINEAR")
             each = 3 if way == "CUBICSPLINE" else 1
             if path == "weights":
@@ -217,18 +239,29 @@ class Scene:
             return []
         mesh = document.item("meshes", tree["mesh"])
         skin = self._skin(tree["skin"]) if "skin" in tree else None
+        bound = int(tree["skin"]) if "skin" in tree else -1
         name = str(tree.get("name") or mesh.get("name") or "")
         found = []
-        for primitive in mesh["primitives"]:
+        for number, primitive in enumerate(mesh["primitives"]):
             if primitive.get("mode", _TRIANGLES) != _TRIANGLES or "POSITION" not in primitive["attributes"]:
                 self.notes.append("points, lines, strips and fans were left out")
                 continue
-            found.append(self._part(node, primitive, skin, name))
+            made = self._made.get((tree["mesh"], number, bound))  # one that stands in several places is made once
+            part = self._part(node, primitive, skin, name) if made is None else replace(made, node=node, name=name)
+            self._made[tree["mesh"], number, bound] = part
+            found.append(part)
         return found
 
     def _skin(self, index: object) -> Skin:
         skin = self._document.item("skins", index)
+        assert isinstance(index, int)
+        if index not in self._skins:
+            self._skins[index] = self._new_skin(skin, index)
+        return self._skins[index]
+
+    def _new_skin(self, skin: Tree, index: int) -> Skin:
         joints = [int(joint) for joint in skin["joints"]]
+        self._limits.check_memory(PER_NUMBER * 16 * len(joints), 0, self._document.received)
         missing = [joint for joint in joints if joint not in self._parents]
         if missing:
             raise FormatError(f"joint {missing[0]} of skin {index} is not in the scene")

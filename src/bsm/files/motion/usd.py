@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import shutil
 import tempfile
 from collections.abc import Callable, Iterator
@@ -13,7 +14,8 @@ from typing import Any, BinaryIO
 import numpy as np
 
 from bsm.bitstream.errors import DependencyError, FormatError, LimitError, MeshError
-from bsm.bitstream.limits import DEFAULT_LIMITS
+from bsm.bitstream.extras import how_to_install
+from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.codec.arrays import Faces, Positions
 from bsm.codec.geometry.attributes import MOST_COMPONENTS, Attribute, Domain, Semantic
 from bsm.codec.geometry.mesh import TriangleMesh
@@ -26,7 +28,12 @@ from bsm.files.rows import Doubles, Ints, single_suffices
 from bsm.lengths import metres
 
 USUAL_RATE = 24.0
-MOST_FRAMES = 1 << 20
+PER_COMMA = 350.0
+"""Bytes that a number of a text takes in usd-core while it is read."""
+MOST_NESTED = 256
+"""Prims, lists and dictionaries in each other in a text."""
+_OPENING, _CLOSING = ([ord(one) for one in ones] for ones in ("([{", ")]}"))
+_PIECE = 1 << 18
 _UNITS = {1.0: "meters", 0.1: "decimeters", 0.01: "centimeters", 0.001: "millimeters", 0.0254: "inches", 0.3048: "feet"}
 
 
@@ -41,9 +48,7 @@ def import_usd() -> Any:
         import pxr.UsdUtils
         import pxr.Vt
     except ImportError as error:
-        raise DependencyError(
-            "USD files are read and written with usd-core; run: pip install 'bsm-codec[usd]'"
-        ) from error
+        raise DependencyError(f"USD files are read and written with usd-core; run: {how_to_install('usd')}") from error
     return pxr
 
 
@@ -133,11 +138,36 @@ def _meant(name: str, kind: str, values: Array) -> tuple[str, Array, Semantic]:
     return name, values, "generic"
 
 
+def _require_room(path: str, limits: Limits) -> None:
+    """Look at a stage of text before usd-core does, whose stack deep nesting overflows.
+
+    Raises
+    ------
+    LimitError
+        If it is nested deeper than any scene, or its numbers would take more memory than is granted.
+    """
+    with open(path, "rb") as file:
+        if not file.read(5).startswith(b"#usda"):
+            return
+        received, commas, depth, deepest = os.fstat(file.fileno()).st_size, 0, 0, 0
+        while piece := file.read(_PIECE):
+            codes = np.frombuffer(piece, np.uint8)
+            commas += int((codes == ord(",")).sum())
+            opened = np.isin(codes, _OPENING).astype(np.int64) - np.isin(codes, _CLOSING)
+            depths = depth + np.cumsum(opened)
+            depth, deepest = int(depths[-1]), max(deepest, int(depths.max()))
+    limits.check_memory(PER_COMMA * commas, 0, received)
+    if deepest > MOST_NESTED:
+        raise LimitError(f"the stage is nested {deepest} deep; the limit is {MOST_NESTED}")
+
+
 class _Stage:
     """What is seen of a stage."""
 
-    def __init__(self, path: str) -> None:
+    def __init__(self, path: str, limits: Limits) -> None:
+        self._limits = limits
         self.pxr = pxr = import_usd()
+        _require_room(path, limits)
         try:
             self.stage = pxr.Usd.Stage.Open(path)
         except Exception as error:  # of the library's own kind
@@ -147,8 +177,8 @@ class _Stage:
         self.parts = [part for part in self.parts if len(part.counts)]
         if not self.parts:
             raise FormatError("this stage has no meshes")
-        DEFAULT_LIMITS.check("vertices", sum(part.vertices for part in self.parts))
-        DEFAULT_LIMITS.check("faces", sum(int(part.counts.sum()) - 2 * len(part.counts) for part in self.parts))
+        limits.check("vertices", sum(part.vertices for part in self.parts))
+        limits.check("faces", sum(int(part.counts.sum()) - 2 * len(part.counts) for part in self.parts))
 
     def _bake(self) -> None:
         """Let skeletons move the points, in a layer that is not saved."""
@@ -192,7 +222,7 @@ class _Stage:
             if any(part.columns() for part in parts):
                 notes.append("left out: texture coordinates and colours of several parts")
         return Polygons(positions, sizes, corners[order], tuple(notes), (), tuple(columns), metadata).checked(
-            DEFAULT_LIMITS
+            self._limits
         )
 
 
@@ -205,17 +235,17 @@ def _turned(sizes: Ints, turned: Array) -> Ints:
     return found
 
 
-def read_usd(path: str, wanted: Wanted) -> Frames | None:
+def read_usd(path: str, wanted: Wanted, limits: Limits = DEFAULT_LIMITS) -> Frames | None:
     """The frames of a stage, sampled at its rate or the one that is wanted; None if nothing moves.
 
     Raises
     ------
-    FormatError, MeshError, LimitError
+    FormatError, LimitError, MeshError, LimitError
         If it has no meshes, or faces that change; also while the frames are read.
     DependencyError
         If usd-core is missing.
     """
-    stage = _Stage(path)
+    stage = _Stage(path, limits)
     times = stage.times
     if len(times) < 2:
         return None
@@ -224,9 +254,10 @@ def read_usd(path: str, wanted: Wanted) -> Frames | None:
     first, last = times[0], times[-1]
     if stage.stage.HasAuthoredTimeCodeRange():
         first, last = float(stage.stage.GetStartTimeCode()), float(stage.stage.GetEndTimeCode())
+    if not np.isfinite([first, last, codes, (last - first) * rate / codes]).all():
+        raise FormatError(f"the stage runs from {first:g} to {last:g} at {codes:g} codes per second")
     count = int(np.floor(max(last - first, 0.0) * rate / codes + 1e-6)) + 1
-    if count > MOST_FRAMES:
-        raise LimitError(f"the stage runs from {first:g} to {last:g}, which are {count} frames, too many")
+    limits.check("frames", count)
     still = stage.mesh(stage.at(first))
 
     def frames() -> Iterator[Positions]:
@@ -239,9 +270,9 @@ def read_usd(path: str, wanted: Wanted) -> Frames | None:
     return Frames(mesh.faces, count, checked, mesh.attributes, notes, rate, mesh.metadata)
 
 
-def read_usd_mesh(path: str) -> MeshFile:
+def read_usd_mesh(path: str, limits: Limits = DEFAULT_LIMITS) -> MeshFile:
     """The mesh of a stage at its first time; errors as of `read_usd`."""
-    stage = _Stage(path)
+    stage = _Stage(path, limits)
     times = stage.times
     found = stage.mesh(stage.at(times[0] if times else 0.0))
     return MeshFile(

@@ -1,4 +1,7 @@
-"""The error inside blocks and at their boundaries, for three ways of joining them: `python -m tools.boundary MESH`."""
+"""The error inside blocks and at their boundaries, for three ways of joining them.
+
+python -m tools.measure boundary MESH
+"""
 
 from __future__ import annotations
 
@@ -14,7 +17,7 @@ from bsm.files.mesh import read_mesh
 from tools.command import run_command
 
 
-def main(args: argparse.Namespace, console: Console) -> None:
+def work(args: argparse.Namespace, console: Console) -> None:
     """Print the quartiles over the blocks, as the paper's box plot shows them."""
     mesh = read_mesh(args.input).mesh
     deviations_of = boundary_table(mesh, paper_options(**{"power": 2, **settings_of(args)}))
@@ -33,14 +36,11 @@ def main(args: argparse.Namespace, console: Console) -> None:
             console.note(str(path))
 
 
-def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(prog="python -m tools.boundary", description=__doc__)
+def main() -> None:
+    """Run the command."""
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("input", metavar="MESH", help="mesh file")
     parser.add_argument("-o", "--output", metavar="STEM", help="draw the box plot as STEM.png and STEM.svg")
     parser.add_argument("--json", action="store_true", help="print it as JSON")
     add_coding_flags(parser)
-    return parser
-
-
-if __name__ == "__main__":
-    run_command(_parser(), main)
+    run_command(parser, work)

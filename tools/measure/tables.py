@@ -1,8 +1,8 @@
 """The documents' tables of denoising, made from figures that the benchmark wrote.
 
-    F=tools/figures/denoising.json
-    python -m tools.benchmark_denoise MESHES automatic clean kinds gaussian hard flicker --json $F
-    python -m tools.measured_tables
+    F=tools/measure/figures/denoising.json
+    python -m tools.measure denoise MESHES automatic clean kinds gaussian hard flicker --json $F
+    python -m tools.measure tables
 
 The first measures, the second writes what stands in docs/measured.md between the two marks.
 """
@@ -13,10 +13,10 @@ import json
 from pathlib import Path
 from typing import Any
 
-ROOT = Path(__file__).parents[1]
-FIGURES = ROOT / "tools" / "figures" / "denoising.json"
+ROOT = Path(__file__).parents[2]
+FIGURES = ROOT / "tools" / "measure" / "figures" / "denoising.json"
 PAGE = ROOT / "docs" / "measured.md"
-BEGIN, END = "<!-- denoising: made by tools.measured_tables -->", "<!-- denoising: end -->"
+BEGIN, END = "<!-- denoising: made by tools.measure tables -->", "<!-- denoising: end -->"
 
 
 def denoising_tables(figures: dict[str, Any]) -> str:
@@ -54,7 +54,3 @@ def main() -> None:
     """Write the tables."""
     tables = denoising_tables(json.loads(FIGURES.read_text(encoding="utf-8")))
     PAGE.write_text(put_in(PAGE.read_text(encoding="utf-8"), tables), encoding="utf-8")
-
-
-if __name__ == "__main__":
-    main()

@@ -1,6 +1,6 @@
 """What presets and options come to in pictures, against Draco at the same look: bytes, and how much can be seen.
 
-    python -m tools.look MESH [MESH ...] [--presets small balanced fine near-lossless] [--options theta=1.5 grid=12]
+    python -m tools.measure look MESH [MESH ...] [--presets small balanced fine] [--options theta=1.5 grid=12]
 
 For each file: bytes; distance, 1 - SSIM and visible share by `bsm.look` (`spec/look.md`); and bytes over those of Draco
 at the same 1 - SSIM, between two of its numbers of bits (both logarithms straight between them). Meshes go in as shapes
@@ -142,7 +142,3 @@ def main() -> None:
     parser.add_argument("--options", nargs="*", default=[], metavar="NAME=NUMBER", help="other ways to ask, one each")
     parser.add_argument("--json", action="store_true", help="print numbers as JSON")
     run_command(parser, work)
-
-
-if __name__ == "__main__":
-    main()

@@ -1,4 +1,4 @@
-"""Sequences against Draco frame by frame and against principal components: `python -m tools.sequences`.
+"""Sequences against Draco frame by frame and against principal components: `python -m tools.measure sequences`.
 
 Rates are those of whole files, connectivity and first frame included. Draco is asked for every `every`-th frame, which
 is exact for codecs that know of one frame only; its files are compared with ours at its own KG error.
@@ -121,7 +121,3 @@ def main() -> None:
     results = {path.stem: measure(path, args.every) for path in _files(args.folder, args.names)}
     with open_output(args.output, overwrite=True) as file:
         file.write(json.dumps(results, indent=1).encode() + b"\n")
-
-
-if __name__ == "__main__":
-    main()

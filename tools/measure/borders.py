@@ -1,6 +1,6 @@
 """How far parts of a mesh gape that are encoded apart, and what it costs that they do not.
 
-    python -m tools.borders MESH [MESH ...] [--gap 0.001 0.0001]
+    python -m tools.measure borders MESH [MESH ...] [--gap 0.001 0.0001]
 
 Each mesh is cut in two by a plane across its longest side, through faces: each goes to the side of its middle, and both
 parts have the vertices of the cut. Gaps are distances between what the two streams make of these.
@@ -94,7 +94,7 @@ def worded(found: dict[str, Any]) -> str:
     return "\n".join(lines)
 
 
-def main(args: argparse.Namespace, console: Console) -> None:
+def work(args: argparse.Namespace, console: Console) -> None:
     """Print a table for each mesh."""
     done = []
     for path in args.meshes:
@@ -105,14 +105,11 @@ def main(args: argparse.Namespace, console: Console) -> None:
         print_json({"meshes": done})
 
 
-def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(prog="python -m tools.borders", description=__doc__)
+def main() -> None:
+    """Run the command."""
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("meshes", metavar="MESH", nargs="+", help="mesh file")
     parser.add_argument("--gap", type=float, nargs="+", default=[1e-3, 1e-4], help="relative gaps that are asked for")
     parser.add_argument("--preset", default="balanced", help="of blocks and layers (balanced)")
     parser.add_argument("--json", action="store_true", help="print it as JSON")
-    return parser
-
-
-if __name__ == "__main__":
-    run_command(_parser(), main)
+    run_command(parser, work)

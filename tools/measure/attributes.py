@@ -1,6 +1,6 @@
 """Compare what attributes take in our files with what they take in Draco's, at the same quantization.
 
-    python -m tools.attributes MESH [MESH ...] [--grid 14] [--normals DEGREES]
+    python -m tools.measure attributes MESH [MESH ...] [--grid 14] [--normals DEGREES]
 
 Positions are exact on a grid of so many bits in both. What an attribute takes is the file with it less the file
 without; in Draco's (level 10), vertices are split where the attribute needs it. Texture coordinates have 12 bits,
@@ -218,7 +218,3 @@ def main() -> None:
                 ratios.setdefault(row.what.split(",")[0], []).append(row.ratio)
     for what, several in ratios.items():
         print(f"| mean | {what} | | | {np.mean(several):.3f} |")
-
-
-if __name__ == "__main__":
-    main()

@@ -1,4 +1,4 @@
-"""The tables of figures that the README shows, measured again: `python -m tools.figures MESHES`."""
+"""The tables of figures that the README shows, measured again: `python -m tools.measure figures MESHES`."""
 
 from __future__ import annotations
 
@@ -8,10 +8,10 @@ from pathlib import Path
 
 from bsm.console import Console, print_json
 from tools.command import run_command
-from tools.figures.tables import FIGURES, Source, make_figures
+from tools.measure.figures.tables import FIGURES, Source, make_figures
 
 
-def main(args: argparse.Namespace, console: Console) -> None:
+def work(args: argparse.Namespace, console: Console) -> None:
     """Print each figure as it is ready."""
     names = args.only.split(",") if args.only else list(FIGURES)
     source = Source(Path(args.meshes), Path(args.output) if args.output else None, console.note)
@@ -21,20 +21,16 @@ def main(args: argparse.Namespace, console: Console) -> None:
         return
     for name in names:
         (figure,) = make_figures(source, [name])
-        print(
-            f"### {figure.title}\n\n`python -m tools.figures FOLDER --only {name}`; expected: {figure.expectation}.\n"
-        )
+        command = f"python -m tools.measure figures FOLDER --only {name}"
+        print(f"### {figure.title}\n\n`{command}`; expected: {figure.expectation}.\n")
         print(f"{figure.text}\n", flush=True)
 
 
-def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(prog="python -m tools.figures", description=__doc__)
+def main() -> None:
+    """Run the command."""
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("meshes", metavar="FOLDER", help="folder of bunny_34834.ply, fandisk_6475.ply, ...")
     parser.add_argument("--only", metavar="LIST", help=f"{','.join(FIGURES)} (default: all)")
     parser.add_argument("-o", "--output", metavar="FOLDER", help="keep the JSON of the rates there")
     parser.add_argument("--json", action="store_true", help="print it as JSON")
-    return parser
-
-
-if __name__ == "__main__":
-    run_command(_parser(), main)
+    run_command(parser, work)

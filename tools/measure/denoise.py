@@ -1,6 +1,6 @@
 """Denoising measured: answers first, then times.
 
-    python -m tools.benchmark_denoise MESHES [TABLE ...] [--full] [--json FILE]
+    python -m tools.measure denoise MESHES [TABLE ...] [--full] [--json FILE]
 
 MESHES is the folder of real meshes, with `static/`, `assets/`, `noisy/` and `dynamic/`. Without further words every
 table is printed, on a few small meshes; `--full` takes more of them. A table whose answers are outside their
@@ -30,7 +30,7 @@ from bsm.codec.denoise.handover import HAND_OVERS
 from bsm.codec.geometry.metrics import Reference, compare, theta
 from bsm.files.formats.npz import read_arrays
 from bsm.files.mesh import read_mesh
-from tools.denoise_trials import TRIALS
+from tools.measure.denoise_trials import TRIALS
 from tools.paper.sequences import noisy_frames, time_sequence
 
 # Theta after 20 iterations and seconds of the guided filter's authors' own C++ program (bldeng/GuidedDenoising).
@@ -222,7 +222,3 @@ def main(arguments: list[str] | None = None) -> int:
         known = {name: value for name, value in figures.items() if value is not None}
         chosen.json.write_text(json.dumps(known, indent=1) + "\n", encoding="utf-8")
     return 0
-
-
-if __name__ == "__main__":
-    sys.exit(main())

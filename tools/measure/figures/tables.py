@@ -30,7 +30,7 @@ from bsm.evaluation.run import measure, run_curve, write_result
 from bsm.evaluation.tables import number, percent, table
 from bsm.files.mesh import read_mesh
 from bsm.files.output import open_output
-from tools.figures.connectivity import HEADINGS, connectivity_row
+from tools.measure.figures.connectivity import HEADINGS, connectivity_row
 
 BLOCKS = {
     "bunny_34834": 70,

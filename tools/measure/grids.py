@@ -1,6 +1,6 @@
 """Compare whole files with positions on a grid, exact, with Draco's at the same grid.
 
-    python -m tools.grids MESH [MESH ...] [--bits 11 12 14]
+    python -m tools.measure grids MESH [MESH ...] [--bits 11 12 14]
 
 Vertices at one position are merged first, and faces that have become degenerate are left out, for both. Every file is
 decoded again and compared. Draco's is its smallest (level 10). Needs DracoPy.
@@ -110,7 +110,3 @@ def main() -> None:
         name = path.rsplit("/", 1)[-1]
         print(f"| {name} | {len(positions)} | {cells} | {max(spent for _, spent in streams):.1f} |", flush=True)
     print("| mean | | " + " | ".join(f"{ratio:.3f}" for ratio in np.mean(table, axis=0)) + " | |")
-
-
-if __name__ == "__main__":
-    main()

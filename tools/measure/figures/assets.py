@@ -1,6 +1,6 @@
 """A picture of whole assets before and after: textures, colours and values drawn on original and decoded meshes.
 
-python -m tools.figures.assets FOLDER [-o docs/guides/assets.png]
+python -m tools.measure assets FOLDER [-o docs/guides/assets.png]
 """
 
 from __future__ import annotations
@@ -125,7 +125,7 @@ def _image(mesh: TriangleMesh) -> Pixels | None:
     return None
 
 
-def main(args: argparse.Namespace, console: Console) -> None:
+def work(args: argparse.Namespace, console: Console) -> None:
     """Draw all assets, originals above what comes back."""
     import matplotlib
     import PIL.Image
@@ -158,12 +158,9 @@ def _size(count: int) -> str:
     return f"{count / 1000:.0f} kB" if count >= 10_000 else f"{count / 1000:.1f} kB"
 
 
-def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(prog="python -m tools.figures.assets", description=__doc__)
+def main() -> None:
+    """Run the command."""
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("assets", metavar="FOLDER", help=f"folder of {', '.join(asset.name for asset in ASSETS)}")
     parser.add_argument("-o", "--output", metavar="FILE", default="docs/guides/assets.png", help="the picture")
-    return parser
-
-
-if __name__ == "__main__":
-    run_command(_parser(), main)
+    run_command(parser, work)

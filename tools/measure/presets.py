@@ -1,16 +1,14 @@
 """What qualities cost: whole files against Draco's, on chosen meshes.
 
-    python -m tools.quality theta MESH [MESH ...] [--theta 3 7 10] [--draco-bits 11]
-    python -m tools.quality grid MESH [MESH ...] [--bits 11 12 14]
-    python -m tools.quality contract MESH [MESH ...] [--preset balanced]
-    python -m tools.quality time MESH [MESH ...] [--preset balanced fine near-lossless grid14]
+    python -m tools.measure theta MESH [MESH ...] [--theta 3 7 10] [--draco-bits 11]
+    python -m tools.measure contract MESH [MESH ...] [--preset balanced]
+    python -m tools.measure time MESH [MESH ...] [--preset balanced fine near-lossless grid14]
 
 `theta`: bytes at a mean angle between corresponding normals, over those of Draco (level 10, its bits interpolated) at
-the angle that was reached; Draco's own angle at `--draco-bits` is one more. `grid`: bytes of the positions on a grid,
-over those of Draco with the same. `contract`: what a preset gives, checked by itself and by surfaces, over the bytes of
-Draco with the fewest bits whose surfaces are as close (Hausdorff distance, and mean angle of normals). `time`:
-processor time per vertex, on one thread, against that of Draco. Vertices at one position are made one for both. Needs
-DracoPy.
+the angle that was reached; Draco's own angle at `--draco-bits` is one more. `contract`: what a preset gives, checked
+by itself and by surfaces, over the bytes of Draco with the fewest bits whose surfaces are as close (Hausdorff
+distance, mean angle of normals). `time`: processor time per vertex, on one thread, against that of Draco. Vertices at
+one position are made one for both. Needs DracoPy.
 """
 
 from __future__ import annotations
@@ -112,18 +110,6 @@ def thetas(path: Path, args: argparse.Namespace) -> Iterator[Row]:
         yield Row(label, text, ratio)
 
 
-def grids(path: Path, args: argparse.Namespace) -> Iterator[Row]:
-    """Rows of `grid`."""
-    mesh = joined(path)
-    for bits in args.bits:
-        encoder = Encoder(mesh, EncodeOptions(grid=bits))
-        data = encoder.encode()
-        expected = draco_positions(encoder.mesh, bits)
-        off = np.abs(decode(data).positions - expected).max() / encoder.mesh.diagonal
-        theirs = len(draco_bytes(mesh, bits))
-        yield Row(f"{bits} bits", f"{len(data):7d} bytes, Draco {theirs:7d}; off by {off:.1e}", len(data) / theirs)
-
-
 def contracts(path: Path, args: argparse.Namespace) -> Iterator[Row]:
     """Rows of `contract`."""
     for preset in args.preset:
@@ -184,26 +170,41 @@ def measured(work: Callable[[], Result]) -> tuple[float, Result]:
     return best, result
 
 
-def main() -> None:
-    """Print the table."""
-    parser = argparse.ArgumentParser(prog="python -m tools.quality", description=__doc__.splitlines()[0])
-    commands = parser.add_subparsers(required=True)
-    for name, rows in (("theta", thetas), ("grid", grids), ("contract", contracts), ("time", times)):
-        command = commands.add_parser(name)
-        command.add_argument("meshes", nargs="+", type=Path)
-        command.set_defaults(rows=rows)
-        if name == "theta":
-            command.add_argument("--theta", nargs="*", type=float, default=[3.0])
-            command.add_argument("--draco-bits", type=int, default=11, choices=range(6, 17))
-        if name == "grid":
-            command.add_argument("--bits", nargs="+", type=int, default=[11, 12, 14])
-        if name in ("contract", "time"):
-            command.add_argument("--preset", nargs="+", choices=PRESETS, default=["balanced"])
-    args = parser.parse_args()
+def theta_command() -> None:
+    """Print the table of `theta`."""
+    parser = _parser()
+    parser.add_argument("--theta", nargs="*", type=float, default=[3.0])
+    parser.add_argument("--draco-bits", type=int, default=11, choices=range(6, 17))
+    _print_table(thetas, parser.parse_args())
+
+
+def contract_command() -> None:
+    """Print the table of `contract`."""
+    _print_table(contracts, _preset_parser().parse_args())
+
+
+def time_command() -> None:
+    """Print the table of `time`."""
+    _print_table(times, _preset_parser().parse_args())
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("meshes", nargs="+", type=Path)
+    return parser
+
+
+def _preset_parser() -> argparse.ArgumentParser:
+    parser = _parser()
+    parser.add_argument("--preset", nargs="+", choices=PRESETS, default=["balanced"])
+    return parser
+
+
+def _print_table(rows: Callable[[Path, argparse.Namespace], Iterator[Row]], args: argparse.Namespace) -> None:
     ratios: dict[str, list[float]] = {}
     for path in args.meshes:
         try:
-            for row in args.rows(path, args):
+            for row in rows(path, args):
                 ratios.setdefault(row.name, []).append(row.ratio)
                 print(f"{path.name[:28]:28s} {row.name:15s} {row.text}  ratio {row.ratio:.3f}", flush=True)
         except BsmError as error:
@@ -211,7 +212,3 @@ def main() -> None:
     for name, values in ratios.items():
         counted = [value for value in values if not math.isnan(value)]
         print(f"{name}: mean ratio {fmean(counted):.3f}, largest {max(counted):.3f}, of {len(counted)}")
-
-
-if __name__ == "__main__":
-    main()

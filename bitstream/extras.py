@@ -1,0 +1,47 @@
+"""What to type for a library that is missing."""
+
+from __future__ import annotations
+
+import json
+from importlib import metadata
+from pathlib import Path
+
+DISTRIBUTION = "bsm-codec"
+
+
+def how_to_install(extra: str) -> str:
+    """The command that installs an extra of this package from where the package itself came.
+
+    Parameters
+    ----------
+    extra : str
+        One of those in pyproject.toml, ``eval`` for instance.
+
+    Returns
+    -------
+    str
+        ``pip install ...``: from the index where it came from one, else from the checkout or the file.
+    """
+    try:
+        origin = metadata.distribution(DISTRIBUTION).read_text("direct_url.json")
+    except metadata.PackageNotFoundError:  # run from a checkout that is not installed
+        checkout = Path(__file__).resolve().parents[1]
+        return f"pip install '{checkout}[{extra}]'"
+    if origin is None:
+        return f"pip install '{DISTRIBUTION}[{extra}]'"
+    told = json.loads(origin)
+    url = told["url"]
+    if "vcs_info" in told:
+        url = f"{told['vcs_info']['vcs']}+{url}@{told['vcs_info']['commit_id']}"
+    editable = "-e " if told.get("dir_info", {}).get("editable") else ""
+    if url.startswith("file://") and "dir_info" in told:
+        return f"pip install {editable}'{_path(url)}[{extra}]'"
+    return f"pip install '{DISTRIBUTION}[{extra}] @ {url}'"
+
+
+def _path(url: str) -> str:
+    """The folder behind a file's URL."""
+    from urllib.parse import urlsplit
+    from urllib.request import url2pathname
+
+    return url2pathname(urlsplit(url).path)

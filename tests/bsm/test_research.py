@@ -1,0 +1,112 @@
+"""bsm.research: ideas of one's own in the codec."""
+
+import doctest
+
+import numpy as np
+import pytest
+
+import bsm
+from bsm import research
+from bsm.evaluation.sample import knot
+
+MESH = knot(2000)
+
+
+def eigenvectors(site, width):
+    return np.linalg.eigh(site.laplacian + np.diag(site.springs))[1][:, :width]
+
+
+def constant(site):
+    return np.zeros((site.size, 3)) + site.prediction.mean(axis=0)
+
+
+def short(site):
+    return 0.95 * site.prediction
+
+
+def stripes(offsets, neighbours, parts):
+    return np.arange(len(offsets) - 1) * parts // (len(offsets) - 1)
+
+
+def test_its_own_example():
+    assert doctest.testmod(research).failed == 0
+
+
+def test_nothing_of_ones_own_is_the_codec():
+    step = 0.01
+    assert research.encode(MESH, step=step, threads=1) == bsm.encode(MESH, step=step, threads=1)
+
+
+def test_the_codecs_own_dictionary_and_predictor_change_nothing():
+    same = research.Idea(research.Site.ours, lambda site: site.prediction)
+    stream = research.encode(MESH, same, step=0.01)
+    assert stream == research.MARK + research.encode(MESH, step=0.01)
+
+
+@pytest.mark.parametrize(
+    "idea", [research.Idea(dictionary=eigenvectors), research.Idea(predictor=constant)], ids=["dictionary", "predictor"]
+)
+def test_an_idea_is_decoded_with_itself_alone(idea):
+    data = research.encode(MESH, idea, step=0.01)
+    decoded = research.decode(data, idea)
+    assert bsm.compare(MESH, decoded).max_error_relative < 0.2
+    with pytest.raises(bsm.FormatError, match="not given"):
+        research.decode(data)
+    with pytest.raises(bsm.FormatError):
+        bsm.decode(data)
+
+
+def test_a_partition_is_sent_and_any_decoder_decodes_it():
+    data = research.encode(MESH, research.Idea(partition=stripes), step=0.01, block_size=300)
+    assert bsm.compare(MESH, bsm.decode(data)).max_error_relative < 0.05
+    found = research.blocks(MESH, research.Idea(partition=stripes), block_size=300)
+    assert len(found) == round(len(MESH.positions) / 300)
+
+
+def test_blocks_are_what_the_codec_works_on():
+    found = research.blocks(MESH, step=0.01, block_size=400)
+    assert {vertex for block in found for vertex in block.site.vertices} == set(range(len(MESH.positions)))
+    for block in found:
+        site, columns = block.site, block.dictionary
+        np.testing.assert_allclose(columns.T @ columns, np.eye(columns.shape[1]), atol=1e-8)
+        np.testing.assert_allclose(site.laplacian.sum(axis=0), 0)
+        assert block.coefficients.shape == (columns.shape[1], 3) and "vertices" in repr(site)
+    # Later blocks are held by earlier ones, and close to where they are expected.
+    assert not found[0].site.springs.any() and all(block.site.springs.any() for block in found[1:])
+    error = np.abs(found[-1].positions - found[-1].site.prediction)
+    assert error.mean() < np.abs(found[0].positions - found[0].site.prediction).mean()
+
+
+@pytest.mark.parametrize(
+    ("idea", "error", "words"),
+    [
+        (research.Idea(dictionary=lambda site, width: np.zeros((site.size, 2))), bsm.ArgumentError, "shape"),
+        (
+            research.Idea(dictionary=lambda site, width: np.full((site.size, width), np.nan)),
+            bsm.ArgumentError,
+            "finite",
+        ),
+        (research.Idea(predictor=lambda site: site.ours(3)), bsm.OptionError, "not known"),
+        (research.Idea(partition=lambda offsets, neighbours, parts: [0.5]), bsm.ArgumentError, "whole numbers"),
+    ],
+)
+def test_what_cannot_be_is_said(idea, error, words):
+    with pytest.raises(error, match=words):
+        research.encode(MESH, idea, step=0.01)
+
+
+def test_an_idea_that_differs_between_the_sides_is_refused():
+    random = np.random.default_rng(0)
+    idea = research.Idea(predictor=lambda site: site.prediction + random.normal(size=(site.size, 3)))
+    with pytest.raises(bsm.OptionError, match="decoding gives other positions"):
+        research.encode(MESH, idea, step=0.01)
+
+
+def test_curves_are_measured_beside_ours(tmp_path):
+    pytest.importorskip("matplotlib")
+    found = research.curves(MESH, {"short": research.Idea(predictor=short)}, (0.02, 0.01, 0.005))
+    assert found.bytes_of_ours["short"] > 1.0
+    assert str(found).count("\n") >= 5
+    assert {path.suffix for path in found.draw(tmp_path / "curves")} == {".png", ".svg"}
+    with pytest.raises(bsm.OptionError, match="something else"):
+        research.curves(MESH, {"ours": research.Idea()})

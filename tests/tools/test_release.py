@@ -1,0 +1,74 @@
+"""What makes releases: versions that agree, wheels that are what they should be, README's commands from a wheel.
+
+The wheels themselves are made and tried by `python -m tools.release`.
+"""
+
+import zipfile
+from pathlib import Path
+
+import pytest
+
+import bsm
+from tools import pythons
+from tools.release.__main__ import fits
+from tools.release.trial import _from_wheel, readme_commands
+from tools.release.versions import check_versions, notes, sections
+from tools.release.wheels import check_contents
+
+ROOT = Path(__file__).parents[2]
+
+
+def test_versions_agree_and_the_change_log_has_a_section():
+    assert check_versions(ROOT) == bsm.__version__
+    assert len(notes(ROOT, bsm.__version__)) > 1000
+    assert sections(ROOT)[0][0] == bsm.__version__
+
+
+def test_versions_that_differ_are_refused(tmp_path):
+    for name in ("src/bsm/__init__.py", "tools/web/package.json", "CHANGELOG.md"):
+        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / name).write_text(
+            (ROOT / name).read_text().replace(bsm.__version__, "9.9.9", name == "CHANGELOG.md")
+        )
+    with pytest.raises(SystemExit, match=r"9\.9\.9 first in CHANGELOG"):
+        check_versions(tmp_path)
+
+
+KERNELS = [f"bsm/{room}_kernels.abi3.so" for room in ("", "codec/", "bitstream/")]
+
+
+@pytest.mark.parametrize(
+    ("names", "said"),
+    [
+        (["bsm/py.typed", *KERNELS], None),
+        (["bsm/py.typed", *KERNELS[:2]], "_kernels"),
+        (["bsm/py.typed", *KERNELS, "codec/geometry.py"], "codec"),
+        (["bsm/py.typed", *KERNELS, "bsm/codec/levels.c"], "levels.c"),
+    ],
+)
+def test_wheels_are_looked_into(names, said, tmp_path):
+    with zipfile.ZipFile(tmp_path / "a.whl", "w") as wheel:
+        for name in (*names, "bsm_codec-1.dist-info/METADATA"):
+            wheel.writestr(name, "")
+    if said is None:
+        check_contents(tmp_path / "a.whl")
+    else:
+        with pytest.raises(SystemExit, match=said):
+            check_contents(tmp_path / "a.whl")
+
+
+def test_each_python_has_its_wheel():
+    old, new = (Path(f"bsm_codec-1-{tags}-manylinux_2_34_x86_64.whl") for tags in ("cp311-cp311", "cp312-abi3"))
+    assert fits(old, (3, 11)) and fits(new, (3, 13)) and not fits(new, (3, 11)) and not fits(old, (3, 12))
+    assert not fits(Path("bsm_codec-1-cp312-abi3-manylinux_2_28_aarch64.whl"), (3, 13))
+
+
+def test_readmes_commands_install_the_wheel_instead():
+    for command in readme_commands(ROOT):
+        line = _from_wheel(command, Path("/x/a.whl"))
+        assert "'/x/a.whl[" in line and "'.[" not in line and "--only-binary" in line
+
+
+def test_pythons_are_found_and_are_new_enough():
+    found = pythons.pythons()
+    assert found and min(found) >= (3, 11) and pythons.lowest("numpy") == "1.26"

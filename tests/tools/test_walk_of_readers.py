@@ -1,0 +1,60 @@
+"""A part of the walk over all readers of files; `python -m tools.bombs.readers` is the whole."""
+
+import os
+import sys
+
+import pytest
+
+from bsm.bitstream.limits import Limits
+from bsm.files.mesh import MESH_FORMATS
+from bsm.files.sequence import SEQUENCES_READ
+from tools.bombs.measure import Taken
+from tools.bombs.readers import Case, Sample, grown, numbers, problems, read_all, samples, warm_up
+
+linux = pytest.mark.skipif(sys.platform != "linux", reason="memory is measured as Linux tells it")
+
+
+def test_the_walk_visits_every_format_that_is_read_here():
+    suffixes = {sample.suffix for sample in samples().values()}
+    assert {*MESH_FORMATS, *SEQUENCES_READ} - suffixes <= {"gltf", "usd", "usda", "usdc", "usdz"}
+    names = {case.name.partition(",")[0] for case in numbers()}
+    assert set(samples()) <= names
+
+
+@linux
+def test_numbers_as_large_as_they_can_be_are_refused_within_the_bounds():
+    warm_up()
+    assert not list(problems(list(numbers())[::60], "default"))
+
+
+@linux
+def test_files_that_are_large_for_their_bytes_stay_within_the_bounds():
+    warm_up()
+    cases = list(grown(1 << 18))
+    assert len(cases) > 90
+    assert not list(problems(cases, "default"))
+    assert not list(problems(cases[::4], "service"))
+
+
+@linux
+def test_the_walk_finds_what_is_beyond_the_bounds(monkeypatch):
+    """A reader that inflates whatever it is given, one that ends its process, and one that lets errors out."""
+    warm_up()
+    good = samples()["obj.gz"]
+    cases = [Case("a", lambda: good), Case("b", lambda: Sample("obj", b"v 0 0 0\nf 1 1 1\n"))]
+    assert not list(problems(cases, "default"))
+    for fault, said in (
+        (lambda: bytearray(1 << 28), "of 64 MiB"),
+        (lambda: 1 // 0, "ZeroDivision"),
+        (os.abort, "died"),
+    ):
+        with monkeypatch.context() as patch:
+            patch.setattr("tools.bombs.readers.read_all", lambda path, limits, fault=fault: (fault(), Taken("read"))[1])
+            found = list(problems(cases, "default"))
+        assert len(found) == 2 and all(said in problem for problem in found)
+
+
+def test_a_usd_file_that_is_nested_too_deep_is_refused_before_its_library_sees_it(tmp_path):
+    pytest.importorskip("pxr")
+    (tmp_path / "a.usda").write_bytes(b"#usda 1.0\n" + b'def "a" {\n' * 20_000 + b"}\n" * 20_000)
+    assert "nested 20000 deep" in read_all(tmp_path / "a.usda", Limits()).outcome

@@ -1,0 +1,816 @@
+"""Every reader of mesh files and sequences, with every count and length made as large as its type and its file allow.
+
+`python -m tools.bombs.readers` walks all of it. Numbers are not listed by hand: in a text each number in turn, in a
+binary file each byte, two, four and eight bytes from each offset become as large as they can be. Beside that stand
+files that are sound, and large in one place for their bytes. What reading takes is held against the same bounds as
+what decoding takes; whatever comes out must be a mesh or an error of ours.
+"""
+
+from __future__ import annotations
+
+import argparse
+import gzip
+import io
+import json
+import os
+import re
+import resource
+import signal
+import struct
+import sys
+import tempfile
+import warnings
+import zipfile
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+from functools import cache, partial
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from bsm.bitstream.errors import BsmError
+from bsm.bitstream.limits import NAMED_LIMITS, Limits
+from bsm.codec.geometry.attributes import Attribute
+from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.files.formats.npy import write_npy
+from bsm.files.mesh import format_mesh, read_mesh
+from bsm.files.motion.frames import Wanted
+from bsm.files.motion.told import Told
+from bsm.files.sequence import SEQUENCES_READ, open_sequence, sequence_writer
+from tools.bombs.measure import Taken, forget_peak, resident, seconds_of_cpu
+from tools.bombs.walk import bounds
+from tools.vectors.meshes import torus
+
+HUGE_WORDS = (b"2147483647", b"999999999999999999", b"9" * 400, b"-1", b"1e300")
+HUGE_BYTES = tuple(
+    bytes.fromhex(code) for code in ("ff", "ffff", "ffffff7f", "7fffffff", "ffffffff", "ffffffffffffff7f")
+)
+_NUMBER = re.compile(rb"(?<![\w.+-])-?\d+(?:\.\d+)?(?:[eE][+-]?\d+)?(?![\w.])")
+AT_A_TIME = 64
+"""Files that one process reads, so that what one leaves behind hides little of the next."""
+MOST_SECONDS = 60
+MOST_ADDRESSES = 12 << 30
+"""Of one process: what asks for more fails, and the machine lives on."""
+
+
+@dataclass(frozen=True)
+class Sample:
+    """A file with what lies beside it.
+
+    Parameters
+    ----------
+    suffix : str
+    data : bytes
+    beside : tuple of (name, bytes)
+    """
+
+    suffix: str
+    data: bytes
+    beside: tuple[tuple[str, bytes], ...] = ()
+
+
+@dataclass(frozen=True)
+class Case:
+    """A file that is large in one place."""
+
+    name: str
+    make: Callable[[], Sample]
+
+
+# ------------------------------------------------------------------------------------------------------------ samples
+
+
+def _mesh() -> TriangleMesh:
+    """A small mesh with something of everything."""
+    bare = torus(3, 3)
+    vertices, faces = len(bare.positions), len(bare.faces)
+    corners = np.arange(3 * faces, dtype=np.int32).reshape(-1, 3) % 5
+    return TriangleMesh(
+        bare.positions,
+        bare.faces,
+        (
+            Attribute("color", np.full((vertices, 3), 7, np.uint8), semantic="color"),
+            Attribute("texcoord", np.linspace(0, 1, 10, dtype=np.float32).reshape(5, 2), "corner", "texcoord", corners),
+            Attribute("material", np.arange(faces, dtype=np.int32)[:, None] % 2, "face"),
+        ),
+        {"unit": "mm"},
+    )
+
+
+def _written(kind: str) -> bytes:
+    """A sequence of three frames in a file of a kind."""
+    mesh = torus(3, 3)
+    with tempfile.TemporaryDirectory() as folder:
+        path = str(Path(folder, f"a.{kind}"))
+        with sequence_writer(path, kind, mesh.faces, 3, overwrite=False, told=Told()) as write:
+            for frame in range(3):
+                write(mesh.positions + frame)
+        return Path(path).read_bytes()
+
+
+def _json_of(glb: bytes) -> dict[str, Any]:
+    tree: dict[str, Any] = json.loads(glb[20 : 20 + int.from_bytes(glb[12:16], "little")])
+    return tree
+
+
+def _as_glb(tree: dict[str, Any], binary: bytes) -> bytes:
+    text = json.dumps(tree).encode()
+    text += b" " * (-len(text) % 4)
+    chunks = struct.pack("<II", len(text), 0x4E4F534A) + text + struct.pack("<II", len(binary), 0x004E4942) + binary
+    return struct.pack("<4sII", b"glTF", 2, 12 + len(chunks)) + chunks
+
+
+def _binary_of(glb: bytes) -> bytes:
+    return glb[28 + int.from_bytes(glb[12:16], "little") :]
+
+
+def _ascii_ply() -> bytes:
+    rows = b"0 0 0 1 2 3\n1 0 0 1 2 3\n0 1 0 1 2 3\n"
+    return (
+        _ply_head("ascii", 3, "float", 1, b"property uchar red\nproperty uchar green\nproperty uchar blue\n")
+        + rows
+        + b"3 0 1 2\n"
+    )
+
+
+def _ply_head(order: str, vertices: int, kind: str, faces: int, more: bytes = b"", length: str = "uchar") -> bytes:
+    axes = "".join(f"property {kind} {axis}\n" for axis in "xyz")
+    lists = f"element face {faces}\nproperty list {length} int vertex_indices\n"
+    return (
+        f"ply\nformat {order} 1.0\nelement vertex {vertices}\n{axes}".encode() + more + f"{lists}end_header\n".encode()
+    )
+
+
+def _ragged_ply() -> bytes:
+    """Polygons of three and of four corners, whose rows differ in length."""
+    points = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], "<f4").tobytes()
+    faces = b"\3" + np.array([0, 1, 2], "<i4").tobytes() + b"\4" + np.arange(4, dtype="<i4").tobytes()
+    return _ply_head("binary_little_endian", 4, "float", 2) + points + faces
+
+
+_FACET = b"facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n"
+_ASCII_STL = b"solid a\n" + _FACET + b"endsolid a\n"
+_USDA = b"""#usda 1.0
+(
+    defaultPrim = "a"
+    startTimeCode = 0
+    endTimeCode = 2
+    timeCodesPerSecond = 24
+)
+def Mesh "a"
+{
+    int[] faceVertexCounts = [3, 3]
+    int[] faceVertexIndices = [0, 1, 2, 0, 2, 3]
+    point3f[] points = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)]
+    point3f[] points.timeSamples = {
+        0: [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)],
+        2: [(0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1)],
+    }
+    texCoord2f[] primvars:st = [(0, 0), (1, 0), (1, 1), (0, 1)] (interpolation = "vertex")
+}
+"""
+
+
+@cache
+def samples() -> dict[str, Sample]:
+    """A small sound file of each kind that is read; of USD the text alone: damaged binary ones end usd-core."""
+    mesh, plain = _mesh(), format_mesh(torus(3, 3), "obj")
+    beside = (("a.obj", plain),)
+    found = {
+        **{kind: Sample(kind, format_mesh(mesh, kind)) for kind in ("obj", "off", "ply", "stl", "npz", "glb")},
+        "ply of text": Sample("ply", _ascii_ply()),
+        "ply of polygons": Sample("ply", _ragged_ply()),
+        "stl of text": Sample("stl", _ASCII_STL),
+        "obj.gz": Sample("obj.gz", gzip.compress(plain, mtime=0)),
+        "npz of frames": Sample("npz", _written("npz")),
+        "npy": Sample("npy", _written("npy")),
+        "pc2": Sample("pc2", _written("pc2"), beside),
+        "mdd": Sample("mdd", _written("mdd"), beside),
+        "moving glb": Sample("glb", _written("glb")),
+    }
+    try:
+        import pxr  # noqa: F401
+    except ImportError:
+        return found
+    return found | {"usda": Sample("usda", _USDA)}
+
+
+# -------------------------------------------------------------------------------------------------------- every number
+
+
+def _is_text(sample: Sample) -> bool:
+    return b"\0" not in sample.data and sample.suffix != "obj.gz"
+
+
+def _with_word(sample: Sample, begin: int, end: int, word: bytes) -> Sample:
+    return replace(sample, data=sample.data[:begin] + word + sample.data[end:])
+
+
+def numbers() -> Iterator[Case]:
+    """Each number of each sample as large as it can be, and some less than nothing."""
+    for kind, sample in samples().items():
+        if _is_text(sample):
+            for match in _NUMBER.finditer(sample.data):
+                for word in HUGE_WORDS:
+                    made = partial(_with_word, sample, match.start(), match.end(), word)
+                    yield Case(f"{kind}, number at {match.start()} is {word[:20].decode()}", made)
+            continue
+        for offset in range(len(sample.data)):
+            for word in HUGE_BYTES:
+                made = partial(_with_word, sample, offset, offset + len(word), word)
+                yield Case(f"{kind}, {word.hex()} at {offset}", made)
+        if sample.suffix == "glb":
+            yield from _numbers_of_tree(kind, sample)
+
+
+def _numbers_of_tree(kind: str, sample: Sample) -> Iterator[Case]:
+    """Each number in the JSON of a GLB; its length is told anew."""
+    tree, binary = _json_of(sample.data), _binary_of(sample.data)
+    text = json.dumps(tree).encode()
+    for match in _NUMBER.finditer(text):
+        for word in (b"2147483647", b"20000000", b"9" * 18, b"-1", b"1e300", b'"a"', b"[]"):
+            changed = text[: match.start()] + word + text[match.end() :]
+            before = text[max(0, match.start() - 20) : match.start()].decode()
+            made = partial(_remade, changed, binary)
+            yield Case(f"{kind}, {before}{word.decode()} at {match.start()}", made)
+
+
+def _remade(text: bytes, binary: bytes) -> Sample:
+    try:
+        return Sample("glb", _as_glb(json.loads(text), binary))
+    except ValueError:  # a number in a string
+        return Sample("glb", b"glTF" + text)
+
+
+# ------------------------------------------------------------------------------------------------- large for its bytes
+
+
+def grown(size: int) -> Iterator[Case]:
+    """Sound files, or nearly so, of about so many bytes, each large in one place."""
+    for name, make in _grown(size).items():
+        yield Case(name, make)
+
+
+def _text(suffix: str, head: bytes, line: bytes, size: int, tail: bytes = b"") -> Sample:
+    return Sample(suffix, head + line * max(1, size // len(line)) + tail)
+
+
+def _numbered(suffix: str, head: bytes, line: str, size: int, tail: bytes = b"") -> Sample:
+    lines = [line.format(number).encode() for number in range(max(1, size // len(line)))]
+    return Sample(suffix, head + b"".join(lines) + tail)
+
+
+def _grown(size: int) -> dict[str, Callable[[], Sample]]:
+    found: dict[str, Callable[[], Sample]] = {}
+    triangle = b"v 0 0 0\nv 1 0 0\nv 0 1 0\n"
+    for what, line in {
+        "points": b"v 0 0 0\n",
+        "faces": b"f 1 2 3\n",
+        "faces of one corner": b"f 1\n",
+        "keywords": b"f\n",
+        "lines that end": b"\r",
+        "values": b"vt 0\n",
+        "normals": b"vn 0 0 1\n",
+        "comments": b"#\n",
+        "continued": b"\\\n",
+        "others": b"q\n",
+    }.items():
+        found[f"obj, {what}"] = partial(_text, "obj", triangle, line, size, b"f 1 2 3\n")
+    for what, numbered in {
+        "materials": "usemtl {0}\nf 1 2 3\n",
+        "groups": "g {0}\nf 1 2 3\n",
+        "objects": "o {0}\nf 1 2 3\n",
+        "libraries": "mtllib {0}\n",
+        "remarks": "# meta a{0}: 1\n",
+    }.items():
+        found[f"obj, {what}"] = partial(_numbered, "obj", triangle, numbered, size, b"f 1 2 3\n")
+    found["obj, corners of one face"] = partial(_text, "obj", triangle + b"f", b" 1", size, b"\n")
+    found["obj, numbers of corners"] = partial(_text, "obj", triangle + b"vt 0\nvn 0 0 1\nf", b" 1/1/1", size, b"\n")
+    found["obj, slashes"] = partial(_text, "obj", triangle + b"f 1", b"/", size, b"\n")
+    found["obj, numbers of a point"] = partial(_text, "obj", b"v", b" 0", size, b"\nf 1 1 1\n")
+    found["obj, one number"] = partial(_text, "obj", b"v 0 0 ", b"1", size, b"\nf 1 1 1\n")
+    count = size // 6
+    found["off, points"] = partial(_text, "off", f"OFF {count} 1\n".encode(), b"0 0 0\n", 6 * count, b"3 0 1 2\n")
+    found["off, faces"] = partial(_text, "off", f"OFF 1 {size // 8}\n0 0 0\n".encode(), b"3 0 0 0\n", size)
+    found["off, empty faces"] = partial(_text, "off", f"OFF 1 {size // 2}\n0 0 0\n".encode(), b"0\n", size)
+    found["off, one face"] = partial(_text, "off", f"OFF 1 1\n0 0 0\n{size // 2}".encode(), b" 0", size, b"\n")
+    found["off, comments"] = partial(_text, "off", b"", b"# meta a: 1\n", size, b"OFF 1 1\n0 0 0\n3 0 0 0\n")
+    found["off, keywords"] = partial(_text, "off", b"", b"ST", size, b"OFF 1 1\n0 0 0\n3 0 0 0\n")
+    found["off, spaces"] = partial(_text, "off", b"OFF", b"\n", size, b"x")
+    found["stl, triangles"] = lambda: Sample(
+        "stl", bytes(80) + struct.pack("<I", size // 50) + bytes(50 * (size // 50))
+    )
+    found["stl of text, lines"] = partial(_text, "stl", b"solid\n", b"vertex 0 0 0\n", size, b"endsolid")
+    found["stl of text, facets"] = partial(_text, "stl", b"solid\n", _FACET, size, b"endsolid")
+    found["stl of text, spaces"] = partial(_text, "stl", b"solid\n", b" ", size, b"endsolid")
+    found |= _grown_ply(size) | _grown_archives(size) | _grown_gltf(size) | _grown_caches(size)
+    if "usda" in samples():
+        found |= _grown_usd(size)
+    return found
+
+
+def _grown_ply(size: int) -> dict[str, Callable[[], Sample]]:
+    little = "binary_little_endian"
+
+    def points(kind: str) -> Sample:
+        width = np.dtype(kind).itemsize
+        name = {1: "char", 8: "double"}[width]
+        count = size // (3 * width)
+        return Sample("ply", _ply_head(little, count, name, 1) + bytes(3 * width * count) + b"\3" + bytes(12))
+
+    def properties(line: str, body: bytes) -> Sample:
+        many = "".join(line.format(number) for number in range(60_000 // len(line))).encode()
+        return Sample(
+            "ply",
+            _ply_head(little, 1, "char", 0)[:-11].replace(b"element face 0\n", many + b"element face 1\n")
+            + b"end_header\n"
+            + body,
+        )
+
+    def lists() -> Sample:
+        """As many lists as there may be in as many rows as there may be, some of them longer than others."""
+        many = b"".join(b"property list uchar char l%d\n" % number for number in range(1500))
+        rows = size // 1501
+        row = b"\1\0" + bytes(1500)
+        head = _ply_head(little, 1, "char", rows)[:-11] + many + b"end_header\n"
+        return Sample("ply", head + bytes(3) + row + bytes(1501 * rows))
+
+    def faces(fill: bytes, count: int) -> Sample:
+        return Sample("ply", _ply_head(little, 1, "char", count) + bytes(3) + fill)
+
+    empty = b"\0" * size
+    mixed = b"\3" + bytes(12) + b"\0" * size
+    long = struct.pack("<I", size // 4) + bytes(size)
+    return {
+        "ply, points of bytes": partial(points, "i1"),
+        "ply, points of doubles": partial(points, "f8"),
+        "ply, faces without corners": partial(faces, empty, size),
+        "ply, rows that differ": partial(faces, mixed, size),
+        "ply, triangles": partial(faces, (b"\3" + bytes(12)) * (size // 13), size // 13),
+        "ply, one face": lambda: Sample("ply", _ply_head(little, 1, "char", 1, length="uint") + bytes(3) + long),
+        "ply, properties": partial(properties, "property char a{}\n", bytes(8000)),
+        "ply, properties in a row": partial(properties, "property char a_{}\n", bytes(8000)),
+        "ply, lists": lists,
+        "ply, comments": lambda: Sample(
+            "ply", _ply_head(little, 1, "char", 1, b"comment meta a: 1\n" * 3400) + bytes(16)
+        ),
+        "ply, images": lambda: Sample(
+            "ply",
+            _ply_head(little, 1, "char", 1, b"".join(b"comment TextureFile %d\n" % n for n in range(2500))) + bytes(16),
+        ),
+        "ply, elements": lambda: Sample(
+            "ply", _ply_head(little, 1, "char", 1, b"".join(b"element e%d 0\n" % n for n in range(3500)))
+        ),
+        "ply of text, empty rows": partial(
+            _text, "ply", _ply_head("ascii", 1, "char", size // 2) + b"0 0 0\n", b"0\n", size
+        ),
+        "ply of text, triangles": partial(
+            _text, "ply", _ply_head("ascii", 1, "char", size // 8) + b"0 0 0\n", b"3 0 0 0\n", size
+        ),
+    }
+
+
+def _archive(arrays: dict[str, Any], compression: int = zipfile.ZIP_DEFLATED) -> bytes:
+    buffer = io.BytesIO()
+    with zipfile.ZipFile(buffer, "w", compression) as archive:
+        for name, array in arrays.items():
+            with archive.open(f"{name}.npy", "w", force_zip64=True) as entry:
+                if isinstance(array, bytes):
+                    entry.write(array)
+                else:
+                    np.lib.format.write_array(entry, array)
+    return buffer.getvalue()
+
+
+def _grown_archives(size: int) -> dict[str, Callable[[], Sample]]:
+    faces = np.zeros((1, 3), np.int8)
+    point = np.zeros((1, 3), np.int8)
+    many = 40 * size  # what deflate makes of zeros is a thousandth of them
+
+    def claimed(shape: tuple[int, ...], kind: str = "<f8") -> bytes:
+        """An array that ends behind its header."""
+        file = io.BytesIO()
+        np.lib.format.write_array_header_1_0(file, {"descr": kind, "fortran_order": False, "shape": shape})
+        return file.getvalue()
+
+    def npz(**arrays: Any) -> Sample:
+        return Sample("npz", _archive(arrays))
+
+    def entries() -> Sample:
+        stored = {f"{number}": np.zeros(1, np.int8) for number in range(size // 250)}
+        return Sample("npz", _archive({"positions": point, "faces": faces, **stored}, zipfile.ZIP_STORED))
+
+    def pipe(shape: tuple[int, ...]) -> Sample:
+        file = io.BytesIO()
+        write_npy(file, torus(3, 3).faces)
+        return Sample("npy", file.getvalue() + claimed(shape) + bytes(size))
+
+    plain = b"v 0 0 0\n"
+    return {
+        "npz, points": lambda: npz(positions=np.zeros((many // 3, 3), np.int8), faces=faces),
+        "npz, faces": lambda: npz(positions=point, faces=np.zeros((many // 3, 3), np.int8)),
+        "npz, other": lambda: npz(positions=point, faces=faces, metadata=np.zeros(many, np.uint8)),
+        "npz, values": lambda: npz(positions=point, faces=faces, a=np.zeros((1, many), np.uint8)),
+        "npz, of corners": lambda: npz(positions=point, faces=faces, **{"corner/a": np.zeros((many, 1), np.uint8)}),
+        "npz, text": lambda: npz(
+            positions=point, faces=faces, metadata=np.frombuffer(b'{"a":' + b"[" * size + b"}", np.uint8)
+        ),
+        "npz, entries": entries,
+        "npz, claims": lambda: npz(positions=claimed((1 << 24, 3)), faces=faces),
+        "npz, claims of nothing": lambda: npz(positions=claimed((0, 1 << 62)), faces=faces),
+        "npz of frames, one frame": lambda: npz(positions=np.zeros((1, many // 3, 3), np.int8), faces=faces),
+        "npz of frames, frames": lambda: npz(positions=np.zeros((many // 9, 3, 3), np.int8), faces=faces),
+        "npz of frames, no vertices": lambda: npz(positions=np.zeros((1 << 40, 0, 3), np.int8), faces=faces),
+        "npz of frames, faces": lambda: npz(
+            positions=np.zeros((2, 1, 3), np.int8), faces=np.zeros((many // 3, 3), np.int8)
+        ),
+        "npz of frames, claims": lambda: npz(positions=claimed((1 << 30, 1 << 30, 3)), faces=faces),
+        "npy, a frame": partial(pipe, (1 << 40, 3)),
+        "npy, frames of nothing": partial(pipe, (0, 3)),
+        "npy, of large nothing": partial(pipe, (0, 1 << 62)),
+        "gz, of lines": lambda: Sample("obj.gz", gzip.compress(plain * (many // 8) + b"f 1 1 2\n", mtime=0)),
+        "gz, of points": lambda: Sample("obj.gz", gzip.compress(plain * (many // 8), mtime=0)),
+        "gz, members": lambda: Sample("obj.gz", gzip.compress(plain, mtime=0) * (size // 30)),
+        "gz, members of nothing": lambda: Sample("obj.gz", gzip.compress(b"", mtime=0) * (size // 20)),
+        "gz of gz": lambda: Sample("obj.gz", gzip.compress(gzip.compress(plain * (many // 8), mtime=0), mtime=0)),
+        "zip of meshes": lambda: Sample("zip", _zip({"a.obj": plain * (many // 8) + b"f 1 1 1\n"})),
+        "3mf": lambda: Sample("3mf", _zip({"3D/3dmodel.model": b"<model>" + b"<a/>" * (many // 4) + b"</model>"})),
+    }
+
+
+def _zip(entries: dict[str, bytes]) -> bytes:
+    buffer = io.BytesIO()
+    with zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED) as archive:
+        for name, data in entries.items():
+            archive.writestr(name, data)
+    return buffer.getvalue()
+
+
+def _grown_caches(size: int) -> dict[str, Callable[[], Sample]]:
+    mesh = ("a.obj", b"v 0 0 0\nf 1 1 1\n")
+    frames = size // 16
+
+    def mdd(data: bytes) -> Sample:
+        return Sample("mdd", data, (mesh,))
+
+    return {
+        "pc2, frames": lambda: Sample(
+            "pc2", struct.pack("<12siiffi", b"POINTCACHE2\0", 1, 1, 0, 1, size // 12) + bytes(size), (mesh,)
+        ),
+        "mdd, frames": lambda: mdd(struct.pack(">ii", frames, 1) + bytes(16 * frames)),
+        "mdd, times": lambda: mdd(struct.pack(">ii", size // 4, 1) + bytes(size)),
+        "pc2, a large mesh beside it": lambda: Sample(
+            "pc2",
+            struct.pack("<12siiffi", b"POINTCACHE2\0", 1, 1, 0, 1, 1) + bytes(12),
+            (
+                (
+                    "a.npz",
+                    _archive({"positions": np.zeros((40 * size // 3, 3), np.int8), "faces": np.zeros((1, 3), int)}),
+                ),
+            ),
+        ),
+    }
+
+
+def _grown_gltf(size: int) -> dict[str, Callable[[], Sample]]:
+    """What a tree can say many times of the same bytes."""
+
+    def still(change: Callable[[dict[str, Any]], None], more: bytes = b"") -> Sample:
+        points = np.zeros((3, 3), "<f4")
+        points[1, 0] = points[2, 1] = 1
+        binary = points.tobytes() + np.arange(3, dtype="<u4").tobytes() + more
+        tree: dict[str, Any] = {
+            "asset": {"version": "2.0"},
+            "scene": 0,
+            "scenes": [{"nodes": [0]}],
+            "nodes": [{"mesh": 0}],
+            "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
+            "accessors": [
+                {"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"},
+                {"bufferView": 1, "componentType": 5125, "count": 3, "type": "SCALAR"},
+            ],
+            "bufferViews": [
+                {"buffer": 0, "byteLength": 36},
+                {"buffer": 0, "byteOffset": 36, "byteLength": 12 + len(more)},
+            ],
+            "buffers": [{"byteLength": len(binary)}],
+        }
+        change(tree)
+        return Sample("glb", _as_glb(tree, binary))
+
+    def moving(change: Callable[[dict[str, Any]], None], more: bytes = b"", until: float = 1.0) -> Sample:
+        def moved(tree: dict[str, Any]) -> None:
+            keys = np.array([0, until], "<f4").tobytes() + np.array([[0, 0, 0], [1, 0, 0]], "<f4").tobytes()
+            tree["bufferViews"] += [{"buffer": 1, "byteLength": len(keys)}]
+            tree["buffers"] += [{"byteLength": len(keys), "uri": _data_uri(keys)}]
+            view = len(tree["bufferViews"]) - 1
+            tree["accessors"] += [
+                {"bufferView": view, "componentType": 5126, "count": 2, "type": "SCALAR"},
+                {"bufferView": view, "byteOffset": 8, "componentType": 5126, "count": 2, "type": "VEC3"},
+            ]
+            tree["animations"] = [
+                {
+                    "samplers": [{"input": 2, "output": 3}],
+                    "channels": [{"sampler": 0, "target": {"node": 0, "path": "translation"}}],
+                }
+            ]
+            change(tree)
+
+        return still(moved, more)
+
+    def nothing(count: int, what: int) -> Callable[[dict[str, Any]], None]:
+        def change(tree: dict[str, Any]) -> None:
+            del tree["accessors"][what]["bufferView"]
+            tree["accessors"][what]["count"] = count
+
+        return change
+
+    def shared(meshes: int, nodes: int, primitives: int) -> Callable[[dict[str, Any]], None]:
+        def change(tree: dict[str, Any]) -> None:
+            tree["accessors"][1]["count"] = 3 + size // 8  # so many indices, in a file of about this size
+            tree["meshes"] = [{"primitives": tree["meshes"][0]["primitives"] * primitives}] * meshes
+            tree["nodes"] = [{"mesh": number % meshes} for number in range(nodes)]
+            tree["scenes"] = [{"nodes": list(range(nodes))}]
+
+        return change
+
+    def chained(tree: dict[str, Any]) -> None:
+        count = size // 40
+        tree["nodes"] = [{"children": [number + 1]} for number in range(count)] + [{"mesh": 0}]
+
+    def skinned(tree: dict[str, Any]) -> None:
+        count = size // 60
+        tree["nodes"] = [{"mesh": 0, "skin": 0} for _ in range(count)]
+        tree["skins"] = [{"joints": list(range(count))}]
+        tree["scenes"] = [{"nodes": list(range(count))}]
+        tree["meshes"][0]["primitives"][0]["attributes"] |= {"JOINTS_0": 4, "WEIGHTS_0": 5}
+        tree["accessors"] += [
+            {"componentType": 5123, "count": 3, "type": "VEC4"},
+            {"componentType": 5126, "count": 3, "type": "VEC4"},
+        ]
+
+    def channels(tree: dict[str, Any]) -> None:
+        count = size // 120
+        keys = size // 16
+        tree["nodes"] = [{"mesh": 0} for _ in range(count)]
+        tree["scenes"] = [{"nodes": list(range(count))}]
+        for number, kind in ((2, "SCALAR"), (3, "VEC3")):
+            tree["accessors"][number] = {"componentType": 5126, "count": keys, "type": kind}
+        tree["animations"][0]["channels"] = [
+            {"sampler": 0, "target": {"node": node, "path": "translation"}} for node in range(count)
+        ]
+
+    def samplers(tree: dict[str, Any]) -> None:
+        channels(tree)
+        animation = tree["animations"][0]
+        animation["samplers"] = [{"input": 2, "output": 3}] * len(animation["channels"])
+        for number, channel in enumerate(animation["channels"]):
+            channel["sampler"] = number
+
+    def targets(tree: dict[str, Any]) -> None:
+        count = size // 24
+        tree["meshes"][0]["primitives"][0]["targets"] = [{"POSITION": 0}] * count
+        tree["meshes"][0]["weights"] = [1] * count
+
+    def nodes(tree: dict[str, Any]) -> None:
+        tree["nodes"] = [{"mesh": 0}] + [{}] * (size // 8)
+        tree["scenes"] = [{"nodes": list(range(len(tree["nodes"])))}]
+
+    def materials(tree: dict[str, Any]) -> None:
+        count = size // 120
+        tree["materials"] = [{"name": str(number)} for number in range(count)]
+        one = tree["meshes"][0]["primitives"][0]
+        tree["meshes"][0]["primitives"] = [one | {"material": number} for number in range(count)]
+
+    def sparse(tree: dict[str, Any]) -> None:
+        nothing(1 << 24, 0)(tree)
+        tree["accessors"][0]["sparse"] = {
+            "count": 1,
+            "indices": {"bufferView": 1, "componentType": 5125},
+            "values": {"bufferView": 0},
+        }
+
+    def attributes(tree: dict[str, Any]) -> None:
+        tree["meshes"][0]["primitives"][0]["attributes"] |= {f"_A{number}": 0 for number in range(size // 12)}
+
+    more = bytes(size // 2)
+    still_ones: dict[str, Callable[[], Sample]] = {
+        "points of no bytes": partial(still, nothing(1 << 26, 0)),
+        "indices of no bytes": partial(still, nothing(3 << 24, 1)),
+        "meshes": partial(still, shared(size // 400, size // 400, 1), more),
+        "nodes": partial(still, shared(1, size // 100, 1), more),
+        "primitives": partial(still, shared(1, 1, size // 400), more),
+        "a chain of nodes": partial(still, chained),
+        "nodes of nothing": partial(still, nodes),
+        "materials": partial(still, materials),
+        "sparse": partial(still, sparse),
+        "attributes": partial(still, attributes),
+        "nested": lambda: Sample("gltf", b'{"asset":{"version":"2.0"},"a":' + b"[" * size),
+        "targets": partial(still, targets),
+    }
+    moving_ones: dict[str, Callable[[], Sample]] = {
+        **{what: partial(moving, change) for what, change in (("skins", skinned), ("targets", targets))},
+        "curves of no bytes": partial(moving, channels),
+        "samplers": partial(moving, samplers),
+        "points of no bytes": partial(moving, nothing(1 << 24, 0)),
+        "indices of no bytes": partial(moving, nothing(3 << 24, 1)),
+        "nodes": partial(moving, shared(1, size // 100, 1), more),
+        "primitives": partial(moving, shared(1, 1, size // 400), more),
+        "a chain of nodes": partial(moving, chained),
+        "long": partial(moving, nodes, b"", 30_000.0),
+        "long, with targets": partial(moving, targets, b"", 30_000.0),
+        "attributes": partial(moving, attributes),
+    }
+    return {
+        **{f"glb, {name}": make for name, make in still_ones.items()},
+        **{f"moving glb, {name}": make for name, make in moving_ones.items()},
+    }
+
+
+def _data_uri(data: bytes) -> str:
+    import base64
+
+    return "data:application/octet-stream;base64," + base64.b64encode(data).decode()
+
+
+def _grown_usd(size: int) -> dict[str, Callable[[], Sample]]:
+    head, tail = b"#usda 1.0\n", b"\n}\n"
+    mesh = b"int[] faceVertexCounts = [3]\nint[] faceVertexIndices = [0, 1, 2]\n"
+    points = b"point3f[] points = [(0, 0, 0), (1, 0, 0), (0, 1, 0)]\n"
+
+    def stage(inside: bytes) -> Sample:
+        return Sample("usda", head + b'def Mesh "a"\n{\n' + inside + tail)
+
+    def prims() -> Sample:
+        one = mesh + points + b"}\n"
+        return Sample("usda", head + b"".join(b'def Mesh "a%d" {\n' % n + one for n in range(size // len(one))))
+
+    return {
+        "usd, faces": lambda: stage(b"int[] faceVertexCounts = [" + b"0," * (size // 2) + b"0]\n" + points),
+        "usd, points": lambda: stage(mesh + b"point3f[] points = [" + b"(0,0,0)," * (size // 8) + b"(0,0,0)]\n"),
+        "usd, samples": lambda: stage(
+            mesh
+            + b"point3f[] points.timeSamples = {\n"
+            + b"".join(b"%d: [(0,0,0),(1,0,0),(0,1,0)],\n" % n for n in range(size // 36))
+            + b"}\n"
+        ),
+        "usd, prims": prims,
+        "usd, nested": lambda: Sample("usda", head + b'def "a" {\n' * (size // 10) + b"}\n" * (size // 10)),
+        "usd, instances": lambda: Sample(
+            "usda",
+            head
+            + b'def "p" { def Mesh "a" {\n'
+            + mesh
+            + points
+            + b"} }\n"
+            + b"".join(b'def "b%d" (references = </p>) {}\n' % number for number in range(size // 36)),
+        ),
+    }
+
+
+# ---------------------------------------------------------------------------------------------------------- measuring
+
+
+def read_all(path: Path, limits: Limits) -> Taken:
+    """Read a file as whatever it is, and say what came of it."""
+    taken = Taken("", seconds=0.0)
+    try:
+        kind = path.suffix[1:]
+        sequence = None
+        if kind in SEQUENCES_READ:
+            try:
+                sequence = open_sequence(str(path), "npy" if kind == "npy" else None, wanted=Wanted(), limits=limits)
+            except BsmError as error:
+                taken.outcome = f"{type(error).__name__}: {error}"
+                if kind not in ("glb", "gltf"):
+                    return taken
+        if sequence is not None:
+            for frame in sequence.frames:
+                taken.vertices = len(frame)
+                taken.shown += len(frame)
+        else:
+            taken.vertices = len(read_mesh(path, limits=limits).mesh.positions)
+        taken.outcome = "read"
+    except BsmError as error:
+        taken.outcome = f"{type(error).__name__}: {error}"
+    return taken
+
+
+def problems(cases: list[Case], limits: str) -> Iterator[str]:
+    """Where reading takes more than it may, or something else than a mesh or an error of ours comes out."""
+    with tempfile.TemporaryDirectory() as folder:
+        done = 0
+        while done < len(cases):
+            some = cases[done : done + AT_A_TIME]
+            told = _told_by_child(some, Path(folder), limits)
+            for case, (taken, size) in zip(some, told):
+                if problem := _problem(taken, size, limits):
+                    yield f"{case.name} ({limits}): {problem}"
+            done += len(told)
+            if len(told) < len(some):
+                yield f"{some[len(told)].name} ({limits}): its process died, or took over {MOST_SECONDS} s"
+                done += 1
+
+
+def _problem(taken: Taken, size: int, limits: str) -> str | None:
+    memory, seconds = bounds(limits, taken, size)
+    if taken.outcome.startswith("escaped"):
+        return taken.outcome
+    if taken.memory > memory or taken.seconds > seconds:
+        return (
+            f"{taken.memory / 2**20:.0f} of {memory / 2**20:.0f} MiB, {taken.seconds:.2f} of {seconds:.2f} s; "
+            f"{size} bytes, {taken.outcome[:100]}"
+        )
+    return None
+
+
+def _told_by_child(cases: list[Case], folder: Path, limits: str) -> list[tuple[Taken, int]]:
+    """What files took, read one after the other in a process of its own; fewer than there are if it died."""
+    reading, writing = os.pipe()
+    sys.stdout.flush()
+    child = os.fork()
+    if child == 0:
+        os.close(reading)
+        os.dup2(os.open(os.devnull, os.O_WRONLY), 2)  # where libraries complain
+        # Of our own arithmetic none may be heard of.
+        warnings.filterwarnings("error", category=RuntimeWarning, module=r"bsm\.")
+        resource.setrlimit(resource.RLIMIT_AS, (MOST_ADDRESSES, MOST_ADDRESSES))
+        for case in cases:
+            signal.alarm(2 * MOST_SECONDS)
+            taken, size = _taken(case, folder, limits)
+            os.write(writing, json.dumps([vars(taken), size]).encode() + b"\n")
+            if taken.memory > 1 << 26:
+                break  # what it leaves behind would hide what the next one takes
+        else:
+            os.write(writing, b"\n")
+        os._exit(0)
+    os.close(writing)
+    with os.fdopen(reading, "rb") as pipe:
+        lines = pipe.read().splitlines()
+    _, status = os.waitpid(child, 0)
+    found = [(Taken(**told), size) for told, size in map(json.loads, filter(None, lines))]
+    if status == 0 and len(found) < len(cases):
+        return found + _told_by_child(cases[len(found) :], folder, limits)
+    return found
+
+
+def _taken(case: Case, folder: Path, limits: str) -> tuple[Taken, int]:
+    sample = case.make()
+    path = folder / f"a.{sample.suffix}"
+    for name in os.listdir(folder):
+        (folder / name).unlink()
+    path.write_bytes(sample.data)
+    for name, data in sample.beside:
+        (folder / name).write_bytes(data)
+    size = len(sample.data) + sum(len(data) for _, data in sample.beside)
+    del sample
+    forget_peak()
+    seconds, memory = seconds_of_cpu(), resident("VmRSS")
+    try:
+        taken = read_all(path, NAMED_LIMITS[limits]())
+    except BaseException as error:
+        taken = Taken(f"escaped: {type(error).__name__}: {error}"[:1000])
+    return replace(taken, seconds=seconds_of_cpu() - seconds, memory=resident("VmHWM") - memory), size
+
+
+def warm_up() -> None:
+    """What is loaded once is nobody's fault."""
+    sys.stderr.flush()
+    with tempfile.TemporaryDirectory() as folder:
+        for number, sample in enumerate(samples().values()):
+            inside = Path(folder, str(number))
+            inside.mkdir()
+            (inside / f"a.{sample.suffix}").write_bytes(sample.data)
+            for name, data in sample.beside:
+                (inside / name).write_bytes(data)
+            told = read_all(inside / f"a.{sample.suffix}", Limits())
+            if told.outcome != "read":
+                raise AssertionError(f"the sample {sample.suffix} is not sound: {told.outcome}")
+
+
+def main() -> int:
+    """Run the command."""
+    parser = argparse.ArgumentParser(prog="python -m tools.bombs.readers", description=__doc__)
+    parser.add_argument("--bytes", type=int, default=1 << 20, help="of a file that is grown (default: %(default)s)")
+    parser.add_argument("--every", type=int, default=1, metavar="N", help="of the numbers take one in N")
+    parser.add_argument("--only", default="", metavar="TEXT", help="cases whose name begins so")
+    parser.add_argument("--limits", choices=("default", "service"), nargs="+", default=("default", "service"))
+    parser.add_argument("--list", action="store_true", help="only say what there is")
+    args = parser.parse_args()
+    warm_up()
+    cases = [case for case in (*grown(args.bytes), *list(numbers())[:: args.every]) if case.name.startswith(args.only)]
+    if args.list:
+        print("\n".join(case.name for case in cases))
+        return 0
+    count = 0
+    for limits in args.limits:
+        for problem in problems(cases, limits):
+            count += 1
+            print(problem, flush=True)
+    print(f"{len(cases)} files of {len(samples())} kinds, {len(args.limits) * len(cases)} readings, {count} findings")
+    return 1 if count else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

