@@ -94,3 +94,9 @@ class TargetError(BsmError, ValueError):
 
 class DependencyError(BsmError, ImportError):
     """An optional package is needed for this and is not installed."""
+
+
+# Tracebacks show them by the name that users catch them by.
+for _error in (BsmError, *BsmError.__subclasses__()):
+    _error.__module__ = __name__.partition(".")[0]
+del _error

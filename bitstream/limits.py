@@ -45,6 +45,11 @@ class Limits:
     attribute_values: int = 1 << 28
     """Numbers of all attributes of a mesh: values times their components."""
 
+    def __repr__(self) -> str:
+        """Name what differs from the defaults, so that signatures fit a line."""
+        own = [(one.name, getattr(self, one.name)) for one in fields(self) if getattr(self, one.name) != one.default]
+        return f"Limits({', '.join(f'{name}={value!r}' for name, value in own)})"
+
     def __post_init__(self) -> None:
         """Raises `ArgumentError` for what is no number, `OptionError` for one that bounds nothing or everything."""
         for name in (field.name for field in fields(self)):

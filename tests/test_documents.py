@@ -228,7 +228,7 @@ def test_paths_that_documents_name_exist(name):
     assert missing <= EXAMPLES, f"{name} names paths that do not exist: {sorted(missing)}"
 
 
-EXAMPLES = {"out/", "streams/", "new/", "dance.glb/", "frames/"}
+EXAMPLES = {"dist/", "out/", "streams/", "new/", "dance.glb/", "frames/"}
 """Names of files that a reader may have, not of ours."""
 LEANING = re.compile(r"(?:Of|The same|And|That of|Those|Them)\b")
 

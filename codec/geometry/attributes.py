@@ -50,6 +50,11 @@ class Attribute:
     semantic: Semantic = "generic"
     indices: Indices | None = None
 
+    def __repr__(self) -> str:
+        count, components = self.values.shape
+        kind = f"{count} x {components} {self.values.dtype}"
+        return f"Attribute({self.name!r}, {kind} per {self.domain}, {self.semantic})"
+
     def __reduce__(self) -> tuple[Any, ...]:
         """For pickles and deep copies: made again, and so checked again."""
         return type(self), (self.name, self.values, self.domain, self.semantic, self.indices)

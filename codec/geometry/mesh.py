@@ -83,6 +83,10 @@ class TriangleMesh:
         for attribute in self.attributes:
             attribute.check(len(positions), len(faces))
 
+    def __repr__(self) -> str:
+        names = "".join(f", {attribute.name}" for attribute in self.attributes)
+        return f"TriangleMesh({len(self.positions)} vertices, {len(self.faces)} faces{names})"
+
     def __reduce__(self) -> tuple[Any, ...]:
         """For pickles and deep copies: made again, and so checked again."""
         return type(self), (self.positions, self.faces, self.attributes, dict(self.metadata))

@@ -39,6 +39,9 @@ class FrameEvent:
     index: int
     positions: Positions
 
+    def __repr__(self) -> str:
+        return f"FrameEvent(frame {self.index}, {len(self.positions)} vertices)"
+
 
 Event: TypeAlias = HeaderEvent | ConnectivityEvent | AttributeEvent | FrameEvent | LossEvent | EndEvent | Signal
 Item: TypeAlias = Event | Iterator[FrameEvent]

@@ -30,6 +30,9 @@ class Changes:
     positions: Positions
     final: Mask
 
+    def __repr__(self) -> str:
+        return f"Changes({len(self.vertices)} vertices, {int(self.final.sum())} final)"
+
 
 @dataclass(frozen=True, eq=False)
 class ConnectivityEvent:
@@ -58,6 +61,10 @@ class ConnectivityEvent:
     loose: Changes
     section: int = 0
     sections: int = 1
+
+    def __repr__(self) -> str:
+        part = f", section {self.section + 1} of {self.sections}" if self.sections > 1 else ""
+        return f"ConnectivityEvent({len(self.faces)} faces, {self.vertices} vertices{part})"
 
     @property
     def last(self) -> bool:
@@ -117,6 +124,9 @@ class RefinementEvent:
     vertices: Indices
     positions: Positions
 
+    def __repr__(self) -> str:
+        return f"RefinementEvent(layer {self.layer}, {len(self.vertices)} vertices)"
+
 
 @dataclass(frozen=True, eq=False)
 class AttributeEvent:
@@ -171,6 +181,9 @@ class Losses:
 
     missing: Indices = field(default_factory=lambda: np.empty(0, np.int32))
     degraded: Indices = field(default_factory=lambda: np.empty(0, np.int32))
+
+    def __repr__(self) -> str:
+        return f"Losses({len(self.missing)} vertices missing, {len(self.degraded)} degraded)"
 
 
 @dataclass(frozen=True, eq=False)

@@ -22,6 +22,8 @@ from bsm.files.remote import expanded, is_url, without_scheme_of_files
 from bsm.files.state import files_behind
 from bsm.files.state import size_of as size_of
 
+MESH_SUFFIXES = (".obj", ".off", ".ply", ".stl", ".npz", ".glb", ".gltf", ".3mf", ".dae")
+"""Of files that are taken for meshes where a folder is searched."""
 _STANDARD = {"/dev/stdin": "-", "/dev/fd/0": "-", "/dev/stdout": "-", "/dev/fd/1": "-"}
 
 
@@ -62,6 +64,38 @@ def plan(
     refuse_collisions(names, [job.output for job in jobs])
     if output and folder and not is_url(output):
         Path(output).mkdir(parents=True, exist_ok=True)
+    return jobs
+
+
+def plan_trees(folders: Sequence[str], output: str | None, suffix: str) -> list[Job]:
+    """What is written where, for all mesh files in folders and below: the same folders again in `output`.
+
+    Parameters
+    ----------
+    folders : sequence of str
+    output : str or None
+        The folder that gets them; None: each output lies beside its input.
+    suffix : str
+        Of the outputs.
+
+    Raises
+    ------
+    OptionError
+        If an input is no folder, there is no mesh file, or two outputs would have one name.
+    """
+    jobs = []
+    for folder in folders:
+        if is_url(folder) or not Path(folder).is_dir():
+            raise OptionError(f"{folder} is no folder, and --recursive takes folders of this machine")
+        for path in sorted(Path(folder).rglob("*")):
+            if path.suffix.lower() in MESH_SUFFIXES and path.is_file():
+                place = path if output is None else Path(output, path.relative_to(folder))
+                jobs.append(Job(str(path), str(place.with_suffix(suffix))))
+    if not jobs:
+        raise OptionError(f"there are no mesh files in {' or '.join(folders)}, or below ({', '.join(MESH_SUFFIXES)})")
+    refuse_collisions([job.input for job in jobs], [job.output for job in jobs])
+    for parent in {Path(job.output).parent for job in jobs}:
+        parent.mkdir(parents=True, exist_ok=True)
     return jobs
 
 

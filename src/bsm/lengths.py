@@ -32,6 +32,29 @@ def parse_length(name: str, value: Any) -> tuple[float, bool]:
     return (number / 100.0, False) if unit == "%" else (number, bool(unit))
 
 
+BYTES = re.compile(r"([0-9.]+(?:[eE][-+]?[0-9]+)?) *(?:([kMG])(i?))?B?")
+"""A number of bytes, with kB, MB, GB (thousands), or KiB, MiB, GiB (1,024)."""
+
+
+def parse_bytes(name: str, value: Any) -> float:
+    """A number of bytes, such as 20000, ``20kB`` or ``1.5MiB``.
+
+    Raises
+    ------
+    ArgumentError
+        If it is none.
+    """
+    if isinstance(value, Real) and not isinstance(value, bool):
+        return float(value)
+    found = BYTES.fullmatch(value.strip().replace("K", "k")) if isinstance(value, str) else None
+    try:
+        assert found is not None
+        factor: int = (1024 if found[3] else 1000) ** " kMG".index(found[2] or " ")
+        return float(found[1]) * factor
+    except (AssertionError, ValueError):
+        raise ArgumentError(f"{name} must be a number of bytes, such as 20000 or 20kB, not {value!r}") from None
+
+
 def refuse_other_units(lengths: Mapping[str, Any], metadata: Mapping[str, Any]) -> None:
     """Raise `OptionError` where an option's length is in a unit, and the mesh has no unit or another one.
 

@@ -11,7 +11,7 @@ from numbers import Integral, Real
 from typing import TYPE_CHECKING, Any, NoReturn, Union, get_args, get_origin, get_type_hints
 
 from bsm.bitstream.errors import ArgumentError, OptionError
-from bsm.lengths import parse_length
+from bsm.lengths import parse_bytes, parse_length
 
 if TYPE_CHECKING:
     from bsm.codec.denoise import DenoiseOptions
@@ -160,7 +160,8 @@ def _fields(
         elif name in targets and target is not None:
             if value is not None:
                 wanted.append(name)
-                given["target"] = target(targets[name], _checked(name, value, float))
+                number = parse_bytes(name, value) if name == "size" else _checked(name, value, float)
+                given["target"] = target(targets[name], number)
         else:
             _refuse(name, what, (*hints, *targets, *(BOUNDS if targets is TARGETS else ())))
     if keywords.get("target") is not None:

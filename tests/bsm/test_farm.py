@@ -265,7 +265,11 @@ def test_only_what_is_not_as_it_was_is_done_again(sources, tmp_path):
     (output / "01.bsm").write_bytes(whole["01.bsm"][:-1] + b"?")
     (output / ".01.bsm.abcd_123.part").write_bytes(b"cut off")
     os.utime(inputs[2], (1, 1))
-    assert run() == {"00", "01", "02", "05"}
+    refused = bsm.encode_many(inputs, output, report=report, resume=True)
+    assert [facts.get("exit") for facts in refused] == [None, 9, None, None, None, None]
+    assert "not what the report says" in refused[1]["error"]
+    assert (output / "01.bsm").read_bytes().endswith(b"?")
+    assert run(overwrite=True) == {"01"}
     assert {name: data for name, data in contents(output).items() if name != "05.bsm"} == whole
     assert run(preset="fine", jobs=2) == {"00", "01", "02", "03", "04", "05"}
     assert run(preset="fine") == set()
@@ -285,6 +289,70 @@ def test_a_run_that_was_killed_goes_on(larger, tmp_path):
     assert sum("resumed" in file for file in files) == told["totals"]["done"]
     assert sorted(contents(output)) == [f"{number:02}.bsm" for number in range(10)]
     assert json.loads(report.read_text())["complete"]
+
+
+def forged(path, command, options, *files):
+    path.write_text(json.dumps({"command": command, "options": options, "files": list(files)}))
+
+
+def test_a_forged_report_lets_nothing_be_replaced(sources, tmp_path):
+    """It may name files, and say of them what it likes: only the very bytes that it tells of are replaced."""
+    output, report = tmp_path / "out", tmp_path / "r.json"
+    first = bsm.encode_many(sources[:2], output, report=report, grid=8)
+    told = json.loads(report.read_text())
+    whole = contents(output)
+    (output / "00.bsm").write_bytes(b"precious")
+    for claim in ({}, {"output_sha256": "0" * 64}, {"error": "?"}, {"input_state": [1]}):
+        entries = [{"input": facts["input"], "output": facts["output"], **claim} for facts in first]
+        forged(report, told["command"], told["options"], *entries)
+        done = bsm.encode_many(sources[:2], output, report=report, resume=True, grid=8)
+        assert "not what the report says" in done[0]["error"], claim
+        assert "error" not in done[1]  # what is there is what would be made
+        assert contents(output) == {"00.bsm": b"precious", "01.bsm": whole["01.bsm"]}
+    elsewhere = tmp_path / "elsewhere.txt"
+    elsewhere.write_bytes(b"precious")
+    forged(report, told["command"], told["options"], {"input": sources[0], "output": str(elsewhere)})
+    bsm.encode_many(sources[1:2], output, report=report, resume=True, grid=8)
+    assert elsewhere.read_bytes() == b"precious"
+
+
+def test_what_was_written_and_not_yet_told_of_is_known_again(sources, tmp_path):
+    """A run that is killed between an output and its line in the report."""
+    output, report = tmp_path / "out", tmp_path / "r.json"
+    bsm.encode_many(sources[:2], output, report=report, grid=8)
+    told = json.loads(report.read_text())
+    forged(report, told["command"], told["options"], *({k: f[k] for k in ("input", "output")} for f in told["files"]))
+    before = {path.name: path.stat().st_mtime_ns for path in output.iterdir()}
+    done = bsm.encode_many(sources[:2], output, report=report, resume=True, grid=8)
+    assert not any("error" in facts for facts in done)
+    assert {path.name: path.stat().st_mtime_ns for path in output.iterdir()} == before
+    again = bsm.encode_many(sources[:2], output, report=report, resume=True, grid=8)
+    assert all("resumed" in facts for facts in again)
+
+
+@pytest.mark.parametrize("name", ["..", "x\ny", "\x1b[2J", "a;rm -rf b", "$(touch owned)", "-o", "ü網"])
+def test_malicious_names_on_a_cluster(name, cluster, sources, tmp_path):
+    """Names are names there as well: nothing is written elsewhere, run, or taken for an option."""
+    folder = tmp_path / "in"
+    folder.mkdir()
+    (folder / f"{name}.ply").write_bytes(Path(sources[0]).read_bytes())
+    (facts,) = bsm.encode_many([folder / f"{name}.ply"], tmp_path / "out", dask=cluster.scheduler_address, grid=8)
+    assert "error" not in facts, facts
+    assert list(contents(tmp_path / "out")) == [f"{name}.bsm"]
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["in", "out"]
+
+
+def test_a_cluster_whose_store_fails_tells_of_each_and_goes_on(cluster, sources, tmp_path):
+    """A folder that cannot be written to, one that is a file, and an input that is cut short while it is read."""
+    (tmp_path / "file").write_bytes(b"mine")
+    (tmp_path / "cut.ply").write_bytes(Path(sources[0]).read_bytes()[:2000])
+    names, where = [tmp_path / "cut.ply", *sources[:2]], cluster.scheduler_address
+    done = bsm.encode_many(names, tmp_path / "out", dask=where, grid=8)
+    assert [facts.get("exit") for facts in done] == [12, None, None]
+    assert sorted(contents(tmp_path / "out")) == ["00.bsm", "01.bsm"]
+    with pytest.raises(OSError, match="file"):
+        bsm.encode_many(sources[:2], tmp_path / "file", dask=cluster.scheduler_address, grid=8)
+    assert (tmp_path / "file").read_bytes() == b"mine"
 
 
 def test_what_is_not_ours_is_not_written_over(sources, tmp_path, capsys):

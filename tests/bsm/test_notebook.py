@@ -60,3 +60,29 @@ def test_missing_anywidget_is_named(monkeypatch):
     monkeypatch.delitem(sys.modules, "bsm.viewer.widget", raising=False)
     with pytest.raises(bsm.DependencyError, match=r"pip install .*\[notebook\]"):
         bsm.show(bsm.encode(MESH))
+
+
+HOSTILE = ["<img src=x onerror=alert(1)>", "</script><script>1</script>", "\x1b[2J", "a\nb", "`${1}`"]
+
+
+@pytest.mark.parametrize("name", HOSTILE)
+def test_a_name_is_handed_over_as_text(name, tmp_path):
+    """It is a value of the widget, never a part of its code; the page puts it into a node of text."""
+    path = tmp_path / f"{name.replace(chr(47), chr(32))}.bsm"
+    path.write_bytes(bsm.encode(MESH))
+    widget = bsm.show(path)
+    assert widget.name == path.name
+    assert path.name not in str(widget._esm)
+
+
+def test_a_damaged_stream_is_handed_to_the_page_but_not_compared():
+    data = bsm.encode(MESH)
+    with pytest.raises(bsm.BsmError):
+        bsm.show(data[: len(data) // 2], original=MESH)
+
+
+def test_limits_hold_for_what_is_compared():
+    with pytest.raises(bsm.BsmError):
+        bsm.show(b"nothing of the kind")
+    with pytest.raises(bsm.BsmError):
+        bsm.show("/dev/null")

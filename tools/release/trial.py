@@ -37,9 +37,8 @@ def try_wheel(wheel: Path, python: Path, sources: Path, tests: list[str]) -> Non
         subprocess.run([python, "-m", "venv", Path(folder, ".venv")], check=True)
         code = "import bsm; print(bsm.__file__)"
         _run(f"{_from_wheel(first, wheel)} && .venv/bin/bsm verify out/bsm_demo.bsm", folder, environment)
-        where = subprocess.run(
-            [Path(folder, ".venv/bin/python"), "-c", code], cwd=folder, capture_output=True, text=True, check=True
-        )
+        command: list[str | Path] = [Path(folder, ".venv/bin/python"), "-c", code]
+        where = subprocess.run(command, cwd=folder, env=environment, capture_output=True, text=True, check=True)
         if "site-packages" not in where.stdout:
             raise SystemExit(f"bsm is {where.stdout.strip()}, not what {wheel.name} installed")
         program, _, options = _from_wheel(second, wheel).rpartition("-m pytest")

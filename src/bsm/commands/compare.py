@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 from bsm.bitstream.errors import MeshError
 from bsm.codec.arrays import Positions
 from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.commands.denoise_report import length, unit_of
 from bsm.commands.limits import add_limits_flag, limits_of
 from bsm.commands.reader import add_reader_flag
 from bsm.console import Console, finite, print_json, printable
@@ -42,7 +43,14 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--picture",
         metavar="FILE.png",
-        help="write a picture of both and of their difference, from the side where that is largest (implies --look)",
+        help="write a picture of both and of their difference, from the side where that is largest (implies --look); "
+        "of sequences, the errors of each frame as a curve",
+    )
+    parser.add_argument(
+        "--map",
+        metavar="FILE",
+        help="write where A's vertices are how far off in colours, blue to red: a picture (.png), or A as a mesh with "
+        "colours (.ply, .obj, .glb)",
     )
     add_reader_flag(parser)
     add_limits_flag(parser)
@@ -69,7 +77,8 @@ def run(args: argparse.Namespace, console: Console) -> None:
         shown = {"look": asdict(seen)} if seen else {}
         print_json({**compared, **shown, **({"attributes": attributes} if attributes else {})})
         return
-    lines = [f"{name:<19}{'-inf' if value is None else f'{value:.6g}'}\n" for name, value in compared.items()]
+    lines = [f"{sentence(compared, unit_of(original.metadata))}\n"] if compared else []
+    lines += [f"{name:<19}{'-inf' if value is None else f'{value:.6g}'}\n" for name, value in compared.items()]
     if seen:
         parts = f"1 - SSIM {seen.dissimilarity:.4g}, {100 * seen.visible:.3g} % of pixels differ visibly"
         lines.append(f"{'look':<19}{seen.distance:.4g} ({parts})\n")
@@ -85,11 +94,27 @@ def _compared(
     paired = pair(original, decoded, read_permutation(args.permutation) if args.permutation else None)
     if paired.joined:
         console.note("vertices at one position are compared as one")
+    if args.map:
+        from bsm.commands.distance_map import write_map
+
+        write_map(args.map, paired.original, paired.positions, overwrite=args.force)
     result = asdict(compare_meshes(original, decoded, paired))
     attributes = {name: errors and _known(errors) for name, errors in result.pop("attributes").items()}
     if args.surface:
         result |= _surface(paired.original, paired.positions)
     return {**{name: finite(value) for name, value in result.items()}, "attributes": attributes}
+
+
+def sentence(compared: dict[str, Any], unit: str) -> str:
+    """What the numbers mean, with units."""
+    share = 100.0 * compared["max_error_relative"]
+    if share == 0.0:
+        return "no vertex is off"
+    rms = compared["rms_relative"] / compared["max_error_relative"] * compared["max_error"]
+    return (
+        f"the farthest vertex is {length(compared['max_error'], unit)} off, {share:.3g} % of the diagonal; root mean "
+        f"square {length(rms, unit)}; faces are turned by {compared['angle_deg']:.3g} degrees, in the mean by area"
+    )
 
 
 def _look(original: TriangleMesh, decoded: TriangleMesh, args: argparse.Namespace) -> Look:

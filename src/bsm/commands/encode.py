@@ -6,7 +6,7 @@ import argparse
 from collections.abc import Sequence
 from pathlib import Path
 
-from bsm.batch import plan, refuse_collisions, run_jobs
+from bsm.batch import plan, plan_trees, refuse_collisions, run_jobs
 from bsm.bitstream.errors import OptionError
 from bsm.commands.encode_options import add_encode_flags, wishes_of
 from bsm.commands.inputs import add_inputs, asked, run_of
@@ -29,6 +29,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "MDD, USD, GLB with --animation",
         "file, or folder for any number of inputs (default: IN with .bsm; - for a pipe); many inputs to one .bsm are "
         "the frames of a sequence",
+    )
+    parser.add_argument(
+        "-r", "--recursive", action="store_true", help="every mesh file in folders and below; OUT gets the same folders"
     )
     parser.add_argument(
         "--format",
@@ -54,14 +57,17 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(args: argparse.Namespace, console: Console) -> int:
     """Encode all inputs."""
     members: tuple[str, ...] = ()
-    if is_one_sequence(args.inputs, args.output):
+    if not args.recursive and is_one_sequence(args.inputs, args.output):
         members, args.inputs = tuple(args.inputs), [common_name(args.inputs)]
     elif args.output is None and len(args.inputs) > 1 and look_like_frames(args.inputs):
         console.note(
             f"{len(args.inputs)} inputs are numbered like the frames of one animation; to make one stream of them, "
             "-o NAME.bsm"
         )
-    jobs = plan(args.inputs, args.output, lambda _: ".bsm")
+    if args.recursive:
+        jobs = plan_trees(args.inputs, args.output, ".bsm")
+    else:
+        jobs = plan(args.inputs, args.output, lambda _: ".bsm")
     if args.permutation:
         if len(jobs) > 1:
             raise OptionError("--permutation is for one input")

@@ -158,7 +158,7 @@ TARGET_FLAGS = (
     ("nmsve-db", "nmsve_db", "X", "visual error, 10 log10 NMSVE, at most X"),
     ("theta", "theta_deg", "DEG", "mean angle between the faces' normals before and after at most DEG"),
     ("bpv", "bpv", "X", "at most X bits per vertex, the whole file counted"),
-    ("size", "size", "BYTES", "at most BYTES"),
+    ("size", "size", "BYTES", "at most BYTES (20000, 20kB)"),
 )
 """Flag, kind of target, metavar and help."""
 
@@ -194,7 +194,8 @@ def add_preset_flags(parser: argparse.ArgumentParser) -> None:
         wishes.add_argument(f"--{name}", type=number_or_length, metavar=metavar, help=text)
     targets = wishes.add_mutually_exclusive_group()
     for name, kind, metavar, text in TARGET_FLAGS:
-        targets.add_argument(f"--{name}", dest=f"target_{kind}", type=float, metavar=metavar, help=text)
+        reads = number_or_length if kind == "size" else float
+        targets.add_argument(f"--{name}", dest=f"target_{kind}", type=reads, metavar=metavar, help=text)
     wishes.add_argument(
         "--lock-borders",
         nargs="?",

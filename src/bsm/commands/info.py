@@ -4,17 +4,21 @@ from __future__ import annotations
 
 import argparse
 import base64
+from collections.abc import Iterator
 from dataclasses import asdict, dataclass
 from typing import Any
 
 from bsm.batch import Facts, Job, input_names, run_jobs
 from bsm.bitstream.container.wire import VERSION
+from bsm.bitstream.limits import Limits
 from bsm.commands.inputs import add_inputs, asked, run_of
 from bsm.commands.limits import add_limits_flag, limits_of
 from bsm.console import Console, printable
 from bsm.farm.jobs import Task
 from bsm.files.pipes import read_chunks
+from bsm.files.sequence_stream import SequenceStream
 from bsm.files.stream import StreamInfo, inspect_stream
+from bsm.loops import Loops
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -22,11 +26,13 @@ class InfoJob(Task):
     """What `bsm info` is asked for."""
 
     limits: str = "default"
+    loops: bool = False
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare what the command takes."""
     add_inputs(parser, "stream, or - for standard input")
+    parser.add_argument("--loops", action="store_true", help="decode sequences, and say which frames repeat others")
     add_limits_flag(parser)
 
 
@@ -38,7 +44,23 @@ def run(args: argparse.Namespace, console: Console) -> int:
 
 def info_of_one(args: InfoJob, console: Console) -> Facts:
     """Describe one stream."""
-    return {"input": args.input, **summarise(inspect_stream(read_chunks(args.input), limits_of(args.limits)))}
+    limits = limits_of(args.limits)
+    chunks = list(read_chunks(args.input)) if args.loops else read_chunks(args.input)
+    summary = summarise(inspect_stream(iter(chunks), limits))
+    if args.loops and summary["header"]["gop_frames"]:
+        summary["loops"] = list(_loops(iter(chunks), limits, console))
+    return {"input": args.input, **summary}
+
+
+def _loops(chunks: Iterator[bytes], limits: Limits, console: Console) -> tuple[str, ...]:
+    """What there is to say of frames that come again."""
+    found, stream = Loops(), SequenceStream(chunks, limits=limits)
+    with console.progress("looking for loops", "frames") as progress:
+        for number, frame in stream.frames():
+            found.take(frame)
+            if stream.header.frames:
+                progress(number + 1, stream.header.frames)
+    return found.said()
 
 
 def summarise(info: StreamInfo) -> dict[str, Any]:
@@ -159,5 +181,6 @@ def _sequence_lines(summary: dict[str, Any]) -> list[str]:
     return [
         f"{summary['frames']} frames{rate}, in {len(gops)} {'GOP' if len(gops) == 1 else 'GOPs'} "
         f"of {' to '.join(str(size) for size in sorted({min(sizes), max(sizes)}))} bytes, "
-        f"{summary['bpvf_total'] or 0.0:.3f} bits per vertex and frame"
+        f"{summary['bpvf_total'] or 0.0:.3f} bits per vertex and frame",
+        *summary.get("loops", ()),
     ]

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from bsm.bitstream.errors import MeshError
+from bsm.bitstream.errors import MeshError, OptionError
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.codec.arrays import Faces, Positions
 from bsm.codec.geometry.mesh import TriangleMesh
@@ -17,6 +17,7 @@ from bsm.commands.limits import limits_of
 from bsm.console import finite, print_json
 from bsm.files.about import about
 from bsm.files.motion.frames import Wanted
+from bsm.files.output import open_output, refuse_to_overwrite
 from bsm.files.permutation import in_order_of, read_permutation
 from bsm.files.pipes import read_chunks
 from bsm.files.sequence import open_sequence
@@ -61,6 +62,13 @@ def compare_loaded(args: argparse.Namespace, original: Sequence, decoded: Sequen
     if _is_stream(args.decoded):
         result["bpvf_total"] = 8 * Path(args.decoded).stat().st_size / second[..., 0].size
     of_frames = _of_frames(one, two)
+    if args.picture:
+        from bsm.evaluation.plots import frame_errors
+
+        refuse_to_overwrite(args.picture, args.force)
+        picture = frame_errors(of_frames, Path(args.decoded).name)
+        with open_output(args.picture, overwrite=args.force) as file:
+            file.write(picture)
     repeats = _repeats(one)
     if args.json:
         numbers = {name: finite(value) for name, value in result.items()}
@@ -133,5 +141,7 @@ def compare_if_sequences(args: argparse.Namespace) -> bool:
     if original is None or decoded is None:
         one, other = (args.decoded, args.original) if original is None else (args.original, args.decoded)
         raise MeshError(f"{one} is a sequence and {other} one mesh")
+    if args.map:
+        raise OptionError("--map shows one mesh; of sequences, --picture draws the errors of each frame")
     compare_loaded(args, original, decoded)
     return True

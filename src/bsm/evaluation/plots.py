@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
 from types import ModuleType
@@ -136,6 +137,33 @@ def draw_sequence_rates(
         axes.set_title(title)
 
     return _draw(draw, stem)
+
+
+def frame_errors(frames: Sequence[Mapping[str, float]], title: str) -> bytes:
+    """A PNG of the errors of each frame of a sequence.
+
+    Parameters
+    ----------
+    frames : sequence of dict
+        One for each frame, with ``rms_relative`` and ``max_error_relative``, in diagonals.
+    title : str
+    """
+    import_matplotlib()
+    from matplotlib.figure import Figure
+
+    figure = Figure(figsize=(7.0, 4.0), layout="constrained")
+    axes = figure.subplots()
+    axes.grid(alpha=0.3)
+    for name, label in (("max_error_relative", "farthest vertex"), ("rms_relative", "root mean square")):
+        axes.plot([100.0 * frame[name] for frame in frames], lw=1.2, label=label)
+    axes.set_ylim(bottom=0.0)
+    axes.set_xlabel("frame")
+    axes.set_ylabel("% of the diagonal")
+    axes.set_title(title)
+    axes.legend(fontsize=8)
+    file = io.BytesIO()
+    figure.savefig(file, format="png", dpi=150)
+    return file.getvalue()
 
 
 def draw_all(results: Iterable[Result], folder: Path) -> list[Path]:

@@ -41,6 +41,8 @@ class Task:
         What came of the same job in an earlier run.
     replaceable : frozenset of str
         Outputs that may be written over without `force`: an earlier run was to make them.
+    doubtful : frozenset of str
+        Outputs that are there and should be an earlier run's, but are not known to be.
     fresh : frozenset of str
         Those that were not there when the run began; what is there later is somebody else's, or of an attempt of ours.
     """
@@ -51,6 +53,7 @@ class Task:
     quiet: bool = False
     before: Facts | None = None
     replaceable: frozenset[str] = frozenset()
+    doubtful: frozenset[str] = frozenset()
     fresh: frozenset[str] = frozenset()
 
     def repeated(self: Same) -> Same:

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import errno
 import hashlib
 import json
 import math
+import tempfile
 import time
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
+from pathlib import Path
 from typing import Any
 
 from bsm import __version__
@@ -18,7 +21,8 @@ from bsm.files.output import open_output, remove_abandoned
 from bsm.files.pipes import read_bytes, read_chunks
 from bsm.files.state import files_behind, state_of
 
-_ABOUT_THE_RUN = {"input", "output", "folder", "quiet", "force", "threads", "replaceable", "fresh", "before"}
+_OF_JOBS = {"input", "output", "replaceable", "doubtful", "fresh", "before"}
+_ABOUT_THE_RUN = {"folder", "quiet", "force", "threads", *_OF_JOBS}
 _EVERY = 1.0
 """Seconds between two versions of a report, at least."""
 _SHARE = 0.02
@@ -92,17 +96,17 @@ class Earlier:
 
     Parameters
     ----------
-    outputs : frozenset of str
-        Everything that was to be written then: it may be written again.
+    outputs : dict
+        Everything that was to be written then, and the SHA-256 of what was: that, and nothing else, may be replaced.
     files : dict
         What came of inputs, by outputs, where the same was asked for as now.
     """
 
-    outputs: frozenset[str]
+    outputs: Mapping[str, str | None]
     files: Mapping[str, Facts]
 
 
-NOTHING = Earlier(frozenset(), {})
+NOTHING = Earlier({}, {})
 
 
 def read_report(path: str, command: str, options: Facts) -> Earlier:
@@ -121,7 +125,7 @@ def read_report(path: str, command: str, options: Facts) -> Earlier:
         return NOTHING
     except (ValueError, KeyError, TypeError, AttributeError, RecursionError) as error:
         raise FormatError(f"{path}: this is no report of ours to go on from; name another with --report") from error
-    return Earlier(frozenset(files), files if same else {})
+    return Earlier({name: entry.get("output_sha256") for name, entry in files.items()}, files if same else {})
 
 
 _NUMBERS = ("input_bytes", "output_bytes", "seconds", "max_error_relative", "kg")
@@ -150,19 +154,37 @@ def recorded(work: Work, task: Task, console: Console) -> Facts:
         before
         and state
         and before.get("input_state") == state
-        and before.get("output_sha256") == _digest(before["output"])
+        and before.get("output_sha256") == digest_of(before["output"])
     ):
         console.note(f"{task.input} -> {before['output']}: as it was")
         return {**before, "resumed": True}
-    facts = work(task, console)
-    return {**facts, "input_state": state, "output_sha256": _digest(facts["output"])}
+    if task.output in task.doubtful:
+        facts = _compared(work, task, console)
+    else:
+        facts = work(task, console)
+    return {**facts, "input_state": state, "output_sha256": digest_of(facts["output"])}
 
 
-def _is_whole(before: Facts) -> bool:
-    return "output_sha256" in before and before["output_sha256"] == _digest(before["output"])
+def _compared(work: Work, task: Task, console: Console) -> Facts:
+    """Work whose output is there already, as nobody says: it may be what a run wrote that was killed before it said so.
+
+    Then it is what comes now, byte for byte; anything else is somebody's, and is not replaced.
+    """
+    path = Path(task.output)
+    refuse = FileExistsError(
+        errno.EEXIST, "the output is not what the report says was written; -f overwrites it", task.output
+    )
+    if not path.is_file() or path.is_symlink():
+        raise refuse
+    with tempfile.TemporaryDirectory() as folder:
+        again = str(Path(folder, path.name))
+        facts = work(replace(task, output=again), console)
+        if digest_of(again) != digest_of(task.output):
+            raise refuse
+    return {**facts, "output": task.output}
 
 
-def _digest(path: str) -> str | None:
+def digest_of(path: str) -> str | None:
     """SHA-256 of an output; of a folder, of all files in it; None: it is not there."""
     found = hashlib.sha256()
     try:

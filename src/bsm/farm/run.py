@@ -12,7 +12,7 @@ from bsm.bitstream.errors import OptionError
 from bsm.console import Console
 from bsm.exits import exit_of, worded
 from bsm.farm.jobs import Facts, Job, Numbered, Outcome, Outcomes, Run, Task, Tasks, Work, one_by_one
-from bsm.farm.report import NOTHING, Earlier, Report, options_of, read_report, recorded
+from bsm.farm.report import NOTHING, Earlier, Report, digest_of, options_of, read_report, recorded
 from bsm.files.output import refuse_to_overwrite
 from bsm.files.remote import is_url, state_of_remote
 
@@ -80,9 +80,18 @@ def task_of(asked: Task, job: Job, earlier: Earlier = NOTHING) -> Task:
     """What is asked, for one job."""
     before = earlier.files.get(job.output)
     replaceable = {job.output, *([before["output"]] if before else [])} - {"", "-"}
-    mine = frozenset(replaceable & earlier.outputs)
-    fresh = frozenset(name for name in replaceable - mine if not _is_there(name))
-    return replace(asked, input=job.input, output=job.output, before=before, replaceable=mine, fresh=fresh)
+    there = {name for name in replaceable if _is_there(name)}
+    named = replaceable & earlier.outputs.keys()
+    mine = frozenset(name for name in named if name not in there or earlier.outputs[name] == digest_of(name))
+    return replace(
+        asked,
+        input=job.input,
+        output=job.output,
+        before=before,
+        replaceable=mine,
+        doubtful=frozenset() if asked.force else frozenset(named - mine),
+        fresh=frozenset(replaceable - named - there),
+    )
 
 
 def _tasks(asked: Task, jobs: Sequence[Job], earlier: Earlier, *, repeats: bool) -> Iterator[Numbered]:

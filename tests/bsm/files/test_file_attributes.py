@@ -535,7 +535,9 @@ def test_real_files(meshes, name, expected, tmp_path):
     for kind in ("ply", "obj"):
         write_mesh(tmp_path / f"a.{kind}", source.mesh)
         again = read_mesh(tmp_path / f"a.{kind}").mesh
+        # OBJ has no alpha, no colours of faces and no other values.
         kept = [n for n in expected if kind == "ply" or n not in ("face_color", "sulc")]
+        kept = [n for n in kept if kind == "ply" or attribute(source.mesh, n).components < 4]
         assert_same(source.mesh, again, kept)
 
 

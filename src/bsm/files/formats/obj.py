@@ -24,6 +24,8 @@ STATES = {"material": "usemtl", "group": "g", "object": "o", "smoothing": "s"}
 """What holds for all faces behind a keyword, and the keyword."""
 _OF_CORNERS: dict[bytes, Literal["texcoord", "normal"]] = {b"vt": "texcoord", b"vn": "normal"}
 _DROPPED = {b"l": "lines", b"p": "points", b"vp": "parameter space", b"curv": "curves", b"surf": "surfaces"}
+_COLORS = 3
+"""Numbers of a colour that every reader takes; some count a fourth as a coordinate."""
 _MOST_NUMBERS = 3  # of a texture coordinate or a normal
 
 
@@ -206,7 +208,10 @@ def write_obj(mesh: TriangleMesh, stem: str) -> Written:
             before[changes] += [f"{STATES[what]} {names[what][number]}\n" for number in values[changes].tolist()]
     parts += chain.from_iterable(zip(before.tolist(), faces))
     held = (color, texcoord, normal, *numbers.values())
-    return Written("".join(parts).encode(), left_out(mesh, held, unsaid), library.beside)
+    lost = left_out(mesh, held, unsaid)
+    if color is not None and color.components > _COLORS:
+        lost = (f"alpha of {color.name}", *lost)
+    return Written("".join(parts).encode(), lost, library.beside)
 
 
 def _names(mesh: TriangleMesh, what: str, attribute: Attribute | None) -> dict[int, str]:
@@ -231,8 +236,8 @@ def _points(mesh: TriangleMesh, color: Attribute | None) -> str:
     if color is None:
         return text_table(row, mesh.positions).decode()
     most = np.iinfo(color.values.dtype).max if color.values.dtype.kind == "u" else 1
-    row = row.replace("\n", " {:.6g}" * color.components + "\n")
-    return text_table(row, np.hstack([mesh.positions, color.values / most])).decode()
+    row = row.replace("\n", " {:.6g}" * _COLORS + "\n")
+    return text_table(row, np.hstack([mesh.positions, color.values[:, :_COLORS] / most])).decode()
 
 
 def _values(keyword: str, attribute: Attribute) -> str:

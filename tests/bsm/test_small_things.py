@@ -1,0 +1,147 @@
+"""What people see first: short names, sizes in words, folders mirrored, sentences with units, maps and curves."""
+
+import copy
+import inspect
+import json
+import pickle
+
+import numpy as np
+import pytest
+
+import bsm
+from bsm.cli import main
+from bsm.lengths import parse_bytes
+from tests.shapes import torus
+
+MESH = torus()
+
+
+def test_what_is_printed_fits_a_line():
+    painted = bsm.TriangleMesh(MESH.positions, MESH.faces, (bsm.Attribute("heat", np.arange(len(MESH.positions))),))
+    assert repr(painted) == f"TriangleMesh({len(MESH.positions)} vertices, {len(MESH.faces)} faces, heat)"
+    assert repr(painted.attributes[0]) == f"Attribute('heat', {len(MESH.positions)} x 1 int32 per vertex, generic)"
+    assert repr(bsm.Limits()) == "Limits()" and repr(bsm.Limits(work=3.0)) == "Limits(work=3.0)"
+    for name in ("decode", "load", "decode_sequence", "read_mesh"):
+        assert len(str(inspect.signature(getattr(bsm, name)))) < 400, name
+    with bsm.Decoder() as decoder:
+        decoder.receive_data(bsm.encode(MESH, step=0.01))
+        decoder.receive_eof()
+        while (event := decoder.next_event()) is not bsm.END_OF_STREAM:
+            if not isinstance(event, bsm.HeaderEvent):
+                assert len(repr(event)) < 120 and "array" not in repr(event)
+
+
+def test_errors_are_called_what_users_catch():
+    assert bsm.TargetError.__module__ == "bsm" and bsm.BsmError.__module__ == "bsm"
+    error = pickle.loads(pickle.dumps(bsm.CorruptError("no", offset=3)))
+    assert isinstance(error, bsm.CorruptError) and isinstance(copy.deepcopy(error), bsm.CorruptError)
+
+
+@pytest.mark.parametrize(
+    ("text", "count"),
+    [("20kB", 20e3), ("20k", 20e3), ("1.5MiB", 1.5 * 2**20), ("900 B", 900), ("1e4", 1e4), (700, 700), ("2 MB", 2e6)],
+)
+def test_sizes_are_read(text, count):
+    assert parse_bytes("size", text) == count
+
+
+@pytest.mark.parametrize("text", ["20 cows", "kB", "-3kB", None, "1.2.3", True])
+def test_what_is_no_size_is_said(text):
+    with pytest.raises(bsm.ArgumentError, match="such as 20000 or 20kB"):
+        parse_bytes("size", text)
+
+
+def test_a_size_may_have_a_unit(tmp_path, capsys):
+    bsm.save(MESH, tmp_path / "a.ply")
+    assert main(["encode", str(tmp_path / "a.ply"), "--size", "2kB"]) == 0
+    assert (tmp_path / "a.bsm").stat().st_size <= 2000
+    assert len(bsm.encode(MESH, size="2kB")) <= 2000
+    assert main(["encode", str(tmp_path / "a.ply"), "-f", "--size", "two"]) == 2
+    assert "20kB" in capsys.readouterr().err
+
+
+def test_a_tree_is_mirrored(tmp_path, capsys):
+    tree, out = tmp_path / "tree", tmp_path / "out"
+    for name in ("scan_1/mesh.ply", "scan_2/mesh.ply", "scan_2/deep/mesh.obj", "top.stl"):
+        (tree / name).parent.mkdir(parents=True, exist_ok=True)
+        bsm.save(MESH, tree / name)
+    (tree / "scan_1/notes.txt").write_text("no mesh")
+    assert main(["encode", str(tree), "-o", str(out), "-r", "-q", "--grid", "8"]) == 0
+    made = {path.relative_to(out).as_posix() for path in out.rglob("*") if path.is_file()}
+    assert made == {"scan_1/mesh.bsm", "scan_2/mesh.bsm", "scan_2/deep/mesh.bsm", "top.bsm"}
+    assert main(["encode", str(tree), "-r", "-q", "--grid", "8"]) == 0
+    assert (tree / "scan_2/deep/mesh.bsm").exists(), "beside, without -o"
+    assert main(["encode", str(tree / "top.stl"), "-r"]) == 2
+    bsm.save(MESH, tree / "scan_1/mesh.off")
+    assert main(["encode", str(tree), "-o", str(tmp_path / "new"), "-r", "-q"]) == 2
+    (tmp_path / "empty").mkdir()
+    assert main(["encode", str(tmp_path / "empty"), "-r"]) == 2
+    said = capsys.readouterr().err
+    assert "no folder" in said and "two outputs" in said and "no mesh files" in said
+
+
+def test_compare_says_it_in_a_sentence_with_units(tmp_path, capsys):
+    mesh = bsm.TriangleMesh(MESH.positions, MESH.faces, metadata={"unit": "mm"})
+    bsm.save(mesh, tmp_path / "a.ply")
+    moved = MESH.positions.copy()
+    moved[3, 2] += 0.25
+    bsm.save(bsm.TriangleMesh(moved, MESH.faces), tmp_path / "b.ply")
+    assert main(["compare", str(tmp_path / "a.ply"), str(tmp_path / "b.ply")]) == 0
+    first = capsys.readouterr().out.splitlines()[0]
+    assert first.startswith("the farthest vertex is 0.25 mm off, ") and "% of the diagonal" in first
+    assert main(["compare", str(tmp_path / "a.ply"), str(tmp_path / "a.ply")]) == 0
+    assert capsys.readouterr().out.startswith("no vertex is off\n")
+
+
+def test_a_map_shows_where_vertices_are_off(tmp_path, capsys):
+    bsm.save(MESH, tmp_path / "a.ply")
+    moved = MESH.positions.copy()
+    moved[: len(moved) // 2, 2] += 0.25
+    bsm.save(bsm.TriangleMesh(moved, MESH.faces), tmp_path / "b.ply")
+    words = ["compare", str(tmp_path / "a.ply"), str(tmp_path / "b.ply"), "--map"]
+    for name in ("map.ply", "map.obj"):
+        assert main([*words, str(tmp_path / name)]) == 0
+        color = next(one for one in bsm.load(tmp_path / name).attributes if one.semantic == "color").values
+        assert color[0, 0] > color[0, 2] and color[-1, 2] > color[-1, 0], "red where it moved, blue where not"
+    distance = next(one for one in bsm.load(tmp_path / "map.ply").attributes if one.name == "distance")
+    np.testing.assert_allclose(distance.values[[0, -1], 0], [0.25, 0], atol=1e-6)
+    assert main([*words, str(tmp_path / "map.png")]) == 0
+    assert (tmp_path / "map.png").read_bytes().startswith(b"\x89PNG")
+    assert main([*words, str(tmp_path / "map.png")]) != 0, "it is there"
+    assert main([*words, str(tmp_path / "map.txt")]) == 2
+    assert "a picture (.png)" in capsys.readouterr().err
+
+
+def test_obj_has_colours_that_every_reader_takes(tmp_path, capsys):
+    rgba = np.tile(np.array([[255, 0, 51, 128]], np.uint8), (len(MESH.positions), 1))
+    mesh = bsm.TriangleMesh(MESH.positions, MESH.faces, (bsm.Attribute("color", rgba, semantic="color"),))
+    assert bsm.save(mesh, tmp_path / "a.obj") == ("alpha of color",)
+    rows = [line.split() for line in (tmp_path / "a.obj").read_text().splitlines() if line.startswith("v ")]
+    assert {len(row) for row in rows} == {7} and rows[0][4:] == ["1", "0", "0.2"]
+
+
+@pytest.fixture
+def loop(tmp_path):
+    """A stream that goes round twice, and the frames."""
+    angles = 2 * np.pi * np.arange(24) / 12
+    frames = np.stack([MESH.positions + np.array([np.sin(a), np.cos(a), 0]) for a in angles])
+    np.savez(tmp_path / "loop.npz", positions=frames, faces=MESH.faces)
+    (tmp_path / "loop.bsm").write_bytes(bsm.encode_sequence(frames, MESH.faces, preset="near-lossless"))
+    return tmp_path
+
+
+def test_info_says_which_frames_repeat_others(loop, capsys):
+    assert main(["info", str(loop / "loop.bsm"), "--loops"]) == 0
+    assert "frames 12 to 23 repeat 0 to 11" in capsys.readouterr().out.splitlines()
+    assert main(["info", str(loop / "loop.bsm"), "--loops", "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)["loops"] == ["frames 12 to 23 repeat 0 to 11"]
+    assert main(["info", str(loop / "loop.bsm")]) == 0
+    assert "repeat" not in capsys.readouterr().out
+
+
+def test_the_errors_of_frames_are_drawn_as_a_curve(loop, capsys):
+    words = ["compare", str(loop / "loop.npz"), str(loop / "loop.bsm")]
+    assert main([*words, "--picture", str(loop / "curve.png")]) == 0
+    assert (loop / "curve.png").read_bytes().startswith(b"\x89PNG")
+    assert main([*words, "--map", str(loop / "map.png")]) == 2
+    assert "of sequences, --picture" in capsys.readouterr().err
