@@ -29,6 +29,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--quick", action="store_true", help="grids alone, which pages decode with a small decoder")
     parser.add_argument(
+        "--fallback",
+        action="store_true",
+        help="write OUT.fallback.bin, too, with plain arrays: viewers that do not know the extension show these",
+    )
+    parser.add_argument(
         "--images",
         metavar="RULE",
         help="write images smaller with Pillow: webp, webp:85 for a quality, webp:85@1024 for a largest side, too; "
@@ -49,7 +54,11 @@ def run(args: argparse.Namespace, console: Console) -> None:
         return bsm.encode(mesh, **keywords)
 
     document = read_document(args.input)
-    found = compress(document, coder, rule)
+    beside = Path(args.output).with_suffix(".fallback.bin") if args.fallback else None
+    found = compress(document, coder, rule, beside.name if beside else None)
+    if beside and found.fallback:
+        with open_output(str(beside), overwrite=args.force) as file:
+            file.write(found.fallback)
     with open_output(args.output, overwrite=args.force) as file:
         file.write(found.data)
     size = Path(args.input).stat().st_size + sum(map(len, document.images.values()))
