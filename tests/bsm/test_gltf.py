@@ -13,6 +13,7 @@ import pytest
 
 import bsm
 from bsm.cli import main
+from bsm.files.stream import inspect_stream
 from bsm.gltf.compress import EXTENSION, compress
 from bsm.gltf.document import glb, read_document
 from bsm.gltf.images import ImageRule, smaller
@@ -224,6 +225,25 @@ def test_the_validator_finds_no_error(tmp_path):
     command = ["node", "--input-type=module", "-e", VALIDATOR, *written]
     found = subprocess.run(command, cwd=WEB, capture_output=True, text=True, check=True, timeout=120).stdout
     assert [json.loads(line) for line in found.splitlines()] == [[], [], []]
+
+
+@pytest.mark.parametrize(
+    ("count", "more", "light"), [(15, [], False), (16, [], True), (16, ["--no-quick"], False), (1, ["--quick"], True)]
+)
+def test_scenes_of_many_meshes_are_quick_to_decode(tmp_path, count, more, light):
+    bsm.save(torus(24, 16), tmp_path / "one.glb")
+    document = read_document(str(tmp_path / "one.glb"))
+    primitive = document.tree["meshes"][0]["primitives"][0]
+    document.tree["meshes"] = [{"primitives": [copy.deepcopy(primitive)]} for _ in range(count)]
+    (tmp_path / "many.glb").write_bytes(glb(document.tree, document.buffers[0]))
+    assert main(["glb", str(tmp_path / "many.glb"), "-o", str(tmp_path / "small.glb"), *more]) == 0
+    after = read_document(str(tmp_path / "small.glb"))
+    streams = {told["stream"] for told, _ in coded_of(after).values()}
+    assert (
+        [inspect_stream(iter([after.view(stream)])).header.light == 1 for stream in streams]
+        == [light] * len(streams)
+        != []
+    )
 
 
 def test_images_by_a_rule(source, tmp_path):

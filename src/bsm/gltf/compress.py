@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import copy
 from collections import Counter
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Any
 from urllib.parse import quote
@@ -61,8 +63,20 @@ def compress(
     """
     for name in _COMPRESSED & set(document.tree.get("extensionsUsed", [])):
         raise FormatError(f"its geometry is compressed already, by {name}; start from the scene before that")
-    try:
+    with _consistent():
         return _compressed(document, coder, images, fallback)
+
+
+def count_primitives(document: Document) -> int:
+    """How many primitives the meshes of a scene have; raises FormatError if it contradicts itself."""
+    with _consistent():
+        return len(_primitives(document.tree))
+
+
+@contextmanager
+def _consistent() -> Iterator[None]:
+    try:
+        yield
     except (LookupError, TypeError, ValueError, AttributeError) as error:
         raise FormatError(f"this glTF contradicts itself: {type(error).__name__}: {error}") from error
 
