@@ -239,11 +239,8 @@ def test_scenes_of_many_meshes_are_quick_to_decode(tmp_path, count, more, light)
     assert main(["glb", str(tmp_path / "many.glb"), "-o", str(tmp_path / "small.glb"), *more]) == 0
     after = read_document(str(tmp_path / "small.glb"))
     streams = {told["stream"] for told, _ in coded_of(after).values()}
-    assert (
-        [inspect_stream(iter([after.view(stream)])).header.light == 1 for stream in streams]
-        == [light] * len(streams)
-        != []
-    )
+    headers = [inspect_stream(iter([after.view(stream)])).header for stream in streams]
+    assert headers and all((header.light == 1) == light for header in headers)
 
 
 def test_images_by_a_rule(source, tmp_path):
