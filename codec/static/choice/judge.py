@@ -83,12 +83,12 @@ class Judge:
         self._seen: dict[bytes, float] = {}
 
     def out(self, positions: Matrix) -> Mask:
-        """Vertices that are out of reach, borders aside."""
+        """Vertices, shape (n,), that are out of reach at `positions`, shape (n, 3), borders aside."""
         out = np.square(positions - self._prepared.positions).sum(axis=1) > self._reach**2
         return np.asarray(out & ~self._borders.vertices)
 
     def trial(self, step: float, positions: Matrix, found: Found, sure: bool = True) -> Trial[Found]:
-        """A trial of a step that came to these positions; unless it has to be `sure`, a glance may do."""
+        """A trial of a step that came to `positions`, shape (n, 3); unless it has to be `sure`, a glance may do."""
         near = bool((np.square(positions - self._prepared.positions).sum(axis=1) <= self._reach**2).all())
         contract = self._contract
         angle = self._angle(positions)
@@ -102,7 +102,7 @@ class Judge:
         return Trial(step, excess, near, found, whole)
 
     def keeps(self, positions: Matrix) -> bool:
-        """Whether what is decoded keeps the contract, by all that it says."""
+        """Whether what is decoded, shape (n, 3), keeps the contract, by all that it says."""
         moved = np.sqrt(np.square(positions - self._prepared.positions).sum(axis=1))
         farther = float(np.divide(moved, self._reach, out=np.zeros_like(moved), where=moved > 0.0).max())
         angle, visual = self._angle(positions), self._visual(positions)
