@@ -95,7 +95,7 @@ NB_MODULE(_kernels, m) {
     m.def("code_edges", checked<code_edges>, "coder"_a, "bank"_a, "corners"_a, "seams"_a, "others"_a, "ends"_a,
         Unlocked());
     m.def("join_corners", checked<join_corners>, "corners"_a, "seams"_a, "joined"_a, "first"_a, Unlocked());
-    m.def("code_levels", checked<code_levels>, "coder"_a, "model"_a, "corners"_a, "levels"_a, "first"_a, "count"_a,
+    m.def("code_levels", checked<code_levels>, "coder"_a, "bank"_a, "corners"_a, "levels"_a, "first"_a, "count"_a,
         Unlocked());
 
     m.def("expect_normals", checked<expect_normals>, "corners"_a, "values"_a, Unlocked());

@@ -141,7 +141,7 @@ class Model:
 
     def __init__(self, inputs: int, limit: int = 255, rate: int = 14, first: tuple[int, int] = (1 << 21, 0)) -> None:
         self.limit, self.rate, self.first = limit, rate, first
-        self.first_weight = {1: 65536, 2: 32768, 3: 27306, 4: 20480, 6: 13653, 14: 5851}[inputs]
+        self.first_weight = {1: 65536, 2: 32768, 3: 27306, 4: 20480, 5: 16384, 6: 13653, 14: 5851}[inputs]
         self.slots: dict[tuple[int, int, int], tuple[int, int]] = {}
         self.weights: dict[tuple[int, int], int] = {}
 

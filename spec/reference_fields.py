@@ -21,6 +21,7 @@ from collections.abc import Callable, Iterable
 from decimal import Decimal, getcontext
 
 from reference_connectivity import SQUASH, STRETCH, RangeDecoder, wrap
+from reference_connectivity import Model as MixedModel
 
 Triple = list[int]
 
@@ -172,7 +173,7 @@ class Mesh:
         return order
 
     def keep_borders(self) -> set[int]:
-        """V 11.6: the vertices that are passed over, which no other comes behind."""
+        """V 11.7: the vertices that are passed over, which no other comes behind."""
         kept = set()
         for k in range(len(self.vertex)):
             ends = {self.vertex[self.next(k)], self.vertex[self.previous(k)]}
@@ -402,15 +403,15 @@ class Learner:
         """V 6.1."""
         return clamp(sum(w * x for w, x in zip(self.weights, limited(terms))) >> 16, -bound, bound)
 
-    def learn(self, terms: list[int], target: int, size: int) -> None:
-        """V 6.2."""
+    def learn(self, terms: list[int], target: int, size: int, turn: int | None = None) -> None:
+        """V 6.2, of all weights or, by V 6.3, of one."""
         x = limited(terms)
         h = 2 * (max(size, abs(target) >> 4, *(abs(value) >> 5 for value in x)) + 8).bit_length() - 8
         for i in range(self.terms):
             for j in range(self.terms):
                 self.squares[i][j] += ((256 * x[i] * x[j]) >> h) - (self.squares[i][j] >> 11)
             self.products[i] += ((256 * x[i] * target) >> h) - (self.products[i] >> 11)
-        for i in range(self.terms):
+        for i in range(self.terms) if turn is None else [turn]:
             left = 65536 * self.products[i] - (1 << 19) * (self.weights[i] - self.first[i])
             left -= sum(s * w for s, w in zip(self.squares[i], self.weights))
             weight = self.weights[i] + div(left, self.squares[i][i] + (1 << 19))
@@ -669,14 +670,14 @@ class LevelsReader(Field):
     def __init__(self, faces: Iterable[Iterable[int]], vertices: int, axes: int, *, borders: bool = False) -> None:
         super().__init__(Mesh(faces, vertices, traverse=False))
         self.passed = self.mesh.keep_borders() if borders else set()
-        self.model, self.axes = Model(), axes
+        self.models, self.axes = [MixedModel(5, rate=16) for _ in range(2)], axes
         self.x = [[0] * axes for _ in range(vertices)]
         self.gap = [[0] * axes for _ in range(vertices)]
         self.ring = [[0] * axes for _ in range(vertices)]
         self.learners: dict[tuple[int, int], Learner] = {}
 
     def vertex(self, decoder: RangeDecoder, v: int) -> None:
-        """V 11.2, V 11.3, V 11.6."""
+        """V 11.2, V 11.3, V 11.7."""
         if v in self.passed:
             return
         near, flaps = self.mesh.neighbours(v), self.mesh.flaps(v)
@@ -715,32 +716,61 @@ class LevelsReader(Field):
         f = min(len(flaps), 3)
         learner = self.learners.setdefault((j, f), Learner([52000, 28000 if f else 0, 0, 0, 0, 0]))
         terms = [mean, flap - mean, tip - mean, 16 * early - mean, drift, ring - mean]  # V 11.4
-        guess = learner.foretell(terms, 1 << 24)
+        quiet = bool(near) and typical == 0 and tip == 0
+        guess = 0 if quiet else learner.foretell(terms, 1 << 24)
 
-        a, s = min(size_class(typical), 23), min(size_class(error), 19)  # V 11.5
+        c = whole(guess)  # V 11.5
+        rest = guess - 16 * c
+        w = sum(abs(rest) > bound for bound in (1, 3, 6))
+        a, s = min(size_class(typical), 23), min(size_class(error), 23)
         b, o = min(size_class(busy), 23), min(size_class(4 * own), 11)
         degree = clamp(self.mesh.degree(v) - 3, 0, 7)
 
         def c3(value: int) -> int:
-            return clamp(value, -3, 3) + 3
+            return clamp(value - c, -3, 3) + 3
 
         contexts = [
-            96 * j + 4 * a + f,
-            12 * s + 4 * j + f,
+            24 * min(a, 20) + s,
+            16 * s + 4 * f + w,
             49 * c3(late) + 7 * c3(early) + c3(tip >> 4) if j == 0 else 12 * b + o,
-            8 * (clamp(guess + 96, 0, 191) >> 2) + degree if j == 0 else 3 * (12 * min(a, 11) + o) + j,
-            three(flap, mean, tip, 16, 16),
-            3 * (6 * min(len(near), 5) + min(degree, 5)) + j + 108 * min(a, 3),
+            8 * (clamp(guess + 96, 0, 191) >> 2) + degree if j == 0 else 3 * (12 * min(a, 11) + o) + min(w, 2),
+            14 * (6 * min(len(near), 5) + min(degree, 5)) + 2 * (3 - w if rest < 0 else 3 + w) + (s > 8),
         ]
-        predictions = [0, mean >> 1, mean, flap, (mean + flap) >> 1, tip, guess]
-        value = self.model.value(decoder, Expectation(predictions, error + 4, contexts, 20 * a + s, 0, j, 0))
+        k = max((error >> 4).bit_length() - 1, 0)
+        value = self.value(decoder, min(j, 1), contexts, c, rest, k)
         if abs(value) > 1 << 20:  # V 11.1
             decoder.fail("a level is out of range")
         self.x[v][j] = value
         self.gap[v][j] = 16 * value - guess
         self.ring[v][j] = rounded(16 * (value + sum(x[u] for u in near)), len(near) + 1)
-        learner.learn(terms, 16 * value, error + 4)
+        if not quiet:
+            learner.learn(terms, 16 * value, error + 4, turn=v % 6)
         return abs(value) + own // 2
+
+    def value(self, decoder: RangeDecoder, sort: int, contexts: list[int], c: int, rest: int, k: int) -> int:
+        """V 11.6."""
+
+        def bit(node: int) -> int:
+            return self.models[sort].bit(
+                decoder, [32 * (512 * i + context) for i, context in enumerate(contexts)], node
+            )
+
+        if not bit(0):
+            return c
+        r = 1 if bit(1) else -1
+        d, i = 0, 0
+        while True:
+            h = k if i < 4 else k + i // 2 - 1
+            if d + (1 << h) > 1 << 22 or not bit(2 + 2 * min(i, 9) + (r * rest < 0)):
+                break
+            d += 1 << h
+            i += 1
+        if h > 0:
+            h -= 1
+            d += bit(22 + min(i, 8)) << h
+        if h > 0:
+            d += decoder.uniform(1 << h)
+        return c + r * (1 + d)
 
 
 # ---------------------------------------------------------------------------------------------------------------------

@@ -8,6 +8,17 @@ enum {
     MOST_LEVEL = 1 << 20,
     LEARNERS = 4 * MOST_AXES,
     TERMS = 6,
+    INPUTS = 5,
+    SPAN = 512,
+    SORTS = 2, /* of axes: along the normal, and others */
+    /* Nodes of the decisions: is it not the guess, on which side, how far, and where in that class. */
+    MISS = 0,
+    SIDE = 1,
+    CLASS = 2,
+    PLACE = 22,
+    NODES = 32,
+    REACH = 1 << 22, /* where the classes of the distance end */
+    LEVEL_BYTES = 64, /* more than a level can take */
 };
 
 typedef struct { /* what is known of a vertex before its axes */
@@ -15,6 +26,18 @@ typedef struct { /* what is known of a vertex before its axes */
     int32_t flaps, valence, busy; /* busy: mean size of the levels around, all axes added, 1/16 */
     int32_t latest, earliest;     /* neighbours coded last and first */
 } Place;
+
+typedef struct { /* a level under way */
+    RangeCoder *coder;
+    const Mixer *mixer;
+    int64_t context[INPUTS], selector;
+} Work;
+
+/* sum / n, rounded half away from zero; |sum| < 2^30. */
+INLINE int32_t mean_of(int64_t sum, int32_t n) {
+    int32_t x = (int32_t)sum;
+    return (x < 0 ? x - n / 2 : x + n / 2) / n;
+}
 
 static void survey(const Corners *corners, const Levels *l, int32_t v, Place *p) {
     gather_around(corners, v, &p->around);
@@ -29,10 +52,40 @@ static void survey(const Corners *corners, const Levels *l, int32_t v, Place *p)
         if (u < p->earliest) p->earliest = u;
         for (int j = 0; j < l->levels.columns; j++) all += size_of(l->levels.data[l->levels.columns * u + j]);
     }
-    p->busy = r->neighbours > 0 ? divided(all * FINE, r->neighbours) : 4 * FINE;
+    p->busy = r->neighbours > 0 ? mean_of(all * FINE, r->neighbours) : 4 * FINE;
 }
 
-static bool code_axis(RangeCoder *coder, const ValueModel *model, Levels *l, int32_t v, int j, const Place *p, int32_t *own) {
+INLINE int decide(const Work *w, int node, int bit) {
+    return code_mixed_bit(w->coder, w->mixer, INPUTS, w->context, node, w->selector, bit);
+}
+
+/* How far a level is from the guess, less one: its class, of at least 2^k distances, then its place in the class. */
+INLINE int64_t code_distance(const Work *w, int k, bool away, int64_t distance) {
+    int64_t first = 0, next;
+    int class = 0, size;
+    for (;; class++, first = next) {
+        size = k + (class < 4 ? 0 : class / 2 - 1);
+        next = first + (INT64_C(1) << size);
+        if (next > REACH || !decide(w, CLASS + 2 * (int)least(class, 9) + away, distance >= next)) break;
+    }
+    if (size == 0) return first;
+    size--;
+    if (decide(w, PLACE + (int)least(class, 8), (distance - first) >> size & 1)) first += INT64_C(1) << size;
+    if (size == 0) return first;
+    int64_t rest = INT64_C(1) << size;
+    return first + code_uniform(w->coder, (distance - first) & (rest - 1), rest);
+}
+
+INLINE int32_t code_level(const Work *w, int32_t centre, int32_t off, int k, int32_t level) {
+    if (!decide(w, MISS, level != centre)) return centre;
+    int up = decide(w, SIDE, level > centre), direction = up ? 1 : -1;
+    int64_t distance = code_distance(w, k, direction * off < 0, (int64_t)direction * (level - centre) - 1);
+    return centre + direction * (int32_t)(distance + 1);
+}
+
+INLINE int32_t near_to(int32_t x, int32_t centre) { return within((int64_t)x - centre, -3, 3) + 3; }
+
+static bool code_axis(RangeCoder *coder, const Mixer *mixer, Levels *l, int32_t v, int j, const Place *p, int32_t *own) {
     const Around *r = &p->around;
     int64_t axes = l->levels.columns;
     int32_t *x = l->levels.data + j, near = r->neighbours;
@@ -49,57 +102,54 @@ static bool code_axis(RangeCoder *coder, const ValueModel *model, Levels *l, int
     }
     int32_t mean = 0, typical = 2 * FINE, drift = 0, error_near = 2 * FINE, ring = 0, late = 0, early = 0;
     if (near > 0) {
-        mean = divided(sum * FINE, near), typical = divided(size * FINE, near);
-        drift = divided(gaps, near), error_near = divided(errors, near), ring = divided(means, near);
+        mean = mean_of(sum * FINE, near), typical = mean_of(size * FINE, near);
+        drift = mean_of(gaps, near), error_near = mean_of(errors, near), ring = mean_of(means, near);
         late = x[axes * p->latest], early = x[axes * p->earliest];
     }
-    int32_t flap = r->flaps > 0 ? divided(across * FINE, r->flaps) : mean;
-    int32_t tip = r->flaps > 0 ? divided(tips * FINE, r->flaps) : mean;
+    int32_t flap = r->flaps > 0 ? mean_of(across * FINE, r->flaps) : mean;
+    int32_t tip = r->flaps > 0 ? mean_of(tips * FINE, r->flaps) : mean;
 
+    /* Where nothing happens, nothing is expected, and nothing learnt. */
+    bool quiet = near > 0 && typical == 0 && tip == 0;
     Learner *learner = (Learner *)l->learners.data + 4 * j + p->flaps;
     int32_t term[TERMS] = {mean, flap - mean, tip - mean, early * FINE - mean, drift, ring - mean};
-    int32_t guess = foretell(learner, TERMS, term, FINE * MOST_LEVEL);
+    int32_t guess = quiet ? 0 : foretell(learner, TERMS, term, FINE * MOST_LEVEL);
 
-    Expectation e;
-    e.prediction[0] = 0;
-    e.prediction[1] = mean >> 1;
-    e.prediction[2] = mean;
-    e.prediction[3] = flap;
-    e.prediction[4] = (mean + flap) >> 1;
-    e.prediction[5] = tip;
-    e.prediction[6] = guess;
-    int32_t a = (int32_t)least(size_class(typical), 23), s = (int32_t)least(size_class(error_near), 19);
+    int32_t centre = whole(guess), off = guess - FINE * centre;
+    int32_t aside = (size_of(off) > 1) + (size_of(off) > 3) + (size_of(off) > 6);
+    int32_t a = (int32_t)least(size_class(typical), 23), s = (int32_t)least(size_class(error_near), 23);
     int32_t b = (int32_t)least(size_class(p->busy), 23), o = (int32_t)least(size_class(*own * 4), 11);
-    e.scale = error_near + 4;
-    e.asks = 0; /* most are 0, and found at once without */
-    e.scale_context = a * 20 + s;
-    e.hit_context = 0;
-    e.context[0] = (j * 24 + a) * 4 + p->flaps;
-    e.context[1] = (s * 3 + j) * 4 + p->flaps;
-    e.context[2] = j > 0 ? b * 12 + o
-                         : ((within(late, -3, 3) + 3) * 7 + within(early, -3, 3) + 3) * 7 + within(tip >> 4, -3, 3) + 3;
-    e.context[3] = j > 0 ? ((int32_t)least(a, 11) * 12 + o) * 3 + j : (within(guess + 96, 0, 191) >> 2) * 8 + p->valence;
-    e.context[4] = three_classes(flap, mean, tip, FINE, FINE);
-    e.context[5] = ((int32_t)least(near, 5) * 6 + (int32_t)least(p->valence, 5)) * 3 + j + 108 * (int32_t)least(a, 3);
-    e.set = j;
+    int32_t around = (int32_t)least(near, 5) * 6 + (int32_t)least(p->valence, 5), side = off < 0 ? 3 - aside : 3 + aside;
+    int32_t context[INPUTS] = {
+        (int32_t)least(a, 20) * 24 + s,
+        s * 16 + p->flaps * 4 + aside,
+        j > 0 ? b * 12 + o : (near_to(late, centre) * 7 + near_to(early, centre)) * 7 + near_to(tip >> 4, centre),
+        j > 0 ? ((int32_t)least(a, 11) * 12 + o) * 3 + (int32_t)least(aside, 2)
+              : (within(guess + 96, 0, 191) >> 2) * 8 + p->valence,
+        around * 14 + side * 2 + (s > 8),
+    };
+    Work w = {.coder = coder, .mixer = mixer, .selector = j > 0 ? NODES : 0};
+    for (int i = 0; i < INPUTS; i++)
+        w.context[i] = (((j > 0) * INPUTS + i) * SPAN + context[i]) * (int64_t)NODES;
 
-    int32_t value = code_value(coder, model, &e, is_reading(coder) ? 0 : x[axes * v]);
-    if (value < -MOST_LEVEL || value > MOST_LEVEL) return false;
-    x[axes * v] = value;
-    l->gaps.data[axes * v + j] = value * FINE - guess;
-    l->means.data[axes * v + j] = divided((sum + value) * FINE, near + 1);
-    *own = size_of(value) + (*own >> 1);
-    learn(learner, TERMS, term, value * FINE, e.scale);
+    int k = (int)largest(bit_length((uint32_t)(error_near / FINE)) - 1, 0);
+    int32_t level = code_level(&w, centre, off, k, is_reading(coder) ? 0 : x[axes * v]);
+    if (level < -MOST_LEVEL || level > MOST_LEVEL) return false;
+    x[axes * v] = level;
+    l->gaps.data[axes * v + j] = level * FINE - guess;
+    l->means.data[axes * v + j] = mean_of((sum + level) * FINE, near + 1);
+    *own = size_of(level) + (*own >> 1);
+    if (!quiet) learn_in_turn(learner, TERMS, term, level * FINE, error_near + 4, v % TERMS);
     return true;
 }
 
-static bool code_vertex(RangeCoder *coder, const ValueModel *model, const Corners *corners, Levels *l, int32_t v) {
+static bool code_vertex(RangeCoder *coder, const Mixer *mixer, const Corners *corners, Levels *l, int32_t v) {
     if (corners->rank.data[v] == PASSED_OVER) return true;
     Place p;
     survey(corners, l, v, &p);
     int32_t own = 0;
     for (int j = 0; j < l->levels.columns; j++)
-        if (!code_axis(coder, model, l, v, j, &p, &own)) return false;
+        if (!code_axis(coder, mixer, l, v, j, &p, &own)) return false;
     return true;
 }
 
@@ -113,14 +163,15 @@ static bool fits_levels(const Corners *corners, const Levels *l) {
 
 /* Code `count` vertices from number `first` on, as far as there is room (writing) or sense (reading).
  * Returns how many. */
-int64_t code_levels(Coder given, ValueModel model, Corners corners, Levels levels, int64_t first, int64_t count) {
+int64_t code_levels(Coder given, Bank bank, Corners corners, Levels levels, int64_t first, int64_t count) {
     RangeCoder coder;
-    if (!open_coder(&coder, given) || !fits_values(&model) || !fits_corners(&corners) || !fits_levels(&corners, &levels)
+    Mixer mixer;
+    if (!open_coder(&coder, given) || !open_bank(&mixer, bank, SORTS * INPUTS * SPAN * NODES, SORTS * NODES, INPUTS) || !fits_corners(&corners) || !fits_levels(&corners, &levels)
         || first < 0 || count < 0 || first > corners.rank.size - count)
         return MISUSED;
     int64_t done = 0;
-    while (done < count && has_room(&coder, MOST_AXES * VALUE_BYTES) && !overran(&coder)
-        && code_vertex(&coder, &model, &corners, &levels, (int32_t)(first + done)))
+    while (done < count && has_room(&coder, MOST_AXES * LEVEL_BYTES) && !overran(&coder)
+        && code_vertex(&coder, &mixer, &corners, &levels, (int32_t)(first + done)))
         done++;
     close_coder(&coder, given);
     return done;

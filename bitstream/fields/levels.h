@@ -2,8 +2,8 @@
 #ifndef BSM_LEVELS_FIELD_H
 #define BSM_LEVELS_FIELD_H
 
+#include "bitstream/entropy/mixing.h"
 #include "bitstream/fields/corners.h"
-#include "bitstream/fields/value.h"
 
 /* As Python keeps it; each n x axes but the last. */
 typedef struct {
@@ -13,6 +13,6 @@ typedef struct {
     Longs2 learners;
 } Levels;
 
-int64_t code_levels(Coder coder, ValueModel model, Corners corners, Levels levels, int64_t first, int64_t count);
+int64_t code_levels(Coder coder, Bank bank, Corners corners, Levels levels, int64_t first, int64_t count);
 
 #endif

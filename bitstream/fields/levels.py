@@ -8,17 +8,23 @@ import numpy as np
 import numpy.typing as npt
 
 from bsm.bitstream import _kernels
-from bsm.bitstream.entropy.range_coder import Coder
+from bsm.bitstream.entropy.range_coder import Coder, make_bank
 from bsm.bitstream.errors import MeshError, OptionError
 from bsm.bitstream.fields.chunks import Field, FieldDecoder, FieldEncoder
 from bsm.bitstream.fields.corners import BYTES_PER_FACE, BYTES_PER_VERTEX, corners_of, keep_borders
-from bsm.bitstream.fields.model import MODEL_BYTES, TERMS, make_learners, make_model
+from bsm.bitstream.fields.model import TERMS, make_learners
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 
 Ints = npt.NDArray[np.int32]
 
 LEGAL_AXES = (1, 3)
 MOST_LEVEL = 1 << 20
+
+_INPUTS, _CONTEXT_SIZE, _NODES, _SORTS = 5, 512, 32, 2
+_SLOTS = _SORTS * _INPUTS * _CONTEXT_SIZE * _NODES
+_RATE = 16
+MODEL_BYTES = 4 * _SLOTS
+"""About what a model takes."""
 
 
 class _Levels(NamedTuple):
@@ -41,7 +47,7 @@ def _levels_of(faces: npt.ArrayLike, vertices: int, axes: int, borders: bool) ->
         raise OptionError(f"a vertex has one level or three, not {axes}")
     corners = corners_of(faces, vertices)
     coded = keep_borders(corners) if borders else np.ones(vertices, np.bool_)
-    model = make_model()
+    model = make_bank(_SLOTS, _SORTS * _NODES, _INPUTS, rate=_RATE)
     levels = _Levels(
         np.zeros((vertices, axes), np.int32),
         np.zeros((vertices, axes), np.int32),

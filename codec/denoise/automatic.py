@@ -43,7 +43,10 @@ LARGEST_KEEP = max(recipe.keep for recipe in CANDIDATES)
 LEARNT_MORE = 0.025
 """Movement over noise with the learnt normals, above that without them, from which on they are left out."""
 SLIDING = 0.6
-"""Noise across the normals, over noise along them, from which on vertices may slide along the surface."""
+"""Noise across the normals, over noise along them, from which on vertices slide along the surface."""
+DROWNED = 0.42
+"""Level of noise, in mean edges, from which on they may slide: the noisy faces tell nothing there, and the coarse mesh
+alone is up to an eighth better, for normals and vertices."""
 BLOCK_SIZE = 500
 """About the paper's; half or twice of it leaves 2.4 and 0.6 % more of the angle (tools.constants)."""
 LARGE, MOST_LARGE_MEMBERS = 100_000, 2
@@ -176,9 +179,7 @@ def choose(
     local = finding.on(members)
     rehearsal = Rehearsal(positions, local, probe, coarse, BASE, named("goal", GOALS, goal), learner, told)
     most = MOST_MEMBERS if patient.topology.n <= LARGE else MOST_LARGE_MEMBERS
-    candidates, heralds = CANDIDATES, HERALDS
-    if rehearsal.level.tangential > SLIDING * rehearsal.level.normal:
-        candidates, heralds = (tuple(map(_sliding, recipes)) for recipes in (candidates, heralds))
+    candidates, heralds = (_suited(recipes, rehearsal.level, finding.edge) for recipes in (CANDIDATES, HERALDS))
     # What a few of them make, in the mean with the learnt normals, is a better guess than the one that they were chosen
     # with. A third round would believe its own mistakes.
     rehearsal.rehearse(rehearsal.perform(rehearsal.compete(heralds, most).steps, LEARNT_SHARE))
@@ -197,9 +198,14 @@ def choose(
     return AutomaticChoice(steps, finding.kind, reason, noise, untreated, expected, rehearsal.rounds, share)
 
 
-def _sliding(recipe: Recipe) -> Recipe:
-    """A recipe that lets vertices slide along the surface: for noise that has moved them there."""
-    return replace(recipe, hand_over="positions") if recipe.hand_over == "heights" else recipe
+def _suited(recipes: tuple[Recipe, ...], level: NoiseLevel, edge: float) -> tuple[Recipe, ...]:
+    """The recipes to try: those that let vertices slide along the surface only where noise has moved them there, or
+    drowns the surface.
+    """
+    sliding = tuple(replace(one, hand_over="positions") for one in recipes if one.hand_over == "heights")
+    if level.tangential > SLIDING * level.normal:
+        return (*(one for one in recipes if one.hand_over != "heights"), *sliding)
+    return (*recipes, *sliding) if level.normal > DROWNED * edge else recipes
 
 
 def treat(choice: AutomaticChoice, noisy: Positions, finding: Finding, patient: Patient) -> tuple[Positions, Verdict]:

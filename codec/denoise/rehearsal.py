@@ -38,9 +38,8 @@ GAIN = 1.01
 LEARNT_SHARE = 0.4
 """Of the learnt normals in the mean with those of the recipes; half costs more on uneven meshes than it gains,
 and alone they are worse on half of the meshes tried."""
-LEARNT_WORTH = 1.04
-"""The mean takes part below this multiple of the recipes' error in the rehearsal, which flatters them: they were chosen
-there among many, for a guess that a recipe has made."""
+LEARNT_WORTH = 0.99
+"""The mean takes part below this multiple of the recipes' error in the rehearsal."""
 SEED = 1
 MIRRORED = ("impulses",)
 """Kinds of which too little is known to draw such noise anew: it is taken as it was found."""

@@ -119,9 +119,10 @@ class Looker:
         return self.glance(positions, 0.0, math.inf)[0]
 
     def glance(self, positions: Positions, least: float, most: float) -> tuple[Look, bool]:
-        """Look as `look` does, but from a few sides alone where these come to a distance outside `least` to `most`.
+        """What `look` says of `positions`, shape (n, 3), or what a few sides alone say where that is clear.
 
-        That is quicker, and about right; the second is whether all sides were seen. Raises as `look`.
+        It is clear where the distance is outside `least` to `most`; then this is quicker, and about right. The second
+        is whether all sides were seen. Raises as `look`.
         """
         positions = np.ascontiguousarray(positions, np.float64)
         if positions.shape != self._mesh.positions.shape:
@@ -138,7 +139,7 @@ class Looker:
         return summed(np.concatenate([few, rest])[np.argsort([*FEW, *others])]), True
 
     def distance(self, positions: Positions) -> float:
-        """The distance alone of `look`."""
+        """The distance alone of `look` at `positions`, shape (n, 3)."""
         return self.look(positions).distance
 
     def compare(self, other: TriangleMesh) -> Look:
@@ -162,8 +163,8 @@ class Looker:
         """Where versions look different: how unlike the pixels are that show each face of the original, added.
 
         That is their 1 - SSIM, and up to 1 more where they differ visibly; over all pixels that the original covers, as
-        seen from the corners of a cube around it; and how each version looks from there. `versions` are positions as
-        `look` takes them.
+        seen from the corners of a cube around it; and how each version looks from there. `versions` are positions,
+        shape (n, 3); the faces' numbers have shape (m,).
         """
         placed = [self._placed(positions) for positions in versions]
         drawn = [(positions, self._shape.normals(positions)) for positions in placed]
@@ -188,7 +189,7 @@ class Looker:
         ]
 
     def pictures(self, other: TriangleMesh) -> tuple[Picture, Picture]:
-        """Both meshes from the side where they differ most."""
+        """Both meshes from the side where they differ most, each of shape (pixels, pixels)."""
         placed = self._placed(other.positions)
         shape = Shape.of(placed, other.faces)
         drawn = self._drawn(placed, shape.faces, shape.normals(placed))
@@ -258,7 +259,7 @@ def _used(faces: Faces, count: int) -> Mask:
 
 
 def own_normals(mesh: TriangleMesh) -> Normals | None:
-    """Normals that the mesh has as an attribute of its vertices or corners, of length 1; None: it has none."""
+    """Normals of corners that the mesh has as an attribute, of length 1, shape (m, 9); None: it has none."""
     for attribute in mesh.attributes:
         if attribute.semantic == "normal" and attribute.components == 3 and attribute.domain != "face":
             corners = np.asarray(at_corners(attribute, mesh.faces), np.float64)

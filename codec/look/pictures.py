@@ -46,13 +46,19 @@ class Shape:
 
     @classmethod
     def of(cls, positions: Positions, faces: Faces) -> Shape:
-        """The shape of positions within a box of diagonal 1; those that are equal at 24 bits of it are one."""
+        """The shape of positions, shape (n, 3), within a box of diagonal 1.
+
+        Those that are equal at 24 bits of it are one.
+        """
         _, joined, index = weld(np.rint(positions * _GRID), faces)
         joined = np.ascontiguousarray(joined, np.int32)
         return cls(np.ascontiguousarray(faces, np.int32), joined, vertex_faces(joined, int(index.max()) + 1))
 
     def normals(self, positions: Positions) -> Normals:
-        """As viewers make them: the sum over the faces around a vertex, by area, but not across creases."""
+        """Normals of corners as viewers make them, shape (m, 9), for `positions`, shape (n, 3).
+
+        They are the sum over the faces around a vertex, by area, but not across creases.
+        """
         count = len(self.faces)
         normals = np.empty((count, 9), np.float32)
         _kernels.shown_normals(
@@ -71,14 +77,17 @@ class Shape:
 
 
 def draw(positions: Positions, faces: Faces, normals: Normals, camera: Matrix, pixels: int) -> Picture:
-    """A picture of a mesh, lit alike on both sides of its faces."""
+    """A picture of a mesh, shape (pixels, pixels), lit alike on both sides of its faces; see `draw_owned`."""
     return draw_owned(positions, faces, normals, camera, pixels)[0]
 
 
 def draw_owned(
     positions: Positions, faces: Faces, normals: Normals, camera: Matrix, pixels: int
 ) -> tuple[Picture, Indices]:
-    """A picture, and which face each pixel shows; -1: none."""
+    """A picture, and which face each pixel shows, -1: none; both of shape (pixels, pixels).
+
+    `positions` have shape (n, 3), `faces` (m, 3), `normals`, of corners, (m, 9); a camera is one of `codec.look.sides`.
+    """
     picture, depth, lengths = (np.empty((pixels, pixels), np.float32) for _ in range(3))
     tiles, owner = np.empty((-(-pixels // _TILE),) * 2, np.float32), np.empty((pixels, pixels), np.int32)
     _kernels.draw_shaded(
@@ -88,13 +97,19 @@ def draw_owned(
 
 
 def difference(first: Picture, second: Picture) -> Matrix:
-    """Sums over pixels that either covers: 1 - SSIM; how many differ visibly; how many there are; and how many
-    differ plainly in the square of 8 by 8 that has most of these."""
+    """Sums over pixels that either picture, shape (h, w), covers; shape (4,).
+
+    They are 1 - SSIM; how many differ visibly; how many there are; and how many differ plainly in the square of 8 by 8
+    that has most of these.
+    """
     return _compared(first, second, _NOWHERE)
 
 
 def difference_map(first: Picture, second: Picture) -> tuple[Matrix, Picture]:
-    """Sums as of `difference`, and how unlike each pixel is: 1 - SSIM, and up to 1 more where it differs visibly."""
+    """Sums as of `difference`, shape (4,), and how unlike each pixel is, shape (h, w).
+
+    That is 1 - SSIM, and up to 1 more where it differs visibly.
+    """
     found = np.zeros(first.shape, np.float32)
     return _compared(first, second, found), found
 

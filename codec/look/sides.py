@@ -28,7 +28,7 @@ EDGE_PIXELS = 2.0
 
 
 def axes(towards: tuple[int, int, int]) -> Matrix:
-    """The camera's axes as rows: right, up, towards the camera; z is up in the mesh."""
+    """The camera's axes as rows, shape (3, 3): right, up, towards the camera; z is up in the mesh."""
     x, y, z = towards
     flat, length = math.sqrt(x * x + y * y), math.sqrt(x * x + y * y + z * z)
     right = (-y / flat, x / flat, 0.0)
@@ -38,7 +38,7 @@ def axes(towards: tuple[int, int, int]) -> Matrix:
 
 
 def cameras(positions: Positions, pixels: int) -> list[Matrix]:
-    """What `draw_shaded` takes for each side, so that the positions fill the picture."""
+    """What `draw_shaded` takes for each side, shape (15,), so that the positions, shape (n, 3), fill the picture."""
     found = []
     across, deep, high_up = np.ascontiguousarray(positions.T)
     for towards in TOWARDS:
@@ -54,7 +54,10 @@ def cameras(positions: Positions, pixels: int) -> list[Matrix]:
 
 
 def pixels_for(positions: Positions, faces: Faces) -> int:
-    """Pixels of a side of the pictures: enough that the mean edge has `EDGE_PIXELS`."""
+    """Pixels of a side of the pictures: enough that the mean edge has `EDGE_PIXELS`.
+
+    `positions` have shape (n, 3), `faces` has shape (m, 3).
+    """
     first, second, third = (positions[corner] for corner in np.ascontiguousarray(faces.T))
     sides = [first - second, second - third, third - first]
     edge = float(sum(np.sqrt(np.einsum("fd,fd->f", side, side)).sum() for side in sides)) / (3 * len(faces))

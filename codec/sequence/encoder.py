@@ -25,9 +25,9 @@ from bsm.codec.sequence.cost import gop_cost, gop_memory, loop_memory
 from bsm.codec.sequence.decoder import decode_sequence
 from bsm.codec.sequence.gop import GopDecoder, GopEncoder, Setting, make_setting
 from bsm.codec.sequence.options import SequenceOptions
-from bsm.codec.sequence.promise import Watch
 from bsm.codec.sequence.row_prediction import LARGEST_LEVEL
 from bsm.codec.sequence.targets import SequenceComparison, compare_sequences
+from bsm.codec.sequence.watch import Watch
 from bsm.codec.signal.chain import ChainRules
 from bsm.codec.signal.quantize import smallest_step
 from bsm.codec.static.admission import admit, as_of_decoders
@@ -157,7 +157,10 @@ class SequenceEncoder:
             yield from self.search([np.asarray(frame, np.float64) for frame in frames], progress).chunks
 
     def search(self, frames: Sequence[Matrix], progress: Progress | None = None) -> SequenceAttempt:
-        """Look for the step that meets the options' target; `TargetError` says what can be had where none does."""
+        """Look for the step with which `frames`, each of shape (n, 3), meet the options' target.
+
+        `TargetError` says what can be had where none does.
+        """
         target = self.options.target
         if target is None:
             raise OptionError("there is no target to search for")
@@ -172,7 +175,7 @@ class SequenceEncoder:
         return float(2.0 * reach * np.sqrt(values) / LARGEST_LEVEL)
 
     def attempt(self, frames: Sequence[Matrix], step: float, progress: Progress | None = None) -> SequenceAttempt:
-        """Encode with a given step, and see what the decoder will."""
+        """Encode frames, each of shape (n, 3), with a given step, and see what the decoder will."""
         chunks = tuple(self._chunks(frames, replace(self.options, step=step), progress))
         decoded, faces = decode_sequence(b"".join(chunks), NAMED_LIMITS[self.options.limits](), self.options.threads)
         original = np.array([frame[self.vertex_order] for frame in frames])
@@ -247,15 +250,16 @@ class SequenceEncoder:
         tell: Progress,
     ) -> Coded:
         """The GOP behind another, with the step that keeps the options' promise in it, if there is one."""
-        opening, encoder = before.opening, before.encoder
+        opening = before.opening
 
         def attempt(step: float, weights: Matrix | None, tell: Progress = _silent) -> Coded:
+            encoder = before.encoder.copy()
             encoder.step, encoder.weights = step, weights
             return Coded(opening, encoder, tuple(_affordable(opening, encoder, frames, number, tell)))
 
         if options.promise is None:
-            return attempt(encoder.step, None, tell)
-        coded = self._kept(attempt, frames, prepared, options, encoder.step)
+            return attempt(before.encoder.step, None, tell)
+        coded = self._kept(attempt, frames, prepared, options, before.encoder.step)
         tell(len(opening.blocks), len(opening.blocks))
         return coded
 
@@ -287,6 +291,8 @@ class Coded:
     @cached_property
     def decoded(self) -> Positions:
         """What the decoder makes of them, shape (T, n, 3), in BSM units."""
+        if self.encoder.latest is not None:
+            return self.encoder.latest[None]
         decoder = GopDecoder(self.opening.setting)
         return np.array([frame for body in self.bodies for frame in decoder.decode(body)])
 

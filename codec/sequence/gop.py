@@ -6,13 +6,14 @@ Positions are in BSM units throughout.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from copy import copy
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from bsm.bitstream.coefficients.matrices import decode_levels, make_level_bank
 from bsm.bitstream.container.gop import MAX_EXPONENT, GopBody, GopMethod
-from bsm.bitstream.entropy.range_coder import Bank
+from bsm.bitstream.entropy.range_coder import Bank, copy_bank
 from bsm.bitstream.errors import CorruptError
 from bsm.codec.arrays import Faces, Levels, Matrix
 from bsm.codec.sequence.dictionaries import Dictionaries, Part, Site, find_sites
@@ -56,7 +57,7 @@ class Setting:
         return self.dictionaries.sites
 
     def empty_levels(self, columns: int) -> list[Levels]:
-        """Levels of all parts, to be read."""
+        """Levels of all parts, each of shape (c_i, columns), to be read."""
         return [np.zeros((site.width, columns), np.int32) for site in self.sites]
 
     def field(self, columns: int, decoded: Callable[[int], Matrix]) -> Matrix:
@@ -86,7 +87,10 @@ def make_setting(
 
 
 def level_references(matrices: list[Levels], columns: int) -> list[Levels]:
-    """What the levels of each block are expected to resemble within a GOP: those of the block before."""
+    """What the levels of each block, shape (c_i, columns), are expected to resemble within a GOP.
+
+    That is those of the block before.
+    """
     return [np.zeros((0, columns), np.int32), *matrices[:-1]]
 
 
@@ -122,11 +126,18 @@ class FrameHistory:
         return np.concatenate([self._first[block], latest, latest - self._before[block]], axis=1)
 
     def base(self, block: int) -> Matrix:
-        """Coefficients that the change is added to."""
+        """Coefficients that the change of a block is added to, shape (c_i, 3)."""
         return self._latest[block]
 
+    def copy(self) -> FrameHistory:
+        """An independent copy of the present state."""
+        twin = FrameHistory(self._first)
+        twin.bank, twin.loops = copy_bank(self.bank), [loop.copy() for loop in self.loops]
+        twin.levels, twin._latest, twin._before = self.levels, self._latest, self._before
+        return twin
+
     def commit(self, levels: list[Levels], coefficients: list[Matrix]) -> None:
-        """Make a frame the latest."""
+        """Make a frame the latest: its levels and coefficients, each of shape (c_i, 3)."""
         self.levels = levels
         self._latest, self._before = coefficients, self._latest
 
@@ -138,6 +149,8 @@ class GopEncoder:
     ----------
     weights : float64 array, shape (T,), optional
         What errors of the next GOP's frames count, beside each other; None: all the same.
+    latest : float64 array, shape (n, 3), optional
+        Of low delay, what decoders make of the latest frame.
     """
 
     def __init__(self, setting: Setting, options: SequenceOptions) -> None:
@@ -146,6 +159,7 @@ class GopEncoder:
         self._options = options
         self.step = options.step
         self.weights: Matrix | None = None
+        self.latest: Matrix | None = None
         self._history = FrameHistory(setting.first)
 
     @property
@@ -156,6 +170,12 @@ class GopEncoder:
     @step.setter
     def step(self, step: float) -> None:
         self._step = float(np.float32(step))
+
+    def copy(self) -> GopEncoder:
+        """One that goes on from the same state."""
+        twin = copy(self)
+        twin._history = self._history.copy()
+        return twin
 
     def encode(self, frames: Matrix, number: int, progress: Progress) -> GopBody:
         """Encode frames, shape (T, n, 3), from frame `number` of the sequence on."""
@@ -178,6 +198,7 @@ class GopEncoder:
             progress(k + 1, len(self._parts))
         payload = writer.finish()
         history.commit(writer.levels, coefficients)
+        self.latest = frame
         method = GopMethod.KEY_FRAME if key else GopMethod.NEXT_FRAME
         return GopBody(method, 1, self._step, 3, np.empty(0, np.int32), b"", payload)
 

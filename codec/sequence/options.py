@@ -59,7 +59,7 @@ class SequenceOptions:
     target : SequenceTarget, optional
         Look for the one step for all frames that reaches it; this needs all frames in memory.
     promise : Promise, optional
-        Look for the step of each GOP that keeps it in every frame; only with `mode` "gop", and without a target.
+        Look for the step of each GOP, or with low delay of each frame, that keeps it; not beside a target.
 
     Raises
     ------
@@ -84,6 +84,6 @@ class SequenceOptions:
 
     def __post_init__(self) -> None:
         check_options(self, CHOICES, RANGES)
-        if self.promise is not None and (self.target is not None or self.mode != "gop"):
-            raise OptionError("a sequence keeps a promise or meets a target, and low delay promises nothing")
+        if self.promise is not None and self.target is not None:
+            raise OptionError("a sequence keeps a promise or meets a target")
         object.__setattr__(self, "attributes", checked_qualities(self.attributes))

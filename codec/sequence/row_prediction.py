@@ -46,7 +46,7 @@ def trajectories(frames: Matrix) -> Matrix:
 
 
 def frames_of(matrix: Matrix) -> Matrix:
-    """Inverse of `trajectories`."""
+    """Inverse of `trajectories`: frames, shape (T, n, 3), of a matrix, shape (n, 3T)."""
     return np.ascontiguousarray(matrix.reshape(len(matrix), 3, -1).transpose(2, 0, 1))
 
 
@@ -58,7 +58,7 @@ def time_cosines(frames: int) -> Matrix:
 
 
 def basis_steps(exponents: npt.NDArray[np.int32]) -> Matrix:
-    """Quantization step of each component of a learnt basis: 2^(-exponent / OCTAVE)."""
+    """Quantization step of each component of a learnt basis, shape (r,): 2^(-exponent / OCTAVE)."""
     return np.exp2(-exponents.astype(np.float64) / OCTAVE)
 
 

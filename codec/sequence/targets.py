@@ -55,7 +55,7 @@ def compare_sequences(original: Positions, decoded: Positions, faces: Faces) -> 
 
 
 def flicker_of(original: Positions, decoded: Positions) -> float:
-    """See `SequenceComparison`."""
+    """`SequenceComparison.flicker` of frames, both of shape (T, n, 3)."""
     wrong, own = (float(np.linalg.norm(np.diff(part, 2, axis=0))) for part in (decoded - original, original))
     if wrong == 0.0:
         return 0.0

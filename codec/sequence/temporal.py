@@ -57,5 +57,8 @@ def learn_basis(motion: Matrix, step: float, limit: int) -> LearntBasis:
 
 
 def projection(basis: Matrix) -> Matrix:
-    """Pseudo-inverse of a decoded basis, transposed: coefficients times this are the components that fit best."""
+    """Pseudo-inverse of a decoded basis, transposed, shape (3T, r), as the basis has it.
+
+    Coefficients times this are the components that fit best.
+    """
     return np.ascontiguousarray(np.linalg.pinv(basis).T)

@@ -3,18 +3,24 @@
 import copy
 import io
 import json
+import shutil
+import subprocess
 from itertools import pairwise
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 import bsm
 from bsm.cli import main
+from bsm.files.stream import inspect_stream
 from bsm.gltf.compress import EXTENSION, compress
 from bsm.gltf.document import glb, read_document
 from bsm.gltf.images import ImageRule, smaller
 from bsm.gltf.primitives import drawn
 from tests.shapes import torus
+
+WEB = Path(__file__).parents[2] / "tools/web"
 
 
 def picture():
@@ -169,6 +175,72 @@ def test_accessors_say_what_the_stream_holds(source):
     ends = sorted(sizes.items())
     assert all(at + size <= following for (at, size), (following, _) in pairwise(ends))
     assert after.tree["buffers"][1]["byteLength"] >= ends[-1][0] + ends[-1][1]
+
+
+def test_fallback_holds_what_decoders_fill_in(source, tmp_path):
+    target = tmp_path / "with space.glb"
+    assert main(["glb", str(source), "-o", str(target), "--fallback"]) == 0
+    after = read_document(str(target))
+    assert after.tree["buffers"][1]["uri"] == "with%20space.fallback.bin"
+    assert "extensionsRequired" not in after.tree and EXTENSION in after.tree["extensionsUsed"]
+    coded = coded_of(after)
+    primitive = after.tree["meshes"][0]["primitives"][0]
+    stream = after.tree["bufferViews"][after.tree["accessors"][primitive["indices"]]["bufferView"]]
+    mesh = bsm.decode(after.view(stream["extensions"][EXTENSION]["stream"]))
+    for view in after.tree["bufferViews"]:
+        view.pop("extensions", None)  # as loaders see it that do not know them
+    plain = {told["attribute"]: after.array(number) for number, (told, _) in coded.items()}
+    np.testing.assert_array_equal(
+        plain["POSITION"][plain["indices"].ravel()], mesh.positions[mesh.faces.ravel()].astype("f4")
+    )
+    assert (plain["WEIGHTS_0"].sum(axis=1) == 255).all() and plain["TEXCOORD_0"].shape[1] == 2
+
+
+VALIDATOR = """
+import { readFileSync } from "node:fs";
+import { pathToFileURL } from "node:url";
+import validator from "gltf-validator";
+const files = process.argv.slice(1);
+const read = (path) => new Uint8Array(readFileSync(path));
+for (const file of files) {
+    const options = { externalResourceFunction: async (uri) => read(new URL(uri, pathToFileURL(file))) };
+    const { issues } = await validator.validateBytes(read(file), options);
+    console.log(JSON.stringify(issues.messages.filter(({ severity }) => severity === 0)));
+}
+"""
+
+
+@pytest.mark.skipif(
+    shutil.which("node") is None or not (WEB / "node_modules/gltf-validator").is_dir(), reason="npm ci in tools/web"
+)
+def test_the_validator_finds_no_error(tmp_path):
+    mesh = torus(40, 24)
+    across = (mesh.positions - mesh.positions.min(axis=0)) / np.ptp(mesh.positions, axis=0)
+    uv = bsm.codec.geometry.attributes.Attribute("TEXCOORD_0", across[:, :2].astype(np.float32), "vertex", "texcoord")
+    bsm.save(bsm.TriangleMesh(mesh.positions, mesh.faces, (uv,), {}), tmp_path / "plain.glb")
+    written = [str(tmp_path / name) for name in ("plain.glb", "small.glb", "two.glb")]
+    assert main(["glb", written[0], "-o", written[1]]) == 0
+    assert main(["glb", written[0], "-o", written[2], "--fallback"]) == 0
+    assert all(coded_of(read_document(name)) for name in written[1:])
+    command = ["node", "--input-type=module", "-e", VALIDATOR, *written]
+    found = subprocess.run(command, cwd=WEB, capture_output=True, text=True, check=True, timeout=120).stdout
+    assert [json.loads(line) for line in found.splitlines()] == [[], [], []]
+
+
+@pytest.mark.parametrize(
+    ("count", "more", "light"), [(15, [], False), (16, [], True), (16, ["--no-quick"], False), (1, ["--quick"], True)]
+)
+def test_scenes_of_many_meshes_are_quick_to_decode(tmp_path, count, more, light):
+    bsm.save(torus(24, 16), tmp_path / "one.glb")
+    document = read_document(str(tmp_path / "one.glb"))
+    primitive = document.tree["meshes"][0]["primitives"][0]
+    document.tree["meshes"] = [{"primitives": [copy.deepcopy(primitive)]} for _ in range(count)]
+    (tmp_path / "many.glb").write_bytes(glb(document.tree, document.buffers[0]))
+    assert main(["glb", str(tmp_path / "many.glb"), "-o", str(tmp_path / "small.glb"), *more]) == 0
+    after = read_document(str(tmp_path / "small.glb"))
+    streams = {told["stream"] for told, _ in coded_of(after).values()}
+    headers = [inspect_stream(iter([after.view(stream)])).header for stream in streams]
+    assert headers and all((header.light == 1) == light for header in headers)
 
 
 def test_images_by_a_rule(source, tmp_path):

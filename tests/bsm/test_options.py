@@ -40,7 +40,8 @@ def test_bounds_of_sequences():
     assert sequence_options(max_error="0.2%").promise == Promise(0.002)
     assert sequence_options(max_error="3mm", look=2).promise == Promise(3.0, 2.0, absolute=True)
     assert sequence_options(preset="fine", look=2).promise == Promise(PROMISES["fine"].farthest, 2.0)
-    for others in ({"kg": 1}, {"step": 0.01}, {"low_delay": True}):
+    assert sequence_options(max_error=0.001, low_delay=True).promise == Promise(0.001)
+    for others in ({"kg": 1}, {"step": 0.01}):
         with pytest.raises(OptionError):
             sequence_options(max_error=0.01, **others)
 

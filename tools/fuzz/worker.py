@@ -17,6 +17,8 @@ from tools.fuzz.targets import TARGETS, VECTORS, WHOLE_STREAMS, Finding, Target,
 SECONDS = 3.0
 """That one execution may take; instrumented kernels are about three times slower than others."""
 SMALL = 1 << 16
+GUIDING = ("bsm.bitstream.", "bsm.codec.", "bsm.files.")
+"""Whose functions' coverage guides the fuzzer, beside that of the kernels."""
 MEMORY = 256 << 20
 """Bytes that one execution may add to the highest memory use so far."""
 
@@ -50,19 +52,24 @@ def main() -> None:
 def instrument() -> None:
     """Follow the coverage of every Python function of the decoders; the kernels report theirs themselves."""
     logging.disable(logging.WARNING)
-    for name, module in sorted(sys.modules.items()):
-        ours = name.split(".")[0] in ("bitstream", "codec") or name.startswith(("bsm.files.mesh", "tools.files"))
-        if ours and name != "bsm.codec.basis.solver.simd":
-            _instrument_module(module)
+    followed = sum(
+        _instrument_module(module) for name, module in sorted(sys.modules.items()) if name.startswith(GUIDING)
+    )
+    if not followed:
+        raise SystemExit(f"no function of {', '.join(GUIDING)} is followed: nothing would guide the fuzzer but kernels")
 
 
-def _instrument_module(module: ModuleType) -> None:
+def _instrument_module(module: ModuleType) -> int:
+    """Follow the functions of a module, and say how many there are."""
+    followed = 0
     for item in vars(module).values():
         members = vars(item).values() if isinstance(item, type) else [item]
         for function in members:
             plain = function.fget if isinstance(function, property) else getattr(function, "__func__", function)
             if isinstance(plain, FunctionType) and plain.__module__ == module.__name__:
                 atheris.instrument_func(plain)
+                followed += 1
+    return followed
 
 
 def _seconds(target: Target, data: bytes) -> float:

@@ -1,7 +1,9 @@
 """Sequences against Draco frame by frame and against principal components: `python -m tools.measure sequences`.
 
 Rates are those of whole files, connectivity and first frame included. Draco is asked for every `every`-th frame, which
-is exact for codecs that know of one frame only; its files are compared with ours at its own KG error.
+is exact for codecs that know of one frame only; its files are compared with ours at its own KG error. `--made` adds
+sequences that no choice was made on, `--brief` leaves all but ours and Draco's out, `--default` says what comes of no
+option at all: bytes, processor seconds, and 1 - SSIM and flicker of all frames.
 """
 
 from __future__ import annotations
@@ -19,13 +21,16 @@ import numpy as np
 from bsm.bitstream.container.reader import END_OF_STREAM
 from bsm.codec.arrays import Faces, Positions
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.codec.sequence.decoder import SequenceDecoder
+from bsm.codec.look.measure import Looker
+from bsm.codec.sequence.decoder import SequenceDecoder, decode_sequence
 from bsm.codec.sequence.encoder import SequenceEncoder
 from bsm.codec.sequence.options import SequenceOptions
-from bsm.codec.sequence.targets import SequenceTarget
+from bsm.codec.sequence.targets import SequenceTarget, compare_sequences
 from bsm.evaluation.sequences import Point, draco_point, pca_point, temporal_bits
 from bsm.files.formats.npz import read_arrays
 from bsm.files.output import open_output
+from bsm.options import sequence_options
+from tools.measure.made_motion import MADE
 
 DRACO_BITS = (8, 10)
 KG_GOAL = 0.15
@@ -58,10 +63,30 @@ def speed(positions: Positions, faces: Faces, options: SequenceOptions) -> dict[
     }
 
 
-def measure(path: Path, every: int) -> dict[str, Any]:
-    """All points of one sequence."""
-    positions, faces = read_arrays(path, "positions", "faces")
-    frames = positions.astype(np.float64)
+def default(positions: Positions, faces: Faces) -> dict[str, float]:
+    """What is made of frames without any option, and how all of them look."""
+    encoder = SequenceEncoder(faces, sequence_options(threads=1), len(positions))
+    begin = time.process_time()
+    data = b"".join(encoder.chunks(positions))
+    seconds = time.process_time() - begin
+    decoded, faces = decode_sequence(data, threads=1)
+    original = positions[:, encoder.vertex_order]
+    pairs = zip(original, decoded, strict=True)
+    unlike = [Looker(TriangleMesh(own, faces), threads=1).look(other).dissimilarity for own, other in pairs]
+    found = compare_sequences(original, decoded, faces)
+    return {
+        "bytes": len(data),
+        "encode_cpu_s": seconds,
+        "dissimilarity_worst": max(unlike),
+        "dissimilarity_mean": float(np.mean(unlike)),
+        "kg": found.kg,
+        "flicker": found.flicker,
+        "max_error_relative": found.max_error_relative,
+    }
+
+
+def measure(name: str, frames: Positions, faces: Faces, every: int, *, brief: bool) -> dict[str, Any]:
+    """All points of one sequence, or without principal components and speed."""
     faces = TriangleMesh(frames[0], faces).faces
     options = SequenceOptions(gop=max(len(frames), 1))
     result: dict[str, Any] = {"frames": len(frames), "vertices": frames.shape[1], "at_draco": []}
@@ -69,14 +94,18 @@ def measure(path: Path, every: int) -> dict[str, Any]:
         draco = draco_point(frames, faces, bits, every)
         ours = our_point(frames, faces, options, draco["kg"])
         low_delay = our_point(frames, faces, replace(options, mode="low-delay"), draco["kg"])
-        pca = pca_point(frames, faces, draco["kg"])
-        result["at_draco"].append({"draco": draco, "ours": ours, "low_delay": low_delay, "pca": pca})
-        _say(path.stem, draco, ours, low_delay, pca)
+        points = {"draco": draco, "ours": ours, "low_delay": low_delay}
+        if not brief:
+            points["pca"] = pca_point(frames, faces, draco["kg"])
+        result["at_draco"].append(points)
+        _say(name, *points.values())
+    if brief:
+        return result
     result["temporal"] = temporal_bits(frames, 0.002)
     result["goal"] = our_point(frames, faces, options, KG_GOAL)
     result["speed"] = speed(frames, faces, options)
-    _say(path.stem, result["goal"])
-    print(f"{path.stem}: {result['speed']}", flush=True)
+    _say(name, result["goal"])
+    print(f"{name}: {result['speed']}", flush=True)
     return result
 
 
@@ -104,10 +133,13 @@ def _timed(work: Any) -> tuple[float, Any]:
     return time.perf_counter() - begin, result
 
 
-def _files(folder: Path, names: list[str]) -> Iterator[Path]:
+def _sequences(folder: Path, names: list[str], *, made: bool) -> Iterator[tuple[str, Positions, Faces]]:
     for path in sorted(folder.glob("*.npz")):
         if not names or path.stem in names:
-            yield path
+            positions, faces = read_arrays(path, "positions", "faces")
+            yield path.stem, positions.astype(np.float64), faces
+    for name, make in MADE.items() if made else ():
+        yield name, *make()
 
 
 def main() -> None:
@@ -117,7 +149,16 @@ def main() -> None:
     parser.add_argument("names", nargs="*", help="of files without suffix (default: all)")
     parser.add_argument("-o", "--output", metavar="FILE.json", required=True)
     parser.add_argument("--every", type=int, default=8, help="frames of Draco: one in so many (default 8)")
+    parser.add_argument("--made", action="store_true", help="also sequences made by formulas")
+    parser.add_argument("--brief", action="store_true", help="only Draco and ours, at its KG errors")
+    parser.add_argument("--default", action="store_true", help="only what is made without any option")
     args = parser.parse_args()
-    results = {path.stem: measure(path, args.every) for path in _files(args.folder, args.names)}
+    results: dict[str, Any] = {}
+    for name, frames, faces in _sequences(args.folder, args.names, made=args.made):
+        if args.default:
+            results[name] = default(frames, faces)
+            print(name, {key: round(value, 4) for key, value in results[name].items()}, flush=True)
+        else:
+            results[name] = measure(name, frames, faces, args.every, brief=args.brief)
     with open_output(args.output, overwrite=True) as file:
         file.write(json.dumps(results, indent=1).encode() + b"\n")

@@ -23,7 +23,7 @@ from bsm.codec.static.options import EncodeOptions
 from tools.vectors.good import BASE, Good
 from tools.vectors.good_fields import ALL_AXES, soup
 from tools.vectors.good_sequences import BASE as MOVING
-from tools.vectors.meshes import hub, patch, shuffled, tangled, tetrahedron, torus
+from tools.vectors.meshes import hub, patch, shuffled, tangled, tent, tetrahedron, torus
 
 GRID = EncodeOptions(grid=9)
 ORDERED = replace(GRID, keep_order=True)
@@ -48,6 +48,16 @@ def creases(mesh: TriangleMesh) -> Attribute:
     sharp = (mesh.positions[mesh.faces].mean(axis=1)[:, 1] > mesh.positions[:, 1].mean())[:, None, None]
     corners = np.where(sharp, flat[:, None], smooth[mesh.faces])
     return Attribute("normal", corners.reshape(-1, 3).astype(np.float32), "corner", "normal")
+
+
+def tips(mesh: TriangleMesh) -> Attribute:
+    """Normals of vertices; those of the last two are not what their many faces say."""
+    a, b, c = (mesh.positions[mesh.faces[:, k]] for k in range(3))
+    smooth = np.zeros_like(mesh.positions)
+    for k in range(3):
+        np.add.at(smooth, mesh.faces[:, k], np.cross(b - a, c - a))
+    smooth[-2:] = [[0.6, 0.0, 0.8], [0.0, 0.6, -0.8]]
+    return Attribute("normal", smooth.astype(np.float32), semantic="normal")
 
 
 def colors(mesh: TriangleMesh, kind: str = "uint8") -> Attribute:
@@ -272,6 +282,9 @@ ATTRIBUTES: dict[str, Good] = {
     ),
     "good-attribute-hub": Good(
         "a vertex of very many corners", lambda: encode(worn(hub(), charts, creases, colors), GRID)
+    ),
+    "good-attribute-tent": Good(
+        "more neighbours, flaps, bases and corners than are looked at", lambda: encode(worn(tent(), tips, colors), GRID)
     ),
     "good-attribute-small": Good(
         "four faces with values of their own", lambda: encode(worn(tetrahedron(), charts, creases, groups), GRID)

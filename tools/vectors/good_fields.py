@@ -18,7 +18,7 @@ from bsm.codec.static.encoder import Encoder, encode
 from bsm.codec.static.options import EncodeOptions
 from tools.surgery import with_header
 from tools.vectors.good import BASE, Good
-from tools.vectors.meshes import hub, patch, shuffled, tangled, tetrahedron, together, torus, triangle
+from tools.vectors.meshes import hub, patch, shuffled, tangled, tent, tetrahedron, together, torus, triangle
 
 
 def soup(mesh: TriangleMesh) -> TriangleMesh:
@@ -135,6 +135,10 @@ FIELDS: dict[str, Good] = {
         lambda: encode(tangled(), EncodeOptions(grid=9)),
     ),
     "good-grid-hub": Good("a vertex with very many neighbours on a grid", lambda: encode(hub(), EncodeOptions(grid=9))),
+    "good-grid-tent": Good(
+        "more neighbours and flaps than are looked at, known when their vertex comes",
+        lambda: encode(tent(), EncodeOptions(grid=9)),
+    ),
     "good-grid-components": Good(
         "many components on a grid, as the encoder chooses it",
         lambda: encode(together(*(torus(5, 4) for _ in range(6)), patch(4, 4), triangle())),

@@ -17,7 +17,7 @@ from tools.surgery import stream_of, with_header
 from tools.vectors.good import Good
 from tools.vectors.good_attributes import charts, colors, creases, groups, worn
 from tools.vectors.good_fields import _exact_lattice, soup
-from tools.vectors.meshes import hub, patch, shuffled, tangled, tetrahedron, together, torus, triangle
+from tools.vectors.meshes import hub, patch, shuffled, tangled, tent, tetrahedron, together, torus, triangle
 
 Faces = npt.NDArray[np.int32]
 
@@ -94,6 +94,7 @@ LIGHT: dict[str, Good] = {
     "good-light-hub-noise": _good(
         "the same, values without relation", lambda: drawn(hub().faces.astype(np.int32), (99, 999, 9))
     ),
+    "good-light-tent": _good("more ends and flaps than are looked at", lambda: light(tent())),
     "good-light-components": _good("many components", lambda: light(_several(), bits=9)),
     "good-light-apart": _good(
         "triangles apart: nothing known around most vertices", lambda: drawn(apart(9), (255, 255, 255))

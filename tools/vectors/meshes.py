@@ -80,6 +80,22 @@ def hub() -> TriangleMesh:
     return TriangleMesh(np.concatenate([ring, [[0.0, 0.0, 0.5]]]), faces)
 
 
+def tent() -> TriangleMesh:
+    """A patch, and two vertices over every second edge along its boundary, which come last, with 72 corners each.
+
+    All edges to the first of them are its own, so it sees no flap when it comes, and the second one sees 72.
+    """
+    base = patch(19, 19)
+    number = np.arange(361).reshape(19, 19)
+    around = np.concatenate([number[0, :-1], number[:-1, -1], number[-1, :0:-1], number[:0:-1, 0]])
+    upper = np.stack([np.full(72, 361), around, np.roll(around, -2)], -1)
+    lower = np.stack([np.full(72, 362), np.roll(around, -2), around], -1)
+    tips = [[0.5, 0.6, 1.0], [0.4, 0.7, -0.8]]
+    return TriangleMesh(
+        np.concatenate([base.positions, tips]), np.concatenate([base.faces, upper, lower]).astype(np.int32)
+    )
+
+
 def shuffled(mesh: TriangleMesh) -> TriangleMesh:
     """A mesh with its vertices, faces and first corners in another order."""
     n, m = len(mesh.positions), len(mesh.faces)

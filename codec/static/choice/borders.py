@@ -36,7 +36,7 @@ class Borders:
         return np.asarray(self.vertices & (np.square(offsets).sum(axis=1) > self.reach**2))
 
     def kept(self, wanted: Matrix, decoded: Matrix) -> bool:
-        """Whether all are near enough."""
+        """Whether all of `decoded` are near enough to `wanted`, both of shape (n, 3)."""
         return not self.out(decoded - wanted).any()
 
     @property

@@ -113,7 +113,7 @@ def rounded_to_cells(prepared: Prepared, cell: float, origin: tuple[float, float
 
 
 def latticed(origin: tuple[float, ...], step: float, places: Matrix, cells: int) -> tuple[Grid, Levels]:
-    """The grid of places, on a coarser lattice where they all are on one."""
+    """The grid of places, shape (n, 3), on a coarser lattice where they all are on one, and the places on that."""
     points, lattice = find_lattice(places, cells)
     return Grid(origin, step, tuple(int(value) for value in points.max(axis=0)), lattice), points
 
@@ -156,8 +156,10 @@ class Shaped:
         return max(float((self._prepared.positions - self._low).max()) / (MOST_LARGEST - 4), LEAST_CELL)
 
     def places(self, step: float, aim: Aim, axes: int = 2) -> tuple[float, Levels, Positions, float]:
-        """The step as a header holds it, in the mesh's unit; places; the positions there, in the mesh's unit; and bytes
-        of second differences, by `Character.entropy`.
+        """The places of a grid at `step`, and what goes with them.
+
+        Returns the step as a header holds it, in the mesh's unit; places and the positions there, both of
+        shape (n, 3), the latter in the mesh's unit too; and bytes of second differences, by `Character.entropy`.
         """
         unit = self._prepared.units.scale
         held = single(step * unit)
@@ -167,7 +169,7 @@ class Shaped:
         return held, places, self._grid(held, places).positions(places - places.min(axis=0)), bytes_of_bends
 
     def draft(self, step: float, places: Levels) -> Draft:
-        """The stream of what `places` returned."""
+        """The stream of the places, shape (n, 3), that `places` returned."""
         return grid_draft(self._prepared, self._grid(step, places), places - places.min(axis=0))
 
     def fits(self, step: float, reach: float) -> bool:
@@ -176,7 +178,7 @@ class Shaped:
         return float(np.square(places - np.rint(places)).sum(axis=1).max()) * step**2 <= reach**2
 
     def draft_from_origin(self, step: float, places: Levels) -> Draft:
-        """The stream of a grid that begins where the mesh's unit does, which is shorter to write."""
+        """The stream of a grid of places, shape (n, 3), that begins where the mesh's unit does: shorter to write."""
         least = places.min(axis=0)
         corner = tuple(map(int, least)) if least.any() else ()
         held = Grid((0.0, 0.0, 0.0), step, tuple(map(int, np.ptp(places, axis=0))), corner=corner)

@@ -89,7 +89,10 @@ class Planner:
         return self._spectrum.worthwhile_size(step, most) >= most
 
     def smoothing(self, blended: Matrix) -> float:
-        """The amount of smoothing that lowers what the options are after most, for a decoded mesh before it."""
+        """The amount of smoothing that lowers what the options are after most.
+
+        `blended`, shape (n, 3), is the decoded mesh before it.
+        """
         vertices, reference = self._sample
         spectrum = smoothing_spectrum(self._prepared.graph, blended).only(vertices)
         best, least = 0.0, self._badness(reference, spectrum.smoothed(0.0))

@@ -53,12 +53,12 @@ class Base:
         return self.offsets_of(self.positions)
 
     def offsets_of(self, positions: Matrix) -> Matrix:
-        """What is missing where the base was moved to `positions`, in the same frames."""
+        """What is missing where the base was moved to `positions`, shape (n, 3), in the same frames."""
         return in_frames(self.prepared.positions - positions, self.frames)
 
     @property
     def upright(self) -> Matrix:
-        """Positions of which nothing is missing along the normals."""
+        """Positions of which nothing is missing along the normals, shape (n, 3)."""
         return self.positions + self.frames[:, :3] * self.offsets[:, :1]
 
     def wanted(self, layer: Layer) -> tuple[Levels, Matrix]:
@@ -72,7 +72,7 @@ class Base:
         return Layer(single(step), single(ratio))
 
     def moved(self, layer: Layer, levels: Levels, positions: Matrix | None = None) -> Matrix:
-        """Where levels bring the base, or other positions, in BSM units."""
+        """Where levels, shape (n, axes), bring the base, or other positions, in BSM units, shape (n, 3)."""
         return displaced(
             self.positions if positions is None else positions, self.frames, levels, layer.step, layer.ratio
         )
@@ -92,7 +92,7 @@ class Stack:
 
     @cached_property
     def positions(self) -> Matrix:
-        """As decoded, in BSM units."""
+        """As decoded, in BSM units, shape (n, 3)."""
         positions = self.base.positions
         for layer, levels in self.added:
             positions = self.base.moved(layer, levels, positions)

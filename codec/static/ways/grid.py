@@ -66,7 +66,7 @@ class Grid:
         return np.asarray(places * self.step + np.array(self.origin))
 
     def cells(self, coded: Levels) -> tuple[Numbers, Numbers]:
-        """Numbers of the floats between which the cell of each coded value is, both of their shape."""
+        """Numbers of the floats between which the cell of each coded value, shape (n, 3), is, both of this shape."""
         return cells_of(coded, np.array(self.origin), self.step)
 
     @property

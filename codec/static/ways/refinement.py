@@ -113,7 +113,10 @@ class LayerDecoder:
         self._layer = layer
 
     def decode(self, packet: packets.Refinement) -> tuple[Indices, Levels]:
-        """Vertices and their levels; once a packet is missing or broken, the rest of the layer cannot be decoded."""
+        """Vertices, shape (k,), and their levels, shape (k, axes).
+
+        Once a packet is missing or broken, the rest of the layer cannot be decoded.
+        """
         self._structure.allowance.spend(chunk_cost(len(packet.data)), len(packet.data))
         following = self._decoder.coded
         if packet.first != following:
@@ -140,7 +143,10 @@ class Refined:
         self._reached = np.zeros((len(structure.header.layers), structure.header.vertices), np.bool_)
 
     def add(self, layer: int, vertices: Indices, levels: Levels) -> Indices:
-        """Add the levels of successive vertices; returns those that can be refined: all whose base is whole."""
+        """Add the levels, shape (k, axes), of successive vertices, shape (k,).
+
+        Returns those that can be refined: all whose base is whole.
+        """
         positions, frames, whole = self._base
         chosen = vertices[whole[vertices]]
         rule = self._structure.header.layers[layer]
@@ -150,7 +156,7 @@ class Refined:
         return chosen
 
     def event(self, layer: int, vertices: Indices) -> RefinementEvent:
-        """Say where vertices are now."""
+        """Say where vertices, shape (k,), are now."""
         numbers, rows = self._structure.numbering.spread(vertices)
         positions = self._structure.units.back(self._base[0][vertices])
         return RefinementEvent(layer + 1, numbers, positions[rows])

@@ -10,10 +10,12 @@ from bsm.bitstream.errors import OptionError
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.console import Console
 from bsm.files.output import open_output
-from bsm.gltf.compress import compress
+from bsm.gltf.compress import compress, count_primitives
 from bsm.gltf.document import read_document
 from bsm.gltf.images import ImageRule
 
+MANY = 16
+"""Primitives from which on a page waits longer for decoding than for the bytes that it saves."""
 PRESETS = ("balanced", "fine", "near-lossless", "grid14")
 
 
@@ -27,7 +29,17 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         default="near-lossless",
         help="what is promised of each primitive, as of meshes (default: near-lossless)",
     )
-    parser.add_argument("--quick", action="store_true", help="grids alone, which pages decode with a small decoder")
+    parser.add_argument(
+        "--quick",
+        action=argparse.BooleanOptionalAction,
+        help="grids alone, which pages decode with a small decoder, several times as fast "
+        f"(default: in scenes of {MANY} primitives and more)",
+    )
+    parser.add_argument(
+        "--fallback",
+        action="store_true",
+        help="write OUT.fallback.bin, too, with plain arrays: viewers that do not know the extension show these",
+    )
     parser.add_argument(
         "--images",
         metavar="RULE",
@@ -43,13 +55,18 @@ def run(args: argparse.Namespace, console: Console) -> None:
     rule = ImageRule.parse(args.images) if args.images else None
     if Path(args.output).suffix.lower() != ".glb":
         raise OptionError(f"the output is a .glb, not {args.output}")
-    keywords: dict[str, Any] = {"preset": args.preset, "quick": args.quick}
+    document = read_document(args.input)
+    quick = count_primitives(document) >= MANY if args.quick is None else args.quick
+    keywords: dict[str, Any] = {"preset": args.preset, "quick": quick}
 
     def coder(mesh: TriangleMesh) -> bytes:
         return bsm.encode(mesh, **keywords)
 
-    document = read_document(args.input)
-    found = compress(document, coder, rule)
+    beside = Path(args.output).with_suffix(".fallback.bin") if args.fallback else None
+    found = compress(document, coder, rule, beside.name if beside else None)
+    if beside and found.fallback:
+        with open_output(str(beside), overwrite=args.force) as file:
+            file.write(found.fallback)
     with open_output(args.output, overwrite=args.force) as file:
         file.write(found.data)
     size = Path(args.input).stat().st_size + sum(map(len, document.images.values()))

@@ -4,8 +4,14 @@ from __future__ import annotations
 
 import copy
 from collections import Counter
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Any
+from urllib.parse import quote
+
+import numpy as np
+import numpy.typing as npt
 
 from bsm.bitstream.errors import BsmError, FormatError
 from bsm.codec.static.decoder import decode
@@ -17,21 +23,27 @@ EXTENSION = "EXT_bsm_compression"
 _COMPRESSED = {EXTENSION, "KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_meshopt_compression"}
 _WEBP = "EXT_texture_webp"
 _UINT, _FLOAT = 5125, 5126
-_SIZES = {5121: 1, 5123: 2, _UINT: 4, _FLOAT: 4}
+_KINDS: dict[int, type[np.generic]] = {5121: np.uint8, 5123: np.uint16, _FLOAT: np.float32}
 _TYPES = {1: "SCALAR", 2: "VEC2", 3: "VEC3", 4: "VEC4"}
 _ARRAY, _ELEMENTS = 34962, 34963
 
 
 @dataclass(frozen=True)
 class Compressed:
-    """A .glb, how many of its primitives are coded, and why others are not: how many for each reason."""
+    """A .glb, how many of its primitives are coded, and why others are not: how many for each reason.
+
+    `fallback` is the file for loaders that do not know the extension, if one was named.
+    """
 
     data: bytes
     coded: int
     left: dict[str, int]
+    fallback: bytes = b""
 
 
-def compress(document: Document, coder: Coder, images: ImageRule | None = None) -> Compressed:
+def compress(
+    document: Document, coder: Coder, images: ImageRule | None = None, fallback: str | None = None
+) -> Compressed:
     """Code each primitive of triangles where that makes the scene smaller.
 
     Parameters
@@ -41,6 +53,8 @@ def compress(document: Document, coder: Coder, images: ImageRule | None = None) 
         The stream of a mesh.
     images : ImageRule, optional
         How images are written; None: as they are.
+    fallback : str, optional
+        Name of a file with plain arrays for loaders that do not know the extension; None: they must know it.
 
     Raises
     ------
@@ -49,14 +63,26 @@ def compress(document: Document, coder: Coder, images: ImageRule | None = None) 
     """
     for name in _COMPRESSED & set(document.tree.get("extensionsUsed", [])):
         raise FormatError(f"its geometry is compressed already, by {name}; start from the scene before that")
+    with _consistent():
+        return _compressed(document, coder, images, fallback)
+
+
+def count_primitives(document: Document) -> int:
+    """How many primitives the meshes of a scene have; raises FormatError if it contradicts itself."""
+    with _consistent():
+        return len(_primitives(document.tree))
+
+
+@contextmanager
+def _consistent() -> Iterator[None]:
     try:
-        return _compressed(document, coder, images)
+        yield
     except (LookupError, TypeError, ValueError, AttributeError) as error:
         raise FormatError(f"this glTF contradicts itself: {type(error).__name__}: {error}") from error
 
 
-def _compressed(document: Document, coder: Coder, images: ImageRule | None) -> Compressed:
-    scene = _Scene(document)
+def _compressed(document: Document, coder: Coder, images: ImageRule | None, fallback: str | None) -> Compressed:
+    scene = _Scene(document, fallback)
     left: Counter[str] = Counter()
     coded = 0
     users = _users(document.tree)
@@ -76,7 +102,14 @@ def _compressed(document: Document, coder: Coder, images: ImageRule | None) -> C
         left.update([reason] if reason else [])
     if images:
         scene.rewrite_images(images)
-    return Compressed(scene.finished(), coded, dict(left))
+    return Compressed(scene.finished(), coded, dict(left), b"".join(scene.plain) if fallback else b"")
+
+
+def _stored(values: npt.NDArray[Any], component: int) -> npt.NDArray[Any]:
+    """Values as an accessor has them; integers that are floats there are shares of their largest."""
+    if component == _FLOAT and values.dtype.kind == "u":
+        return (values / np.float64(np.iinfo(values.dtype).max)).astype(np.float32)
+    return values.astype(_KINDS[component])
 
 
 def _primitives(tree: Tree) -> list[Tree]:
@@ -115,11 +148,13 @@ def _users(tree: Tree) -> dict[int, set[str]]:
 class _Scene:
     """A tree that is changed, and the parts of its new buffers."""
 
-    def __init__(self, document: Document) -> None:
+    def __init__(self, document: Document, fallback: str | None) -> None:
         self.tree: Tree = copy.deepcopy(document.tree)
         self._document = document
         self._fresh: dict[int, bytes] = {}  # what new bufferViews hold
         self._virtual = 0  # bytes of what decoders fill
+        self._fallback = fallback
+        self.plain: list[bytes] = []
 
     def code(self, primitive: Tree, coder: Coder) -> str | None:
         """Put the stream of a primitive in the place of its accessors; why not, if it stays as it is."""
@@ -136,17 +171,17 @@ class _Scene:
             return "a stream would not be smaller"
         shape = drawn(mesh)
         place = self._add_view({"byteLength": len(stream)}, stream)
-        kept = {attribute.name: attribute for attribute in mesh.attributes}
+        low, high = shape.box
         attributes = {}
         for name, (component, normalized) in found.accessors.items():
-            width = 3 if name == "POSITION" else kept[name].components
-            accessor: Tree = {"componentType": component, "count": shape.vertices, "type": _TYPES[width]}
+            array = _stored(shape.arrays[name], component)
+            accessor: Tree = {"componentType": component, "count": shape.vertices, "type": _TYPES[array.shape[1]]}
             accessor |= {"normalized": True} if normalized else {}
-            accessor |= {"min": shape.low, "max": shape.high} if name == "POSITION" else {}
-            attributes[name] = self._add_accessor(accessor, place, name, width * _SIZES[component], _ARRAY)
+            accessor |= {"min": low, "max": high} if name == "POSITION" else {}
+            attributes[name] = self._add_accessor(accessor, place, name, array, _ARRAY)
         primitive["attributes"] = attributes
         corners = {"componentType": _UINT, "count": shape.corners, "type": "SCALAR"}
-        primitive["indices"] = self._add_accessor(corners, place, "indices", 4, _ELEMENTS)
+        primitive["indices"] = self._add_accessor(corners, place, "indices", shape.index, _ELEMENTS)
         return None
 
     def _add_view(self, view: Tree, data: bytes | None) -> int:
@@ -156,11 +191,13 @@ class _Scene:
             self._fresh[len(views) - 1] = data
         return len(views) - 1
 
-    def _add_accessor(self, accessor: Tree, stream: int, name: str, size: int, target: int) -> int:
-        length = size * accessor["count"]
+    def _add_accessor(self, accessor: Tree, stream: int, name: str, array: npt.NDArray[Any], target: int) -> int:
+        length = array.nbytes
         coded = {"stream": stream, "attribute": name, "componentType": accessor["componentType"]}
         view = {"byteOffset": self._virtual, "byteLength": length, "target": target, "extensions": {EXTENSION: coded}}
         self._virtual += length + -length % 4
+        if self._fallback:
+            self.plain.append(array.tobytes() + b"\0" * (-length % 4))
         self.tree["accessors"].append({"bufferView": self._add_view(view, None), **accessor})
         return len(self.tree["accessors"]) - 1
 
@@ -183,10 +220,10 @@ class _Scene:
             if texture.get("source") == image:
                 del texture["source"]
                 texture.setdefault("extensions", {})[_WEBP] = {"source": image}
-                self._require(_WEBP)
+                self._use(_WEBP, required=True)
 
-    def _require(self, extension: str) -> None:
-        for key in ("extensionsUsed", "extensionsRequired"):
+    def _use(self, extension: str, *, required: bool) -> None:
+        for key in ("extensionsUsed", "extensionsRequired") if required else ("extensionsUsed",):
             names = self.tree.setdefault(key, [])
             if extension not in names:
                 names.append(extension)
@@ -219,8 +256,9 @@ class _Scene:
             at += len(parts[-1])
         tree["buffers"] = [{"byteLength": at}] if at else []
         if virtual:
-            tree["buffers"].append({"byteLength": self._virtual, "extensions": {EXTENSION: {"fallback": True}}})
-            self._require(EXTENSION)
+            filled: Tree = {"byteLength": self._virtual, "extensions": {EXTENSION: {"fallback": True}}}
+            tree["buffers"].append(filled | ({"uri": quote(self._fallback)} if self._fallback else {}))
+            self._use(EXTENSION, required=not self._fallback)
         return glb(tree, b"".join(parts))
 
 

@@ -98,26 +98,43 @@ def _eighths(weights: npt.NDArray[np.float64]) -> npt.NDArray[np.uint8]:
 
 @dataclass(frozen=True, eq=False)
 class Drawn:
-    """What a decoder makes of a stream: how many vertices and corners, and the box that its positions fill."""
+    """What a decoder makes of a stream: three vertices for each face, and what each vertex has, by names of glTF."""
 
-    vertices: int
-    corners: int
-    low: list[float]
-    high: list[float]
+    index: npt.NDArray[np.uint32]
+    arrays: dict[str, npt.NDArray[Any]]
+
+    @property
+    def vertices(self) -> int:
+        """How many there are."""
+        return len(self.arrays["POSITION"])
+
+    @property
+    def corners(self) -> int:
+        """Three for each face."""
+        return len(self.index)
+
+    @property
+    def box(self) -> tuple[list[float], list[float]]:
+        """The least and the largest coordinates."""
+        used = self.arrays["POSITION"]
+        return used.min(axis=0).astype(float).tolist(), used.max(axis=0).astype(float).tolist()
 
 
 def drawn(mesh: TriangleMesh) -> Drawn:
-    """Count what the extension defines: a vertex for each vertex and values of attributes that meet at a corner."""
-    parting = [a for a in mesh.attributes if a.indices is not None]
-    used = mesh.positions.astype(np.float32)
-    count = len(used)
+    """Draw as the extension defines: a vertex for each vertex and values of attributes that meet at a corner."""
+    corners = mesh.faces.ravel()
+    parting = {a.name: a.indices.ravel() for a in mesh.attributes if a.indices is not None}
+    vertices: npt.NDArray[np.integer[Any]] = np.arange(len(mesh.positions))
+    rows: npt.NDArray[np.integer[Any]] = corners
+    values = {a.name: a.values for a in mesh.attributes}
     if parting:
-        rows = [mesh.faces.ravel(), *(a.indices.ravel() for a in parting if a.indices is not None)]
-        count = len(np.unique(np.stack(rows, axis=1), axis=0))
-        used = used[np.unique(mesh.faces)]
-    return Drawn(
-        count, mesh.faces.size, *(bound.astype(float).tolist() for bound in (used.min(axis=0), used.max(axis=0)))
-    )
+        different, rows = np.unique(np.stack([corners, *parting.values()], axis=1), axis=0, return_inverse=True)
+        vertices = different[:, 0]
+        values |= {name: values[name][different[:, column]] for column, name in enumerate(parting, 1)}
+    for name in values.keys() - parting.keys():
+        values[name] = values[name][vertices]
+    arrays = {"POSITION": mesh.positions.astype(np.float32)[vertices], **values}
+    return Drawn(rows.ravel().astype(np.uint32), arrays)
 
 
 Coder = Callable[[TriangleMesh], bytes]

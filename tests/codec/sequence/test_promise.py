@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import numpy as np
 import pytest
 
@@ -12,8 +14,9 @@ from bsm.codec.look.measure import Looker
 from bsm.codec.sequence.decoder import decode_sequence
 from bsm.codec.sequence.encoder import SequenceEncoder
 from bsm.codec.sequence.options import SequenceOptions
-from bsm.codec.sequence.promise import PROMISES, Promise, Shading, Watch
+from bsm.codec.sequence.promise import PROMISES, Promise
 from bsm.codec.sequence.targets import SequenceTarget, flicker_of
+from bsm.codec.sequence.watch import Shading, Watch
 from tests.motion import bending
 
 
@@ -53,6 +56,30 @@ def test_no_vertex_is_farther_off_than_is_said(absolute: bool) -> None:
     promise = Promise(bound * diagonal if absolute else bound, absolute=absolute)
     _, original, decoded, _ = kept(positions, faces, promise)
     assert 0.7 * bound < farthest(original, decoded) <= bound
+
+
+@pytest.mark.parametrize("look", [1.0, float("inf")])
+def test_low_delay_keeps_promises_frame_by_frame(look: float) -> None:
+    positions, faces = bending(9)
+    positions[5] += 0.004 * np.random.default_rng(0).standard_normal(positions[5].shape)
+    options = SequenceOptions(block_size=100, promise=Promise(0.002, look), threads=1, mode="low-delay", gop=4)
+    encoder = SequenceEncoder(faces, options, len(positions))
+    given: list[int] = []
+
+    def coming() -> Iterator[Positions]:
+        for number, frame in enumerate(positions):
+            given.append(number)
+            yield frame
+
+    data, sent = b"", []
+    for chunk in encoder.chunks(coming()):
+        data += chunk
+        sent.append(given[-1])
+    assert set(sent) == set(range(9))  # each frame is out before the next one comes
+    decoded, found = decode_sequence(data, threads=1)
+    original = positions[:, encoder.vertex_order]
+    assert 0.0014 < farthest(original, decoded) <= 0.002
+    assert max(looks(original, decoded, found)) <= look
 
 
 def test_a_frame_that_looks_worse_than_its_neighbours_is_found() -> None:
@@ -106,9 +133,7 @@ def test_what_cannot_be_kept_is_an_error() -> None:
             Promise(*bounds)
 
 
-def test_a_promise_is_one_of_gops_and_without_a_target() -> None:
-    with pytest.raises(OptionError, match="promise"):
-        SequenceOptions(promise=PROMISES["fine"], mode="low-delay")
+def test_a_promise_is_without_a_target() -> None:
     with pytest.raises(OptionError, match="promise"):
         SequenceOptions(promise=PROMISES["fine"], target=SequenceTarget("kg", 1.0))
 

@@ -24,7 +24,7 @@ from bsm.bitstream.errors import (
 from bsm.bitstream.limits import NAMED_LIMITS, Limits
 from bsm.codec.geometry.metrics import kg_error
 from bsm.codec.sequence.decoder import FrameEvent, SequenceDecoder, decode_sequence
-from bsm.codec.sequence.dictionaries import Site
+from bsm.codec.sequence.dictionaries import Dictionaries
 from bsm.codec.sequence.encoder import SequenceEncoder, encode_sequence
 from bsm.codec.sequence.options import SequenceOptions
 from bsm.codec.sequence.targets import SequenceTarget, compare_sequences
@@ -390,8 +390,8 @@ def test_limits():
 
 def made(monkeypatch):
     """How many dictionaries are made, from now on."""
-    count, real = [], Site.furnished
-    monkeypatch.setattr(Site, "furnished", lambda site, *rest: (count.append(1), real(site, *rest))[1])
+    count, real = [], Dictionaries._furnished
+    monkeypatch.setattr(Dictionaries, "_furnished", lambda self, index: (count.append(1), real(self, index))[1])
     return count
 
 

@@ -50,7 +50,7 @@ async function bundle(entry, options = {}) {
 
 /** A module that others call by all of its names. */
 function open(entry, plugin) {
-    return bundle(join(SOURCES, entry), { plugins: [plugin], external: ["three", "@react-three/fiber"] });
+    return bundle(join(SOURCES, entry), { plugins: [plugin], external: ["three", "three/addons/*", "@react-three/fiber"] });
 }
 
 /** A module of the decoder: private names are short. */
@@ -96,7 +96,8 @@ async function products() {
         "pool.js": await open("pool.ts", beside("errors", "index", "quick")),
         "main.js": await open("facade.ts", beside("errors", "index", "pool")),
         "three.js": await open("three.ts", beside("errors", "index", "pool")),
-        "gltf.js": await open("gltf.ts", beside("errors", "index", "pool")),
+        "gltf.js": await open("gltf.ts", beside("errors", "index", "pool", "three")),
+        "player.js": await open("player.ts", beside("three")),
         "react.js": await open("react.ts", beside("three")),
     };
     return [

@@ -1,6 +1,7 @@
 /** Fields of integers on a mesh: positions on a grid, and levels that refine what blocks decoded to (specification, V, M 17). */
 import { begun } from "./begun";
 import { inMeshUnits, type Changes } from "./assembly";
+import { makeBank } from "./entropy";
 import { CorruptError, NumericError } from "./errors";
 import { decodeChunk, linkCorners, zeros, type Gridded, type GridKernel } from "./grid";
 import type { Header } from "./header";
@@ -18,6 +19,7 @@ const HITS = PREDICTIONS * 32;
 const SCALES = PREDICTIONS * 512;
 const LEARNER = TERMS * (TERMS + 1) + 2 * TERMS;
 const SUM_LEARNERS = 48;
+const LEVELS = { slots: 2 * 5 * 512 * 32, selectors: 2 * 32, inputs: 5, rate: 16 };
 
 /** What has been learnt about integers; the structure ValueModel of the kernels (V 3). */
 export function makeModel(memory: Memory): Argument {
@@ -142,6 +144,6 @@ export class Refinement {
         const learners = makeLearners(memory, 12, (k) => (k % 4 === 0 ? [52000] : [52000, 28000]));
         const corners = linkCorners(memory, this.faces, size);
         if (header.borders && 2 * layer === header.refinements.length - 2) memory.call("keep_borders", corners);
-        this.state = [makeModel(memory), corners, [this.levels, field(), field(), learners]];
+        this.state = [makeBank(memory, LEVELS), corners, [this.levels, field(), field(), learners]];
     }
 }

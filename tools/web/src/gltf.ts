@@ -1,6 +1,8 @@
 /** Scenes of glTF whose geometry is BSM streams (EXT_bsm_compression), in three.js: a plug-in of GLTFLoader. */
-import type { GLTFLoaderPlugin, GLTFParser } from "three/addons/loaders/GLTFLoader.js";
+import { Mesh } from "three";
+import type { GLTF, GLTFLoaderPlugin, GLTFParser } from "three/addons/loaders/GLTFLoader.js";
 import type { Shape } from "./index";
+import { BSMGeometry, BSMSequence } from "./three";
 import { Pool } from "./pool";
 
 const NAME = "EXT_bsm_compression";
@@ -19,10 +21,13 @@ let shared: Pool | undefined;
 
 /**
  * A plug-in: `new GLTFLoader().register((parser) => new GLTFBSMExtension(parser))`. Streams are decoded in threads, each once.
+ * Meshes that move are `gltf.userData.sequences`, each a `BSMSequence` that is to be updated for every picture.
  */
 export class GLTFBSMExtension implements GLTFLoaderPlugin {
     readonly name = NAME;
     private readonly shapes = new Map<number, Promise<Shape>>();
+    /** Sequences by their streams. */
+    private readonly sequences = new Map<number, BSMSequence>();
 
     constructor(
         private readonly parser: GLTFParser,
@@ -34,6 +39,20 @@ export class GLTFBSMExtension implements GLTFLoaderPlugin {
         const { extensions, byteLength } = this.parser.json.bufferViews[index];
         const coded = extensions?.[NAME] as Coded | undefined;
         return coded ? this.decoded(coded, byteLength, index) : null;
+    }
+
+    /** Meshes that say so show the frames of their stream. */
+    afterRoot(gltf: GLTF): null {
+        for (const [object, place] of this.parser.associations) {
+            const meshes = (place as typeof place | undefined)?.meshes; // of a texture that was not found there is none
+            const moving = meshes === undefined ? undefined : (this.parser.json.meshes[meshes].extensions?.[NAME] as { stream: number } | undefined);
+            const sequence = moving && this.sequences.get(moving.stream);
+            if (!sequence || !(object instanceof Mesh)) continue;
+            object.geometry = sequence.geometry;
+            object.frustumCulled = false; // the bounds are those of the first frame
+        }
+        gltf.userData.sequences = [...this.sequences.values()];
+        return null;
     }
 
     private async decoded({ stream, attribute, componentType }: Coded, byteLength: number, index: number): Promise<ArrayBuffer> {
@@ -51,11 +70,23 @@ export class GLTFBSMExtension implements GLTFLoaderPlugin {
         const data = new Uint8Array((await this.parser.getDependency("bufferView", stream)) as ArrayBuffer);
         return new Promise((keep, fail) => {
             let shape: Shape | undefined;
+            let sequence: BSMSequence | undefined;
+            const geometry = new BSMGeometry();
             const decoding = this.pool.open(
                 {
-                    onPicture: (picture) => picture.type === "whole" && (shape = picture.shape),
-                    onEnd: () => (shape ? keep(shape) : fail(new Error(`bufferView ${stream} is a stream without a mesh`))),
-                    onError: fail,
+                    onPicture: (picture) => {
+                        if (picture.type === "whole") ({ shape } = picture);
+                        geometry.accept(picture);
+                        if (picture.type !== "frame" || picture.index > 0 || !shape) return;
+                        this.sequences.set(stream, (sequence = new BSMSequence(geometry)));
+                        keep(shape);
+                    },
+                    onEnd: () => {
+                        if (sequence) sequence.complete = true;
+                        else if (shape) keep(shape);
+                        else fail(new Error(`bufferView ${stream} is a stream without a mesh`));
+                    },
+                    onError: (error) => (sequence ? sequence.fail(error) : fail(error)),
                 },
                 { drawing: "whole" },
             );

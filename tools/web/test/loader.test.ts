@@ -12,9 +12,9 @@ const STREAM = "good-labels";
 const SECTIONS = "good-sections";
 
 /** A scene of one stream, by EXT_bsm_compression; it is said to have so many vertices and corners. */
-function sceneOf(stream: Uint8Array, vertices: number, corners: number): Uint8Array {
+function sceneOf(stream: Uint8Array, vertices: number, corners: number, moves = false): Uint8Array {
     const name = "EXT_bsm_compression";
-    const sizes = [["POSITION", "VEC3", 12, vertices], ["NORMAL", "VEC3", 12, vertices], ["TEXCOORD_0", "VEC2", 8, vertices], ["indices", "SCALAR", 4, corners]] as const;
+    const sizes = ([["POSITION", "VEC3", 12, vertices], ["NORMAL", "VEC3", 12, vertices], ["TEXCOORD_0", "VEC2", 8, vertices], ["indices", "SCALAR", 4, corners]] as const).filter(([attribute]) => !moves || attribute !== "TEXCOORD_0");
     let at = 0;
     const views = sizes.map(([attribute, , size, count]) => {
         const view = { buffer: 1, byteOffset: at, byteLength: size * count, extensions: { [name]: { stream: 0, attribute, componentType: attribute === "indices" ? 5125 : 5126 } } };
@@ -23,7 +23,7 @@ function sceneOf(stream: Uint8Array, vertices: number, corners: number): Uint8Ar
     });
     const tree = {
         asset: { version: "2.0" }, extensionsUsed: [name], extensionsRequired: [name], scene: 0, scenes: [{ nodes: [0] }], nodes: [{ mesh: 0 }],
-        meshes: [{ primitives: [{ attributes: { POSITION: 0, NORMAL: 1, TEXCOORD_0: 2 }, indices: 3 }] }],
+        meshes: [{ primitives: [{ attributes: { POSITION: 0, NORMAL: 1, ...(moves ? {} : { TEXCOORD_0: 2 }) }, indices: sizes.length - 1 }], ...(moves ? { extensions: { [name]: { stream: 0 } } } : {}) }],
         accessors: sizes.map(([attribute, type, , count], i) => ({ bufferView: i + 1, componentType: attribute === "indices" ? 5125 : 5126, count, type, ...(i === 0 ? { min: [-1, -1, -1], max: [1, 1, 1] } : {}) })),
         bufferViews: [{ buffer: 0, byteLength: stream.length }, ...views],
         buffers: [{ byteLength: stream.length }, { byteLength: at, extensions: { [name]: { fallback: true } } }],
@@ -74,7 +74,9 @@ describe("the package in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromiu
         await page.goto(site.address);
         const value = await (await page.waitForFunction(() => (window as unknown as { found: unknown }).found, undefined, { timeout: 30_000 })).jsonValue();
         assert.deepEqual(complaints, []);
-        return value as Record<string, unknown>;
+        const told = value as Record<string, unknown>;
+        assert.ok(!("failed" in told), String(told.failed));
+        return told;
     }
 
     test("fills a geometry of three.js from an address", async () => {
@@ -194,6 +196,59 @@ describe("the package in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromiu
             const [{ material, geometry }] = scene.children;
             return { name: material.name, size: [material.map.image.width, material.map.image.height], space: material.map.colorSpace, metalness: material.metalness, uv: geometry.hasAttribute("uv"), turned: scene.rotation.x < -1 };`);
         assert.deepEqual(seen, { name: "halves", size: [8, 8], space: "srgb", metalness: 0, uv: true, turned: true });
+    });
+
+    test("moves meshes of glTF", async () => {
+        const stream = readFileSync(join(VECTORS, "good-sequence-learnt.bsm"));
+        const { positions, faces } = decode(await compile(BUILDS[0]), stream);
+        site.extra.set("/moving.glb", sceneOf(stream, positions.length / 3, faces.length, true));
+        const seen = await found(`
+            const { GLTFLoader } = await import("three/addons/loaders/GLTFLoader.js");
+            const { GLTFBSMExtension } = await import("/bsm/gltf.js");
+            const gltf = await new GLTFLoader().register((parser) => new GLTFBSMExtension(parser)).loadAsync("/moving.glb");
+            const [sequence] = gltf.userData.sequences;
+            const [mesh] = gltf.scene.children;
+            while (!sequence.complete) await new Promise((go) => setTimeout(go, 5));
+            const own = await new BSMLoader().loadAsync("/stream/good-sequence-learnt.bsm");
+            const same = own.frames.map((frame, index) => (sequence.seek(index), [...mesh.geometry.getAttribute("position").array].join() === [...frame.positions].join()));
+            return { same: same.every(Boolean), frames: same.length, sequences: gltf.userData.sequences.length };`);
+        assert.equal(seen.same, true);
+        assert.ok(Number(seen.frames) > 1 && seen.sequences === 1);
+    });
+
+    test("is an element that plays", async () => {
+        const seen = await found(`
+            await import("/bsm/player.js");
+            const player = Object.assign(document.createElement("bsm-player"), { src: "/stream/good-sequence-learnt.bsm", loop: true, rate: 4 });
+            player.setAttribute("autoplay", "");
+            const heard = [];
+            for (const type of ["loadeddata", "load", "play", "pause", "loop", "frame", "ended", "error"]) player.addEventListener(type, () => heard.push(type));
+            const told = (type) => new Promise((keep) => player.addEventListener(type, keep, { once: true }));
+            const [loaded, looped] = [told("load"), told("loop")];
+            document.body.append(player);
+            await loaded;
+            await looped;
+            player.pause();
+            player.currentTime = 0.5 * player.duration;
+            const middle = [player.paused, player.sequence.frame, player.sequence.length];
+            const ended = told("ended");
+            player.loop = false;
+            player.play();
+            await ended;
+            const wrong = told("error");
+            player.src = "/stream/no-such-file.bsm";
+            const { error } = await wrong;
+            const still = told("load");
+            player.src = "/stream/${STREAM}.bsm";
+            await still;
+            const [duration, meshes] = [player.duration, player.scene.children.length];
+            player.remove();
+            return { heard: [...new Set(heard)].sort(), middle, error: error.message, duration, meshes };`, {});
+        assert.deepEqual(seen.heard, ["ended", "error", "frame", "load", "loadeddata", "loop", "pause", "play"]);
+        const [paused, frame, length] = seen.middle as [boolean, number, number];
+        assert.deepEqual([paused, frame], [true, Math.floor(0.5 * length)]);
+        assert.match(String(seen.error), /no-such-file.bsm: 404/);
+        assert.deepEqual([seen.duration, seen.meshes], [0, 3]);
     });
 
     test("is a plug-in of GLTFLoader", async () => {

@@ -12,6 +12,7 @@ import { decode, loadKernels, Pool, type Metadata } from "bsm-decoder";
 import * as quick from "bsm-decoder/quick";
 import { BSMLoader, BSMSequence, type BSMGeometry } from "bsm-decoder/three";
 import { GLTFBSMExtension } from "bsm-decoder/gltf";
+import { BSMPlayer } from "bsm-decoder/player";
 import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
 import { Mesh, type Group } from "three";
 const gltf: GLTFLoader = new GLTFLoader().register((parser) => new GLTFBSMExtension(parser));
@@ -21,7 +22,7 @@ const scene: Promise<Group> = loader.loadScene("a.bsm");
 const sequence: Promise<BSMSequence> = loader.loadSequence("a.bsm");
 const geometry: Promise<BSMGeometry> = loader.parseAsync(new ArrayBuffer(8));
 const told: Metadata = new Map();
-export { gltf, decode, loadKernels, Pool, quick, scene, sequence, geometry, told };
+export { BSMPlayer, gltf, decode, loadKernels, Pool, quick, scene, sequence, geometry, told };
 `;
 const PROGRAM = `
 import { readFileSync } from "node:fs";
