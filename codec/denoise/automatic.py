@@ -16,7 +16,7 @@ from bsm.codec.denoise.noise.finding import Finding, find_noise
 from bsm.codec.denoise.noise.outliers import Outliers, find_outliers
 from bsm.codec.denoise.noise.probe import Probe
 from bsm.codec.denoise.recipe import Recipe, Step, blend, perform
-from bsm.codec.denoise.rehearsal import GOALS, LEARNT_SHARE, MOST_MEMBERS, Rehearsal
+from bsm.codec.denoise.rehearsal import GOALS, LEARNT_SHARE, MOST_MEMBERS, Rehearsal, Told, silent
 from bsm.codec.denoise.safety import Verdict, judge, keep_good, restraint
 from bsm.codec.denoise.sample import sample
 from bsm.codec.geometry.metrics import mean_edge_length
@@ -164,7 +164,9 @@ class Patient:
         return self._coarse(positions, keep)
 
 
-def choose(positions: Positions, finding: Finding, patient: Patient, goal: str = "shading") -> AutomaticChoice:
+def choose(
+    positions: Positions, finding: Finding, patient: Patient, goal: str = "shading", told: Told = silent
+) -> AutomaticChoice:
     """Rehearse on `positions`, shape (n, 3), or a part of them if they are many, and pick what did best."""
     if not finding.noisy:
         return AutomaticChoice((), finding.kind, finding.reason, NoiseLevel(0.0, 0.0), 0.0, 0.0, 0)
@@ -175,7 +177,7 @@ def choose(positions: Positions, finding: Finding, patient: Patient, goal: str =
         positions, learner = positions[members], Learner(probe.topology)
     coarse = CoarseFilter(part, len(members), LARGEST_KEEP, BLOCK_SIZE)
     local = finding.on(members)
-    rehearsal = Rehearsal(positions, local, probe, coarse, BASE, named("goal", GOALS, goal), learner)
+    rehearsal = Rehearsal(positions, local, probe, coarse, BASE, named("goal", GOALS, goal), learner, told)
     most = MOST_MEMBERS if patient.topology.n <= LARGE else MOST_LARGE_MEMBERS
     candidates, heralds = (_suited(recipes, rehearsal.level, finding.edge) for recipes in (CANDIDATES, HERALDS))
     # What a few of them make, in the mean with the learnt normals, is a better guess than the one that they were chosen

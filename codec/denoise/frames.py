@@ -18,6 +18,7 @@ from bsm.codec.denoise.handover import hand_over
 from bsm.codec.denoise.noise.finding import Finding, find_noise
 from bsm.codec.denoise.noise.outliers import find_outliers
 from bsm.codec.denoise.options import DenoiseOptions
+from bsm.codec.denoise.rehearsal import Told, silent
 from bsm.codec.denoise.safety import judge, keep_good
 from bsm.codec.denoise.temporal import FEWEST_FRAMES, TemporalFilter
 from bsm.codec.geometry.welding import weld
@@ -53,6 +54,8 @@ class FrameDenoiser:
         How much of every movement is made, from 0 to 1.
     force : bool
         Let the options have their way even where they do harm.
+    told : callable, optional
+        Is told what goes on: "finding noise", "rehearsing 3 of 18", "filtering".
 
     Attributes
     ----------
@@ -76,6 +79,7 @@ class FrameDenoiser:
         goal: str = "shading",
         strength: float = 1.0,
         force: bool = False,
+        told: Told = silent,
     ) -> None:
         if not 0.0 <= strength <= 1.0:
             raise OptionError(f"the strength must be from 0 to 1, not {strength}")
@@ -88,6 +92,7 @@ class FrameDenoiser:
         self._members = np.unique(self._index, return_index=True)[1]
         self._patient = Patient(faces, len(welded))
         self._options, self._goal, self._strength, self._force = options, goal, strength, force
+        self._told = told
         self.choice: AutomaticChoice | None = None
 
     def __call__(self, frames: Iterable[Positions]) -> Iterator[Positions]:
@@ -127,11 +132,13 @@ class FrameDenoiser:
                 begun = group[0][1]
                 outliers = None if remaining is not None else find_outliers(begun, self._patient.probe)
                 begun = begun if outliers is None else outliers.put_back(begun)
+                self._told("finding noise")
                 found = find_noise(begun, self._patient.probe)
                 if remaining is not None:
                     found = _what_is_left(found, remaining, len(begun))
                 goal = "both" if remaining is not None and self._goal == "shading" else self._goal
-                self.choice = choose(begun, found, self._patient, goal)
+                self.choice = choose(begun, found, self._patient, goal, self._told)
+                self._told("filtering")
                 if outliers is not None:
                     self.choice = self.choice.after(outliers)
                 if remaining is not None and not self.choice.steps:

@@ -45,6 +45,11 @@ MIRRORED = ("impulses",)
 """Kinds of which too little is known to draw such noise anew: it is taken as it was found."""
 
 Goal = Callable[[Reference, Positions], float]
+Told = Callable[[str], None]
+
+
+def silent(stage: str) -> None:
+    """Nobody wants to know."""
 
 
 def shading(reference: Reference, positions: Positions) -> float:
@@ -100,6 +105,8 @@ class Rehearsal:
         What is to be small: from the reference and positions to a number.
     learner : Learner
         Of this connectivity.
+    told : callable, optional
+        Is told what goes on.
     """
 
     def __init__(
@@ -111,9 +118,10 @@ class Rehearsal:
         base: Recipe,
         goal: Goal,
         learner: Learner,
+        told: Told = silent,
     ) -> None:
         topology = probe.topology
-        self._learner = learner
+        self._learner, self._told = learner, told
         self._topology, self._coarse, self._goal = topology, coarse, goal
         self._given, self._finding, self._touched = noisy, finding, finding.levels > 0.0
         smooth = coarse(noisy, base.keep)
@@ -189,7 +197,11 @@ class Rehearsal:
 
     def compete(self, recipes: tuple[Recipe, ...], members: int = MOST_MEMBERS) -> Winner:
         """The steps whose mean is best, found greedily."""
-        trials = sorted(ordered_map(self.attempt, recipes, None), key=lambda trial: trial.error)
+        trials = []
+        for number, trial in enumerate(ordered_map(self.attempt, recipes, None), start=1):
+            self._told(f"rehearsing {number} of {len(recipes)}")
+            trials.append(trial)
+        trials.sort(key=lambda trial: trial.error)
         chosen, error = [trials[0]], trials[0].error
         while len(chosen) < members:
             errors = [self._goal(self.truth, blend([member.result for member in (*chosen, trial)])) for trial in trials]

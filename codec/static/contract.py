@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass
 
 from bsm.bitstream.errors import OptionError
+from bsm.codec.geometry.metrics import decibel
 
 ANY_ANGLE = 180.0
 ANGLE_OF_LOOK = 0.8
@@ -36,6 +37,10 @@ class Contract:
         `farthest` is in the mesh's unit, and not relative to the diagonal of its bounding box.
     look : float
         Distance in pictures (`codec.look`): 1 looks the same; infinite: any.
+    alike : bool
+        In `angle` all faces count alike, whatever their area.
+    visual : float
+        Normalised mean visual error (`codec.geometry.metrics.nmsve`); infinite: any.
     by_part : bool
         Each connected part is bound by its own diagonal where that is smaller, but see `FINEST_PART`; parts near each
         other keep their order in depth.
@@ -51,6 +56,8 @@ class Contract:
     absolute: bool = False
     look: float = math.inf
     by_part: bool = False
+    alike: bool = False
+    visual: float = math.inf
 
     def __post_init__(self) -> None:
         if not 0.0 < self.farthest < float("inf"):
@@ -59,13 +66,15 @@ class Contract:
             _refuse_wide("the farthest vertex", self.farthest)
         if not 0.0 < self.angle <= ANY_ANGLE:
             raise OptionError(f"a mean angle must be within 0 to {ANY_ANGLE:g} degrees, not {self.angle:g}")
+        if not self.visual > 0.0:
+            raise OptionError(f"a visual error must be above 0, not {self.visual:g}")
         if not self.look > 0.0:
             raise OptionError(f"a look must be above 0, not {self.look:g}: 1 looks the same, 3 is a preview")
 
     @property
     def shades(self) -> bool:
         """Whether more is asked for than where vertices are."""
-        return self.angle < ANY_ANGLE or self.look < math.inf
+        return self.angle < ANY_ANGLE or self.look < math.inf or self.visual < math.inf
 
     @property
     def about_angle(self) -> float:
@@ -84,8 +93,8 @@ class Contract:
             _refuse_wide(f"a bound of {self.farthest:g}", self.farthest / diagonal)
         return (self.farthest if self.absolute else self.farthest * diagonal) / unit
 
-    def worded(self, farther: float, angle: float, look: float) -> str:
-        """The bounds that are broken, in words: a vertex `farther` times as far as it may be; degrees; a distance."""
+    def worded(self, farther: float, angle: float, look: float, visual: float) -> str:
+        """The bounds that are broken, in words: a vertex so many times as far as it may be; degrees; looks; error."""
         broken = []
         if farther > 1.0:
             broken.append(f"no vertex farther than {self.farthest * farther:.4g}")
@@ -93,12 +102,15 @@ class Contract:
             broken.append(f"normals {angle:.4g} degrees wrong on average")
         if look > self.look:
             broken.append(f"a look of {look:.3g}")
+        if visual > self.visual:
+            broken.append(f"a visual error of {decibel(visual):.6g} dB")
         return " and ".join(broken)
 
     def __str__(self) -> str:
         bound = f"no vertex farther than {self.farthest:.4g}" + ("" if self.absolute else " diagonals")
         angle = f", normals {self.angle:g} degrees wrong on average" if self.angle < ANY_ANGLE else ""
-        return bound + angle + (f", a look of {self.look:g}" if self.look < math.inf else "")
+        visual = f", a visual error of {decibel(self.visual):.6g} dB" if self.visual < math.inf else ""
+        return bound + angle + visual + (f", a look of {self.look:g}" if self.look < math.inf else "")
 
 
 @dataclass(frozen=True)

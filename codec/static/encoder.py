@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -13,7 +13,6 @@ from bsm.bitstream.errors import OptionError, TargetError
 from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Order
 from bsm.codec.geometry.attributes import Attribute
-from bsm.codec.geometry.closeness import Original
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.metrics import Comparison, Reference
 from bsm.codec.signal.quantize import smallest_step
@@ -22,11 +21,10 @@ from bsm.codec.static.attributes.encoding import PreparedAttribute, carry, place
 from bsm.codec.static.attributes.quality import Quality, qualities
 from bsm.codec.static.choice.fulfilment import Fulfilment
 from bsm.codec.static.choice.judge import Sight
-from bsm.codec.static.choice.ladders import FINER, WIDEST, Blocks, Grids, Ladder, Refined
 from bsm.codec.static.choice.lattices import exact, rounded, rounded_to_cells
-from bsm.codec.static.choice.shaping import Shaper
+from bsm.codec.static.choice.search import Trial, widest_step
 from bsm.codec.static.choice.spectral import Spectral
-from bsm.codec.static.contract import Contract
+from bsm.codec.static.contract import WIDEST, Contract
 from bsm.codec.static.draft import Draft
 from bsm.codec.static.joining import JoinedMesh, join
 from bsm.codec.static.options import EncodeOptions, finer_promises
@@ -34,11 +32,14 @@ from bsm.codec.static.preamble import Parts, Prepared, prepare
 from bsm.codec.static.targets import Target, search_step
 from bsm.codec.static.ways.block_coder import Progress
 
-DETAILED_ANGLE = 4.5
-"""Below this mean angle of normals, blocks alone are larger than refined ones."""
-
-
-FEW, SMALL_SHARE, FREE = 1000, 0.1, 0.02
+COARSEST_ANGLE, FIRST_FINENESS, FINEST = 40.0, 0.2, 1000.0
+"""In searches for a size: of normals, degrees; what is tried first, and most, over a degree."""
+SIZE_SEARCH, SIZE_SLOPES, UNHAD = (12, 0.02), (0.15, 0.7), 1.0
+"""Trials, and the share of a size that may stay unused; how sizes grow with fineness, in their logarithms; and the
+excess of what cannot be had."""
+LEAST_VISUAL = 1e-300
+"""NMSVE that is asked for where decibels are beyond numbers."""
+FEW, SMALL_SHARE, FREE = 4000, 0.1, 0.02
 """Vertices of a small mesh; share of a file that is small; and what is as good as free, of a file."""
 
 
@@ -179,17 +180,19 @@ class Encoder:
         """The smallest draft that keeps a promise; or a better one where that is as good as free.
 
         Of a mesh that is most of all images and attributes, positions of the next finer presets may take no more: these
-        are tried as long as that is so. Of a small one, the finest may.
+        are tried as long as that is so. Of a small one, and of one whose vertices are on some grid, the finest may.
         """
         ways = Fulfilment(self._prepared, self.options, promise, self._sight, progress)
         bare = ways.draft()
         best = self._dressed(bare)
         few = len(self._prepared.positions) <= FEW
         for finer in finer_promises(promise):
-            if bare.size > SMALL_SHARE * best.size and not (few and finer.look == math.inf):
+            others = Fulfilment(self._prepared, self.options, finer, self._sight, progress)
+            cheap = finer.look == math.inf and (few or others.bytes_on_grids <= best.size)
+            if bare.size > SMALL_SHARE * best.size and not cheap:
                 continue
             try:
-                bare = Fulfilment(self._prepared, self.options, finer, self._sight, progress).draft()
+                bare = others.draft()
             except TargetError:
                 break
             dressed = self._dressed(bare)
@@ -224,70 +227,77 @@ class Encoder:
         if target is None:
             raise OptionError("there is no target to search for")
         self._take_attributes()
-        found, refused = self._reaching(target, progress)
-        promise = self.options.promise
-        if promise is not None:
-            kept = self._judged(self._promised(promise, progress))
-            ways = Fulfilment(self._prepared, self.options, promise, self._sight)
-            if target.excess(kept) > 0.0 and not any(ways.keeps(attempt.draft) for attempt in found):
-                error = TargetError(
-                    f"{target.worded(target.value)} at most cannot be had with {promise}: that comes to "
-                    f"{target.worded(target.reached(kept))}"
-                )
-                error.best = target.reached(kept)
-                raise error
-            found = [attempt for attempt in found if ways.keeps(attempt.draft)]
-            if target.excess(kept) <= 0.0:
-                found.append(kept)
-        if not found:
-            raise min(refused, key=lambda error: error.best)
-        if target.shrinks_with_step:
-            return min(found, key=lambda attempt: attempt.comparison.theta_deg)
-        return min(found, key=lambda attempt: attempt.size)
+        if self.options.says_how:
+            return self._as_said(target, progress)
+        return self._sized(target, progress) if target.shrinks_with_step else self._bounded(target, progress)
 
-    def _reaching(self, target: Target, progress: Progress | None) -> tuple[list[Attempt], list[TargetError]]:
-        """What meets the target, of each way to code, and what is said by those that do not."""
-        found: list[Attempt] = []
-        refused: list[TargetError] = []
-        for ladder in self._ladders(progress):
+    def _bounded(self, target: Target, progress: Progress | None) -> Attempt:
+        """The smallest stream within a bound on its error, and whatever else is promised."""
+        promise = self.options.promise or Contract(WIDEST)
+        if target.kind == "theta_deg":
+            contract = replace(promise, angle=target.value, alike=True)
+        else:
+            contract = replace(promise, visual=max(10.0 ** (target.value / 10.0), LEAST_VISUAL))
+        sight = Sight(self._prepared, self.options.threads, alike=contract.alike)
+        ways = Fulfilment(self._prepared, self.options, contract, sight, progress, thorough=True)
+        try:
+            return self._judged(self._dressed(ways.draft()))
+        except TargetError as error:
+            if self.options.promise is not None:
+                raise
+            raise TargetError(
+                f"{target.worded(target.value)} at most cannot be reached; the best that can be had is {ways.had}"
+            ) from error
+
+    def _sized(self, target: Target, progress: Progress | None) -> Attempt:
+        """The stream of a size whose normals are best, and which keeps whatever is promised."""
+        promise, seen = self.options.promise, list[Attempt]()
+        promised = promise or Contract(WIDEST)
+
+        def measure(fineness: float, _: bool = True, *, thorough: bool = False) -> Trial[Attempt | None]:
+            contract = replace(promised, angle=min(1.0 / fineness, promised.angle))
             try:
-                climb = self._climb(ladder, dressed=target.shrinks_with_step)
-                with as_of_decoders(self.options.limits):
-                    found.append(search_step(climb, target, self.options.first_step, ladder.finest))
-            except TargetError as error:
-                refused.append(error)
-        if found and not target.shrinks_with_step:
-            best = min(found, key=lambda attempt: attempt.size)
-            found = [replace(best, draft=self._dressed(best.draft))]
-        return found, refused
+                ways = Fulfilment(self._prepared, self.options, contract, self._sight, progress, thorough=thorough)
+                draft = ways.draft()
+            except TargetError:
+                return Trial(fineness, UNHAD, True, None)
+            seen.append(self._judged(self._dressed(draft)))
+            return Trial(fineness, math.log(target.reached(seen[-1]) / target.value), True, seen[-1])
+
+        coarsest = measure(1.0 / COARSEST_ANGLE, thorough=True)
+        found: Trial[Attempt | None] | None = coarsest
+        if coarsest.kept:
+            tries, slack = SIZE_SEARCH
+            finer = widest_step(measure, FIRST_FINENESS, tries=tries, most=FINEST, slopes=SIZE_SLOPES, slack=slack)
+            found = finer or coarsest
+        if found is not None and found.kept and found.found is not None:
+            return found.found
+        if not seen:
+            raise TargetError(f"{promise} cannot be kept on this mesh")
+        best = min(target.reached(attempt) for attempt in seen)
+        asked = f"{target.worded(target.value)} at most cannot be "
+        if promise is None:
+            error = TargetError(f"{asked}reached; the best that can be had is {target.worded(best)}")
+        else:
+            error = TargetError(f"{asked}had with {promise}: that comes to {target.worded(best)}")
+        error.best = best
+        raise error
+
+    def _as_said(self, target: Target, progress: Progress | None) -> Attempt:
+        """Blocks, coded as the options say, at the step that meets a target."""
+
+        def attempt(step: float) -> Attempt:
+            draft = self._spectral.base(step, progress).draft
+            return self._judged(self._dressed(draft) if target.shrinks_with_step else draft)
+
+        with as_of_decoders(self.options.limits):
+            best = search_step(attempt, target, self.options.first_step, smallest_step(self._prepared.size))
+        return best if target.shrinks_with_step else replace(best, draft=self._dressed(best.draft))
 
     def attempt(self, step: float, progress: Progress | None = None) -> Attempt:
         """Encode blocks with a given quantization step, and see what the decoder will."""
         with as_of_decoders(self.options.limits):
             return self._judged(self._dressed(self._spectral.base(step, progress).draft))
-
-    def _climb(self, ladder: Ladder, *, dressed: bool) -> Callable[[float], Attempt]:
-        """What a step comes to; `dressed`: with all that the mesh carries, which counts where a size is asked for."""
-        if dressed:
-            return lambda step: self._judged(self._dressed(ladder.draft(step)))
-        return lambda step: self._judged(ladder.draft(step))
-
-    def _ladders(self, progress: Progress | None) -> Iterator[Ladder]:
-        """Ladders that may hold what is looked for."""
-        prepared, options = self._prepared, self.options
-        finest = smallest_step(prepared.size)
-        if options.says_how:
-            yield Blocks(self._spectral, finest, progress)
-            return
-        theta = options.target.value if options.target is not None and options.target.kind == "theta_deg" else 0.0
-        original = Original(prepared.positions, prepared.mesh.faces, by_area=not theta)
-        shaper = Shaper(original, prepared.graph)
-        if prepared.has_low_frequencies and not options.quick:
-            if not 0.0 < theta < DETAILED_ANGLE:
-                yield Blocks(Spectral(prepared, options, WIDEST), finest, progress)
-            for finer in (1.0, FINER) if theta else (1.0,):
-                yield Refined(prepared, options, shaper, original, progress, finer)
-        yield Grids(prepared, shaper)
 
     def _judged(self, draft: Draft) -> Attempt:
         decoded = self._prepared.units.into(draft.decoded)

@@ -5,11 +5,14 @@ from __future__ import annotations
 import json
 import math
 import sys
+import threading
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-_PATIENCE = 0.5
+_PATIENCE, _SECOND = 0.5, 1.0
+_RUNNING = "{desc}: {elapsed}"
+"""Of a line of which nobody knows how long it will be."""
 _TYPICAL_ROUNDS = 6
 
 
@@ -42,10 +45,12 @@ class Console:
 
 
 class Progress:
-    """A bar on the terminal, from half a second on, with the time left; call it with how much is done of how much.
+    """A line on the terminal, from half a second on: what goes on and for how long, and where that is known how much is
+    done, with the time left.
 
-    Work that begins anew, as a search does with each step that it tries, goes on in the same bar, which then shows how
-    far a search of usual length would be. The bar is erased at the end of the `with` block.
+    Call it with how much is done of how much, and name each stage with `stage`. Work that begins anew, as a search does
+    with each step that it tries, goes on in the same bar, which then shows how far a search of usual length would be.
+    The line is erased at the end of the `with` block.
     """
 
     def __init__(self, what: str, unit: str, *, shown: bool) -> None:
@@ -55,35 +60,63 @@ class Progress:
         self._bar: Any = None
         self._round = 0
         self._last = 0
+        self._over = threading.Event()
+        self._opening = threading.Lock()
+        self._clock: threading.Thread | None = None
 
     def __enter__(self) -> Progress:
+        if self._shown:
+            self._clock = threading.Thread(target=self._tick, daemon=True)
+            self._clock.start()
         return self
 
     def __exit__(self, *_: object) -> None:
+        self._over.set()
+        if self._clock is not None:
+            self._clock.join()
         if self._bar is not None:
             self._bar.close()
 
+    def stage(self, name: str) -> None:
+        """Say what begins."""
+        self._what, self._round, self._last = name, 0, 0
+        if self._bar is not None:
+            self._bar.total = None
+            self._bar.bar_format = _RUNNING
+            self._bar.set_description_str(name, refresh=True)
+
     def __call__(self, done: int, total: int) -> None:
-        if not self._shown:
+        if not self._shown or self._opened() is None:
             return
-        if self._bar is None:
-            # Not at the top: most runs are over before a bar would be seen.
-            try:
-                from tqdm import tqdm
-            except ImportError:  # A comfort that the core goes without.
-                self._shown = False
-                return
-            tqdm.monitor_interval = 0
-            self._bar = tqdm(
-                desc=self._what, unit=f" {self._unit}", total=total, delay=_PATIENCE, leave=False, miniters=0
-            )
+        self._bar.bar_format = None
         if done < self._last:
             self._round += 1
-            self._bar.set_description(f"{self._what}, attempt {self._round + 1}", refresh=False)
+            self._bar.set_description_str(f"{self._what}, attempt {self._round + 1}", refresh=False)
         self._last = done
-        if self._round:
-            self._bar.total = total * max(_TYPICAL_ROUNDS, self._round + 1)
+        self._bar.total = total * (max(_TYPICAL_ROUNDS, self._round + 1) if self._round else 1)
         self._bar.update(self._round * total + done - self._bar.n)
+
+    def _opened(self) -> Any:
+        """The bar; None where there is no library to draw it."""
+        with self._opening:
+            if self._bar is None and self._shown:
+                # Not at the top: most runs are over before a bar would be seen.
+                try:
+                    from tqdm import tqdm
+                except ImportError:  # A comfort that the core goes without.
+                    self._shown = False
+                    return None
+                tqdm.monitor_interval = 0
+                more = {"delay": _PATIENCE, "leave": False, "miniters": 0, "bar_format": _RUNNING}
+                self._bar = tqdm(desc=self._what, unit=f" {self._unit}", **more)
+            return self._bar
+
+    def _tick(self) -> None:
+        """Draw anew each second, so that nobody takes silence for the end."""
+        while not self._over.wait(_SECOND if self._bar is not None else _PATIENCE):
+            if self._opened() is None:
+                return
+            self._bar.refresh()
 
 
 def printable(text: str) -> str:

@@ -16,6 +16,8 @@ import pytest
 from bsm.batch import plan
 from bsm.bitstream.errors import OptionError
 from bsm.cli import main
+from bsm.codec.denoise.noise.gaussian import gaussian_along_normals
+from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.evaluation.sample import knot
 from bsm.files.mesh import read_mesh, write_mesh
 from tests.bsm import program
@@ -305,3 +307,12 @@ def test_a_bar_for_sequences(tmp_path):
     words = ["encode", tmp_path / "a.npz", "-o", tmp_path / "a.bsm", "--set", "keep=1", "--set", "block-size=200"]
     shown = on_a_terminal(*words, "--threads", "1")
     assert "encoding:" in shown and "blocks/s" in shown and "KG error" in shown
+
+
+def test_stages_are_named_while_a_mesh_is_denoised(tmp_path):
+    pytest.importorskip("scipy")
+    mesh = knot(6000)
+    noisy = gaussian_along_normals(mesh.positions, mesh.faces, 0.2, 0)
+    write_mesh(tmp_path / "a.npz", TriangleMesh(noisy, mesh.faces))
+    shown = on_a_terminal("denoise", tmp_path / "a.npz", "-o", tmp_path / "b.npz")
+    assert re.search(r"rehearsing \d+ of \d+: 00:\d\d", shown), shown

@@ -65,7 +65,7 @@ def test_compare_says_which_file_is_wrong(tmp_path, capsys):
 def test_a_target_out_of_reach_has_its_code(tmp_path, capsys):
     main(["demo", "-q", "--vertices", "400", "-o", str(tmp_path)])
     main(["decode", "-q", str(tmp_path / "bsm_demo.bsm"), "-o", str(tmp_path / "a.npz")])
-    for words in (["--theta", "0.0001"], ["--size", "20"]):
+    for words in (["--theta", "1e-9"], ["--size", "20"]):
         assert main(["encode", str(tmp_path / "a.npz"), "-o", str(tmp_path / "b.bsm"), *words]) == 10
         assert "at most cannot be reached; the best that can be had is" in capsys.readouterr().err
         assert not (tmp_path / "b.bsm").exists()

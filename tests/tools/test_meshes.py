@@ -18,7 +18,9 @@ def test_what_is_missing_or_another_is_listed(tmp_path, monkeypatch):
         write_mesh(tmp_path / "static" / f"{name}.ply", mesh)
     np.savez(tmp_path / "dynamic/d.npz", positions=np.zeros((2, 5, 3)))
     found = list(tool.faults(tmp_path))
-    assert [line.rpartition("/")[2].split(":")[0] for line in found] == ["b.ply", "c.ply", "e.npz"]
+    assert [line.partition(": ")[0] for line in found] == [
+        str(tmp_path / name) for name in ("static/b.ply", "static/c.ply", "dynamic/e.npz")
+    ]
     assert "not 7 and 7" in found[0]
 
 

@@ -17,12 +17,13 @@ from bsm.bitstream.container.header import Layer
 from bsm.bitstream.errors import LimitError, TargetError
 from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Levels, Matrix
+from bsm.codec.signal.quantize import smallest_step
 from bsm.codec.static.choice.borders import borders_of
 from bsm.codec.static.choice.grid_search import COARSEST, GridSearch
 from bsm.codec.static.choice.judge import Judge, Sight
 from bsm.codec.static.choice.lattices import rounded
 from bsm.codec.static.choice.reaches import reaches
-from bsm.codec.static.choice.search import LOOK_SLACK, LOOK_TRIES, Trial, widest_step
+from bsm.codec.static.choice.search import LOOK_SLACK, LOOK_TRIES, SLACK, THOROUGH, Trial, widest_step
 from bsm.codec.static.choice.settling import Sensitivity
 from bsm.codec.static.choice.shaping import Aim
 from bsm.codec.static.choice.spectral import Base, Spectral, Stack, base_step, layer_steps
@@ -36,6 +37,10 @@ FINE_REACH = 0.001
 """Where normals do not matter, grids are smaller than blocks from this distance on, in BSM units."""
 MODEL_ANGLE = 4.0
 """Up to this angle, models with flat faces are smaller on grids."""
+DETAILED_ANGLE, FINER = 4.5, 1.6
+"""Below this angle blocks alone are larger than refined ones; rough meshes may be smaller with bases so much finer."""
+VISUAL_TRIES, FINER_IF_VISUAL = 4, 4.0
+"""Grids that are rounded to for the angle that comes with a visual error; the base is as for one so much smaller."""
 PLAIN_ANGLE = 6.0
 """From this angle on, blocks with a detail layer are tried before refinement."""
 WIDEST = 0.155
@@ -56,8 +61,8 @@ SHEET, SHEET_STEP = 1.0 / 16.0, 0.024
 """Where they are so small, the surface is a flat sheet, which coarser blocks without details are enough for."""
 COARSE = 0.016
 """A step, in BSM units, at which blocks carry nothing but what they are for."""
-FINEST = 2.0**-38
-"""Smallest step, in BSM units."""
+FINEST, FINEST_LAYER = 2.0**-38, 1e-6
+"""Smallest step, in BSM units, of layers for borders and of others."""
 FINEST_BITS = 20
 """Of the grid that is tried where nothing else will do."""
 ALL_AXES = 6.0
@@ -81,7 +86,7 @@ FIRST_LOOK, NEAR_SEEN = 1.6, 16.0
 """Noise that sensitivity is measured with, over the step that angles would have; and how far a vertex may be brought
 from its place where nobody sees it, in steps of the layer."""
 NEAR = 8.0
-"""How far shaping may bring a vertex from its place, in steps of the layer."""
+"""How far shaping along all axes may bring a vertex from its place, in steps of the layer."""
 FEW_LOOKS = 4000
 """Meshes of more vertices are looked at in one way to code alone, the one that is likely to be smaller."""
 DENSE, TINY, PREVIEW = 0.0062, 0.0012, 2.0
@@ -103,6 +108,8 @@ class Fulfilment:
         Of the same mesh.
     progress : callable, optional
         Called with the number of blocks done and of all blocks, and with none and all of them around every other trial.
+    thorough : bool
+        Rules leave out no way that may win, and bounds are used up as far as can be: some times the work.
     """
 
     def __init__(
@@ -112,7 +119,10 @@ class Fulfilment:
         contract: Contract,
         sight: Sight,
         progress: Progress | None = None,
+        *,
+        thorough: bool = False,
     ) -> None:
+        self._thorough = thorough
         self._prepared = prepared
         self._options = options
         self._contract = contract
@@ -125,8 +135,17 @@ class Fulfilment:
         self._borders = borders_of(prepared, options.lock_borders, float(self._reaches.min()))
         self._edge = self._shaper.mean_edge or 1.0
         self._judge = Judge(prepared, sight, contract, self._reaches, self._borders)
+        self._angle = self._about_angle()
         self._grids = GridSearch(
-            prepared, self._shaper, contract, float(self._reaches.min()), self._borders, self._judge, self._told
+            prepared,
+            self._shaper,
+            contract,
+            float(self._reaches.min()),
+            self._borders,
+            self._judge,
+            self._told,
+            angle=self._angle,
+            thorough=thorough,
         )
 
     def draft(self) -> Draft:
@@ -152,6 +171,21 @@ class Fulfilment:
         """Whether what its decoder makes of a draft keeps the contract."""
         return self._judge.keeps(self._prepared.units.into(draft.decoded))
 
+    @property
+    def had(self) -> str:
+        """The bounds that the best draft broke that was seen."""
+        return self._judge.had
+
+    def _about_angle(self) -> float:
+        """Mean angle of normals that comes with all that is asked for, about, degrees."""
+        contract, step = self._contract, COARSE
+        if contract.visual == math.inf:
+            return contract.about_angle
+        for _ in range(VISUAL_TRIES):
+            found = self._sight.reference.nmsve(np.rint(self._prepared.positions / step) * step)
+            step *= min(max(contract.visual / max(found, 1e-300), 1.0 / 64.0), 64.0)
+        return min(contract.about_angle, max(self._shaper.character.rounded_angle(step), 1e-4))
+
     def _drafts(self, *, every: bool) -> list[Draft]:
         """Drafts that may be smallest; with `every`, grids even where they should be larger."""
         found: list[Draft] = []
@@ -167,9 +201,16 @@ class Fulfilment:
 
     def _grids_may_win(self, smallest: int) -> bool:
         """Whether grids may take fewer bytes than blocks did."""
+        if self._thorough:
+            return True
         if self._contract.look < math.inf:
             return self._prepared.graph.size < FEW_LOOKS
-        return len(self._prepared.connectivity.data) + self._grids.bytes < smallest
+        return self.bytes_on_grids < smallest
+
+    @property
+    def bytes_on_grids(self) -> float:
+        """Bytes of a stream on a grid, rather too few, by measures alone."""
+        return len(self._prepared.connectivity.data) + self._grids.bytes
 
     def _refusal(self) -> str:
         had = self._judge.had
@@ -193,11 +234,13 @@ class Fulfilment:
         """Whether most of what is worth coding is at low frequencies; or only blocks can be fine at borders."""
         if self._options.quick:
             return False
+        if self._thorough:
+            return self._prepared.has_low_frequencies
         if not self._contract.shades and self._reach < FINE_REACH:
             return False
         if self._borders.vertices.any():
             return self._prepared.graph.size >= FEW_VERTICES
-        if self._grids.fits_model or (self._contract.about_angle <= MODEL_ANGLE and self._shaper.character.is_model):
+        if self._grids.fits_model or (self._angle <= MODEL_ANGLE and self._shaper.character.is_model):
             return False
         sharp = self._shaper.character.is_sharp and self._edge >= DENSE
         if self._contract.look < PREVIEW and (sharp or self._edge < TINY):
@@ -209,8 +252,18 @@ class Fulfilment:
         return Spectral(self._prepared, self._options, WIDEST)
 
     def _spectral(self) -> Iterator[Draft]:
-        angle = self._contract.about_angle
+        angle = self._angle
         coarse = Spectral(self._prepared, replace(self._options, detail=0.0), WIDEST)
+        if self._thorough:
+            if angle >= DETAILED_ANGLE:
+                plain = self._plain(self._blocks)
+                if plain is not None:
+                    yield plain
+            for finer in (1.0, FINER):
+                stack = self._refined(coarse.base(self._base_step / finer, self._progress))
+                if stack is not None:
+                    yield stack.draft()
+            return
         if angle >= PLAIN_ANGLE and self._is_smooth:
             plain = self._plain(coarse if self._shaper.character.roughness < SHEET * angle else self._blocks)
             if plain is not None:
@@ -223,8 +276,10 @@ class Fulfilment:
     @property
     def _base_step(self) -> float:
         """The step of blocks that are refined."""
+        if self._contract.visual < math.inf:
+            return base_step(self._angle / FINER_IF_VISUAL)
         if self._sensitivity is None:
-            return base_step(self._contract.about_angle)
+            return base_step(self._angle)
         step = LOOK_BASE * self._sensitivity.step_for(self._contract.look, AXES_OF_LOOK)
         rough = LOOK_BASE_IF_ROUGH * self._shaper.character.roughness
         return min(max(step, rough), COARSEST_LOOK_BASE)
@@ -237,14 +292,15 @@ class Fulfilment:
         found: list[Draft] = []
 
         def measure(step: float, sure: bool) -> Trial[Stack]:
-            plain = self._with_outliers(blocks.base(step, self._progress), [])
+            plain = self._with_outliers(blocks.base(max(step, smallest_step(self._prepared.size)), self._progress), [])
             trial = self._judge.trial(step, plain.positions, plain, sure)
             if trial.excess <= 0.0:
                 found.append(plain.draft())
             return trial
 
-        first = SHEET_STEP if sheet else PLAIN_STEP * self._contract.about_angle
-        widest = widest_step(measure, first, tries=3, most=COARSEST, slopes=PLAIN_SLOPES)
+        first = SHEET_STEP if sheet else PLAIN_STEP * self._angle
+        tries, slack = THOROUGH if self._thorough else (3, SLACK)
+        widest = widest_step(measure, first, tries=tries, most=COARSEST, slopes=PLAIN_SLOPES, slack=slack)
         if widest is not None:
             measure(math.sqrt(first * widest.step) if widest.step > first else PLAIN_STRIDE * first, True)
         return min(found, key=lambda draft: draft.size, default=None)
@@ -253,7 +309,7 @@ class Fulfilment:
     def _is_smooth(self) -> bool:
         """Whether normals can be right without refinement: they cannot where faces are flat, or bent at random."""
         character = self._shaper.character
-        return not character.is_model and character.roughness < min(ROUGH * self._contract.about_angle, ROUGHEST)
+        return not character.is_model and character.roughness < min(ROUGH * self._angle, ROUGHEST)
 
     def _with_outliers(self, base: Base, layers: list[tuple[Layer, Levels]]) -> Stack:
         """With one more layer, if vertices are out of reach: of levels for these alone; and one for borders."""
@@ -297,7 +353,9 @@ class Fulfilment:
         """A base with heights along the normals, if these can bring normals right; with all axes if not."""
         many = MANY_OUTLIERS * len(base.positions)
         heights = (
-            self._original.angle(base.upright) <= self._contract.about_angle and self._outliers(base.upright) <= many
+            self._contract.visual == math.inf
+            and self._original.angle(base.upright) <= self._angle
+            and self._outliers(base.upright) <= many
         )
         if heights:
             layer = base.layer(self._first_layer(0.0), 0.0)
@@ -315,7 +373,7 @@ class Fulfilment:
         choose = self._bent_levels(base, start) if self._sensitivity is None else self._seen_levels(base, start)
 
         def measure(step: float, sure: bool) -> Trial[tuple[Layer, Levels]]:
-            layer = base.layer(step, ratio)
+            layer = base.layer(max(step, FINEST_LAYER), ratio)
             with self._told():
                 levels = choose(layer)
                 levels[still] = 0
@@ -325,10 +383,10 @@ class Fulfilment:
         if self._sensitivity is not None:
             first = self._sensitivity.first_step(self._contract.look, ratio)
             return widest_step(measure, first, tries=LOOK_TRIES, most=COARSEST, slopes=STEEP_LOOK, slack=LOOK_SLACK)
-        tries = 2 if self._shaper.character.is_model else 3
+        tries, slack = THOROUGH if self._thorough else (2 if self._shaper.character.is_model else 3, SLACK)
         steep = STEEP if ratio else STEEP_HEIGHTS
         slopes = FLATTER * steep, steep
-        return widest_step(measure, self._first_layer(ratio), tries=tries, most=COARSEST, slopes=slopes)
+        return widest_step(measure, self._first_layer(ratio), tries=tries, most=COARSEST, slopes=slopes, slack=slack)
 
     def _bent_levels(self, base: Base, start: Matrix) -> Callable[[Layer], Levels]:
         """Levels of a layer, on positions, that bend faces least."""
@@ -337,7 +395,7 @@ class Fulfilment:
         def choose(layer: Layer) -> Levels:
             wanted, directions = base.wanted(layer)
             wanted[still] = 0
-            aim = Aim(layer.step / self._edge, min(self._reach, NEAR * layer.step), 6)
+            aim = Aim(layer.step / self._edge, min(self._reach, NEAR * layer.step if layer.ratio else math.inf), 6)
             return self._shaper.levels(start, wanted, directions, aim)
 
         return choose
@@ -365,6 +423,8 @@ class Fulfilment:
 
     @property
     def _ratio(self) -> float:
+        if self._contract.visual < math.inf:
+            return ALL_AXES / 2.0
         return ALL_AXES if self._contract.look == math.inf else AXES_OF_LOOK
 
     def _first_layer(self, ratio: float) -> float:
@@ -374,4 +434,4 @@ class Fulfilment:
             factor = min(max(LAYER - LAYER_IF_ROUGH * character.roughness, LEAST_LAYER), MOST_LAYER)
         else:
             factor = HEIGHTS_OF_MODELS if character.is_model else HEIGHTS
-        return factor * math.radians(self._contract.about_angle) * self._edge
+        return factor * math.radians(self._angle) * self._edge

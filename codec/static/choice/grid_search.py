@@ -14,7 +14,7 @@ from bsm.codec.arrays import Levels
 from bsm.codec.static.choice.borders import ROUND, Borders
 from bsm.codec.static.choice.judge import Judge
 from bsm.codec.static.choice.lattices import Shaped
-from bsm.codec.static.choice.search import LOOK_SLACK, LOOK_TRIES, Trial, widest_step
+from bsm.codec.static.choice.search import LOOK_SLACK, LOOK_TRIES, THOROUGH, Trial, widest_step
 from bsm.codec.static.choice.shaping import Aim, Shaper
 from bsm.codec.static.contract import Contract
 from bsm.codec.static.draft import Draft
@@ -36,6 +36,8 @@ LATTICE_GAIN = 0.75
 PLATEAU, PLATEAU_STEPS = 1.25, 24
 """Where a grid four times as fine has no more entropy than this, so many steps a sixth of a power of two apart are
 compared, too."""
+NEAR_PLACE = 3.0
+"""How far shaping may bring a vertex from its place, in cells, where bounds are wide."""
 FINEST_BITS = 16
 """Bits along the longest side of the finest grid that is tried without need."""
 OTHERS, ALIKE = 2, 1.25
@@ -93,6 +95,10 @@ class GridSearch:
     judge : Judge
     told : callable
         A context in which one trial is made.
+    angle : float
+        Mean angle of normals that comes with what is asked for, degrees.
+    thorough : bool
+        As of `Fulfilment`.
     """
 
     def __init__(
@@ -104,11 +110,15 @@ class GridSearch:
         borders: Borders,
         judge: Judge,
         told: Callable[[], AbstractContextManager[None]],
+        *,
+        angle: float,
+        thorough: bool = False,
     ) -> None:
         self._prepared = prepared
         self._shaper = shaper
         self._character = shaper.character
-        self._angle = contract.about_angle
+        self._angle = angle
+        self._thorough = thorough
         self._shades = contract.shades
         self._look, self._looks = contract.look, contract.look < math.inf
         self._judge = judge
@@ -164,7 +174,7 @@ class GridSearch:
 
     def _tried(self, shaped: Shaped) -> list[Trial[Placed]]:
         """Drafts that keep the bounds."""
-        if self.fits_model:
+        if self.fits_model and not self._thorough:
             kept = [*self._on_grids(shaped, self._model_grids)]
             if kept:
                 return kept
@@ -172,16 +182,19 @@ class GridSearch:
         if not self._shades:
             trials.append(self._trial(shaped, first, 0.8, axes=3, sweeps=6))
         else:
-            worth, few = self._worth, self._prepared.graph.size < QUICK_VERTICES
-
-            def measure(step: float, sure: bool) -> Trial[Placed]:
-                trials.append(self._trial(shaped, step, worth, sure=sure))
-                return trials[-1]
-
+            few = self._prepared.graph.size < QUICK_VERTICES
             steep = self._steepness(first)
             slopes = STEEP_LOOK if self._looks else (FLATTER * steep, steep)
-            tries, slack = (LOOK_TRIES, LOOK_SLACK) if self._looks else (TRIES[few], SLACK[few])
-            widest_step(measure, first, tries=tries, most=self._most, slack=slack, slopes=slopes)
+            tries, slack = THOROUGH if self._thorough else (TRIES[few], SLACK[few])
+            if self._looks:
+                tries, slack = LOOK_TRIES, LOOK_SLACK
+            for worth in dict.fromkeys([self._worth, WORTH] if self._thorough else [self._worth]):
+
+                def measure(step: float, sure: bool, worth: float = worth) -> Trial[Placed]:
+                    trials.append(self._trial(shaped, step, worth, sure=sure))
+                    return trials[-1]
+
+                widest_step(measure, first, tries=tries, most=self._most, slack=slack, slopes=slopes)
         kept = [trial for trial in trials if trial.kept]
         for finer in range(1, LAST_RESORTS + 1):
             if not kept:
@@ -239,7 +252,11 @@ class GridSearch:
     ) -> Trial[Placed]:
         step = max(step, shaped.finest)
         with self._told():
-            aim = Aim(worth * step / self._edge, self._reach, sweeps)
+            aim = Aim(
+                worth * step / self._edge,
+                min(self._reach, NEAR_PLACE * step) if self._thorough else self._reach,
+                sweeps,
+            )
             held, places, decoded, estimate = shaped.places(step, aim, axes)
             return self._judge.trial(step, self._prepared.units.into(decoded), Placed(held, places, estimate), sure)
 

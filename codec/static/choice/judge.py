@@ -12,6 +12,7 @@ from bsm.bitstream.errors import MeshError
 from bsm.codec.arrays import Mask, Matrix
 from bsm.codec.geometry.closeness import Original
 from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.geometry.metrics import Reference
 from bsm.codec.look.measure import Looker
 from bsm.codec.static.choice.borders import Borders
 from bsm.codec.static.choice.search import Found, Trial
@@ -35,13 +36,20 @@ class Sight:
     ----------
     prepared : Prepared
     threads : int, optional
+    alike : bool
+        In mean angles all faces count alike, whatever their area.
     """
 
-    def __init__(self, prepared: Prepared, threads: int | None) -> None:
+    def __init__(self, prepared: Prepared, threads: int | None, *, alike: bool = False) -> None:
         self._prepared = prepared
         self._threads = threads
-        self.original = Original(prepared.positions, prepared.mesh.faces)
+        self.original = Original(prepared.positions, prepared.mesh.faces, by_area=not alike)
         self.shaper = Shaper(self.original, prepared.graph)
+
+    @cached_property
+    def reference(self) -> Reference:
+        """The original, prepared for comparing."""
+        return Reference(self._prepared.positions, self._prepared.mesh.faces)
 
     @cached_property
     def looker(self) -> Looker | None:
@@ -71,7 +79,7 @@ class Judge:
         self._contract = contract
         self._reach = reach
         self._borders = borders
-        self._best: tuple[float, float, float] | None = None
+        self._best: tuple[float, float, float, float] | None = None
         self._seen: dict[bytes, float] = {}
 
     def out(self, positions: Matrix) -> Mask:
@@ -88,17 +96,20 @@ class Judge:
         distance, whole = self._distance(positions, NEARLY if not sure else ALL)
         if distance > 0.0:
             excess = max(excess, math.log(distance / contract.look))
+        visual = self._visual(positions)
+        if visual > 0.0:
+            excess = max(excess, math.log(visual / contract.visual))
         return Trial(step, excess, near, found, whole)
 
     def keeps(self, positions: Matrix) -> bool:
         """Whether what is decoded, shape (n, 3), keeps the contract, by all that it says."""
         moved = np.sqrt(np.square(positions - self._prepared.positions).sum(axis=1))
         farther = float(np.divide(moved, self._reach, out=np.zeros_like(moved), where=moved > 0.0).max())
-        angle = self._angle(positions)
-        kept = farther <= 1.0 and angle <= self._contract.angle
+        angle, visual = self._angle(positions), self._visual(positions)
+        kept = farther <= 1.0 and angle <= self._contract.angle and visual <= self._contract.visual
         look = self._distance(positions, ALL)[0] if kept else math.inf
-        if self._best is None or (farther, look, angle) < self._best:
-            self._best = farther, look, angle
+        if self._best is None or (farther, look, angle, visual) < self._best:
+            self._best = farther, look, angle, visual
         return kept and look <= self._contract.look and self._borders.kept(self._prepared.positions, positions)
 
     @property
@@ -106,12 +117,16 @@ class Judge:
         """The bounds that the best one broke that was seen; empty: none but those of borders."""
         if self._best is None:
             return "nothing"
-        farther, look, angle = self._best
-        return self._contract.worded(farther, angle, look)
+        farther, look, angle, visual = self._best
+        return self._contract.worded(farther, angle, look, visual)
 
     def _angle(self, positions: Matrix) -> float:
         """Mean angle of normals; 0 where nothing is asked of them."""
         return self._sight.original.angle(positions) if self._contract.angle < ANY_ANGLE else 0.0
+
+    def _visual(self, positions: Matrix) -> float:
+        """NMSVE; 0 where nothing is asked of it."""
+        return self._sight.reference.nmsve(positions) if self._contract.visual < math.inf else 0.0
 
     def _distance(self, positions: Matrix, nearly: tuple[float, float]) -> tuple[float, bool]:
         """In pictures, and whether it is sure; 0 where nothing is asked of these, or to be seen."""

@@ -9,6 +9,8 @@ from typing import Generic, TypeVar
 
 SLACK = 0.03
 """How far below a bound the search for a step may stay."""
+THOROUGH = 9, 0.015
+"""Steps that are tried, and how far below, where the search is to be thorough."""
 LOOK_SLACK, LOOK_TRIES = 0.05, 6
 """The same of a look, and how many steps are looked at."""
 

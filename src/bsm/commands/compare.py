@@ -64,7 +64,10 @@ def run(args: argparse.Namespace, console: Console) -> None:
     if compare_if_sequences(args):
         return
     original, decoded = (_load(path, args, console) for path in (args.original, args.decoded))
-    seen = _look(original, decoded, args) if args.look or args.picture else None
+    seen = None
+    if args.look or args.picture:
+        with console.progress("looking from all sides"):
+            seen = _look(original, decoded, args)
     try:
         compared = _compared(original, decoded, args, console)
     except MeshError:

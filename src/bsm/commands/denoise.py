@@ -174,15 +174,23 @@ def _denoise_mesh(args: DenoiseJob, console: Console, options: DenoiseOptions | 
     from bsm.api import encode, look
     from bsm.codec.denoise import FrameDenoiser
 
-    source = read_mesh(args.input, args.format, reader=args.reader)
+    with console.progress("reading"):
+        source = read_mesh(args.input, args.format, reader=args.reader)
     for note in source.notes:
         console.note(f"{args.input}: {note}")
     mesh = source.mesh
     begin = time.perf_counter()
-    denoiser = FrameDenoiser(
-        mesh.positions, mesh.faces, options, goal=args.goal, strength=args.strength, force=args.force
-    )
-    (positions,) = denoiser([mesh.positions])
+    with console.progress("denoising") as progress:
+        denoiser = FrameDenoiser(
+            mesh.positions,
+            mesh.faces,
+            options,
+            goal=args.goal,
+            strength=args.strength,
+            force=args.force,
+            told=progress.stage,
+        )
+        (positions,) = denoiser([mesh.positions])
     unit = denoise_report.unit_of(mesh.metadata)
     _tell(console, denoiser.choice, args, mean_edge_length(mesh.positions, mesh.faces), unit)
     far = denoise_report.moved(mesh.positions, positions)

@@ -30,7 +30,8 @@ def encode_one(job: EncodeJob, console: Console) -> Facts:
         if given is not None:
             raise OptionError(f"--{name} is for sequences, and this is one mesh")
     chosen = options.encode_options(**job.wishes, threads=job.threads)
-    source = read_mesh(job.input, job.format, reader=job.reader)
+    with console.progress("reading"):
+        source = read_mesh(job.input, job.format, reader=job.reader)
     mesh = told_of(source.mesh, chosen, job.metadata)
     refuse_other_units({name: job.wishes.get(name) for name in LENGTHS}, mesh.metadata)
     begin = time.perf_counter()

@@ -7,19 +7,23 @@ import time
 from collections import deque
 from collections.abc import Iterator
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from bsm import options
 from bsm.batch import Facts, came_to, size_of
 from bsm.codec.arrays import Positions
-from bsm.console import Console, finite
+from bsm.console import Console, Progress, finite
 from bsm.encoding.job import EncodeJob
 from bsm.files.motion.frames import Frames, Wanted
 from bsm.files.output import open_output
 from bsm.files.permutation import write_permutation
 from bsm.files.sequence import open_frames, open_sequence
 from bsm.loops import Loops
+
+if TYPE_CHECKING:
+    from bsm.codec.sequence.options import SequenceOptions
 
 _OF_SEQUENCES = ("kg", "bpvf", "gop", "low_delay", "frame_rate")
 """Wishes that only a sequence can fulfil: a GLB is then one."""
@@ -49,7 +53,8 @@ def encode_sequence(job: EncodeJob, console: Console, source: Frames) -> Facts:
     size = 0
     replace = job.may_replace(job.output)
     with open_output(job.output, overwrite=replace) as file, console.progress("encoding") as progress:
-        for chunk in encoder.chunks(heard.taken(source.frames, job.compared), progress):
+        given = _staged(heard.taken(source.frames, job.compared), source.count, chosen, progress)
+        for chunk in encoder.chunks(given, progress):
             size += file.write(chunk)
             file.flush()
             if job.compared:
@@ -82,6 +87,17 @@ def encode_sequence(job: EncodeJob, console: Console, source: Frames) -> Facts:
         "seconds": seconds,
         "notes": list(notes),
     }
+
+
+def _staged(
+    frames: Iterator[Positions], count: int, chosen: SequenceOptions, progress: Progress
+) -> Iterator[Positions]:
+    """The frames, which begin a stage with each GOP."""
+    gops = f" of {-(-count // chosen.gop)}" if count else ""
+    for number, frame in enumerate(frames):
+        if chosen.mode == "gop" and number and number % chosen.gop == 0:
+            progress.stage(f"encoding GOP {1 + number // chosen.gop}{gops}")
+        yield frame
 
 
 @dataclass

@@ -282,7 +282,7 @@ def test_a_promise_holds_beside_a_target() -> None:
     mesh, promise = noisy(torus(40, 24), 0.002), Contract(0.0005)
     loose = Encoder(mesh, EncodeOptions(contract=promise, target=Target("theta_deg", 20.0)))
     assert kept(loose, loose.encode())[0] <= 0.0005 * (1 + 1e-9)
-    assert len(loose.encode()) == len(encode(mesh, EncodeOptions(contract=promise)))
+    assert len(loose.encode()) <= len(encode(mesh, EncodeOptions(contract=promise)))
     with pytest.raises(TargetError, match=r"1000 bytes at most cannot be had with no vertex farther than 0\.0005"):
         Encoder(mesh, EncodeOptions(contract=promise, target=Target("size", 1000.0))).encode()
     both = Encoder(mesh, EncodeOptions(contract=promise, target=Target("size", 6000.0)))

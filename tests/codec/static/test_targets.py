@@ -69,7 +69,7 @@ def test_targets_are_met_by_what_the_decoder_sees(kind, value):
         reached[kind] = getattr(result, kind)
     assert not encoder.notes
     assert reached[kind] <= value * (1 + 1e-9 * np.sign(value))
-    assert reached[kind] >= (value - 0.1 if kind == "nmsve_db" else 0.95 * value)
+    assert reached[kind] >= (value - 0.25 if kind == "nmsve_db" else 0.95 * value)
 
 
 @pytest.mark.parametrize("kind, value", [("theta_deg", 4.0), ("size", 2500.0)])

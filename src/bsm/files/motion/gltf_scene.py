@@ -111,7 +111,7 @@ class Scene:
 
     @property
     def vertices(self) -> int:
-        """Those of all parts."""
+        """Number of vertices of all parts."""
         return sum(len(part.base) for part in self.parts)
 
     @property
