@@ -100,7 +100,8 @@ class _Part:
                 f"{self.prim.GetPath()} has {len(points)} points at time {time:g} and {self.vertices} before"
             )
         matrix = np.array(cache.GetLocalToWorldTransform(self.prim), np.float64)
-        return points @ matrix[:3, :3] + matrix[3, :3]
+        with np.errstate(over="ignore", invalid="ignore"):  # what is not finite is refused later
+            return points @ matrix[:3, :3] + matrix[3, :3]
 
     def columns(self) -> list[Column]:
         """Texture coordinates, colours and other numbers; those of corners have indices."""
