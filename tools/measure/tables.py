@@ -33,8 +33,8 @@ def denoising_tables(figures: dict[str, Any]) -> str:
         "",
         f"- Clean meshes: {clean['untouched']} of {clean['of']} come back bit for bit; the normals of the others are "
         f"turned by {clean['largest']:.2f} degrees at most.",
-        f"- {kinds['worse']} of {kinds['of']} noisy ones (eleven kinds of noise, two levels) are worse than their input. Mean ratio "
-        f"to the best of the fixed recipes: {', '.join(ratios)}.",
+        f"- {kinds['worse']} of {kinds['of']} noisy ones (eleven kinds of noise, two levels) are worse than their "
+        f"input. Mean ratio to the best of the fixed recipes: {', '.join(ratios)}.",
         "- White noise, against guided filtering, bilateral normal filtering and the paper's scheme, each stopped by "
         f"an oracle: {gaussian['mean']:.2f} of the best of the three, {gaussian['worst']:.2f} at worst.",
         f"- Sequences against their frames one by one: {', '.join(sequences)}.",
