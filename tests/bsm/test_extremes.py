@@ -8,6 +8,8 @@ import pytest
 
 import bsm
 from bsm.bitstream.errors import MeshError
+from bsm.codec.geometry.attributes import Attribute
+from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.files.mesh import read_mesh
 from tools.vectors.meshes import torus
 
@@ -50,3 +52,10 @@ def test_an_image_that_is_missing_is_named(tmp_path):
     notes = " ".join(read_mesh(tmp_path / "mesh.gltf").notes)
     assert "the image lost.png was left out: there is no such file" in notes
     assert "the image ../secret.png was left out: it is not in the folder" in notes
+
+
+def test_too_many_attributes_are_refused_before_any_is_coded():
+    shape = torus(8, 6)
+    many = [Attribute(f"a{number}", np.zeros(len(shape.positions), np.uint8), "vertex") for number in range(256)]
+    with pytest.raises(bsm.OptionError, match="255 attributes at most, not 256"):
+        bsm.encode(TriangleMesh(shape.positions, shape.faces, tuple(many)))

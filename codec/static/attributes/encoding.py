@@ -18,7 +18,9 @@ from bsm.bitstream.container.declaration import (
     VERTEX,
     Declaration,
 )
+from bsm.bitstream.container.header import MOST_ATTRIBUTES
 from bsm.bitstream.container.packets import Packet
+from bsm.bitstream.errors import OptionError
 from bsm.bitstream.fields.corners import Corners, corners_of
 from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Indices, Levels, Order
@@ -121,8 +123,11 @@ def carry(place: Place, wanted: Iterable[tuple[Attribute, Quality]]) -> tuple[Pr
     Raises
     ------
     OptionError, TargetError
-        If a quality makes no sense, or cannot be kept.
+        If there are too many, or a quality makes no sense or cannot be kept.
     """
+    wanted = tuple(wanted)
+    if len(wanted) > MOST_ATTRIBUTES:
+        raise OptionError(f"a stream has {MOST_ATTRIBUTES} attributes at most, not {len(wanted)}: leave some out")
     carried: list[PreparedAttribute] = []
     known: list[tuple[int, Joins]] = []
     for attribute, quality in wanted:

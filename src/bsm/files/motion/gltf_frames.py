@@ -141,8 +141,9 @@ def _columns(parts: list[Part]) -> list[Column]:
     begin = np.cumsum([0, *sizes])
     corners = np.concatenate([part.corners.reshape(-1) + first for part, first in zip(parts, begin)])
     found = []
+    named_columns = [{column.name: column for column in reversed(part.columns)} for part in parts]
     for name in dict.fromkeys(column.name for part in parts for column in part.columns):
-        of_parts = [next((c for c in part.columns if c.name == name), None) for part in parts]
+        of_parts = [columns.get(name) for columns in named_columns]
         model = next(column for column in of_parts if column is not None)
         tables = []
         for column, size in zip(of_parts, sizes, strict=True):
