@@ -24,9 +24,9 @@ from bsm.codec.sequence.gop import GopDecoder, make_setting
 from bsm.codec.signal.chain import AS_SPECIFIED, Trial
 from bsm.codec.static.attributes.decoding import AttributeDecoders, without_positions
 from bsm.codec.static.events import AttributeEvent, ConnectivityEvent, EndEvent, HeaderEvent, LossEvent, unreadable
+from bsm.codec.static.preamble_decoding import DecoderSetup, HeaderStage, Structure
 from bsm.codec.static.rules import chain_rules
 from bsm.codec.static.stages import Arrival, Ended, Stage, StreamDecoder, misplaced
-from bsm.codec.static.structure import DecoderSetup, HeaderStage, Structure
 from bsm.codec.static.ways.block_coder import FRAME, ChainDecoder
 from bsm.codec.static.work import Allowance
 from bsm.codec.threads import threads_of

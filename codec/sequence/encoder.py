@@ -37,7 +37,7 @@ from bsm.codec.static.attributes.quality import qualities
 from bsm.codec.static.coding import Adaptive
 from bsm.codec.static.draft import Draft
 from bsm.codec.static.encoder import PROMISED_SIZES
-from bsm.codec.static.preamble import Parts, Prepared, prepare
+from bsm.codec.static.preamble_encoding import Parts, Prepared, prepare
 from bsm.codec.static.rules import STIFFNESS, Scheme
 from bsm.codec.static.targets import search_step
 from bsm.codec.static.units import single

@@ -11,7 +11,7 @@ from bsm.bitstream.container.reader import reading_cost
 from bsm.bitstream.errors import LimitError, OptionError
 from bsm.bitstream.limits import NAMED_LIMITS
 from bsm.codec.basis.cost import Spend
-from bsm.codec.static.preamble import Prepared
+from bsm.codec.static.preamble_encoding import Prepared
 from bsm.codec.static.ways.block_coder import FRAME, CodedBlock
 from bsm.codec.static.work import Allowance, MeshMemory, mesh_cost, partition_cost
 

@@ -27,9 +27,9 @@ from bsm.codec.static.events import (
     RefinementEvent,
     unreadable,
 )
+from bsm.codec.static.preamble_decoding import DecoderSetup, HeaderStage, Structure
 from bsm.codec.static.rules import chain_rules
 from bsm.codec.static.stages import Arrival, Stage, StreamDecoder, misplaced
-from bsm.codec.static.structure import DecoderSetup, HeaderStage, Structure
 from bsm.codec.static.ways.block_coder import ChainDecoder
 from bsm.codec.static.ways.grid import GridStage
 from bsm.codec.static.ways.refinement import PendingLevels, RefinementStage

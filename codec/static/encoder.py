@@ -28,7 +28,7 @@ from bsm.codec.static.contract import WIDEST, Contract
 from bsm.codec.static.draft import Draft
 from bsm.codec.static.joining import JoinedMesh, join
 from bsm.codec.static.options import EncodeOptions, finer_promises
-from bsm.codec.static.preamble import Parts, Prepared, prepare
+from bsm.codec.static.preamble_encoding import Parts, Prepared, prepare
 from bsm.codec.static.targets import Target, search_step
 from bsm.codec.static.ways.block_coder import Progress
 

@@ -33,7 +33,7 @@ from bsm.codec.static.attributes.quality import Quality
 from bsm.codec.static.attributes.surface import Surface, surface_of
 from bsm.codec.static.draft import Draft
 from bsm.codec.static.joining import JoinedMesh
-from bsm.codec.static.preamble import Prepared
+from bsm.codec.static.preamble_encoding import Prepared
 
 CHUNK = 1 << 15
 """Values of a frame."""

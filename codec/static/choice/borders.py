@@ -11,7 +11,7 @@ from bsm.bitstream.fields.corners import corners_of, keep_borders
 from bsm.bitstream.fields.levels import MOST_LEVEL
 from bsm.codec.arrays import Levels, Mask, Matrix
 from bsm.codec.static.contract import Fit
-from bsm.codec.static.preamble import Prepared
+from bsm.codec.static.preamble_encoding import Prepared
 
 ROUND = 2.0 / math.sqrt(3.0) * 0.999
 """A cell of a cubic grid whose corners are just within 1 of its middle."""

@@ -30,7 +30,7 @@ from bsm.codec.static.choice.spectral import Base, Spectral, Stack, base_step, l
 from bsm.codec.static.contract import Contract
 from bsm.codec.static.draft import Draft
 from bsm.codec.static.options import EncodeOptions
-from bsm.codec.static.preamble import FEW_VERTICES, Prepared
+from bsm.codec.static.preamble_encoding import FEW_VERTICES, Prepared
 from bsm.codec.static.ways.block_coder import Progress
 
 FINE_REACH = 0.001

@@ -18,7 +18,7 @@ from bsm.codec.static.choice.search import LOOK_SLACK, LOOK_TRIES, THOROUGH, Tri
 from bsm.codec.static.choice.shaping import Aim, Shaper
 from bsm.codec.static.contract import Contract
 from bsm.codec.static.draft import Draft
-from bsm.codec.static.preamble import FEW_VERTICES, Prepared
+from bsm.codec.static.preamble_encoding import FEW_VERTICES, Prepared
 
 COARSEST = 0.05
 """Largest step, in BSM units."""

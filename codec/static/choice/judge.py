@@ -18,7 +18,7 @@ from bsm.codec.static.choice.borders import Borders
 from bsm.codec.static.choice.search import Found, Trial
 from bsm.codec.static.choice.shaping import Shaper
 from bsm.codec.static.contract import ANY_ANGLE, Contract
-from bsm.codec.static.preamble import Prepared
+from bsm.codec.static.preamble_encoding import Prepared
 
 NEARLY = (0.85, 1.08)
 """Over the look that is asked for: what comes to less or more from a few sides is not seen from all of them while steps

@@ -14,7 +14,7 @@ from bsm.bitstream.fields.lattice import find_lattice
 from bsm.codec.arrays import Levels, Mask, Matrix, Positions
 from bsm.codec.static.choice.shaping import Aim, Shaper
 from bsm.codec.static.draft import Draft
-from bsm.codec.static.preamble import Prepared
+from bsm.codec.static.preamble_encoding import Prepared
 from bsm.codec.static.units import single
 from bsm.codec.static.ways.grid import Grid, encode_exact, encode_grid
 

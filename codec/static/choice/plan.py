@@ -21,7 +21,7 @@ from bsm.codec.signal.transform import project
 from bsm.codec.static.admission import patience
 from bsm.codec.static.coding import Adaptive, Coding, Layered, Packed
 from bsm.codec.static.options import EncodeOptions
-from bsm.codec.static.preamble import Prepared
+from bsm.codec.static.preamble_encoding import Prepared
 from bsm.codec.static.rules import STIFFNESS, Scheme
 from bsm.codec.static.units import single
 from bsm.codec.threads import ordered_map

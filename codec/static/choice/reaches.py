@@ -8,7 +8,7 @@ from bsm.codec.arrays import Indices, Matrix
 from bsm.codec.geometry.graph import component_sizes
 from bsm.codec.geometry.surface_distance import distances_to_surface
 from bsm.codec.static.contract import Contract
-from bsm.codec.static.preamble import Prepared
+from bsm.codec.static.preamble_encoding import Prepared
 
 FINEST_PART = 0.1
 """No part is bound more tightly than this, over the bound of the whole: where that is 1 % of the diagonal, it is half a

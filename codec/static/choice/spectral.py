@@ -18,7 +18,7 @@ from bsm.codec.static.assembly import blended
 from bsm.codec.static.choice.plan import Planner
 from bsm.codec.static.draft import Draft
 from bsm.codec.static.options import EncodeOptions
-from bsm.codec.static.preamble import Prepared
+from bsm.codec.static.preamble_encoding import Prepared
 from bsm.codec.static.units import single
 from bsm.codec.static.ways.block_coder import Progress, encode_blocks
 from bsm.codec.static.ways.refinement import encode_layer

@@ -24,8 +24,8 @@ from bsm.codec.static.assembly import Assembly
 from bsm.codec.static.attributes.decoding import ValuesStage, completed
 from bsm.codec.static.attributes.solid import Solid
 from bsm.codec.static.events import Losses, LossEvent, RefinementEvent, unreadable
+from bsm.codec.static.preamble_decoding import Structure
 from bsm.codec.static.stages import Arrival, Stage, misplaced
-from bsm.codec.static.structure import Structure
 from bsm.codec.static.whole import Complete
 from bsm.codec.static.work import chunk_cost, layer_cost, layer_memory
 from bsm.codec.threads import Lanes, Pending

@@ -20,7 +20,7 @@ from bsm.codec.static.decoder import decode
 from bsm.codec.static.encoder import Encoder
 from bsm.codec.static.joining import join
 from bsm.codec.static.options import EncodeOptions
-from bsm.codec.static.preamble import Parts, prepare
+from bsm.codec.static.preamble_encoding import Parts, prepare
 from bsm.codec.static.ways.block_coder import encode_blocks
 from bsm.evaluation.codecs import paper_options
 from bsm.evaluation.tables import number, table

@@ -1,4 +1,4 @@
-"""What a decoder gets before positions, from what `codec.static.preamble` prepares.
+"""What a decoder gets before positions, from what `codec.static.preamble_encoding` prepares.
 
 They pass three stages (`codec.static.stages`): `HeaderStage` takes the header, `ConnectivityStage` the faces, and
 `PreambleStage` labels, order and declarations, until something else comes. Each further section of a mesh begins at
