@@ -10,6 +10,7 @@ import numpy as np
 
 from bsm.bitstream.container.header import Header
 from bsm.bitstream.errors import OptionError, TargetError
+from bsm.bitstream.limits import NAMED_LIMITS
 from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Order
 from bsm.codec.geometry.attributes import Attribute
@@ -25,6 +26,7 @@ from bsm.codec.static.choice.lattices import exact, rounded, rounded_to_cells
 from bsm.codec.static.choice.search import Trial, widest_step
 from bsm.codec.static.choice.spectral import Spectral
 from bsm.codec.static.contract import WIDEST, Contract
+from bsm.codec.static.decoder import decode
 from bsm.codec.static.draft import Draft
 from bsm.codec.static.joining import JoinedMesh, join
 from bsm.codec.static.options import EncodeOptions, finer_promises
@@ -174,7 +176,9 @@ class Encoder:
         """What the options ask for, without a target."""
         self._take_attributes()
         promise = self.options.promise
-        return self._dressed(self._bare(progress)) if promise is None else self._promised(promise, progress)
+        return self._admitted(
+            self._dressed(self._bare(progress)) if promise is None else self._promised(promise, progress)
+        )
 
     def _promised(self, promise: Contract, progress: Progress | None) -> Draft:
         """The smallest draft that keeps a promise; or a better one where that is as good as free.
@@ -228,8 +232,11 @@ class Encoder:
             raise OptionError("there is no target to search for")
         self._take_attributes()
         if self.options.says_how:
-            return self._as_said(target, progress)
-        return self._sized(target, progress) if target.shrinks_with_step else self._bounded(target, progress)
+            found = self._as_said(target, progress)
+        else:
+            found = self._sized(target, progress) if target.shrinks_with_step else self._bounded(target, progress)
+        self._admitted(found.draft)
+        return found
 
     def _bounded(self, target: Target, progress: Progress | None) -> Attempt:
         """The smallest stream within a bound on its error, and whatever else is promised."""
@@ -312,6 +319,13 @@ class Encoder:
         if not self._carried and not self._given.metadata:
             return draft
         return with_attributes(draft, self._carried, self._given.metadata)
+
+    def _admitted(self, draft: Draft) -> Draft:
+        """The draft, once it is known that decoders take what it carries besides positions: it is decoded."""
+        if self._carried:
+            with as_of_decoders(self.options.limits):
+                decode(b"".join(draft.frames), NAMED_LIMITS[self.options.limits](), self.options.threads)
+        return draft
 
     @cached_property
     def _wanted(self) -> list[tuple[Attribute, Quality]]:

@@ -59,3 +59,12 @@ def test_too_many_attributes_are_refused_before_any_is_coded():
     many = [Attribute(f"a{number}", np.zeros(len(shape.positions), np.uint8), "vertex") for number in range(256)]
     with pytest.raises(bsm.OptionError, match="255 attributes at most, not 256"):
         bsm.encode(TriangleMesh(shape.positions, shape.faces, tuple(many)))
+
+
+def test_attributes_that_decoders_would_refuse_are_not_written():
+    shape = torus(60, 40)
+    values = np.random.default_rng(0).normal(size=(3 * len(shape.faces), 4))
+    many = tuple(Attribute(f"a{number}", values, "corner") for number in range(40))
+    with pytest.raises(bsm.OptionError, match="decoders with default limits would refuse this stream"):
+        bsm.encode(TriangleMesh(shape.positions, shape.faces, many), preset="small")
+    bsm.encode(TriangleMesh(shape.positions, shape.faces, many[:2]), preset="small")
