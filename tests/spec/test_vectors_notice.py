@@ -20,7 +20,9 @@ CHANGES = {
 
 def decoded(folder: Path, name: str) -> dict[str, np.ndarray] | None:
     """What the decoder in a folder makes of a vector; None: an error."""
-    command = [sys.executable, folder / "reference_decoder.py", SPEC / "vectors" / f"{name}.bsm", folder / "out.npz"]
+    # -B: bytecode would outlive the change of one digit within a second.
+    command = [sys.executable, "-B", folder / "reference_decoder.py"]
+    command += [SPEC / "vectors" / f"{name}.bsm", folder / "out.npz"]
     if subprocess.run(command, capture_output=True, check=False).returncode:
         return None
     with np.load(folder / "out.npz") as found:
