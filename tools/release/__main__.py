@@ -28,6 +28,8 @@ from tools.release.wheels import ARM, INTEL, make_sdist, make_wheel
 
 ROOT = Path(__file__).parents[2]
 PARTS = ("sdist", "wheels", "arm64", "npm")
+RELEASED = ("bsm_codec-*", "bsm-decoder-*", "SHA256SUMS", "NOTES.md")
+"""What a release consists of, and what an earlier one has left."""
 STABLE = (3, 12)
 """From this Python on one wheel is enough."""
 
@@ -43,8 +45,9 @@ def main() -> None:
     output = args.output.resolve()
     output.mkdir(parents=True, exist_ok=True)
     if set(args.only) == set(PARTS):
-        for old in output.iterdir():
-            old.unlink()
+        for pattern in RELEASED:
+            for old in output.glob(pattern):
+                old.unlink()
     with tempfile.TemporaryDirectory() as folder:
         sources = exported(Path(folder))
         made = []
