@@ -120,7 +120,8 @@ def _cross(folder: Path, processor: Processor) -> dict[str, str]:
     programs = {"C_COMPILER": f"cc {compiled}", "CXX_COMPILER": f"c++ {compiled}", "AR": "ar", "RANLIB": "ranlib"}
     for name, program in programs.items():
         path = folder / f"zig-{name.lower()}"
-        path.write_text(f'#!/bin/sh\nexec "{sys.executable}" -m ziglang {program} "$@"\n')
+        # -I: pip's isolation hides this environment's libraries from programs of the same Python.
+        path.write_text(f'#!/bin/sh\nexec "{sys.executable}" -I -m ziglang {program} "$@"\n')
         path.chmod(path.stat().st_mode | stat.S_IXUSR)
         told.append(f"-DCMAKE_{name}={path}")
     return {
