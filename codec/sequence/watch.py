@@ -15,6 +15,7 @@ from bsm.codec.arrays import Faces, Matrix, Positions
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.look.measure import Looker
 from bsm.codec.sequence.promise import Promise
+from bsm.codec.static.targets import COARSEST_STEP
 
 KNOTS = 10
 """Frames, evenly over a GOP, that pictures are drawn of at every attempt."""
@@ -37,7 +38,6 @@ EVENING, SMOOTHNESS = 0.8, 2.0
 change quickly are dear in the temporal basis."""
 WIDEST = 1.0
 """Logarithm of the largest weight, and of one over the smallest."""
-COARSEST_STEP = 0.1
 _TRIES = 20
 
 
@@ -127,6 +127,8 @@ class Watch:
         if kept is None:
             raise self._refusal(math.exp(at))
         at, _, found = kept
+        if len(self._frames) == 1:
+            return found  # it was drawn, if looks are promised
         for _ in range(_TRIES):
             excess = self._excess_of_near(found.decoded)
             if excess <= 0.0:
