@@ -16,6 +16,15 @@ class BsmError(Exception):
         Number of the stream frame, counted from 0.
     block : int, optional
         Number of the block concerned.
+
+    Examples
+    --------
+    >>> import bsm
+    >>> try:
+    ...     bsm.decode(b"no stream")
+    ... except bsm.BsmError as error:
+    ...     type(error).__name__, error.offset
+    ('FormatError', 0)
     """
 
     def __init__(
@@ -41,43 +50,124 @@ class BsmError(Exception):
 
 
 class FormatError(BsmError, ValueError):
-    """The data is not a BSM stream at all (or not the kind of file its name promises)."""
+    """The data is not a BSM stream at all (or not the kind of file its name promises).
+
+    Examples
+    --------
+    >>> import bsm
+    >>> bsm.decode("bunny.ply")
+    Traceback (most recent call last):
+    bsm.FormatError: ...
+    """
 
 
 class UnsupportedError(BsmError, NotImplementedError):
-    """Well formed as far as it can be read, but of a version or method that this decoder does not know."""
+    """Well formed as far as it can be read, but of a version or method that this decoder does not know.
+
+    Examples
+    --------
+    >>> import bsm
+    >>> issubclass(bsm.UnsupportedError, (bsm.BsmError, NotImplementedError))
+    True
+    """
 
 
 class CorruptError(BsmError, ValueError):
-    """A BSM stream that contradicts itself or its checksums."""
+    """A BSM stream that contradicts itself or its checksums.
+
+    Examples
+    --------
+    >>> import bsm
+    >>> stream = bytearray(bsm.encode("bunny.ply"))
+    >>> stream[-40] ^= 1
+    >>> bsm.decode(stream)
+    Traceback (most recent call last):
+    bsm.CorruptError: ...
+    """
 
 
 class TruncatedError(BsmError, EOFError):
-    """The data ends before the stream does."""
+    """The data ends before the stream does.
+
+    Examples
+    --------
+    >>> import bsm
+    >>> bsm.decode(bsm.encode("bunny.ply")[:-100])
+    Traceback (most recent call last):
+    bsm.TruncatedError: ...
+    """
 
 
 class LimitError(BsmError, OverflowError):
-    """The stream asks for more memory or work than the caller's `Limits` allow."""
+    """The stream asks for more memory or work than the caller's `Limits` allow.
+
+    Examples
+    --------
+    >>> import bsm
+    >>> bsm.decode("bunny.bsm", limits=bsm.Limits(vertices=100))
+    Traceback (most recent call last):
+    bsm.LimitError: ...
+    """
 
 
 class NumericError(BsmError, ArithmeticError):
-    """The mathematics broke down: a singular system or a value that is not finite."""
+    """The mathematics broke down: a singular system or a value that is not finite.
+
+    Examples
+    --------
+    >>> import bsm
+    >>> issubclass(bsm.NumericError, (bsm.BsmError, ArithmeticError))
+    True
+    """
 
 
 class MeshError(BsmError, ValueError):
-    """Positions and faces that do not make a triangle mesh."""
+    """Positions and faces that do not make a triangle mesh.
+
+    Examples
+    --------
+    >>> import bsm
+    >>> bsm.encode(([(0, 0, 0)], [(0, 1, 2)]))
+    Traceback (most recent call last):
+    bsm.MeshError: ...
+    """
 
 
 class OptionError(BsmError, ValueError):
-    """An option outside its legal range, or options that exclude each other."""
+    """An option outside its legal range, or options that exclude each other.
+
+    Examples
+    --------
+    >>> import bsm
+    >>> bsm.encode("bunny.ply", preset="finest")
+    Traceback (most recent call last):
+    bsm.OptionError: ...
+    """
 
 
 class HarmError(BsmError, ValueError):
-    """A result that would be worse than what it was made from; it is handed out only if that is forced."""
+    """A result that would be worse than what it was made from; it is handed out only if that is forced.
+
+    Examples
+    --------
+    >>> import bsm
+    >>> clean = bsm.load("bunny.ply")
+    >>> bsm.denoise(clean, keep=0.05)
+    Traceback (most recent call last):
+    bsm.HarmError: ...
+    """
 
 
 class ArgumentError(BsmError, TypeError):
-    """An argument of a type that is not understood, or a keyword that does not exist."""
+    """An argument of a type that is not understood, or a keyword that does not exist.
+
+    Examples
+    --------
+    >>> import bsm
+    >>> bsm.encode("bunny.ply", prest="fine")
+    Traceback (most recent call last):
+    bsm.ArgumentError: there is no option prest for a mesh; did you mean preset?
+    """
 
 
 class TargetError(BsmError, ValueError):
@@ -87,13 +177,31 @@ class TargetError(BsmError, ValueError):
     ----------
     best : float
         The same as a number, in the unit of the target; infinity where nothing can be had.
+
+    Examples
+    --------
+    >>> import bsm
+    >>> try:
+    ...     bsm.encode("bunny.ply", size="10 B")
+    ... except bsm.TargetError as error:
+    ...     error.best > 10
+    True
     """
 
     best = float("inf")
 
 
 class DependencyError(BsmError, ImportError):
-    """An optional package is needed for this and is not installed."""
+    """An optional package is needed for this and is not installed.
+
+    Examples
+    --------
+    >>> import bsm
+    >>> try:
+    ...     widget = bsm.show("bunny.ply")
+    ... except bsm.DependencyError as error:  # without anywidget
+    ...     print(error)  # how to install it
+    """
 
 
 # Tracebacks show them by the name that users catch them by.

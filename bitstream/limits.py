@@ -6,14 +6,65 @@ import math
 from dataclasses import dataclass, fields
 
 from bsm.bitstream.errors import ArgumentError, LimitError, OptionError
+from bsm.bitstream.public import public
 
 
+@public
 @dataclass(frozen=True)
 class Limits:
     """Upper bounds that a decoder checks before it allocates or works; raise them with `dataclasses.replace`.
 
     The defaults admit a mesh of sixteen million vertices and refuse a stream that only claims to hold one: memory and
     work follow the vertices that its faces really have, and the bytes received.
+
+    Parameters
+    ----------
+    vertices, faces, blocks : int
+        Of a mesh, or of every frame of a sequence.
+    block_size : int
+        Vertices of a block.
+    coefficients : int
+        Of a block, for each coordinate.
+    frames : int
+        Of a sequence.
+    gop_frames : int
+        Frames that depend on each other.
+    frame_bytes : int
+        Of one frame of the stream.
+    metadata_bytes : int
+        Of names and values that belong to the whole mesh.
+    work, work_per_vertex, work_per_byte : float
+        Nanoseconds of a processor core, by the estimates of the specification: granted at once, and for each vertex
+        and each byte that have come.
+    most_work : float
+        Of a whole stream, whatever it holds.
+    memory, memory_per_vertex, memory_per_byte : float
+        Bytes, granted in the same way.
+    most_memory : float
+        Of a whole stream, whatever it holds.
+    sequence_bytes : float
+        Memory for the dictionaries of a sequence, and for the coefficients of a GOP.
+    field_bytes : float
+        Memory for decoding a grid or a layer of refinement, or the values of an attribute.
+    attributes : int
+        Of a mesh.
+    attribute_values : int
+        Numbers of all attributes of a mesh: values times their components.
+
+    Raises
+    ------
+    ArgumentError
+        If a limit is no number.
+    OptionError
+        If it is negative, or not a number at all (NaN).
+
+    Examples
+    --------
+    >>> import bsm
+    >>> mesh = bsm.decode("bunny.bsm", limits=bsm.Limits.service())
+    >>> small = bsm.Limits(vertices=100_000, faces=200_000)
+    >>> small
+    Limits(vertices=100000, faces=200000)
     """
 
     vertices: int = 1 << 24
@@ -26,24 +77,17 @@ class Limits:
     frame_bytes: int = 1 << 28
     metadata_bytes: int = 1 << 23
     work: float = 8e8
-    """Nanoseconds of a processor core, by the estimates of the specification, besides what vertices and bytes grant."""
     work_per_vertex: float = 3.2e4
     work_per_byte: float = 1.6e4
     most_work: float = math.inf
-    """Of a whole stream, whatever it holds."""
     memory: float = 1 << 26
-    """Bytes besides what vertices and bytes grant."""
     memory_per_vertex: float = 1 << 10
     memory_per_byte: float = 64
     most_memory: float = math.inf
-    """Of a whole stream, whatever it holds."""
     sequence_bytes: float = 1 << 31
-    """Memory for the dictionaries of a sequence, and for the coefficients of a GOP."""
     field_bytes: float = 1 << 32
-    """Memory for decoding a grid or a layer of refinement, or the values of an attribute."""
     attributes: int = 255
     attribute_values: int = 1 << 28
-    """Numbers of all attributes of a mesh: values times their components."""
 
     def __repr__(self) -> str:
         """Name what differs from the defaults, so that signatures fit a line."""

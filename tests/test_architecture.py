@@ -8,7 +8,7 @@ import pytest
 
 ROOT = Path(__file__).parent.parent
 KNOW_BYTES = ("bsm.codec.static", "bsm.codec.sequence")
-KNOWN_TO_ALL = ("bsm.bitstream.errors", "bsm.bitstream.extras", "bsm.bitstream.limits", "bsm.bitstream.once")
+KNOWN_TO_ALL = tuple(f"bsm.bitstream.{name}" for name in ("errors", "extras", "limits", "once", "public"))
 FLOORS = {
     "bsm": (
         ("bitstream", "__version__", "_kernels"),
@@ -37,7 +37,7 @@ FLOORS = {
         ("sequence",),
     ),
     "bsm.bitstream": (
-        ("_kernels", "errors", "extras", "once"),
+        ("_kernels", "errors", "extras", "once", "public"),
         ("limits",),
         ("entropy",),
         ("connectivity", "coefficients", "fields"),

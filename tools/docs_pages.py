@@ -8,22 +8,44 @@ from __future__ import annotations
 import io
 import subprocess
 import sys
+from inspect import getdoc, isclass, isfunction
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+import bsm
 from bsm.cli import COMMANDS, command_parser
 from bsm.exits import EXITS
 
 ROOT = Path(__file__).parents[1]
 PICTURES = ROOT / "build" / "gallery"
+MODULES = {
+    "bsm.research": "One's own dictionary, prediction or partition in place of ours",
+    "bsm.trimesh": "Streams in trimesh",
+    "bsm.pyvista": "Streams in pyvista",
+    "bsm.vtk": "Streams in pipelines of VTK, and ParaView",
+}
+"""Modules that are public beside `bsm` itself."""
+
+
+def on_config(config: Any) -> Any:
+    """Put the pages of public names behind those of Python that are written by hand."""
+    for section in config.nav:
+        if "Reference" in section:
+            section["Reference"].insert(
+                1, {"Python": ["api/python.md", *({name: f"api/{name}.md"} for name in reference())]}
+            )
+    return config
 
 
 def on_files(files: Any, config: Any) -> Any:
     """Add the pages and pictures that are made here."""
     from mkdocs.structure.files import File
 
+    files.append(File.generated(config, "api/python.md", content=contents()))
+    for name, page in reference().items():
+        files.append(File.generated(config, f"api/{name}.md", content=page))
     files.append(File.generated(config, "cli.md", content=command_line()))
     for path in pictures(PICTURES):
         files.append(File.generated(config, f"gallery/{path.name}", abs_src_path=str(path)))
@@ -35,6 +57,22 @@ def on_page_markdown(markdown: str, *, page: Any, **_: Any) -> str:
     if page.file.src_uri.startswith("format/"):
         return markdown.replace("][", "]\\[")
     return markdown.replace("EXIT_TABLE", exit_codes())
+
+
+def reference() -> dict[str, str]:
+    """A page for each public function, type and module, by its name."""
+    found = {f"bsm.{name}": getattr(bsm, name) for name in bsm.__all__}
+    names = [name for name, value in found.items() if isclass(value) or isfunction(value)]
+    return {name: f"::: {name}\n    options:\n      heading_level: 1\n" for name in (*names, *MODULES)}
+
+
+def contents() -> str:
+    """The page that says in a sentence what each of them is."""
+    rows = []
+    for name in reference():
+        text = MODULES.get(name) or (getdoc(getattr(bsm, name.partition(".")[2])) or "").partition("\n")[0]
+        rows.append(f"| [`{name}`]({name}.md) | {text.rstrip('.')} |")
+    return "\n".join(["# Python", "", "| name | what it is |", "|---|---|", *rows, ""])
 
 
 def command_line() -> str:

@@ -23,10 +23,20 @@ from bsm.bitstream.errors import (
     UnsupportedError,
 )
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits, as_limits
+from bsm.bitstream.public import public
 
 
+@public
 class Signal(Enum):
-    """What `Reader.next_packet` returns where there is no packet."""
+    """What `Reader.next_packet` returns where there is no packet.
+
+    Examples
+    --------
+    >>> import bsm
+    >>> with bsm.Decoder() as decoder:
+    ...     decoder.next_event() is bsm.NEED_DATA
+    True
+    """
 
     NEED_DATA = "give more bytes to receive_data, or call receive_eof"
     END_OF_STREAM = "END was read and nothing follows"

@@ -5,11 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from bsm.bitstream.errors import OptionError
+from bsm.bitstream.public import public
 from bsm.codec.denoise.coarse import BLOCK_SIZE, KEEP
 from bsm.codec.denoise.filters.fine import fine_step
 from bsm.codec.denoise.handover import hand_over
 
 
+@public
 @dataclass(frozen=True, kw_only=True)
 class DenoiseOptions:
     """How to denoise; the defaults are the paper's coarse-to-fine scheme.
@@ -33,6 +35,12 @@ class DenoiseOptions:
     ------
     OptionError
         If a name is unknown or a number outside its range.
+
+    Examples
+    --------
+    >>> import bsm
+    >>> own = bsm.DenoiseOptions(hand_over="normals", fine="guided", iterations=10)
+    >>> clean = bsm.denoise("scan.ply", own)
     """
 
     hand_over: str = "positions"

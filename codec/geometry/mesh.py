@@ -12,6 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from bsm.bitstream.errors import ArgumentError, MeshError
+from bsm.bitstream.public import public
 from bsm.codec.arrays import Faces, Order, Positions
 from bsm.codec.geometry.attributes import Attribute
 
@@ -19,6 +20,7 @@ Metadata = Mapping[str, str | int | float | bytes]
 """Whatever an author wants to say of a mesh."""
 
 
+@public
 @dataclass(frozen=True, eq=False)
 class TriangleMesh:
     """Positions and faces of a triangle mesh; both arrays are read-only copies.
@@ -40,6 +42,13 @@ class TriangleMesh:
     MeshError
         If a shape is wrong, a coordinate is not finite, an index is out of range, there is no face, or an attribute is
         not of this mesh.
+
+    Examples
+    --------
+    >>> import bsm
+    >>> corners = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]
+    >>> bsm.TriangleMesh(corners, [(0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2)], metadata={"unit": "mm"})
+    TriangleMesh(4 vertices, 4 faces)
     """
 
     positions: Positions

@@ -16,6 +16,7 @@ from bsm.bitstream.container.reader import END_OF_STREAM, Signal
 from bsm.bitstream.container.wire import FrameType
 from bsm.bitstream.errors import BsmError, CorruptError, FormatError, UnsupportedError
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
+from bsm.bitstream.public import public
 from bsm.codec.arrays import Faces, Matrix, Positions
 from bsm.codec.blocks.blend import Blend
 from bsm.codec.geometry.attributes import Attribute
@@ -32,9 +33,29 @@ from bsm.codec.static.work import Allowance
 from bsm.codec.threads import threads_of
 
 
+@public
 @dataclass(frozen=True, eq=False)
 class FrameEvent:
-    """A frame: its number from 0, and its positions, shape (n, 3), in the mesh's unit."""
+    """A frame has been decoded.
+
+    Parameters
+    ----------
+    index : int
+        Its number, from 0.
+    positions : float64 array, shape (n, 3)
+        In the mesh's unit.
+
+    Examples
+    --------
+    >>> import bsm
+    >>> with bsm.SequenceDecoder(start=2) as decoder, open("dance.bsm", "rb") as file:
+    ...     decoder.receive_data(file.read())
+    ...     decoder.receive_eof()
+    ...     while (event := decoder.next_event()) is not bsm.END_OF_STREAM:
+    ...         if isinstance(event, bsm.FrameEvent):
+    ...             print(event.index, end=" ")
+    2 3 4 5
+    """
 
     index: int
     positions: Positions
@@ -247,6 +268,7 @@ class Gops:
         queue.append(EndEvent())
 
 
+@public
 class SequenceDecoder(StreamDecoder[Item]):
     """Takes the bytes of a sequence's stream as they come, and gives events as soon as they can be known.
 
@@ -266,6 +288,18 @@ class SequenceDecoder(StreamDecoder[Item]):
         Give no frame before this one; GOPs that it does not need are not decoded.
     trial : Trial, optional
         What is tried in place of what the specification says; see `codec.signal.chain`.
+
+    Examples
+    --------
+    >>> import bsm
+    >>> with bsm.SequenceDecoder() as decoder, open("dance.bsm", "rb") as file:
+    ...     decoder.receive_data(file.read())
+    ...     decoder.receive_eof()
+    ...     frames = 0
+    ...     while (event := decoder.next_event()) is not bsm.END_OF_STREAM:
+    ...         frames += isinstance(event, bsm.FrameEvent)
+    >>> frames
+    6
     """
 
     def __init__(

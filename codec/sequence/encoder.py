@@ -17,6 +17,7 @@ from bsm.bitstream.container.header import Header
 from bsm.bitstream.container.writer import Writer
 from bsm.bitstream.errors import ArgumentError, MeshError, OptionError
 from bsm.bitstream.limits import NAMED_LIMITS
+from bsm.bitstream.public import public
 from bsm.codec.arrays import Matrix, Order, Positions
 from bsm.codec.choices import check_mapping
 from bsm.codec.geometry.attributes import Attribute
@@ -90,6 +91,7 @@ def _silent(done: int, blocks: int) -> None:
     """What was told once is not told again."""
 
 
+@public
 class SequenceEncoder:
     """Encodes frames that share their faces.
 
@@ -113,6 +115,15 @@ class SequenceEncoder:
         The decoder's face i is face `face_order[i]`.
     notes : tuple of str
         What was changed on the way in.
+
+    Examples
+    --------
+    >>> import bsm
+    >>> positions, faces = bsm.decode_sequence("dance.bsm")
+    >>> encoder = bsm.SequenceEncoder(faces, bsm.SequenceOptions(step=0.005), frames=len(positions))
+    >>> with open("again.bsm", "wb") as file:
+    ...     for chunk in encoder.chunks(positions):
+    ...         size = file.write(chunk)
     """
 
     def __init__(

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from bsm.bitstream.errors import OptionError
 from bsm.bitstream.limits import NAMED_LIMITS
+from bsm.bitstream.public import public
 from bsm.codec.choices import check_options
 from bsm.codec.sequence.promise import Promise
 from bsm.codec.sequence.targets import SequenceTarget
@@ -28,6 +29,7 @@ RANGES: dict[str, tuple[float, float]] = {
 }
 
 
+@public
 @dataclass(frozen=True, kw_only=True)
 class SequenceOptions:
     """How to encode a sequence.
@@ -65,6 +67,12 @@ class SequenceOptions:
     ------
     OptionError
         If a value is outside its legal range.
+
+    Examples
+    --------
+    >>> import bsm
+    >>> options = bsm.SequenceOptions(mode="low-delay", step=0.005, gop=32)
+    >>> data = bsm.encode_sequence(*bsm.decode_sequence("dance.bsm"), options)
     """
 
     mode: str = "gop"

@@ -8,6 +8,7 @@ from typing import ClassVar
 
 import numpy as np
 
+from bsm.bitstream.public import public
 from bsm.codec.arrays import Faces, Positions
 from bsm.codec.geometry.metrics import Reference, kg_error
 from bsm.codec.static.targets import Target
@@ -62,6 +63,7 @@ def flicker_of(original: Positions, decoded: Positions) -> float:
     return 100.0 * wrong / own if own else math.inf
 
 
+@public
 @dataclass(frozen=True)
 class SequenceTarget(Target):
     """What to reach.
@@ -77,6 +79,12 @@ class SequenceTarget(Target):
     ------
     OptionError
         If there is no such target.
+
+    Examples
+    --------
+    >>> import bsm
+    >>> options = bsm.SequenceOptions(target=bsm.SequenceTarget("kg", 0.5))
+    >>> data = bsm.encode_sequence(*bsm.decode_sequence("dance.bsm"), options)
     """
 
     KINDS: ClassVar[tuple[str, ...]] = ("kg", "theta_deg", "nmsve_db", "bpvf")

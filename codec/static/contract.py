@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass
 
 from bsm.bitstream.errors import OptionError
+from bsm.bitstream.public import public
 from bsm.codec.geometry.metrics import decibel
 
 ANY_ANGLE = 180.0
@@ -23,6 +24,7 @@ def _refuse_wide(what: str, share: float) -> None:
         )
 
 
+@public
 @dataclass(frozen=True)
 class Contract:
     """Bounds that a decoded mesh keeps.
@@ -49,6 +51,12 @@ class Contract:
     ------
     OptionError
         If a bound is not positive.
+
+    Examples
+    --------
+    >>> import bsm
+    >>> promise = bsm.Contract(0.005, look=2.0)  # 0.5 % of the diagonal, and a look of 2
+    >>> data = bsm.encode("bunny.ply", bsm.EncodeOptions(contract=promise))
     """
 
     farthest: float

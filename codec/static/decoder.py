@@ -13,6 +13,7 @@ from bsm.bitstream.container.reader import END_OF_STREAM, Signal
 from bsm.bitstream.container.wire import FrameType
 from bsm.bitstream.errors import ArgumentError, BsmError, CorruptError, OptionError, UnsupportedError
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
+from bsm.bitstream.public import public
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.signal.chain import AS_SPECIFIED, Trial
 from bsm.codec.static.assembly import Assembly, DecodedBlock, Place
@@ -157,6 +158,7 @@ class BlockStage:
         return self._complete
 
 
+@public
 class Decoder(StreamDecoder[Item]):
     """Takes the bytes of a stream as they come, and gives events as soon as they can be known.
 
@@ -177,6 +179,18 @@ class Decoder(StreamDecoder[Item]):
         them is not waited for.
     trial : Trial, optional
         What is tried in place of what the specification says; see `codec.signal.chain`.
+
+    Examples
+    --------
+    >>> import bsm
+    >>> with bsm.Decoder() as decoder, open("bunny.bsm", "rb") as file:
+    ...     done = False
+    ...     while not done:
+    ...         event = decoder.next_event()
+    ...         if event is bsm.NEED_DATA:
+    ...             chunk = file.read(1000)
+    ...             decoder.receive_data(chunk) if chunk else decoder.receive_eof()
+    ...         done = event is bsm.END_OF_STREAM
     """
 
     def __init__(

@@ -12,6 +12,7 @@ from bsm.bitstream.container.header import Header
 from bsm.bitstream.errors import OptionError, TargetError
 from bsm.bitstream.limits import NAMED_LIMITS
 from bsm.bitstream.once import cached_property
+from bsm.bitstream.public import public
 from bsm.codec.arrays import Order
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
@@ -90,6 +91,7 @@ SIZES, PROMISED_SIZES = (1e-290, 1e290), (1e-42, 1e30)
 """Of meshes, in their own unit: what numbers of the format hold; and where bounds are numbers of single precision."""
 
 
+@public
 class Encoder:
     """Encodes one mesh; the work begins with the first thing asked for.
 
@@ -99,6 +101,14 @@ class Encoder:
         Vertices at one position are made one, and what no face uses is left out, with notes; where the options keep
         the order, the stream gives all of that back.
     options : EncodeOptions
+
+    Examples
+    --------
+    >>> import bsm
+    >>> encoder = bsm.Encoder(bsm.load("bunny.ply"), bsm.EncodeOptions(step=0.002))
+    >>> data = encoder.encode()
+    >>> mesh = bsm.decode(data)
+    >>> errors = bsm.compare("bunny.ply", mesh, order=encoder.vertex_order)
     """
 
     def __init__(self, mesh: TriangleMesh, options: EncodeOptions | None = None) -> None:

@@ -11,13 +11,30 @@ import numpy.typing as npt
 from bsm.bitstream.container.header import Header
 from bsm.bitstream.container.packets import Damaged
 from bsm.bitstream.errors import BsmError, CorruptError
+from bsm.bitstream.public import public
 from bsm.codec.arrays import Faces, Indices, Mask, Positions
 from bsm.codec.geometry.attributes import Domain, Semantic
 
 
+@public
 @dataclass(frozen=True)
 class HeaderEvent:
-    """The header has arrived."""
+    """The header has arrived.
+
+    Parameters
+    ----------
+    header : Header
+        `vertices`, `scale`, and all that the specification says of headers, by the names it has there.
+
+    Examples
+    --------
+    >>> import bsm
+    >>> with bsm.Decoder() as decoder:
+    ...     decoder.receive_data(bsm.encode("bunny.ply"))
+    ...     event = decoder.next_event()
+    >>> isinstance(event, bsm.HeaderEvent), event.header.vertices > 0
+    (True, True)
+    """
 
     header: Header
 
@@ -34,6 +51,7 @@ class Changes:
         return f"Changes({len(self.vertices)} vertices, {int(self.final.sum())} final)"
 
 
+@public
 @dataclass(frozen=True, eq=False)
 class ConnectivityEvent:
     """The faces have arrived, or those of a section, with all that is needed to decode positions.
@@ -54,6 +72,17 @@ class ConnectivityEvent:
         From 0.
     sections : int
         How many there are in all.
+
+    Examples
+    --------
+    >>> import bsm
+    >>> with bsm.Decoder() as decoder:
+    ...     decoder.receive_data(bsm.encode("bunny.ply", step=0.002))
+    ...     decoder.receive_eof()
+    ...     while (event := decoder.next_event()) is not bsm.END_OF_STREAM:
+    ...         if isinstance(event, bsm.ConnectivityEvent):
+    ...             print(event)
+    ConnectivityEvent(... faces, ... vertices)
     """
 
     faces: Faces
@@ -72,6 +101,7 @@ class ConnectivityEvent:
         return self.section == self.sections - 1
 
 
+@public
 @dataclass(frozen=True, eq=False)
 class BlockEvent:
     """A block, or of a mesh on a grid a chunk, has been decoded: layer 0.
@@ -83,6 +113,16 @@ class BlockEvent:
     changes : Changes
         Vertices that this block moved or finished, their positions in the mesh's unit, and which of them no later
         block will move (a layer of refinement may).
+
+    Examples
+    --------
+    >>> import bsm
+    >>> with bsm.Decoder() as decoder:
+    ...     decoder.receive_data(bsm.encode("bunny.ply", step=0.002))
+    ...     decoder.receive_eof()
+    ...     while (event := decoder.next_event()) is not bsm.END_OF_STREAM:
+    ...         if isinstance(event, bsm.BlockEvent):
+    ...             known = len(event.positions)
     """
 
     layer: ClassVar[int] = 0
@@ -106,6 +146,7 @@ class BlockEvent:
         return self.changes.final
 
 
+@public
 @dataclass(frozen=True, eq=False)
 class RefinementEvent:
     """Levels of a layer of refinement have been decoded; they come when all blocks have.
@@ -118,6 +159,16 @@ class RefinementEvent:
         What was moved.
     positions : float64 array, shape (v, 3)
         Where that is now, in the mesh's unit.
+
+    Examples
+    --------
+    >>> import bsm
+    >>> with bsm.Decoder() as decoder:
+    ...     decoder.receive_data(bsm.encode("bunny.ply", step=0.002))
+    ...     decoder.receive_eof()
+    ...     while (event := decoder.next_event()) is not bsm.END_OF_STREAM:
+    ...         if isinstance(event, bsm.RefinementEvent):
+    ...             known = event.positions
     """
 
     layer: int
@@ -128,6 +179,7 @@ class RefinementEvent:
         return f"RefinementEvent(layer {self.layer}, {len(self.vertices)} vertices)"
 
 
+@public
 @dataclass(frozen=True, eq=False)
 class AttributeEvent:
     """Values of an attribute have been decoded.
@@ -142,6 +194,17 @@ class AttributeEvent:
     rows : int32 array, shape (r,)
         Numbers of values that are known from now on: of vertices or faces, or what `indices` refer to.
     values : array, shape (r, c)
+
+    Examples
+    --------
+    >>> import bsm
+    >>> with bsm.Decoder() as decoder:
+    ...     decoder.receive_data(bsm.encode("spot.obj", step=0.002))
+    ...     decoder.receive_eof()
+    ...     while (event := decoder.next_event()) is not bsm.END_OF_STREAM:
+    ...         if isinstance(event, bsm.AttributeEvent):
+    ...             print(event.name, event.domain)
+    texcoord corner
     """
 
     name: str
@@ -152,6 +215,7 @@ class AttributeEvent:
     values: npt.NDArray[Any]
 
 
+@public
 @dataclass(frozen=True)
 class LossEvent:
     """A tolerant decoder could not decode something, and goes on.
@@ -164,6 +228,21 @@ class LossEvent:
         Why, and where in the stream.
     frames : range
         The frames of a sequence that are lost; empty, but with a start, where their number is not known.
+
+    Examples
+    --------
+    >>> import bsm
+    >>> damaged = bytearray(bsm.encode("bunny.ply", step=0.002))
+    >>> damaged[-60] ^= 1
+    >>> lost = []
+    >>> with bsm.Decoder(tolerant=True) as decoder:
+    ...     decoder.receive_data(damaged)
+    ...     decoder.receive_eof()
+    ...     while (event := decoder.next_event()) is not bsm.END_OF_STREAM:
+    ...         if isinstance(event, bsm.LossEvent):
+    ...             lost.append(event.error)
+    >>> isinstance(lost[0], bsm.CorruptError)
+    True
     """
 
     block: int | None
@@ -186,6 +265,7 @@ class Losses:
         return f"Losses({len(self.missing)} vertices missing, {len(self.degraded)} degraded)"
 
 
+@public
 @dataclass(frozen=True, eq=False)
 class EndEvent:
     """The stream has come to its end.
@@ -195,6 +275,17 @@ class EndEvent:
     losses : Losses
         Vertices that are missing or less good; none, and the checksum of the stream right, unless the decoder is
         tolerant.
+
+    Examples
+    --------
+    >>> import bsm
+    >>> with bsm.Decoder() as decoder:
+    ...     decoder.receive_data(bsm.encode("bunny.ply", step=0.002))
+    ...     decoder.receive_eof()
+    ...     while (event := decoder.next_event()) is not bsm.END_OF_STREAM:
+    ...         if isinstance(event, bsm.EndEvent):
+    ...             print(event.losses)
+    Losses(0 vertices missing, 0 degraded)
     """
 
     losses: Losses = field(default_factory=Losses)

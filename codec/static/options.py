@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from bsm.bitstream.container.header import MOST_SECTIONS
 from bsm.bitstream.errors import ArgumentError, OptionError
 from bsm.bitstream.limits import NAMED_LIMITS
+from bsm.bitstream.public import public
 from bsm.codec.choices import check_options
 from bsm.codec.static.attributes.quality import Grade, checked_qualities
 from bsm.codec.static.contract import Contract, Fit
@@ -46,6 +47,7 @@ BALANCED = Contract(0.01, look=1.0, by_part=True)
 """What is promised unless something else is asked for."""
 
 
+@public
 @dataclass(frozen=True, kw_only=True)
 class EncodeOptions:
     """How to encode a static mesh.
@@ -130,6 +132,12 @@ class EncodeOptions:
     ------
     OptionError
         If a value is outside its legal range, or options exclude each other.
+
+    Examples
+    --------
+    >>> import bsm
+    >>> options = bsm.EncodeOptions(step=0.002, keep_order=True)
+    >>> data = bsm.encode("bunny.ply", options)
     """
 
     keep: float | None = None

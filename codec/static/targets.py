@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import Any, ClassVar, Protocol, TypeVar
 
 from bsm.bitstream.errors import OptionError, TargetError
+from bsm.bitstream.public import public
 
 SIZES = ("bpv", "bpvf", "size")
 UNITS = {
@@ -33,6 +34,7 @@ class Outcome(Protocol):
         """What is decoded against the original."""
 
 
+@public
 @dataclass(frozen=True)
 class Target:
     """What to reach.
@@ -48,6 +50,13 @@ class Target:
     ------
     OptionError
         If there is no such target.
+
+    Examples
+    --------
+    >>> import bsm
+    >>> options = bsm.EncodeOptions(target=bsm.Target("theta_deg", 5.0))
+    >>> bsm.compare("bunny.ply", bsm.encode("bunny.ply", options)).theta_deg <= 5
+    True
     """
 
     KINDS: ClassVar[tuple[str, ...]] = ("nmsve_db", "theta_deg", "bpv", "size")

@@ -63,6 +63,16 @@ def encode(
         If this is no mesh, there is no such keyword, or its value is of the wrong type.
     BsmError
         `MeshError`, `OptionError`, ...: see what they say.
+
+    Examples
+    --------
+    >>> import bsm
+    >>> data = bsm.encode("bunny.ply", preset="fine")
+    >>> mesh = bsm.load("bunny.ply")
+    >>> close = bsm.encode(mesh, max_error=0.001)  # of the diagonal
+    >>> small = bsm.encode((mesh.positions, mesh.faces), size="3kB")
+    >>> len(small) <= 3000
+    True
     """
     from bsm.codec.static.encoder import encode as encode_mesh
     from bsm.codec.static.options import EncodeOptions
@@ -121,6 +131,13 @@ def encode_many(
     ------
     BsmError, OSError
         If nothing can be begun: wrong options, outputs that would replace each other, no cluster, ...
+
+    Examples
+    --------
+    >>> import bsm
+    >>> rows = bsm.encode_many(["a.ply", "b.obj"], "streams/", preset="fine")
+    >>> [("error" in row, row["output"]) for row in rows]
+    [(False, 'streams/a.bsm'), (False, 'streams/b.bsm')]
     """
     from bsm.batch import plan
     from bsm.console import Console
@@ -157,6 +174,11 @@ def decode(stream: Source, *, limits: Limits = DEFAULT_LIMITS, threads: int | No
     threads : int, optional
         None: one per core.
 
+    Returns
+    -------
+    TriangleMesh
+        With the attributes and the metadata that were encoded.
+
     Raises
     ------
     ArgumentError
@@ -164,6 +186,13 @@ def decode(stream: Source, *, limits: Limits = DEFAULT_LIMITS, threads: int | No
     BsmError
         `FormatError`, `UnsupportedError`, `CorruptError`, `TruncatedError`, `LimitError` or `NumericError`, with the
         place in the stream.
+
+    Examples
+    --------
+    >>> import bsm
+    >>> mesh = bsm.decode("bunny.bsm")
+    >>> mesh.positions.dtype, mesh.faces.shape[1]
+    (dtype('float64'), 3)
     """
     return decode_whole(read_chunks(stream), limits, threads)
 
@@ -183,7 +212,9 @@ def encode_sequence(
     Parameters
     ----------
     positions : array_like, shape (T, n, 3)
+        Of every frame, in the mesh's unit.
     faces : array_like of int, shape (m, 3)
+        The same in all of them.
     options : SequenceOptions, optional
         Instead of keywords.
     metadata : mapping from str to str, int, float or bytes, optional
@@ -195,6 +226,29 @@ def encode_sequence(
         As on the command line: `preset` ("small", "balanced", "fine", "near-lossless": promises for every frame),
         `low_delay`, bounds (`look`, `max_error`), one target (`kg`, `bpvf`, `theta`, `nmsve_db`), and fields of
         `SequenceOptions` (`step`, `gop`, `frame_rate`, ...).
+
+    Returns
+    -------
+    bytes
+        A stream; vertices are in the coder's order in it unless `keep_order` is true.
+
+    Raises
+    ------
+    ArgumentError
+        If there is no such keyword, or its value is of the wrong type.
+    MeshError
+        If positions and faces are no sequence of meshes.
+    TargetError
+        If no step keeps what is promised.
+
+    Examples
+    --------
+    >>> import bsm, numpy as np
+    >>> mesh = bsm.load("bunny.ply")
+    >>> frames = np.stack([mesh.positions * (1 + 0.01 * k) for k in range(8)])
+    >>> data = bsm.encode_sequence(frames, mesh.faces, frame_rate=24.0)
+    >>> bsm.decode_sequence(data)[0].shape == frames.shape
+    True
     """
     from bsm.codec.sequence.encoder import encode_sequence as encode_frames
     from bsm.codec.sequence.options import SequenceOptions
@@ -206,7 +260,36 @@ def encode_sequence(
 def decode_sequence(
     stream: Source, *, limits: Limits = DEFAULT_LIMITS, threads: int | None = None
 ) -> tuple[Positions, Faces]:
-    """Restore an animated mesh: positions, shape (T, n, 3), and faces, shape (m, 3); arguments as those of `decode`."""
+    """Restore an animated mesh.
+
+    Parameters
+    ----------
+    stream : bytes, any buffer, path or binary file
+        It is read to its end first; a `SequenceDecoder` gives frames while bytes come.
+    limits : Limits
+        What the stream may ask for.
+    threads : int, optional
+        None: one per core.
+
+    Returns
+    -------
+    positions : float64 array, shape (T, n, 3)
+    faces : int32 array, shape (m, 3)
+
+    Raises
+    ------
+    ArgumentError
+        If this is no stream.
+    BsmError
+        As `decode`; `UnsupportedError` also for the stream of a single mesh.
+
+    Examples
+    --------
+    >>> import bsm
+    >>> positions, faces = bsm.decode_sequence("dance.bsm")
+    >>> positions.ndim, faces.shape[1]
+    (3, 3)
+    """
     from bsm.codec.sequence.decoder import decode_sequence as decode_frames
 
     return decode_frames(read_bytes(stream), limits, threads)
@@ -223,8 +306,27 @@ def load(source: Source, *, limits: Limits = DEFAULT_LIMITS, reader: str | None 
         OBJ, OFF, PLY, STL, npz and BSM; with trimesh installed (``pip install 'bsm-codec[formats]'``) also GLB, glTF,
         3MF, DAE and others.
     limits : Limits
+        What the file may ask for.
     reader : str, optional
         "openmesh" or "trimesh": read with that library, instead of ourselves where we know the format.
+
+    Returns
+    -------
+    TriangleMesh
+
+    Raises
+    ------
+    BsmError
+        If this holds no mesh: `FormatError`, `MeshError`, ...; `DependencyError` where a library is missing.
+    OSError
+        If the file cannot be read.
+
+    Examples
+    --------
+    >>> import bsm
+    >>> mesh = bsm.load("spot.obj")
+    >>> [attribute.name for attribute in mesh.attributes][:1]
+    ['texcoord']
     """
     return read_any(Input(source), limits=limits, reader=reader)
 
@@ -256,6 +358,15 @@ def save(mesh: Any, path: str | os.PathLike[str], *, overwrite: bool = True, **k
         If the name tells no format, or one that has no options.
     FileExistsError
         If the file exists and `overwrite` is false.
+
+    Examples
+    --------
+    >>> import bsm
+    >>> mesh = bsm.load("spot.obj")
+    >>> bsm.save(mesh, "again.bsm", preset="fine")
+    ()
+    >>> "texcoord" in bsm.save(mesh, "again.stl")  # what STL cannot hold
+    True
     """
     _name(path)
     suffix = Path(path).suffix.lower()
@@ -298,10 +409,21 @@ def denoise(
     force : bool
         Let the options have their way even where they do harm.
 
+    Returns
+    -------
+    TriangleMesh
+        The same object's faces, attributes and metadata; where nothing is found to remove, the same positions, too.
+
     Raises
     ------
     HarmError
         If the options would make the mesh worse.
+
+    Examples
+    --------
+    >>> import bsm
+    >>> clean = bsm.denoise("scan.ply")
+    >>> careful = bsm.denoise("scan.ply", goal="shape", strength=0.5)
     """
     from bsm.codec.denoise import DenoiseOptions
     from bsm.codec.denoise import denoise as denoise_mesh
@@ -331,6 +453,13 @@ def compare(original: Any, decoded: Any, *, order: npt.ArrayLike | None = None) 
     ------
     MeshError
         If they have different faces.
+
+    Examples
+    --------
+    >>> import bsm
+    >>> errors = bsm.compare("bunny.ply", "bunny.bsm")
+    >>> errors.max_error_relative <= 0.01, errors.theta_deg < 10
+    (True, True)
     """
     import numpy as np
 
@@ -362,6 +491,13 @@ def look(original: Any, other: Any, *, threads: int | None = None) -> Look:
     ------
     MeshError
         If nothing of the original can be seen, since it has no area.
+
+    Examples
+    --------
+    >>> import bsm
+    >>> seen = bsm.look("bunny.ply", "bunny.bsm")
+    >>> seen.distance <= 1  # it looks the same
+    True
     """
     from bsm.codec.look.measure import look as look_at
 

@@ -6,7 +6,7 @@ import difflib
 import math
 import types
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import replace
+from dataclasses import fields, replace
 from numbers import Integral, Real
 from typing import TYPE_CHECKING, Any, NoReturn, Union, get_args, get_origin, get_type_hints
 
@@ -151,7 +151,9 @@ def _fields(
     target: Callable[[str, float], Target] | None = None,
 ) -> dict[str, Any]:
     """The fields of `options` that keywords give, the target among them."""
-    hints = get_type_hints(options)
+    # Of the constructor, which knows the names of its own module; the class goes by that of `bsm`.
+    hints = get_type_hints(options.__init__)
+    hints.pop("return", None)
     given: dict[str, Any] = {}
     wanted = []
     for name, value in keywords.items():
@@ -163,7 +165,11 @@ def _fields(
                 number = parse_bytes(name, value) if name == "size" else _checked(name, value, float)
                 given["target"] = target(targets[name], number)
         else:
-            _refuse(name, what, (*hints, *targets, *(BOUNDS if targets is TARGETS else ())))
+            _refuse(
+                name,
+                what,
+                (*hints, *targets, *(BOUNDS if targets is TARGETS else ()), *(("preset",) if targets else ())),
+            )
     if keywords.get("target") is not None:
         wanted.append("target")
     if len(wanted) > 1:
@@ -217,10 +223,10 @@ def _refuse(name: str, what: str, known: Iterable[str]) -> NoReturn:
 def _names_of_meshes() -> set[str]:
     from bsm.codec.static.options import EncodeOptions
 
-    return {*get_type_hints(EncodeOptions), *TARGETS, *BOUNDS}
+    return {*(one.name for one in fields(EncodeOptions)), *TARGETS, *BOUNDS}
 
 
 def _names_of_sequences() -> set[str]:
     from bsm.codec.sequence.options import SequenceOptions
 
-    return {*get_type_hints(SequenceOptions), *SEQUENCE_TARGETS, "low_delay"}
+    return {*(one.name for one in fields(SequenceOptions)), *SEQUENCE_TARGETS, "low_delay"}

@@ -18,6 +18,8 @@ from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.splitting import split_by_attributes
 from bsm.meshes import as_mesh
 
+__all__ = ["SequenceReader", "from_pyvista", "read", "to_pyvista", "write"]
+
 
 def to_pyvista(mesh: Any) -> Any:
     """A mesh as a `pyvista.PolyData`.
@@ -30,10 +32,21 @@ def to_pyvista(mesh: Any) -> Any:
     mesh : mesh, pair of arrays, or path
         As `bsm.encode` takes it.
 
+    Returns
+    -------
+    pyvista.PolyData
+
     Raises
     ------
     DependencyError
         If pyvista is missing.
+
+    Examples
+    --------
+    >>> import bsm.pyvista
+    >>> surface = bsm.pyvista.to_pyvista("spot.bsm")
+    >>> "height" in surface.point_data, "label" in surface.cell_data
+    (True, True)
     """
     try:
         import pyvista
@@ -55,17 +68,80 @@ def to_pyvista(mesh: Any) -> Any:
 
 
 def from_pyvista(mesh: Any) -> TriangleMesh:
-    """A `pyvista.PolyData`, its polygons cut into triangles, with point data, cell data and field data."""
+    """A surface of pyvista as a mesh, with point data, cell data and field data.
+
+    Parameters
+    ----------
+    mesh : pyvista.PolyData
+        Its polygons are cut into triangles.
+
+    Returns
+    -------
+    TriangleMesh
+
+    Raises
+    ------
+    ArgumentError
+        If this is no mesh.
+
+    Examples
+    --------
+    >>> import bsm.pyvista, pyvista
+    >>> bsm.pyvista.from_pyvista(pyvista.Sphere())
+    TriangleMesh(842 vertices, 1680 faces, Normals)
+    """
     return as_mesh(mesh)
 
 
 def read(path: str, **keywords: Any) -> Any:
-    """What `pyvista.read` calls for a stream; keywords are those of `bsm.decode`."""
+    """What `pyvista.read` calls for a stream.
+
+    Parameters
+    ----------
+    path : str
+        Of the stream.
+    **keywords
+        Those of `bsm.decode`.
+
+    Returns
+    -------
+    pyvista.PolyData
+
+    Raises
+    ------
+    BsmError
+        As `bsm.decode`.
+
+    Examples
+    --------
+    >>> import bsm.pyvista
+    >>> surface = bsm.pyvista.read("bunny.bsm", limits=bsm.Limits.service())
+    """
     return to_pyvista(decode(path, **keywords))
 
 
 def write(mesh: Any, path: str | os.PathLike[str], **keywords: Any) -> None:
-    """What `save` of a `pyvista.PolyData` calls for a stream; keywords are those of `bsm.encode`."""
+    """What `save` of a `pyvista.PolyData` calls for a stream.
+
+    Parameters
+    ----------
+    mesh : pyvista.PolyData
+        The surface.
+    path : path
+        A name that ends in .bsm.
+    **keywords
+        Those of `bsm.encode`.
+
+    Raises
+    ------
+    BsmError
+        As `bsm.encode`.
+
+    Examples
+    --------
+    >>> import bsm.pyvista, pyvista
+    >>> bsm.pyvista.write(pyvista.Sphere(), "sphere.bsm", preset="fine")
+    """
     save(from_pyvista(mesh), path, **keywords)
 
 
@@ -79,8 +155,10 @@ class SequenceReader:
 
     Examples
     --------
-    >>> reader = bsm.pyvista.SequenceReader("samba.bsm")
-    >>> plotter.add_slider_widget(lambda time: show(reader.at(time)), [0, reader.time_values[-1]])
+    >>> import bsm.pyvista
+    >>> reader = bsm.pyvista.SequenceReader("dance.bsm")
+    >>> reader.number_time_points, reader.at(0.1).n_points > 1000
+    (6, True)
     """
 
     def __init__(self, path: str | os.PathLike[str]) -> None:

@@ -48,6 +48,7 @@ Integers: TypeAlias = npt.NDArray[np.int32]
 
 MARK = b"BSM research\n"
 """Before streams that only their own idea can decode, so that no decoder takes them for ordinary ones."""
+__all__ = ["BlockArrays", "Curves", "Idea", "Site", "blocks", "curves", "decode", "encode"]
 STEPS = (0.016, 0.008, 0.004, 0.002)
 CLOSE = 1e-6
 """How far what is decoded may be from what the encoder expects, in diagonals."""
@@ -69,6 +70,13 @@ class Site:
         Sum of stiffness times known position, in units of the bounding box (the longest side goes from -0.5 to 0.5).
     prediction : float64 array, shape (n, 3)
         Where the codec expects the block: the harmonic extension of what is known.
+
+    Examples
+    --------
+    >>> from bsm import research
+    >>> site = research.blocks("bunny.ply", step=0.01)[1].site
+    >>> site.laplacian.shape == (site.size, site.size), site.ours(8).shape == (site.size, 8)
+    (True, True)
     """
 
     vertices: Integers
@@ -128,6 +136,13 @@ class Idea:
     partition : callable, optional
         Takes the graph of the mesh (offsets, neighbours, as in `Site`) and the number of parts that the options
         suggest; gives a part for each vertex, shape (n,). It is sent, so that any decoder can decode it.
+
+    Examples
+    --------
+    >>> import bsm, numpy as np
+    >>> from bsm import research
+    >>> stripes = lambda offsets, neighbours, parts: np.arange(len(offsets) - 1) * parts // (len(offsets) - 1)
+    >>> mesh = bsm.decode(research.encode("bunny.ply", research.Idea(partition=stripes)))
     """
 
     dictionary: OwnDictionary | None = None
@@ -147,10 +162,18 @@ class BlockArrays:
     Parameters
     ----------
     site : Site
+        What both sides know of the block.
     dictionary : float64 array, shape (n, c)
         U.
     positions : float64 array, shape (n, 3)
         The original, in units of the bounding box.
+
+    Examples
+    --------
+    >>> from bsm import research
+    >>> block = research.blocks("bunny.ply", step=0.01)[0]
+    >>> block.coefficients.shape == (block.dictionary.shape[1], 3)
+    True
     """
 
     site: Site
@@ -172,6 +195,7 @@ def encode(mesh: Any, idea: Idea | None = None, /, *, step: float = 0.004, **key
     mesh : mesh
         As `bsm.encode` takes it; attributes are left out.
     idea : Idea, optional
+        None: as the codec does it.
     step : float
         Quantization step, relative to the diagonal.
     **keywords
@@ -188,6 +212,14 @@ def encode(mesh: Any, idea: Idea | None = None, /, *, step: float = 0.004, **key
         If what a function of the idea returns has another shape, or is not finite.
     OptionError
         If decoding gives something else, so that the idea does other things on both sides.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from bsm import research
+    >>> own = research.Idea(dictionary=lambda site, width: np.linalg.eigh(site.laplacian)[1][:, :width])
+    >>> data = research.encode("bunny.ply", own, step=0.01)
+    >>> mesh = research.decode(data, own)
     """
     idea = idea or Idea()
     stream = _stream(as_mesh(mesh).bare, idea, EncodeOptions(step=step, **keywords))
@@ -197,10 +229,29 @@ def encode(mesh: Any, idea: Idea | None = None, /, *, step: float = 0.004, **key
 def decode(data: bytes, idea: Idea | None = None, /, *, limits: Limits = DEFAULT_LIMITS) -> TriangleMesh:
     """Decode what `encode` gave, with the same idea.
 
+    Parameters
+    ----------
+    data : bytes
+        A stream of `encode`.
+    idea : Idea, optional
+        That with which it was encoded.
+    limits : Limits
+        What the stream may ask for.
+
+    Returns
+    -------
+    TriangleMesh
+
     Raises
     ------
     FormatError
         If it was made by an idea and none is given.
+
+    Examples
+    --------
+    >>> from bsm import research
+    >>> short = research.Idea(predictor=lambda site: 0.99 * site.prediction)
+    >>> mesh = research.decode(research.encode("bunny.ply", short, step=0.01), short)
     """
     idea = idea or Idea()
     if data.startswith(MARK) and not idea.needed_to_decode:
@@ -209,7 +260,33 @@ def decode(data: bytes, idea: Idea | None = None, /, *, limits: Limits = DEFAULT
 
 
 def blocks(mesh: Any, idea: Idea | None = None, /, *, step: float = 0.004, **keywords: Any) -> list[BlockArrays]:
-    """The arrays of all blocks, in the order of coding, as `encode` with the same arguments meets them."""
+    """The arrays of all blocks, in the order of coding, as `encode` with the same arguments meets them.
+
+    Parameters
+    ----------
+    mesh : mesh
+        As `bsm.encode` takes it; attributes are left out.
+    idea : Idea, optional
+        None: as the codec does it.
+    step : float
+        Quantization step, relative to the diagonal.
+    **keywords
+        Fields of `EncodeOptions`.
+
+    Returns
+    -------
+    list of BlockArrays
+
+    Raises
+    ------
+    ArgumentError
+        If what a function of the idea returns has another shape, or is not finite.
+
+    Examples
+    --------
+    >>> from bsm import research
+    >>> largest = max(research.blocks("bunny.ply", step=0.01), key=lambda block: block.site.size)
+    """
     idea = idea or Idea()
     options = EncodeOptions(**{"step": step, **keywords, "threads": 1})
     prepared = _prepared(as_mesh(mesh).bare, idea, options)
@@ -232,6 +309,13 @@ class Curves:
     ----------
     results : list of dict
         One for each, as `bsm.evaluation.run.run_curve` describes it.
+
+    Examples
+    --------
+    >>> from bsm import research
+    >>> found = research.curves("bunny.ply", {"none": research.Idea()}, steps=(0.01, 0.005, 0.0025))
+    >>> found.bytes_of_ours
+    {'none': 1.0}
     """
 
     results: list[dict[str, Any]]
@@ -274,11 +358,33 @@ def curves(mesh: Any, ideas: Mapping[str, Idea], /, steps: Sequence[float] = STE
     Parameters
     ----------
     mesh : mesh
+        As `bsm.encode` takes it; attributes are left out.
     ideas : mapping from str to Idea
+        What they do, by the names that they shall have.
     steps : sequence of float
         Operating points, as for `encode`.
     **keywords
         Fields of `EncodeOptions`, for all of them.
+
+    Returns
+    -------
+    Curves
+        Theirs, and "ours".
+
+    Raises
+    ------
+    OptionError
+        If one of them is called "ours".
+    DependencyError
+        If the extra `eval` is missing.
+
+    Examples
+    --------
+    >>> from bsm import research
+    >>> short = research.Idea(predictor=lambda site: 0.9 * site.prediction)
+    >>> found = research.curves("bunny.ply", {"short": short}, steps=(0.01,))
+    >>> [result["label"] for result in found.results]
+    ['ours', 'short']
     """
     from bsm.evaluation.codecs import Curve
     from bsm.evaluation.run import run_curve

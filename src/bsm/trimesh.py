@@ -15,6 +15,7 @@ from bsm.files.formats.for_trimesh import arguments_of
 from bsm.files.formats.with_trimesh import import_trimesh, joined, polygons_of
 from bsm.meshes import as_mesh
 
+__all__ = ["from_trimesh", "to_trimesh"]
 _library = import_trimesh(".bsm files are opened by trimesh only")
 
 
@@ -27,12 +28,48 @@ def to_trimesh(mesh: Any) -> Any:
     ----------
     mesh : mesh, pair of arrays, or path
         As `bsm.encode` takes it.
+
+    Returns
+    -------
+    trimesh.Trimesh
+
+    Raises
+    ------
+    ArgumentError
+        If this is no mesh.
+
+    Examples
+    --------
+    >>> import bsm.trimesh
+    >>> bsm.trimesh.to_trimesh("bunny.bsm").is_watertight
+    True
     """
     return _library.Trimesh(**arguments_of(as_mesh(mesh)))
 
 
 def from_trimesh(mesh: Any) -> TriangleMesh:
-    """A `trimesh.Trimesh`, or the parts of a `trimesh.Scene` where it shows them, with what they show."""
+    """A mesh of trimesh, or the parts of a scene where it shows them, with what they show.
+
+    Parameters
+    ----------
+    mesh : trimesh.Trimesh or trimesh.Scene
+        Colours, texture coordinates, materials and other values go along.
+
+    Returns
+    -------
+    TriangleMesh
+
+    Raises
+    ------
+    MeshError
+        If it has no faces.
+
+    Examples
+    --------
+    >>> import bsm.trimesh, trimesh
+    >>> bsm.trimesh.from_trimesh(trimesh.creation.box())
+    TriangleMesh(8 vertices, 12 faces)
+    """
     found = joined(mesh, DEFAULT_LIMITS) if isinstance(mesh, _library.Scene) else polygons_of(mesh)
     return found.checked(DEFAULT_LIMITS).mesh
 

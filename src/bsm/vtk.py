@@ -19,6 +19,7 @@ from bsm.files.pipes import read_chunks
 from bsm.files.sequence_stream import SequenceStream, decode_through, peek_header
 from bsm.files.stream import decode_whole
 
+__all__ = ["Playback", "StreamSource"]
 USUAL_RATE = 24.0
 
 
@@ -36,6 +37,13 @@ class Playback:
         Number of frames.
     rate : float
         Frames per second; 0: it is a mesh.
+
+    Examples
+    --------
+    >>> from bsm.vtk import Playback
+    >>> playback = Playback("dance.bsm")
+    >>> playback.count, playback.mesh(3).faces.shape[1]
+    (6, 3)
     """
 
     def __init__(self, path: str) -> None:
@@ -114,7 +122,17 @@ def fill(output: Any, mesh: TriangleMesh) -> None:
 
 
 class StreamSource(VTKPythonAlgorithmBase):  # type: ignore[misc]
-    """A source for pipelines of VTK: a stream's mesh, or that of the time that is asked for."""
+    """A source for pipelines of VTK: a stream's mesh, or that of the time that is asked for.
+
+    Examples
+    --------
+    >>> from bsm.vtk import StreamSource
+    >>> source = StreamSource()
+    >>> source.SetFileName("dance.bsm")
+    >>> made = source.Update()
+    >>> source.GetOutputDataObject(0).GetNumberOfPolys() > 1000
+    True
+    """
 
     def __init__(self) -> None:
         super().__init__(nInputPorts=0, nOutputPorts=1, outputType="vtkPolyData")

@@ -2,6 +2,7 @@
 
 import ast
 import doctest
+import importlib
 import inspect
 import subprocess
 import sys
@@ -64,9 +65,11 @@ def test_type_checkers_see_the_same_names():
     assert list(seen) == bsm.__all__[1:]
 
 
-def test_the_example_of_the_docstring():
-    assert doctest.testmod(bsm).attempted > 0
-    assert doctest.testmod(bsm).failed == 0
+@pytest.mark.parametrize("module", ["bsm", "bsm.research"])
+def test_the_example_of_the_docstring(module):
+    (example,) = doctest.DocTestFinder(recurse=False).find(importlib.import_module(module))
+    done = doctest.DocTestRunner().run(example)
+    assert done.attempted > 0 and done.failed == 0
 
 
 def test_the_version_is_written_once():

@@ -1,7 +1,5 @@
 """bsm.research: ideas of one's own in the codec."""
 
-import doctest
-
 import numpy as np
 import pytest
 
@@ -26,10 +24,6 @@ def short(site):
 
 def stripes(offsets, neighbours, parts):
     return np.arange(len(offsets) - 1) * parts // (len(offsets) - 1)
-
-
-def test_its_own_example():
-    assert doctest.testmod(research).failed == 0
 
 
 def test_nothing_of_ones_own_is_the_codec():

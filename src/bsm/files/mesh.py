@@ -90,6 +90,13 @@ def read_mesh(
         If a library is needed and missing.
     OSError
         If the file cannot be read.
+
+    Examples
+    --------
+    >>> import bsm
+    >>> read = bsm.read_mesh("bunny.ply")
+    >>> read.mesh, read.notes, read.dropped
+    (TriangleMesh(... vertices, ... faces), (), ())
     """
     given, limits = as_input(source), as_limits(limits)
     path, name = (given.name if given.is_file else None), given.name

@@ -46,6 +46,11 @@ def show(source: Any, *, original: Any = None, height: int = 480, **keywords: An
         If anywidget is missing.
     BsmError
         As `encode` and `compare`.
+
+    Examples
+    --------
+    >>> import bsm
+    >>> widget = bsm.show("bunny.ply", preset="fine")
     """
     try:
         from bsm.viewer.widget import StreamWidget

@@ -8,6 +8,7 @@ import numpy as np
 
 from bsm.bitstream.errors import MeshError
 from bsm.bitstream.limits import Limits
+from bsm.bitstream.public import public
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
 from bsm.files.formats.columns import Column, attributes_of
 from bsm.files.formats.remarks import fitting
@@ -16,6 +17,7 @@ from bsm.files.rows import Doubles, Ints
 _MOST_TURNS = 64
 
 
+@public
 @dataclass(frozen=True)
 class MeshFile:
     """A mesh as its file has it, and what was changed on the way.
@@ -27,6 +29,12 @@ class MeshFile:
         One sentence for each thing the reader did to the file's content.
     dropped : tuple of str
         What else the file holds and `mesh` does not: "lines", "parameter space", "animations", ...
+
+    Examples
+    --------
+    >>> import bsm
+    >>> read = bsm.read_mesh("spot.obj")
+    >>> mesh, notes = read.mesh, read.notes
     """
 
     mesh: TriangleMesh
