@@ -142,14 +142,14 @@ class EncodeOptions:
 
     keep: float | None = None
     coefficients: int | None = None
-    block_size: int = 750
+    block_size: int = 600
     overlap: float = 1.15
     partition: str = "derived"
     key_seed: str | None = None
     key_interval: int = 32
     power: int = 3
     iterations: int = 1
-    key_iterations: int = 4
+    key_iterations: int = 2
     shift: float = 2.0**-7
     bits: int | None = None
     step: float | None = None

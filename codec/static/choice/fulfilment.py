@@ -43,7 +43,7 @@ VISUAL_TRIES, FINER_IF_VISUAL = 4, 4.0
 """Grids that are rounded to for the angle that comes with a visual error; the base is as for one so much smaller."""
 PLAIN_ANGLE = 6.0
 """From this angle on, blocks with a detail layer are tried before refinement."""
-WIDEST = 0.155
+WIDEST = 0.14
 """Columns of a dictionary over the rows of a block: wider ones cost every decoder more time than their bytes
 are worth."""
 FLAT = 0.15

@@ -36,7 +36,7 @@ OPTIONS = [
     {"key_interval": 1, "smoothing": 1.0},
     {"bits": 12, "step": None},
 ]
-REFINED = {"step": None, "keep": None, "contract": Contract(0.002, 3.0), "block_size": 200}
+REFINED = {"step": None, "keep": None, "contract": Contract(0.002, 3.0), "block_size": 250}
 FINE = torus(80, 60)
 """With `REFINED`, blocks and a layer of refinement."""
 
