@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
+from dataclasses import dataclass
 from typing import Protocol, TypeVar
 
 import numpy as np
@@ -19,16 +20,12 @@ from bsm.codec.static.targets import COARSEST_STEP
 
 KNOTS = 10
 """Frames, evenly over a GOP, that pictures are drawn of at every attempt."""
-SPACING = 8
-"""If all is well there, one in so many frames is drawn."""
-MORE = 3
-"""Frames that are added to them: those of which the worst is expected."""
-MARGIN = 1.1
-"""A frame that is not drawn is expected to look so much worse than its normals and its drawn neighbours say: in 350
-frames of two dancers, none was off by more when one in eight was drawn."""
-NEAR = 0.8
-"""Before an attempt is taken, all frames are drawn that are expected to come nearer to the bound: motion that changes
-within `SPACING` frames was off by 1.15 margins."""
+MORE = 6
+"""If all is well there, so many of those that may be the worst are drawn as well."""
+DEVIATIONS = 3.0
+"""An attempt is taken once all frames are drawn that may look worse than the bound, by so many standard deviations."""
+KEPT = 1 << 29
+"""Bytes of pictures of originals that are kept from attempt to attempt."""
 SLACK, SLACK_OF_ONE = 0.04, 0.15
 """Part of a bound that may be left, in a GOP and in a frame by itself, which must be quick."""
 SLOPE, SLOPES = 0.7, (0.4, 2.5)
@@ -39,6 +36,8 @@ change quickly are dear in the temporal basis."""
 WIDEST = 1.0
 """Logarithm of the largest weight, and of one over the smallest."""
 _TRIES = 20
+_PIXEL = 4 * 22
+"""Bytes of a `Looker` for each pixel of its pictures' side, squared."""
 
 
 class Attempt(Protocol):
@@ -70,11 +69,11 @@ class Watch:
         self._frames, self._faces, self._promise, self._threads = frames, faces, promise, threads
         self._reach = promise.reach(scale)
         self._lookers: dict[int, Looker | None] = {}
-        self._shares: Matrix = np.zeros(len(frames))
+        self._room = KEPT
+        self._knots: list[int] = []
         if promise.look < math.inf:
             self._shading = Shading(frames[0], faces)
-            for index in np.linspace(0, len(frames) - 1, min(KNOTS, len(frames))).round().astype(int).tolist():
-                self._lookers[index] = self._looker(index)
+            self._knots = np.linspace(0, len(frames) - 1, min(KNOTS, len(frames))).round().astype(int).tolist()
 
     def settle(self, attempt: Callable[[float, Matrix | None], Found], first: float, finest: float) -> Found:
         """What keeps the promise in every frame with little to spare.
@@ -94,24 +93,25 @@ class Watch:
         low, high = math.log(finest), math.log(COARSEST_STEP)
         at = min(max(math.log(first), low), high)
         weights = None
-        if self._lookers and len(self._frames) > 1:
-            excess = self._excess(attempt(math.exp(at), None).decoded)
-            weights = self._evening()
-            at = min(max(at - (min(excess, 3.0) + SLACK / 2) / SLOPE, low), high)
+        if self._knots and len(self._frames) > 1:
+            sight = self._see(attempt(math.exp(at), None).decoded)
+            weights = _evening(sight.shares)
+            at = min(max(at - (min(sight.excess, 3.0) + SLACK / 2) / SLOPE, low), high)
         slack = SLACK if len(self._frames) > 1 else SLACK_OF_ONE
-        kept: tuple[float, float, Found] | None = None  # logarithms of step and excess
-        broken: tuple[float, float] | None = None
+        kept: tuple[float, Sight, Found] | None = None  # the first is the logarithm of the step
+        broken: tuple[float, float] | None = None  # that, and the excess
         before: tuple[float, float] | None = None
         for tries in range(_TRIES):
             found = attempt(math.exp(at), weights)
-            excess = self._excess(found.decoded)
+            sight = self._see(found.decoded)
+            excess = sight.excess
             if excess <= 0.0 and (kept is None or at > kept[0]):
-                kept = at, excess, found
+                kept = at, sight, found
             elif excess > 0.0 and (broken is None or at < broken[0]):
                 broken = at, excess
             if kept is None and at <= low:
                 break
-            if kept is not None and (kept[1] > -slack * (1 + tries / 4) or at >= high):
+            if kept is not None and (kept[1].excess > -slack * (1 + tries / 4) or at >= high):
                 break
             slope = SLOPE
             if before is not None and before[0] != at:
@@ -126,72 +126,52 @@ class Watch:
             at = min(max(at, low), high)
         if kept is None:
             raise self._refusal(math.exp(at))
-        at, _, found = kept
-        if len(self._frames) == 1:
-            return found  # it was drawn, if looks are promised
+        at, sight, found = kept
         for _ in range(_TRIES):
-            excess = self._excess_of_near(found.decoded)
-            if excess <= 0.0:
+            self._look_at_doubtful(sight, found.decoded)
+            if sight.excess <= 0.0:
                 return found
             if at <= low:
                 break
-            at = max(at - (excess + slack / 2) / SLOPE, low)
+            at = max(at - (sight.excess + slack / 2) / SLOPE, low)
             found = attempt(math.exp(at), weights)
+            sight = self._see(found.decoded)
         raise self._refusal(math.exp(at))
 
     def _refusal(self, step: float) -> TargetError:
         return TargetError(f"{self._promise} in every frame cannot be kept, not even with a step of {step:.2g}")
 
-    def _evening(self) -> Matrix:
-        """Weights of frames with which all of them would look about alike."""
-        shares = np.log(np.maximum(self._shares, 1e-3 * self._shares.max()))
-        weights = gaussian_filter1d(EVENING / SLOPE * (shares - shares.mean()), SMOOTHNESS, mode="nearest")
-        evening: Matrix = np.exp(np.clip(weights - weights.mean(), -WIDEST, WIDEST))
-        return evening
-
-    def _excess(self, decoded: Positions) -> float:
-        """Logarithm of the largest share of a bound, of farthest vertices and looks of all frames."""
-        farthest = max(float(np.square(a - b).sum(axis=1).max()) for a, b in zip(self._frames, decoded, strict=True))
-        worst = math.sqrt(farthest) / self._reach
-        if self._lookers:
-            worst = max(worst, self._worst_look(decoded))
-        return math.log(max(worst, 1e-9))
-
-    def _worst_look(self, decoded: Positions) -> float:
-        """The largest share of the bound of looks, drawn or expected; a few of the worst expected ones are drawn."""
-        pairs = zip(self._frames, decoded, strict=True)
+    def _see(self, decoded: Positions) -> Sight:
+        """How the frames look, by those all over the GOP, and, if all is well there, a few that may be the worst."""
+        pairs = list(zip(self._frames, decoded, strict=True))
+        farthest = math.sqrt(max(float(np.square(a - b).sum(axis=1).max()) for a, b in pairs)) / self._reach
+        if not self._knots:
+            return Sight(farthest, np.zeros(0), {})
         errors = np.array([self._shading.error(own, other) for own, other in pairs]).clip(1e-12)
-        drawn = {index: self._look(looker, decoded[index]) for index, looker in self._lookers.items()}
-
-        def draw(index: int) -> None:
-            self._lookers[index] = self._looker(index)
-            drawn[index] = self._look(self._lookers[index], decoded[index])
-
-        if 1.0 - 2.0 * SLACK < _expected(errors, drawn).max() <= 1.0:
-            for index in range(0, len(errors), SPACING):
-                if index not in drawn:
-                    draw(index)
-            for _ in range(MORE):
-                worst = int(_expected(errors, drawn).argmax())
-                if worst not in drawn:
-                    draw(worst)
-        self._shares = _expected(errors, drawn)
-        return float(self._shares.max())
-
-    def _excess_of_near(self, decoded: Positions) -> float:
-        """`_excess`, once all frames are drawn that come near the bound; up to the first one that is beyond it."""
-        worst = self._excess(decoded)
-        near = [index for index in np.argsort(-self._shares).tolist() if self._shares[index] > NEAR]
-        for index in near:
-            if worst > 0.0:
+        sight = Sight(farthest, errors, {index: self._look(index, decoded) for index in self._knots})
+        for _ in range(MORE):
+            index = sight.doubtful
+            if index is None or sight.excess > 0.0 or sight.most[index] < 1.0 - 2.0 * SLACK:
                 break
-            if index not in self._lookers:
-                looker = self._looker(index)
-                share = self._look(looker, decoded[index])
-                if share > 1.0:
-                    self._lookers[index] = looker
-                    worst = math.log(share)
-        return worst
+            sight.drawn[index] = self._look(index, decoded)
+        return sight
+
+    def _look_at_doubtful(self, sight: Sight, decoded: Positions) -> None:
+        """Draw all frames that may be beyond the bound, up to the first one that is."""
+        while sight.excess <= 0.0 and (index := sight.doubtful) is not None and sight.most[index] > 1.0:
+            sight.drawn[index] = self._look(index, decoded)
+
+    def _look(self, index: int, decoded: Positions) -> float:
+        """Share of the bound; 0 for a frame of which nothing is seen."""
+        if index not in self._lookers:
+            looker = self._looker(index)
+            held = _PIXEL * looker.pixels**2 if looker else 0
+            if held <= self._room:
+                self._room -= held
+                self._lookers[index] = looker
+        else:
+            looker = self._lookers[index]
+        return 0.0 if looker is None else looker.look(decoded[index]).moving / self._promise.look
 
     def _looker(self, index: int) -> Looker | None:
         """None for a frame of which nothing is seen."""
@@ -200,18 +180,78 @@ class Watch:
         except MeshError:
             return None
 
-    def _look(self, looker: Looker | None, decoded: Positions) -> float:
-        """Share of the bound."""
-        return 0.0 if looker is None else looker.look(decoded).moving / self._promise.look
+
+@dataclass(eq=False)
+class Sight:
+    """What is known of the frames of one attempt, in shares of their bounds.
+
+    Parameters
+    ----------
+    farthest : float
+        Of the vertex that is farthest off.
+    errors : float64 array, shape (T,)
+        Of normals; empty if looks do not matter.
+    drawn : dict of int to float
+        Looks of frames by their numbers.
+    """
+
+    farthest: float
+    errors: Matrix
+    drawn: dict[int, float]
+
+    @property
+    def excess(self) -> float:
+        """Logarithm of the largest share, drawn or expected."""
+        return math.log(max(self.farthest, float(self.shares.max(initial=1e-9))))
+
+    @property
+    def shares(self) -> Matrix:
+        """Looks of all frames, shape (T,): of those not drawn what is expected."""
+        return self._judged(0.0)
+
+    @property
+    def most(self) -> Matrix:
+        """What the looks may be, shape (T,)."""
+        return self._judged(DEVIATIONS)
+
+    @property
+    def doubtful(self) -> int | None:
+        """The frame that may be the worst of those not drawn; None if all are, or none needs to be."""
+        most = self.most
+        most[list(self.drawn)] = 0.0
+        return int(most.argmax()) if most.any() else None
+
+    def _judged(self, deviations: float) -> Matrix:
+        """Looks, so many standard deviations above what is expected.
+
+        The logarithm of looks over errors of normals is known in drawn frames, and between them it is taken for a
+        Brownian bridge, which wanders as much as it does from one drawn frame to the next.
+        """
+        shares = self.errors.copy()
+        seen = np.array(sorted(index for index, share in self.drawn.items() if share > 0.0), np.int64)
+        if len(seen):
+            ratios = np.log([self.drawn[index] for index in seen]) - np.log(self.errors[seen])
+            steps = np.diff(seen)
+            rate = float(np.mean(np.diff(ratios) ** 2 / steps)) if len(steps) else 1.0
+            frames = np.arange(len(shares))
+            since = frames - seen[np.maximum(np.searchsorted(seen, frames, side="right") - 1, 0)]
+            until = seen[np.minimum(np.searchsorted(seen, frames), len(seen) - 1)] - frames
+            inside = np.minimum(since, until) >= 0
+            spans = np.where(inside, since * until / np.maximum(since + until, 1), np.maximum(since, until))
+            shares *= np.exp(np.interp(frames, seen, ratios) + deviations * np.sqrt(rate * spans))
+        else:
+            shares[:] = 0.0
+        for index, share in self.drawn.items():
+            shares[index] = share
+        return shares
 
 
-def _expected(errors: Matrix, drawn: Mapping[int, float]) -> Matrix:
-    """Shares of the bound: of frames that were drawn as they are, of others by their errors of normals, and more."""
-    index = np.array(sorted(drawn))
-    found = np.array([drawn[k] for k in index])
-    shares: Matrix = MARGIN * errors * np.interp(np.arange(len(errors)), index, found / errors[index])
-    shares[index] = found
-    return shares
+def _evening(shares: Matrix) -> Matrix:
+    """Weights of frames, shape (T,), with which all of them would look about alike."""
+    logarithms = np.log(np.maximum(shares, 1e-3 * shares.max()))
+    weights = gaussian_filter1d(EVENING / SLOPE * (logarithms - logarithms.mean()), SMOOTHNESS, mode="nearest")
+    evening: Matrix = np.exp(np.clip(weights - weights.mean(), -WIDEST, WIDEST))
+    return evening
 
 
 class Shading:

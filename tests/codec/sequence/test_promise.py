@@ -16,7 +16,7 @@ from bsm.codec.sequence.encoder import SequenceEncoder
 from bsm.codec.sequence.options import SequenceOptions
 from bsm.codec.sequence.promise import PROMISES, Promise
 from bsm.codec.sequence.targets import SequenceTarget, flicker_of
-from bsm.codec.sequence.watch import Shading, Watch
+from bsm.codec.sequence.watch import Shading, Sight, Watch
 from tests.motion import bending
 
 
@@ -104,6 +104,23 @@ def test_few_frames_are_drawn_and_the_worst_is_among_them(monkeypatch: pytest.Mo
     seen = looks(original, decoded, found)
     assert max(seen) <= 1.0 and len(drawn) < 30
     assert max(seen[index] for index in drawn) > 0.9 * max(seen)
+
+
+def test_what_a_frame_may_look_like_grows_with_the_way_to_those_that_were_drawn() -> None:
+    errors = np.full(41, 2.0)
+    drawn = {0: 0.4, 10: 0.5, 20: 0.4, 30: 0.5, 40: 0.4}
+    sight = Sight(0.3, errors, dict(drawn))
+    for index, share in drawn.items():
+        assert sight.shares[index] == sight.most[index] == share
+    assert sight.shares[5] == pytest.approx(np.sqrt(0.4 * 0.5))  # halfway, in logarithms
+    spare = sight.most / sight.shares
+    assert 1.0 < spare[9] < spare[7] < spare[5] < 2.0
+    assert sight.doubtful is not None and sight.doubtful % 10 in range(3, 8)
+    worse = np.where(np.arange(41) == 33, 8.0, errors)  # a frame whose normals are far off is the one to be drawn
+    assert Sight(0.3, worse, dict(drawn)).doubtful == 33
+    assert sight.excess == pytest.approx(np.log(0.5))
+    assert Sight(0.9, errors[:1], {0: 0.2}).excess == pytest.approx(np.log(0.9))
+    assert Sight(0.9, errors[:1], {0: 0.2}).doubtful is None
 
 
 def test_a_moving_look_is_what_pictures_differ_by() -> None:
