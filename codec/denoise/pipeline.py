@@ -8,6 +8,7 @@ from bsm.bitstream.errors import MeshError
 from bsm.codec.arrays import Faces
 from bsm.codec.denoise.frames import FrameDenoiser, Frames
 from bsm.codec.denoise.options import DenoiseOptions
+from bsm.codec.denoise.rehearsal import Told, silent
 from bsm.codec.geometry.mesh import TriangleMesh
 
 
@@ -18,6 +19,7 @@ def denoise(
     goal: str = "shading",
     strength: float = 1.0,
     force: bool = False,
+    told: Told = silent,
 ) -> TriangleMesh:
     """Remove noise from the positions of a mesh; the faces stay.
 
@@ -33,14 +35,17 @@ def denoise(
         How much of every movement is made, from 0 to 1.
     force : bool
         Let the options have their way even where they do harm.
+    told : callable
+        Called with the name of each stage.
 
     Raises
     ------
     HarmError
         If the options would make the mesh worse.
     """
-    frames = denoise_frames(mesh.positions[None], mesh.faces, options, goal=goal, strength=strength, force=force)
-    return mesh.moved(frames[0])[0]
+    denoiser = FrameDenoiser(mesh.positions, mesh.faces, options, goal=goal, strength=strength, force=force, told=told)
+    (positions,) = denoiser([mesh.positions])
+    return mesh.moved(positions)[0]
 
 
 def denoise_frames(

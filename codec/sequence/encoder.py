@@ -439,6 +439,7 @@ def encode_sequence(
     options: SequenceOptions | None = None,
     metadata: Metadata = MappingProxyType({}),
     attributes: Sequence[Attribute] = (),
+    progress: Progress | None = None,
 ) -> bytes:
     """Encode frames, `positions` of shape (T, n, 3), to a complete stream; other arguments as of `SequenceEncoder`."""
     try:
@@ -447,4 +448,4 @@ def encode_sequence(
         raise MeshError(f"the positions of a sequence are not an array of numbers: {error}") from error
     if frames.ndim != 3 or frames.shape[2] != 3 or len(frames) == 0:
         raise MeshError(f"the positions of a sequence must have shape (T, n, 3), T > 0, not {frames.shape}")
-    return b"".join(SequenceEncoder(faces, options, len(frames), metadata, attributes).chunks(frames))
+    return b"".join(SequenceEncoder(faces, options, len(frames), metadata, attributes).chunks(frames, progress))

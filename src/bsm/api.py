@@ -14,6 +14,7 @@ from bsm.codec.arrays import Faces, Positions
 from bsm.codec.choices import check_mapping
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
+from bsm.console import watched
 from bsm.files.formats.written import Written
 from bsm.files.mesh import WRITTEN_FORMATS, format_of_name, save_written, written_mesh
 from bsm.files.pipes import Input, Source, named, read_bytes, read_chunks
@@ -74,14 +75,15 @@ def encode(
     >>> len(small) <= 3000
     True
     """
-    from bsm.codec.static.encoder import encode as encode_mesh
+    from bsm.codec.static.encoder import Encoder
     from bsm.codec.static.options import EncodeOptions
 
     chosen = _chosen(options, EncodeOptions, keywords, keywords_to.encode_options)
     check_mapping("metadata", {} if metadata is None else metadata)
     told = told_of(as_mesh(mesh), chosen, metadata or {})
     refuse_other_units({name: keywords.get(name) for name in LENGTHS}, told.metadata)
-    return encode_mesh(told, chosen)
+    with watched("encoding") as progress:
+        return b"".join(Encoder(told, chosen).chunks(progress))
 
 
 def encode_many(
@@ -254,7 +256,8 @@ def encode_sequence(
     from bsm.codec.sequence.options import SequenceOptions
 
     chosen = _chosen(options, SequenceOptions, keywords, keywords_to.sequence_options)
-    return encode_frames(positions, faces, chosen, metadata or {}, mesh_attributes)
+    with watched("encoding") as progress:
+        return encode_frames(positions, faces, chosen, metadata or {}, mesh_attributes, progress)
 
 
 def decode_sequence(
@@ -303,8 +306,8 @@ def load(source: Source, *, limits: Limits = DEFAULT_LIMITS, reader: str | None 
     Parameters
     ----------
     source : path, or anything else that `decode` takes
-        OBJ, OFF, PLY, STL, npz and BSM; with trimesh installed (``pip install 'bsm-codec[formats]'``) also GLB, glTF,
-        3MF, DAE and others.
+        OBJ, OFF, PLY, STL, VTP, npz and BSM; with trimesh installed (``pip install 'bsm-codec[formats]'``) also GLB,
+        glTF, 3MF, DAE and others.
     limits : Limits
         What the file may ask for.
     reader : str, optional
@@ -341,7 +344,7 @@ def save(mesh: Any, path: str | os.PathLike[str], *, overwrite: bool = True, **k
     mesh : mesh, pair of arrays, or path
         As `encode` takes it.
     path : path
-        With the suffix .bsm, .glb (with trimesh), .npz, .obj, .off, .ply or .stl.
+        With the suffix .bsm, .glb (with trimesh), .npz, .obj, .off, .ply, .stl or .vtp.
     overwrite : bool
         Whether a file of this name is replaced.
     **keywords
@@ -429,7 +432,8 @@ def denoise(
     from bsm.codec.denoise import denoise as denoise_mesh
 
     chosen = _chosen(options, DenoiseOptions, keywords, keywords_to.denoise_options)
-    return denoise_mesh(as_mesh(mesh), chosen, goal=goal, strength=strength, force=force)
+    with watched("denoising") as progress:
+        return denoise_mesh(as_mesh(mesh), chosen, goal=goal, strength=strength, force=force, told=progress.stage)
 
 
 def compare(original: Any, decoded: Any, *, order: npt.ArrayLike | None = None) -> MeshComparison:

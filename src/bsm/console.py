@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import importlib
+import importlib.util
 import json
 import math
 import sys
@@ -102,13 +104,13 @@ class Progress:
             if self._bar is None and self._shown:
                 # Not at the top: most runs are over before a bar would be seen.
                 try:
-                    from tqdm import tqdm
+                    bars = importlib.import_module("tqdm.notebook" if _has_widgets() else "tqdm")
                 except ImportError:  # A comfort that the core goes without.
                     self._shown = False
                     return None
-                tqdm.monitor_interval = 0
+                bars.tqdm.monitor_interval = 0
                 more = {"delay": _PATIENCE, "leave": False, "miniters": 0, "bar_format": _RUNNING}
-                self._bar = tqdm(desc=self._what, unit=f" {self._unit}", **more)
+                self._bar = bars.tqdm(desc=self._what, unit=f" {self._unit}", **more)
             return self._bar
 
     def _tick(self) -> None:
@@ -142,6 +144,27 @@ def finite(value: float) -> float | None:
     return value if math.isfinite(value) else None
 
 
+def as_json(value: Mapping[str, Any]) -> str:
+    """A result for machines."""
+    return json.dumps(value, indent=2, allow_nan=False)
+
+
 def print_json(value: Mapping[str, Any]) -> None:
     """Print a result for machines."""
-    print(json.dumps(value, indent=2, allow_nan=False))
+    print(as_json(value))
+
+
+def in_notebook() -> bool:
+    """Whether this is the kernel of a notebook."""
+    library = sys.modules.get("IPython")
+    shell = library.get_ipython() if library else None
+    return shell is not None and "IPKernelApp" in shell.config
+
+
+def _has_widgets() -> bool:
+    return in_notebook() and importlib.util.find_spec("ipywidgets") is not None
+
+
+def watched(what: str) -> Progress:
+    """A bar for a function that takes long: in notebooks, where it goes away when the function is done."""
+    return Progress(what, "blocks", shown=in_notebook())

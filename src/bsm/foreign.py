@@ -9,10 +9,7 @@ import numpy as np
 
 from bsm.codec.geometry.attributes import Domain, Semantic
 from bsm.codec.geometry.mesh import Metadata
-from bsm.files.formats.columns import Array, Column, color_column, compact, meaning_of
-
-_COLORS = ("rgb", "rgba", "colors", "colours")
-_TEXCOORDS = ("texture coordinates", "uv", "tcoords")
+from bsm.files.formats.columns import Array, Column, color_column, compact, named_column
 
 
 def columns_of(mesh: Any, surfaces: tuple[str, ...]) -> list[Column]:
@@ -54,11 +51,7 @@ def _columns(data: Mapping[str, Any], domain: Domain) -> Iterator[Column]:
         values = values[:, None] if values.ndim == 1 else values
         if values.ndim != 2 or values.dtype.kind not in "biuf":
             continue
-        lower = name.lower()
-        meaning: Semantic = "color" if lower in _COLORS else "texcoord" if lower in _TEXCOORDS else meaning_of(name)
-        colored = meaning == "color" and values.shape[1] in (3, 4)
-        column = color_column(values, domain) if colored else Column(name, values, domain, meaning)
-        yield Column(name, column.values, domain, column.semantic)
+        yield named_column(name, values, domain)
 
 
 def _of_meshio_cells(data: Mapping[str, Mapping[str, Any]], surfaces: tuple[str, ...]) -> Iterator[Column]:

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import bsm
+import bsm.console
 from bsm.viewer.page import built
 from tests.shapes import torus
 
@@ -86,3 +87,26 @@ def test_limits_hold_for_what_is_compared():
         bsm.show(b"nothing of the kind")
     with pytest.raises(bsm.BsmError):
         bsm.show("/dev/null")
+
+
+def test_functions_show_progress_in_a_notebook(tmp_path):
+    """A bar that is drawn while there is work and goes away; none outside of notebooks."""
+    nbformat, nbclient = pytest.importorskip("nbformat"), pytest.importorskip("nbclient")
+    pytest.importorskip("ipykernel"), pytest.importorskip("tqdm")
+    cell = """
+import time, tqdm.notebook
+import bsm, bsm.console
+from bsm.evaluation.sample import knot
+
+bsm.console._PATIENCE = 0.0
+drawn = []
+show = tqdm.notebook.tqdm.display
+tqdm.notebook.tqdm.display = lambda self, *rest, **more: (drawn.append(self.desc), show(self, *rest, **more))[1]
+bsm.encode(knot(20000), theta=3)
+print(sorted(set(drawn)))
+"""
+    notebook = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell(cell)])
+    nbclient.NotebookClient(notebook, timeout=120, resources={"metadata": {"path": str(tmp_path)}}).execute()
+    said = "".join(one.get("text", "") for one in notebook.cells[0].outputs if one.get("name") == "stdout")
+    assert "'encoding" in said
+    assert not bsm.console.in_notebook()

@@ -178,7 +178,7 @@ def samples() -> dict[str, Sample]:
     mesh, plain = _mesh(), format_mesh(torus(3, 3), "obj")
     beside = (("a.obj", plain),)
     found = {
-        **{kind: Sample(kind, format_mesh(mesh, kind)) for kind in ("obj", "off", "ply", "stl", "npz", "glb")},
+        **{kind: Sample(kind, format_mesh(mesh, kind)) for kind in ("obj", "off", "ply", "stl", "vtp", "npz", "glb")},
         "ply of text": Sample("ply", _ascii_ply()),
         "ply of polygons": Sample("ply", _ragged_ply()),
         "stl of text": Sample("stl", _ASCII_STL),

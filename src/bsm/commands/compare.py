@@ -61,20 +61,22 @@ def run(args: argparse.Namespace, console: Console) -> None:
     """Compare two meshes."""
     from bsm.commands.sequence_compare import compare_if_sequences
 
-    if compare_if_sequences(args):
+    if compare_if_sequences(args, console):
         return
-    original, decoded = (_load(path, args, console) for path in (args.original, args.decoded))
-    seen = None
-    if args.look or args.picture:
-        with console.progress("looking from all sides"):
+    with console.progress("reading") as progress:
+        original, decoded = (_load(path, args, console) for path in (args.original, args.decoded))
+        seen = None
+        if args.look or args.picture:
+            progress.stage("looking from all sides")
             seen = _look(original, decoded, args)
-    try:
-        compared = _compared(original, decoded, args, console)
-    except MeshError:
-        if seen is None:
-            raise
-        console.note("the meshes have different faces, so that only their look is compared")
-        compared = {}
+        progress.stage("comparing")
+        try:
+            compared = _compared(original, decoded, args, console)
+        except MeshError:
+            if seen is None:
+                raise
+            console.note("the meshes have different faces, so that only their look is compared")
+            compared = {}
     attributes = compared.pop("attributes", {})
     if args.json:
         shown = {"look": asdict(seen)} if seen else {}

@@ -82,13 +82,14 @@ def decode_one(args: DecodeJob, console: Console) -> Facts:
         raise OptionError(f"{output}: the name tells no mesh format; use --format, one of {', '.join(WRITTEN_FORMATS)}")
     refuse_to_overwrite(output, args.may_replace(output))
     begin = time.perf_counter()
-    if args.tolerant:
-        mesh = decode_what_is_left(chunks, lambda text: console.note(f"{args.input}: {text}"), limits_of(args.limits))
-    elif args.blocks is None:
-        mesh = decode_whole(chunks, limits_of(args.limits), layers=args.layers)
-    else:
-        with console.progress("decoding") as progress:
-            mesh = decode_blocks(chunks, args.blocks, progress, limits_of(args.limits))
+    limits = limits_of(args.limits)
+    with console.progress("decoding") as progress:
+        if args.tolerant:
+            mesh = decode_what_is_left(chunks, lambda text: console.note(f"{args.input}: {text}"), limits)
+        elif args.blocks is None:
+            mesh = decode_whole(chunks, limits, layers=args.layers)
+        else:
+            mesh = decode_blocks(chunks, args.blocks, progress, limits)
     seconds = time.perf_counter() - begin
     if args.permutation:
         mesh = reorder(mesh, read_permutation(args.permutation))
@@ -97,8 +98,9 @@ def decode_one(args: DecodeJob, console: Console) -> Facts:
         console.note(
             f"{args.input}: left out: {missing} of {header.attributes} attributes, of which values have not come"
         )
-    file = written_mesh(mesh, kind, "mesh" if output == "-" else output)
-    left_out = save_written(output, file, overwrite=args.may_replace(output), overwrite_beside=args.force)
+    with console.progress("writing"):
+        file = written_mesh(mesh, kind, "mesh" if output == "-" else output)
+        left_out = save_written(output, file, overwrite=args.may_replace(output), overwrite_beside=args.force)
     if left_out:
         console.note(f"{args.input}: {kind} cannot hold {', '.join(left_out)}")
     written = len(file.data)

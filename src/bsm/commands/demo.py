@@ -61,7 +61,8 @@ def run(args: argparse.Namespace, console: Console) -> None:
     )
 
     begin = time.perf_counter()
-    received = decode(stream)
+    with console.progress("decoding"):
+        received = decode(stream)
     decoding = time.perf_counter() - begin
     positions = np.empty_like(received.positions)
     positions[encoder.vertex_order] = received.positions
@@ -76,7 +77,8 @@ def run(args: argparse.Namespace, console: Console) -> None:
         file.write(stream)
     written = [str(stream_path)]
     try:
-        _draw(picture_path, sample, decoded, error, 8 * len(stream) / vertices, overwrite=args.force)
+        with console.progress("drawing"):
+            _draw(picture_path, sample, decoded, error, 8 * len(stream) / vertices, overwrite=args.force)
         written.append(str(picture_path))
     except DependencyError as missing:
         console.note(f"no picture: {missing}")

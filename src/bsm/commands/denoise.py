@@ -60,7 +60,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare what the command takes."""
     add_inputs(
         parser,
-        "mesh file (OBJ, OFF, PLY, STL, npz), - for standard input, or a sequence: npz, folder, or quoted pattern",
+        "mesh file (OBJ, OFF, PLY, STL, VTP, npz), - for standard input, or a sequence: npz, folder, or quoted pattern",
         "file, in the format of its name, or folder for any number of inputs (default: IN with .denoised before its "
         "suffix); a stream (.bsm) is near-lossless",
     )

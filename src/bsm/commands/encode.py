@@ -25,8 +25,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare what the command takes."""
     add_inputs(
         parser,
-        "mesh file (OBJ, OFF, PLY, STL, npz), - for standard input, or a sequence: folder, quoted pattern, npz, PC2, "
-        "MDD, USD, GLB with --animation",
+        "mesh file (OBJ, OFF, PLY, STL, VTP, npz), - for standard input, or a sequence: folder, quoted pattern, npz, "
+        "PC2, MDD, USD, GLB with --animation",
         "file, or folder for any number of inputs (default: IN with .bsm; - for a pipe); many inputs to one .bsm are "
         "the frames of a sequence",
     )

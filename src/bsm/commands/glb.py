@@ -63,7 +63,8 @@ def run(args: argparse.Namespace, console: Console) -> None:
         return bsm.encode(mesh, **keywords)
 
     beside = Path(args.output).with_suffix(".fallback.bin") if args.fallback else None
-    found = compress(document, coder, rule, beside.name if beside else None)
+    with console.progress("encoding", "primitives") as progress:
+        found = compress(document, coder, rule, beside.name if beside else None, progress)
     if beside and found.fallback:
         with open_output(str(beside), overwrite=args.force) as file:
             file.write(found.fallback)

@@ -21,7 +21,7 @@ KINDS = ("gaussian", "isotropic", "uniform", "impulsive", "axis", "correlated", 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare what the command takes."""
-    parser.add_argument("input", metavar="IN", help="mesh file (OBJ, OFF, PLY, STL, npz), or - for standard input")
+    parser.add_argument("input", metavar="IN", help="mesh file (OBJ, OFF, PLY, STL, VTP, npz), or - for standard input")
     parser.add_argument("-o", "--output", metavar="OUT", required=True, help="mesh file, in the format of its name")
     parser.add_argument("--format", choices=MESH_FORMATS, help="format of the input, and of a piped output")
     parser.add_argument(
@@ -62,11 +62,13 @@ def run(args: argparse.Namespace, console: Console) -> None:
     from bsm.codec.geometry.metrics import rms_over_edge
 
     refuse_collisions([args.input], [args.output])
-    with about(args.input):
-        mesh = read_mesh(args.input, args.format, reader=args.reader).mesh
-    noisy = move(mesh)
-    moved, stale = mesh.moved(noisy)
-    left_out = save_written(args.output, written_mesh(moved, kind, args.output), overwrite=args.force)
+    with console.progress("reading") as progress:
+        with about(args.input):
+            mesh = read_mesh(args.input, args.format, reader=args.reader).mesh
+        progress.stage("moving vertices")
+        noisy = move(mesh)
+        moved, stale = mesh.moved(noisy)
+        left_out = save_written(args.output, written_mesh(moved, kind, args.output), overwrite=args.force)
     if left_out or stale:
         console.note(f"{args.input}: left out: {', '.join((*stale, *left_out))}")
     rms = rms_over_edge(mesh.positions, noisy, mesh.faces)

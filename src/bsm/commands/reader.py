@@ -12,5 +12,5 @@ def add_reader_flag(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--reader",
         choices=READERS,
-        help="who reads mesh files (default: bsm for OBJ, OFF, PLY, STL and npz, trimesh for GLB, 3MF, DAE, ...)",
+        help="who reads mesh files (default: bsm for OBJ, OFF, PLY, STL, VTP and npz, trimesh for GLB, 3MF, DAE, ...)",
     )

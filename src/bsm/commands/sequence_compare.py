@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+from collections.abc import Callable
 from dataclasses import asdict
 from pathlib import Path
 
@@ -14,7 +15,7 @@ from bsm.codec.arrays import Faces, Positions
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.sequence.targets import compare_sequences
 from bsm.commands.limits import limits_of
-from bsm.console import finite, print_json
+from bsm.console import Console, Progress, as_json, finite
 from bsm.files.about import about
 from bsm.files.motion.frames import Wanted
 from bsm.files.output import open_output, refuse_to_overwrite
@@ -46,8 +47,8 @@ def _is_stream(path: str) -> bool:
     return Path(path).is_file() and is_stream(path)
 
 
-def compare_loaded(args: argparse.Namespace, original: Sequence, decoded: Sequence) -> None:
-    """Print how far one sequence is from the other."""
+def compare_loaded(args: argparse.Namespace, original: Sequence, decoded: Sequence, progress: Progress) -> str:
+    """How far one sequence is from the other, as it is printed."""
     (first, faces), (second, other_faces) = original, decoded
     if len(first) != len(second):
         raise MeshError(f"{args.original} has {len(first)} frames and {args.decoded} {len(second)}")
@@ -58,7 +59,9 @@ def compare_loaded(args: argparse.Namespace, original: Sequence, decoded: Sequen
     one, two = first[:, kept], second[:, other_kept[rows]]
     result = asdict(compare_sequences(one, two, mesh.faces))
     if args.look:
-        result.update(looks(one, two, mesh.faces))
+        progress.stage("looking at all frames")
+        result.update(looks(one, two, mesh.faces, progress))
+        progress.stage("comparing")
     if _is_stream(args.decoded):
         result["bpvf_total"] = 8 * Path(args.decoded).stat().st_size / second[..., 0].size
     of_frames = _of_frames(one, two)
@@ -72,12 +75,11 @@ def compare_loaded(args: argparse.Namespace, original: Sequence, decoded: Sequen
     repeats = _repeats(one)
     if args.json:
         numbers = {name: finite(value) for name, value in result.items()}
-        print_json({**numbers, "frames": of_frames, "loops": list(repeats)})
-    else:
-        worst = max(range(len(of_frames)), key=lambda number: of_frames[number]["max_error_relative"])
-        lines = [f"{name:<19}{value:.6g}" for name, value in result.items()]
-        lines.append(f"worst frame        {worst} ({of_frames[worst]['max_error_relative']:.6g})")
-        print("\n".join([*lines, *repeats]))
+        return as_json({**numbers, "frames": of_frames, "loops": list(repeats)})
+    worst = max(range(len(of_frames)), key=lambda number: of_frames[number]["max_error_relative"])
+    lines = [f"{name:<19}{value:.6g}" for name, value in result.items()]
+    lines.append(f"worst frame        {worst} ({of_frames[worst]['max_error_relative']:.6g})")
+    return "\n".join([*lines, *repeats])
 
 
 def _of_frames(one: Positions, two: Positions) -> list[dict[str, float]]:
@@ -104,12 +106,15 @@ def _loaded(path: str, args: argparse.Namespace, wanted: Wanted | None = None) -
         return load_sequence(path, args.reader, limits_of(args.limits), wanted)
 
 
-def looks(original: Positions, decoded: Positions, faces: Faces) -> dict[str, float]:
+def looks(
+    original: Positions, decoded: Positions, faces: Faces, progress: Callable[[int, int], None]
+) -> dict[str, float]:
     """How frames look, the worst and the mean of those of which something is seen; see `codec.look`."""
     from bsm.codec.look.measure import Looker
 
     found = []
-    for one, other in zip(original, decoded, strict=True):
+    for number, (one, other) in enumerate(zip(original, decoded, strict=True)):
+        progress(number, len(original))
         try:
             found.append(Looker(TriangleMesh(one, faces)).look(other))
         except MeshError:
@@ -123,7 +128,7 @@ def looks(original: Positions, decoded: Positions, faces: Faces) -> dict[str, fl
     }
 
 
-def compare_if_sequences(args: argparse.Namespace) -> bool:
+def compare_if_sequences(args: argparse.Namespace, console: Console) -> bool:
     """Compare two sequences; False if neither is one.
 
     Raises
@@ -131,17 +136,20 @@ def compare_if_sequences(args: argparse.Namespace) -> bool:
     MeshError
         If one is a sequence and the other a mesh.
     """
-    original, decoded = _loaded(args.original, args), _loaded(args.decoded, args)
-    if original is None and decoded is None:
-        return False
-    if original is None:  # an animated glTF is a sequence where the other one is
-        original = _loaded(args.original, args, Wanted())
-    if decoded is None:
-        decoded = _loaded(args.decoded, args, Wanted())
-    if original is None or decoded is None:
-        one, other = (args.decoded, args.original) if original is None else (args.original, args.decoded)
-        raise MeshError(f"{one} is a sequence and {other} one mesh")
-    if args.map:
-        raise OptionError("--map shows one mesh; of sequences, --picture draws the errors of each frame")
-    compare_loaded(args, original, decoded)
+    with console.progress("reading", "frames") as progress:
+        original, decoded = _loaded(args.original, args), _loaded(args.decoded, args)
+        if original is None and decoded is None:
+            return False
+        if original is None:  # an animated glTF is a sequence where the other one is
+            original = _loaded(args.original, args, Wanted())
+        if decoded is None:
+            decoded = _loaded(args.decoded, args, Wanted())
+        if original is None or decoded is None:
+            one, other = (args.decoded, args.original) if original is None else (args.original, args.decoded)
+            raise MeshError(f"{one} is a sequence and {other} one mesh")
+        if args.map:
+            raise OptionError("--map shows one mesh; of sequences, --picture draws the errors of each frame")
+        progress.stage("comparing")
+        text = compare_loaded(args, original, decoded, progress)
+    print(text)
     return True

@@ -51,10 +51,12 @@ def verify_one(args: VerifyJob, console: Console) -> Facts:
     """Check one stream."""
     chunks = list(read_chunks(args.input))
     limits = limits_of(args.limits)
-    info = inspect_stream(iter(chunks), limits)
-    if not args.quick:
-        decode_through(iter(chunks), limits) if info.header.gop_frames else decode_whole(iter(chunks), limits)
-    if args.steady:
-        check_steadiness(b"".join(chunks))
+    with console.progress("decoding") as progress:
+        info = inspect_stream(iter(chunks), limits)
+        if not args.quick:
+            decode_through(iter(chunks), limits) if info.header.gop_frames else decode_whole(iter(chunks), limits)
+        if args.steady:
+            progress.stage("decoding again")
+            check_steadiness(b"".join(chunks))
     console.note(f"{args.input}: whole, {info.header.blocks} blocks, {info.total} bytes")
     return {"input": args.input, "ok": True, "decoded": not args.quick, "bytes": info.total}

@@ -37,7 +37,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace, console: Console) -> int:
     """Write the page, or serve it until interrupted."""
-    contents = _contents(args)
+    with console.progress("reading and comparing" if args.original else "reading"):
+        contents = _contents(args)
     if args.save:
         with open_output(args.save, overwrite=args.force) as file:
             file.write(page_with(contents).encode())

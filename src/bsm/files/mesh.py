@@ -1,4 +1,4 @@
-"""Mesh files: OBJ, OFF, PLY, STL and npz by our own readers and writers, everything else through trimesh.
+"""Mesh files: OBJ, OFF, PLY, STL, VTP and npz by our own readers and writers, everything else through trimesh.
 
 Coordinates come from the file in double precision; vertices, faces and corners keep their order; what a file holds
 beside them becomes attributes and metadata; what was changed or left out on the way is named. Files are hostile until
@@ -26,6 +26,7 @@ from bsm.files.formats.off import read_off, write_off
 from bsm.files.formats.ply import read_ply, write_ply
 from bsm.files.formats.polygons import MeshFile, Polygons
 from bsm.files.formats.stl import read_stl, write_stl
+from bsm.files.formats.vtp import read_vtp, write_vtp
 from bsm.files.formats.with_openmesh import read_with_openmesh
 from bsm.files.formats.with_trimesh import import_trimesh, read_with_trimesh
 from bsm.files.formats.written import Written
@@ -48,8 +49,9 @@ _WRITERS: dict[str, Callable[[TriangleMesh, str], Written]] = {
     "off": write_off,
     "ply": write_ply,
     "stl": write_stl,
+    "vtp": write_vtp,
 }
-MESH_FORMATS = ("npz", *_READERS)
+MESH_FORMATS = ("npz", "vtp", *_READERS)
 """What we read and write ourselves."""
 USD_FORMATS = ("usd", "usda", "usdc", "usdz")
 """Read with usd-core."""
@@ -126,6 +128,8 @@ def read_mesh(
         return read_with_trimesh(data, path, kind, limits).checked(limits)
     if kind == "npz":
         return read_npz(data, limits)
+    if kind == "vtp":
+        return read_vtp(data, limits).checked(limits)
     require_room(kind, data, limits)
     polygons = _READERS[kind](data)
     metadata, notes = fetched(polygons.metadata, Path(path).parent if path else None, limits.metadata_bytes)
@@ -221,6 +225,8 @@ def format_of_bytes(data: bytes) -> str | None:
         return "glb"
     if head.startswith(b"solid") or len(data) == 84 + 50 * int.from_bytes(data[80:84], "little"):
         return "stl"
+    if b"<VTKFile" in head:
+        return "vtp"
     if b"OFF" in head[:8]:
         return "off"
     if re.search(rb"(?:\A|[\r\n])[ \t]*v[ \t]", data[: 1 << 16]):

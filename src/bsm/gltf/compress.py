@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import copy
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Any
@@ -42,7 +42,11 @@ class Compressed:
 
 
 def compress(
-    document: Document, coder: Coder, images: ImageRule | None = None, fallback: str | None = None
+    document: Document,
+    coder: Coder,
+    images: ImageRule | None = None,
+    fallback: str | None = None,
+    progress: Callable[[int, int], None] | None = None,
 ) -> Compressed:
     """Code each primitive of triangles where that makes the scene smaller.
 
@@ -55,6 +59,8 @@ def compress(
         How images are written; None: as they are.
     fallback : str, optional
         Name of a file with plain arrays for loaders that do not know the extension; None: they must know it.
+    progress : callable, optional
+        Told how many primitives are done, and of how many.
 
     Raises
     ------
@@ -64,7 +70,7 @@ def compress(
     for name in _COMPRESSED & set(document.tree.get("extensionsUsed", [])):
         raise FormatError(f"its geometry is compressed already, by {name}; start from the scene before that")
     with _consistent():
-        return _compressed(document, coder, images, fallback)
+        return _compressed(document, coder, images, fallback, progress)
 
 
 def count_primitives(document: Document) -> int:
@@ -81,13 +87,22 @@ def _consistent() -> Iterator[None]:
         raise FormatError(f"this glTF contradicts itself: {type(error).__name__}: {error}") from error
 
 
-def _compressed(document: Document, coder: Coder, images: ImageRule | None, fallback: str | None) -> Compressed:
+def _compressed(
+    document: Document,
+    coder: Coder,
+    images: ImageRule | None,
+    fallback: str | None,
+    progress: Callable[[int, int], None] | None,
+) -> Compressed:
     scene = _Scene(document, fallback)
     left: Counter[str] = Counter()
     coded = 0
     users = _users(document.tree)
     streams: dict[str, Any] = {}
-    for primitive in _primitives(scene.tree):
+    primitives = _primitives(scene.tree)
+    for number, primitive in enumerate(primitives):
+        if progress:
+            progress(number, len(primitives))
         key = _key(primitive)
         if key in streams:
             reason = streams[key] if isinstance(streams[key], str) else None

@@ -18,6 +18,8 @@ from bsm.files.rows import Ints, single_suffices
 Array = npt.NDArray[Any]
 PLURALS = {"color": "colours", "normal": "normals", "texcoord": "texture coordinates"}
 """Attributes in words, by their names."""
+_COLORS = ("rgb", "rgba", "colors", "colours")
+_TEXCOORDS = ("texture coordinates", "uv", "tcoords")
 
 
 @dataclass(frozen=True, eq=False)
@@ -104,6 +106,16 @@ def color_column(values: Array, domain: Domain, *, written_whole: bool = False) 
         in_range = values.min() >= 0 and values.max() <= 1
         return Column("color", compact(values), domain, "color" if in_range else "generic")
     return Column("color", values, domain, "color" if values.dtype in (np.uint8, np.uint16) else "generic")
+
+
+def named_column(name: str, values: Array, domain: Domain, meaning: Semantic | None = None) -> Column:
+    """Values as libraries name them, shape (k, c); None: their name tells what they mean."""
+    lower = name.lower()
+    if meaning is None:
+        meaning = "color" if lower in _COLORS else "texcoord" if lower in _TEXCOORDS else meaning_of(name)
+    colored = meaning == "color" and values.shape[1] in (3, 4)
+    column = color_column(values, domain) if colored else Column(name, values, domain, meaning)
+    return Column(name, column.values, domain, column.semantic)
 
 
 def held_by(attributes: Iterable[Attribute], test: Callable[[Attribute], bool]) -> Attribute | None:

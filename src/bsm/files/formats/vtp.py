@@ -1,0 +1,365 @@
+"""VTP, VTK's XML of surfaces: polygons in one piece, with named values of points and cells, as ParaView shows them.
+
+Arrays are text, base64, or bytes behind the XML, compressed by zlib or not. What a file claims is held against its
+bytes and the limits before anything is made of it.
+"""
+
+from __future__ import annotations
+
+import base64
+import binascii
+import re
+import warnings
+import zlib
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from xml.parsers import expat
+from xml.sax.saxutils import quoteattr
+
+import numpy as np
+
+from bsm.bitstream.errors import CorruptError, FormatError, MeshError, TruncatedError
+from bsm.bitstream.limits import Limits
+from bsm.codec.geometry.attributes import Attribute, Domain, Semantic
+from bsm.codec.geometry.mesh import Metadata, TriangleMesh
+from bsm.codec.geometry.splitting import split_by_attributes
+from bsm.files.formats.columns import Array, Column, named_column
+from bsm.files.formats.polygons import Polygons
+from bsm.files.formats.written import Written, first
+from bsm.files.room import AS_NUMBERS, require_inflated
+from bsm.files.rows import Ints, single_suffices
+
+_TYPES = {
+    **{
+        f"{sign}{bits}": f"{kind}{bits // 8}"
+        for sign, kind in (("Int", "i"), ("UInt", "u"))
+        for bits in (8, 16, 32, 64)
+    },
+    "Float32": "f4",
+    "Float64": "f8",
+}
+_NAMES = {kind: name for name, kind in _TYPES.items()}
+_APPENDED = re.compile(rb"<AppendedData\b([^>]*)>\s*_")
+_HEADS = {"UInt32": "u4", "UInt64": "u8"}
+_MOST_DEEP, _MOST_ARRAYS = 16, 1024
+_UNPRINTABLE = re.compile("[\x00-\x1f\x7f\ud800-\udfff\ufffe\uffff]")
+_OTHERS = {"NumberOfVerts": "points", "NumberOfLines": "lines"}
+
+
+@dataclass(eq=False)
+class _Array:
+    """A `DataArray` as it stands in the file: the element around it, what it says of itself, and its text."""
+
+    around: str
+    says: dict[str, str]
+    text: list[str] = field(default_factory=list)
+
+
+class _Document:
+    """What the XML of a file holds."""
+
+    def __init__(self, text: bytes) -> None:
+        self.tags: dict[str, dict[str, str]] = {}
+        self.arrays: list[_Array] = []
+        self._path: list[str] = []
+        parser = expat.ParserCreate()
+        parser.StartDoctypeDeclHandler = self._refuse
+        parser.StartElementHandler, parser.EndElementHandler = self._begin, self._end
+        parser.CharacterDataHandler = self._take
+        try:
+            parser.Parse(text, True)
+        except expat.ExpatError as error:
+            raise FormatError(f"this is no VTP file: its XML is broken: {error}") from error
+
+    def _refuse(self, *_: object) -> None:
+        raise FormatError("a VTP file has no DOCTYPE")
+
+    def _begin(self, tag: str, says: dict[str, str]) -> None:
+        if len(self._path) == _MOST_DEEP:
+            raise FormatError("the XML of this VTP file is too deep")
+        if tag == "Piece" and tag in self.tags:
+            raise MeshError("this VTP file has several pieces; save it as one")
+        if tag in ("DataArray", "Array"):
+            self.arrays.append(_Array(self._path[-1] if self._path else "", says))
+            if len(self.arrays) > _MOST_ARRAYS:
+                raise FormatError(f"this VTP file has more than {_MOST_ARRAYS} arrays")
+        elif tag not in self.tags:
+            self.tags[tag] = says
+        self._path.append(tag)
+
+    def _end(self, _: str) -> None:
+        self._path.pop()
+
+    def _take(self, text: str) -> None:
+        if self._path[-1] in ("DataArray", "Array"):
+            self.arrays[-1].text.append(text)
+
+
+class _Numbers:
+    """Makes arrays of what a document holds, and counts what they become."""
+
+    def __init__(self, document: _Document, behind: bytes, encoding: str, limits: Limits, size: int) -> None:
+        file = document.tags.get("VTKFile", {})
+        self._order = ">" if file.get("byte_order") == "BigEndian" else "<"
+        head = _HEADS.get(file.get("header_type", "UInt32"))
+        if head is None:
+            raise FormatError(f"headers of blocks cannot be {file['header_type']}")
+        self._head = np.dtype(self._order + head)
+        self._compressor = file.get("compressor")
+        self._behind, self._encoding = behind, encoding
+        self._limits, self._size, self._made = limits, size, 0
+
+    def of(self, array: _Array) -> Array:
+        """The numbers, shape (k, c)."""
+        kind = "u1" if array.says.get("type") == "String" else _TYPES.get(array.says.get("type", ""))
+        if kind is None:
+            raise MeshError(f"numbers cannot be {array.says.get('type')}")
+        components = _count(array.says, "NumberOfComponents", 1)
+        if array.says.get("format") == "ascii":
+            values = self._of_text("".join(array.text), np.dtype(kind))
+        else:
+            data = self._bytes(array)
+            if len(data) % np.dtype(kind).itemsize:
+                raise CorruptError(f"{len(data)} bytes are not {array.says['type']} numbers")
+            with np.errstate(invalid="ignore"):  # what is not a number is refused later
+                values = np.frombuffer(data, self._order + kind).astype(kind)
+        if components < 1 or len(values) % components:
+            raise CorruptError(f"{len(values)} numbers are not rows of {components}")
+        return values.reshape(-1, components)
+
+    def _of_text(self, text: str, kind: np.dtype) -> Array:
+        self._require(AS_NUMBERS * (len(text) // 2))
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            try:
+                values = np.fromstring(text, np.float64 if kind.kind == "f" else np.int64, sep=" ")
+            except (ValueError, DeprecationWarning) as error:
+                raise MeshError(f"what should be numbers is not: {error}") from error
+        with np.errstate(over="ignore", invalid="ignore"):
+            return values.astype(kind)
+
+    def _bytes(self, array: _Array) -> bytes:
+        appended = array.says.get("format") == "appended"
+        if appended:
+            begin = _count(array.says, "offset", 0)
+            raw = self._encoding == "raw"
+            given = self._behind[begin:] if raw else self._behind[begin:].split(b"<", 1)[0]
+        else:
+            raw, given = False, "".join("".join(array.text).split()).encode("ascii", "replace")
+        if not self._compressor:
+            head = self._numbers(given, 1, raw)
+            return self._taken(given, 0, self._head.itemsize, int(head[0]), raw)
+        if self._compressor != "vtkZLibDataCompressor":
+            raise FormatError(f"{self._compressor} is not known here; save it with zlib, or uncompressed")
+        count = int(self._numbers(given, 1, raw)[0])
+        if count > len(given):
+            raise TruncatedError("the blocks of an array are not there")
+        head = self._numbers(given, 3 + count, raw)
+        sizes = head[3:].astype(object)
+        whole = count * int(head[1])
+        self._require(whole)
+        header = (3 + count) * self._head.itemsize
+        packed = self._taken(given, header, 0, sum(sizes), raw)
+        return b"".join(self._inflated(packed, sizes, int(head[1])))
+
+    def _inflated(self, packed: bytes, sizes: Array, size: int) -> Iterator[bytes]:
+        at = 0
+        for length in sizes:
+            unpacker = zlib.decompressobj()
+            try:
+                yield unpacker.decompress(packed[at : at + length], max(size, 1))
+            except zlib.error as error:
+                raise CorruptError(f"a compressed block is damaged: {error}") from error
+            if not unpacker.eof:
+                raise CorruptError("a compressed block becomes more than it says")
+            at += length
+
+    def _numbers(self, given: bytes, count: int, raw: bool) -> Array:
+        """The first numbers of a header."""
+        data = self._taken(given, 0, 0, count * self._head.itemsize, raw)
+        return np.frombuffer(data, self._head)
+
+    def _taken(self, given: bytes, header: int, skipped: int, size: int, raw: bool) -> bytes:
+        """So many bytes behind a header that is coded by itself, and others; `TruncatedError` if they are not there."""
+        if not raw:
+            begin = 4 * -(-header // 3)
+            given = _from_base64(given[begin : begin + 4 * -(-(skipped + size) // 3)])
+            header = 0
+        data = given[header + skipped : header + skipped + size]
+        if len(data) < size:
+            raise TruncatedError(f"an array should take {size} bytes, and {len(data)} are there")
+        self._require(size)
+        return data
+
+    def _require(self, size: int) -> None:
+        self._made += size
+        require_inflated(self._made, self._size, self._limits)
+
+
+def _from_base64(text: bytes) -> bytes:
+    try:
+        return base64.b64decode(text)
+    except binascii.Error as error:
+        raise CorruptError(f"what should be base64 is not: {error}") from error
+
+
+def _count(says: dict[str, str], name: str, default: int) -> int:
+    """A whole number among what an element says."""
+    text = says.get(name, str(default))
+    if not re.fullmatch(r"\d{1,18}", text):
+        raise FormatError(f"{name} should be a number, not {text[:40]!r}")
+    return int(text)
+
+
+def read_vtp(data: bytes, limits: Limits) -> Polygons:
+    """Read a VTP with one piece.
+
+    Raises
+    ------
+    FormatError, MeshError
+        If it is none, or holds no polygons, or several pieces.
+    CorruptError, TruncatedError, LimitError
+        If it contradicts itself, or becomes too much.
+    """
+    found = _APPENDED.search(data)
+    encoding = b"raw" if found and b"raw" in found[1] else b"base64"
+    text, behind = (data, b"") if found is None else (data[: found.start()] + b"</VTKFile>", data[found.end() :])
+    require_inflated(8 * len(text), len(data), limits)
+    document = _Document(text)
+    piece = document.tags.get("Piece")
+    if document.tags.get("VTKFile", {}).get("type") != "PolyData" or piece is None:
+        raise FormatError("this VTK file holds no surface; extract one (ParaView's filter Extract Surface)")
+    if _count(piece, "NumberOfStrips", 0):
+        raise MeshError(
+            "this VTP file holds triangle strips; convert them to triangles (ParaView's filter Triangulate)"
+        )
+    points, polygons = _count(piece, "NumberOfPoints", 0), _count(piece, "NumberOfPolys", 0)
+    limits.check("vertices", points)
+    limits.check("faces", polygons)
+    numbers = _Numbers(document, behind, encoding.decode(), limits, len(data))
+    shape = {
+        (one.around, one.says.get("Name", "") if one.around == "Polys" else ""): one
+        for one in document.arrays
+        if one.around in ("Points", "Polys")
+    }
+    try:
+        coordinates, corners, ends = (
+            numbers.of(shape[key]) for key in (("Points", ""), ("Polys", "connectivity"), ("Polys", "offsets"))
+        )
+    except KeyError:
+        raise MeshError("this VTP file has no faces; point clouds are not supported") from None
+    if coordinates.shape != (points, 3) or len(ends) != polygons or {corners.dtype.kind, ends.dtype.kind} - {*"iu"}:
+        raise CorruptError("this VTP file has not as many points or polygons as it says")
+    stops: Ints = ends[:, 0].astype(np.int64)
+    sizes: Ints = stops - np.concatenate([[0], stops[:-1]])
+    if (sizes < 0).any() or (sizes > corners.size).any() or sizes.sum() != corners.size:
+        raise CorruptError("the polygons of this VTP file do not begin where others end")
+    columns, dropped = _columns(document, numbers, piece)
+    metadata, unsaid = _metadata(document, numbers)
+    others = [word for name, word in _OTHERS.items() if _count(piece, name, 0)]
+    flat: Ints = corners.reshape(-1).astype(np.int64)
+    return Polygons(coordinates.astype(np.float64), sizes, flat, (), (*dropped, *unsaid, *others), columns, metadata)
+
+
+def _columns(document: _Document, numbers: _Numbers, piece: dict[str, str]) -> tuple[tuple[Column, ...], list[str]]:
+    """Values of points and polygons, and the names of those that are none of these."""
+    before = _count(piece, "NumberOfVerts", 0) + _count(piece, "NumberOfLines", 0)
+    domains: dict[str, Domain] = {"PointData": "vertex", "CellData": "face"}
+    found, dropped = [], []
+    for array in document.arrays:
+        domain = domains.get(array.around)
+        name = array.says.get("Name", "")
+        if domain and array.says.get("type") not in _TYPES:
+            dropped.append(name)
+        elif domain:
+            values = numbers.of(array)[before if domain == "face" else 0 :]
+            active = document.tags.get(array.around, {})
+            shown: dict[str | None, Semantic] = {active.get("TCoords"): "texcoord", active.get("Normals"): "normal"}
+            found.append(named_column(name, values, domain, shown.get(name)))
+    return tuple(found), dropped
+
+
+def _metadata(document: _Document, numbers: _Numbers) -> tuple[Metadata, list[str]]:
+    """Field data: one text, one number, or bytes each; and the names of what is none of these."""
+    found: dict[str, str | int | float | bytes] = {}
+    dropped = []
+    for array in (array for array in document.arrays if array.around == "FieldData"):
+        name, kind = array.says.get("Name", ""), array.says.get("type")
+        values = numbers.of(array)
+        if kind == "String" and values.size and values[-1] == 0 and np.count_nonzero(values == 0) == 1:
+            found[name] = values[:-1].tobytes().decode(errors="replace")
+        elif kind == "UInt8":
+            found[name] = values.tobytes()
+        elif values.size == 1 and kind != "String":
+            found[name] = values.reshape(-1)[0].item()
+        else:
+            dropped.append(name)
+    return found, dropped
+
+
+def _fields(metadata: Metadata) -> Iterator[tuple[str, str, Array]]:
+    """Name, type and numbers of what belongs to the whole mesh."""
+    for name, value in metadata.items():
+        if isinstance(value, str):
+            text = value.replace("\0", "").encode(errors="replace")
+            yield name, "String", np.frombuffer(text + b"\0", np.uint8)
+        elif isinstance(value, bytes):
+            yield name, "UInt8", np.frombuffer(value, np.uint8)
+        else:
+            values = np.array([value], np.int64 if isinstance(value, int) else np.float64)
+            yield name, _NAMES[values.dtype.str[1:]], values
+
+
+def write_vtp(mesh: TriangleMesh, stem: str) -> Written:
+    """The VTP of a mesh, its arrays as bytes behind the XML; the first number of vertices is what ParaView colours by.
+
+    Vertices are split where corners differ in an attribute.
+    """
+    mesh = split_by_attributes(mesh)
+    kind = np.float32 if single_suffices(mesh.positions) else np.float64
+    blocks: list[bytes] = []
+    at = 0
+
+    def array(name: str, values: Array, kind: str = "") -> str:
+        nonlocal at
+        data = np.ascontiguousarray(values.astype(values.dtype.newbyteorder("<"))).tobytes()
+        components = values.shape[1] if values.ndim == 2 else 1
+        tag = (
+            f'<{"Array" if kind == "String" else "DataArray"} type="{kind or _NAMES[values.dtype.str[1:]]}" '
+            f"Name={quoteattr(_UNPRINTABLE.sub('_', name))} "
+            f'NumberOf{"Tuples" if kind else "Components"}="{components}" format="appended" offset="{at}"/>'
+        )
+        blocks.append(len(data).to_bytes(8, "little") + data)
+        at += len(blocks[-1])
+        return tag
+
+    def section(tag: str, domain: Domain) -> str:
+        held = [attribute for attribute in mesh.attributes if attribute.domain == domain]
+        lines = [array(attribute.name, attribute.values) for attribute in held]
+        return f"<{tag}{_active(mesh, domain)}>{''.join(lines)}</{tag}>"
+
+    ends = np.arange(3, 3 * len(mesh.faces) + 1, 3, dtype=np.int64)
+    fields = [array(name, values, kind) for name, kind, values in _fields(mesh.metadata)]
+    text = (
+        '<?xml version="1.0"?>\n'
+        '<VTKFile type="PolyData" version="1.0" byte_order="LittleEndian" header_type="UInt64"><PolyData>\n'
+        f"<FieldData>{''.join(fields)}</FieldData>\n"
+        f'<Piece NumberOfPoints="{len(mesh.positions)}" NumberOfVerts="0" NumberOfLines="0" NumberOfStrips="0" '
+        f'NumberOfPolys="{len(mesh.faces)}">\n'
+        f"{section('PointData', 'vertex')}\n{section('CellData', 'face')}\n"
+        f"<Points>{array('Points', mesh.positions.astype(kind))}</Points>\n"
+        f"<Polys>{array('connectivity', mesh.faces.reshape(-1).astype(np.int64))}{array('offsets', ends)}</Polys>\n"
+        '</Piece></PolyData>\n<AppendedData encoding="raw">_'
+    )
+    data = b"".join((text.encode(), *blocks, b"</AppendedData></VTKFile>\n"))
+    return Written(data)
+
+
+def _active(mesh: TriangleMesh, domain: Domain) -> str:
+    """What is shown, of all values of a domain."""
+    chosen: dict[str, Attribute | None] = {"Scalars": first(mesh, "generic", (1,), domain)}
+    if domain == "vertex":
+        chosen["Normals"] = first(mesh, "normal", (3,), domain)
+        chosen["TCoords"] = first(mesh, "texcoord", (2,), domain)
+    named = [(tag, one.name) for tag, one in chosen.items() if one is not None]
+    return "".join(f" {tag}={quoteattr(_UNPRINTABLE.sub('_', name))}" for tag, name in named)
