@@ -3,6 +3,7 @@
 
 extern "C" {
 #include "codec/basis/cosines.h"
+#include "codec/basis/noise.h"
 #include "codec/basis/orthogonal_iteration.h"
 #include "codec/basis/solver/householder.h"
 #include "codec/basis/solver/solver.h"
@@ -71,6 +72,7 @@ NB_MODULE(_kernels, m) {
           "depth"_a, "lengths"_a, "farthest"_a, "picture"_a, "owner"_a, Unlocked());
     m.def("likeness", checked<&likeness>, "first"_a, "second"_a, "wide"_a, "narrow"_a, "visible"_a, "plain"_a,
           "scratch"_a, "sums"_a, "map"_a, Unlocked());
+    m.def("hash_columns", &hash_columns, "columns"_a, Unlocked());
     m.def("bisection_scratch", &bisection_scratch, "size"_a);
     m.def("bisect", &bisect, "offsets"_a, "neighbours"_a, "order"_a, "bounds"_a, "scratch"_a, Unlocked());
     m.def("bisect_once", &bisect_once, "offsets"_a, "neighbours"_a, "order"_a, "bounds"_a, "scratch"_a, "second"_a,

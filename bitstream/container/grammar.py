@@ -69,6 +69,15 @@ def _not_ascending(index: int, following: int) -> str:
     return f"index {index} comes behind index {following - 1}; they must ascend"
 
 
+ANNOUNCED: dict[int, str] = {
+    FrameType.GRID: "grid",
+    FrameType.REFINEMENT: "refinements",
+    FrameType.ATTRIBUTE: "attributes",
+    FrameType.VALUES: "attributes",
+}
+"""The field of the header that says whether frames of a type may come."""
+
+
 class Grammar:
     """Follows a stream packet by packet; the writer and the reader both ask it."""
 
@@ -100,20 +109,14 @@ class Grammar:
 
     def announces(self, frame_type: int) -> bool:
         """Whether the header says that frames of this type may come; of those it need not announce, always."""
-        announced: dict[int, bool] = {}
-        if self.header is not None:
-            announced = {
-                FrameType.GRID: bool(self.header.grid),
-                FrameType.REFINEMENT: bool(self.header.refinements),
-                FrameType.ATTRIBUTE: bool(self.header.attributes),
-                FrameType.VALUES: bool(self.header.attributes),
-            }
-        return announced.get(frame_type, True)
+        if self.header is None or frame_type not in ANNOUNCED:
+            return True
+        return bool(getattr(self.header, ANNOUNCED[frame_type]))
 
     def problem(self, packet: Packet) -> str | None:
         """Why `packet` may not come here, or None if it may."""
         frame_type = FRAME_TYPES[type(packet)]
-        if frame_type not in self.expected:
+        if frame_type not in self._allowed and frame_type not in self.expected:
             expected = ", ".join(item.name for item in sorted(self.expected)) or "nothing"
             return f"{frame_type.name} may not come here, only {expected}"
         return self._disagreement(packet)

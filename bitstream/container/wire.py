@@ -165,12 +165,13 @@ def parse_frame(data: bytes | bytearray, start: int, limits: Limits) -> Frame | 
     if tag is None:
         return None
     limits.check("frame_bytes", tag.length)
-    if tag.end > len(data):
+    ends, end = tag.checksum, tag.end
+    if end > len(data):
         return None
     with memoryview(data) as view:
-        if checksum(tag.end - tag.checksum, view[start : tag.checksum]) != view[tag.checksum : tag.end]:
+        if checksum(end - ends, view[start:ends]) != view[ends:end]:
             raise CorruptError(f"checksum of a frame of type {tag.type} and {tag.length} bytes is wrong")
-        return Frame(tag.type, bytes(view[tag.payload : tag.checksum]), tag.end - start)
+        return Frame(tag.type, bytes(view[tag.payload : ends]), end - start)
 
 
 class Cursor:

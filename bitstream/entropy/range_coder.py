@@ -134,8 +134,8 @@ def make_bank(
 
 def reset_bank(bank: Bank) -> None:
     """Forget everything that `bank` has learnt, in place."""
-    bank.slots[:] = bank.settings[3]
-    bank.weights[:] = bank.settings[2]
+    bank.slots.fill(bank.settings[3])
+    bank.weights.fill(bank.settings[2])
 
 
 def copy_bank(bank: Bank) -> Bank:

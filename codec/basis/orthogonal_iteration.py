@@ -167,11 +167,6 @@ def exact_steps(laplacian: Laplacian, start: Matrix, springs: float | Matrix) ->
 
 def hash_columns(rows: int, columns: int) -> Matrix:
     """Fixed pseudo-random numbers in [-1, 1), shape (rows, columns): the splitmix64 of row * 2^32 + column."""
-    row = np.arange(rows, dtype=np.uint64)[:, None]
-    column = np.arange(columns, dtype=np.uint64)[None, :]
-    with np.errstate(over="ignore"):
-        z = (row * np.uint64(1 << 32) + column + np.uint64(1)) * np.uint64(0x9E3779B97F4A7C15)
-        z = (z ^ (z >> np.uint64(30))) * np.uint64(0xBF58476D1CE4E5B9)
-        z = (z ^ (z >> np.uint64(27))) * np.uint64(0x94D049BB133111EB)
-        z = z ^ (z >> np.uint64(31))
-    return (z >> np.uint64(11)).astype(np.float64) * 2.0**-52 - 1.0
+    hashed = np.empty((rows, columns))
+    _kernels.hash_columns(hashed)
+    return hashed

@@ -15,6 +15,7 @@ from bsm.bitstream.errors import ArgumentError, MeshError
 from bsm.bitstream.public import public
 from bsm.codec.arrays import Faces, Order, Positions
 from bsm.codec.geometry.attributes import Attribute
+from bsm.codec.geometry.box import extent_of
 
 Metadata = Mapping[str, str | int | float | bytes]
 """Whatever an author wants to say of a mesh."""
@@ -103,13 +104,13 @@ class TriangleMesh:
     @property
     def diagonal(self) -> float:
         """Length of the bounding box's diagonal."""
-        return math.hypot(*np.ptp(self.positions, axis=0))
+        return math.hypot(*extent_of(self.positions))
 
     def require_sizes(self, smallest: float, largest: float) -> None:
         """Raise `MeshError` where it is smaller, or goes farther from the origin, than what is to be done can bear."""
         farthest = float(np.abs(self.positions).max(initial=0.0))
         with np.errstate(over="ignore"):
-            extent = float(np.ptp(self.positions, axis=0).max()) if len(self.positions) else 0.0
+            extent = float(extent_of(self.positions).max()) if len(self.positions) else 0.0
         if farthest > largest or 0.0 < extent < smallest:
             raise MeshError(
                 f"the mesh is {extent:.3g} across, and {farthest:.3g} from the origin; what is from {smallest:g} to "

@@ -15,6 +15,7 @@ from bsm.bitstream.errors import MeshError
 from bsm.bitstream.public import public
 from bsm.codec import _kernels
 from bsm.codec.arrays import Faces, Matrix, Positions
+from bsm.codec.geometry.box import extent_of
 from bsm.codec.geometry.incidence import Rows, mesh_edges, vertex_neighbours
 
 Floats = Matrix
@@ -268,7 +269,7 @@ def _length(values: Floats) -> float:
 
 
 def _scale(positions: Positions) -> float:
-    return float(np.linalg.norm(np.ptp(positions, axis=0))) or 1.0
+    return float(np.linalg.norm(extent_of(positions))) or 1.0
 
 
 def _mean_difference(original: Floats, decoded: Floats) -> float:

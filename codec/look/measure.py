@@ -12,6 +12,7 @@ from bsm.bitstream.errors import MeshError
 from bsm.bitstream.public import public
 from bsm.codec.arrays import Faces, Indices, Mask, Matrix, Positions
 from bsm.codec.geometry.attribute_errors import at_corners
+from bsm.codec.geometry.box import box_around
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.look.pictures import (
     BACKGROUND,
@@ -94,7 +95,7 @@ class Looker:
     def __init__(self, mesh: TriangleMesh, *, threads: int | None = None) -> None:
         self._mesh, self._threads = mesh, threads
         used = mesh.positions[_used(mesh.faces, len(mesh.positions))]
-        low, high = used.min(axis=0), used.max(axis=0)
+        low, high = box_around(used)
         with np.errstate(over="ignore"):
             self._diagonal = math.hypot(*(high - low))
         if not self._diagonal > 0.0:

@@ -7,6 +7,7 @@ import math
 import numpy as np
 
 from bsm.codec.arrays import Faces, Matrix, Positions
+from bsm.codec.geometry.box import box_around
 
 TOWARDS = (
     *((1, 0, 0), (0, 1, 0), (-1, 0, 0), (0, -1, 0)),
@@ -61,7 +62,7 @@ def pixels_for(positions: Positions, faces: Faces) -> int:
     first, second, third = (positions[corner] for corner in np.ascontiguousarray(faces.T))
     sides = [first - second, second - third, third - first]
     edge = float(sum(np.sqrt(np.einsum("fd,fd->f", side, side)).sum() for side in sides)) / (3 * len(faces))
-    ends = np.array([(corner.min(axis=0), corner.max(axis=0)) for corner in (first, second, third)])
+    ends = np.array([box_around(corner) for corner in (first, second, third)])
     side = AIR * float((ends[:, 1].max(axis=0) - ends[:, 0].min(axis=0)).max())
     if not edge * MOST_PIXELS > EDGE_PIXELS * side:
         return MOST_PIXELS

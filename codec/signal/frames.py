@@ -40,8 +40,13 @@ def displaced(positions: Positions, frames: Matrix, levels: Levels, step: float,
         A level along the normal, and how many times as much one along a tangent is.
     """
     moved = np.array(positions, np.float64, order="C")
-    _kernels.add_levels(moved, frames, np.ascontiguousarray(levels, np.int32), step, ratio)
+    displace(moved, frames, levels, step, ratio)
     return moved
+
+
+def displace(positions: Positions, frames: Matrix, levels: Levels, step: float, ratio: float) -> None:
+    """`displaced` in place: `positions`, shape (n, 3), `frames`, (n, 9), and `levels`, (n, 1) or (n, 3), as there."""
+    _kernels.add_levels(positions, frames, np.ascontiguousarray(levels, np.int32), step, ratio)
 
 
 def in_frames(offsets: Positions, frames: Matrix) -> Matrix:

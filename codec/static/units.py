@@ -8,6 +8,7 @@ import numpy as np
 
 from bsm.bitstream.errors import NumericError
 from bsm.codec.arrays import Matrix, Positions
+from bsm.codec.geometry.box import box_around
 from bsm.codec.geometry.mesh import TriangleMesh
 
 
@@ -49,7 +50,7 @@ class Units:
 
 def units_of(mesh: TriangleMesh) -> Units:
     """Centre and diagonal of the bounding box, in single precision where that is exact enough."""
-    low, high = mesh.positions.min(axis=0), mesh.positions.max(axis=0)
+    low, high = box_around(mesh.positions)
     center, diagonal = low / 2 + high / 2, mesh.diagonal
     if not diagonal > 0.0:
         return Units(tuple(center), 1.0)

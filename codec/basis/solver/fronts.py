@@ -17,7 +17,7 @@ import numpy.typing as npt
 from bsm.bitstream.errors import LimitError
 from bsm.codec import _kernels
 
-LEAF = 16
+LEAF = 8
 """Halves of at most so many rows are not cut further."""
 
 WORK = 1 << 16

@@ -7,6 +7,7 @@ import numpy as np
 from bsm.bitstream.once import cached_property
 from bsm.codec import _kernels
 from bsm.codec.arrays import Indices, Matrix
+from bsm.codec.geometry.box import box_around
 from bsm.codec.geometry.closeness import LOST, Original
 
 MOST_FLAPS = 1 << 11
@@ -36,7 +37,7 @@ class Character:
     def __init__(self, original: Original, flaps: Indices) -> None:
         self._original = original
         self._flaps = flaps[:: max(1, len(flaps) // MOST_FLAPS)]
-        self._low: Matrix = original.positions.min(axis=0)
+        self._low: Matrix = box_around(original.positions)[0]
 
     @cached_property
     def mean_edge(self) -> float:

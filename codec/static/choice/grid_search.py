@@ -11,6 +11,7 @@ import numpy as np
 
 from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Levels
+from bsm.codec.geometry.box import extent_of
 from bsm.codec.static.choice.borders import ROUND, Borders
 from bsm.codec.static.choice.judge import Judge
 from bsm.codec.static.choice.lattices import Shaped
@@ -126,7 +127,7 @@ class GridSearch:
         self._borders = borders
         self._told = told
         self._edge = shaper.mean_edge or 1.0
-        self._extent = float(np.ptp(prepared.positions, axis=0).max())
+        self._extent = float(extent_of(prepared.positions).max())
         self._most = min(1.6 * reach, borders.cell, COARSEST)
         self._widest = min(ROUND * reach, borders.cell)
 

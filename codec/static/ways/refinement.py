@@ -19,7 +19,7 @@ from bsm.bitstream.fields.levels import LevelsDecoder, LevelsEncoder
 from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Indices, Levels, Mask, Matrix
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.codec.signal.frames import displaced, local_frames
+from bsm.codec.signal.frames import displace, local_frames
 from bsm.codec.static.assembly import Assembly
 from bsm.codec.static.attributes.decoding import ValuesStage, completed
 from bsm.codec.static.attributes.solid import Solid
@@ -147,13 +147,12 @@ class Refined:
 
         Returns those that can be refined: all whose base is whole.
         """
-        positions, frames, whole = self._base
-        chosen = vertices[whole[vertices]]
-        rule = self._structure.header.layers[layer]
-        moved = displaced(positions[chosen], frames[chosen], levels[whole[vertices]], rule.step, rule.ratio)
-        positions[chosen] = moved
-        self._reached[layer, chosen] = True
-        return chosen
+        positions, frames, known = self._base
+        rows, rule = slice(int(vertices[0]), int(vertices[-1]) + 1), self._structure.header.layers[layer]
+        whole = known[rows]
+        displace(positions[rows], frames[rows], levels * whole[:, None], rule.step, rule.ratio)
+        self._reached[layer, rows] = whole
+        return vertices[whole]
 
     def event(self, layer: int, vertices: Indices) -> RefinementEvent:
         """Say where vertices, shape (k,), are now."""

@@ -3,7 +3,7 @@ import { CorruptError, LimitError } from "./errors";
 import type { Doubles, Ints, Memory, Words } from "./kernels";
 
 const REFINEMENT_PASSES = 2n;
-const LEAF = 16n;
+const LEAF = 8n;
 const CHAIN_SCRATCH = 7; // numbers for each part
 const MOST_WORK = 65536;
 const FULL = -1;
