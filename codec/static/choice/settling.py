@@ -28,7 +28,7 @@ TRUST = 1.0
 """Levels that each size is counted with from the start."""
 LEAST = 0.1
 """What errors cost at least, of their mean cost: nothing is hidden from all sides that somebody may look from."""
-PLAIN, FINER = 2.1, 0.47
+PLAIN, FINER = 2.2, 0.47
 """Share of what is visible over dissimilarity, both over what is at distance 1, of noise where `step_for` is right; and
 how steps get finer with it, in their logarithms."""
 SWEEPS = 3
