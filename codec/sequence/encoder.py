@@ -12,7 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from bsm.bitstream.container import packets
-from bsm.bitstream.container.gop import GopBody, write_gop_body
+from bsm.bitstream.container.gop import GopBody, GopMethod, write_gop_body
 from bsm.bitstream.container.header import Header
 from bsm.bitstream.container.writer import Writer
 from bsm.bitstream.errors import ArgumentError, MeshError, OptionError
@@ -24,7 +24,7 @@ from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
 from bsm.codec.sequence.cost import gop_cost, gop_memory, loop_memory
 from bsm.codec.sequence.decoder import decode_sequence
-from bsm.codec.sequence.gop import GopDecoder, GopEncoder, Setting, make_setting
+from bsm.codec.sequence.gop import GopDecoder, GopEncoder, Setting, make_setting, silent
 from bsm.codec.sequence.options import SequenceOptions
 from bsm.codec.sequence.row_prediction import LARGEST_LEVEL
 from bsm.codec.sequence.targets import SequenceComparison, compare_sequences
@@ -85,10 +85,6 @@ class SequenceAttempt:
     def bpvf(self) -> float:
         """Bits of the whole stream per vertex and frame."""
         return 8.0 * sum(map(len, self.chunks)) / self.samples
-
-
-def _silent(done: int, blocks: int) -> None:
-    """What was told once is not told again."""
 
 
 @public
@@ -237,15 +233,15 @@ class SequenceEncoder:
     def _first_gop(self, frames: list[Matrix], prepared: Prepared, options: SequenceOptions, tell: Progress) -> Coded:
         """The first frame and the first GOP, with the step that keeps the options' promise in both, if there is one."""
 
-        def attempt(step: float, weights: Matrix | None, tell: Progress = _silent) -> Coded:
+        def attempt(step: float, weights: Matrix | None, singly: bool | None, tell: Progress = silent) -> Coded:
             chosen = replace(options, step=step)
             opening = open_sequence(prepared, chosen, self._count, tell)
             encoder = GopEncoder(opening.setting, chosen)
-            encoder.weights = weights
+            encoder.weights, encoder.singly = weights, singly
             return Coded(opening, encoder, tuple(_affordable(opening, encoder, frames, 0, tell)))
 
         if options.promise is None:
-            return attempt(options.step, None, tell)
+            return attempt(options.step, None, None, tell)
         coded = self._kept(attempt, frames, prepared, options, None)
         for _ in range(2):
             tell(len(coded.opening.blocks), len(coded.opening.blocks))
@@ -263,20 +259,20 @@ class SequenceEncoder:
         """The GOP behind another, with the step that keeps the options' promise in it, if there is one."""
         opening = before.opening
 
-        def attempt(step: float, weights: Matrix | None, tell: Progress = _silent) -> Coded:
+        def attempt(step: float, weights: Matrix | None, singly: bool | None, tell: Progress = silent) -> Coded:
             encoder = before.encoder.copy()
-            encoder.step, encoder.weights = step, weights
+            encoder.step, encoder.weights, encoder.singly = step, weights, singly
             return Coded(opening, encoder, tuple(_affordable(opening, encoder, frames, number, tell)))
 
         if options.promise is None:
-            return attempt(before.encoder.step, None, tell)
+            return attempt(before.encoder.step, None, None, tell)
         coded = self._kept(attempt, frames, prepared, options, before.encoder.step)
         tell(len(opening.blocks), len(opening.blocks))
         return coded
 
     def _kept(
         self,
-        attempt: Callable[[float, Matrix | None], Coded],
+        attempt: Callable[[float, Matrix | None, bool | None], Coded],
         frames: list[Matrix],
         prepared: Prepared,
         options: SequenceOptions,
@@ -286,9 +282,15 @@ class SequenceEncoder:
         assert promise is not None
         watch = Watch(np.array(frames), prepared.mesh.faces, promise, prepared.units.scale, options.threads)
         finest = max(FINEST_STEP, self._finest_step(frames))
-        coded = watch.settle(attempt, first or promise.first_step, finest)
-        coded.encoder.step = coded.bodies[0].step  # what the next GOP is tried with
-        return coded
+        singly: bool | None = None
+
+        def settled(step: float, weights: Matrix | None) -> Coded:
+            nonlocal singly
+            coded = attempt(step, weights, singly)
+            singly = coded.singly  # as the first attempt was, so are the others
+            return coded
+
+        return watch.settle(settled, first or promise.first_step, finest)
 
 
 @dataclass(frozen=True, eq=False)
@@ -299,10 +301,15 @@ class Coded:
     encoder: GopEncoder
     bodies: tuple[GopBody, ...]
 
+    @property
+    def singly(self) -> bool:
+        """Whether frames are sent one by one."""
+        return self.bodies[0].method is not GopMethod.LEARNT
+
     @cached_property
     def decoded(self) -> Positions:
         """What the decoder makes of them, shape (T, n, 3), in BSM units."""
-        if self.encoder.latest is not None:
+        if self.encoder.low_delay and self.encoder.latest is not None:
             return self.encoder.latest[None]
         decoder = GopDecoder(self.opening.setting)
         return np.array([frame for body in self.bodies for frame in decoder.decode(body)])
@@ -351,16 +358,25 @@ class Opening:
 def _affordable(
     opening: Opening, encoder: GopEncoder, frames: list[Matrix], number: int, progress: Progress
 ) -> Iterator[GopBody]:
-    """Frames as one GOP, or as shorter ones where decoders would lack the memory for that."""
-    body = encoder.encode(np.array(frames), number, progress)
+    """Frames as one GOP or one by one, whatever costs less, or as shorter GOPs where decoders would lack the memory."""
+    if encoder.low_delay:
+        yield encoder.encode_single(frames[0], number, progress)
+        return
+    if encoder.singly:
+        yield from encoder.encode_singles(np.array(frames))
+        return
+    together = np.array(frames)
+    learnt, cost = encoder.encode_learnt(together, progress)
     half = len(frames) // 2
-    if half and not opening.has_room(body):
+    if encoder.singly is None and (singles := encoder.encode_singles(together, cost)):
+        yield from singles
+    elif half and not opening.has_room(learnt):
         weights = encoder.weights
         for part in (slice(half), slice(half, None)):
             encoder.weights = None if weights is None else weights[part]
-            yield from _affordable(opening, encoder, frames[part], number + (part.start or 0), _silent)
+            yield from _affordable(opening, encoder, frames[part], number + (part.start or 0), silent)
     else:
-        yield body
+        yield learnt
 
 
 def open_sequence(prepared: Prepared, options: SequenceOptions, frames: int, progress: Progress) -> Opening:

@@ -5,6 +5,7 @@ Positions are in BSM units throughout.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator
 from copy import copy
 from dataclasses import dataclass, replace
@@ -17,7 +18,7 @@ from bsm.bitstream.entropy.range_coder import Bank, copy_bank
 from bsm.bitstream.errors import CorruptError
 from bsm.codec.arrays import Faces, Levels, Matrix
 from bsm.codec.sequence.dictionaries import Dictionaries, Part, Site, find_sites
-from bsm.codec.sequence.level_writer import LevelWriter
+from bsm.codec.sequence.level_writer import WEIGHT, LevelWriter
 from bsm.codec.sequence.options import SequenceOptions
 from bsm.codec.sequence.row_prediction import (
     Loop,
@@ -33,6 +34,10 @@ from bsm.codec.static.work import Allowance
 
 BATCH = 8
 """Frames that are reconstructed at a time."""
+SINGLE = 14
+"""Bytes of the GOP of a single frame besides its levels, about."""
+TRIED = 8
+"""Frames that are coded one by one before that is given up as dearer than a basis."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -142,6 +147,10 @@ class FrameHistory:
         self._latest, self._before = coefficients, self._latest
 
 
+def silent(done: int, blocks: int) -> None:
+    """Nobody is told."""
+
+
 class GopEncoder:
     """Encodes one GOP after the other; the twin of `GopDecoder`.
 
@@ -149,8 +158,10 @@ class GopEncoder:
     ----------
     weights : float64 array, shape (T,), optional
         What errors of the next GOP's frames count, beside each other; None: all the same.
+    singly : bool, optional
+        Whether these frames are sent one by one; None: if that costs less.
     latest : float64 array, shape (n, 3), optional
-        Of low delay, what decoders make of the latest frame.
+        What decoders make of the latest frame that was sent by itself.
     """
 
     def __init__(self, setting: Setting, options: SequenceOptions) -> None:
@@ -159,6 +170,7 @@ class GopEncoder:
         self._options = options
         self.step = options.step
         self.weights: Matrix | None = None
+        self.singly: bool | None = None
         self.latest: Matrix | None = None
         self._history = FrameHistory(setting.first)
 
@@ -177,14 +189,49 @@ class GopEncoder:
         twin._history = self._history.copy()
         return twin
 
-    def encode(self, frames: Matrix, number: int, progress: Progress) -> GopBody:
-        """Encode frames, shape (T, n, 3), from frame `number` of the sequence on."""
-        if self._options.mode == "low-delay":
-            return self._single(frames[0], number % self._options.gop == 0, progress)
-        weights = np.ones(len(frames)) if self.weights is None else self.weights
-        return self._transformed(trajectories(frames), np.tile(weights, 3), progress)
+    @property
+    def low_delay(self) -> bool:
+        """Whether every frame is sent as it comes."""
+        return self._options.mode == "low-delay"
 
-    def _single(self, wanted: Matrix, key: bool, progress: Progress) -> GopBody:
+    def encode_single(self, frame: Matrix, number: int, progress: Progress) -> GopBody:
+        """Encode frame `number`, shape (n, 3), of a sequence of low delay."""
+        return self._single(frame, self._step, number % self._options.gop == 0, progress)
+
+    def encode_learnt(self, frames: Matrix, progress: Progress) -> tuple[GopBody, float]:
+        """Encode frames, shape (T, n, 3), by a basis that is learnt from them.
+
+        Returns
+        -------
+        body : GopBody
+        cost : float
+            Squared steps of all weighed errors, and what the bits are worth.
+        """
+        weights = self._weights_of(frames)
+        body, error = self._transformed(trajectories(frames), np.tile(weights, 3), progress)
+        return body, error + WEIGHT * 8.0 * (len(body.levels) + len(body.basis) + SINGLE)
+
+    def encode_singles(self, frames: Matrix, most: float = math.inf) -> tuple[GopBody, ...]:
+        """Encode frames, shape (T, n, 3), one by one.
+
+        Steps are finer for what weighs more, as they are with a basis. Gives up, mostly soon, with
+        nothing, if the cost is not likely to stay below `most`.
+        """
+        bodies: list[GopBody] = []
+        cost = 0.0
+        for frame, weight in zip(frames, self._weights_of(frames), strict=True):
+            bodies.append(self._single(frame, float(np.float32(self._step / weight)), not bodies, silent))
+            assert self.latest is not None
+            error = float(np.square(weight * (self.latest - frame)).sum()) / self._step**2
+            cost += error + WEIGHT * 8.0 * (len(bodies[-1].levels) + SINGLE)
+            if cost > most * (len(bodies) / len(frames) if len(bodies) >= TRIED else 1.0):
+                return ()
+        return tuple(bodies)
+
+    def _weights_of(self, frames: Matrix) -> Matrix:
+        return np.ones(len(frames)) if self.weights is None else self.weights
+
+    def _single(self, wanted: Matrix, step: float, key: bool, progress: Progress) -> GopBody:
         if key:
             self._history = FrameHistory(self._setting.first)
         history = self._history
@@ -192,7 +239,7 @@ class GopEncoder:
         writer, coefficients = LevelWriter(history.bank, 3), []
         for k, part in enumerate(self._parts):
             target = part.difference(wanted, frame) - history.base(k)
-            change = writer.write(history.loops[k], history.known(k), target, self._step, history.levels[k])
+            change = writer.write(history.loops[k], history.known(k), target, step, history.levels[k])
             coefficients.append(history.base(k) + change)
             part.place(frame, coefficients[k])
             progress(k + 1, len(self._parts))
@@ -200,20 +247,22 @@ class GopEncoder:
         history.commit(writer.levels, coefficients)
         self.latest = frame
         method = GopMethod.KEY_FRAME if key else GopMethod.NEXT_FRAME
-        return GopBody(method, 1, self._step, 3, np.empty(0, np.int32), b"", payload)
+        return GopBody(method, 1, step, 3, np.empty(0, np.int32), b"", payload)
 
-    def _transformed(self, motion: Matrix, weights: Matrix, progress: Progress) -> GopBody:
+    def _transformed(self, motion: Matrix, weights: Matrix, progress: Progress) -> tuple[GopBody, float]:
         """Encode trajectories, shape (n, 3T), whose columns count by `weights`, shape (3T,)."""
         motion = motion * weights
         body = self._learnt(motion, weights)
-        wanted = motion @ projection(decode_basis(body) * weights[:, None])
+        basis = decode_basis(body) * weights[:, None]
+        wanted = motion @ projection(basis)
         field = np.zeros_like(wanted)
         writer = LevelWriter(make_level_bank(), body.components)
         for part, first in zip(self._parts, self._setting.first, strict=True):
             target = part.difference(wanted, field)
             part.place(field, writer.write(Loop(3, body.components), first, target, self._step))
             progress(len(writer.levels), len(self._parts))
-        return replace(body, levels=writer.finish())
+        error = float(np.square(motion - field @ basis.T).sum()) / self._step**2
+        return replace(body, levels=writer.finish()), error
 
     def _learnt(self, motion: Matrix, weights: Matrix) -> GopBody:
         """The temporal basis of weighted trajectories, shape (n, 3T), without the levels of parts."""

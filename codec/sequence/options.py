@@ -37,7 +37,8 @@ class SequenceOptions:
     Parameters
     ----------
     mode : str
-        "gop": a temporal transform over groups of frames; "low-delay": every frame is sent as it comes.
+        "gop": groups of frames, each by a temporal transform or frame by frame, whatever costs less; "low-delay": every
+        frame is sent as it comes.
     step : float
         Quantization step, relative to the bounding box's diagonal of the first frame.
     first_step : float, optional
