@@ -258,7 +258,9 @@ def read_vtp(data: bytes, limits: Limits) -> Polygons:
     metadata, unsaid = _metadata(document, numbers)
     others = [word for name, word in _OTHERS.items() if _count(piece, name, 0)]
     flat: Ints = corners.reshape(-1).astype(np.int64)
-    return Polygons(coordinates.astype(np.float64), sizes, flat, (), (*dropped, *unsaid, *others), columns, metadata)
+    with np.errstate(invalid="ignore"):  # as above
+        positions = coordinates.astype(np.float64)
+    return Polygons(positions, sizes, flat, (), (*dropped, *unsaid, *others), columns, metadata)
 
 
 def _columns(document: _Document, numbers: _Numbers, piece: dict[str, str]) -> tuple[tuple[Column, ...], list[str]]:
