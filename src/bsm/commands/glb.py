@@ -26,8 +26,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--preset",
         choices=PRESETS,
-        default="near-lossless",
-        help="what is promised of each primitive, as of meshes (default: near-lossless)",
+        default="grid14",
+        help="what is promised of each mesh (default: grid14, positions as exact as Draco's of 14 bits)",
     )
     parser.add_argument(
         "--quick",
@@ -59,8 +59,8 @@ def run(args: argparse.Namespace, console: Console) -> None:
     quick = count_primitives(document) >= MANY if args.quick is None else args.quick
     keywords: dict[str, Any] = {"preset": args.preset, "quick": quick}
 
-    def coder(mesh: TriangleMesh) -> bytes:
-        return bsm.encode(mesh, **keywords)
+    def coder(mesh: TriangleMesh, *, attributes: dict[str, str]) -> bytes:
+        return bsm.encode(mesh, attributes=attributes, **keywords)
 
     beside = Path(args.output).with_suffix(".fallback.bin") if args.fallback else None
     with console.progress("encoding", "primitives") as progress:

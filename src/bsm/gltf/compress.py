@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+import json
 from collections import Counter
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -13,19 +14,26 @@ from urllib.parse import quote
 import numpy as np
 import numpy.typing as npt
 
-from bsm.bitstream.errors import BsmError, FormatError
-from bsm.codec.static.decoder import decode
+from bsm.bitstream.errors import FormatError
+from bsm.gltf.bundles import Bundle, Coded, bundles_of, code_bundle, size_of, that_share, users_of
 from bsm.gltf.document import Document, Tree, glb
 from bsm.gltf.images import MIME, ImageRule, smaller
-from bsm.gltf.primitives import Coder, as_mesh, drawn
+from bsm.gltf.primitives import Coder
 
 EXTENSION = "EXT_bsm_compression"
 _COMPRESSED = {EXTENSION, "KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_meshopt_compression"}
 _WEBP = "EXT_texture_webp"
 _UINT, _FLOAT = 5125, 5126
-_KINDS: dict[int, type[np.generic]] = {5121: np.uint8, 5123: np.uint16, _FLOAT: np.float32}
+_KINDS: dict[int, type[np.generic]] = {
+    5120: np.int8,
+    5121: np.uint8,
+    5122: np.int16,
+    5123: np.uint16,
+    _UINT: np.uint32,
+    _FLOAT: np.float32,
+}
 _TYPES = {1: "SCALAR", 2: "VEC2", 3: "VEC3", 4: "VEC4"}
-_ARRAY, _ELEMENTS = 34962, 34963
+_MOST, _WHOLE = float(np.finfo(np.float32).max), 2**24
 
 
 @dataclass(frozen=True)
@@ -96,28 +104,36 @@ def _compressed(
 ) -> Compressed:
     scene = _Scene(document, fallback)
     left: Counter[str] = Counter()
-    coded = 0
-    users = _users(document.tree)
-    streams: dict[str, Any] = {}
-    primitives = _primitives(scene.tree)
-    for number, primitive in enumerate(primitives):
+    done = 0
+    bundles = bundles_of(document, scene.tree)
+    users = users_of(bundles, document.tree)
+    begun, total = 0, len(_primitives(document.tree))
+    for together in that_share(bundles, users):
         if progress:
-            progress(number, len(primitives))
-        key = _key(primitive)
-        if key in streams:
-            reason = streams[key] if isinstance(streams[key], str) else None
-            if reason is None:
-                primitive["attributes"], primitive["indices"] = dict(streams[key][0]), streams[key][1]
-        elif any(users[index] != {key} for index in _accessors_of(primitive).values()):
-            reason = "accessors that others use, too"
-        else:
-            reason = scene.code(primitive, coder)
-            streams[key] = reason or (primitive["attributes"], primitive["indices"])
-        coded += reason is None
-        left.update([reason] if reason else [])
+            progress(begun, total)
+        found: dict[int, Coded] = {}
+        for number in together:
+            one = code_bundle(document, bundles[number], coder)
+            if isinstance(one, Coded):
+                found[number] = one
+            else:
+                left[one] += size_of(bundles[number])
+            begun += size_of(bundles[number])
+        freed = [index for index, theirs in users.items() if theirs <= found.keys()]
+        primitives = sum(size_of(bundles[number]) for number in found)
+        if scene.would_shrink(list(found.values()), freed):
+            done += primitives
+            for number, one in found.items():
+                scene.put(bundles[number], one)
+        elif found:
+            left["a stream would not be smaller"] += primitives
     if images:
         scene.rewrite_images(images)
-    return Compressed(scene.finished(), coded, dict(left), b"".join(scene.plain) if fallback else b"")
+    return Compressed(scene.finished(), done, dict(left), b"".join(scene.plain) if fallback else b"")
+
+
+def _primitives(tree: Tree) -> list[Tree]:
+    return [primitive for mesh in tree.get("meshes", []) for primitive in mesh["primitives"]]
 
 
 def _stored(values: npt.NDArray[Any], component: int) -> npt.NDArray[Any]:
@@ -127,37 +143,13 @@ def _stored(values: npt.NDArray[Any], component: int) -> npt.NDArray[Any]:
     return values.astype(_KINDS[component])
 
 
-def _primitives(tree: Tree) -> list[Tree]:
-    return [primitive for mesh in tree.get("meshes", []) for primitive in mesh["primitives"]]
+def _bounds(positions: npt.NDArray[Any]) -> Tree:
+    return {"min": positions.min(axis=0).astype(float).tolist(), "max": positions.max(axis=0).astype(float).tolist()}
 
 
-def _accessors_of(primitive: Tree) -> dict[str, int]:
-    found = dict(primitive["attributes"])
-    return found | ({"": primitive["indices"]} if "indices" in primitive else {})
-
-
-def _key(primitive: Tree) -> str:
-    """A key that is equal for primitives that are drawn of the same accessors."""
-    return str((sorted(_accessors_of(primitive).items()), primitive.get("targets"), primitive.get("mode")))
-
-
-def _users(tree: Tree) -> dict[int, set[str]]:
-    """Which sets of accessors, or what else, use each accessor."""
-    users: dict[int, set[str]] = {}
-    for primitive in _primitives(tree):
-        for index in _accessors_of(primitive).values():
-            users.setdefault(index, set()).add(_key(primitive))
-        for target in primitive.get("targets", []):
-            for index in target.values():
-                users.setdefault(index, set()).add("a morph target")
-    for animation in tree.get("animations", []):
-        for sampler in animation["samplers"]:
-            for index in (sampler["input"], sampler["output"]):
-                users.setdefault(index, set()).add("an animation")
-    for skin in tree.get("skins", []):
-        if "inverseBindMatrices" in skin:
-            users.setdefault(skin["inverseBindMatrices"], set()).add("a skin")
-    return users
+def _length(entry: Tree) -> int:
+    """Bytes of JSON."""
+    return len(json.dumps(_short(entry), separators=(",", ":"))) + 1
 
 
 class _Scene:
@@ -171,50 +163,86 @@ class _Scene:
         self._fallback = fallback
         self.plain: list[bytes] = []
 
-    def code(self, primitive: Tree, coder: Coder) -> str | None:
-        """Put the stream of a primitive in the place of its accessors; why not, if it stays as it is."""
-        found = as_mesh(self._document, primitive)
-        if isinstance(found, str):
-            return found
-        try:
-            stream = coder(found.mesh)
-        except BsmError as error:
-            return f"no stream: {error}"
-        mesh = decode(stream)
-        overhead = 150 * (2 + len(found.accessors))  # of JSON, for new accessors and bufferViews
-        if len(stream) + overhead >= found.size:
-            return "a stream would not be smaller"
-        shape = drawn(mesh)
-        place = self._add_view({"byteLength": len(stream)}, stream)
-        low, high = shape.box
-        attributes = {}
-        for name, (component, normalized) in found.accessors.items():
-            array = _stored(shape.arrays[name], component)
-            accessor: Tree = {"componentType": component, "count": shape.vertices, "type": _TYPES[array.shape[1]]}
-            accessor |= {"normalized": True} if normalized else {}
-            accessor |= {"min": low, "max": high} if name == "POSITION" else {}
-            attributes[name] = self._add_accessor(accessor, place, name, array, _ARRAY)
-        primitive["attributes"] = attributes
-        corners = {"componentType": _UINT, "count": shape.corners, "type": "SCALAR"}
-        primitive["indices"] = self._add_accessor(corners, place, "indices", shape.index, _ELEMENTS)
-        return None
+    def would_shrink(self, found: list[Coded], freed: list[int]) -> bool:
+        """Whether streams and what is said of them are smaller than the accessors that nothing needs any more."""
+        before = 0
+        for index in freed:
+            accessor = self._document.tree["accessors"][index]
+            array = self._document.array(index)
+            before += _length(accessor) + (0 if array is None else array.nbytes)
+        after = sum(len(one.stream) for one in found)
+        for one in found:
+            entries = [self._view(0, name, array, one) for name, array in self._arrays(one)]
+            entries += [{"buffer": 0, "byteOffset": 0, "byteLength": len(one.stream)}]
+            entries += [self._accessor(0, name, array, one) for name, array in one.shape.arrays.items()]
+            entries += [self._corners(0, piece) for piece in one.shape.pieces]
+            after += sum(map(_length, entries))
+        return bool(found) and after < before
 
-    def _add_view(self, view: Tree, data: bytes | None) -> int:
-        views = self.tree.setdefault("bufferViews", [])
-        views.append(view)
-        if data is not None:
-            self._fresh[len(views) - 1] = data
-        return len(views) - 1
+    def put(self, bundle: Bundle, one: Coded) -> None:
+        """Put a stream in the place of the accessors of a bundle."""
+        stream = self._add_bytes(one.stream)
+        views = {}
+        for name, array in self._arrays(one):
+            view = self._view(stream, name, array, one)
+            if self._fallback:
+                view["byteOffset"] = self._virtual
+                self.plain.append(array.tobytes() + b"\0" * (-array.nbytes % 4))
+                self._virtual += array.nbytes + -array.nbytes % 4
+            else:
+                self._virtual = max(self._virtual, array.nbytes)
+            views[name] = self._add("bufferViews", view)
+        arrays = one.shape.arrays
+        places = {name: self._add("accessors", self._accessor(views[name], name, arrays[name], one)) for name in arrays}
+        for same, piece in zip(bundle, one.shape.pieces, strict=True):
+            indices = self._add("accessors", self._corners(views["indices"], piece))
+            for primitive in same:
+                primitive["indices"] = indices
+                primitive["attributes"] = {name: places[name] for name in primitive["attributes"]}
+                for number, target in enumerate(primitive.get("targets", [])):
+                    target |= {name: places[f"{number}/{name}"] for name in target}
 
-    def _add_accessor(self, accessor: Tree, stream: int, name: str, array: npt.NDArray[Any], target: int) -> int:
-        length = array.nbytes
-        coded = {"stream": stream, "attribute": name, "componentType": accessor["componentType"]}
-        view = {"byteOffset": self._virtual, "byteLength": length, "target": target, "extensions": {EXTENSION: coded}}
-        self._virtual += length + -length % 4
-        if self._fallback:
-            self.plain.append(array.tobytes() + b"\0" * (-length % 4))
-        self.tree["accessors"].append({"bufferView": self._add_view(view, None), **accessor})
-        return len(self.tree["accessors"]) - 1
+    @staticmethod
+    def _arrays(one: Coded) -> list[tuple[str, npt.NDArray[Any]]]:
+        """What decoders fill in."""
+        found = [(name, _stored(array, one.accessors[name][0])) for name, array in one.shape.arrays.items()]
+        return [*found, ("indices", one.shape.index)]
+
+    @staticmethod
+    def _view(stream: int, name: str, array: npt.NDArray[Any], one: Coded) -> Tree:
+        usual = _UINT if name == "indices" else _FLOAT
+        component, _ = one.accessors.get(name, (_UINT, False))
+        told: Tree = {"stream": stream, "attribute": name}
+        told |= {"componentType": component} if component != usual else {}
+        return {"buffer": 1, "byteLength": array.nbytes, "extensions": {EXTENSION: told}}
+
+    @staticmethod
+    def _accessor(view: int, name: str, array: npt.NDArray[Any], one: Coded) -> Tree:
+        component, normalized = one.accessors[name]
+        accessor: Tree = {
+            "bufferView": view,
+            "componentType": component,
+            "count": len(array),
+            "type": _TYPES[array.shape[1]],
+        }
+        accessor |= {"normalized": True} if normalized else {}
+        return accessor | (_bounds(array) if name.rpartition("/")[2] == "POSITION" else {})
+
+    @staticmethod
+    def _corners(view: int, piece: tuple[int, int]) -> Tree:
+        start, count = piece
+        told: Tree = {"bufferView": view, "componentType": _UINT, "count": count, "type": "SCALAR"}
+        return told | ({"byteOffset": 4 * start} if start else {})
+
+    def _add(self, kind: str, entry: Tree) -> int:
+        entries: list[Tree] = self.tree.setdefault(kind, [])
+        entries.append(entry)
+        return len(entries) - 1
+
+    def _add_bytes(self, data: bytes) -> int:
+        view = self._add("bufferViews", {"byteLength": len(data)})
+        self._fresh[view] = data
+        return view
 
     def rewrite_images(self, rule: ImageRule) -> None:
         """Write images by a rule where that makes them smaller."""
@@ -226,7 +254,7 @@ class _Scene:
             if not found:
                 continue
             image.pop("uri", None)
-            image |= {"mimeType": MIME[rule.kind], "bufferView": self._add_view({"byteLength": len(found)}, found)}
+            image |= {"mimeType": MIME[rule.kind], "bufferView": self._add_bytes(found)}
             if rule.kind == "webp":
                 self._refer_to_webp(number)
 
@@ -253,7 +281,7 @@ class _Scene:
                 image.pop("uri")
                 image |= {
                     "mimeType": image.get("mimeType", kind),
-                    "bufferView": self._add_view({"byteLength": len(data)}, data),
+                    "bufferView": self._add_bytes(data),
                 }
         _drop_unused(tree, "accessors", lambda node, key: key in _REFERENCES["accessors"])
         kept = _drop_unused(tree, "bufferViews", lambda node, key: key in _REFERENCES["bufferViews"])
@@ -274,7 +302,18 @@ class _Scene:
             filled: Tree = {"byteLength": self._virtual, "extensions": {EXTENSION: {"fallback": True}}}
             tree["buffers"].append(filled | ({"uri": quote(self._fallback)} if self._fallback else {}))
             self._use(EXTENSION, required=not self._fallback)
-        return glb(tree, b"".join(parts))
+        return glb(_short(tree), b"".join(parts))
+
+
+def _short(node: Any) -> Any:
+    """JSON with each number that single precision has written as shortly as that allows; glTF means no more."""
+    if isinstance(node, dict):
+        return {key: _short(value) for key, value in node.items()}
+    if isinstance(node, list):
+        return [_short(value) for value in node]
+    if not isinstance(node, float) or abs(node) > _MOST or np.float32(node) != node:
+        return node
+    return int(node) if node.is_integer() and abs(node) < _WHOLE else float(str(np.float32(node)))
 
 
 _REFERENCES = {

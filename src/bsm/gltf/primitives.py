@@ -2,68 +2,143 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
+from itertools import pairwise
+from typing import Any, Protocol
 
 import numpy as np
 import numpy.typing as npt
 
-from bsm.codec.geometry.attributes import Attribute
+from bsm.codec.geometry.attributes import Attribute, Semantic
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.gltf.document import Document, Tree
 
 _TRIANGLES = 4
 _FLOAT = 5126
-_SEMANTICS = {"NORMAL": ("normal", 3), "TEXCOORD_0": ("texcoord", 2), "TEXCOORD_1": ("texcoord", 2)}
+_SEMANTICS: dict[str, tuple[Semantic, int]] = {
+    "NORMAL": ("normal", 3),
+    "TEXCOORD_0": ("texcoord", 2),
+    "TEXCOORD_1": ("texcoord", 2),
+}
 _LARGEST = {np.dtype(np.uint8): 255, np.dtype(np.uint16): 65535}
+_COMPONENTS = {"int8": 5120, "uint8": 5121, "int16": 5122, "uint16": 5123, "uint32": 5125, "float32": _FLOAT}
+_PIECE = "material"
+"""The attribute of faces by which decoders sort them."""
+_GRID = 2.0**-15
+"""How far targets may move vertices wrongly, of the mesh's largest extent: as a grid of 14 bits."""
+_QUALITIES = {
+    "NORMAL": "10bits",
+    "TANGENT": "9bits",
+    "TEXCOORD_0": "12bits",
+    "TEXCOORD_1": "12bits",
+    "COLOR_0": "8bits",
+}
+_TURN = "0.002"
+"""Of what targets add to directions: a tenth of a degree."""
 
 
 @dataclass(frozen=True, eq=False)
-class Coded:
-    """A primitive as a mesh, its bytes now, and the accessors of decoded arrays: component type, normalized or not."""
+class Carried:
+    """Primitives as one mesh, and the accessors of decoded arrays: component type, normalized or not.
+
+    `qualities` is what is asked of its attributes, where that is not what meshes have by themselves.
+    """
 
     mesh: TriangleMesh
     accessors: dict[str, tuple[int, bool]]
-    size: int
+    qualities: dict[str, str]
 
 
-def as_mesh(document: Document, primitive: Tree) -> Coded | str:
-    """A primitive as a mesh, or why it stays as it is."""
-    if primitive.get("mode", _TRIANGLES) != _TRIANGLES:
+def arrays_of(primitive: Tree) -> dict[str, int]:
+    """Accessors of what each vertex of a primitive has; those of morph targets are called "0/POSITION" and so on."""
+    targets = enumerate(primitive.get("targets", []))
+    added = {f"{number}/{name}": index for number, target in targets for name, index in target.items()}
+    return dict(primitive["attributes"]) | added
+
+
+def like(document: Document, primitive: Tree) -> str:
+    """A key that is equal for primitives which one stream can hold."""
+    told = [(name, document.tree["accessors"][index]) for name, index in sorted(arrays_of(primitive).items())]
+    kinds = [(name, one["componentType"], one["type"], one.get("normalized", False)) for name, one in told]
+    return str((kinds, primitive.get("mode", _TRIANGLES)))
+
+
+def as_mesh(document: Document, primitives: Sequence[Tree]) -> Carried | str:
+    """Primitives that are alike as one mesh, or why they stay as they are."""
+    if primitives[0].get("mode", _TRIANGLES) != _TRIANGLES:
         return "no triangles"
-    if primitive.get("targets"):
-        return "morph targets"
-    names = primitive["attributes"]
-    arrays = {name: document.array(index) for name, index in names.items()}
-    if any(array is None for array in arrays.values()):
-        return "accessors without plain bytes"
-    positions = arrays.get("POSITION")
-    if positions is None or positions.dtype != np.float32 or not np.isfinite(positions).all():
-        return "positions that are not plain floats"
-    indices = np.arange(len(positions))[:, None]
-    if "indices" in primitive:
-        found = document.array(primitive["indices"])
-        if found is None:
-            return "accessors without plain bytes"
-        indices = found
-    if len(indices) % 3 or not len(indices) or indices.max() >= len(positions):
-        return "indices that are no triangles"
+    tables: dict[str, int] = {}  # where the vertices of which accessors begin
+    parts: list[dict[str, npt.NDArray[Any]]] = []
+    faces: list[npt.NDArray[np.int64]] = []
+    count = 0
+    for primitive in primitives:
+        key = str(sorted(arrays_of(primitive).items()))
+        if key not in tables:
+            found = _vertices(document, primitive)
+            if isinstance(found, str):
+                return found
+            parts.append(found)
+            tables[key] = count
+            count += len(found["POSITION"])
+        indices = np.arange(count - tables[key])[:, None]
+        if "indices" in primitive:
+            given = document.array(primitive["indices"])
+            if given is None:
+                return "accessors without plain bytes"
+            indices = given
+        size = document.tree["accessors"][primitive["attributes"]["POSITION"]]["count"]
+        if len(indices) % 3 or not len(indices) or indices.max() >= size:
+            return "indices that are no triangles"
+        faces.append(indices.reshape(-1, 3).astype(np.int64) + tables[key])
+    used, corners = np.unique(np.concatenate(faces), return_inverse=True)
+    arrays = {name: np.concatenate([part[name] for part in parts])[used] for name in parts[0]}
+    positions = arrays.pop("POSITION")
+    extent = float(np.ptp(positions, axis=0).max())
     attributes, accessors = [], {"POSITION": (_FLOAT, False)}
+    qualities: dict[str, str] = {}
     for name, array in arrays.items():
-        if name == "POSITION" or array is None:
-            continue
-        if len(array) != len(positions):
-            return "attributes of different lengths"
-        carried = _carried(name, array, bool(document.tree["accessors"][names[name]].get("normalized")))
+        normalized = bool(document.tree["accessors"][arrays_of(primitives[0])[name]].get("normalized"))
+        carried = _carried(name, array, normalized)
         if carried is None:
             return f"{name}, which streams do not carry as it is"
         attributes.append(carried[0])
         accessors[name] = carried[1:]
-    faces = indices.reshape(-1, 3).astype(np.int32)
-    size = sum(array.nbytes for array in arrays.values() if array is not None)
-    size += indices.nbytes if "indices" in primitive else 0
-    return Coded(TriangleMesh(positions.astype(np.float64), faces, tuple(attributes), {}), accessors, size)
+        quality = _quality(name, array, extent)
+        qualities |= {name: quality} if quality else {}
+    if len(primitives) > 1:
+        numbers = np.repeat(np.arange(len(faces)), [len(some) for some in faces])
+        attributes.append(Attribute(_PIECE, numbers.astype(np.uint16), "face"))
+    mesh = TriangleMesh(positions.astype(np.float64), corners.reshape(-1, 3).astype(np.int32), tuple(attributes), {})
+    return Carried(mesh, accessors, qualities)
+
+
+def _vertices(document: Document, primitive: Tree) -> dict[str, npt.NDArray[Any]] | str:
+    """What each vertex of a primitive has, or why that cannot be coded."""
+    arrays: dict[str, npt.NDArray[Any]] = {}
+    for name, index in arrays_of(primitive).items():
+        array = document.array(index)
+        if array is None:
+            return "accessors without plain bytes"
+        arrays[name] = array
+    positions = arrays.get("POSITION")
+    if positions is None or positions.dtype != np.float32 or not np.isfinite(positions).all():
+        return "positions that are not plain floats"
+    if any(len(array) != len(positions) for array in arrays.values()):
+        return "attributes of different lengths"
+    return arrays
+
+
+def _quality(name: str, array: npt.NDArray[Any], extent: float) -> str | None:
+    """What is asked of an attribute; None: what meshes have by themselves."""
+    if array.dtype != np.float32:
+        return None
+    if name in _QUALITIES:
+        return _QUALITIES[name]
+    target, _, base = name.rpartition("/")
+    if target and base == "POSITION":
+        return repr(_GRID * extent) if extent > 0 else "exact"
+    return _TURN if target and base in ("NORMAL", "TANGENT") else None
 
 
 def _carried(name: str, array: npt.NDArray[Any], normalized: bool) -> tuple[Attribute, int, bool] | None:
@@ -71,21 +146,19 @@ def _carried(name: str, array: npt.NDArray[Any], normalized: bool) -> tuple[Attr
     is_float = array.dtype == np.float32
     if is_float and not np.isfinite(array).all():
         return None
-    if name in _SEMANTICS:
+    if name in _SEMANTICS and is_float:
         semantic, width = _SEMANTICS[name]
-        if not is_float or array.shape[1] != width:
-            return None
-        return Attribute(name, array, "vertex", "normal" if semantic == "normal" else "texcoord"), _FLOAT, False
+        return (Attribute(name, array, "vertex", semantic), _FLOAT, False) if array.shape[1] == width else None
     if name == "COLOR_0" and (is_float or (normalized and array.dtype in _LARGEST)):
         if is_float and (array.min() < 0 or array.max() > 1):
             return None
         return Attribute(name, array, "vertex", "color"), _FLOAT, False
-    if name in ("JOINTS_0", "JOINTS_1") and array.dtype in _LARGEST:
-        return Attribute(name, array), 5121 if array.dtype == np.uint8 else 5123, False
     if name == "WEIGHTS_0":
         weights = _eighths(array / np.float64(1 if is_float else _LARGEST.get(array.dtype, 1)))
         return Attribute(name, weights), 5121, True
-    return None
+    if array[0].nbytes % 4:  # accessors keep their elements at multiples of four bytes
+        return None
+    return Attribute(name, array), _COMPONENTS[array.dtype.name], normalized
 
 
 def _eighths(weights: npt.NDArray[np.float64]) -> npt.NDArray[np.uint8]:
@@ -98,10 +171,14 @@ def _eighths(weights: npt.NDArray[np.float64]) -> npt.NDArray[np.uint8]:
 
 @dataclass(frozen=True, eq=False)
 class Drawn:
-    """What a decoder makes of a stream: three vertices for each face, and what each vertex has, by names of glTF."""
+    """What a decoder makes of a stream: three vertices for each face, and what each vertex has, by names of glTF.
+
+    `labels` says for each corner to which primitive it belongs.
+    """
 
     index: npt.NDArray[np.uint32]
     arrays: dict[str, npt.NDArray[Any]]
+    labels: npt.NDArray[np.integer[Any]]
 
     @property
     def vertices(self) -> int:
@@ -114,19 +191,23 @@ class Drawn:
         return len(self.index)
 
     @property
-    def box(self) -> tuple[list[float], list[float]]:
-        """The least and the largest coordinates."""
-        used = self.arrays["POSITION"]
-        return used.min(axis=0).astype(float).tolist(), used.max(axis=0).astype(float).tolist()
+    def pieces(self) -> list[tuple[int, int]]:
+        """For each primitive the first of its corners, and how many these are."""
+        starts = np.searchsorted(self.labels, np.unique(self.labels))
+        return [(int(start), int(end - start)) for start, end in pairwise([*starts, len(self.labels)])]
 
 
 def drawn(mesh: TriangleMesh) -> Drawn:
     """Draw as the extension defines: a vertex for each vertex and values of attributes that meet at a corner."""
-    corners = mesh.faces.ravel()
-    parting = {a.name: a.indices.ravel() for a in mesh.attributes if a.indices is not None}
+    named = {a.name: a.values[:, 0] for a in mesh.attributes if a.name == _PIECE and a.domain == "face"}
+    labels = named.get(_PIECE, np.zeros(len(mesh.faces), np.int64))
+    order = np.argsort(labels, kind="stable")
+    corners = mesh.faces[order].ravel()
+    attributes = [a for a in mesh.attributes if a.name not in named]
+    parting = {a.name: a.indices[order].ravel() for a in attributes if a.indices is not None}
     vertices: npt.NDArray[np.integer[Any]] = np.arange(len(mesh.positions))
     rows: npt.NDArray[np.integer[Any]] = corners
-    values = {a.name: a.values for a in mesh.attributes}
+    values = {a.name: a.values for a in attributes}
     if parting:
         different, rows = np.unique(np.stack([corners, *parting.values()], axis=1), axis=0, return_inverse=True)
         vertices = different[:, 0]
@@ -134,7 +215,11 @@ def drawn(mesh: TriangleMesh) -> Drawn:
     for name in values.keys() - parting.keys():
         values[name] = values[name][vertices]
     arrays = {"POSITION": mesh.positions.astype(np.float32)[vertices], **values}
-    return Drawn(rows.ravel().astype(np.uint32), arrays)
+    return Drawn(rows.ravel().astype(np.uint32), arrays, np.repeat(labels[order], 3))
 
 
-Coder = Callable[[TriangleMesh], bytes]
+class Coder(Protocol):
+    """Makes the stream of a mesh."""
+
+    def __call__(self, mesh: TriangleMesh, *, attributes: dict[str, str]) -> bytes:
+        """Its bytes; `attributes` is what is asked of some of its attributes."""

@@ -7,14 +7,14 @@ import { Pool } from "./pool";
 
 const NAME = "EXT_bsm_compression";
 /** Constructors by the component types of glTF. */
-const KINDS = { 5121: Uint8Array, 5123: Uint16Array, 5125: Uint32Array, 5126: Float32Array } as const;
+const KINDS = { 5120: Int8Array, 5121: Uint8Array, 5122: Int16Array, 5123: Uint16Array, 5125: Uint32Array, 5126: Float32Array } as const;
 const SETS: Record<string, string> = { TEXCOORD_0: "uv", TEXCOORD_1: "uv1", COLOR_0: "color" };
 
 /** What the extension says of a bufferView. */
 interface Coded {
     stream: number;
     attribute: string;
-    componentType: keyof typeof KINDS;
+    componentType?: keyof typeof KINDS;
 }
 
 let shared: Pool | undefined;
@@ -59,8 +59,8 @@ export class GLTFBSMExtension implements GLTFLoaderPlugin {
         const shape = this.shapes.get(stream) ?? this.decode(stream);
         this.shapes.set(stream, shape);
         const values = valuesOf(await shape, attribute);
-        const Kind = KINDS[componentType];
-        if (!values || !Kind) throw new Error(`bufferView ${index}: its stream has no ${attribute} of type ${componentType}`);
+        const Kind = KINDS[componentType ?? (attribute === "indices" ? 5125 : 5126)];
+        if (!values || !Kind) throw new Error(`bufferView ${index}: its stream has no ${attribute} of such a type`);
         const bytes = Kind.from(values as ArrayLike<number>).buffer as ArrayBuffer;
         if (bytes.byteLength !== byteLength) throw new Error(`bufferView ${index}: ${attribute} has ${bytes.byteLength} bytes, not ${byteLength}`);
         return bytes;

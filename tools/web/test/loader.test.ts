@@ -17,7 +17,7 @@ function sceneOf(stream: Uint8Array, vertices: number, corners: number, moves = 
     const sizes = ([["POSITION", "VEC3", 12, vertices], ["NORMAL", "VEC3", 12, vertices], ["TEXCOORD_0", "VEC2", 8, vertices], ["indices", "SCALAR", 4, corners]] as const).filter(([attribute]) => !moves || attribute !== "TEXCOORD_0");
     let at = 0;
     const views = sizes.map(([attribute, , size, count]) => {
-        const view = { buffer: 1, byteOffset: at, byteLength: size * count, extensions: { [name]: { stream: 0, attribute, componentType: attribute === "indices" ? 5125 : 5126 } } };
+        const view = { buffer: 1, byteOffset: at, byteLength: size * count, extensions: { [name]: { stream: 0, attribute, ...(attribute === "NORMAL" ? { componentType: 5126 } : {}) } } };
         at += size * count;
         return view;
     });
