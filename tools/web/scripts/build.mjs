@@ -50,7 +50,7 @@ async function bundle(entry, options = {}) {
 
 /** A module that others call by all of its names. */
 function open(entry, plugin) {
-    return bundle(join(SOURCES, entry), { plugins: [plugin], external: ["three", "three/addons/*", "@react-three/fiber"] });
+    return bundle(join(SOURCES, entry), { plugins: [plugin], external: ["three", "three/addons/*", "@react-three/fiber", "@gltf-transform/core"] });
 }
 
 /** A module of the decoder: private names are short. */
@@ -97,6 +97,7 @@ async function products() {
         "main.js": await open("facade.ts", beside("errors", "index", "pool")),
         "three.js": await open("three.ts", beside("errors", "index", "pool")),
         "gltf.js": await open("gltf.ts", beside("errors", "index", "pool", "three")),
+        "gltf-transform.js": await open("transform.ts", beside("errors", "index", "pool")),
         "player.js": await open("player.ts", beside("three")),
         "react.js": await open("react.ts", beside("three")),
     };

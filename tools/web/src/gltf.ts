@@ -4,18 +4,7 @@ import type { GLTF, GLTFLoaderPlugin, GLTFParser } from "three/addons/loaders/GL
 import type { Shape } from "./index";
 import { BSMGeometry, BSMSequence } from "./three";
 import { Pool } from "./pool";
-
-const NAME = "EXT_bsm_compression";
-/** Constructors by the component types of glTF. */
-const KINDS = { 5120: Int8Array, 5121: Uint8Array, 5122: Int16Array, 5123: Uint16Array, 5125: Uint32Array, 5126: Float32Array } as const;
-const SETS: Record<string, string> = { TEXCOORD_0: "uv", TEXCOORD_1: "uv1", COLOR_0: "color" };
-
-/** What the extension says of a bufferView. */
-interface Coded {
-    stream: number;
-    attribute: string;
-    componentType?: keyof typeof KINDS;
-}
+import { bytesOf, EXTENSION, type Coded } from "./views";
 
 let shared: Pool | undefined;
 
@@ -24,7 +13,7 @@ let shared: Pool | undefined;
  * Meshes that move are `gltf.userData.sequences`, each a `BSMSequence` that is to be updated for every picture.
  */
 export class GLTFBSMExtension implements GLTFLoaderPlugin {
-    readonly name = NAME;
+    readonly name = EXTENSION;
     private readonly shapes = new Map<number, Promise<Shape>>();
     /** Sequences by their streams. */
     private readonly sequences = new Map<number, BSMSequence>();
@@ -37,7 +26,7 @@ export class GLTFBSMExtension implements GLTFLoaderPlugin {
     /** The bytes of a bufferView that a stream holds; null: it is a plain one. */
     loadBufferView(index: number): Promise<ArrayBuffer> | null {
         const { extensions, byteLength } = this.parser.json.bufferViews[index];
-        const coded = extensions?.[NAME] as Coded | undefined;
+        const coded = extensions?.[EXTENSION] as Coded | undefined;
         return coded ? this.decoded(coded, byteLength, index) : null;
     }
 
@@ -45,7 +34,7 @@ export class GLTFBSMExtension implements GLTFLoaderPlugin {
     afterRoot(gltf: GLTF): null {
         for (const [object, place] of this.parser.associations) {
             const meshes = (place as typeof place | undefined)?.meshes; // of a texture that was not found there is none
-            const moving = meshes === undefined ? undefined : (this.parser.json.meshes[meshes].extensions?.[NAME] as { stream: number } | undefined);
+            const moving = meshes === undefined ? undefined : (this.parser.json.meshes[meshes].extensions?.[EXTENSION] as { stream: number } | undefined);
             const sequence = moving && this.sequences.get(moving.stream);
             if (!sequence || !(object instanceof Mesh)) continue;
             object.geometry = sequence.geometry;
@@ -55,15 +44,11 @@ export class GLTFBSMExtension implements GLTFLoaderPlugin {
         return null;
     }
 
-    private async decoded({ stream, attribute, componentType }: Coded, byteLength: number, index: number): Promise<ArrayBuffer> {
+    private async decoded(coded: Coded, byteLength: number, index: number): Promise<ArrayBuffer> {
+        const { stream } = coded;
         const shape = this.shapes.get(stream) ?? this.decode(stream);
         this.shapes.set(stream, shape);
-        const values = valuesOf(await shape, attribute);
-        const Kind = KINDS[componentType ?? (attribute === "indices" ? 5125 : 5126)];
-        if (!values || !Kind) throw new Error(`bufferView ${index}: its stream has no ${attribute} of such a type`);
-        const bytes = Kind.from(values as ArrayLike<number>).buffer as ArrayBuffer;
-        if (bytes.byteLength !== byteLength) throw new Error(`bufferView ${index}: ${attribute} has ${bytes.byteLength} bytes, not ${byteLength}`);
-        return bytes;
+        return bytesOf(await shape, coded, byteLength, index);
     }
 
     private async decode(stream: number): Promise<Shape> {
@@ -94,12 +79,4 @@ export class GLTFBSMExtension implements GLTFLoaderPlugin {
             decoding.receiveEof();
         });
     }
-}
-
-/** The numbers that the extension calls so. */
-function valuesOf({ index, positions, normals, attributes }: Shape, name: string): ArrayLike<number> | undefined {
-    if (name === "indices") return index;
-    if (name === "POSITION") return positions;
-    if (name === "NORMAL") return normals;
-    return attributes.find((one) => one.name === (SETS[name] ?? name))?.values;
 }
