@@ -78,11 +78,15 @@ def _followers(called: str, followers: Any, what: str) -> str:
     return "\n".join([f"/** {what} */", f"export const {called} = {{", *lines, "} as const;"])
 
 
+def limits_there(limits: Limits) -> dict[str, float]:
+    """Limits by the names that the browser's decoder has for them."""
+    named = {name: name for name in _SAME_LIMITS} | _OTHER_LIMITS
+    return {camel(ours): getattr(limits, theirs) for ours, theirs in named.items()}
+
+
 def source() -> str:
     """The module."""
-    limits = Limits()
-    named = {name: name for name in _SAME_LIMITS} | _OTHER_LIMITS
-    granted = [f"    {camel(ours)}: {_number(getattr(limits, theirs))}," for ours, theirs in named.items()]
+    granted = [f"    {name}: {_number(value)}," for name, value in limits_there(Limits()).items()]
     magic = ", ".join(map(str, (*MAGIC, VERSION)))
     return (
         "\n\n".join(

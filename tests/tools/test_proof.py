@@ -121,7 +121,7 @@ def test_a_wrong_decoder_is_found(shard, monkeypatch):
     assert shard.tally.differing == shard.tally.decoded > 0 and "off by" in shard.tally.findings[0]
 
 
-@pytest.mark.parametrize(("suite", "size"), [("vectors", 40), ("mutants", 60), ("differential", 20)])
+@pytest.mark.parametrize(("suite", "size"), [("vectors", 40), ("mutants", 60), ("browser", 60), ("differential", 20)])
 def test_shards_find_nothing_and_are_the_same_again(suite, size, tmp_path):
     command = [sys.executable, "-m", "tools.proof.shard", suite, "0", str(size), "--seed", "s"]
     seen = []

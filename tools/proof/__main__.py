@@ -8,6 +8,7 @@
 |---|---|
 | vectors | every vector by this project's decoder and the reference decoder, on threads, in pieces, tolerantly |
 | mutants | streams of all kinds with something changed behind right checksums: strict, in pieces, tolerant |
+| browser | mutants by the browser's decoder, in Node |
 | differential | mutants and random streams by both decoders |
 | encodes | random meshes and sequences with random options: threads, pieces, tolerance, every kind of processor |
 | surroundings | the same in environments of every kind |
@@ -42,8 +43,19 @@ WALKS = 8
 """Shards of the walk, which together do all of it."""
 READERS = 8
 """Shards of the walk over readers."""
-WATCHED = ("bitstream", "codec", "src/bsm/files", "tools/bombs", "tools/proof", "tools/fuzz", "tools/vectors", "spec")
-"""Where a change makes everything unproven again."""
+WATCHED = (
+    "bitstream",
+    "codec",
+    "src/bsm/files",
+    "tools/bombs",
+    "tools/proof",
+    "tools/fuzz",
+    "tools/vectors",
+    "tools/web",
+    "spec",
+)
+KINDS = (".py", ".c", ".h", ".cpp", ".hpp", ".js", ".wasm", ".bsm", ".npz", ".bin")
+"""Where, and in files of which kinds, a change makes everything unproven again."""
 
 
 @dataclass(frozen=True)
@@ -101,6 +113,7 @@ def plan(args: argparse.Namespace) -> list[Part]:
     queues = [
         [Part("vectors", number, 2) for number in range(2)],
         [Part("mutants", *cut) for cut in cuts(args.mutants, MUTANTS)],
+        [Part("browser", *cut) for cut in cuts(args.mutants, MUTANTS)],
         [Part("differential", *cut) for cut in cuts(args.differential, DIFFERENTIAL)],
         [Part("encodes", *cut) for cut in cuts(args.encodes, ENCODES)],
         [Part("surroundings", number, SURROUNDINGS) for number in places],
@@ -152,7 +165,18 @@ def digest() -> str:
     total = hashlib.sha256()
     for name in WATCHED:
         for path in sorted((ROOT / name).rglob("*")):
-            if path.is_file() and path.suffix in (".py", ".c", ".h", ".cpp", ".hpp", ".bsm", ".npz", ".bin"):
+            if path.is_file() and path.suffix in (
+                ".py",
+                ".c",
+                ".h",
+                ".cpp",
+                ".hpp",
+                ".bsm",
+                ".npz",
+                ".bin",
+                ".js",
+                ".wasm",
+            ):
                 total.update(str(path.relative_to(ROOT)).encode() + path.read_bytes())
     return total.hexdigest()[:12]
 

@@ -10,6 +10,7 @@ import argparse
 import hashlib
 import importlib
 import json
+import subprocess
 import sys
 import time
 import traceback
@@ -38,8 +39,9 @@ from tools.proof.places import Place, environments, processors
 from tools.proof.tally import Outcome, Tally
 from tools.vectors.__main__ import try_product
 from tools.vectors.store import read_manifest
+from tools.web_constants import limits_there
 
-SPEC = Path(__file__).parents[2] / "spec"
+SPEC, WEB = (Path(__file__).parents[2] / place for place in ("spec", "tools/web"))
 SECONDS = 3.0
 """Of processor time that one input may take under `LIMITS`."""
 FRESH = 3
@@ -131,6 +133,22 @@ def mutants(shard: Shard, number: int, size: int) -> None:
                 outcome, _ = piecewise(stream, shard.random, LIMITS, threads=1 + (way < 0.7), tolerant=way > 0.8)
             shard.tally.saw(outcome)
             shard.found(stream, not_finite(outcome, tolerant=way > 0.8))
+
+
+def browser(shard: Shard, number: int, size: int) -> None:
+    """Mutants by the browser's decoder, in Node: whole, in pieces, or in tolerant mode."""
+    seeds = shard.seeds()
+    streams = [mutant(shard.random, seeds) for _ in range(size)]
+    given = b"".join(len(stream).to_bytes(4, "little") + stream for stream in streams)
+    command = ["node", str(WEB / "scripts" / "mutants.mjs"), json.dumps(limits_there(LIMITS))]
+    done = subprocess.run(command, input=given, capture_output=True, check=True)
+    told = json.loads(done.stdout)
+    shard.tally.inputs += size
+    shard.tally.decoded += (decoded := told["outcomes"].get("decoded", 0))
+    shard.tally.refused += size - decoded
+    for place, problem in told["problems"]:
+        shard.tally.escapes += 1
+        shard.found(streams[place], problem)
 
 
 def differential(shard: Shard, number: int, size: int) -> None:
@@ -302,7 +320,7 @@ def readers(shard: Shard, number: int, size: int) -> None:
 
 
 SUITES: dict[str, Callable[[Shard, int, int], None]] = {
-    suite.__name__: suite for suite in (vectors, mutants, differential, encodes, surroundings, walk, readers)
+    suite.__name__: suite for suite in (vectors, mutants, browser, differential, encodes, surroundings, walk, readers)
 }
 
 
