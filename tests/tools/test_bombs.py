@@ -71,9 +71,10 @@ def test_a_service_has_an_absolute_bound():
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="memory is measured as Linux tells it")
-def test_the_measure_sees_what_a_stream_takes(tmp_path):
+@pytest.mark.parametrize("how", ["events", "browser"])
+def test_the_measure_sees_what_a_stream_takes(how, tmp_path):
     (tmp_path / "members.bsm").write_bytes(BOMBS["members"].make())
-    taken = taken_by(tmp_path / "members.bsm", "events", "default")
+    taken = taken_by(tmp_path / "members.bsm", how, "default")
     assert "missing" in taken.outcome
     assert taken.vertices == 65536
     assert 4 << 20 < taken.memory < (1 << 26) + 1024 * taken.vertices

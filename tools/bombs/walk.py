@@ -24,11 +24,10 @@ from bsm.bitstream.container.header import HEADER_FIELDS, Field, fields_of
 from bsm.bitstream.container.maps import MAX_ENTRIES, write_map
 from bsm.bitstream.container.wire import SKIPPABLE_TYPES, FrameType, write_varint
 from bsm.bitstream.limits import NAMED_LIMITS
-from tools.bombs.measure import Taken, decode_all, forget_peak, resident, seconds_of_cpu
+from tools.bombs.measure import WEB, Taken, decode_all, forget_peak, resident, seconds_of_cpu
 from tools.surgery import frames_of, stream_of, with_declaration, with_header
 
 VECTORS = Path(__file__).parents[2] / "spec" / "vectors"
-WEB = Path(__file__).parents[2] / "tools" / "web" / "scripts" / "measure.mjs"
 COUNTS = {"BLOCK": 2, "GOP": 1, "GRID": 2, "REFINEMENT": 3, "VALUES": 3, "ATTRIBUTE": 2, "END": 1}
 """Varints at the beginning of a payload."""
 MOST_VARINT = 2**31 - 1

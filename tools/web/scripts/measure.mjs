@@ -1,4 +1,4 @@
-// `node --expose-gc measure.mjs FOLDER`: decode 0.bsm, 1.bsm, ... there, and print for each, as a line of JSON, what it took:
+// `node --expose-gc measure.mjs FOLDER`: decode 0.bsm, 1.bsm, ... there, or the stream that is named, and print for each, as a line of JSON, what it took:
 // bytes of memory beyond what there was before, and seconds of CPU; `escaped` is what is no error of a stream.
 import { readdirSync, readFileSync } from "node:fs";
 import { dirname, join } from "node:path";
@@ -8,10 +8,11 @@ const built = join(dirname(fileURLToPath(import.meta.url)), "../built");
 const { BsmError, Decoder, END_OF_STREAM, Kernels } = await import(pathToFileURL(join(built, "bsm.js")).href);
 const kernels = await Kernels.compile(readFileSync(join(built, "kernels.wasm")));
 const seconds = () => process.cpuUsage().user / 1e6 + process.cpuUsage().system / 1e6;
-const folder = process.argv[2];
+const [given] = process.argv.slice(2);
+const paths = given.endsWith(".bsm") ? [given] : readdirSync(given).map((_, number) => join(given, `${number}.bsm`));
 
-for (let number = 0; number < readdirSync(folder).length; number++) {
-    const data = new Uint8Array(readFileSync(join(folder, `${number}.bsm`)));
+for (const path of paths) {
+    const data = new Uint8Array(readFileSync(path));
     globalThis.gc();
     const [before, begin] = [process.memoryUsage.rss(), seconds()];
     const told = { vertices: 0, shown: 0, memory: 0, seconds: 0, escaped: "", outcome: "decoded" };
