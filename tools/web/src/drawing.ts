@@ -36,7 +36,7 @@ export interface Shape {
     high: number[];
 }
 
-/** A mesh has begun, or goes on with the faces of one more section: how many vertices and corners there are now. */
+/** A mesh that grows has begun, or goes on with the faces of one more section: how many vertices and corners there are now. */
 export interface BegunPicture {
     type: "begun";
     vertices: number;
@@ -187,8 +187,8 @@ export class Drawing {
         this.points = grown(this.points, 3 * size);
         this.normals = grown(this.normals, 3 * size);
         loose.vertices.forEach((vertex, i) => this.points.set(loose.positions.subarray(3 * i, 3 * i + 3), 3 * vertex));
-        this.show({ type: "begun", vertices: size, corners: this.faces.length, loose, section });
         if (!this.growing) return;
+        this.show({ type: "begun", vertices: size, corners: this.faces.length, loose, section });
         this.depth = grown(this.depth, size);
         this.isTouched = grown(this.isTouched, size);
         this.waiting = grown(this.waiting, this.faces.length / 3);

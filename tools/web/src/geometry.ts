@@ -38,7 +38,7 @@ export class BSMGeometry extends BufferGeometry {
     layers = 0;
     /** Blocks, or chunks of a grid, that are there. */
     blocks = 0;
-    /** Sections whose faces are there. */
+    /** Sections whose faces are there; only of a geometry that grows. */
     sections = 0;
     /** Attributes that are there, and are drawn once the mesh is whole. */
     readonly carried: AttributePicture[] = [];
