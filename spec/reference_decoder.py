@@ -210,6 +210,8 @@ FIELDS = {
     "corner": (40, [0, 3], -(2**31), COUNT, []),
     "sections": (41, [0, 14], 1, COUNT, []),
     "light": (42, "method", 0, 2, 0),
+    "run": (43, int, 0, COUNT, 0),
+    "again": (44, int, 0, COUNT, 0),
 }
 
 
@@ -262,18 +264,22 @@ def parse_header(payload):
         require(len(h["corner"]) in (0, 3), "a corner is not three numbers")
         require(not h["corner"] or h["center"] == [0, 0, 0], "a corner and a center")
         require(not h["lattice"] or max(h["grid"]) <= h["lattice"][1] <= h["lattice"][0], "a lattice that is none")
+    elif h["again"]:
+        others = {name for name in FIELDS if h[name] != FIELDS[name][4]}
+        require(others <= {"vertices", "faces", "frames", "gop_frames", "run", "again"}, "a mesh again, and another")
+        require(h["again"] <= h["run"] and h["gop_frames"] > 0, "the mesh of a run that has not been")
     else:
         require(not h["lattice"] and not h["corner"], "a lattice or a corner without a grid")
         require(not h["light"], "light values without a grid")
         require(h["blocks"] and h["block_size"] and h["coefficients"], "no blocks, and no grid")
     require(h["blocks"] <= h["vertices"], "more blocks than vertices")
     require(h["block_size"] <= h["vertices"], "blocks larger than the mesh")
-    require(h["grid"] or h["blocks"] * h["block_size"] >= h["vertices"], "blocks too small")
+    require(h["grid"] or h["again"] or h["blocks"] * h["block_size"] >= h["vertices"], "blocks too small")
     require(h["blocks"] * h["block_size"] <= 16 * h["vertices"] + 65536, "blocks overlap too much")
     require(h["coefficients"] <= h["block_size"], "more coefficients than rows")
     require(h["details"] <= h["block_size"], "more details than rows")
     require((h["details"] > 0) == (h["detail_step"] > 0), "details without a step, or a step without details")
-    require(h["frames"] == 0 or h["gop_frames"] > 0, "frames without GOPs")
+    require((h["frames"] == 0 and h["run"] == 0) or h["gop_frames"] > 0, "frames without GOPs")
     steps, ratios = h["refinements"][::2], h["refinements"][1::2]
     require(len(steps) == len(ratios), "refinements are not pairs")
     require(all(2.0**-40 <= step <= 1 for step in steps), "a step of a refinement is out of range")
@@ -312,18 +318,25 @@ class Packets(dict):
 
 
 def parse_stream(stream):
-    """F 3.7 to F 3.10 and F 5: the header, and the payloads of each type behind it."""
-    packets = Packets({kind: [] for kind in KNOWN})
+    """F 3.7 to F 3.10 and F 5: for each run (S 9) the payloads of each type; a static mesh is one run."""
+    runs = [Packets({kind: [] for kind in KNOWN})]
     try:
-        read_frames(stream, packets)
+        read_frames(stream, runs)
     except tuple(EXIT_CODES) as fault:
-        packets.fault = fault
-    packets.require(packets[HEADER], "there is no HEADER")
-    return packets[HEADER][0], packets
+        runs[-1].fault = fault
+    runs[0].require(runs[0][HEADER], "there is no HEADER")
+    return runs
 
 
-def read_frames(stream, packets):
-    """Checks frame after frame, and puts what they hold into `packets`."""
+def check_values(packets, header):
+    """F 3.14."""
+    for index in range(header["attributes"]):
+        require(rows_read(packets, index) == packets[ATTRIBUTE][index].rows, "values are missing")
+
+
+def read_frames(stream, runs):
+    """Checks frame after frame, and puts what they hold into the last of `runs`."""
+    packets = runs[-1]
     header, last, told, told_bytes = None, None, set(), 0
     order = {HEADER: 0, CONNECTIVITY: 1, PARTITION: 2, ORDER: 3, BLOCK: 4, GOP: 5, GRID: 5, REFINEMENT: 5, END: 6}
     order |= {ATTRIBUTE: 3.5, VALUES: 5.5}
@@ -378,6 +391,19 @@ def read_frames(stream, packets):
         place = order[kind]
         # F 3.8: ascending, CONNECTIVITY is required, and only what comes behind ORDER repeats.
         several = (ATTRIBUTE, BLOCK, GOP, GRID, REFINEMENT, VALUES)
+        if header and kind == HEADER:  # S 9
+            require(packets[GOP], "a HEADER may not come here")
+            require(parsed["gop_frames"] > 0, "a static mesh behind a sequence")
+            require(parsed["run"] == header["run"] + 1, "runs are numbered in their order")
+            require(parsed["frames"] == header["frames"], "another number of frames")
+            check_values(packets, header)
+            packets = Packets({kind: [] for kind in KNOWN})
+            runs.append(packets)
+            last = None
+        elif kind == HEADER:
+            require(parsed["run"] == 0, "the stream begins within a sequence")
+        if header and header["again"] and not packets[GOP] and kind != HEADER:
+            require(kind == GOP, "a run that has a mesh again is GOPs")
         legal = kind == HEADER if last is None else place > last or (place == last and kind in several)
         if header and header["sections"] and kind != HEADER:
             check_section(kind, parsed if kind != END else None, packets, header)
@@ -389,16 +415,17 @@ def read_frames(stream, packets):
             )
         require(legal and (place <= 1 or last >= 1), f"frame type {kind} may not come here")
         if kind in (BLOCK, GOP):
-            require(not packets[kind] or parsed[0] > packets[kind][-1][0], "indices must ascend")  # F 3.10
+            before = packets[kind] or (runs[-2][GOP] if kind == GOP and len(runs) > 1 else [])
+            require(not before or parsed[0] > before[-1][0], "indices must ascend")  # F 3.10
         if kind == BLOCK:
             require(parsed[0] < header["blocks"], "block index too large")  # F 5.3
             require(parsed[1] <= header["coefficients"], "too many coefficients")
         if kind == GOP:
             require(header["gop_frames"] > 0, "a GOP in a static stream")  # F 5.4
             require(header["frames"] == 0 or parsed[0] < header["frames"], "GOP index too large")
-        last = place
+        last = order[BLOCK] if kind == HEADER and parsed["again"] else place
         complete = header and len(packets[CONNECTIVITY]) == len(section_ends(header, 0))
-        if complete and kind in (BLOCK, GOP, GRID, VALUES, END):
+        if complete and kind != HEADER and kind in (BLOCK, GOP, GRID, VALUES, END):
             require(len(packets[ATTRIBUTE]) == header["attributes"], "attributes are missing")  # F 3.13
         if kind == HEADER:
             header = parsed
@@ -407,8 +434,7 @@ def read_frames(stream, packets):
         elif kind == END:  # F 5.5
             covered = sum(packet[2] for packet in packets[GRID])
             require(not header["grid"] or covered == header["vertices"], "positions are missing")  # F 3.11
-            for index in range(header["attributes"]):  # F 3.14
-                require(rows_read(packets, index) == packets[ATTRIBUTE][index].rows, "values are missing")
+            check_values(packets, header)
             require(count == number, "END counts other frames")
             require(int.from_bytes(payload[at:], "little") == zlib.crc32(stream[:offset]), "CRC of the stream is wrong")
         else:
@@ -917,6 +943,7 @@ class Allowance:
     """M 14.2, M 14.3: what dictionaries may take."""
 
     def __init__(self):
+        self.before = 0  # vertices of the runs before (S 9.6)
         self.vertices = 0  # that the faces have so far (M 14.8, M 18.6)
         self.shown = 0  # vertices of frames of a sequence
         self.work = 0.0
@@ -931,7 +958,7 @@ class Allowance:
         solution = 40 * rows * (0.6 * -(-columns // 32) + 0.035 * whole)
         rounding = rows * (3 + 0.5 * whole + whole**2 / 29)
         self.work += 5 * rows * whole + iterations * (power * solution + rounding)
-        require_limit(self.work, MOST_WORK + 3.2e4 * (self.vertices + self.shown), "work")
+        require_limit(self.work, MOST_WORK + 3.2e4 * (self.before + self.vertices + self.shown), "work")
 
 
 def read_column(decoder, count):
@@ -942,9 +969,10 @@ def read_column(decoder, count):
 class Mesh:
     """What a stream says beside its blocks: header, faces, graph, and the cores of the blocks of a section."""
 
-    def __init__(self, header, packets):
-        self.header, self.packets = header, packets
-        self.allowance = Allowance()
+    def __init__(self, packets, allowance):
+        self.header, self.packets = packets[HEADER][0], packets
+        header = self.header
+        self.allowance = allowance
         self.ends = section_ends(header, 1)
         self.connectivity = Connectivity(
             header["vertices"], header["faces"], section_ends(header, 0)[:-1], MOST_VERTICES
@@ -1186,12 +1214,17 @@ def decode_blocks(mesh, blended):
 # ---------------------------------------------------------------- S: sequences
 
 
+KEPT_MESHES = 8
+
+
 class Gop:
     """S 2."""
 
-    def __init__(self, data, longest):
+    def __init__(self, data, header):
         require(len(data) >= 1, "a GOP without method")
-        self.method = data[0]
+        run, self.method = divmod(data[0], 8)
+        require(run == header["run"] % 32, "a GOP of another run")  # S 9.2
+        longest = header["gop_frames"]
         if self.method > 2:
             raise UnsupportedError(f"GOP method {self.method}")  # S 2.2
         self.frames, at = payload_varint(data, 1)
@@ -1403,21 +1436,21 @@ def edge_weights(mesh, positions):
     return {edge: 2.0**-5 + 8 * p / (8 + p) for edge, p in positive.items()}
 
 
-def decode_frames(mesh, gops, first_frame):
-    """S 7: all frames, in the unit of the mesh."""
+def decode_frames(mesh, header, gops, first_frame, begin):
+    """S 7: all frames of a run, in the unit of the mesh, from number `begin` on."""
     if not gops:
         return []  # S 8.3
-    require(gops[0][0] == 0, "the first GOP is missing")  # S 1.2
-    mesh.allowance.shown = mesh.header["vertices"] * Gop(gops[0][1], mesh.header["gop_frames"]).frames
+    require(gops[0][0] == begin, "the first GOP is missing")  # S 1.2
+    mesh.allowance.shown += mesh.header["vertices"] * Gop(gops[0][1], header).frames
     rank = {v: index for index, core in enumerate(mesh.cores) for v in core}
     weight = edge_weights(mesh, first_frame)
     parts = [Part(mesh, weight, core, rank) for core in mesh.cores]
     first = [part.difference(first_frame) for part in parts]  # S 3.6
     frames, history = [], None
     for index, data in gops:
-        require(index == len(frames), "a GOP is missing or repeated")  # S 1.2
-        gop = Gop(data, mesh.header["gop_frames"])
-        require(not 0 < mesh.header["frames"] < index + gop.frames, "more frames than announced")
+        require(index == begin + len(frames), "a GOP is missing or repeated")  # S 1.2
+        gop = Gop(data, header)
+        require(not 0 < header["frames"] < index + gop.frames, "more frames than announced")
         shapes = [(part.basis.shape[1], gop.columns) for part in parts]
         field = np.zeros((mesh.header["vertices"], gop.columns))
         if gop.method == 0:  # S 7.1
@@ -1504,17 +1537,31 @@ def arranged_values(mesh, one, values):
 
 
 def decode(stream):
-    """Positions, shape (n, 3) or for a sequence (T, n, 3), and faces, shape (m, 3)."""
+    """Positions, shape (n, 3) or for a sequence (T, n, 3), and faces, shape (m, 3); see `decode_all`."""
     return decode_all(stream)[:2]
 
 
 def decode_all(stream):
-    """The same, and the arrays of attributes."""
-    header, packets = parse_stream(stream)
+    """The same, and the arrays of attributes; of a sequence in several runs as spec/vectors/README.md tells."""
+    runs = parse_stream(stream)
+    if runs[0][HEADER][0]["gop_frames"]:
+        return decode_sequence(runs)
+    mesh, positions, _, arrays = decode_mesh(runs[0], Allowance())
+    decoded = mesh.numbered(positions) if mesh.header["grid"] else mesh.result(positions)
+    return decoded, faces_of(mesh), arrays
+
+
+def faces_of(mesh):
+    return np.array(mesh.arranged, np.int32).reshape(-1, 3)
+
+
+def decode_mesh(packets, allowance):
+    """The mesh of a stream or of a run, its positions or those of the first frame, its places, and attributes."""
+    header = packets[HEADER][0]
     if header["gop_frames"] and (header["smoothing"] or header["details"]):
         raise UnsupportedError("smoothing or details in a sequence")  # S 1.1
     require_limit(header["details"], MOST_COLUMNS, "details")  # M 14.1
-    mesh, blended = Mesh(header, packets), Known(header["vertices"])
+    mesh, blended = Mesh(packets, allowance), Known(header["vertices"])
     mesh.next_section()
     while mesh.section < len(mesh.ends) - 1:
         decode_blocks(mesh, blended)
@@ -1525,27 +1572,47 @@ def decode_all(stream):
         packets.require(not packets.fault, "")
     for attribute in attributes:
         attribute.check_rows()
-    faces = np.array(mesh.arranged, np.int32).reshape(-1, 3)
     if header["grid"]:
         positions, places = decode_grid(mesh, packets[GRID])
         arrays = decode_attributes(mesh, packets, attributes, positions, places)
         packets.require(not packets.fault, "")
-        return mesh.numbered(positions), faces, arrays
+        return mesh, positions, places, arrays
     decode_blocks(mesh, blended)
     positions = blended.sums / blended.weights[:, None]
     if header["gop_frames"]:
-        arrays = decode_attributes(mesh, packets, attributes, None, None)
-        frames = decode_frames(mesh, packets[GOP], positions)
-        packets.require(not packets.fault and header["frames"] in (0, len(frames)), "frames are missing")  # S 1.2
-        decoded = np.array(frames).reshape(len(frames), header["vertices"], 3)
-    else:
-        positions = smooth(mesh.graph, positions, header["smoothing"])
-        if header["refinements"]:
-            positions = refine(mesh, positions, packets[REFINEMENT])
-        arrays = decode_attributes(mesh, packets, attributes, positions, None)
-        packets.require(not packets.fault, "")
-        decoded = mesh.result(positions)
-    return decoded, faces, arrays
+        return mesh, positions, None, decode_attributes(mesh, packets, attributes, None, None)
+    positions = smooth(mesh.graph, positions, header["smoothing"])
+    if header["refinements"]:
+        positions = refine(mesh, positions, packets[REFINEMENT])
+    arrays = decode_attributes(mesh, packets, attributes, positions, None)
+    packets.require(not packets.fault, "")
+    return mesh, positions, None, arrays
+
+
+def decode_sequence(runs):
+    """S 1, S 9: the frames of all runs."""
+    allowance, kept, frames, faces, table = Allowance(), {}, [], [], []
+    for packets in runs:
+        header = packets[HEADER][0]
+        number = header["again"] - 1 if header["again"] else header["run"]
+        if header["again"]:  # S 9.3
+            require(number in kept, "the mesh of a run that is not kept")
+            kept[number] = opened = kept.pop(number)
+        else:
+            while len(kept) >= KEPT_MESHES:
+                kept.pop(next(iter(kept)))
+            allowance.before, allowance.vertices = allowance.before + allowance.vertices, 0
+            kept[number] = opened = decode_mesh(packets, allowance)
+        mesh, first_frame, _, arrays = opened
+        own = {name: mesh.header[name] for name in ("vertices", "faces")}
+        require(own.items() <= header.items(), "another mesh than the run has that is named")  # S 9.3
+        table.append([len(frames), header["vertices"], header["faces"]])
+        faces.append(faces_of(mesh))
+        frames += decode_frames(mesh, header, packets[GOP], first_frame, len(frames))
+    packets.require(not packets.fault and header["frames"] in (0, len(frames)), "frames are missing")  # S 1.2
+    if len(runs) == 1:
+        return np.array(frames).reshape(len(frames), header["vertices"], 3), faces[0], arrays
+    return np.concatenate(frames), np.concatenate(faces), arrays | {"runs": np.array(table, np.int32)}
 
 
 def main():

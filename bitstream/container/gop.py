@@ -14,6 +14,8 @@ from bsm.bitstream.container.wire import Cursor, write_varint
 from bsm.bitstream.errors import CorruptError, OptionError, UnsupportedError
 
 MAX_EXPONENT = 400
+METHODS, RUNS = 8, 32
+"""The first byte is the method, and so many times the number of the run, counted modulo `RUNS`."""
 
 
 class GopMethod(IntEnum):
@@ -57,14 +59,14 @@ class GopBody:
     levels: bytes
 
 
-def write_gop_body(body: GopBody) -> bytes:
-    """Method (a byte), T, step (float 32), of a learnt basis r, the exponents and its coded length; all coded levels.
+def write_gop_body(body: GopBody, run: int = 0) -> bytes:
+    """Method and run (a byte), T, step (float 32), of a learnt basis r, the exponents and its coded length; all levels.
 
     Counts are varints; an exponent is the zigzag of its difference to the one before.
     """
     if not (0 < body.step < math.inf and float(np.float32(body.step)) == body.step):
         raise OptionError(f"a GOP cannot have the step {body.step}")
-    parts = [bytes([body.method]), write_varint(body.frames), struct.pack("<f", body.step)]
+    parts = [bytes([body.method + METHODS * (run % RUNS)]), write_varint(body.frames), struct.pack("<f", body.step)]
     if body.method is GopMethod.LEARNT:
         parts.append(write_varint(body.components))
         differences = np.diff(body.exponents, prepend=0).tolist()
@@ -73,7 +75,7 @@ def write_gop_body(body: GopBody) -> bytes:
     return b"".join([*parts, body.levels])
 
 
-def parse_gop_body(data: bytes, longest: int) -> GopBody:
+def parse_gop_body(data: bytes, longest: int, run: int = 0) -> GopBody:
     """Inverse of `write_gop_body`; `longest` is what the header says about the frames of a GOP.
 
     Raises
@@ -84,7 +86,9 @@ def parse_gop_body(data: bytes, longest: int) -> GopBody:
         For everything else that no encoder writes.
     """
     cursor = Cursor(data)
-    number = cursor.take(1)[0]
+    of_run, number = divmod(cursor.take(1)[0], METHODS)
+    if of_run != run % RUNS:
+        raise CorruptError(f"a GOP of another run than run {run}")
     if number not in set(GopMethod):
         raise UnsupportedError(f"GOP method {number} is unknown to this decoder")
     method, frames = GopMethod(number), cursor.varint()

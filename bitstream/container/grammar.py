@@ -34,13 +34,16 @@ FOLLOWERS: dict[FrameType | None, frozenset[FrameType]] = {
     FrameType.ORDER: _BODY | {FrameType.ATTRIBUTE},
     FrameType.ATTRIBUTE: _BODY | {FrameType.ATTRIBUTE, FrameType.VALUES},
     FrameType.BLOCK: _TAIL | {FrameType.BLOCK, FrameType.GOP, FrameType.REFINEMENT},
-    FrameType.GOP: frozenset({FrameType.GOP, FrameType.END}),
+    FrameType.GOP: frozenset({FrameType.GOP, FrameType.HEADER, FrameType.END}),
     FrameType.GRID: _TAIL | {FrameType.GRID},
     FrameType.REFINEMENT: _TAIL | {FrameType.REFINEMENT},
     FrameType.VALUES: _TAIL | {FrameType.GOP},
     FrameType.END: frozenset(),
 }
-"""What may follow a frame of each type (None: the preamble), METADATA and skippable frames left aside."""
+"""What may follow a frame of each type (None: the preamble), METADATA and skippable frames left aside.
+
+A HEADER behind a GOP begins the next run of a sequence; if it has the mesh of an earlier one `again`, GOPs follow it.
+"""
 
 _NOT_IN_SECTIONS = frozenset({FrameType.PARTITION, FrameType.ORDER, FrameType.GOP, FrameType.GRID})
 FOLLOWERS_IN_SECTIONS: dict[FrameType | None, frozenset[FrameType]] = {
@@ -79,17 +82,28 @@ ANNOUNCED: dict[int, str] = {
 
 
 class Grammar:
-    """Follows a stream packet by packet; the writer and the reader both ask it."""
+    """Follows a stream packet by packet; the writer and the reader both ask it.
 
-    def __init__(self) -> None:
+    Parameters
+    ----------
+    joining : bool
+        Whether the first run that comes may be any.
+    """
+
+    def __init__(self, *, joining: bool = False) -> None:
         self.header: Header | None = None
+        self._joining = joining
         self._last: FrameType | None = None
         self._allowed = FOLLOWERS[None]
         self._told: set[str] = set()  # names of metadata
+        self._next_frame = 0
+        self._begin_mesh()
+
+    def _begin_mesh(self) -> None:
+        """Forget what belongs to the mesh of one run."""
         self._spans: tuple[Span, ...] = ()
         self._sections = 0  # of which CONNECTIVITY was there
         self._next_block = 0
-        self._next_frame = 0
         self._next_vertex = 0  # of the grid, or of the layer
         self._layer = 0
         self._declared: dict[int, Declaration] = {}
@@ -125,7 +139,9 @@ class Grammar:
         """Take note of a packet that has no problem."""
         frame_type = FRAME_TYPES[type(packet)]
         if isinstance(packet, Header):
+            self._begin_mesh()
             self.header, self._spans = packet, packet.spans
+            self._sections = len(packet.spans) if packet.again else 0
         if isinstance(packet, Connectivity):
             self._sections += 1
         if isinstance(packet, Block):
@@ -144,7 +160,8 @@ class Grammar:
             self._told |= packet.entries.keys()
         else:
             self._last = frame_type
-            self._allowed = self._followers[frame_type]
+            begun = isinstance(packet, Header) and packet.again
+            self._allowed = frozenset({FrameType.GOP}) if begun else self._followers[frame_type]
 
     def lose(self) -> None:
         """Take note that an unknown number of frames is missing here: everything that can come later may come now."""
@@ -157,7 +174,10 @@ class Grammar:
 
     def _disagreement(self, packet: Packet) -> str | None:
         if self.header is None:
-            return None
+            late = isinstance(packet, Header) and packet.run > 0 and not self._joining
+            return "the stream begins within a sequence; a tolerant decoder joins it there" if late else None
+        if isinstance(packet, Header):
+            return self._run_problem(self.header, packet)
         if problem := self._section_problem(self.header, packet):
             return problem
         last = self._sections >= len(self._spans)
@@ -185,6 +205,16 @@ class Grammar:
             case End() if self.header.grid and self._next_vertex < self.header.vertices and not self._lossy:
                 return f"the positions end at vertex {self._next_vertex} of {self.header.vertices}"
         return None
+
+    def _run_problem(self, before: Header, header: Header) -> str | None:
+        """What keeps a run from following another."""
+        if not (before.gop_frames and header.gop_frames):
+            return "a second HEADER of a static mesh"
+        if header.run <= before.run or (header.run > before.run + 1 and not self._lossy):
+            return f"run {header.run} where run {before.run + 1} must follow"
+        if header.frames != before.frames:
+            return f"a run of a sequence of {header.frames} frames in one of {before.frames}"
+        return None if self._lossy else self._missing_values()
 
     def _section_problem(self, header: Header, packet: Packet) -> str | None:
         """What has no place in its section, or comes where one is not whole."""

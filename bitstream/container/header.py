@@ -198,6 +198,10 @@ class Header:
     """Faces and blocks of each section but the last, one pair after another; see `spans`."""
     light: int = method(42, known=3)
     """1: the values of a grid are quick to decode, and some more bytes; 2: floats in their cells follow the values."""
+    run: int = integer(43, 0, COUNT, default=0)
+    """Number of the run of a sequence that begins here."""
+    again: int = integer(44, 0, COUNT, default=0)
+    """0: the run brings a mesh of its own; k + 1: it has that of run k again."""
 
     def __post_init__(self) -> None:
         normalise_fields(self, "header")
@@ -249,7 +253,7 @@ def normalise_fields(record: Any, what: str) -> None:
 
 def contradiction(header: Header) -> str | None:
     """Which two fields of a header exclude each other, or None."""
-    rules = _grid_rules(header) if header.grid else _block_rules(header)
+    rules = _grid_rules(header) if header.grid else _again_rules(header) if header.again else _block_rules(header)
     return next((problem for problem, broken in rules.items() if broken), None)
 
 
@@ -276,6 +280,18 @@ def _grid_rules(header: Header) -> dict[str, bool]:
     }
 
 
+def _again_rules(header: Header) -> dict[str, bool]:
+    return {
+        "more vertices than the corners of its faces": header.vertices > 3 * header.faces,
+        "the mesh of a run that has not been": header.again > header.run,
+        "no length for GOPs": header.gop_frames == 0,
+    } | {
+        f"the mesh of another run, and {name}": getattr(header, name) != default
+        for name, default in HEADER_DEFAULTS.items()
+        if name not in ("frames", "gop_frames", "run", "again")
+    }
+
+
 def _block_rules(header: Header) -> dict[str, bool]:
     return {
         "neither blocks nor a grid": not (header.blocks and header.block_size and header.coefficients),
@@ -291,6 +307,7 @@ def _block_rules(header: Header) -> dict[str, bool]:
         "more details than a block has vertices": header.details > header.block_size,
         "details without a step, or a step without details": (header.details > 0) != (header.detail_step > 0),
         "frames without a length for GOPs": header.frames > 0 and header.gop_frames == 0,
+        "a run of a static mesh": header.run > 0 and header.gop_frames == 0,
         "refinements that are not pairs of step and ratio": len(header.refinements) % 2 == 1,
         "a step of a refinement that is not in 2^-40..1": not all(2.0**-40 <= x.step <= 1 for x in header.layers),
         "a ratio of a refinement that is neither 0 nor in 1/16..64": not all(

@@ -105,8 +105,11 @@ class Reader:
         self._told = 0  # bytes of metadata
         self._started = False
         self._eof = False
-        self._grammar = Grammar()
+        self._grammar = self._fresh_grammar()
         self._error: BsmError | None = None
+
+    def _fresh_grammar(self) -> Grammar:
+        return Grammar()
 
     def receive_data(self, data: Buffer) -> None:
         """Take more bytes of the stream, any number of them.

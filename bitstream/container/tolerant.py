@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from bsm.bitstream.container.packets import Damaged, End
+from bsm.bitstream.container.grammar import Grammar
+from bsm.bitstream.container.packets import Damaged, End, Header, Packet
 from bsm.bitstream.container.reader import (
     BYTE_COST,
     END_OF_STREAM,
@@ -15,7 +16,7 @@ from bsm.bitstream.container.reader import (
     Spend,
     unpaid,
 )
-from bsm.bitstream.container.wire import FrameType, Tag, parse_frame, parse_tag
+from bsm.bitstream.container.wire import Frame, FrameType, Tag, parse_frame, parse_tag
 from bsm.bitstream.errors import BsmError
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 
@@ -43,12 +44,12 @@ class _Damage:
 class TolerantReader(Reader):
     """Returns a `Damaged` packet where a `Reader` raises, and goes on with the next frame that is whole.
 
-    Damage to the preamble or to the HEADER is still raised. Behind any other, the length in the damaged frame's tag is
-    trusted if a whole frame, or the end of the data, lies there; otherwise the next offset at which a whole and fitting
-    frame begins is searched byte by byte. The checksums computed in such searches cover at most `SCAN_BYTES` plus
-    `SCAN_FACTOR` times the bytes received: a candidate beyond that is passed over. A missing END is reported too,
-    unless reported damage reaches the end of the data. Once something was lost, the count and the checksum in END are
-    not compared any more.
+    Damage to the preamble or to the first HEADER is still raised; that HEADER may be of any run of a sequence. Behind
+    other damage, the length in the damaged frame's tag is trusted if a whole frame, or the end of the data, lies there;
+    otherwise the next offset at which a whole and fitting frame begins is searched byte by byte. The checksums computed
+    in such searches cover at most `SCAN_BYTES` plus `SCAN_FACTOR` times the bytes received: a candidate beyond that is
+    passed over. A missing END is reported too, unless reported damage reaches the end of the data. Once something was
+    lost, the count and the checksum in END are not compared any more.
 
     A tag that was damaged so that it claims too much is found out only when that many bytes, or the end of the data,
     have come.
@@ -84,6 +85,13 @@ class TolerantReader(Reader):
         except BsmError as error:
             self._refused = error
             raise
+
+    def _fresh_grammar(self) -> Grammar:
+        return Grammar(joining=True)
+
+    def _consume(self, frame: Frame, packet: Packet | None) -> None:
+        self._lossy = self._lossy or (self._grammar.header is None and isinstance(packet, Header) and packet.run > 0)
+        super()._consume(frame, packet)
 
     def _check_end(self, end: End) -> None:
         if not self._lossy:

@@ -14,7 +14,7 @@ from bsm.bitstream.container.gop import GopBody, GopMethod, parse_gop_body
 from bsm.bitstream.container.header import Header
 from bsm.bitstream.container.reader import END_OF_STREAM, Signal
 from bsm.bitstream.container.wire import FrameType
-from bsm.bitstream.errors import BsmError, CorruptError, FormatError, UnsupportedError
+from bsm.bitstream.errors import BsmError, CorruptError, FormatError, MeshError, UnsupportedError
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.bitstream.public import public
 from bsm.codec.arrays import Faces, Matrix, Positions
@@ -22,6 +22,7 @@ from bsm.codec.blocks.blend import Blend
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.sequence.cost import gop_cost, gop_memory, loop_memory
 from bsm.codec.sequence.gop import GopDecoder, make_setting
+from bsm.codec.sequence.runs import Shelf
 from bsm.codec.signal.chain import AS_SPECIFIED, Trial
 from bsm.codec.static.attributes.decoding import AttributeDecoders, without_positions
 from bsm.codec.static.events import AttributeEvent, ConnectivityEvent, EndEvent, HeaderEvent, LossEvent, unreadable
@@ -44,6 +45,8 @@ class FrameEvent:
         Its number, from 0.
     positions : float64 array, shape (n, 3)
         In the mesh's unit.
+    faces : int32 array, shape (m, 3)
+        Its faces; another array only where they may have changed.
 
     Examples
     --------
@@ -59,6 +62,7 @@ class FrameEvent:
 
     index: int
     positions: Positions
+    faces: Faces
 
     def __repr__(self) -> str:
         return f"FrameEvent(frame {self.index}, {len(self.positions)} vertices)"
@@ -81,11 +85,12 @@ class DecoderRequest:
 
 
 class FirstFrame:
-    """The faces are known; blocks of the first frame come, which is coded as a static mesh is."""
+    """The faces are known; blocks of a run's first frame come, which is coded as a static mesh is."""
 
-    def __init__(self, structure: Structure, request: DecoderRequest) -> None:
+    def __init__(self, structure: Structure, request: DecoderRequest, course: Course) -> None:
         self._structure = structure
         self._request = request
+        self._course = course
         self._blend = Blend(structure.header.vertices)
         self._chain = ChainDecoder(structure.scheme, 0, structure.allowance)
         self._next = 0
@@ -107,7 +112,8 @@ class FirstFrame:
                 return self
         if self._next < count:
             raise CorruptError(f"the first frame ends after {self._next} of {count} blocks")
-        return Gops(self._structure, self._blend.all_positions(), self._request).accept(arrival, queue)
+        gops = Gops(self._structure, self._blend.all_positions(), self._request, self._course)
+        return gops.accept(arrival, queue)
 
     def _values(self, packet: packets.Values) -> AttributeEvent | LossEvent:
         try:
@@ -133,38 +139,62 @@ class FirstFrame:
 
 
 class Gops:
-    """The first frame is known, shape (n, 3), in BSM units; GOPs come."""
+    """The first frame of a run is known, shape (n, 3), in BSM units; GOPs come, also of later runs of its mesh."""
 
-    def __init__(self, structure: Structure, first_frame: Matrix, request: DecoderRequest) -> None:
+    def __init__(self, structure: Structure, first_frame: Matrix, request: DecoderRequest, course: Course) -> None:
+        self.header = structure.header
         self._structure = structure
         self._first_frame = first_frame
         self._request = request
+        self._course = course
+        self._attributes = tuple(request.attributes)
         self._decoder: GopDecoder | None = None  # made when a GOP is there, whose frames and bytes pay for it
-        self._next = 0  # the frame that comes next in the stream
         self._skipped: list[GopBody] = []  # low-delay frames since the latest key frame, not decoded
-        self._damage: BsmError | None = None  # the first since frames were lost
-        self._lossy = False  # whether a loss was reported, so that an END that counts more frames is no news
-        self._ended = False
+
+    def suspend(self) -> None:
+        """Keep only what a later run of this mesh cannot do without."""
+        self._forget()
+        if self._decoder is not None:
+            self._decoder.setting.dictionaries.release()
+
+    def resume(self, header: Header, queue: deque[Item]) -> None:
+        """Begin another run of this mesh.
+
+        Raises
+        ------
+        CorruptError
+            If its header speaks of another mesh.
+        """
+        own = self._structure.header
+        if (header.vertices, header.faces) != (own.vertices, own.faces):
+            raise CorruptError(f"run {header.run} has another mesh than the run that it names")
+        self.header = header
+        self._request.attributes[:] = self._attributes
+        queue.append(HeaderEvent(header))
+        queue.append(self._structure.numbering.event(own.vertices))
 
     def accept(self, arrival: Arrival, queue: deque[Item]) -> Stage[Item]:
         match arrival:
             case packets.Gop():
                 self._accept_gop(arrival, queue)
             case packets.Damaged():
-                if arrival.type is not FrameType.END or not self._lossy:
+                if arrival.type is not FrameType.END or not self._course.lossy:
                     self._lose(unreadable(arrival))
             case packets.End():
                 pass  # what may come behind it, damaged, is a loss that belongs before the end
             case Signal.END_OF_STREAM:
-                self._end(queue)
+                self._course.end(self.header.frames, queue)
                 return Ended()
+            case _ if self._request.tolerant:
+                self._lose(misplaced(arrival))
             case _:
                 raise misplaced(arrival)
         return self
 
     def _accept_gop(self, packet: packets.Gop, queue: deque[Item]) -> None:
-        if packet.index > self._next:
-            self._report_loss(packet.index - self._next, queue)
+        if packet.index > self._course.next:
+            self._course.report_loss(packet.index - self._course.next, queue)
+            self._forget()
         body = self._tolerated(lambda: self._parsed(packet))
         if body is None:
             return
@@ -173,14 +203,14 @@ class Gops:
         if frames is None:
             self._structure.allowance.show(-self._structure.header.vertices * body.frames)
             return
-        queue.append(self._events(self._next, frames))
-        self._next += body.frames
+        queue.append(self._events(self._course.next, frames))
+        self._course.next += body.frames
 
     def _parsed(self, packet: packets.Gop) -> GopBody:
-        header, limits = self._structure.header, self._structure.allowance.limits
-        if packet.index < self._next:
-            raise CorruptError(f"frame {packet.index} comes again behind frame {self._next - 1}")
-        body = parse_gop_body(packet.data, header.gop_frames)
+        header, limits = self.header, self._structure.allowance.limits
+        if packet.index < self._course.next:
+            raise CorruptError(f"frame {packet.index} comes again behind frame {self._course.next - 1}")
+        body = parse_gop_body(packet.data, header.gop_frames, header.run)
         limits.check("sequence_bytes", gop_memory(header.vertices, body))
         last = packet.index + body.frames - 1
         if 0 < header.frames <= last:
@@ -225,7 +255,7 @@ class Gops:
         """Frames of a GOP, or nothing of it where no frame of it is wanted and none that is depends on it."""
         if body.method is not GopMethod.NEXT_FRAME:
             self._skipped.clear()
-        if self._next + body.frames <= self._request.start:
+        if self._course.next + body.frames <= self._request.start:
             if body.method >= GopMethod.KEY_FRAME:
                 self._skipped.append(body)
             return iter(())
@@ -235,24 +265,15 @@ class Gops:
         return decoder.decode(body)
 
     def _events(self, first: int, frames: Iterator[Matrix]) -> Iterator[FrameEvent]:
+        numbering, units = self._structure.numbering, self._structure.units
         for index, frame in enumerate(frames, first):
             if index >= self._request.start:
-                yield FrameEvent(index, self._structure.numbering.arranged(self._structure.units.back(frame)))
+                yield FrameEvent(index, numbering.arranged(units.back(frame)), numbering.faces)
 
     def _lose(self, error: BsmError) -> None:
         """Take note that frames are lost; how many is known when the next ones come."""
-        self._damage = self._damage or error.with_traceback(None)  # with which memory would stay
+        self._course.lose(error)
         self._forget()
-
-    def _report_loss(self, frames: int, queue: deque[Item]) -> None:
-        if not self._request.tolerant:
-            raise CorruptError(f"{frames} frames from number {self._next} on are missing")
-        error = self._damage or CorruptError("a GOP is missing")
-        queue.append(LossEvent(None, error, range(self._next, self._next + frames)))
-        self._forget()
-        self._damage = None
-        self._next += frames
-        self._lossy = True
 
     def _forget(self) -> None:
         """No frame refers to one that has come."""
@@ -260,11 +281,129 @@ class Gops:
         if self._decoder is not None:
             self._decoder.forget()
 
-    def _end(self, queue: deque[Item]) -> None:
-        announced = self._structure.header.frames
-        missing = announced - self._next if announced else 0
+
+@dataclass(frozen=True, eq=False)
+class LostRun:
+    """What is before the GOPs of a run cannot be decoded; the next run is waited for."""
+
+    error: BsmError
+    course: Course
+
+    def accept(self, arrival: Arrival, queue: deque[Item]) -> Stage[Item]:
+        if arrival is not Signal.END_OF_STREAM:
+            return self
+        if not self.course.given:
+            raise self.error
+        self.course.end(self.course.announced, queue)
+        return Ended()
+
+
+class Runs:
+    """Runs come, one behind the other; each has a mesh of its own or one that an earlier run has had.
+
+    Parameters
+    ----------
+    setup : DecoderSetup
+        How the mesh of a run is read.
+    request : DecoderRequest
+    course : Course
+    """
+
+    def __init__(self, setup: DecoderSetup, request: DecoderRequest, course: Course) -> None:
+        self._setup = setup
+        self._request = request
+        self._course = course
+        self._stage: Stage[Item] = HeaderStage(setup)
+        self._shelf: Shelf[Gops] = Shelf(setup.allowance)
+        self._mesh = 0  # the run that brought the present mesh
+
+    def accept(self, arrival: Arrival, queue: deque[Item]) -> Stage[Item]:
+        try:
+            self._stage = self._turn(arrival, queue) if isinstance(arrival, Header) else self._next(arrival, queue)
+        except BsmError as error:
+            lost = isinstance(self._stage, LostRun) and not isinstance(arrival, Header)
+            if not self._request.tolerant or lost or isinstance(self._stage, HeaderStage):
+                raise
+            self._course.lose(error)
+            self._leave()
+            self._stage = LostRun(error, self._course)
+        return self._stage if isinstance(self._stage, Ended) else self
+
+    def _next(self, arrival: Arrival, queue: deque[Item]) -> Stage[Item]:
+        stage = self._stage.accept(arrival, queue)
+        if isinstance(stage, Gops) and self._mesh not in self._shelf:
+            self._shelf.put(self._mesh, stage)
+        return stage
+
+    def _turn(self, header: Header, queue: deque[Item]) -> Stage[Item]:
+        """The stage of a run that begins."""
+        self._leave()
+        self._course.announced = header.frames
+        self._mesh = header.again - 1 if header.again else header.run
+        if not header.again:
+            self._shelf.make_room()
+            self._request.attributes.clear()
+            return HeaderStage(self._setup).accept(header, queue)
+        gops = self._shelf.take(self._mesh)
+        if gops is None:
+            raise CorruptError(f"run {header.run} has the mesh of run {self._mesh}, which is not there any more")
+        gops.resume(header, queue)
+        return gops
+
+    def _leave(self) -> None:
+        """Keep of the present run what later ones may need, and give back all else."""
+        if isinstance(self._stage, Gops):
+            self._stage.suspend()
+        self._shelf.leave(self._mesh)
+
+
+class Course:
+    """How far a sequence has come, over all of its runs.
+
+    Attributes
+    ----------
+    next : int
+        The frame that comes next in the stream.
+    announced : int
+        How many there are in all; 0: the stream does not say.
+    given : bool
+        Whether any frame has come.
+    lossy : bool
+        Whether a loss was reported, so that an END that counts more frames is no news.
+    """
+
+    def __init__(self, *, tolerant: bool) -> None:
+        self.next = 0
+        self.announced = 0
+        self.lossy = False
+        self._tolerant = tolerant
+        self._lost = 0
+        self._damage: BsmError | None = None  # the first since frames were lost
+
+    @property
+    def given(self) -> bool:
+        return self.next > self._lost
+
+    def lose(self, error: BsmError) -> None:
+        """Take note that frames are lost; how many is known when the next ones come."""
+        self._damage = self._damage or error.with_traceback(None)  # with which memory would stay
+
+    def report_loss(self, frames: int, queue: deque[Item]) -> None:
+        """Say that so many frames are lost, or raise that."""
+        if not self._tolerant:
+            raise CorruptError(f"{frames} frames from number {self.next} on are missing")
+        error = self._damage or CorruptError("a GOP is missing")
+        queue.append(LossEvent(None, error, range(self.next, self.next + frames)))
+        self._damage = None
+        self.next += frames
+        self._lost += frames
+        self.lossy = True
+
+    def end(self, announced: int, queue: deque[Item]) -> None:
+        """Say that nothing follows."""
+        missing = announced - self.next if announced else 0
         if missing or (self._damage and not announced):
-            self._report_loss(missing, queue)
+            self.report_loss(missing, queue)
         queue.append(EndEvent())
 
 
@@ -282,8 +421,8 @@ class SequenceDecoder(StreamDecoder[Item]):
     threads : int, optional
         None: one per core.
     tolerant : bool
-        Report a GOP that is lost or broken as `LossEvent`, and go on behind it. What comes before the GOPs must be
-        whole in any case.
+        Report a GOP that is lost or broken as `LossEvent`, and go on behind it, or behind a run where what comes before
+        its GOPs is not whole; the stream may begin with any run.
     start : int
         Give no frame before this one; GOPs that it does not need are not decoded.
     trial : Trial, optional
@@ -314,19 +453,19 @@ class SequenceDecoder(StreamDecoder[Item]):
         threads = threads_of(threads)
         self._attributes: list[Attribute] = []
         request = DecoderRequest(threads, tolerant, start, self._attributes)
-        allowance = Allowance(limits)
+        allowance, course = Allowance(limits), Course(tolerant=tolerant)
         setup = DecoderSetup(
             allowance,
             check=lambda header: check_header(header, limits),
-            begin=lambda structure: FirstFrame(structure, request),
+            begin=lambda structure: FirstFrame(structure, request, course),
             trial=trial,
             threads=threads,
         )
-        super().__init__(HeaderStage(setup), allowance, tolerant=tolerant)
+        super().__init__(Runs(setup, request, course), allowance, tolerant=tolerant)
 
     @property
     def attributes(self) -> tuple[Attribute, ...]:
-        """Attributes that are the same in all frames and whole; all of them when the first frame is."""
+        """Attributes of all frames of the present run, that are whole; all of them when its first frame is."""
         return tuple(self._attributes)
 
     def close(self) -> None:
@@ -382,7 +521,8 @@ def decode_sequence(
     Raises
     ------
     BsmError
-        `FormatError`, `UnsupportedError`, `CorruptError`, `TruncatedError`, `LimitError` or `NumericError`.
+        `FormatError`, `UnsupportedError`, `CorruptError`, `TruncatedError`, `LimitError` or `NumericError`; `MeshError`
+        if the faces change.
     """
     frames: list[Positions] = []
     faces = np.zeros((0, 3), np.int32)
@@ -395,6 +535,11 @@ def decode_sequence(
                 case HeaderEvent(header):
                     vertices = header.vertices
                 case ConnectivityEvent(received):
+                    if frames and not np.array_equal(faces, received):
+                        raise MeshError(
+                            f"the faces change at frame {len(frames)}: this is no array of frames; "
+                            "bsm.decode_frames gives them one by one"
+                        )
                     faces = received
                 case FrameEvent(_, positions):
                     frames.append(positions)

@@ -169,6 +169,13 @@ class Dictionaries:
         """Bytes for making any of them."""
         return max(site.making for site in self.sites)
 
+    def release(self) -> None:
+        """Keep none until room is reserved again."""
+        self._allowance.keep(-self._reserved)
+        self._reserved = self._use = 0.0
+        self._parts = [None] * len(self.sites)
+        self._kept = 0
+
     def fits(self, memory: float, use: float, received: int = 0) -> bool:
         """Whether `reserve` finds room when so many more bytes have come."""
         room = self._room(memory, use, received)

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from itertools import chain, islice
+from hashlib import sha256
+from itertools import islice
 from types import MappingProxyType
 
 import numpy as np
@@ -27,6 +28,7 @@ from bsm.codec.sequence.decoder import decode_sequence
 from bsm.codec.sequence.gop import GopDecoder, GopEncoder, Setting, make_setting, silent
 from bsm.codec.sequence.options import SequenceOptions
 from bsm.codec.sequence.row_prediction import LARGEST_LEVEL
+from bsm.codec.sequence.runs import Cutter, Frame, Run, Shelf
 from bsm.codec.sequence.targets import SequenceComparison, compare_sequences
 from bsm.codec.sequence.watch import Watch
 from bsm.codec.signal.chain import ChainRules
@@ -89,7 +91,7 @@ class SequenceAttempt:
 
 @public
 class SequenceEncoder:
-    """Encodes frames that share their faces.
+    """Encodes frames that share their faces, or runs of such frames.
 
     Parameters
     ----------
@@ -101,16 +103,22 @@ class SequenceEncoder:
     metadata : mapping from str to str, int, float or bytes
         What belongs to the whole sequence.
     attributes : sequence of Attribute
-        Of the mesh, the same in all frames, at the qualities that the options say.
+        Of the mesh, the same in all frames, at the qualities that the options say; a later run has those of its first
+        frame, but for normals, which move.
 
     Attributes
     ----------
     vertex_order : int64 array, shape (n,)
-        The decoder's vertex j is vertex `vertex_order[j]` of the frames; known once `chunks` has given its first bytes.
+        The decoder's vertex j is vertex `vertex_order[j]` of the frames of the present run; known once `chunks` has
+        given its first bytes.
     face_order : int64 array, shape (m,)
         The decoder's face i is face `face_order[i]`.
     notes : tuple of str
         What was changed on the way in.
+    run_starts : list of int
+        The numbers of the first frames of all runs so far.
+    samples : int
+        Vertices times frames so far.
 
     Examples
     --------
@@ -134,6 +142,8 @@ class SequenceEncoder:
         self.vertex_order: Order = np.empty(0, np.int64)
         self.face_order: Order = np.empty(0, np.int64)
         self.notes: tuple[str, ...] = ()
+        self.run_starts: list[int] = []
+        self.samples = 0
         self._faces = faces
         self._count = frames
         if not isinstance(attributes, Sequence) or not all(isinstance(one, Attribute) for one in attributes):
@@ -144,24 +154,37 @@ class SequenceEncoder:
         if self.options.frame_rate:
             self._metadata = {**metadata, "frame_rate": float(self.options.frame_rate)}
 
-    def chunks(self, frames: Iterable[npt.ArrayLike], progress: Progress | None = None) -> Iterator[bytes]:
+    def chunks(self, frames: Iterable[Frame], progress: Progress | None = None) -> Iterator[bytes]:
         """The stream, stream frame by stream frame; each GOP is given as soon as its frames are there.
 
         Parameters
         ----------
-        frames : iterable of array_like, shape (n, 3)
+        frames : iterable of array_like, shape (n, 3), or TriangleMesh
+            With `options.runs`, a mesh of other faces begins a run.
         progress : callable, optional
             Called with the number of blocks done and of all blocks of all GOPs, once for every attempt at a target.
 
         Raises
         ------
         MeshError
-            If a frame is not finite or has another shape than the first, or there is no frame.
+            If a frame is not finite or has another shape or other faces than the first, or there is no frame.
         """
         if self.options.target is None:
             yield from self._chunks(frames, self.options, progress)
         else:
-            yield from self.search([np.asarray(frame, np.float64) for frame in frames], progress).chunks
+            yield from self.search(self._of_one_run(frames), progress).chunks
+
+    def _of_one_run(self, frames: Iterable[Frame]) -> list[Matrix]:
+        """The positions of frames that share their faces; no others can be brought to a target."""
+        found: list[Matrix] = []
+        for run in Cutter(frames, self._faces, allowed=self.options.runs).runs():
+            if found:
+                raise OptionError(
+                    f"the faces change at frame {run.first}: a target is for frames that share them; "
+                    "take a preset or a bound"
+                )
+            found = [np.asarray(frame, np.float64) for frame in run.frames]
+        return found
 
     def search(self, frames: Sequence[Matrix], progress: Progress | None = None) -> SequenceAttempt:
         """Look for the step with which `frames`, each of shape (n, 3), meet the options' target.
@@ -188,54 +211,101 @@ class SequenceEncoder:
         original = np.array([frame[self.vertex_order] for frame in frames])
         return SequenceAttempt(chunks, decoded.size // 3, compare_sequences(original, decoded, faces))
 
-    def _chunks(
-        self, frames: Iterable[npt.ArrayLike], options: SequenceOptions, progress: Progress | None
-    ) -> Iterator[bytes]:
-        source = iter(frames)
-        first = next(source, None)
-        if first is None:
-            raise MeshError("a sequence needs at least one frame")
+    def _chunks(self, frames: Iterable[Frame], options: SequenceOptions, progress: Progress | None) -> Iterator[bytes]:
         gops = -(-self._count // (options.gop if options.mode == "gop" else 1))
         tell = _Rounds(progress if gops else None, 1 + gops)
-        given = TriangleMesh(np.asarray(first), np.asarray(self._faces), self._attributes)
-        given.require_sizes(*PROMISED_SIZES)
-        parts = Parts(options.block_size, options.overlap)
-        prepared = prepare(given, parts, keep_order=options.keep_order)
-        self.vertex_order, self.face_order = prepared.vertex_order, prepared.face_order
-        checked = _checked(chain([first], source), np.shape(first), prepared)
-        group = list(islice(checked, options.gop if options.mode == "gop" else 1))
-        coded = self._first_gop(group, prepared, options, tell)
-        opening = coded.opening
-        wanted = qualities(self._attributes, dict(options.attributes), "balanced")
-        carried = carry(place_of_first_frame(given, prepared), wanted)
-        self.notes = tuple(one.said for one in carried)
-        draft = Draft(
-            opening.header, (*prepared.before_blocks, *(block.packet for block in opening.blocks)), given.positions
-        )
-        draft = with_attributes(draft, carried, self._metadata)
+        shelf = Meshes(options)
         writer = Writer()
-        yield writer.start()
-        for packet in (draft.header, *draft.body):
-            yield writer.write(packet)
         number = 0
-        while group:
-            for body in coded.bodies:
-                opening.admit(body, number)
-                yield writer.write(packets.Gop(number, write_gop_body(body)))
-                number += body.frames
-            group = list(islice(checked, opening.header.gop_frames))
-            if group:
-                coded = self._later_gop(group, number, prepared, options, coded, tell)
+        self.run_starts, self.samples = [], 0
+        for index, run in enumerate(Cutter(frames, self._faces, allowed=options.runs).runs()):
+            attributes = tuple(one for one in run.mesh.attributes if one.semantic != "normal")
+            mesh = replace(run.mesh, attributes=attributes if index else self._attributes)
+            if not index:
+                yield writer.start()
+            for packet in self._run(replace(run, mesh=mesh), index, shelf, options, tell):
+                yield writer.write(packet)
+            number = run.first + self._done
+        if not self.run_starts:
+            raise MeshError("a sequence needs at least one frame")
         if self._count and number != self._count:
             raise OptionError(f"{self._count} frames were announced and {number} came")
         yield writer.end()
 
-    def _first_gop(self, frames: list[Matrix], prepared: Prepared, options: SequenceOptions, tell: Progress) -> Coded:
-        """The first frame and the first GOP, with the step that keeps the options' promise in both, if there is one."""
+    def _run(
+        self, run: Run, index: int, shelf: Meshes, options: SequenceOptions, tell: Progress
+    ) -> Iterator[packets.Packet]:
+        """The packets of a run; `_done` grows by its frames."""
+        self.run_starts.append(run.first)
+        self._done = 0
+        longest = options.gop if options.mode == "gop" else 1
+        opened = shelf.again(run.mesh)
+        if opened is None:
+            prepared = self._prepared(run.mesh, options)
+        else:
+            prepared = opened.prepared
+        self.vertex_order, self.face_order = prepared.vertex_order, prepared.face_order
+        checked = _checked(run, prepared)
+        group = list(islice(checked, longest))
+        if opened is None:
+            coded = self._first_gop(group, prepared, options, tell, shelf.allowance)
+            yield from self._opened(run.mesh, index, prepared, coded.opening, options)
+        else:
+            opening = opened.coded.opening
+            fresh = Coded(opening, GopEncoder(opening.setting, replace(options, step=opened.coded.bodies[0].step)), ())
+            coded = self._later_gop(group, 0, prepared, options, fresh, tell)
+            yield Header(
+                vertices=opening.header.vertices,
+                faces=opening.header.faces,
+                frames=self._count,
+                gop_frames=longest,
+                run=index,
+                again=opened.run + 1,
+            )
+        opening = coded.opening
+        while group:
+            for body in coded.bodies:
+                opening.admit(body, self._done)
+                yield packets.Gop(run.first + self._done, write_gop_body(body, index))
+                self._done += body.frames
+                self.samples += body.frames * opening.header.vertices
+            group = list(islice(checked, longest))
+            if group:
+                coded = self._later_gop(group, self._done, prepared, options, coded, tell)
+        shelf.keep(OpenedMesh(index if opened is None else opened.run, prepared, coded), run.mesh)
+
+    def _prepared(self, mesh: TriangleMesh, options: SequenceOptions) -> Prepared:
+        mesh.require_sizes(*PROMISED_SIZES)
+        return prepare(mesh, Parts(options.block_size, options.overlap), keep_order=options.keep_order)
+
+    def _opened(
+        self, given: TriangleMesh, index: int, prepared: Prepared, opening: Opening, options: SequenceOptions
+    ) -> Iterator[packets.Packet]:
+        """What comes before the GOPs of a run with a mesh of its own."""
+        wanted = qualities(given.attributes, dict(options.attributes), "balanced")
+        carried = carry(place_of_first_frame(given, prepared), wanted)
+        self.notes = tuple(dict.fromkeys((*self.notes, *(one.said for one in carried))))
+        body = (*prepared.before_blocks, *(block.packet for block in opening.blocks))
+        draft = Draft(replace(opening.header, run=index), body, given.positions)
+        draft = with_attributes(draft, carried, {} if index else self._metadata)
+        yield from (draft.header, *draft.body)
+
+    def _first_gop(
+        self,
+        frames: list[Matrix],
+        prepared: Prepared,
+        options: SequenceOptions,
+        tell: Progress,
+        before: Allowance,
+    ) -> Coded:
+        """The first frame and the first GOP, with the step that keeps the options' promise in both, if there is one.
+
+        What decoders may still do follows from `before`, of the runs so far.
+        """
 
         def attempt(step: float, weights: Matrix | None, singly: bool | None, tell: Progress = silent) -> Coded:
             chosen = replace(options, step=step)
-            opening = open_sequence(prepared, chosen, self._count, tell)
+            opening = open_sequence(prepared, chosen, self._count, tell, before)
             encoder = GopEncoder(opening.setting, chosen)
             encoder.weights, encoder.singly = weights, singly
             return Coded(opening, encoder, tuple(_affordable(opening, encoder, frames, 0, tell)))
@@ -379,8 +449,69 @@ def _affordable(
         yield learnt
 
 
-def open_sequence(prepared: Prepared, options: SequenceOptions, frames: int, progress: Progress) -> Opening:
-    """Code the first frame, which all others build upon; `frames` as for `SequenceEncoder`.
+@dataclass(frozen=True, eq=False)
+class OpenedMesh:
+    """A mesh that a run has had: the number of the run that brought it, and what was coded of it last."""
+
+    run: int
+    prepared: Prepared
+    coded: Coded
+
+
+class Meshes:
+    """The meshes that runs have had, as far as decoders keep them, see `Shelf`, and what decoders may still do.
+
+    Attributes
+    ----------
+    allowance : Allowance
+        When the present run begins.
+    """
+
+    def __init__(self, options: SequenceOptions) -> None:
+        self.allowance = Allowance(NAMED_LIMITS[options.limits]())
+        self._shelf: Shelf[OpenedMesh] = Shelf(self.allowance)
+        self._known: dict[bytes, int] = {}  # the run that brought a mesh, by its faces
+
+    def again(self, mesh: TriangleMesh) -> OpenedMesh | None:
+        """What is kept of the mesh of a run that begins; None: it is to be sent."""
+        run = self._known.get(_digest(mesh), -1)
+        opened = self._shelf.take(run) if run in self._shelf else None
+        if opened is None:
+            self._shelf.make_room()
+            return None
+        allowance = opened.coded.opening.allowance
+        allowance.follow(self.allowance)
+        allowance.show(opened.coded.opening.header.vertices)  # the first GOP does, at least
+        return opened
+
+    def keep(self, opened: OpenedMesh, mesh: TriangleMesh) -> None:
+        """Take note that a run of this mesh has ended."""
+        opening = opened.coded.opening
+        opening.setting.dictionaries.release()
+        self.allowance.follow(opening.allowance)
+        if opened.run not in self._shelf:
+            self._shelf.put(opened.run, opened)
+        self._shelf.leave(opened.run)
+        self._known[_digest(mesh)] = opened.run
+
+
+def _digest(mesh: TriangleMesh) -> bytes:
+    """What meshes of the same faces and attributes have in common, and no others."""
+    found = sha256(len(mesh.positions).to_bytes(8, "little") + mesh.faces.tobytes())
+    for one in mesh.attributes:
+        found.update(repr((one.name, one.domain, one.semantic, one.values.dtype, one.values.shape)).encode())
+        found.update(one.values.tobytes())
+        if one.indices is not None:
+            found.update(one.indices.tobytes())
+    return found.digest()
+
+
+def open_sequence(
+    prepared: Prepared, options: SequenceOptions, frames: int, progress: Progress, before: Allowance
+) -> Opening:
+    """Code the first frame, which all others of a run build upon; `frames` as for `SequenceEncoder`.
+
+    What decoders may still do follows from `before`.
 
     Raises
     ------
@@ -407,6 +538,7 @@ def open_sequence(prepared: Prepared, options: SequenceOptions, frames: int, pro
     )
     positions = blended(prepared.graph.size, (block.decoded for block in blocks))
     allowance = Allowance(NAMED_LIMITS[options.limits]())
+    allowance.follow(before)
     allowance.show(header.vertices)  # the first GOP does, at least
     with as_of_decoders(options.limits):
         admit(allowance, prepared, blocks)
@@ -423,9 +555,10 @@ def open_sequence(prepared: Prepared, options: SequenceOptions, frames: int, pro
     return Opening(header, blocks, setting, allowance, options.limits)
 
 
-def _checked(frames: Iterable[npt.ArrayLike], shape: tuple[int, ...], prepared: Prepared) -> Iterator[Matrix]:
+def _checked(run: Run, prepared: Prepared) -> Iterator[Matrix]:
     """Frames in BSM units, in the order of coding."""
-    for number, frame in enumerate(frames):
+    shape = run.mesh.positions.shape
+    for number, frame in enumerate(run.frames, run.first):
         positions = np.asarray(frame, np.float64)
         if positions.shape != shape:
             raise MeshError(f"frame {number} has shape {positions.shape}, the first one {shape}")
@@ -445,7 +578,7 @@ class _Rounds:
 
     def __call__(self, done: int, blocks: int) -> None:
         if self._progress is not None:
-            self._progress(self._done * blocks + done, self._rounds * blocks)
+            self._progress(self._done * blocks + done, max(self._rounds, self._done + 1) * blocks)
         self._done += done == blocks
 
 

@@ -59,6 +59,8 @@ class SequenceOptions:
         Name of the limits of those who will decode: "default", "service" or "wide"; what they would refuse is an error.
     threads : int, optional
         None: one per core.
+    runs : bool
+        Let the faces change from frame to frame, as in volumetric capture; where they do, a run begins.
     target : SequenceTarget, optional
         Look for the one step for all frames that reaches it; this needs all frames in memory.
     promise : Promise, optional
@@ -88,6 +90,7 @@ class SequenceOptions:
     attributes: Mapping[str, str] | tuple[tuple[str, str], ...] = ()
     limits: str = "default"
     threads: int | None = None
+    runs: bool = False
     target: SequenceTarget | None = None
     promise: Promise | None = None
 

@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import ClassVar, TypeAlias
 
 import numpy as np
 
 from bsm.bitstream.public import public
 from bsm.codec.arrays import Faces, Positions
-from bsm.codec.geometry.metrics import Reference, kg_error
+from bsm.codec.geometry.metrics import Reference
 from bsm.codec.static.targets import Target
 
 
@@ -25,7 +26,7 @@ class SequenceComparison:
     theta_deg, nmsve_db : float
         Means over the frames (of NMSVE itself, not of its decibels).
     rms_relative, max_error_relative : float
-        Over all frames, in diagonals of the first frame.
+        Over all frames, in diagonals of the first frame (of its run, where faces change).
     flicker : float
         How much the error changes from frame to frame, its second difference in time, in percent of the motion's own;
         0 for fewer than three frames, infinity where nothing moves but the error.
@@ -41,26 +42,51 @@ class SequenceComparison:
 
 def compare_sequences(original: Positions, decoded: Positions, faces: Faces) -> SequenceComparison:
     """Compare frames, both of shape (T, n, 3), that share their faces and the order of their vertices."""
-    kg = kg_error(original, decoded)
-    each = [Reference(a, faces).compare(b) for a, b in zip(original, decoded, strict=True)]
-    diagonal = float(np.linalg.norm(np.ptp(original[0], axis=0))) or 1.0
-    nmsve = float(np.mean([frame.nmsve for frame in each]))
+    return compare_runs([(original, decoded, faces)])
+
+
+Runs: TypeAlias = Sequence[tuple[Positions, Positions, Faces]]
+
+
+def compare_runs(runs: Runs) -> SequenceComparison:
+    """The same of frames whose faces change: of each run its frames, the decoded ones, and their faces."""
+    each = []
+    wrong = extent = flicker = motion = 0.0
+    for original, decoded, faces in runs:
+        diagonal = float(np.linalg.norm(np.ptp(original[0], axis=0))) or 1.0
+        found = [Reference(a, faces).compare(b) for a, b in zip(original, decoded, strict=True)]
+        each += [(frame, frame.rms / diagonal, frame.max_error / diagonal) for frame in found]
+        wrong += float(np.square(original - decoded).sum())
+        extent += float(np.square(original - original.mean(axis=1, keepdims=True)).sum())
+        changes = _changes(original, decoded)
+        flicker, motion = flicker + changes[0], motion + changes[1]
+    nmsve = float(np.mean([frame.nmsve for frame, _, _ in each]))
     return SequenceComparison(
-        kg=kg,
-        theta_deg=float(np.mean([frame.theta_deg for frame in each])),
+        kg=_percent(wrong, extent),
+        theta_deg=float(np.mean([frame.theta_deg for frame, _, _ in each])),
         nmsve_db=10.0 * math.log10(nmsve) if nmsve > 0.0 else -math.inf,
-        rms_relative=math.sqrt(float(np.mean([frame.rms**2 for frame in each]))) / diagonal,
-        max_error_relative=max(frame.max_error for frame in each) / diagonal,
-        flicker=flicker_of(original, decoded),
+        rms_relative=math.sqrt(float(np.mean([rms**2 for _, rms, _ in each]))),
+        max_error_relative=max(farthest for _, _, farthest in each),
+        flicker=_percent(flicker, motion),
     )
+
+
+def _percent(part: float, whole: float) -> float:
+    """The root of a share of squares, in percent; infinity of nothing."""
+    if part == 0.0:
+        return 0.0
+    return 100.0 * math.sqrt(part / whole) if whole else math.inf
 
 
 def flicker_of(original: Positions, decoded: Positions) -> float:
     """`SequenceComparison.flicker` of frames, both of shape (T, n, 3)."""
-    wrong, own = (float(np.linalg.norm(np.diff(part, 2, axis=0))) for part in (decoded - original, original))
-    if wrong == 0.0:
-        return 0.0
-    return 100.0 * wrong / own if own else math.inf
+    return _percent(*_changes(original, decoded))
+
+
+def _changes(original: Positions, decoded: Positions) -> tuple[float, float]:
+    """Sums of squares of the second differences in time, of the error and of the motion."""
+    error, motion = (float(np.square(np.diff(part, 2, axis=0)).sum()) for part in (decoded - original, original))
+    return error, motion
 
 
 @public

@@ -186,7 +186,7 @@ class Allowance:
 
     def __init__(self, limits: Limits) -> None:
         self._limits = as_limits(limits)
-        self._vertices = self._shown = 0
+        self._vertices = self._shown = self._gone = 0
         self._spent = self._owed = 0.0
         self._held = self._kept = 0.0
         self._received = 0
@@ -208,15 +208,33 @@ class Allowance:
         """All work so far, in nanoseconds."""
         return self._spent
 
+    @property
+    def kept(self) -> float:
+        """Bytes that are kept now."""
+        return self._kept
+
+    def follow(self, other: Allowance) -> None:
+        """Go on from what another has counted."""
+        with self._lock:
+            self._vertices, self._shown, self._gone = other._vertices, other._shown, other._gone
+            self._spent, self._owed, self._received = other._spent, other._owed, other._received
+            self._kept = other._kept
+
     def room(self, received: int = 0) -> float:
         """Bytes for which there is room besides those that are kept, with so many more received."""
         with self._lock:
-            return self._limits.memory_for(self._vertices, self._received + received) - self._kept
+            return self._limits.memory_for(self._present, self._received + received) - self._kept
 
     def grant(self, vertices: int) -> None:
         """Take note of vertices that the stream really has, which count for work and memory."""
         with self._lock:
             self._vertices += vertices
+
+    def give_back(self, memory: float, vertices: int) -> None:
+        """Take note of memory that was kept, and of vertices that are not there any more: they count for work alone."""
+        with self._lock:
+            self._kept -= memory
+            self._gone += vertices
 
     def show(self, vertices: int) -> None:
         """Take note of vertices of frames that are shown, which count for work."""
@@ -249,7 +267,7 @@ class Allowance:
         with self._lock:
             self._kept += memory
             self._received += received
-            self._limits.check_memory(self._kept, self._vertices, self._received)
+            self._limits.check_memory(self._kept, self._present, self._received)
 
     @contextmanager
     def hold(self, memory: float) -> Iterator[None]:
@@ -261,7 +279,7 @@ class Allowance:
             If there will never be room.
         """
         with self._lock:
-            self._limits.check_memory(self._kept + memory, self._vertices, self._received)
+            self._limits.check_memory(self._kept + memory, self._present, self._received)
             if self._held > 0.0:
                 self._change.wait_for(lambda: self._held == 0.0 or self._has_room(memory))
             self._held += memory
@@ -275,10 +293,15 @@ class Allowance:
     def afford(self, memory: float) -> None:
         """Raise `LimitError` if there is no room for some memory besides what is kept."""
         with self._lock:
-            self._limits.check_memory(self._kept + memory, self._vertices, self._received)
+            self._limits.check_memory(self._kept + memory, self._present, self._received)
+
+    @property
+    def _present(self) -> int:
+        """Vertices that stand for memory."""
+        return self._vertices - self._gone
 
     def _has_room(self, memory: float) -> bool:
-        most = self._limits.memory_for(self._vertices, self._received)
+        most = self._limits.memory_for(self._present, self._received)
         return self._kept + self._held + memory <= most
 
 

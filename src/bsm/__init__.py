@@ -46,8 +46,9 @@ if TYPE_CHECKING:
     )
     from bsm.bitstream.limits import Limits as Limits
     from bsm.api import (
-        compare as compare, decode as decode, decode_sequence as decode_sequence, denoise as denoise, encode as encode,
-        encode_many as encode_many, encode_sequence as encode_sequence, load as load, look as look, save as save,
+        compare as compare, decode as decode, decode_frames as decode_frames, decode_sequence as decode_sequence,
+        denoise as denoise, encode as encode, encode_frames as encode_frames, encode_many as encode_many,
+        encode_sequence as encode_sequence, load as load, look as look, save as save,
     )
     from bsm.comparison import MeshComparison as MeshComparison
     from bsm.files.mesh import read_mesh as read_mesh
@@ -95,7 +96,10 @@ _ROOMS = {
         "OptionError TargetError TruncatedError UnsupportedError"
     ),
     "bsm.bitstream.limits": "Limits",
-    "bsm.api": "compare decode decode_sequence denoise encode encode_many encode_sequence load look save",
+    "bsm.api": (
+        "compare decode decode_frames decode_sequence denoise encode encode_frames encode_many encode_sequence load "
+        "look save"
+    ),
     "bsm.comparison": "MeshComparison",
     "bsm.files.mesh": "read_mesh",
     "bsm.steadiness": "check_steadiness unsteadiness",

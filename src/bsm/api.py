@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from itertools import chain
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from bsm import options as keywords_to
-from bsm.bitstream.errors import ArgumentError, OptionError
+from bsm.bitstream.errors import ArgumentError, MeshError, OptionError
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.codec.arrays import Faces, Positions
 from bsm.codec.choices import check_mapping
@@ -260,6 +261,104 @@ def encode_sequence(
         return encode_frames(positions, faces, chosen, metadata or {}, mesh_attributes, progress)
 
 
+def encode_frames(
+    meshes: Iterable[Any],
+    options: SequenceOptions | None = None,
+    /,
+    *,
+    metadata: Metadata | None = None,
+    **keywords: Any,
+) -> bytes:
+    """Compress an animation whose faces may change from frame to frame, as in volumetric capture.
+
+    Parameters
+    ----------
+    meshes : iterable of meshes, pairs of arrays, or paths
+        A frame each, as `encode` takes a mesh. Attributes are those of the first frame with other faces than before.
+    options : SequenceOptions, optional
+        Instead of keywords.
+    metadata : mapping from str to str, int, float or bytes, optional
+        What belongs to the whole sequence.
+    **keywords
+        As `encode_sequence` takes them; faces may change unless `runs` is false. Targets are for frames that share
+        them.
+
+    Returns
+    -------
+    bytes
+        A stream, for `decode_frames`.
+
+    Raises
+    ------
+    MeshError
+        If there is no frame, or the faces of one are others than those before and `runs` is false.
+
+    Examples
+    --------
+    >>> import bsm
+    >>> mesh = bsm.load("bunny.ply")
+    >>> moved = bsm.TriangleMesh(mesh.positions + 0.1, mesh.faces)
+    >>> half = bsm.TriangleMesh(mesh.positions, mesh.faces[::2])
+    >>> data = bsm.encode_frames([mesh, moved, half])
+    >>> [len(frame.faces) == len(mesh.faces) for frame in bsm.decode_frames(data)]
+    [True, True, False]
+    """
+    from bsm.codec.sequence.encoder import SequenceEncoder
+    from bsm.codec.sequence.options import SequenceOptions
+
+    given = {"runs": True, **keywords} if options is None else keywords
+    chosen = _chosen(options, SequenceOptions, given, keywords_to.sequence_options)
+    frames = map(as_mesh, meshes)
+    first = next(frames, None)
+    if first is None:
+        raise MeshError("a sequence needs at least one frame")
+    attributes = [one for one in first.attributes if one.semantic != "normal"]
+    count = len(meshes) if isinstance(meshes, Sequence) else 0
+    encoder = SequenceEncoder(first.faces, chosen, count, metadata or {}, attributes)
+    return b"".join(encoder.chunks(chain([first], frames)))
+
+
+def decode_frames(
+    stream: Source, *, limits: Limits = DEFAULT_LIMITS, threads: int | None = None
+) -> Iterator[TriangleMesh]:
+    """Restore an animation frame by frame, whether its faces change or not.
+
+    Parameters
+    ----------
+    stream : bytes, any buffer, path or binary file
+        It is read as the frames are taken.
+    limits : Limits
+        What the stream may ask for.
+    threads : int, optional
+        None: one per core.
+
+    Returns
+    -------
+    iterator of TriangleMesh
+        The frames, each with its own faces and attributes.
+
+    Raises
+    ------
+    ArgumentError
+        If this is no stream.
+    BsmError
+        As `decode_sequence`, where it is met, while the frames are taken.
+
+    Examples
+    --------
+    >>> import bsm
+    >>> for frame in bsm.decode_frames("dance.bsm"):
+    ...     bounds = frame.positions.min(axis=0), frame.positions.max(axis=0)
+    """
+    from bsm.codec.sequence.decoder import FrameEvent, SequenceDecoder
+    from bsm.files.stream import events
+
+    with SequenceDecoder(limits, threads) as decoder:
+        for event in events(decoder, read_chunks(stream)):
+            if isinstance(event, FrameEvent):
+                yield TriangleMesh(event.positions, event.faces, decoder.attributes, decoder.metadata)
+
+
 def decode_sequence(
     stream: Source, *, limits: Limits = DEFAULT_LIMITS, threads: int | None = None
 ) -> tuple[Positions, Faces]:
@@ -284,7 +383,8 @@ def decode_sequence(
     ArgumentError
         If this is no stream.
     BsmError
-        As `decode`; `UnsupportedError` also for the stream of a single mesh.
+        As `decode`; `UnsupportedError` also for the stream of a single mesh, `MeshError` if the faces change:
+        `decode_frames` takes these, too.
 
     Examples
     --------

@@ -44,6 +44,8 @@ class Loops:
         count = len(self._kept)
         if not 4 <= count <= MOST_FRAMES:
             return None
+        if len({len(kept) for kept in self._kept}) > 1:
+            return None  # frames of other numbers of vertices
         table, near = np.array(self._kept), tolerance * self._diagonal
         if np.abs(table - table[0]).max() <= near:
             return None

@@ -12,7 +12,7 @@ from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
 
 from bsm.bitstream.errors import OptionError
-from bsm.codec.arrays import Positions
+from bsm.codec.arrays import Faces, Positions
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
 from bsm.codec.geometry.splitting import split_by_attributes
 from bsm.files.pipes import read_chunks
@@ -58,16 +58,13 @@ class Playback:
         self._stream, self._frames = self._opened(0)
         self._next, self._shown = 0, -1
         self._here: Positions = np.empty((0, 3))
-        first = self.positions(0)
-        faces = self._stream.faces
+        self._faces: Faces | None = None  # of the frame that was split last
+        self.positions(0)
         self.rate = _rate(self._stream.metadata)
-        rows = np.arange(len(first), dtype=np.float64)[:, None].repeat(3, axis=1)
-        split = split_by_attributes(TriangleMesh(rows, faces, self._stream.attributes, self._stream.metadata))
-        self._split, self._of_split = split, split.positions[:, 0].astype(np.int64)
 
     def _opened(self, start: int) -> tuple[SequenceStream, Iterator[tuple[int, Positions]]]:
         stream = SequenceStream(read_chunks(self._path), start=start)
-        return stream, stream.frames()
+        return stream, stream.changing_frames()
 
     def positions(self, number: int) -> Positions:
         """Positions of a frame of a sequence, shape (n, 3), in the stream's order."""
@@ -84,7 +81,13 @@ class Playback:
         """A frame, whose vertices are split where corners differ."""
         if self._mesh is not None:
             return self._mesh
-        shown = self.positions(number)[self._of_split]
+        positions, stream = self.positions(number), self._stream
+        if stream.faces is not self._faces:
+            rows = np.arange(len(positions), dtype=np.float64)[:, None].repeat(3, axis=1)
+            split = split_by_attributes(TriangleMesh(rows, stream.faces, stream.attributes, stream.metadata))
+            self._split, self._of_split = split, split.positions[:, 0].astype(np.int64)
+            self._faces = stream.faces
+        shown = positions[self._of_split]
         return TriangleMesh(shown, self._split.faces, self._split.attributes, self._split.metadata)
 
     @property

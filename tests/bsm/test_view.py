@@ -192,7 +192,14 @@ DAMAGED = {
         "attribute-split",
         "skippable",
     ],
-    bsm.SequenceDecoder: ["sequence-overlap", "sequence-learnt", "sequence-low-delay"],
+    bsm.SequenceDecoder: [
+        "sequence-overlap",
+        "sequence-learnt",
+        "sequence-low-delay",
+        "sequence-runs",
+        "sequence-runs-low-delay",
+        "sequence-runs-many",
+    ],
 }
 
 

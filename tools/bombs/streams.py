@@ -28,7 +28,8 @@ from bsm.bitstream.connectivity.seams import code_seams
 from bsm.bitstream.connectivity.valence_model import RARE_HEADER, code_rare, make_models
 from bsm.bitstream.container import packets
 from bsm.bitstream.container.declaration import AS_CODED, CORNER, FACE, OTHERWISE, RECOMPUTED, Declaration
-from bsm.bitstream.container.gop import GopBody, GopMethod, write_gop_body
+from bsm.bitstream.container.gop import METHODS, RUNS, GopBody, GopMethod, write_gop_body
+from bsm.bitstream.container.header import HEADER_FIELDS
 from bsm.bitstream.container.layout import FRAME_TYPES, WRITERS
 from bsm.bitstream.container.maps import write_map
 from bsm.bitstream.container.splits import Splits, encode_order
@@ -44,7 +45,7 @@ from bsm.codec.static.attributes.pieces import PieceEncoder
 from bsm.codec.static.attributes.surface import surface_of
 from tools.gridded import gridded
 from tools.sections import in_sections
-from tools.surgery import Frames, frames_of, header_frame, stream_of
+from tools.surgery import Frames, frames_of, header_entries, header_frame, stream_of
 from tools.vectors.meshes import torus
 
 Faces = npt.NDArray[np.int32]
@@ -286,6 +287,29 @@ def _sequence(rows: int, columns: int, gops: Iterable[GopBody], *, width: int, p
     for gop in gops:
         frames.append((FrameType.GOP, write_varint(first) + write_gop_body(gop)))
         first += gop.frames
+    return stream_of(frames)
+
+
+def _joined(streams: Iterable[bytes], agains: Iterable[int] = (), gop: GopBody | None = None) -> bytes:
+    """Sequences of one frame each as the runs of one, and behind them runs that have the meshes of some again."""
+    frames: Frames = []
+    run = 0
+    for stream in streams:
+        for kind, payload in frames_of(stream):
+            if kind == FrameType.HEADER:
+                entries = header_entries(payload) | ({HEADER_FIELDS["run"].key: run} if run else {})
+                payload = write_map(sorted(entries.items()))
+            if kind == FrameType.GOP:
+                payload = write_varint(run) + bytes([payload[1] + METHODS * (run % RUNS)]) + payload[2:]
+            frames.append((kind, payload))
+        run += 1
+    meshes = [header_entries(payload) for kind, payload in frames if kind == FrameType.HEADER]
+    for mesh in agains:
+        sizes = {name: meshes[mesh][HEADER_FIELDS[name].key] for name in ("vertices", "faces")}
+        assert gop is not None
+        frames.append(header_frame(**sizes, gop_frames=1024, run=run, again=mesh + 1))
+        frames.append((FrameType.GOP, write_varint(run) + write_gop_body(gop, run)))
+        run += 1
     return stream_of(frames)
 
 
@@ -618,6 +642,26 @@ BOMBS: dict[str, Bomb] = {
     ),
     "sequence-small": Bomb(
         "parts of ten vertices", lambda: _sequence(256, 256, [_learnt_gop(1, 0)], width=10, part=10, power=1)
+    ),
+    "sequence-runs": Bomb(
+        "runs of small meshes",
+        lambda: _joined(_sequence(4, 4 + k % 9, [_learnt_gop(1, 0)], width=4, power=1) for k in range(3000)),
+    ),
+    "sequence-runs-kept": Bomb(
+        "more large meshes than are kept",
+        lambda: _joined(
+            _sequence(100, 100 + k, [_learnt_gop(1, 0, _still(100, 100 + k, 440, 0))], width=440, power=1)
+            for k in range(20)
+        ),
+    ),
+    "sequence-runs-again": Bomb(
+        "two large meshes in turn, whose dictionaries are made again for each frame",
+        lambda: _joined(
+            [_sequence(100, 100, [_learnt_gop(1, 0, _still(100, 100, 440, 0))], width=440, power=2, key_iterations=2)]
+            * 2,
+            [k % 2 for k in range(100)],
+            _learnt_gop(1, 0, _still(100, 100, 440, 0)),
+        ),
     ),
     "sequence-again": Bomb(
         "more dictionaries than there is room for, frame after frame",

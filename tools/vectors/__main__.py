@@ -23,8 +23,9 @@ import numpy as np
 
 from bsm.bitstream.container.reader import END_OF_STREAM
 from bsm.bitstream.errors import BsmError
-from bsm.codec.sequence.decoder import SequenceDecoder, decode_sequence
+from bsm.codec.sequence.decoder import FrameEvent, SequenceDecoder
 from bsm.codec.static.decoder import decode
+from bsm.codec.static.events import ConnectivityEvent
 from tools.vectors.example import example
 from tools.vectors.store import Arrays, Vector, arrays_of, read_manifest, write_vectors
 
@@ -76,13 +77,22 @@ def _decode_static(data: bytes) -> tuple[np.ndarray, np.ndarray, Arrays]:
 
 
 def _decode_sequence(data: bytes) -> tuple[np.ndarray, np.ndarray, Arrays]:
-    positions, faces = decode_sequence(data)
+    frames: list[np.ndarray] = []
+    faces: list[np.ndarray] = []
+    runs: list[tuple[int, int, int]] = []
     with SequenceDecoder() as decoder:
         decoder.receive_data(data)
         decoder.receive_eof()
-        while decoder.next_event() is not END_OF_STREAM:
-            pass
-        return positions, faces, arrays_of(decoder.attributes)
+        while (event := decoder.next_event()) is not END_OF_STREAM:
+            if isinstance(event, ConnectivityEvent):
+                runs.append((len(frames), event.vertices, len(event.faces)))
+                faces.append(event.faces)
+            elif isinstance(event, FrameEvent):
+                frames.append(event.positions)
+        arrays = arrays_of(decoder.attributes)
+    if len(runs) == 1:
+        return np.array(frames).reshape(-1, runs[0][1], 3), faces[0], arrays
+    return np.concatenate(frames), np.concatenate(faces), arrays | {"runs": np.array(runs, np.int32)}
 
 
 def try_command(vector: Vector, command: str) -> str | None:
@@ -141,7 +151,7 @@ def write(*, keep: bool) -> int:
         vector = Vector(name, bad.probes, bad.error)
         streams[vector] = vector.stream.read_bytes() if keep and vector.stream.is_file() else bad.make()
         try:
-            (decode_sequence if "-sequence" in name else decode)(streams[vector])
+            (_decode_sequence if "-sequence" in name else decode)(streams[vector])
         except BsmError as error:
             found = type(error).__name__.removesuffix("Error").lower()
             if found != bad.error:

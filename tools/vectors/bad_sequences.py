@@ -6,8 +6,10 @@ import struct
 from collections.abc import Callable
 from functools import cache
 
+from bsm.bitstream.container.header import HEADER_DEFAULTS, HEADER_FIELDS
+from bsm.bitstream.container.maps import write_map
 from bsm.bitstream.container.wire import FrameType, write_varint
-from tools.surgery import Frames, frames_of, stream_of, with_header
+from tools.surgery import Frames, frames_of, header_entries, stream_of, with_header
 from tools.vectors.bad import Bad
 from tools.vectors.good_sequences import SEQUENCES
 
@@ -65,6 +67,47 @@ def _step(value: float) -> Edit:
     return lambda data: data[: _STEP.start] + struct.pack("<f", value) + data[_STEP.stop :]
 
 
+def _headers_of(frames: Frames) -> list[int]:
+    return [i for i, (kind, _) in enumerate(frames) if kind == FrameType.HEADER]
+
+
+def _with_run(data: bytes, number: int, **fields: object) -> bytes:
+    """The stream with other fields in the header of a run."""
+    frames = frames_of(data)
+    place = _headers_of(frames)[number]
+    entries = dict(header_entries(frames[place][1]))
+    for name, value in fields.items():
+        declared = HEADER_FIELDS[name]
+        entries.pop(declared.key, None)
+        if value != HEADER_DEFAULTS.get(name):
+            entries[declared.key] = value
+    frames[place] = (FrameType.HEADER, write_map(sorted(entries.items())))
+    return stream_of(frames)
+
+
+def _run(number: int = 1, **fields: object) -> Callable[[], bytes]:
+    return lambda: _with_run(_base("runs"), number, **fields)
+
+
+def _from_run(number: int) -> Callable[[Frames], Frames]:
+    return lambda frames: frames[_headers_of(frames)[number] :]
+
+
+def _without_gops(frames: Frames) -> Frames:
+    second = _headers_of(frames)[1]
+    return [frame for i, frame in enumerate(frames) if i > second or frame[0] != FrameType.GOP]
+
+
+def _without_header(frames: Frames) -> Frames:
+    place = _headers_of(frames)[2]
+    return frames[:place] + frames[place + 1 :]
+
+
+def _with_connectivity(frames: Frames) -> Frames:
+    place = _headers_of(frames)[2] + 1
+    return [*frames[:place], next(one for one in frames if one[0] == FrameType.CONNECTIVITY), *frames[place:]]
+
+
 BAD_SEQUENCES: dict[str, Bad] = {
     "unsupported-sequence-method": Bad("a GOP of method 3", "unsupported", _gop(lambda d: b"\x03" + d[1:])),
     "unsupported-sequence-smoothing": Bad(
@@ -99,6 +142,33 @@ BAD_SEQUENCES: dict[str, Bad] = {
         "a first frame that refers to the one before it",
         "corrupt",
         _gop(lambda d: b"\x02" + d[1:], base="low-delay"),
+    ),
+    "bad-sequence-run-number": Bad("a run that is not the next", "corrupt", _run(run=2)),
+    "bad-sequence-run-frames": Bad("a run that announces other frames", "corrupt", _run(frames=9)),
+    "bad-sequence-run-static": Bad("a static mesh behind a run", "corrupt", _run(run=0, frames=0, gop_frames=0)),
+    "bad-sequence-run-begins": Bad("a stream that begins with run 1", "corrupt", _frames(_from_run(1), base="runs")),
+    "bad-sequence-run-early": Bad("a HEADER before any GOP", "corrupt", _frames(_without_gops, base="runs")),
+    "bad-sequence-run-of-gop": Bad(
+        "a GOP of another run", "corrupt", _gop(lambda d: bytes([d[0] + 8]) + d[1:], 1, base="runs")
+    ),
+    "bad-sequence-run-lost": Bad("a HEADER is missing", "corrupt", _frames(_without_header, base="runs")),
+    "bad-sequence-again-connectivity": Bad(
+        "a run that has a mesh again and brings one", "corrupt", _frames(_with_connectivity, base="runs")
+    ),
+    "bad-sequence-again-fields": Bad("a run that has a mesh again, and blocks", "corrupt", _run(2, blocks=1)),
+    "bad-sequence-again-later": Bad("a run that has its own mesh again", "corrupt", _run(2, again=3)),
+    "bad-sequence-again-none": Bad(
+        "a run that says another size of a mesh again", "corrupt", _run(2, again=2, faces=64)
+    ),
+    "bad-sequence-again-gone": Bad(
+        "a run that has a mesh again which is kept no longer",
+        "corrupt",
+        lambda: _with_run(_base("runs-many"), 11, again=1, vertices=12, faces=24),
+    ),
+    "bad-sequence-again-next": Bad(
+        "a run whose first frame refers to one of another",
+        "corrupt",
+        _gop(lambda d: bytes([d[0] + 1]) + d[1:], 5, base="runs-low-delay"),
     ),
     "bad-sequence-not-finite": Bad(
         "frames beyond the greatest double", "numeric", lambda: with_header(_gop(_step(3e38))(), scale=1e300)

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
-from bsm.codec.sequence.encoder import encode_sequence
+from bsm.codec.sequence.encoder import SequenceEncoder, encode_sequence
 from bsm.codec.sequence.options import SequenceOptions
 from tools.vectors.good import Good
 from tools.vectors.meshes import torus
@@ -21,9 +23,25 @@ def _sequence(probes: str, frames: int, **options: object) -> Good:
     return Good(probes, make)
 
 
+def _runs(probes: str, *pieces: tuple[int, int], **options: object) -> Good:
+    """A sequence in runs: of a torus of so many times 4 vertices, so many frames."""
+
+    def make() -> bytes:
+        kinds = [kind for kind, count in pieces for _ in range(count)]
+        meshes = [torus(kind, 4, phase=0.2 * t) for t, kind in enumerate(kinds)]
+        frames = [replace(mesh, positions=mesh.positions * (1 + 0.02 * t)) for t, mesh in enumerate(meshes)]
+        chosen = SequenceOptions(**{**vars(BASE), "runs": True, **options})
+        return b"".join(SequenceEncoder(meshes[0].faces, chosen, len(frames)).chunks(frames))
+
+    return Good(probes, make)
+
+
 SEQUENCES: dict[str, Good] = {
     "good-sequence-one": _sequence("a sequence of one frame", 1),
     "good-sequence-learnt": _sequence("GOPs with learnt bases, the last one shorter", 8),
     "good-sequence-low-delay": _sequence("frames as they come, with key frames", 7, mode="low-delay", gop=3),
+    "good-sequence-runs": _runs("faces that change and return", (8, 3), (6, 2), (8, 4), (5, 1), gop=3),
+    "good-sequence-runs-low-delay": _runs("the same, frame by frame", (6, 2), (5, 3), (6, 2), mode="low-delay", gop=4),
+    "good-sequence-runs-many": _runs("more meshes than are kept", *((kind, 1) for kind in (*range(3, 13), 5, 12))),
     "good-sequence-overlap": _sequence("overlapping blocks of the first frame", 3, overlap=1.3, keep=0.5),
 }

@@ -112,6 +112,7 @@ ENCODE_FLAGS = (
 SETTINGS = (
     Setting("grid_origin", point, "X,Y,Z", "a place of the grid of --grid-cell (default 0,0,0)"),
     Setting("sections", int, "N", "turns of faces and blocks, to be drawn sooner (default: 2 if large)"),
+    Setting("runs", bool, "yes|no", "let the faces of a sequence change from frame to frame (default: no)"),
     Setting("limits", str, "default|service|wide", "what decoders may refuse is an error (default: default)"),
     Setting("keep", float, "FRACTION", "largest c_i, as a fraction of a block's vertices (default: as many as pay)"),
     Setting("coefficients", int, "C", "coefficients kept per block and coordinate, instead of keep"),

@@ -16,7 +16,7 @@ from bsm.commands.limits import add_limits_flag, limits_of
 from bsm.console import Console, printable
 from bsm.farm.jobs import Task
 from bsm.files.pipes import read_chunks
-from bsm.files.sequence_stream import SequenceStream
+from bsm.files.sequence_stream import MOST_SAID, SequenceStream, said_of_runs
 from bsm.files.stream import StreamInfo, inspect_stream
 from bsm.loops import Loops
 
@@ -56,7 +56,7 @@ def _loops(chunks: Iterator[bytes], limits: Limits, console: Console) -> tuple[s
     """What there is to say of frames that come again."""
     found, stream = Loops(), SequenceStream(chunks, limits=limits)
     with console.progress("looking for loops", "frames") as progress:
-        for number, frame in stream.frames():
+        for number, frame in stream.changing_frames():
             found.take(frame)
             if stream.header.frames:
                 progress(number + 1, stream.header.frames)
@@ -86,6 +86,7 @@ def summarise(info: StreamInfo) -> dict[str, Any]:
         "sections": [asdict(section) for section in info.sections],
         "frames": info.frames,
         "gops": [asdict(gop) for gop in info.gops],
+        "runs": [asdict(run) for run in info.runs],
         "attributes": [asdict(attribute) for attribute in info.attributes],
         "bpv_total": info.bpv_total,
         "bpvf_total": info.bpvf_total,
@@ -182,5 +183,23 @@ def _sequence_lines(summary: dict[str, Any]) -> list[str]:
         f"{summary['frames']} frames{rate}, in {len(gops)} {'GOP' if len(gops) == 1 else 'GOPs'} "
         f"of {' to '.join(str(size) for size in sorted({min(sizes), max(sizes)}))} bytes, "
         f"{summary['bpvf_total'] or 0.0:.3f} bits per vertex and frame",
+        *_run_lines(summary["runs"]),
         *summary.get("loops", ()),
+    ]
+
+
+def _run_lines(runs: list[dict[str, Any]]) -> list[str]:
+    """What there is to say of faces that change."""
+    if len(runs) == 1:
+        return []
+    again = {
+        number: f", the mesh of run {run['mesh']} again" for number, run in enumerate(runs) if run["mesh"] != number
+    }
+    return [
+        said_of_runs([run["first"] for run in runs[1:]]),
+        *(
+            f"run {number}: {run['frames']} frames from {run['first']} on, {run['vertices']} vertices, "
+            f"{run['faces']} faces" + again.get(number, "")
+            for number, run in enumerate(runs[:MOST_SAID])
+        ),
     ]

@@ -11,36 +11,49 @@ import numpy as np
 
 from bsm.bitstream.errors import MeshError, OptionError
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
-from bsm.codec.arrays import Faces, Positions
+from bsm.codec.arrays import Faces, Order, Positions
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.codec.sequence.targets import compare_sequences
+from bsm.codec.sequence.targets import Runs, compare_runs
 from bsm.commands.limits import limits_of
 from bsm.console import Console, Progress, as_json, finite
 from bsm.files.about import about
+from bsm.files.motion.folder import names_many
 from bsm.files.motion.frames import Wanted
 from bsm.files.output import open_output, refuse_to_overwrite
 from bsm.files.permutation import in_order_of, read_permutation
 from bsm.files.pipes import read_chunks
 from bsm.files.sequence import open_sequence
-from bsm.files.sequence_stream import SequenceStream, all_frames, numbered, numbers_of, peek_header
+from bsm.files.sequence_stream import (
+    Pieces,
+    SequenceStream,
+    all_frames,
+    numbered,
+    numbers_of,
+    peek_header,
+    pieces_of,
+)
 from bsm.files.stream import is_stream
 from bsm.loops import Loops
 
-Sequence = tuple[Positions, Faces]
+Sequence = Pieces
 
 
 def load_sequence(
     path: str, reader: str | None = None, limits: Limits = DEFAULT_LIMITS, wanted: Wanted | None = None
 ) -> Sequence | None:
-    """The frames, shape (T, n, 3), and faces of a file, folder or stream; None if it is a mesh."""
+    """The frames and faces of a file, folder or stream; None if it is a mesh. Those of a folder may change."""
     if _is_stream(path):
         header, chunks = peek_header(read_chunks(path))
         if header is None or not header.gop_frames:
             return None
         stream = SequenceStream(chunks, limits=limits)
-        return all_frames(stream), stream.faces
+        return all_frames(stream)
     source = open_sequence(path, reader=reader, wanted=wanted)
-    return None if source is None else (np.array(list(source.frames)), source.faces)
+    if source is None:
+        return None
+    if source.meshes is None:
+        return [(np.array(list(source.frames)), source.faces)]
+    return pieces_of((mesh.positions, mesh.faces) for mesh in source.meshes)
 
 
 def _is_stream(path: str) -> bool:
@@ -49,22 +62,27 @@ def _is_stream(path: str) -> bool:
 
 def compare_loaded(args: argparse.Namespace, original: Sequence, decoded: Sequence, progress: Progress) -> str:
     """How far one sequence is from the other, as it is printed."""
-    (first, faces), (second, other_faces) = original, decoded
-    if len(first) != len(second):
-        raise MeshError(f"{args.original} has {len(first)} frames and {args.decoded} {len(second)}")
-    mesh, kept = TriangleMesh(first[0], faces).without_isolated_vertices()
-    other, other_kept = TriangleMesh(second[0], other_faces).without_isolated_vertices()
+    counts = [[len(frames) for frames, _ in side] for side in (original, decoded)]
+    if sum(counts[0]) != sum(counts[1]):
+        raise MeshError(f"{args.original} has {sum(counts[0])} frames and {args.decoded} {sum(counts[1])}")
+    if counts[0] != counts[1]:
+        starts = [np.cumsum(side)[:-1].tolist() or "none" for side in counts]
+        raise MeshError(
+            f"the faces of {args.original} change at frames {starts[0]} and of {args.decoded} at {starts[1]}"
+        )
+    if args.permutation and len(original) > 1:
+        raise OptionError("--permutation is the order of one mesh, and the faces change")
     order = read_permutation(args.permutation) if args.permutation else None
-    rows = numbers_of(in_order_of(mesh, numbered(other.faces, len(other_kept)), order))
-    one, two = first[:, kept], second[:, other_kept[rows]]
-    result = asdict(compare_sequences(one, two, mesh.faces))
+    runs = [_paired(one, two, order) for one, two in zip(original, decoded, strict=True)]
+    result = asdict(compare_runs(runs))
     if args.look:
         progress.stage("looking at all frames")
-        result.update(looks(one, two, mesh.faces, progress))
+        result.update(looks(runs, progress))
         progress.stage("comparing")
     if _is_stream(args.decoded):
-        result["bpvf_total"] = 8 * Path(args.decoded).stat().st_size / second[..., 0].size
-    of_frames = _of_frames(one, two)
+        samples = sum(frames[..., 0].size for frames, _ in decoded)
+        result["bpvf_total"] = 8 * Path(args.decoded).stat().st_size / samples
+    of_frames = [found for one, two, _ in runs for found in _of_frames(one, two)]
     if args.picture:
         from bsm.evaluation.plots import frame_errors
 
@@ -72,7 +90,7 @@ def compare_loaded(args: argparse.Namespace, original: Sequence, decoded: Sequen
         picture = frame_errors(of_frames, Path(args.decoded).name)
         with open_output(args.picture, overwrite=args.force) as file:
             file.write(picture)
-    repeats = _repeats(one)
+    repeats = _repeats(runs[0][0]) if len(runs) == 1 else ()
     if args.json:
         numbers = {name: finite(value) for name, value in result.items()}
         return as_json({**numbers, "frames": of_frames, "loops": list(repeats)})
@@ -80,6 +98,17 @@ def compare_loaded(args: argparse.Namespace, original: Sequence, decoded: Sequen
     lines = [f"{name:<19}{value:.6g}" for name, value in result.items()]
     lines.append(f"worst frame        {worst} ({of_frames[worst]['max_error_relative']:.6g})")
     return "\n".join([*lines, *repeats])
+
+
+def _paired(
+    original: tuple[Positions, Faces], decoded: tuple[Positions, Faces], order: Order | None
+) -> tuple[Positions, Positions, Faces]:
+    """The frames of both in one order of vertices, and their faces."""
+    (first, faces), (second, other_faces) = original, decoded
+    mesh, kept = TriangleMesh(first[0], faces).without_isolated_vertices()
+    other, other_kept = TriangleMesh(second[0], other_faces).without_isolated_vertices()
+    rows = numbers_of(in_order_of(mesh, numbered(other.faces, len(other_kept)), order))
+    return first[:, kept], second[:, other_kept[rows]], mesh.faces
 
 
 def _of_frames(one: Positions, two: Positions) -> list[dict[str, float]]:
@@ -106,15 +135,17 @@ def _loaded(path: str, args: argparse.Namespace, wanted: Wanted | None = None) -
         return load_sequence(path, args.reader, limits_of(args.limits), wanted)
 
 
-def looks(
-    original: Positions, decoded: Positions, faces: Faces, progress: Callable[[int, int], None]
-) -> dict[str, float]:
+def looks(runs: Runs, progress: Callable[[int, int], None]) -> dict[str, float]:
     """How frames look, the worst and the mean of those of which something is seen; see `codec.look`."""
     from bsm.codec.look.measure import Looker
 
     found = []
-    for number, (one, other) in enumerate(zip(original, decoded, strict=True)):
-        progress(number, len(original))
+    total = sum(len(original) for original, _, _ in runs)
+    pairs = [
+        (one, other, faces) for original, decoded, faces in runs for one, other in zip(original, decoded, strict=True)
+    ]
+    for number, (one, other, faces) in enumerate(pairs):
+        progress(number, total)
         try:
             found.append(Looker(TriangleMesh(one, faces)).look(other))
         except MeshError:
@@ -137,13 +168,16 @@ def compare_if_sequences(args: argparse.Namespace, console: Console) -> bool:
         If one is a sequence and the other a mesh.
     """
     with console.progress("reading", "frames") as progress:
-        original, decoded = _loaded(args.original, args), _loaded(args.decoded, args)
+        changing = Wanted(runs=True)
+        original, decoded = (
+            _loaded(path, args, changing if names_many(path) else None) for path in (args.original, args.decoded)
+        )
         if original is None and decoded is None:
             return False
         if original is None:  # an animated glTF is a sequence where the other one is
-            original = _loaded(args.original, args, Wanted())
+            original = _loaded(args.original, args, changing)
         if decoded is None:
-            decoded = _loaded(args.decoded, args, Wanted())
+            decoded = _loaded(args.decoded, args, changing)
         if original is None or decoded is None:
             one, other = (args.decoded, args.original) if original is None else (args.original, args.decoded)
             raise MeshError(f"{one} is a sequence and {other} one mesh")

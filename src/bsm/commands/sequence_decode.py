@@ -6,6 +6,10 @@ import argparse
 import sys
 import time
 from collections.abc import Iterator
+from itertools import chain, islice
+
+import numpy as np
+import numpy.typing as npt
 
 from bsm.batch import Facts, size_of
 from bsm.bitstream.errors import OptionError
@@ -17,7 +21,7 @@ from bsm.files.naming import default_output, output_inside
 from bsm.files.output import refuse_to_overwrite
 from bsm.files.permutation import read_permutation, reorder
 from bsm.files.sequence import ONE_FILE, sequence_kind, sequence_writer
-from bsm.files.sequence_stream import SequenceStream, numbered, numbers_of
+from bsm.files.sequence_stream import SequenceStream, numbered, numbers_of, said_of_runs
 
 
 def add_flags(parser: argparse.ArgumentParser) -> None:
@@ -42,13 +46,15 @@ def decode_sequence(args: DecodeJob, console: Console, chunks: Iterator[bytes]) 
     begin = time.perf_counter()
     first, last = _range(args.frames)
     stream = SequenceStream(chunks, console.note if args.tolerant else None, first, limits_of(args.limits))
-    header, faces = stream.header, stream.faces
+    header, frames = stream.header, stream.changing_frames()
+    ahead = list(islice(frames, 1))  # whose faces are those that are written first
+    faces = stream.faces
     last = min(last, header.frames or last)
     expected = max(last - first, 0) if header.frames and not args.tolerant else 0
-    mesh = numbered(faces, header.vertices)
+    order: npt.NDArray[np.int64] | slice = slice(None)
     if args.permutation:
-        mesh = reorder(mesh, read_permutation(args.permutation))
-    order, faces = numbers_of(mesh.positions), mesh.faces
+        mesh = reorder(numbered(faces, int(faces.max()) + 1), read_permutation(args.permutation))
+        order, faces = numbers_of(mesh.positions), mesh.faces
     told = Told(
         lambda: () if args.permutation else stream.attributes,
         lambda: {} if args.permutation else stream.metadata,
@@ -65,10 +71,17 @@ def decode_sequence(args: DecodeJob, console: Console, chunks: Iterator[bytes]) 
         ) as write,
         console.progress("decoding", "frames") as progress,
     ):
-        for number, frame in stream.frames():
+        present = stream.faces
+        for number, frame in chain(ahead, frames):
             if number >= last:
                 break
-            write(frame[order])
+            if stream.faces is present:
+                write(frame[order])
+            elif args.permutation:
+                raise OptionError(f"--permutation is the order of one mesh, and the faces change at frame {number}")
+            else:
+                present = stream.faces
+                write(frame, present)
             count += 1
             if expected:
                 progress(count, expected)
@@ -80,6 +93,8 @@ def decode_sequence(args: DecodeJob, console: Console, chunks: Iterator[bytes]) 
         console.note(f"{args.input}: left out: {', '.join(lost)}, which {kind} does not hold{because}")
     seconds = time.perf_counter() - begin
     facts = {"frames": count, "vertices": header.vertices, "faces": header.faces}
+    if stream.run_starts:
+        console.note(f"{args.input}: {said_of_runs(stream.run_starts)}")
     console.note(
         f"{args.input} -> {output}: {count} frames of {header.vertices} vertices, {header.faces} faces, {seconds:.2f} s"
     )

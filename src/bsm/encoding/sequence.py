@@ -13,30 +13,34 @@ import numpy as np
 
 from bsm import options
 from bsm.batch import Facts, came_to, size_of
+from bsm.bitstream.errors import OptionError
 from bsm.codec.arrays import Positions
+from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.console import Console, Progress, finite
 from bsm.encoding.job import EncodeJob
 from bsm.files.motion.frames import Frames, Wanted
 from bsm.files.output import open_output
 from bsm.files.permutation import write_permutation
 from bsm.files.sequence import open_frames, open_sequence
+from bsm.files.sequence_stream import said_of_runs
 from bsm.loops import Loops
 
 if TYPE_CHECKING:
     from bsm.codec.sequence.options import SequenceOptions
 
-_OF_SEQUENCES = ("kg", "bpvf", "gop", "low_delay", "frame_rate")
+_OF_SEQUENCES = ("kg", "bpvf", "gop", "low_delay", "frame_rate", "runs")
 """Wishes that only a sequence can fulfil: a GLB is then one."""
 
 
 def sequence_of(job: EncodeJob) -> Frames | None:
     """The sequence that a job's input is; None: it is perhaps a mesh."""
     if job.members:
-        return open_frames(job.members, job.format, job.reader)
+        return open_frames(job.members, job.format, job.reader, runs=bool(job.wishes.get("runs")))
     asked = (job.animation, job.cache_mesh, *(job.wishes.get(name) for name in _OF_SEQUENCES))
     if all(one is None for one in asked):
         return open_sequence(job.input, job.format, job.reader)
-    wanted = Wanted(job.wishes.get("frame_rate") or 0.0, job.animation or "", job.cache_mesh)
+    runs = bool(job.wishes.get("runs"))
+    wanted = Wanted(job.wishes.get("frame_rate") or 0.0, job.animation or "", job.cache_mesh, runs)
     return open_sequence(job.input, job.format, job.reader, wanted)
 
 
@@ -46,6 +50,8 @@ def encode_sequence(job: EncodeJob, console: Console, source: Frames) -> Facts:
 
     begin = time.perf_counter()
     chosen = options.sequence_options(**job.wishes, threads=job.threads)
+    if job.permutation and chosen.runs:
+        raise OptionError("--permutation is the order of one mesh, and runs=yes lets the faces change")
     rate = {"frame_rate": source.frame_rate} if source.frame_rate else {}
     metadata = {**source.metadata, **rate, **job.metadata}
     encoder = SequenceEncoder(source.faces, chosen, source.count, metadata, source.attributes)
@@ -53,25 +59,32 @@ def encode_sequence(job: EncodeJob, console: Console, source: Frames) -> Facts:
     size = 0
     replace = job.may_replace(job.output)
     with open_output(job.output, overwrite=replace) as file, console.progress("encoding") as progress:
-        given = _staged(heard.taken(source.frames, job.compared), source.count, chosen, progress)
+        taken = source.frames if source.meshes is None else source.meshes
+        given = _staged(heard.taken(taken, job.compared), source.count, chosen, progress)
         for chunk in encoder.chunks(given, progress):
             size += file.write(chunk)
             file.flush()
             if job.compared:
                 heard.compare(chunk, encoder.vertex_order)
     seconds = time.perf_counter() - begin
-    notes = (*source.notes, *encoder.notes, *heard.loops.said())
+    runs = encoder.run_starts[1:]
+    notes = (
+        *source.notes,
+        *encoder.notes,
+        *([said_of_runs(runs)] if runs else heard.loops.said()),
+    )
     for note in notes:
         console.note(f"{job.input}: {note}")
     if job.permutation:
         write_permutation(job.permutation, encoder.vertex_order, overwrite=job.force)
     vertices, faces, frames = len(encoder.vertex_order), len(encoder.face_order), heard.frames
-    bpvf = 8 * size / (vertices * frames)
+    bpvf = 8 * size / encoder.samples
     sizes = [size_of(name) or 0 for name in job.members]
-    taken = sum(sizes) if sizes else size_of(job.input)
+    read = sum(sizes) if sizes else size_of(job.input)
     console.note(
-        f"{job.input} -> {job.output}: {frames} frames of {vertices} vertices, {faces} faces, "
-        f"{came_to(taken, size)}, {bpvf:.3f} bits per vertex and frame; KG error {heard.kg:.3g} %, {seconds:.2f} s"
+        f"{job.input} -> {job.output}: {frames} frames of {vertices} vertices, {faces} faces"
+        f"{' at the end' if runs else ''}, "
+        f"{came_to(read, size)}, {bpvf:.3f} bits per vertex and frame; KG error {heard.kg:.3g} %, {seconds:.2f} s"
     )
     return {
         "input": job.input,
@@ -79,7 +92,7 @@ def encode_sequence(job: EncodeJob, console: Console, source: Frames) -> Facts:
         "frames": frames,
         "vertices": vertices,
         "faces": faces,
-        "input_bytes": taken,
+        "input_bytes": read,
         "output_bytes": size,
         "bytes": size,
         "bpvf_total": bpvf,
@@ -90,8 +103,8 @@ def encode_sequence(job: EncodeJob, console: Console, source: Frames) -> Facts:
 
 
 def _staged(
-    frames: Iterator[Positions], count: int, chosen: SequenceOptions, progress: Progress
-) -> Iterator[Positions]:
+    frames: Iterator[Positions | TriangleMesh], count: int, chosen: SequenceOptions, progress: Progress
+) -> Iterator[Positions | TriangleMesh]:
     """The frames, which begin a stage with each GOP."""
     gops = f" of {-(-count // chosen.gop)}" if count else ""
     for number, frame in enumerate(frames):
@@ -115,13 +128,16 @@ class Echo:
 
         self._decoder = SequenceDecoder()
 
-    def taken(self, frames: Iterator[Positions], kept: bool) -> Iterator[Positions]:
+    def taken(
+        self, frames: Iterator[Positions] | Iterator[TriangleMesh], kept: bool
+    ) -> Iterator[Positions | TriangleMesh]:
         """The frames, which are also kept until they have been compared."""
         for frame in frames:
+            positions = frame.positions if isinstance(frame, TriangleMesh) else frame
             self.frames += 1
-            self.loops.take(frame)
+            self.loops.take(positions)
             if kept:
-                self._waiting.append(frame)
+                self._waiting.append(positions)
             yield frame
 
     def compare(self, chunk: bytes, order: np.ndarray) -> None:

@@ -9,7 +9,9 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
+from itertools import count as count_from
 from pathlib import Path
+from typing import Protocol
 
 import numpy as np
 
@@ -71,7 +73,8 @@ def open_sequence(
         return None
     given = as_input(source)
     if not is_url(given.name) and names_many(given.name):
-        return read_files(frame_files(given.name), file_format, reader, limits)
+        runs = wanted is not None and wanted.runs
+        return read_files(frame_files(given.name), file_format, reader, limits, runs=runs)
     kind = file_format or Path(given.name).suffix[1:].lower()
     if kind == "abc":
         raise UnsupportedError(
@@ -89,9 +92,24 @@ def open_sequence(
     return read_archive(given, limits)
 
 
-def open_frames(names: Sequence[str], file_format: str | None = None, reader: str | None = None) -> Frames:
+def open_frames(
+    names: Sequence[str], file_format: str | None = None, reader: str | None = None, *, runs: bool = False
+) -> Frames:
     """The sequence of these mesh files, in the order of the numbers in their names; errors as of `open_sequence`."""
-    return read_files(in_order(names), file_format, reader, DEFAULT_LIMITS)
+    return read_files(in_order(names), file_format, reader, DEFAULT_LIMITS, runs=runs)
+
+
+class FrameWriter(Protocol):
+    """Takes frame after frame."""
+
+    def __call__(self, frame: Positions, faces: Faces | None = None) -> None:
+        """Take a frame, shape (n, 3), and its faces, shape (m, 3), where they are others than before.
+
+        Raises
+        ------
+        OptionError
+            If the form has one set of faces.
+        """
 
 
 def _of_file(path: str, kind: str, reader: str | None, wanted: Wanted, limits: Limits) -> Frames | None:
@@ -109,7 +127,7 @@ def _of_file(path: str, kind: str, reader: str | None, wanted: Wanted, limits: L
 @contextmanager
 def sequence_writer(
     path: str, kind: str, faces: Faces, count: int, *, overwrite: bool, told: Told | None = None
-) -> Iterator[Callable[[Positions], None]]:
+) -> Iterator[FrameWriter]:
     """Open a sequence for writing; yields what takes frame after frame.
 
     Parameters
@@ -129,33 +147,56 @@ def sequence_writer(
         if is_url(path):
             raise OptionError(f"{path}: frames are written to a folder of this machine, or as an npz")
         with write_files(path, kind, overwrite=overwrite) as write_mesh:
-            first = iter((True,))  # materials and images lie beside the first frame alone
-            yield lambda frame: told.loses(write_mesh(told.mesh(frame, faces, with_metadata=next(first, False))))
+            present, fresh = faces, True  # materials and images lie beside the first frame alone
+
+            def take(frame: Positions, faces: Faces | None = None) -> None:
+                nonlocal present, fresh
+                present = present if faces is None else faces
+                told.loses(write_mesh(told.mesh(frame, present, with_metadata=fresh)))
+                fresh = False
+
+            yield take
         return
     if kind in CACHES:
         with _cache_writer(path, kind, faces, count, overwrite, told) as write:
-            yield write
+            yield _of_one_mesh(write, kind)
         return
     with open_output(path, overwrite=overwrite) as file:
         if kind == "npz":
             with open_npz_sequence(file, faces, count) as write:
-                yield write
+                yield _of_one_mesh(write, kind)
         elif kind == "npy":
             write_npy(file, faces)
-            yield lambda frame: write_npy(file, frame)
+            yield _of_one_mesh(lambda frame: write_npy(file, frame), kind)
         elif kind == "glb":
             from bsm.files.motion.gltf_written import write_gltf
 
             with write_gltf(file, path, faces, told) as write:
-                yield write
+                yield _of_one_mesh(write, kind)
         else:
             from bsm.files.motion.usd import write_usd
 
-            with write_usd(file, kind, faces, told) as write:
-                yield write
+            with write_usd(file, kind, faces, told) as write_changing:
+                yield write_changing
             return
         if kind in ("npz", "npy"):
             told.loses([one.name for one in told.attributes()])
+
+
+def _of_one_mesh(write: Callable[[Positions], None], kind: str) -> FrameWriter:
+    """A writer of a form that has one set of faces."""
+    numbers = count_from(0)
+
+    def take(frame: Positions, faces: Faces | None = None) -> None:
+        number = next(numbers)
+        if faces is not None:
+            raise OptionError(
+                f"{kind.upper()} holds one set of faces, and they change after {number} frames; write to a folder, to "
+                "numbered files (%04d.obj) or to USD, or frames of the same faces, --frames A:B"
+            )
+        write(frame)
+
+    return take
 
 
 @contextmanager

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from itertools import chain
 
 import numpy as np
@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from bsm.bitstream.container.packets import Header
 from bsm.bitstream.container.reader import NEED_DATA, Reader
-from bsm.bitstream.errors import BsmError, TruncatedError
+from bsm.bitstream.errors import BsmError, MeshError, TruncatedError
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.codec.arrays import Faces, Positions
 from bsm.codec.geometry.attributes import Attribute
@@ -18,6 +18,7 @@ from bsm.codec.geometry.mesh import Metadata, TriangleMesh
 from bsm.files.stream import events
 
 Note = Callable[[str], None]
+MOST_SAID = 12
 
 
 def peek_header(chunks: Iterator[bytes]) -> tuple[Header | None, Iterator[bytes]]:
@@ -52,7 +53,11 @@ class SequenceStream:
     Attributes
     ----------
     header : Header
+        Of the first run that came.
     faces : int32 array, shape (m, 3)
+        Of the present frame.
+    run_starts : list of int
+        The frames before which faces changed, so far.
     """
 
     def __init__(
@@ -63,6 +68,7 @@ class SequenceStream:
 
         self.header: Header
         self.faces: Faces
+        self.run_starts: list[int] = []
         self._note = note
         decoder = SequenceDecoder(limits, tolerant=note is not None, start=start)
         self._decoder = decoder
@@ -86,19 +92,47 @@ class SequenceStream:
         return self._decoder.metadata
 
     def frames(self) -> Iterator[tuple[int, Positions]]:
-        """Number and positions, shape (n, 3), of one frame after the other."""
+        """Number and positions, shape (n, 3), of one frame after the other.
+
+        Raises
+        ------
+        MeshError
+            If the faces change.
+        """
+        for index, positions in self.changing_frames():
+            if self.run_starts:
+                raise MeshError(
+                    f"the faces change at frame {index}; only bsm decode and bsm compare take such sequences"
+                )
+            yield index, positions
+
+    def changing_frames(self) -> Iterator[tuple[int, Positions]]:
+        """The same, where `faces` may change from frame to frame."""
         from bsm.codec.sequence.decoder import FrameEvent
         from bsm.codec.static.events import LossEvent
 
+        given = False
         for event in self._events:
             match event:
-                case FrameEvent(index, positions):
+                case FrameEvent(index, positions, faces):
+                    if faces is not self.faces and not np.array_equal(faces, self.faces):
+                        if given:
+                            self.run_starts.append(index)
+                        self.faces = faces
+                    given = True
                     yield index, positions
                 case LossEvent(_, error, frames):
                     assert self._note is not None
                     first, last = frames.start, frames.stop - 1
                     what = f"frames {first} to {last} are" if frames else f"what follows frame {first} is"
                     self._note(f"{what} lost: {error}")
+
+
+def said_of_runs(starts: Sequence[int]) -> str:
+    """In words, the frames before which faces change."""
+    some = ", ".join(map(str, starts[:MOST_SAID]))
+    rest = f" and {len(starts) - MOST_SAID} more" if len(starts) > MOST_SAID else ""
+    return f"connectivity changes at frame{'s' if len(starts) > 1 else ''} {some}{rest}"
 
 
 def numbered(faces: Faces, vertices: int) -> TriangleMesh:
@@ -113,9 +147,24 @@ def numbers_of(positions: Positions) -> npt.NDArray[np.int64]:
 
 def decode_through(chunks: Iterator[bytes], limits: Limits = DEFAULT_LIMITS) -> int:
     """Decode a sequence to its end and keep nothing; the number of frames."""
-    return sum(1 for _ in SequenceStream(chunks, limits=limits).frames())
+    return sum(1 for _ in SequenceStream(chunks, limits=limits).changing_frames())
 
 
-def all_frames(stream: SequenceStream) -> Positions:
-    """All frames, shape (T, n, 3)."""
-    return np.array([frame for _, frame in stream.frames()]).reshape(-1, stream.header.vertices, 3)
+Pieces = list[tuple[Positions, Faces]]
+"""Frames, shape (T, n, 3), and their faces, shape (m, 3), of one run after the other."""
+
+
+def all_frames(stream: SequenceStream) -> Pieces:
+    """All frames."""
+    return pieces_of((frame, stream.faces) for _, frame in stream.changing_frames())
+
+
+def pieces_of(frames: Iterable[tuple[Positions, Faces]]) -> Pieces:
+    """Frames with their faces, those together that share them."""
+    found: list[tuple[list[Positions], Faces]] = []
+    for positions, faces in frames:
+        same = found and len(found[-1][0][0]) == len(positions) and np.array_equal(found[-1][1], faces)
+        if not same:
+            found.append(([], faces))
+        found[-1][0].append(positions)
+    return [(np.array(positions), faces) for positions, faces in found]

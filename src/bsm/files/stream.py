@@ -43,6 +43,17 @@ class GopInfo:
 
 
 @dataclass(frozen=True)
+class RunInfo:
+    """A run of a sequence: its first frame, how many it has, its mesh, and the run that brought that."""
+
+    first: int
+    frames: int
+    vertices: int
+    faces: int
+    mesh: int
+
+
+@dataclass(frozen=True)
 class AttributeInfo:
     """An attribute: what it is, how many values it has, and its bytes, seams among them."""
 
@@ -91,6 +102,7 @@ class StreamInfo:
     coefficient_bytes: int
     metadata_bytes: int
     total: int
+    runs: tuple[RunInfo, ...]
 
     @property
     def framing(self) -> int:
@@ -116,7 +128,8 @@ class StreamInfo:
     @property
     def bpvf_total(self) -> float | None:
         """Bits of the whole stream per vertex and frame; None for a mesh."""
-        return self.bpv_total / self.frames if self.frames else None
+        samples = sum(run.vertices * run.frames for run in self.runs)
+        return 8 * self.total / samples if samples else None
 
     @property
     def bpv_geometry(self) -> float:
@@ -148,7 +161,10 @@ def inspect_stream(chunks: Iterator[bytes], limits: Limits = DEFAULT_LIMITS) -> 
     FormatError, UnsupportedError, CorruptError, TruncatedError, LimitError
         If the stream is not whole.
     """
-    header, metadata = None, packets.Metadata()
+    header: packets.Header | None = None
+    present: packets.Header | None = None
+    metadata = packets.Metadata()
+    runs: list[RunInfo] = []
     coefficients: list[int] = []
     gops: list[GopInfo] = []
     sizes: Counter[type] = Counter()
@@ -160,12 +176,16 @@ def inspect_stream(chunks: Iterator[bytes], limits: Limits = DEFAULT_LIMITS) -> 
         if reader.last_frame is not None:
             counted.take(packet, reader.last_frame.offset + reader.last_frame.length)
         if isinstance(packet, packets.Header):
-            header = packet
+            header = header or packet
+            present = packet
+            mesh = packet.again - 1 if packet.again else packet.run
+            runs.append(RunInfo(sum(gop.frames for gop in gops), 0, packet.vertices, packet.faces, mesh))
         elif isinstance(packet, packets.Metadata):
             metadata = packets.Metadata({**metadata.entries, **packet.entries})
             sizes[type(packet)] += len(write_metadata(packet))
         elif isinstance(packet, packets.Attribute):
-            declared.append(packet)
+            if len(runs) == 1:
+                declared.append(packet)
             lengths[packet.index] += len(write_attribute(packet))
         elif isinstance(packet, packets.Values):
             lengths[packet.attribute] += len(packet.data)
@@ -174,8 +194,9 @@ def inspect_stream(chunks: Iterator[bytes], limits: Limits = DEFAULT_LIMITS) -> 
         if isinstance(packet, packets.Block):
             coefficients.append(packet.coefficients)
         if isinstance(packet, packets.Gop) and reader.last_frame is not None:
-            assert header is not None
-            frames = parse_gop_body(packet.data, header.gop_frames).frames
+            assert present is not None
+            frames = parse_gop_body(packet.data, present.gop_frames, present.run).frames
+            runs[-1] = replace(runs[-1], frames=runs[-1].frames + frames)
             gops.append(GopInfo(packet.index, frames, reader.last_frame.offset, reader.last_frame.length))
     assert header is not None and reader.last_frame is not None
     return StreamInfo(
@@ -191,6 +212,7 @@ def inspect_stream(chunks: Iterator[bytes], limits: Limits = DEFAULT_LIMITS) -> 
         coefficient_bytes=sum(sizes[kind] for kind in (packets.Block, packets.Gop, packets.Grid, packets.Refinement)),
         metadata_bytes=sizes[packets.Metadata],
         total=reader.last_frame.offset + reader.last_frame.length,
+        runs=tuple(runs) if header.gop_frames else (),
     )
 
 
@@ -212,7 +234,8 @@ class _SectionCount:
 
     def of(self, header: packets.Header) -> tuple[SectionInfo, ...]:
         """The sections that the header tells of."""
-        counted = zip(self._counted, header.spans, strict=True)
+        own = self._counted[:1] if header.gop_frames else self._counted  # those of the first run
+        counted = zip(own, header.spans, strict=True)
         return tuple(replace(one, faces=len(span.faces), blocks=len(span.blocks)) for one, span in counted)
 
 

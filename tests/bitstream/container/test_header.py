@@ -64,6 +64,7 @@ NOT_ALONE = (
     "corner",
     "sections",
     "light",
+    "again",
 )
 
 
@@ -72,7 +73,7 @@ def test_round_trip(changes):
     changes["details"] = min(changes.get("details", 0), SMALL_HEADER.block_size)
     if (changes["details"] > 0) != (changes.get("detail_step", 0.0) > 0):
         changes["details"], changes["detail_step"] = 0, 0.0
-    if changes.get("frames"):
+    if changes.get("frames") or changes.get("run"):
         changes["gop_frames"] = changes.get("gop_frames") or 1
     header = replace(SMALL_HEADER, **changes)
     assert parse(write_header(header), Limits(frames=2**31, gop_frames=2**31)) == header
@@ -80,6 +81,18 @@ def test_round_trip(changes):
 
 GRID = Header(vertices=100, faces=190, grid=(1023, 7, 0), center=(1.0, 2.0, 3.0), scale=0.5, lattice=(4095, 1023))
 LAYERS = st.tuples(st.floats(2.0**-40, 1.0), st.just(0.0) | st.floats(1 / 16, 64.0))
+
+
+def test_a_mesh_that_a_run_has_again_comes_back():
+    again = Header(vertices=100, faces=190, frames=300, gop_frames=9, run=4, again=3)
+    # 21: uint16 300, 23: 9, 43: 4, 44: 3
+    assert write_header(again).hex() == "86016402ccbe15cd012c17092b042c03"
+    assert parse(write_header(again)) == again
+    for wrong in ({"again": 5}, {"gop_frames": 0}, {"blocks": 1}, {"attributes": 1}, {"step": 0.5}):
+        with pytest.raises(OptionError, match="contradicts itself"):
+            replace(again, **wrong)
+    with pytest.raises(OptionError, match="a run of a static mesh"):
+        replace(SMALL_HEADER, run=1)
 
 
 def test_a_light_grid_comes_back():

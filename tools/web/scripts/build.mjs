@@ -19,7 +19,7 @@ const instead = (modules, name) => ({
 });
 
 /** Leaves out what most meshes can do without: sequences, attributes, split vertices, damage, packed coefficients. */
-const SMALL = instead(["sequence", "attributes", "declaration", "splits", "tolerant", "zstd"], "absent.ts");
+const SMALL = instead(["sequence", "runs", "attributes", "declaration", "splits", "tolerant", "zstd"], "absent.ts");
 
 /** Modules that are files of their own beside the one that asks for them. */
 const BESIDE = { errors: "errors.js", index: "bsm.js", quick: "quick.js", pool: "pool.js", three: "three.js" };

@@ -11,6 +11,12 @@ export class Sequence {
     }
 }
 
+export class Runs {
+    constructor() {
+        absent("sequences");
+    }
+}
+
 export const [CORNER, RECOMPUTED] = [1, 3];
 
 export function parseDeclaration(): never {

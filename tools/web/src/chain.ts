@@ -76,6 +76,12 @@ export function chainLength(header: Header): number {
     return header.keyInterval || header.blocks;
 }
 
+/** Bytes, and vertices that stand for them. */
+export interface Counted {
+    memory: number;
+    vertices: number;
+}
+
 /** How much work a decoder may still do, and how much memory it may take. */
 export class Allowance {
     private owed = 0;
@@ -83,8 +89,20 @@ export class Allowance {
     private shown = 0;
     private kept = 0;
     private received = 0;
+    private gone = 0;
 
     constructor(private readonly limits: Limits) {}
+
+    /** What is kept now, and the vertices that have come. */
+    get counted(): Counted {
+        return { memory: this.kept, vertices: this.vertices };
+    }
+
+    /** Take note of memory that was kept, and of vertices that are not there any more: they count for work alone. */
+    giveBack({ memory, vertices }: Counted): void {
+        this.kept -= memory;
+        this.gone += vertices;
+    }
 
     /** Take note of vertices that the stream really has. */
     grant(vertices: number): void {
@@ -104,7 +122,7 @@ export class Allowance {
 
     /** Take note of memory for a while. */
     hold(memory: number): void {
-        this.check("blockMemory", memory, this.limits.blockMemoryPerVertex * this.vertices);
+        this.check("blockMemory", memory, this.limits.blockMemoryPerVertex * (this.vertices - this.gone));
     }
 
     /** Take note of memory that is kept to the end, and of bytes that stand for it. */
@@ -112,7 +130,7 @@ export class Allowance {
         this.kept += memory;
         this.received += received;
         const { blockMemoryPerVertex, memoryPerByte } = this.limits;
-        this.check("blockMemory", this.kept, blockMemoryPerVertex * this.vertices + memoryPerByte * this.received);
+        this.check("blockMemory", this.kept, blockMemoryPerVertex * (this.vertices - this.gone) + memoryPerByte * this.received);
     }
 
     private check(name: "work" | "blockMemory", value: number, granted: number): void {

@@ -32,7 +32,7 @@ export const FOLLOWERS = {
     order: ["block", "gop", "grid", "refinement", "attribute", "end"],
     attribute: ["values", "block", "gop", "grid", "refinement", "attribute", "end"],
     block: ["values", "block", "gop", "refinement", "end"],
-    gop: ["gop", "end"],
+    gop: ["header", "gop", "end"],
     grid: ["values", "grid", "end"],
     refinement: ["values", "refinement", "end"],
     values: ["values", "gop", "end"],
@@ -49,7 +49,7 @@ export const FOLLOWERS_IN_SECTIONS = {
     order: ["block", "refinement", "attribute", "end"],
     attribute: ["values", "block", "refinement", "attribute", "end"],
     block: ["values", "connectivity", "block", "refinement", "end"],
-    gop: ["end"],
+    gop: ["header", "end"],
     grid: ["values", "end"],
     refinement: ["values", "refinement", "end"],
     values: ["values", "end"],
@@ -90,6 +90,8 @@ export const HEADER_FIELDS = {
     corner: { key: 40, type: "ints", low: -2147483648, high: 2147483647, default: [], lengths: [0, 3] },
     sections: { key: 41, type: "ints", low: 1, high: 2147483647, default: [], lengths: [0, 14] },
     light: { key: 42, type: "method", low: 0, high: 2, default: 0 },
+    run: { key: 43, type: "int", low: 0, high: 2147483647, default: 0 },
+    again: { key: 44, type: "int", low: 0, high: 2147483647, default: 0 },
 } satisfies Record<string, Field>;
 
 /** Fields of what an attribute declares (D 1). */

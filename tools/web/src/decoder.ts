@@ -9,6 +9,7 @@ import type { SharedBlock } from "./helper";
 import type { Kernels, Memory } from "./kernels";
 import { DEFAULT_LIMITS, type Limits } from "./limits";
 import { END_OF_STREAM, NEED_DATA, Reader, type Metadata, type Signal } from "./reader";
+import { Runs, type Course } from "./runs";
 import { Stages, type AwaitedBlock, type Item } from "./stages";
 import { TolerantReader } from "./tolerant";
 
@@ -31,12 +32,13 @@ export class Decoder {
     private readonly queue: Item[] = [];
     private error?: BsmError;
     private stages?: Stages;
-    private readonly kept: { attributes: Attribute[]; first?: Float64Array } = { attributes: [] };
+    private runs?: Runs;
+    private readonly kept: { attributes: Attribute[]; first?: Mesh } = { attributes: [] };
     /** What helpers have sent before it was its turn. */
     private readonly shared = new Map<number, SharedBlock>();
 
     constructor(
-        kernels: Kernels,
+        private readonly kernels: Kernels,
         limits: Partial<Limits> = {},
         private readonly wishes: Wishes = {},
     ) {
@@ -88,12 +90,15 @@ export class Decoder {
             if (item === NEED_BLOCK) return item;
             if (typeof item === "string") continue;
             if ("type" in item) {
-                if (item.type === "attribute") kept.attributes.push(item);
-            } else if ("make" in item) kept.first ??= this.guarded((stages) => stages.framed(item));
+                if (item.type === "attribute" && !kept.first) kept.attributes.push(item);
+            } else if ("make" in item) kept.first ??= this.meshOf(this.guarded((stages) => stages.framed(item)));
             else begun(this.stages).add(item);
         }
-        const positions = kept.first ?? this.guarded((stages) => stages.whole());
-        return { positions, faces: begun(this.stages).numbers.faces, attributes: kept.attributes };
+        return kept.first ?? this.meshOf(this.guarded((stages) => stages.whole()));
+    }
+
+    private meshOf(positions: Float64Array): Mesh {
+        return { positions, faces: begun(this.stages).numbers.faces, attributes: this.kept.attributes };
     }
 
     private nextItem(): Exclude<Item, AwaitedBlock> | Signal | typeof NEED_BLOCK {
@@ -122,17 +127,26 @@ export class Decoder {
         try {
             const packet = this.reader.nextPacket();
             if (packet === END_OF_STREAM && !this.stages?.over) {
-                this.begunStages().acceptEnd(); // a tolerant reader may find no END
+                this.acceptEnd(); // a tolerant reader may find no END
                 return undefined;
             }
             if (typeof packet === "string") return packet;
             if (packet.type === "block") block = packet.index;
             if (packet.type === "header") this.begin(packet.header);
-            else this.begunStages().accept(packet);
+            else if (!this.runs?.isLost) this.begunStages().accept(packet);
+            else if (packet.type === "end") this.acceptEnd();
         } catch (error) {
-            this.keep(error, block);
+            if (this.stages && this.runs && !this.runs.isLost && this.runs.bears(error)) this.stages.over = false;
+            else this.keep(error, block);
         }
         return undefined;
+    }
+
+    private acceptEnd(): void {
+        const stages = this.begunStages();
+        if (!this.runs?.isLost) return stages.acceptEnd();
+        stages.over = true;
+        this.runs.end(this.queue);
     }
 
     /** Take note of an error of the stream, with its place; others are passed on. */
@@ -153,8 +167,14 @@ export class Decoder {
     }
 
     private begin(header: Header): void {
-        const { memory, limits, allowance, wishes, queue, reader } = this;
-        this.stages = new Stages(memory, header, limits, allowance, wishes, queue, () => reader.position);
+        const { kernels, limits, allowance, queue, reader } = this;
+        const open = (memory: Memory, course?: Course): Stages => {
+            const wishes = header.run > 0 ? { ...this.wishes, helpers: undefined } : this.wishes;
+            return new Stages(memory, header, limits, allowance, wishes, queue, () => reader.position, course);
+        };
+        if (header.gopFrames === 0) return void (this.stages = open(this.memory));
+        this.runs ??= new Runs(kernels, this.memory, limits, allowance, this.wishes.tolerant ?? false);
+        this.stages = this.runs.begin(header, open);
     }
 
     private begunStages(): Stages {

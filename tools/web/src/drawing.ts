@@ -61,10 +61,11 @@ export interface GrownPicture {
     layers: number;
 }
 
-/** The whole mesh, or the first frame of a sequence. */
+/** The whole mesh, or the first frame of a sequence; of a later run, that which the frames behind it have. */
 export interface WholePicture {
     type: "whole";
     shape: Shape;
+    run: number;
 }
 
 /** A frame of a sequence: positions of the drawn vertices, and their normals times 32767. */
@@ -116,10 +117,12 @@ export class Drawing {
     private shown = 0;
     private readonly carried: Attribute[] = [];
     private shape?: Shape;
-    private frames = 0;
+    /** Bytes of frames and shapes that are kept. */
+    private kept = 0;
+    private run = 0;
 
     constructor(
-        private readonly growing: boolean,
+        private growing: boolean,
         limits: Partial<Limits>,
         private readonly show: Show,
     ) {
@@ -128,6 +131,8 @@ export class Drawing {
 
     accept(event: Event): void {
         switch (event.type) {
+            case "header":
+                return event.header.run > 0 ? this.turn(event.header.run) : this.show(event);
             case "connectivity":
                 return this.begin(event);
             case "block":
@@ -135,12 +140,12 @@ export class Drawing {
                 return this.grow(event);
             case "attribute":
                 this.carried.push(event);
+                if (this.run > 0) return undefined;
                 return this.show({ type: "attribute", name: event.name, semantic: event.semantic, domain: event.domain });
             case "frame":
                 return this.addFrame(event);
             case "loss":
                 this.flush();
-                this.frames += event.frames?.count ?? 0;
                 return this.show(event);
             case "end":
                 this.flush();
@@ -149,6 +154,16 @@ export class Drawing {
             default:
                 return this.show(event);
         }
+    }
+
+    /** A later run begins: its frames are shown when they are there. */
+    private turn(run: number): void {
+        this.flush();
+        this.run = run;
+        this.growing = false;
+        this.faces = new Int32Array(0);
+        [this.points, this.normals, this.origin] = [new Float32Array(0), new Float32Array(0), new Int32Array(0)];
+        [this.carried.length, this.shape] = [0, undefined];
     }
 
     /** Show what has changed. */
@@ -277,7 +292,8 @@ export class Drawing {
     }
 
     private addFrame({ index, positions: points }: FrameEvent): void {
-        checkLimit(this.limits, "keptBytes", 18 * (points.length / 3) * (this.frames + 1));
+        this.kept += 18 * (points.length / 3);
+        checkLimit(this.limits, "keptBytes", this.kept);
         if (!this.shape) {
             this.points = Float32Array.from(points);
             this.origin.fill(0);
@@ -287,7 +303,6 @@ export class Drawing {
         const positions = spread(points, 3, vertices);
         const normals = spread(normalsOf(this.faces, this.origin, points), 3, vertices);
         const small = Int16Array.from(normals, (value) => Math.round(value * MOST_NORMAL));
-        this.frames++;
         this.show({ type: "frame", index, positions, normals: small }, [positions.buffer, small.buffer]);
     }
 
@@ -319,7 +334,8 @@ export class Drawing {
         });
         const shape = (this.shape = { index, positions, normals, attributes, vertices, pieces, ...boundsOf(positions) });
         const buffers = [index, positions, normals, ...attributes.map(({ values }) => values)].map(({ buffer }) => buffer);
-        this.show({ type: "whole", shape }, buffers);
+        if (this.run > 0) this.kept += buffers.reduce((sum, { byteLength }) => sum + byteLength, 0);
+        this.show({ type: "whole", shape, run: this.run }, buffers);
     }
 }
 

@@ -1,4 +1,5 @@
 /** A geometry of three.js that is made of pictures, while they come. */
+import { begun } from "./begun";
 import { Box3, BufferAttribute, BufferGeometry, Sphere, Vector3 } from "three";
 import type { AttributePicture, BegunPicture, FramePicture, GrownPicture, Header, LossEvent, Metadata, Picture, Piece, Shape } from "./index";
 
@@ -18,6 +19,7 @@ export interface Progress {
 interface Frame {
     positions: Float32Array;
     normals: Int16Array;
+    shape: Shape;
 }
 
 /**
@@ -52,6 +54,11 @@ export class BSMGeometry extends BufferGeometry {
     readonly frames: Frame[] = [];
     /** The frame that is shown. */
     shown = -1;
+    /** The colours that the stream has, of what is shown. */
+    colour?: BufferAttribute;
+    /** What the frames that come are drawn as, and the one that is shown. */
+    private coming?: Shape;
+    private worn?: Shape;
     private normals = new Float32Array(0);
     private drawn = 0;
 
@@ -80,7 +87,8 @@ export class BSMGeometry extends BufferGeometry {
             case "grown":
                 return this.grow(picture);
             case "whole":
-                return this.take(picture.shape);
+                this.coming = picture.shape;
+                return picture.run === 0 ? this.take(picture.shape) : undefined;
             case "attribute":
                 return void this.carried.push(picture);
             case "frame":
@@ -92,9 +100,10 @@ export class BSMGeometry extends BufferGeometry {
 
     /** Take the positions of a frame that is there. */
     showFrame(index: number): void {
-        const { positions, normals } = this.frames[index];
+        const { positions, normals, shape } = this.frames[index];
         if (index === this.shown) return;
         this.shown = index;
+        if (shape !== this.worn) this.take(shape);
         // Arrays change hands; nothing is copied but to the graphics.
         const position = this.getAttribute("position") as BufferAttribute;
         position.array = positions;
@@ -122,6 +131,7 @@ export class BSMGeometry extends BufferGeometry {
         this.clearGroups();
         this.metadata.clear();
         [this.carried.length, this.frames.length] = [0, 0];
+        this.coming = this.worn = this.colour = undefined;
         [this.layers, this.blocks, this.sections, this.drawn, this.shown] = [0, 0, 0, 0, -1];
         [this.points, this.normals, this.origin, this.depth] = [new Float32Array(0), new Float32Array(0), new Int32Array(0), new Uint8Array(0)];
     }
@@ -163,14 +173,19 @@ export class BSMGeometry extends BufferGeometry {
         this.progress.onBlock?.(this);
     }
 
-    private take({ index, positions, normals, attributes, vertices, pieces, center, radius, low, high }: Shape): void {
+    private take(shape: Shape): void {
+        const { index, positions, normals, attributes, vertices, pieces, center, radius, low, high } = shape;
         if (this.getIndex()) this.dispose();
+        if (this.worn) for (const { name } of this.worn.attributes) this.deleteAttribute(name);
+        this.worn = shape;
+        this.clearGroups();
         this.parted = vertices;
         this.pieces = pieces;
         this.setIndex(new BufferAttribute(index, 1));
         this.setAttribute("position", new BufferAttribute(positions, 3));
         this.setAttribute("normal", new BufferAttribute(normals, 3));
         for (const { name, values, components } of attributes) this.setAttribute(name, new BufferAttribute(values, components));
+        this.colour = this.attributes.color as BufferAttribute | undefined;
         this.setDrawRange(0, index.length);
         if (pieces.some(({ material }) => material > 0)) pieces.forEach(({ start, count, material }) => this.addGroup(start, count, material));
         this.boundingBox = new Box3(new Vector3(...low), new Vector3(...high));
@@ -178,7 +193,7 @@ export class BSMGeometry extends BufferGeometry {
     }
 
     private keep({ index, positions, normals }: FramePicture): void {
-        this.frames.push({ positions, normals });
+        this.frames.push({ positions, normals, shape: begun(this.coming) });
         if (index === 0) this.showFrame(0);
         this.progress.onFrame?.(index, this);
     }

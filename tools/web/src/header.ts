@@ -37,6 +37,8 @@ export interface Header {
     corner: number[];
     sections: number[];
     light: number;
+    run: number;
+    again: number;
 }
 
 /** A section of a mesh: its first block, and the blocks and faces that there are with it and those before it. */
@@ -81,7 +83,7 @@ export function parseHeader(payload: Uint8Array, limits: Limits): Header {
 
 /** F 4.6: the rules of a grid, or those of blocks. */
 function checkContradictions(header: Header): void {
-    const rules = header.grid.length > 0 ? gridRules(header) : blockRules(header);
+    const rules = header.grid.length > 0 ? gridRules(header) : header.again > 0 ? againRules(header) : blockRules(header);
     const broken = rules.find(([, broken]) => broken);
     if (broken) throw new CorruptError(`the header contradicts itself: ${broken[0]}`);
 }
@@ -105,6 +107,18 @@ function gridRules(header: Header): [string, boolean][] {
     ];
 }
 
+const OF_A_RUN: (keyof Header)[] = ["vertices", "faces", "frames", "gopFrames", "run", "again"];
+
+function againRules(header: Header): [string, boolean][] {
+    const others = (Object.keys(FIELDS) as (keyof Header)[]).filter((name) => !OF_A_RUN.includes(name));
+    return [
+        ["more vertices than the corners of its faces", header.vertices > 3 * header.faces],
+        ["the mesh of a run that has not been", header.again > header.run],
+        ["no length for GOPs", header.gopFrames === 0],
+        ["the mesh of another run, and fields of its own", others.some((name) => !same(header[name], FIELDS[name].default))],
+    ];
+}
+
 function blockRules(header: Header): [string, boolean][] {
     const { vertices, faces, blocks, blockSize, coefficients, details, detailStep, frames, gopFrames, sections } = header;
     const steps = header.refinements.filter((_, i) => i % 2 === 0);
@@ -124,6 +138,7 @@ function blockRules(header: Header): [string, boolean][] {
         ["more details than a block has vertices", details > blockSize],
         ["details without a step, or a step without details", details > 0 !== detailStep > 0],
         ["frames without a length for GOPs", frames > 0 && gopFrames === 0],
+        ["a run of a static mesh", header.run > 0 && gopFrames === 0],
         ["refinements that are not pairs of step and ratio", steps.length !== ratios.length],
         ["a step of a refinement out of its range", !steps.every((step) => step >= 2 ** -40 && step <= 1)],
         ["a ratio of a refinement out of its range", !ratios.every((ratio) => ratio === 0 || ratio >= 1 / 16)],

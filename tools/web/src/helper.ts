@@ -79,6 +79,7 @@ export class Helper {
     private accept(packet: Packet | Damaged): SharedBlock | undefined {
         const { memory, header, structure, limits, allowance } = this;
         if (packet.type === "header") {
+            this.over = header !== undefined; // of later runs the decoder has all chains
             this.header = packet.header;
             this.structure = new Structure(memory, packet.header, limits, allowance);
         } else if (packet.type === "connectivity") {

@@ -153,8 +153,10 @@ function reachable(followers: Followers, kind: Kind | "start"): Kind[] {
 /** Which packet may follow which, and what it must have to agree with the header. */
 class Grammar {
     header?: Header;
-    /** Whether an unknown number of frames was lost. */
+    /** Whether an unknown number of frames was lost since the run began. */
     lossy = false;
+    /** Whether the stream began with a run that was not the first. */
+    joined = false;
     private last: Kind | "start" = "start";
     private allowed: readonly Kind[] = ALONE.start;
     private followers = ALONE;
@@ -167,9 +169,12 @@ class Grammar {
     private nextFrame = 0;
     private nextVertex = 0;
     private layer = 0;
-    private readonly declared = new Map<number, Declaration>();
+    private declared = new Map<number, Declaration>();
     private valued = 0;
     private nextValue = 0;
+
+    /** `joining`: whether the first run that comes may be any. */
+    constructor(private readonly joining: boolean) {}
 
     /** Whether the header announces frames of a kind that it must announce (F 3.6). */
     announces(kind: Kind): boolean {
@@ -197,6 +202,7 @@ class Grammar {
     check(packet: Packet): void {
         if (!this.expected.includes(packet.type)) throw new CorruptError(`${packet.type} may not come here`);
         const { header } = this;
+        if (packet.type === "header") return this.checkRun(packet.header);
         if (!header) return;
         if (packet.type === "metadata") {
             for (const name of packet.entries.keys()) if (this.told.has(name)) throw new CorruptError(`metadata speak of "${name}" again`);
@@ -224,11 +230,7 @@ class Grammar {
             for (const name of packet.entries.keys()) this.told.add(name);
             return;
         }
-        if (packet.type === "header") {
-            this.header = packet.header;
-            this.sections = sectionsOf(packet.header);
-            if (this.sections.length > 1) this.followers = IN_SECTIONS;
-        }
+        if (packet.type === "header") this.begin(packet.header);
         if (packet.type === "connectivity") this.begun++;
         if (packet.type === "block") this.nextBlock = packet.index + 1;
         if (packet.type === "gop") this.nextFrame = packet.index + 1;
@@ -237,7 +239,30 @@ class Grammar {
         if (packet.type === "values") [this.valued, this.nextValue] = [packet.attribute, packet.first + packet.count];
         if (packet.type === "grid" || packet.type === "refinement") this.nextVertex = packet.first + packet.count;
         this.last = packet.type;
-        this.allowed = this.followers[packet.type];
+        this.allowed = packet.type === "header" && packet.header.again > 0 ? ["gop"] : this.followers[packet.type];
+    }
+
+    /** Forget what belongs to the mesh of the run before. */
+    private begin(header: Header): void {
+        this.joined ||= !this.header && header.run > 0;
+        this.header = header;
+        this.sections = sectionsOf(header);
+        if (this.sections.length > 1) this.followers = IN_SECTIONS;
+        [this.begun, this.nextBlock, this.nextVertex, this.layer, this.valued, this.nextValue] = [header.again > 0 ? 1 : 0, 0, 0, 0, 0, 0];
+        this.declared = new Map();
+        this.lossy = false;
+    }
+
+    private checkRun({ run, frames, gopFrames }: Header): void {
+        const before = this.header;
+        if (!before) {
+            if (run > 0 && !this.joining) throw new CorruptError("the stream begins within a sequence; a tolerant decoder joins it there");
+            return;
+        }
+        if (before.gopFrames * gopFrames === 0) throw new CorruptError("a second header of a static mesh");
+        if (run <= before.run || (run > before.run + 1 && !this.lossy)) throw new CorruptError(`run ${run} where run ${before.run + 1} must follow`);
+        if (frames !== before.frames) throw new CorruptError(`a run of a sequence of ${frames} frames in one of ${before.frames}`);
+        if (!this.lossy) this.checkComplete();
     }
 
     /** Refuse what has no place in the present section, or comes where one is not whole. */
@@ -319,7 +344,9 @@ export class Reader {
     protected begin = 0;
     protected end = 0;
     protected eof = false;
-    protected readonly grammar = new Grammar();
+    protected readonly grammar: Grammar;
+    /** Whether anything was lost. */
+    private damaged = false;
     private buffer = new Uint8Array(0);
     private offset = 0;
     private frames = 0;
@@ -332,7 +359,10 @@ export class Reader {
     constructor(
         private readonly limits: Limits,
         protected readonly spend: Spend,
-    ) {}
+        joining = false,
+    ) {
+        this.grammar = new Grammar(joining);
+    }
 
     /** Take more bytes of the stream, any number of them. */
     receiveData(data: Uint8Array): void {
@@ -462,11 +492,17 @@ export class Reader {
         const packet = PARSERS[kind](new Cursor(payload), this.limits);
         this.grammar.check(packet);
         if (kind === "metadata") checkLimit(this.limits, "metadataBytes", this.told + payload.length);
-        if (packet.type === "end" && !this.grammar.lossy) {
+        if (packet.type === "end" && !this.damaged && !this.grammar.joined) {
             if (packet.frames !== this.frames) throw new CorruptError(`END counts ${packet.frames} frames before it`);
             if (packet.crc !== this.crc) throw new CorruptError("the CRC-32 of the whole stream is wrong");
         }
         return packet;
+    }
+
+    /** Take note that an unknown number of frames is missing here. */
+    protected lose(): void {
+        this.damaged = true;
+        this.grammar.lose();
     }
 
     /** Leave one frame, or bytes that cannot be read, behind. */

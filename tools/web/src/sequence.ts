@@ -3,18 +3,21 @@ import { factorize, reconstruct, solutionCost, solve, cosineColumns, type Factor
 import { edgesOf, makeBlock, type Block, type Blocks } from "./blocks";
 import { keyDictionary, spendOn, TETHER, type Allowance } from "./chain";
 import { Coder, makeBank, unsignedSpan, type Bank } from "./entropy";
-import { CorruptError, NumericError, UnsupportedError, type BsmError } from "./errors";
+import { CorruptError, NumericError, UnsupportedError } from "./errors";
 import type { Header } from "./header";
 import type { Doubles, Ints, Memory } from "./kernels";
 import { checkLimit, type Limits } from "./limits";
 import { areFinite } from "./numbers";
 import { Cursor } from "./reader";
+import type { Course } from "./runs";
 import { blockCost, partCost, shownCost, UNCODED } from "./work";
 
 const LEARNT = 0;
 const KEY_FRAME = 1;
 const NEXT_FRAME = 2;
 const MOST_EXPONENT = 400;
+/** The first byte of a GOP: its method, and so many times its run, counted modulo so many. */
+const [METHODS, RUNS] = [8, 32];
 
 const FLATNESS = 2 ** -12;
 const SMALLNESS = 2 ** -48;
@@ -73,32 +76,54 @@ export class Sequence {
     /** Made when a GOP is there, whose frames pay for them (S 8.3). */
     private parts: Part[] = [];
     private first: Float64Array[] = [];
+    private behindFirst = 0;
     private behindParts = 0;
     private failure?: unknown;
     private bank!: Bank;
     private behindBank = 0;
     private history?: History;
-    private next = 0;
-    private damage?: BsmError;
-    /** Whether a loss was reported. */
-    lossy = false;
+    /** That of the run: of the first, or of one that has its mesh again. */
+    private run: Header;
 
     /** `firstFrame` holds the positions that the blocks add up to, in BSM units. */
     constructor(
         private readonly memory: Memory,
         private readonly header: Header,
+        private readonly course: Course,
         private readonly blocks: Blocks,
         private readonly limits: Limits,
         private readonly faces: Ints,
         private readonly firstFrame: Float64Array,
         private readonly allowance: Allowance,
-    ) {}
+    ) {
+        this.run = header;
+    }
+
+    /** Keep only what a later run of this mesh cannot do without. */
+    suspend(): void {
+        this.forget();
+        if (this.parts.length > 0) this.memory.release(this.behindFirst);
+        this.parts = [];
+    }
+
+    /** Another run of this mesh begins. */
+    resume(header: Header): void {
+        const { vertices, faces } = this.header;
+        if (header.vertices !== vertices || header.faces !== faces) throw new CorruptError(`run ${header.run} has another mesh than the run that it names`);
+        this.run = header;
+    }
+
+    /** No frame refers to one that has come. */
+    forget(): void {
+        this.history = undefined;
+    }
 
     /** Make the parts; what is wrong with them is so for every GOP. */
     private begin(): void {
         if (this.failure) throw this.failure;
         if (this.parts.length > 0) return;
         const { memory, blocks, allowance } = this;
+        this.behindFirst = memory.mark();
         try {
             const frame = memory.copy(this.firstFrame, 3);
             const weights = this.edgeWeights(this.faces, frame);
@@ -116,14 +141,14 @@ export class Sequence {
 
     /** Frames of the GOP from frame `index` on, each made when it is called; valid until the next GOP. */
     decode(index: number, data: Uint8Array): (() => Float64Array)[] {
-        const { header } = this;
-        if (index !== this.next) throw new CorruptError(`frame ${index} where frame ${this.next} must follow`);
-        const gop = parseGop(data, header.gopFrames);
+        const { header, run, course } = this;
+        if (index !== course.next) throw new CorruptError(`frame ${index} where frame ${course.next} must follow`);
+        const gop = parseGop(data, run);
         checkLimit(this.limits, "sequenceBytes", 16 * gop.components * (header.vertices + 3 * gop.frames));
         const last = index + gop.frames;
-        if (header.frames > 0 && last > header.frames) throw new CorruptError(`frame ${last - 1} of ${header.frames}`);
+        if (run.frames > 0 && last > run.frames) throw new CorruptError(`frame ${last - 1} of ${run.frames}`);
         const frames = this.paidFor(gop, data.length);
-        this.next = last;
+        course.next = last;
         return frames;
     }
 
@@ -143,26 +168,6 @@ export class Sequence {
             allowance.show(-header.vertices * gop.frames);
             throw error;
         }
-    }
-
-    /** Take note that frames are lost; how many is known when the next ones come. */
-    lose(error: BsmError): void {
-        this.damage ??= error;
-        this.history = undefined;
-    }
-
-    /** The frames that are missing before frame `index`, or before the end, that nobody may know (0); an error if none may be. */
-    lostBefore(index: number, ended: boolean, tolerant: boolean): { frames: { first: number; count: number }; error: BsmError } | undefined {
-        const first = this.next;
-        const count = Math.max(index - first, 0);
-        if (count === 0 && !(ended && index === 0 && this.damage)) return undefined;
-        const error = this.damage ?? new CorruptError(`${count} frames from number ${first} on are missing`);
-        if (!tolerant) throw error;
-        this.history = undefined;
-        this.damage = undefined;
-        this.lossy = true;
-        this.next += count;
-        return { frames: { first, count }, error };
     }
 
     /** Weight of each entry of the graph (S 3.1). */
@@ -428,10 +433,12 @@ function temporalCosines(memory: Memory, frames: number): Doubles {
     return cosines;
 }
 
-/** The data of a GOP of a sequence whose longest has so many frames (S 2). */
-function parseGop(data: Uint8Array, longest: number): Gop {
+/** The data of a GOP of a run (S 2, S 9.2). */
+function parseGop(data: Uint8Array, { gopFrames: longest, run }: Header): Gop {
     const cursor = new Cursor(data);
-    const method = cursor.take(1)[0];
+    const first = cursor.take(1)[0];
+    const method = first % METHODS;
+    if ((first - method) / METHODS !== run % RUNS) throw new CorruptError(`a GOP of another run than run ${run}`);
     if (method > NEXT_FRAME) throw new UnsupportedError(`GOP method ${method} is unknown to this decoder`);
     const frames = cursor.varint();
     const most = method === LEARNT ? longest : 1;

@@ -1,6 +1,6 @@
 /** What is decoded one after the other behind a header: faces, blocks or grids, refinements, attributes, frames. */
 import { begun } from "./begun";
-import { Attributes, type Solid } from "./attributes";
+import { Attributes, type Attribute, type Solid } from "./attributes";
 import { Assembly, inMeshUnits } from "./assembly";
 import type { Blocks } from "./blocks";
 import type { Allowance, DecodedBlock } from "./chain";
@@ -16,10 +16,14 @@ import { checkLimit, type Limits } from "./limits";
 import { Numbering } from "./numbering";
 import { decodeOrder } from "./order";
 import { type Damaged, type Packet } from "./reader";
+import type { Course } from "./runs";
 import { Sequence } from "./sequence";
 import { Structure, type Chains } from "./structure";
 import { chunkCost, exactCost, GRID_COST, layerCost, LIGHT_COST, orderCost, type GridCost } from "./work";
 
+
+/** What may come behind the first frame of a sequence. */
+const BEHIND_FIRST: readonly string[] = ["gop", "end", "metadata", "damaged"];
 
 /** A frame that is made when it is its turn. */
 export interface ComingFrame {
@@ -52,6 +56,10 @@ export class Stages {
     private gridBroken = false;
     private refinement?: Refinement;
     private sequence?: Sequence;
+    /** Attributes of a run, for later ones of its mesh. */
+    private readonly carried: Attribute[] = [];
+    /** The header of the present run. */
+    private last: Header;
 
     constructor(
         private readonly memory: Memory,
@@ -61,15 +69,32 @@ export class Stages {
         private readonly wishes: Wishes,
         private readonly queue: Item[],
         private readonly position: () => number,
+        private readonly course?: Course,
     ) {
         if (header.gopFrames > 0 && (header.smoothing > 0 || header.details > 0)) {
             throw new UnsupportedError("smoothing and details of sequences are unknown to this decoder");
         }
+        this.last = header;
         checkLimit(limits, "coefficients", header.details);
         if (header.gopFrames > 0) checkLimit(limits, "sequenceBytes", 8 * header.vertices * header.coefficients);
         this.structure = new Structure(memory, header, limits, allowance);
         this.among = 1 + (wishes.helpers?.(header) ?? 0);
         queue.push({ type: "header", header });
+    }
+
+    /** Keep only what a later run of this mesh cannot do without; false if there can be none. */
+    suspend(): boolean {
+        this.sequence?.suspend();
+        return this.sequence !== undefined;
+    }
+
+    /** Another run of this mesh begins. */
+    resume(header: Header): void {
+        begun(this.sequence).resume(header);
+        this.last = header;
+        this.queue.push({ type: "header", header });
+        this.tellConnectivity();
+        this.carried.forEach((attribute) => this.queue.push({ type: "attribute", ...attribute }));
     }
 
     /** How the user of the mesh numbers it. */
@@ -107,6 +132,11 @@ export class Stages {
 
     /** Take a packet behind the header. */
     accept(packet: Packet | Damaged): void {
+        if (this.sequence && !BEHIND_FIRST.includes(packet.type)) {
+            const error = new CorruptError(`${packet.type} may not come here`);
+            if (!this.wishes.tolerant) throw error;
+            return this.loseFrames(this.sequence, error);
+        }
         switch (packet.type) {
             case "header":
                 return;
@@ -158,16 +188,16 @@ export class Stages {
 
     private acceptDamage({ kind, offset, length, reason }: Damaged): void {
         const error = new CorruptError(`${length} bytes cannot be read: ${reason}`, { offset });
-        const begun = this.chains ?? this.grid;
-        if (this.header.gopFrames > 0 && begun) {
+        const started = this.chains ?? this.grid;
+        if (this.header.gopFrames > 0 && started) {
             if (this.nextIndex < this.header.blocks) throw error;
             if (kind === "values" && !this.sequence) return this.lose(error);
             const sequence = this.begunSequence();
-            if (kind !== "end" || !sequence.lossy) sequence.lose(error);
+            if (kind !== "end" || !begun(this.course).lossy) this.loseFrames(sequence, error);
             return;
         }
         const { section, whole } = this.structure.connectivity;
-        const bearable = begun ? kind !== "connectivity" || whole : section > 0 && (kind === "block" || kind === "attribute");
+        const bearable = started ? kind !== "connectivity" || whole : section > 0 && (kind === "block" || kind === "attribute");
         if (!bearable) throw error;
         if (this.grid) this.gridBroken = true;
         this.lose(error);
@@ -204,7 +234,9 @@ export class Stages {
             this.allowance.keep(0, data.length);
             this.allowance.spend(chunkCost(data.length), data.length);
             const attribute = attributes.decode(index, first, count, data, this.numbers, () => this.solid());
-            if (attribute) this.queue.push({ type: "attribute", ...attribute });
+            if (!attribute) return;
+            if (this.course) this.carried.push(attribute);
+            this.queue.push({ type: "attribute", ...attribute });
         });
     }
 
@@ -270,8 +302,14 @@ export class Stages {
             sequence.decode(index, data).forEach((make, t) => this.queue.push({ frame: index + t, make }));
         } catch (error) {
             if (!this.wishes.tolerant || !(error instanceof BsmError)) throw error;
-            sequence.lose(error.located({ offset: this.position() }));
+            this.loseFrames(sequence, error.located({ offset: this.position() }));
         }
+    }
+
+    /** Take note that frames are lost; how many is known when the next ones come. */
+    private loseFrames(sequence: Sequence, error: BsmError): void {
+        sequence.forget();
+        begun(this.course).lose(error);
     }
 
     private begunSequence(): Sequence {
@@ -280,13 +318,13 @@ export class Stages {
         this.expect(this.header.blocks);
         this.linked.release();
         const base = this.assembled.base();
-        return (this.sequence = new Sequence(this.memory, this.header, blocks, this.limits, this.structure.faces, base, this.allowance));
+        const { memory, header, limits, structure, allowance } = this;
+        return (this.sequence = new Sequence(memory, header, begun(this.course), blocks, limits, structure.faces, base, allowance));
     }
 
     /** Report frames that were lost before frame `index`. */
     private tellLostFrames(index: number, ended = false): void {
-        const lost = begun(this.sequence).lostBefore(index, ended, this.wishes.tolerant ?? false);
-        if (lost) this.queue.push({ type: "loss", frames: lost.frames, error: lost.error.described });
+        if (begun(this.course).tellLost(index, ended, this.queue)) begun(this.sequence).forget();
     }
 
     private acceptRefinement(layer: number, first: number, count: number, data: Uint8Array): void {
@@ -335,7 +373,7 @@ export class Stages {
         this.built();
         if (header.gopFrames > 0) {
             this.begunSequence();
-            this.tellLostFrames(header.frames, true);
+            this.tellLostFrames(this.last.frames, true);
             return { missing: none, degraded: none };
         }
         this.skipTo(header.blocks);
@@ -360,11 +398,17 @@ export class Stages {
     }
 
     private announce(): void {
-        const { connectivity, before } = this.structure;
-        const { section, sections, vertices, known } = connectivity;
+        const { connectivity } = this.structure;
+        const { section, vertices, known } = connectivity;
         if (!this.numbering || section > 1) this.numbering = new Numbering(connectivity.faces.view.slice(0, 3 * known), vertices);
         if (!this.wishes.tolerant) this.attributes?.check(this.numbering);
-        const { faces, size, loose } = this.numbering;
+        this.tellConnectivity();
+    }
+
+    private tellConnectivity(): void {
+        const { connectivity, before } = this.structure;
+        const { faces, size, loose } = this.numbers;
+        const { section, sections } = connectivity;
         this.queue.push({ type: "connectivity", faces: faces.slice(3 * before.faces), vertices: size, loose, section: section - 1, sections: sections.length });
     }
 

@@ -1,6 +1,7 @@
 /** A reader that goes on behind damage (specification, F 8). */
 import { BsmError } from "./errors";
-import { END_OF_STREAM, NEED_DATA, Reader, type Damaged, type Packet, type Signal } from "./reader";
+import type { Limits } from "./limits";
+import { END_OF_STREAM, NEED_DATA, Reader, type Damaged, type Packet, type Signal, type Spend } from "./reader";
 
 const SCAN_BYTES = 2 ** 20;
 const SCAN_FACTOR = 64;
@@ -33,6 +34,10 @@ export class TolerantReader extends Reader {
     private behindDamage = false;
     private refused?: BsmError;
 
+    constructor(limits: Limits, spend: Spend) {
+        super(limits, spend, true);
+    }
+
     protected override pay(work: number, received: number): void {
         try {
             super.pay(work, received);
@@ -58,7 +63,7 @@ export class TolerantReader extends Reader {
     }
 
     private inspect(error: BsmError): Damage {
-        this.grammar.lose();
+        this.lose();
         const seen = this.tagAt(0);
         let whole = false;
         try {

@@ -13,7 +13,7 @@ import { base64, CHROMIUM, compile, FLAGS, savedPage, VECTORS, VIEWER } from "./
 const STREAM = "good-labels";
 const SECTIONS = "good-sections";
 /** One of the specification, and a real one if it is named. */
-const SEQUENCES = [join(VECTORS, "good-sequence-learnt.bsm"), ...(process.env.BSM_SEQUENCE ? [process.env.BSM_SEQUENCE] : [])];
+const SEQUENCES = [join(VECTORS, "good-sequence-learnt.bsm"), join(VECTORS, "good-sequence-runs.bsm"), ...(process.env.BSM_SEQUENCE ? [process.env.BSM_SEQUENCE] : [])];
 
 /** Rows of an 8-bit PNG, and how wide its pixels are. */
 function* rowsOf(png: Buffer): Generator<{ row: Uint8Array; channels: number; y: number; width: number; height: number }> {

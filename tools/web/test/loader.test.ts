@@ -165,6 +165,17 @@ describe("the package in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromiu
         assert.deepEqual([...new Set(seen.heard as string[])].sort(), ["ended", "loop", "pause", "play"]);
     });
 
+    test("has the faces of each frame of a sequence where they change", async () => {
+        const seen = await found(`
+            const sequence = await new BSMLoader().loadSequence("/stream/good-sequence-runs.bsm");
+            while (!sequence.complete) await new Promise((go) => setTimeout(go, 5));
+            const { geometry } = sequence;
+            const drawn = (frame) => (sequence.seek(frame), [geometry.index.count / 3, geometry.getAttribute("position").count, geometry.getAttribute("normal").count, geometry.drawRange.count / 3]);
+            return { length: sequence.length, faces: [0, 2, 3, 5, 9, 4, 0].map(drawn) };`);
+        const [large, small, least] = [[64, 32, 32, 64], [48, 24, 24, 48], [40, 20, 20, 40]];
+        assert.deepEqual(seen, { length: 10, faces: [large, large, small, large, least, small, large] });
+    });
+
     test("makes scenes with textures", async () => {
         const seen = await found(`
             const scene = await new BSMLoader().loadScene("/stream/good-attribute-textured.bsm");

@@ -50,7 +50,7 @@ export function meshOfEvents(events: Iterable<Event>): Mesh {
             faces = Int32Array.from([...faces, ...event.faces]);
             const before = positions;
             positions = new Float64Array(3 * event.vertices).fill(NaN);
-            positions.set(before);
+            if (event.section > 0) positions.set(before);
             event.loose.vertices.forEach((v, i) => positions.set(event.loose.positions.subarray(3 * i, 3 * i + 3), 3 * v));
         }
         if (event.type === "attribute") attributes.push(event);

@@ -7,7 +7,7 @@ import os
 import re
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
-from itertools import count
+from itertools import chain, count
 from pathlib import Path
 
 import numpy as np
@@ -17,6 +17,7 @@ from bsm.bitstream.limits import Limits
 from bsm.codec.arrays import Positions
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.sequence.runs import other_faces
 from bsm.files.about import about
 from bsm.files.mesh import WRITTEN_FORMATS, format_of_name, read_mesh, save_written, written_mesh
 from bsm.files.motion.frames import Frames
@@ -109,8 +110,10 @@ def _numbers(ordered: Sequence[str]) -> list[int]:
     return [int(of_one[differing[0]]) for of_one in parts]
 
 
-def read_files(names: Sequence[str], file_format: str | None, reader: str | None, limits: Limits) -> Frames:
-    """The frames in files, each read when it is asked for.
+def read_files(
+    names: Sequence[str], file_format: str | None, reader: str | None, limits: Limits, *, runs: bool = False
+) -> Frames:
+    """The frames in files, each read when it is asked for; with `runs`, their faces may change.
 
     Raises
     ------
@@ -123,16 +126,23 @@ def read_files(names: Sequence[str], file_format: str | None, reader: str | None
             return read_mesh(names[number], file_format, limits, reader).mesh
 
     first = read(0)
+    if runs:
+        moving = [one.name for one in first.attributes if one.semantic == "normal"]
+        kept = tuple(one for one in first.attributes if one.semantic != "normal")
+        notes = [f"left out, for they move: {', '.join(moving)}"] if moving else []
+        notes += [f"{', '.join(one.name for one in kept)}: as the first frame of each run has them"] if kept else []
+        meshes = chain([first], (read(number) for number in range(1, len(names))))
+        return Frames(first.faces, len(names), iter(()), kept, tuple(notes), metadata=first.metadata, meshes=meshes)
 
     def frames() -> Iterator[Positions]:
         yield first.positions
         for number, name in enumerate(names[1:], 1):
             mesh = read(number)
-            if difference := _difference(first, mesh):
+            if difference := other_faces(first, mesh):
                 raise MeshError(
                     f"these are different meshes, not the frames of one animation: {name} (frame {number}) has other "
-                    f"faces than {names[0]}: {difference}; to work on each by itself, name the files and write to a "
-                    "folder, -o FOLDER/"
+                    f"faces than {names[0]}: {difference}; if their faces change, --set runs=yes; to work on each by "
+                    "itself, name the files and write to a folder, -o FOLDER/"
                 )
             yield mesh.positions
 
@@ -143,17 +153,6 @@ def read_files(names: Sequence[str], file_format: str | None, reader: str | None
     if kept and len(names) > 1:
         notes.append(f"{', '.join(one.name for one in kept)}: as the first frame has them")
     return Frames(first.faces, len(names), frames(), kept, tuple(notes), metadata=first.metadata)
-
-
-def _difference(first: TriangleMesh, other: TriangleMesh) -> str:
-    """How the faces of two meshes differ; nothing if they do not."""
-    for what, one, two in (("vertices", first.positions, other.positions), ("faces", first.faces, other.faces)):
-        if len(one) != len(two):
-            return f"{len(two)} {what} where there were {len(one)}"
-    if np.array_equal(first.faces, other.faces):
-        return ""
-    row = int(np.argmax((first.faces != other.faces).any(axis=1)))
-    return f"face {row} is {other.faces[row].tolist()} where it was {first.faces[row].tolist()}"
 
 
 def _has(mesh: TriangleMesh, attribute: Attribute) -> bool:

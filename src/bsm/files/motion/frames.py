@@ -11,7 +11,7 @@ import numpy as np
 from bsm.bitstream.errors import MeshError
 from bsm.codec.arrays import Faces, Positions
 from bsm.codec.geometry.attributes import Attribute
-from bsm.codec.geometry.mesh import Metadata
+from bsm.codec.geometry.mesh import Metadata, TriangleMesh
 
 LIKELY_RATES = (12, 15, 24, 25, 30, 48, 50, 60, 72, 90, 100, 120)
 
@@ -27,6 +27,8 @@ class Frames:
         Number of frames; 0 if that is not known beforehand.
     frames : iterator of float64 arrays, shape (n, 3)
         Can be used once.
+    meshes : iterator of TriangleMesh, optional
+        Instead of them, where faces may change.
     attributes : tuple of Attribute
         Those of the first frame that the last has, too; no normals, which move.
     notes : tuple of str
@@ -44,6 +46,7 @@ class Frames:
     notes: tuple[str, ...] = ()
     frame_rate: float = 0.0
     metadata: Metadata = field(default_factory=dict)
+    meshes: Iterator[TriangleMesh] | None = None
 
 
 @dataclass(frozen=True)
@@ -58,11 +61,14 @@ class Wanted:
         Number or name of the animation of a file that has several.
     mesh : path, optional
         The mesh that a cache of points belongs to; None: the file of the same name beside it.
+    runs : bool
+        Whether the faces of files and of USD may change from frame to frame.
     """
 
     rate: float = 0.0
     animation: str = ""
     mesh: str | os.PathLike[str] | None = None
+    runs: bool = False
 
 
 def checked_frames(name: str, frames: Iterable[Positions], vertices: int) -> Iterator[Positions]:

@@ -58,14 +58,14 @@ def import_usd() -> Any:
 class _Part:
     """A mesh of a stage: its faces once, its points at any time."""
 
-    def __init__(self, pxr: Any, prim: Any) -> None:
+    def __init__(self, pxr: Any, prim: Any, time: float | None = None) -> None:
         mesh = pxr.UsdGeom.Mesh(prim)
         self._pxr, self.prim, self._points = pxr, prim, mesh.GetPointsAttr()
         self.counts_attr, self.corners_attr = mesh.GetFaceVertexCountsAttr(), mesh.GetFaceVertexIndicesAttr()
-        earliest = pxr.Usd.TimeCode.EarliestTime()
-        self.counts: Ints = np.array(self.counts_attr.Get(earliest) or [], np.int64)
-        self.corners: Ints = np.array(self.corners_attr.Get(earliest) or [], np.int64)
-        self.vertices = len(self._points.Get(earliest) or [])
+        self._time = pxr.Usd.TimeCode.EarliestTime() if time is None else pxr.Usd.TimeCode(time)
+        self.counts: Ints = np.array(self.counts_attr.Get(self._time) or [], np.int64)
+        self.corners: Ints = np.array(self.corners_attr.Get(self._time) or [], np.int64)
+        self.vertices = len(self._points.Get(self._time) or [])
         if (self.counts < 0).any() or self.counts.sum() != len(self.corners):
             raise FormatError(
                 f"the faces of {prim.GetPath()} have {len(self.corners)} corners, not {self.counts.sum()}"
@@ -92,8 +92,8 @@ class _Part:
         ):
             if attr.GetNumTimeSamples() > 1 and not np.array_equal(np.array(attr.Get(code), np.int64), known):
                 raise MeshError(
-                    f"{self.prim.GetPath()} has other faces at time {time:g} than before (their {name}): "
-                    "a sequence keeps its faces"
+                    f"{self.prim.GetPath()} has other faces at time {time:g} than before (their {name}); if they may "
+                    "change, --set runs=yes"
                 )
         if len(points) != self.vertices:
             raise MeshError(
@@ -110,14 +110,14 @@ class _Part:
         for primvar in self._pxr.UsdGeom.PrimvarsAPI(self.prim).GetPrimvars():
             name, kind = str(primvar.GetPrimvarName()), str(primvar.GetTypeName())
             domain = _DOMAINS.get(primvar.GetInterpolation())
-            value = primvar.Get(self._pxr.Usd.TimeCode.EarliestTime())
+            value = primvar.Get(self._time)
             if domain is None or value is None or not kind.endswith("[]") or name == "normals":
                 continue
             values = np.array(value)
             values = values[:, None] if values.ndim == 1 else values
             if values.dtype.kind not in "iuf" or values.ndim != 2 or values.shape[1] > MOST_COMPONENTS:
                 continue
-            places = np.array(primvar.GetIndices() or np.arange(len(values)), np.int64)
+            places = np.array(primvar.GetIndices(self._time) or np.arange(len(values)), np.int64)
             if len(places) == rows[domain] and 0 <= places.min(initial=0) <= places.max(initial=0) < len(values):
                 named_as, values, semantic = _meant(name, kind, values)
                 at_corners = domain == "corner"
@@ -198,6 +198,16 @@ class _Stage:
         cache = self.pxr.UsdGeom.XformCache(self.pxr.Usd.TimeCode(time))
         return np.concatenate([part.at(time, cache) for part in self.parts])
 
+    def changes(self) -> bool:
+        """Whether faces have several time samples."""
+        return any(one.GetNumTimeSamples() > 1 for part in self.parts for one in (part.counts_attr, part.corners_attr))
+
+    def turn_to(self, time: float) -> None:
+        """Have the faces and attributes of a time."""
+        self.parts = [_Part(self.pxr, part.prim, time) for part in self.parts]
+        self._limits.check("vertices", sum(part.vertices for part in self.parts))
+        self._limits.check("faces", sum(int(part.counts.sum()) - 2 * len(part.counts) for part in self.parts))
+
     def mesh(self, positions: Doubles) -> MeshFile:
         """The mesh of a frame, with everything; polygons are cut into triangles."""
         parts, geom = self.parts, self.pxr.UsdGeom
@@ -266,6 +276,16 @@ def read_usd(path: str, wanted: Wanted, limits: Limits = DEFAULT_LIMITS) -> Fram
             yield stage.at(first + number * codes / rate)
 
     mesh = still.mesh
+    if wanted.runs and stage.changes():
+
+        def meshes() -> Iterator[TriangleMesh]:
+            for number in range(count):
+                time = first + number * codes / rate
+                stage.turn_to(time)
+                yield stage.mesh(stage.at(time)).mesh
+
+        notes = (f"{count} frames at {rate:g} per second", *still.notes)
+        return Frames(mesh.faces, count, iter(()), mesh.attributes, notes, rate, mesh.metadata, meshes())
     checked = checked_frames(path, frames(), len(mesh.positions))
     notes = (f"{count} frames at {rate:g} per second", *still.notes)
     return Frames(mesh.faces, count, checked, mesh.attributes, notes, rate, mesh.metadata)
@@ -285,8 +305,10 @@ def read_usd_mesh(path: str, limits: Limits = DEFAULT_LIMITS) -> MeshFile:
 
 
 @contextmanager
-def write_usd(file: BinaryIO, kind: str, faces: Faces, told: Told) -> Iterator[Callable[[Positions], None]]:
+def write_usd(file: BinaryIO, kind: str, faces: Faces, told: Told) -> Iterator[Callable[..., None]]:
     """Write a stage of one mesh whose points have a time sample for each frame; yields what takes frame after frame.
+
+    That takes the faces, too, where they are others than before: they have time samples then.
 
     Raises
     ------
@@ -300,12 +322,19 @@ def write_usd(file: BinaryIO, kind: str, faces: Faces, told: Told) -> Iterator[C
         path = str(Path(folder, "mesh.usdc" if kind == "usdz" else f"mesh.{kind}"))
         stage = pxr.Usd.Stage.CreateNew(path)
         mesh: Any = None
+        still: TriangleMesh | None = None  # the first mesh, as long as its faces are those of all frames
         taken = 0
 
-        def write(frame: Positions) -> None:
-            nonlocal mesh, taken
+        def write(frame: Positions, other: Faces | None = None) -> None:
+            nonlocal mesh, taken, still
             if mesh is None:
-                mesh = _begun(pxr, stage, told.mesh(frame, faces), told)
+                still = told.mesh(frame, faces)
+                mesh = _begun(pxr, stage, still, told)
+            if other is not None:
+                if still is not None:
+                    _set_mesh(pxr, mesh, still, 0)
+                _set_mesh(pxr, mesh, told.mesh(frame, other), taken)
+                still = None
             if not single_suffices(frame):
                 raise MeshError(f"frame {taken} needs double precision, which points of USD do not have; write npz")
             points = np.ascontiguousarray(frame, np.float32)
@@ -355,8 +384,17 @@ def _begun(pxr: Any, stage: Any, first: TriangleMesh, told: Told) -> Any:
     return mesh
 
 
-def _written(pxr: Any, mesh: Any, attribute: Attribute) -> bool:
-    """Write an attribute as a primvar; whether that can be."""
+def _set_mesh(pxr: Any, mesh: Any, frame: TriangleMesh, time: int) -> None:
+    """Let the mesh have the faces and attributes of a frame from a time on."""
+    mesh.GetFaceVertexCountsAttr().Set(pxr.Vt.IntArray(len(frame.faces), 3), time)
+    corners = np.ascontiguousarray(frame.faces.reshape(-1))
+    mesh.GetFaceVertexIndicesAttr().Set(pxr.Vt.IntArray.FromNumpy(corners), time)
+    for one in frame.attributes:
+        _written(pxr, mesh, one, time)
+
+
+def _written(pxr: Any, mesh: Any, attribute: Attribute, time: int | None = None) -> bool:
+    """Write an attribute as a primvar, or what it is from a time on; whether that can be."""
     types, width = pxr.Sdf.ValueTypeNames, attribute.components
     values = attribute.values.astype(np.float32)
     name = pxr.Tf.MakeValidIdentifier(attribute.name)
@@ -377,7 +415,9 @@ def _written(pxr: Any, mesh: Any, attribute: Attribute) -> bool:
     primvar = pxr.UsdGeom.PrimvarsAPI(mesh).CreatePrimvar(name, kind, place)
     arrays = {1: pxr.Vt.FloatArray, 2: pxr.Vt.Vec2fArray, 3: pxr.Vt.Vec3fArray, 4: pxr.Vt.Vec4fArray}
     table = np.ascontiguousarray(values[:, 0] if values.shape[1] == 1 else values, np.float32)
-    primvar.Set(arrays[values.shape[1]].FromNumpy(table))
+    code = pxr.Usd.TimeCode.Default() if time is None else pxr.Usd.TimeCode(time)
+    primvar.Set(arrays[values.shape[1]].FromNumpy(table), code)
     if attribute.indices is not None:
-        primvar.SetIndices(pxr.Vt.IntArray.FromNumpy(np.ascontiguousarray(attribute.indices.reshape(-1), np.int32)))
+        rows = np.ascontiguousarray(attribute.indices.reshape(-1), np.int32)
+        primvar.SetIndices(pxr.Vt.IntArray.FromNumpy(rows), code)
     return True

@@ -24,6 +24,7 @@ function ramp(share: number): Color {
 export function coloursOf(geometry: BSMGeometry, scheme: Scheme, distances?: Float64Array): Float32Array | undefined {
     const { header, origin, depth } = geometry;
     if (scheme === "plain" || scheme === "own" || !header || (scheme === "error" && !distances)) return undefined;
+    if ((geometry.parted ?? origin).length * 3 !== geometry.getAttribute("position").array.length) return undefined; // of a later run
     const last = Math.max((header.blocks || geometry.blocks) - 1, 1);
     const layers = Math.max(header.refinements.length / 2, 1);
     const shares: Record<Exclude<Scheme, "plain" | "own">, (vertex: number) => number> = {

@@ -57,7 +57,6 @@ export class View {
     private decoding?: StreamDecoding;
     private playback?: Playback;
     private errors?: Errors;
-    private ownColours?: BufferAttribute;
     private dressed = false;
     private fed = 0;
     private started = 0;
@@ -158,7 +157,6 @@ export class View {
         this.frameShown = -1;
         this.firstDrawn = this.completed = undefined;
         this.errors = undefined;
-        this.ownColours = undefined;
         this.dressed = false;
         this.allow("own", false);
         this.losses = [];
@@ -232,8 +230,7 @@ export class View {
     private end(): void {
         this.over = true;
         this.stale = true;
-        this.ownColours = this.geometry.getAttribute("color") as BufferAttribute | undefined;
-        if (this.ownColours) this.wear();
+        if (this.geometry.colour) this.wear();
         void this.dress(this.geometry);
         this.completed = performance.now() - this.started;
         this.root.dataset.state = this.losses.length > 0 ? "damaged" : "complete";
@@ -254,7 +251,7 @@ export class View {
         if (geometry !== this.geometry || this.closed) return;
         const materials = materialsOf(geometry.metadata, images, 1 + Math.max(0, ...geometry.pieces.map(({ material }) => material)));
         for (const material of materials) {
-            material.vertexColors = this.ownColours !== undefined;
+            material.vertexColors = this.geometry.colour !== undefined;
             material.metalness = Math.min(material.metalness, PALE); // there is nothing here that metal could mirror
         }
         this.stage.dress(materials);
@@ -315,7 +312,7 @@ export class View {
         this.errors = original && this.geometry.origin.length > 0 ? errorsOf(this.geometry, original) : undefined;
         this.part("legend").textContent = LEGENDS[scheme];
         const colours = coloursOf(this.geometry, scheme, this.errors?.distances);
-        this.stage.colour(scheme === "own" ? this.ownColours : colours && new BufferAttribute(colours, 3), scheme === "own" && this.dressed);
+        this.stage.colour(scheme === "own" ? this.geometry.colour : colours && new BufferAttribute(colours, 3), scheme === "own" && this.dressed);
     }
 
     private report(): void {

@@ -1,0 +1,162 @@
+"""Sequences whose faces change: runs of frames that share their faces, and the meshes that are kept for later runs."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from typing import Generic, TypeAlias, TypeVar
+
+import numpy as np
+import numpy.typing as npt
+
+from bsm.bitstream.errors import MeshError
+from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.static.work import Allowance
+
+KEPT_MESHES = 8
+"""Of the meshes so far, those that runs have had last; a run can have one of them again."""
+
+Mesh = TypeVar("Mesh")
+Frame: TypeAlias = npt.ArrayLike | TriangleMesh
+"""Positions, shape (n, 3), or a mesh, whose faces may be others than those of the frame before."""
+
+
+@dataclass(frozen=True, eq=False)
+class Run:
+    """Frames that share their faces.
+
+    Parameters
+    ----------
+    mesh : TriangleMesh
+        The first frame.
+    frames : iterator of array_like, shape (n, 3)
+        All of them, the first one too; to be used up before the next run is asked for.
+    first : int
+        The number of the first frame.
+    """
+
+    mesh: TriangleMesh
+    frames: Iterator[npt.ArrayLike]
+    first: int
+
+
+class Cutter:
+    """Cuts frames into runs.
+
+    Parameters
+    ----------
+    frames : iterable of array_like, shape (n, 3), or TriangleMesh
+    faces : array_like of int, shape (m, 3)
+        Of frames that are arrays.
+    allowed : bool
+        Whether faces may change.
+    """
+
+    def __init__(self, frames: Iterable[Frame], faces: npt.ArrayLike, *, allowed: bool) -> None:
+        self._frames = iter(frames)
+        self._faces = faces
+        self._allowed = allowed
+        self._ahead: Frame | None = next(self._frames, None)
+        self._number = 0
+
+    def runs(self) -> Iterator[Run]:
+        """One run after the other.
+
+        Raises
+        ------
+        MeshError
+            If the faces change where they may not; also while the frames of a run are used.
+        """
+        while (ahead := self._ahead) is not None:
+            mesh = (
+                ahead if isinstance(ahead, TriangleMesh) else TriangleMesh(np.asarray(ahead), np.asarray(self._faces))
+            )
+            yield Run(mesh, self._of(mesh), self._number)
+
+    def _of(self, mesh: TriangleMesh) -> Iterator[npt.ArrayLike]:
+        while (ahead := self._ahead) is not None:
+            if not isinstance(ahead, TriangleMesh):
+                positions: npt.ArrayLike = ahead
+            elif difference := other_faces(mesh, ahead):
+                if not self._allowed:
+                    raise MeshError(
+                        f"frame {self._number} has other faces than the one before: {difference}; with runs = True "
+                        "(--set runs=yes) they may change"
+                    )
+                return
+            else:
+                positions = ahead.positions
+            self._number += 1
+            yield positions
+            self._ahead = next(self._frames, None)  # no sooner, since frames may come live
+
+
+def other_faces(mesh: TriangleMesh, other: TriangleMesh) -> str:
+    """How the faces of two meshes differ; nothing if they do not."""
+    for what, one, two in (("vertices", mesh.positions, other.positions), ("faces", mesh.faces, other.faces)):
+        if len(one) != len(two):
+            return f"{len(two)} {what} where there were {len(one)}"
+    if np.array_equal(mesh.faces, other.faces):
+        return ""
+    row = int(np.argmax((mesh.faces != other.faces).any(axis=1)))
+    return f"face {row} is {other.faces[row].tolist()} where it was {mesh.faces[row].tolist()}"
+
+
+@dataclass(eq=False)
+class _Place(Generic[Mesh]):
+    mesh: Mesh
+    memory: float = 0.0
+    vertices: int = 0
+
+
+class Shelf(Generic[Mesh]):
+    """Meshes that runs have had, the last ones; encoder and decoder each have one, and count alike.
+
+    Parameters
+    ----------
+    allowance : Allowance
+        Counts what they take.
+    """
+
+    def __init__(self, allowance: Allowance) -> None:
+        self._allowance = allowance
+        self._places: dict[int, _Place[Mesh]] = {}  # by the run that brought them, the one used last at the end
+        self._before = self._counted()
+
+    def __contains__(self, run: int) -> bool:
+        return run in self._places
+
+    def put(self, run: int, mesh: Mesh) -> None:
+        """Keep a mesh that a run has brought."""
+        self._places[run] = _Place(mesh)
+
+    def take(self, run: int) -> Mesh | None:
+        """The mesh that a run has brought, used again; None if it is not there."""
+        place = self._places.pop(run, None)
+        if place is None:
+            return None
+        self._places[run] = place
+        return place.mesh
+
+    def make_room(self) -> None:
+        """Before a run brings a mesh, give up the one that was used longest ago, if there are as many as may be."""
+        if len(self._places) == KEPT_MESHES:
+            oldest = self._places.pop(next(iter(self._places)))
+            self._allowance.give_back(oldest.memory, oldest.vertices)
+            self._before = self._counted()
+
+    def leave(self, run: int) -> None:
+        """Take note that a run ends whose mesh `run` has brought; if that is not kept, its memory is given back."""
+        memory, vertices = self._counted()
+        memory, vertices = memory - self._before[0], vertices - self._before[1]
+        place = self._places.get(run)
+        if place is None:
+            self._allowance.give_back(memory, vertices)
+        else:
+            place.memory += memory
+            place.vertices += vertices
+        self._before = self._counted()
+
+    def _counted(self) -> tuple[float, int]:
+        """Bytes that are kept, and vertices that have come."""
+        return self._allowance.kept, self._allowance.vertices

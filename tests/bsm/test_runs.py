@@ -1,0 +1,169 @@
+"""Sequences whose faces change, as users meet them."""
+
+import json
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import bsm
+from bsm.cli import main
+from bsm.codec.geometry.attributes import Attribute
+from bsm.files.mesh import read_mesh, write_mesh
+from tools.vectors.meshes import torus
+
+PIECES = ((10, 4), (7, 3), (10, 2))
+
+
+def run(*words):
+    return main([str(word) for word in words])
+
+
+def capture(pieces=PIECES):
+    """Tori of several sizes that move."""
+    sizes = [size for size, count in pieces for _ in range(count)]
+    meshes = [torus(size, 6, phase=0.15 * t) for t, size in enumerate(sizes)]
+    return [replace(mesh, positions=mesh.positions * (1 + 0.01 * t)) for t, mesh in enumerate(meshes)]
+
+
+def written(folder, meshes, kind="ply"):
+    folder.mkdir()
+    paths = [folder / f"f{number:03d}.{kind}" for number in range(len(meshes))]
+    for path, mesh in zip(paths, meshes, strict=True):
+        write_mesh(path, mesh)
+    return paths
+
+
+@pytest.fixture
+def stream(tmp_path):
+    paths = written(tmp_path / "capture", capture())
+    assert run("encode", *paths, "-o", tmp_path / "a.bsm", "--set", "runs=yes", "-q") == 0
+    return tmp_path / "a.bsm"
+
+
+def test_frames_of_other_faces_are_an_error_that_says_how_to_permit_them(tmp_path, capsys):
+    paths = written(tmp_path / "capture", capture())
+    assert run("encode", *paths, "-o", tmp_path / "a.bsm") != 0
+    said = capsys.readouterr().err
+    assert "f004.ply (frame 4) has other faces than" in said and "42 vertices where there were 60" in said
+    assert "--set runs=yes" in said and not (tmp_path / "a.bsm").exists()
+
+
+def test_they_are_permitted_by_a_setting(tmp_path, capsys):
+    paths = written(tmp_path / "capture", capture())
+    assert run("encode", *paths, "-o", tmp_path / "a.bsm", "--set", "runs=yes") == 0
+    said = capsys.readouterr().err
+    assert "connectivity changes at frames 4, 7" in said and "9 frames" in said
+    assert run("encode", tmp_path / "capture", "-o", tmp_path / "b.bsm", "--set", "runs=yes", "-q") == 0
+    assert (tmp_path / "a.bsm").read_bytes() == (tmp_path / "b.bsm").read_bytes()
+
+
+def test_a_setting_of_sequences_is_none_of_meshes(tmp_path, capsys):
+    (path,) = written(tmp_path / "one", capture()[:1])
+    assert run("encode", path, "-o", tmp_path / "a.bsm", "--set", "runs=yes") != 0
+    assert "runs is for sequences" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("kind", ["obj", "ply"])
+def test_every_frame_comes_back_with_its_faces(stream, tmp_path, kind, capsys):
+    assert run("decode", stream, "-o", tmp_path / "back" / f"%03d.{kind}") == 0
+    assert "connectivity changes at frames 4, 7" in capsys.readouterr().err
+    for number, mesh in enumerate(capture()):
+        back = read_mesh(str(tmp_path / "back" / f"{number:03d}.{kind}")).mesh
+        assert (len(back.positions), len(back.faces)) == (len(mesh.positions), len(mesh.faces))
+    assert run("compare", tmp_path / "capture", tmp_path / "back", "--json") == 0
+    found = json.loads(capsys.readouterr().out)
+    assert len(found["frames"]) == 9 and found["max_error_relative"] <= 0.01
+    assert run("compare", tmp_path / "capture", stream, "--look") == 0
+    assert "look_worst" in capsys.readouterr().out
+
+
+def test_what_cannot_hold_them_says_so(stream, tmp_path, capsys):
+    pytest.importorskip("trimesh")
+    for kind in ("npz", "pc2", "mdd", "glb", "npy"):
+        assert run("decode", stream, "-o", tmp_path / f"a.{kind}") != 0
+        said = capsys.readouterr().err
+        assert f"{kind.upper()} holds one set of faces, and they change after 4 frames" in said
+        assert not (tmp_path / f"a.{kind}").exists()
+        assert run("decode", stream, "-o", tmp_path / f"{kind}.{kind}", "--frames", ":4") == 0
+        capsys.readouterr()
+
+
+def test_usd_has_time_samples_of_faces(stream, tmp_path, capsys):
+    pytest.importorskip("pxr.Usd")
+    assert run("decode", stream, "-o", tmp_path / "a.usdc", "-q") == 0
+    assert run("compare", stream, tmp_path / "a.usdc") != 0
+    assert "change" in capsys.readouterr().err
+    assert run("encode", tmp_path / "a.usdc", "-o", tmp_path / "b.bsm") != 0
+    assert "--set runs=yes" in capsys.readouterr().err
+    assert run("encode", tmp_path / "a.usdc", "-o", tmp_path / "b.bsm", "--set", "runs=yes", "--max-error", "1e-3") == 0
+    assert "connectivity changes at frames 4, 7" in capsys.readouterr().err
+    assert run("compare", stream, tmp_path / "b.bsm", "--json") == 0
+    assert json.loads(capsys.readouterr().out)["max_error_relative"] < 2e-3
+
+
+def test_colours_of_runs_go_to_usd_and_come_back(tmp_path):
+    pytest.importorskip("pxr.Usd")
+    meshes = [
+        replace(
+            mesh,
+            attributes=(Attribute("color", np.full((len(mesh.positions), 3), 20 * k, np.uint8), "vertex", "color"),),
+        )
+        for k, mesh in enumerate(capture(((10, 1), (7, 1), (5, 1))))
+    ]
+    data = bsm.encode_frames(meshes)
+    (tmp_path / "a.bsm").write_bytes(data)
+    assert run("decode", tmp_path / "a.bsm", "-o", tmp_path / "a.usda", "-q") == 0
+    assert run("encode", tmp_path / "a.usda", "-o", tmp_path / "b.bsm", "--set", "runs=yes", "-q") == 0
+    shades = [int(frame.attributes[0].values[0, 0]) for frame in bsm.decode_frames(tmp_path / "b.bsm")]
+    assert shades == [0, 20, 40]
+
+
+def test_info_tells_of_runs(stream, capsys):
+    assert run("info", stream) == 0
+    said = capsys.readouterr().out
+    assert "9 frames" in said and "connectivity changes at frames 4, 7" in said
+    assert "run 1: 3 frames from 4 on, 42 vertices, 84 faces" in said
+    assert "run 2: 2 frames from 7 on, 60 vertices, 120 faces, the mesh of run 0 again" in said
+    assert run("info", stream, "--json") == 0
+    found = json.loads(capsys.readouterr().out)
+    assert [one["mesh"] for one in found["runs"]] == [0, 1, 0]
+    samples = 60 * 6 + 42 * 3
+    assert found["bpvf_total"] == pytest.approx(8 * stream.stat().st_size / samples)
+
+
+def test_verify_and_part_of_a_sequence(stream, tmp_path):
+    assert run("verify", stream) == 0
+    assert run("decode", stream, "-o", tmp_path / "part.npz", "--frames", "4:7", "-q") == 0
+    assert np.load(tmp_path / "part.npz")["positions"].shape == (3, 42, 3)
+
+
+def test_permutations_are_of_one_mesh(stream, tmp_path, capsys):
+    order = tmp_path / "order.npy"
+    words = ("encode", tmp_path / "capture", "-o", tmp_path / "b.bsm", "--set", "runs=yes", "--permutation", order)
+    assert run(*words) != 0
+    assert "order of one mesh" in capsys.readouterr().err
+
+
+def test_functions():
+    meshes = capture()
+    data = bsm.encode_frames(iter(meshes), preset="balanced")
+    back = list(bsm.decode_frames(data))
+    assert [len(frame.faces) for frame in back] == [len(mesh.faces) for mesh in meshes]
+    with pytest.raises(bsm.MeshError, match="decode_frames"):
+        bsm.decode_sequence(data)
+    with pytest.raises(bsm.MeshError, match="other faces"):
+        bsm.encode_frames(meshes, runs=False)
+    with pytest.raises(bsm.MeshError, match="at least one frame"):
+        bsm.encode_frames([])
+    same = bsm.encode_frames([(mesh.positions, mesh.faces) for mesh in meshes[:4]])
+    positions, faces = bsm.decode_sequence(same)
+    assert positions.shape == (4, 60, 3) and len(faces) == 120
+
+
+def test_vtk_shows_the_faces_of_each_frame(stream):
+    pytest.importorskip("vtkmodules")
+    from bsm.vtk import Playback
+
+    playback = Playback(str(stream))
+    assert [len(playback.mesh(number).faces) for number in (0, 5, 8, 4, 0)] == [120, 84, 120, 84, 120]

@@ -1,0 +1,358 @@
+"""Sequences whose faces change: runs."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from bsm.bitstream.container.header import Header
+from bsm.bitstream.container.packets import Connectivity, Gop
+from bsm.bitstream.container.reader import NEED_DATA, Reader, Signal
+from bsm.bitstream.container.wire import FrameType, write_preamble
+from bsm.bitstream.errors import BsmError, CorruptError, MeshError, OptionError
+from bsm.codec.geometry.attributes import Attribute
+from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.sequence.decoder import FrameEvent, SequenceDecoder, decode_sequence
+from bsm.codec.sequence.encoder import SequenceEncoder
+from bsm.codec.sequence.options import SequenceOptions
+from bsm.codec.sequence.promise import Promise
+from bsm.codec.sequence.runs import KEPT_MESHES
+from bsm.codec.sequence.targets import SequenceTarget
+from bsm.codec.static.events import AttributeEvent, ConnectivityEvent, HeaderEvent, LossEvent
+from tools.surgery import frames_of, stream_of
+from tools.vectors.meshes import torus
+
+WAYS = [{"mode": "gop", "gop": 4}, {"mode": "low-delay", "gop": 3}]
+PIECES = ((10, 5), (7, 3), (10, 4), (5, 1), (7, 2))
+
+
+def meshes(*pieces):
+    """Frames of tori of several sizes, so many of each, that move."""
+    sizes = [size for size, count in pieces for _ in range(count)]
+    found = []
+    for t, size in enumerate(sizes):
+        mesh = torus(size, 6, phase=0.15 * t)
+        found.append(replace(mesh, positions=mesh.positions * (1.0 + 0.01 * t)))
+    return found
+
+
+def encoded(frames, **options):
+    chosen = SequenceOptions(**{"step": 0.003, "block_size": 30, "threads": 1, "runs": True, **options})
+    encoder = SequenceEncoder(frames[0].faces, chosen, len(frames))
+    return encoder, list(encoder.chunks(frames))
+
+
+def events_of(data, **options):
+    found = []
+    with SequenceDecoder(threads=1, **options) as decoder:
+        decoder.receive_data(data)
+        decoder.receive_eof()
+        while not isinstance(event := decoder.next_event(), Signal):
+            found.append(event)
+    return found
+
+
+def frames_in(events):
+    return {event.index: event for event in events if isinstance(event, FrameEvent)}
+
+
+def packets_of(data):
+    reader = Reader()
+    reader.receive_data(data)
+    found = []
+    while (packet := reader.next_packet()) is not NEED_DATA:
+        found.append(packet)
+    return found
+
+
+def restored(frames, **options):
+    """What comes back of each frame as it is decoded, and its distance to the original."""
+    chosen = SequenceOptions(**{"step": 0.003, "block_size": 30, "threads": 1, "runs": True, **options})
+    encoder = SequenceEncoder(frames[0].faces, chosen, len(frames))
+    found = []
+    with SequenceDecoder(threads=1) as decoder:
+        for chunk in encoder.chunks(frames):
+            decoder.receive_data(chunk)
+            while not isinstance(event := decoder.next_event(), Signal):
+                if isinstance(event, FrameEvent):
+                    own = frames[event.index]
+                    inverse = np.argsort(encoder.vertex_order)
+                    assert np.array_equal(
+                        np.sort(encoder.vertex_order[event.faces], axis=1)[np.argsort(encoder.face_order)],
+                        np.sort(own.faces, axis=1),
+                    )
+                    found.append(np.abs(event.positions[inverse] - own.positions).max())
+    return encoder, found
+
+
+@pytest.mark.parametrize("way", WAYS)
+def test_faces_change_and_return(way):
+    frames = meshes(*PIECES)
+    encoder, errors = restored(frames, **way)
+    assert len(errors) == len(frames) and 0 < max(errors) < 0.1
+    assert encoder.run_starts == [0, 5, 8, 12, 13]
+    assert encoder.samples == sum(len(frame.positions) for frame in frames)
+
+
+@pytest.mark.parametrize("way", WAYS)
+def test_a_mesh_that_returns_is_not_sent_again(way):
+    data = b"".join(encoded(meshes(*PIECES), **way)[1])
+    headers = [packet for packet in packets_of(data) if isinstance(packet, Header)]
+    assert [(header.run, header.again) for header in headers] == [(0, 0), (1, 0), (2, 1), (3, 0), (4, 2)]
+    assert sum(isinstance(packet, Connectivity) for packet in packets_of(data)) == 3
+    assert all(header.frames == 15 for header in headers)
+    gops = [packet.index for packet in packets_of(data) if isinstance(packet, Gop)]
+    assert gops[0] == 0 and sorted(gops) == gops and {5, 8, 12, 13} <= set(gops)
+
+
+def test_a_promise_holds_in_every_run():
+    frames = meshes((10, 3), (7, 2), (10, 2))
+    _, errors = restored(frames, promise=Promise(0.004), gop=4)
+    for error, frame in zip(errors, frames, strict=True):
+        first = next(one for one in frames if len(one.positions) == len(frame.positions))
+        assert error <= 0.004 * np.linalg.norm(np.ptp(first.positions, axis=0))
+
+
+def test_bytes_one_by_one_give_the_same():
+    data = b"".join(encoded(meshes(*PIECES), gop=4)[1])
+    whole = frames_in(events_of(data))
+    with SequenceDecoder(threads=1) as decoder:
+        found = {}
+        for at in range(len(data)):
+            decoder.receive_data(data[at : at + 1])
+            while not isinstance(event := decoder.next_event(), Signal):
+                if isinstance(event, FrameEvent):
+                    found[event.index] = event
+    assert found.keys() == whole.keys()
+    assert all(np.array_equal(found[k].positions, whole[k].positions) for k in whole)
+
+
+def test_decoding_begins_at_any_frame():
+    data = b"".join(encoded(meshes(*PIECES), gop=4)[1])
+    whole = frames_in(events_of(data))
+    for start in (3, 5, 9, 14):
+        some = frames_in(events_of(data, start=start))
+        assert list(some) == list(range(start, 15))
+        assert all(np.array_equal(some[k].positions, whole[k].positions) for k in some)
+
+
+def test_faces_may_not_change_unless_that_is_asked_for():
+    frames = meshes((10, 3), (7, 2))
+    with pytest.raises(MeshError, match="frame 3 has other faces than the one before: 42 vertices where there were 60"):
+        encoded(frames, runs=False)
+    with pytest.raises(MeshError, match="runs=yes"):
+        encoded(frames, runs=False)
+    flipped = [frames[0], replace(frames[1], faces=frames[1].faces[:, [1, 2, 0]])]
+    with pytest.raises(MeshError, match=r"frame 1 .* face 0 is"):
+        encoded(flipped, runs=False)
+
+
+def test_a_target_is_for_frames_that_share_their_faces():
+    with pytest.raises(OptionError, match="the faces change at frame 3"):
+        encoded(meshes((10, 3), (7, 2)), target=SequenceTarget("kg", 0.5))
+    same = meshes((10, 3))
+    assert frames_in(events_of(b"".join(encoded(same, target=SequenceTarget("kg", 5.0))[1])))
+
+
+def test_they_are_no_array():
+    data = b"".join(encoded(meshes((10, 3), (7, 2)))[1])
+    with pytest.raises(MeshError, match="the faces change at frame 3"):
+        decode_sequence(data)
+
+
+def test_an_array_with_another_shape_is_refused():
+    frames = meshes((10, 3))
+    with pytest.raises(MeshError, match="frame 3 has shape"):
+        encoded([*frames, frames[0].positions[:-1]])
+
+
+def test_every_run_has_its_attributes():
+    frames = meshes((10, 2), (7, 2), (10, 1))
+
+    def painted(mesh, value):
+        colors = np.full((len(mesh.positions), 3), value, np.uint8)
+        return replace(mesh, attributes=(Attribute("colour", colors, "vertex", "color"),))
+
+    chosen = SequenceOptions(step=0.003, block_size=30, threads=1, runs=True)
+    coloured = [painted(mesh, value) for mesh, value in zip(frames, (7, 7, 90, 90, 7), strict=True)]
+    encoder = SequenceEncoder(frames[0].faces, chosen, 5, attributes=coloured[0].attributes)
+    decoder = SequenceDecoder(threads=1)
+    values = []
+    for chunk in encoder.chunks(coloured):
+        decoder.receive_data(chunk)
+        while not isinstance(event := decoder.next_event(), Signal):
+            if isinstance(event, FrameEvent):
+                (one,) = decoder.attributes
+                values.append((one.name, int(one.values[0, 0]), len(one.values)))
+    assert values == [("colour", 7, 60)] * 2 + [("colour", 90, 42)] * 2 + [("colour", 7, 60)]
+
+
+def test_a_mesh_with_other_colours_is_another():
+    frames = meshes((10, 1), (7, 1), (10, 1))
+    red, blue = ((Attribute("colour", np.full((60, 3), value, np.uint8), "vertex", "color"),) for value in (200, 3))
+    chosen = SequenceOptions(step=0.003, block_size=30, threads=1, runs=True)
+    given = [replace(frames[0], attributes=red), frames[1], replace(frames[2], attributes=blue)]
+    data = b"".join(SequenceEncoder(frames[0].faces, chosen, 3, attributes=red).chunks(given))
+    told = [int(event.values[0, 0]) for event in events_of(data) if isinstance(event, AttributeEvent)]
+    assert told == [200, 3]
+
+
+# ---------------------------------------------------------------------------------------------------- loss and joining
+
+
+def damaged(data, number):
+    """The stream with a byte of a frame changed."""
+    reader = Reader()
+    reader.receive_data(data)
+    while reader.last_frame is None or reader.last_frame.number < number:
+        reader.next_packet()
+    span = reader.last_frame
+    return data[: span.offset + 1] + bytes([data[span.offset + 1] ^ 0x55]) + data[span.offset + 2 :]
+
+
+@pytest.mark.parametrize("way", WAYS)
+def test_loss_of_any_frame_stays_within_the_runs_of_one_mesh(way):
+    data = b"".join(encoded(meshes(*PIECES), **way)[1])
+    whole = frames_in(events_of(data))
+    mesh_of = [size for size, count in PIECES for _ in range(count)]
+    frames = frames_of(data)
+    mesh = -1
+    order = []
+    sizes = iter((10, 7, 10, 5, 7))
+    for kind, _ in frames:
+        mesh = next(sizes) if kind == FrameType.HEADER else mesh
+        order.append(mesh)
+    for number in range(1, len(frames)):
+        events = events_of(damaged(data, number), tolerant=True)
+        found = frames_in(events)
+        lost = {k for event in events if isinstance(event, LossEvent) and event.frames for k in event.frames}
+        assert found.keys() | lost == set(range(15)) and not found.keys() & lost
+        assert all(np.array_equal(found[k].positions, whole[k].positions) for k in found)
+        assert all(np.array_equal(found[k].faces, whole[k].faces) for k in found)
+        assert {mesh_of[k] for k in lost} <= {order[number]}, number
+        if frames[number][0] == FrameType.GOP:
+            assert len(lost) <= 5
+
+
+def test_a_first_run_that_is_lost_is_an_error_only_if_it_is_all():
+    frames = meshes((10, 3), (7, 2))
+    data = b"".join(encoded(frames)[1])
+    found = frames_in(events_of(damaged(data, 1), tolerant=True))
+    assert list(found) == [3, 4]
+    alone = b"".join(encoded(frames[:3])[1])
+    with pytest.raises(CorruptError):
+        events_of(damaged(alone, 1), tolerant=True)
+
+
+def test_late_joiners_begin_at_a_run_with_a_mesh():
+    data = b"".join(encoded(meshes(*PIECES), gop=4)[1])
+    whole = frames_in(events_of(data))
+    headers = []
+    reader = Reader()
+    reader.receive_data(data)
+    while (packet := reader.next_packet()) is not NEED_DATA:
+        if isinstance(packet, Header):
+            headers.append(reader.last_frame.offset)
+    later = write_preamble() + data[headers[1] :]
+    with pytest.raises(CorruptError, match="begins within a sequence"):
+        events_of(later)
+    events = events_of(later, tolerant=True)
+    found = frames_in(events)
+    assert list(found) == [5, 6, 7, 12, 13, 14]  # frames 8 to 11 have the mesh of run 0
+    assert all(np.array_equal(found[k].positions, whole[k].positions) for k in found)
+    lost = [event.frames for event in events if isinstance(event, LossEvent)]
+    assert lost == [range(0, 5), range(8, 12)]
+
+
+# ------------------------------------------------------------------------------------------------------------- charges
+
+
+def test_so_many_meshes_are_kept():
+    sizes = [*range(3, 3 + KEPT_MESHES + 2), 3, 6, 12]
+    frames = meshes(*((size, 1) for size in sizes))
+    data = b"".join(encoded(frames)[1])
+    again = [packet.again for packet in packets_of(data) if isinstance(packet, Header)]
+    assert again[:-2] == [0] * (KEPT_MESHES + 3) and again[-2:] == [4, 10]
+    assert len(frames_in(events_of(data))) == len(frames)
+
+
+def test_what_meshes_take_does_not_grow_with_their_number():
+    def kept(count):
+        frames = meshes(*((3 + k % 40, 1) for k in range(count)))
+        encoder = SequenceEncoder(
+            frames[0].faces, SequenceOptions(step=0.02, threads=1, block_size=30, runs=True), len(frames)
+        )
+        decoder = SequenceDecoder(threads=1)
+        decoder.receive_data(b"".join(encoder.chunks(frames)))
+        while not isinstance(decoder.next_event(), Signal):
+            pass
+        return decoder._allowance.kept, decoder._allowance._present
+
+    (few, those), (many, these) = kept(40), kept(70)
+    assert many < 1.5 * few and these < 1.5 * those
+
+
+@pytest.mark.parametrize("way", WAYS)
+def test_the_encoder_counts_what_decoders_keep(way, monkeypatch):
+    counted = []
+    own = SequenceEncoder._run
+
+    def noted(self, run, index, shelf, options, tell):
+        yield from own(self, run, index, shelf, options, tell)
+        counted.append((shelf.allowance.kept, shelf.allowance.vertices, shelf.allowance._shown))
+
+    monkeypatch.setattr(SequenceEncoder, "_run", noted)
+    data = b"".join(encoded(meshes(*PIECES), **way)[1])
+    seen = []
+    with SequenceDecoder(threads=1) as decoder:
+        decoder.receive_data(data)
+        while not isinstance(event := decoder.next_event(), Signal):
+            if isinstance(event, HeaderEvent):
+                allowance = decoder._allowance
+                seen.append((allowance.kept, allowance.vertices, allowance._shown))
+    for (own_memory, *own_rest), (memory, *rest) in zip(counted[:-1], seen[1:], strict=True):
+        assert own_rest == rest
+        assert memory - 8 * rest[0] <= own_memory <= memory
+
+
+def test_a_stream_of_two_meshes_of_one_run_is_refused():
+    data = b"".join(encoded(meshes((10, 2), (7, 2)))[1])
+    frames = frames_of(data)
+    place = [i for i, (kind, _) in enumerate(frames) if kind == FrameType.HEADER][1]
+    with pytest.raises(BsmError):
+        events_of(stream_of(frames[:place] + frames[place + 1 :]))
+
+
+# --------------------------------------------------------------------------------------------------- any kind of frame
+
+
+def test_unwelded_frames_of_many_components_and_flat_ones():
+    rng = np.random.default_rng(3)
+    soup = np.arange(60, dtype=np.int32).reshape(20, 3)
+    points = rng.normal(size=(60, 3))
+    tetra = TriangleMesh(rng.normal(size=(4, 3)), [[0, 1, 2], [0, 2, 3], [0, 3, 1], [1, 3, 2]])
+    flat = replace(tetra, positions=np.zeros((4, 3)))
+    twice = TriangleMesh(rng.normal(size=(5, 3)), [[0, 1, 2], [0, 1, 2], [2, 1, 0], [0, 0, 3]])
+    frames = [
+        TriangleMesh(points, soup),
+        TriangleMesh(points * 1.1, soup),
+        tetra,
+        flat,
+        twice,
+        replace(twice, positions=twice.positions + 5.0),
+        TriangleMesh(points[::-1], soup),
+    ]
+    chosen = SequenceOptions(step=0.003, threads=1, runs=True)
+    encoder = SequenceEncoder(soup, chosen, len(frames))
+    decoder = SequenceDecoder(threads=1)
+    count = 0
+    for chunk in encoder.chunks(frames):
+        decoder.receive_data(chunk)
+        while not isinstance(event := decoder.next_event(), Signal):
+            if isinstance(event, FrameEvent):
+                own = frames[event.index].positions[encoder.vertex_order]
+                assert np.abs(event.positions - own).max() < 0.1
+                count += 1
+            if isinstance(event, ConnectivityEvent):
+                assert event.vertices == len(encoder.vertex_order)
+    assert count == len(frames) and encoder.run_starts == [0, 2, 4, 6]

@@ -1,0 +1,144 @@
+/** The runs of a sequence, and the meshes that are kept for later ones (specification, S 9). */
+import type { Allowance, Counted } from "./chain";
+import { BsmError, CorruptError } from "./errors";
+import type { Header } from "./header";
+import type { Kernels, Memory } from "./kernels";
+import type { Limits } from "./limits";
+import type { Item, Stages } from "./stages";
+
+const KEPT_MESHES = 8;
+
+/** How far a sequence has come, over all of its runs. */
+export class Course {
+    /** The frame that comes next in the stream. */
+    next = 0;
+    /** Whether a loss was reported. */
+    lossy = false;
+    private lost = 0;
+    private damage?: BsmError;
+
+    constructor(private readonly tolerant: boolean) {}
+
+    /** Whether any frame has come. */
+    get given(): boolean {
+        return this.next > this.lost;
+    }
+
+    /** Take note that frames are lost; how many is known when the next ones come. */
+    lose(error: BsmError): void {
+        this.damage ??= error;
+    }
+
+    /** Report the frames that are missing before frame `index`, or before the end, that nobody may know (0); whether any are. */
+    tellLost(index: number, ended: boolean, queue: Item[]): boolean {
+        const first = this.next;
+        const count = Math.max(index - first, 0);
+        if (count === 0 && !(ended && index === 0 && this.damage)) return false;
+        const error = this.damage ?? new CorruptError(`${count} frames from number ${first} on are missing`);
+        if (!this.tolerant) throw error;
+        this.damage = undefined;
+        this.lossy = true;
+        this.lost += count;
+        this.next += count;
+        queue.push({ type: "loss", frames: { first, count }, error: error.described });
+        return true;
+    }
+}
+
+/** A mesh that a run has had, and what is kept for later runs of it. */
+interface Kept {
+    stages: Stages;
+    memory: Memory;
+    counted: Counted;
+}
+
+/** Begins one run behind the other; each has a mesh of its own, or one that an earlier run has had. */
+export class Runs {
+    readonly course: Course;
+    /** Why the present run is lost. */
+    private lost?: BsmError;
+    private readonly kept = new Map<number, Kept>();
+    /** The run that brought the present mesh. */
+    private mesh = 0;
+    private present?: Stages;
+    private frames = 0;
+    private before: Counted;
+
+    /** `memory` is that of the first run. */
+    constructor(
+        private readonly kernels: Kernels,
+        private memory: Memory,
+        private readonly limits: Limits,
+        private readonly allowance: Allowance,
+        private readonly tolerant: boolean,
+    ) {
+        this.course = new Course(tolerant);
+        this.before = allowance.counted;
+    }
+
+    /** The stages of a run that begins; `open` makes those of a mesh of its own. */
+    begin(header: Header, open: (memory: Memory, course: Course) => Stages): Stages {
+        const first = !this.present && !this.lost;
+        this.leave();
+        this.lost = undefined;
+        this.frames = header.frames;
+        this.mesh = header.again > 0 ? header.again - 1 : header.run;
+        if (header.again > 0) return (this.present = this.resumed(header));
+        if (this.kept.size === KEPT_MESHES) this.giveUpOldest();
+        if (!first) {
+            const others = [...this.kept.values()].reduce((sum, { memory }) => sum + memory.size, 0);
+            this.memory = this.kernels.instantiate(this.limits.memory - others);
+        }
+        return (this.present = open(this.memory, this.course));
+    }
+
+    /** Whether it is borne that the present run is lost. */
+    bears(error: unknown): boolean {
+        if (!this.tolerant || !(error instanceof BsmError)) return false;
+        this.lost = error;
+        this.course.lose(error);
+        return true;
+    }
+
+    /** Whether the present run is lost. */
+    get isLost(): boolean {
+        return this.lost !== undefined;
+    }
+
+    /** Nothing follows a run that is lost. */
+    end(queue: Item[]): void {
+        if (this.lost && !this.course.given) throw this.lost;
+        this.course.tellLost(this.frames, true, queue);
+        queue.push({ type: "end", missing: new Int32Array(0), degraded: new Int32Array(0) });
+    }
+
+    private resumed(header: Header): Stages {
+        const kept = this.kept.get(this.mesh);
+        if (!kept) throw new CorruptError(`run ${header.run} has the mesh of run ${this.mesh}, which is not there any more`);
+        this.kept.delete(this.mesh);
+        this.kept.set(this.mesh, kept);
+        this.memory = kept.memory;
+        kept.stages.resume(header);
+        return kept.stages;
+    }
+
+    /** Keep of the present run what later ones may need, and give back all else. */
+    private leave(): void {
+        const { allowance, present, memory, before } = this;
+        const now = allowance.counted;
+        const counted = { memory: now.memory - before.memory, vertices: now.vertices - before.vertices };
+        const kept = this.kept.get(this.mesh);
+        if (!present?.suspend()) allowance.giveBack(counted);
+        else if (!kept) this.kept.set(this.mesh, { stages: present, memory, counted });
+        else kept.counted = { memory: kept.counted.memory + counted.memory, vertices: kept.counted.vertices + counted.vertices };
+        this.before = allowance.counted;
+        this.present = undefined;
+    }
+
+    private giveUpOldest(): void {
+        const [oldest, { counted }] = this.kept.entries().next().value as [number, Kept];
+        this.kept.delete(oldest);
+        this.allowance.giveBack(counted);
+        this.before = this.allowance.counted;
+    }
+}
