@@ -407,7 +407,7 @@ class Fulfilment:
 
         def choose(layer: Layer) -> Levels:
             reach = np.minimum(self._reaches, NEAR_SEEN * layer.step)
-            return sensitivity.levels(offsets[:, : layer.axes], layer_steps(layer), WORTH_OF_LOOK, reach)
+            return sensitivity.levels(offsets, base.frames, layer_steps(layer), WORTH_OF_LOOK, reach)
 
         return choose
 

@@ -61,7 +61,7 @@ class Sensitivity:
     @cached_property
     def costs(self) -> tuple[Matrix, Matrix]:
         """What pictures differ by per square of an error, along the normal and along a tangent, shapes (n,)."""
-        frames = local_frames(self._positions, self._faces).reshape(-1, 3, 3)
+        frames = self._frames
         noise = np.random.default_rng(0).uniform(-0.5, 0.5, self._positions.shape)
         along, across = self._steps
         upright = self._positions + noise[:, :1] * along * frames[:, 0]
@@ -81,28 +81,31 @@ class Sensitivity:
         unlike = DISSIMILAR * distance ** (1.0 / POWER)
         return math.sqrt(12.0 * unlike / float(normal.sum() + 2.0 * ratio**2 * tangent.sum()))
 
-    def levels(self, offsets: Matrix, steps: Matrix, worth: float, reach: Matrix) -> Levels:
+    def levels(self, offsets: Matrix, frames: Matrix, steps: Matrix, worth: float, reach: Matrix) -> Levels:
         """Levels that are worth their bits, shape (n, axes).
 
         Parameters
         ----------
-        offsets : float64 array, shape (n, axes)
-            What is wanted, along normals and, if there are three axes, along tangents.
+        offsets : float64 array, shape (n, 3)
+            What is wanted, in `frames`.
+        frames : float64 array, shape (n, 9)
+            The axes of the levels.
         steps : float64 array, shape (axes,)
+            Of the levels: along the first axis, or along all three.
         worth : float
             What a bit is worth, over the mean cost of an error of one step along the normal.
         reach : float64 array, shape (n,)
             How far a vertex may come to lie from its place, but for rounding.
         """
         normal, tangent = self.costs
-        losses = np.column_stack([normal, tangent, tangent][: len(steps)]) * np.square(steps)
-        losses /= max(worth * float(normal.mean()) * float(steps[0]) ** 2, 1e-300)
-        wanted = np.ascontiguousarray(offsets / steps)
-        levels = np.rint(wanted).clip(-_MOST, _MOST).astype(np.int32)
-        rates, counts = np.tile(BITS, (AROUND * len(steps), 1)), np.empty((AROUND * len(steps), SIZES))
+        axes, unit = len(steps), worth * float(normal.mean()) * float(steps[0]) ** 2
+        losses = np.column_stack([np.maximum(normal - tangent, 0.0), tangent]) / max(unit, 1e-300)
+        normals = np.einsum("nij,nj->ni", frames.reshape(-1, 3, 3), self._frames[:, 0])
+        levels = np.rint(offsets[:, :axes] / steps).clip(-_MOST, _MOST).astype(np.int32)
+        rates, counts = np.tile(BITS, (AROUND * axes, 1)), np.empty((AROUND * axes, SIZES))
         for _ in range(SWEEPS):
             moved = _kernels.settle_levels(
-                wanted, np.ascontiguousarray(losses), np.ascontiguousarray(steps, np.float64),
+                np.ascontiguousarray(offsets), normals, losses, np.resize(steps, 3),
                 np.ascontiguousarray(reach, np.float64), self._graph.offsets, self._graph.neighbours,
                 rates, PULL, levels, counts,
             )  # fmt: skip
@@ -110,6 +113,11 @@ class Sensitivity:
                 break
             rates = _bits(counts)
         return levels
+
+    @cached_property
+    def _frames(self) -> Matrix:
+        """Of the original: normals and tangents, shape (n, 3, 3)."""
+        return local_frames(self._positions, self._faces).reshape(-1, 3, 3)
 
     def _spread(self, blame: Matrix) -> Matrix:
         """From faces to vertices, half of it to their neighbours."""
