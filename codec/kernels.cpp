@@ -173,7 +173,10 @@ NB_MODULE(_kernels, m) {
     m.def("weighted_angle", &weighted_angle, "normals"_a, "weights"_a, "decoded"_a, "faces"_a, "lost"_a, Unlocked());
     m.def("farthest_apart", &farthest_apart, "original"_a, "decoded"_a, Unlocked());
     m.def("local_frames", checked<&local_frames>, "positions"_a, "faces"_a, "frames"_a, Unlocked());
-    m.def("add_levels", checked<&add_levels>, "positions"_a, "frames"_a, "levels"_a, "step"_a, "ratio"_a, Unlocked());
+    m.def("tangent_steps", checked<&tangent_steps>, "positions"_a, "faces"_a, "step"_a, "ratio"_a, "scratch"_a, "steps"_a,
+          Unlocked());
+    m.def("add_heights", checked<&add_heights>, "positions"_a, "frames"_a, "levels"_a, "step"_a, Unlocked());
+    m.def("add_slides", checked<&add_slides>, "positions"_a, "frames"_a, "levels"_a, "steps"_a, Unlocked());
     m.def("collect_flaps", checked<&collect_flaps>, "faces"_a, "starts"_a, "members"_a, "pending"_a, "flaps"_a,
           Unlocked());
     m.def("group_flaps", checked<&group_flaps>, "flaps"_a, "starts"_a, "members"_a, Unlocked());
@@ -181,8 +184,8 @@ NB_MODULE(_kernels, m) {
     m.def("count_bends_on", checked<&count_bends_on>, "corners"_a, "step"_a, "counts"_a, Unlocked());
     m.def("shape_levels", checked<&shape_levels>, "wanted"_a, "aim"_a, "moved"_a, "levels"_a, "directions"_a,
           "scales"_a, "pull"_a, "open"_a, Unlocked());
-    m.def("settle_levels", checked<&settle_levels>, "offsets"_a, "normals"_a, "losses"_a, "steps"_a, "reach"_a, "starts"_a,
-          "members"_a, "rates"_a, "pull"_a, "levels"_a, "counts"_a, Unlocked());
+    m.def("settle_levels", checked<&settle_levels>, "offsets"_a, "normals"_a, "losses"_a, "steps"_a,
+          "reach"_a, "starts"_a, "members"_a, "rates"_a, "pull"_a, "fixed"_a, "levels"_a, "counts"_a, Unlocked());
     m.def("shape_grid", checked<&shape_grid>, "wanted"_a, "aim"_a, "moved"_a, "places"_a, "step"_a, "flaps"_a,
           "starts"_a, "members"_a, "bends"_a, "rates"_a, "axes"_a, "open"_a, Unlocked());
 }

@@ -1126,10 +1126,35 @@ def refine(mesh, positions, refinements):
         for number, _, size, payload in refinements:
             if number == layer:
                 reader.read(payload, size)
-        for j in range(reader.axes):
-            levels = np.array([row[j] for row in reader.x], float)
-            refined += (step * (ratio if j else 1.0) * levels)[:, None] * frames[j]
+        levels = np.array(reader.x, float).reshape(count, reader.axes)
+        raised = (step * levels[:, 0])[:, None] * frames[0]
+        refined += raised
+        coded = sum(size for number, _, size, _ in refinements if number == layer)
+        if reader.axes == 3 and coded == count:  # M 17.5
+            wide = step * tangent_ratios(mesh.faces, positions + raised, ratio)
+            for j in (1, 2):
+                refined += (wide * levels[:, j])[:, None] * frames[j]
     return refined
+
+
+def tangent_ratios(faces, places, ratio):
+    """M 17.4: t of each vertex."""
+    if ratio <= 1:
+        return np.full(len(places), ratio)
+    sums, areas = np.zeros((len(places), 3)), np.zeros(len(places))
+    for a, b, c in faces:
+        normal = np.cross(places[b] - places[a], places[c] - places[a])
+        for v in (a, b, c):
+            sums[v] += normal
+            areas[v] += math.sqrt(normal @ normal)
+    own = 1 - np.sqrt((sums**2).sum(axis=1)) / (areas + 2.0**-200)
+    bends, corners = np.zeros(len(places)), np.zeros(len(places))
+    for a, b, c in faces:
+        for v, others in ((a, (b, c)), (b, (c, a)), (c, (a, b))):
+            bends[v] += own[v] / 2 + own[others[0]] / 4 + own[others[1]] / 4
+            corners[v] += 1
+    bends = np.divide(bends, corners, out=np.ones(len(places)), where=corners > 0)
+    return np.maximum(1, ratio * np.sqrt(np.sqrt(2.0**-12 / (2.0**-12 + bends))))
 
 
 class Chain:

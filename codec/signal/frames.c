@@ -7,6 +7,15 @@ static const double POLE[3] = {0.48, 0.6, 0.64}, TANGENTS[2][3] = {{-0.8, 0.0, 0
 
 INLINE double dot(const double *a, const double *b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
+/* Twice a face's area, along its normal. */
+INLINE void cross_of(ConstDoubles2 positions, const int32_t *face, double *across) {
+    const double *a = positions.data + 3 * (int64_t)face[0], *b = positions.data + 3 * (int64_t)face[1];
+    const double *c = positions.data + 3 * (int64_t)face[2];
+    double u[3], v[3];
+    for (int j = 0; j < 3; j++) u[j] = b[j] - a[j], v[j] = c[j] - a[j];
+    for (int j = 0; j < 3; j++) across[j] = u[(j + 1) % 3] * v[(j + 2) % 3] - u[(j + 2) % 3] * v[(j + 1) % 3];
+}
+
 /* Rows of `frames` are a vertex's normal and two tangents; `faces` are below the number of rows. */
 int64_t local_frames(ConstDoubles2 positions, ConstInts2 faces, Doubles2 frames) {
     if (positions.columns != 3 || faces.columns != 3 || frames.columns != 9 || frames.rows != positions.rows)
@@ -14,14 +23,10 @@ int64_t local_frames(ConstDoubles2 positions, ConstInts2 faces, Doubles2 frames)
     for (int64_t i = 0; i < 9 * frames.rows; i++) frames.data[i] = 0.0;
     for (int64_t f = 0; f < faces.rows; f++) {
         const int32_t *face = faces.data + 3 * f;
-        const double *a = positions.data + 3 * (int64_t)face[0], *b = positions.data + 3 * (int64_t)face[1];
-        const double *c = positions.data + 3 * (int64_t)face[2];
-        double u[3], v[3];
-        for (int j = 0; j < 3; j++) u[j] = b[j] - a[j], v[j] = c[j] - a[j];
-        for (int j = 0; j < 3; j++) {
-            double across = u[(j + 1) % 3] * v[(j + 2) % 3] - u[(j + 2) % 3] * v[(j + 1) % 3];
-            for (int k = 0; k < 3; k++) frames.data[9 * (int64_t)face[k] + j] += across;
-        }
+        double across[3];
+        cross_of(positions, face, across);
+        for (int j = 0; j < 3; j++)
+            for (int k = 0; k < 3; k++) frames.data[9 * (int64_t)face[k] + j] += across[j];
     }
     double total = 0.0;
     for (int64_t v = 0; v < frames.rows; v++) total += dot(frames.data + 9 * v, frames.data + 9 * v);
@@ -41,14 +46,76 @@ int64_t local_frames(ConstDoubles2 positions, ConstInts2 faces, Doubles2 frames)
     return 0;
 }
 
-/* Move positions by levels: the first along the normal in units of `step`, the others in the plane of `ratio * step`. */
-int64_t add_levels(Doubles2 positions, ConstDoubles2 frames, ConstInts2 levels, double step, double ratio) {
-    if (positions.columns != 3 || frames.columns != 9 || levels.columns < 1 || levels.columns > 3 ||
-        frames.rows != positions.rows || levels.rows != positions.rows)
+static const double FLAT = 0x1p-12; /* bends that are flat; the ratio halves with every factor of 16 beyond */
+
+/* How long a step in the plane is at each vertex, `steps` (n): `ratio` times `step` where the surface is flat, and less
+ * the more it is bent, down to `step`; `scratch` is n x 4. Continuous, too. */
+int64_t tangent_steps(ConstDoubles2 positions, ConstInts2 faces, double step, double ratio, Doubles2 scratch,
+                      Doubles steps) {
+    int64_t n = positions.rows;
+    if (positions.columns != 3 || faces.columns != 3 || scratch.columns != 4 || scratch.rows != n || steps.size != n)
+        return MISUSED;
+    double least = ratio < 1.0 ? ratio : 1.0;
+    if (ratio <= 1.0) {
+        for (int64_t v = 0; v < n; v++) steps.data[v] = step * least;
+        return 0;
+    }
+    for (int64_t i = 0; i < 4 * n; i++) scratch.data[i] = 0.0;
+    for (int64_t f = 0; f < faces.rows; f++) {
+        const int32_t *face = faces.data + 3 * f;
+        double across[3];
+        cross_of(positions, face, across);
+        double area = __builtin_sqrt(dot(across, across));
+        for (int k = 0; k < 3; k++) {
+            double *sum = scratch.data + 4 * (int64_t)face[k];
+            for (int j = 0; j < 3; j++) sum[j] += across[j];
+            sum[3] += area;
+        }
+    }
+    /* The bend of each vertex; then four times the sum over its corners, half of it of the others', and four times their number. */
+    for (int64_t v = 0; v < n; v++) {
+        double *at = scratch.data + 4 * v;
+        at[0] = 1.0 - __builtin_sqrt(dot(at, at)) / (at[3] + 0x1p-200);
+        at[1] = at[2] = 0.0;
+    }
+    for (int64_t f = 0; f < faces.rows; f++) {
+        const int32_t *face = faces.data + 3 * f;
+        double sum = 0.0;
+        for (int k = 0; k < 3; k++) sum += scratch.data[4 * (int64_t)face[k]];
+        for (int k = 0; k < 3; k++) {
+            double *at = scratch.data + 4 * (int64_t)face[k];
+            at[1] += at[0] + sum, at[2] += 4.0;
+        }
+    }
+    for (int64_t v = 0; v < n; v++) {
+        const double *at = scratch.data + 4 * v;
+        double bend = at[2] > 0.0 ? at[1] / at[2] : 1.0;
+        double share = ratio * __builtin_sqrt(__builtin_sqrt(FLAT / (FLAT + bend)));
+        steps.data[v] = step * (share > least ? share : least);
+    }
+    return 0;
+}
+
+/* Move positions along their normals, by the first of each row of levels in units of `step`. */
+int64_t add_heights(Doubles2 positions, ConstDoubles2 frames, ConstInts2 levels, double step) {
+    if (positions.columns != 3 || frames.columns != 9 || levels.columns < 1 || frames.rows != positions.rows ||
+        levels.rows != positions.rows)
+        return MISUSED;
+    for (int64_t v = 0; v < levels.rows; v++) {
+        double amount = levels.data[v * levels.columns] * step;
+        for (int j = 0; j < 3; j++) positions.data[3 * v + j] += amount * frames.data[9 * v + j];
+    }
+    return 0;
+}
+
+/* And in the plane, by the second and the third, in units of each vertex's own. */
+int64_t add_slides(Doubles2 positions, ConstDoubles2 frames, ConstInts2 levels, ConstDoubles steps) {
+    if (positions.columns != 3 || frames.columns != 9 || levels.columns != 3 || frames.rows != positions.rows ||
+        levels.rows != positions.rows || steps.size != positions.rows)
         return MISUSED;
     for (int64_t v = 0; v < levels.rows; v++)
-        for (int64_t a = 0; a < levels.columns; a++) {
-            double amount = levels.data[v * levels.columns + a] * (a == 0 ? step : step * ratio);
+        for (int a = 1; a < 3; a++) {
+            double amount = levels.data[3 * v + a] * steps.data[v];
             for (int j = 0; j < 3; j++) positions.data[3 * v + j] += amount * frames.data[9 * v + 3 * a + j];
         }
     return 0;

@@ -26,8 +26,8 @@ def local_frames(positions: Positions, faces: Faces) -> Matrix:
     return frames
 
 
-def displaced(positions: Positions, frames: Matrix, levels: Levels, step: float, ratio: float) -> Positions:
-    """Positions moved by levels along the axes of frames, shape (n, 3).
+def raised(positions: Positions, frames: Matrix, levels: Levels, step: float) -> Positions:
+    """Positions moved along the normals of frames, shape (n, 3).
 
     Parameters
     ----------
@@ -35,18 +35,54 @@ def displaced(positions: Positions, frames: Matrix, levels: Levels, step: float,
     frames : float64 array, shape (n, 9)
         Those of the base, whatever was added to it since.
     levels : int32 array, shape (n, 1) or (n, 3)
-        Along the normal, and along the tangents.
-    step, ratio : float
-        A level along the normal, and how many times as much one along a tangent is.
+        Of which the first count.
+    step : float
+        What a level moves.
     """
     moved = np.array(positions, np.float64, order="C")
-    displace(moved, frames, levels, step, ratio)
+    lift(moved, frames, levels, step)
     return moved
 
 
-def displace(positions: Positions, frames: Matrix, levels: Levels, step: float, ratio: float) -> None:
-    """`displaced` in place: `positions`, shape (n, 3), `frames`, (n, 9), and `levels`, (n, 1) or (n, 3), as there."""
-    _kernels.add_levels(positions, frames, np.ascontiguousarray(levels, np.int32), step, ratio)
+def lift(positions: Positions, frames: Matrix, levels: Levels, step: float) -> None:
+    """`raised` in place: `positions`, shape (n, 3), `frames`, (n, 9), and `levels`, (n, 1) or (n, 3), as there."""
+    _kernels.add_heights(positions, frames, np.ascontiguousarray(levels, np.int32), step)
+
+
+def slide(positions: Positions, frames: Matrix, levels: Levels, steps: Matrix) -> None:
+    """Move positions along the tangents of frames, in place.
+
+    Parameters
+    ----------
+    positions : float64 array, shape (n, 3)
+    frames : float64 array, shape (n, 9)
+    levels : int32 array, shape (n, 3)
+        Of which the second and the third count.
+    steps : float64 array, shape (n,)
+        What a level of each vertex moves.
+    """
+    given = np.ascontiguousarray(levels, np.int32), np.ascontiguousarray(steps, np.float64)
+    _kernels.add_slides(positions, frames, *given)
+
+
+def tangent_steps(positions: Positions, faces: Faces, step: float, ratio: float) -> Matrix:
+    """What a level along a tangent moves each vertex, shape (n,); the same for encoder and decoder.
+
+    An error along the surface hardly shows where it is flat, and shows at creases like one across.
+
+    Parameters
+    ----------
+    positions : float64 array, shape (n, 3)
+        Of the base, raised by the levels along its normals.
+    faces : int32 array, shape (m, 3)
+    step, ratio : float
+        A level along a normal; and how many times that one along a tangent is where the surface is flat. It is less
+        where that is bent, but not below 1.
+    """
+    steps = np.empty(len(positions))
+    given = np.ascontiguousarray(positions, np.float64), np.ascontiguousarray(faces, np.int32)
+    _kernels.tangent_steps(*given, step, ratio, np.empty((len(positions), 4)), steps)
+    return steps
 
 
 def in_frames(offsets: Positions, frames: Matrix) -> Matrix:

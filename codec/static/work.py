@@ -108,7 +108,7 @@ def light_cost(vertices: int, faces: int) -> float:
 
 def layer_cost(vertices: int, faces: int, axes: int) -> float:
     """Work of a layer of refinement or an attribute, before its bytes are counted."""
-    return vertices * (400.0 + 230.0 * axes) + 100.0 * faces
+    return vertices * (400.0 + 230.0 * axes) + 130.0 * faces
 
 
 def grid_chunk_cost(received: int) -> float:
@@ -138,7 +138,7 @@ def grid_memory(vertices: int, faces: int) -> float:
 
 def layer_memory(vertices: int, faces: int, axes: int) -> float:
     """Bytes for decoding a layer of refinement, and its levels that wait."""
-    return 16.0 * vertices + levels_charge(vertices, faces, axes)
+    return (28.0 + 48.0 * axes) * vertices + levels_charge(vertices, faces, axes)
 
 
 def seams_kept(vertices: int, faces: int, *, first: bool) -> float:

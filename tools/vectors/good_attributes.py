@@ -125,8 +125,8 @@ def on_layers(mesh: TriangleMesh, count: int) -> bytes:
     """Behind a layer of refinement that ends after so many vertices."""
     encoder = Encoder(mesh, BASE)
     made = Spectral(encoder._prepared, BASE).base(BASE.first_step)
-    levels = made.wanted(ALL_AXES)[0]
-    levels[count:] = 0
+    levels = made.wanted(made.expected_steps(ALL_AXES))[0]
+    levels[count:], levels[:, 1:] = 0, 0  # of a layer that ends early, heights alone count
     draft = made.refined((ALL_AXES, levels)).draft()
     layer = Refinement(0, 0, count, LevelsEncoder(made.prepared.mesh.faces, levels).chunk(count))
     body = (*(packet for packet in draft.body if not isinstance(packet, Refinement)), layer)

@@ -75,7 +75,7 @@ def refined(
     header = replace(made.draft.header, refinements=numbers, borders=int(borders))
     packets: list[Packet] = [header, *made.draft.body]
     for number, (layer, parts) in enumerate(zip(layers, counts, strict=True)):
-        wanted, last = made.wanted(layer)[0], number == len(layers) - 1
+        wanted, last = made.wanted(made.expected_steps(layer))[0], number == len(layers) - 1
         if borders and last:
             wanted[~keep_borders(corners_of(faces, len(wanted)))] = 0
         coder, first = LevelsEncoder(faces, wanted, borders=borders and last), 0

@@ -26,7 +26,7 @@ from bsm.codec.static.choice.reaches import reaches
 from bsm.codec.static.choice.search import LOOK_SLACK, LOOK_TRIES, SLACK, THOROUGH, Trial, widest_step
 from bsm.codec.static.choice.settling import Sensitivity
 from bsm.codec.static.choice.shaping import Aim
-from bsm.codec.static.choice.spectral import Base, Spectral, Stack, base_step, layer_steps
+from bsm.codec.static.choice.spectral import Base, Spectral, Stack, base_step
 from bsm.codec.static.contract import Contract
 from bsm.codec.static.draft import Draft
 from bsm.codec.static.options import EncodeOptions
@@ -65,8 +65,8 @@ FINEST, FINEST_LAYER = 2.0**-38, 1e-6
 """Smallest step, in BSM units, of layers for borders and of others."""
 FINEST_BITS = 20
 """Of the grid that is tried where nothing else will do."""
-ALL_AXES = 6.0
-"""How much coarser levels in the plane are than those along the normal."""
+ALL_AXES = 15.0
+"""How much coarser levels in the plane are than those along the normal, where the surface is flat."""
 HEIGHTS, HEIGHTS_OF_MODELS = 1.34, 2.6
 """Step of a layer along normals over what moves the end of a mean edge by the angle that is asked for."""
 LAYER, LAYER_IF_ROUGH, LEAST_LAYER, MOST_LAYER = 2.22, 0.09, 0.94, 1.5
@@ -75,10 +75,10 @@ STEEP, STEEP_HEIGHTS = 1.05, 0.65
 """How angles grow with the step of a layer, in their logarithms: of one along all axes, and along normals alone."""
 FLATTER = 0.6
 """And how much less they may."""
-AXES_OF_LOOK, WORTH_OF_LOOK, STEEP_LOOK = 4.0, 0.11, (0.9, 1.8)
-"""Where a look is asked for: how much coarser levels in the plane are; what a bit is worth, over the mean cost of an
-error of one step along the normal, which is about what it saves where all is rounded; and how pictures get worse with
-the step, in their logarithms."""
+NOISE_OF_LOOK, WORTH_OF_LOOK, STEEP_LOOK = 4.0, 0.11, (0.9, 1.8)
+"""Where a look is asked for: how much more noise there is along the surface when sensitivity is measured; what a bit is
+worth, over the mean cost of an error of one step along the normal, which is about what it saves where all is rounded;
+and how pictures get worse with the step, in their logarithms."""
 LOOK_BASE, LOOK_BASE_IF_ROUGH, COARSEST_LOOK_BASE = 18.0, 0.0006, 0.016
 """The step of blocks below a layer, in steps of that; at least so much for each degree between faces beside each other,
 for what is rough is not in low frequencies; and at most."""
@@ -280,7 +280,7 @@ class Fulfilment:
             return base_step(self._angle / FINER_IF_VISUAL)
         if self._sensitivity is None:
             return base_step(self._angle)
-        step = LOOK_BASE * self._sensitivity.step_for(self._contract.look, AXES_OF_LOOK)
+        step = LOOK_BASE * self._sensitivity.step_for(self._contract.look, 3)
         rough = LOOK_BASE_IF_ROUGH * self._shaper.character.roughness
         return min(max(step, rough), COARSEST_LOOK_BASE)
 
@@ -359,7 +359,7 @@ class Fulfilment:
         )
         if heights:
             layer = base.layer(self._first_layer(0.0), 0.0)
-            heights = self._outliers(base.moved(layer, base.wanted(layer)[0])) <= many
+            heights = self._outliers(base.moved(layer, base.wanted(base.expected_steps(layer))[0])) <= many
         best = self._refinement(base, 0.0 if heights else self._ratio)
         if heights and (best is None or self._outliers(base.moved(*best.found)) > many):
             best = self._refinement(base, self._ratio)
@@ -381,7 +381,7 @@ class Fulfilment:
                 return self._judge.trial(step, moved, (layer, levels), sure)
 
         if self._sensitivity is not None:
-            first = self._sensitivity.first_step(self._contract.look, ratio)
+            first = self._sensitivity.first_step(self._contract.look, 3 if ratio else 1)
             return widest_step(measure, first, tries=LOOK_TRIES, most=COARSEST, slopes=STEEP_LOOK, slack=LOOK_SLACK)
         tries, slack = THOROUGH if self._thorough else (2 if self._shaper.character.is_model else 3, SLACK)
         steep = STEEP if ratio else STEEP_HEIGHTS
@@ -393,9 +393,14 @@ class Fulfilment:
         still = self._borders.vertices
 
         def choose(layer: Layer) -> Levels:
-            wanted, directions = base.wanted(layer)
-            wanted[still] = 0
             aim = Aim(layer.step / self._edge, min(self._reach, NEAR * layer.step if layer.ratio else math.inf), 6)
+            wanted, directions = base.wanted(base.expected_steps(layer))
+            wanted[still] = 0
+            levels = self._shaper.levels(start, wanted, directions, aim)
+            if layer.axes == 1:
+                return levels
+            wanted, directions = base.wanted(base.known_steps(layer, levels))
+            wanted[still], wanted[:, 0] = 0, levels[:, 0]
             return self._shaper.levels(start, wanted, directions, aim)
 
         return choose
@@ -407,7 +412,11 @@ class Fulfilment:
 
         def choose(layer: Layer) -> Levels:
             reach = np.minimum(self._reaches, NEAR_SEEN * layer.step)
-            return sensitivity.levels(offsets, base.frames, layer_steps(layer), WORTH_OF_LOOK, reach)
+            levels = sensitivity.levels(offsets, base.frames, base.expected_steps(layer), WORTH_OF_LOOK, reach)
+            if layer.axes == 1:
+                return levels
+            steps = base.known_steps(layer, levels)
+            return sensitivity.slides(levels, offsets, base.frames, steps, WORTH_OF_LOOK, reach)
 
         return choose
 
@@ -417,15 +426,15 @@ class Fulfilment:
         looker = None if self._contract.look == math.inf else self._sight.looker
         if looker is None:
             return None
-        step = FIRST_LOOK * self._first_layer(AXES_OF_LOOK)
+        step = FIRST_LOOK * self._first_layer(NOISE_OF_LOOK)
         positions, faces = self._prepared.positions, self._prepared.mesh.faces
-        return Sensitivity(positions, faces, self._prepared.graph, looker, (step, AXES_OF_LOOK * step))
+        return Sensitivity(positions, faces, self._prepared.graph, looker, (step, NOISE_OF_LOOK * step))
 
     @property
     def _ratio(self) -> float:
         if self._contract.visual < math.inf:
             return ALL_AXES / 2.0
-        return ALL_AXES if self._contract.look == math.inf else AXES_OF_LOOK
+        return ALL_AXES if self._sensitivity is None else self._sensitivity.ratio
 
     def _first_layer(self, ratio: float) -> float:
         """The step of a layer that should be about right."""

@@ -27,38 +27,44 @@ INLINE int64_t size_of(int32_t level, int32_t centre) {
     return least(away < 0 ? -away : away, SIZES - 1);
 }
 
-/* What an error of a vertex costs: along the surface's normal, here in the axes of its levels, more than across. */
+/* What an error of a vertex costs: `across` by the square of its length, and `more` by that of its share along the surface's
+ * normal; both in the axes of the levels. */
 typedef struct {
-    const double *normal, *steps;
-    double across, more; /* by the square of its length, and of its share along the normal */
-    double error[3], lean; /* lean: that share */
+    const double *normal;
+    double across, more, error[3];
 } Vertex;
 
-INLINE double loss_of(const Vertex *x, double lean, double squares) { return x->more * lean * lean + x->across * squares; }
+INLINE double along(const double *a, const double *b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+INLINE double loss_of(const Vertex *x, const double *error) {
+    double off = along(x->normal, error);
+    return x->more * off * off + x->across * along(error, error);
+}
 
 /* The error along an axis that costs least beside those along others. */
 INLINE double best_error(const Vertex *x, int a) {
-    double own = x->normal[a], others = x->lean - own * x->error[a], bend = x->more * own * own + x->across;
+    double own = x->normal[a], others = along(x->normal, x->error) - own * x->error[a];
+    double bend = x->more * own * own + x->across;
     return bend > 0.0 ? -x->more * own * others / bend : 0.0;
 }
 
-/* One sweep over levels (n x axes): for each the least of its loss and its rate. `offsets` (n x 3) is what is wanted, along
- * axes of which a level moves a vertex by `steps`; those that have no level keep it. An error costs `losses` (n x 2) times
+/* One sweep over levels (n x axes), but for those of the first `fixed` axes: for each the least of its loss and its rate. `offsets` (n x 3) is what is wanted, along
+ * axes of which a level moves a vertex by `steps` (n x 3); those that have no level keep it. An error costs `losses` (n x 2) times
  * the square of its length, and times that of its share along `normals` (n x 3, in the same axes). Rates have a row for
  * each axis and class of what is around (mean size of the neighbours' levels), and depend on the distance from `pull` times
  * the neighbours' mean. No vertex ends up farther from its place than its `reach`, unless it was. Counts, in the shape of
  * rates, are of the levels that were taken. Returns how often one moved. */
-KERNEL int64_t settle_levels(ConstDoubles2 offsets, ConstDoubles2 normals, ConstDoubles2 losses, ConstDoubles steps,
+KERNEL int64_t settle_levels(ConstDoubles2 offsets, ConstDoubles2 normals, ConstDoubles2 losses, ConstDoubles2 steps,
                              ConstDoubles reach, ConstInts starts, ConstInts members, ConstDoubles2 rates, double pull,
-                             Ints2 levels, Doubles2 counts) {
+                             int64_t fixed, Ints2 levels, Doubles2 counts) {
     int64_t n = offsets.rows, axes = levels.columns, moves = 0;
     if (offsets.columns != 3 || normals.rows != n || normals.columns != 3 || losses.rows != n || losses.columns != 2 ||
-        levels.rows != n || steps.size != 3 || axes < 1 || axes > 3 || reach.size != n || starts.size != n + 1 ||
-        rates.rows != axes * AROUND || rates.columns != SIZES || counts.rows != rates.rows ||
-        counts.columns != rates.columns)
+        steps.rows != n || steps.columns != 3 || levels.rows != n || axes < 1 || axes > 3 || fixed < 0 ||
+        reach.size != n || starts.size != n + 1 || rates.rows != axes * AROUND || rates.columns != SIZES ||
+        counts.rows != rates.rows || counts.columns != rates.columns)
         return MISUSED;
-    for (int a = 0; a < 3; a++)
-        if (!(steps.data[a] > 0.0)) return MISUSED;
+    for (int64_t i = 0; i < 3 * n; i++)
+        if (!(steps.data[i] > 0.0)) return MISUSED;
     for (int64_t v = 0; v < n; v++)
         if (starts.data[v] < 0 || starts.data[v] > starts.data[v + 1] || starts.data[v + 1] > members.size) return MISUSED;
     for (int64_t i = 0; i < members.size; i++)
@@ -68,17 +74,16 @@ KERNEL int64_t settle_levels(ConstDoubles2 offsets, ConstDoubles2 normals, Const
         double far = 0.0, most = reach.data[v] * reach.data[v];
         int32_t first = starts.data[v], end = starts.data[v + 1];
         double share = end > first ? 1.0 / (end - first) : 0.0;
-        Vertex x = {.normal = normals.data + 3 * v, .across = losses.data[2 * v + 1], .more = losses.data[2 * v]};
+        Vertex x = {normals.data + 3 * v, losses.data[2 * v + 1], losses.data[2 * v], {0.0}};
         for (int a = 0; a < 3; a++) {
-            double moved = a < (int)axes ? steps.data[a] * levels.data[v * axes + a] : 0.0;
+            double moved = a < (int)axes ? steps.data[3 * v + a] * levels.data[v * axes + a] : 0.0;
             x.error[a] = moved - offsets.data[3 * v + a];
             far += x.error[a] * x.error[a];
-            x.lean += x.normal[a] * x.error[a];
         }
         /* Normals last: they make good what was left along the surface where the axes are not quite its own. */
-        for (int a = (int)axes; a-- > 0;) {
+        for (int a = (int)axes; a-- > (int)fixed;) {
             int32_t *level = levels.data + v * axes + a, before = *level;
-            double sum = 0.0, sizes = 0.0, step = steps.data[a], offset = offsets.data[3 * v + a];
+            double sum = 0.0, sizes = 0.0, step = steps.data[3 * v + a], offset = offsets.data[3 * v + a];
             for (int32_t i = first; i < end; i++) {
                 double other = levels.data[(int64_t)members.data[i] * axes + a];
                 sum += other;
@@ -89,13 +94,13 @@ KERNEL int64_t settle_levels(ConstDoubles2 offsets, ConstDoubles2 normals, Const
             const double *rate = rates.data + row;
             int32_t ideal = nearest((offset + best_error(&x, a)) / step);
             int32_t tried[TRIED] = {ideal, centre, 0, before - 1, before + 1};
-            double others = far - x.error[a] * x.error[a], leaning = x.lean - x.normal[a] * x.error[a];
-            double best = loss_of(&x, x.lean, far) + rate[size_of(before, centre)];
+            double best = loss_of(&x, x.error) + rate[size_of(before, centre)];
             for (int i = 0; i < TRIED; i++) {
-                double error = step * tried[i] - offset, then = others + error * error;
-                double lean = leaning + x.normal[a] * error, cost = loss_of(&x, lean, then) + rate[size_of(tried[i], centre)];
+                double error[3] = {x.error[0], x.error[1], x.error[2]};
+                error[a] = step * tried[i] - offset;
+                double then = along(error, error), cost = loss_of(&x, error) + rate[size_of(tried[i], centre)];
                 if (cost >= best || (then > most && then > far)) continue;
-                best = cost, *level = tried[i], far = then, x.lean = lean, x.error[a] = error;
+                best = cost, *level = tried[i], far = then, x.error[a] = error[a];
             }
             counts.data[row + size_of(*level, centre)] += 1.0;
             moves += *level != before;

@@ -16,7 +16,7 @@ from bsm.codec import _kernels
 from bsm.codec.arrays import Levels, Matrix, Positions
 from bsm.codec.geometry.graph import Graph
 from bsm.codec.look.measure import DISSIMILAR, POWER, VISIBLE_SHARE, Looker
-from bsm.codec.signal.frames import local_frames
+from bsm.codec.signal.frames import in_frames, local_frames, tangent_steps
 
 PULL = 0.8
 """A level is expected at so much of the mean of its neighbours'."""
@@ -31,6 +31,8 @@ LEAST = 0.1
 PLAIN, FINER = 2.2, 0.47
 """Share of what is visible over dissimilarity, both over what is at distance 1, of noise where `step_for` is right; and
 how steps get finer with it, in their logarithms."""
+ASIDE, MOST_RATIO = 0.5, 64.0
+"""What rounding along a tangent may cost in all, over what it costs along the normal; and the largest ratio."""
 SWEEPS = 3
 """More move few levels, and take no bytes off."""
 _MOST = 1 << 30
@@ -71,15 +73,22 @@ class Sensitivity:
         self._finer = (min(max(plain, 1.0), 8.0) / PLAIN) ** -FINER
         return self._spread(12.0 * first / along**2), self._spread(6.0 * second / across**2)
 
-    def first_step(self, distance: float, ratio: float) -> float:
+    def first_step(self, distance: float, axes: int) -> float:
         """The step that levels should have; finer where errors are plain to see rather than many."""
-        return self.step_for(distance, ratio) * self._finer
+        return self.step_for(distance, axes) * self._finer
 
-    def step_for(self, distance: float, ratio: float) -> float:
-        """The step, in BSM units, at which rounding, `ratio` times as wide across, is about as bad."""
-        normal, tangent = self.costs
+    def step_for(self, distance: float, axes: int) -> float:
+        """The step, in BSM units, at which rounding along so many axes is about as bad."""
         unlike = DISSIMILAR * distance ** (1.0 / POWER)
-        return math.sqrt(12.0 * unlike / float(normal.sum() + 2.0 * ratio**2 * tangent.sum()))
+        return math.sqrt(12.0 * unlike / (float(self.costs[0].sum()) * (1.0 + (axes - 1) * ASIDE)))
+
+    @cached_property
+    def ratio(self) -> float:
+        """How much wider steps along the surface should be where it is flat, see `tangent_steps`."""
+        normal, tangent = self.costs
+        steps = tangent_steps(self._positions, self._faces, 1.0, MOST_RATIO)
+        wanted = MOST_RATIO * math.sqrt(ASIDE * float(normal.sum()) / float((tangent * np.square(steps)).sum()))
+        return min(max(wanted, 1.0), MOST_RATIO)
 
     def levels(self, offsets: Matrix, frames: Matrix, steps: Matrix, worth: float, reach: Matrix) -> Levels:
         """Levels that are worth their bits, shape (n, axes).
@@ -90,29 +99,44 @@ class Sensitivity:
             What is wanted, in `frames`.
         frames : float64 array, shape (n, 9)
             The axes of the levels.
-        steps : float64 array, shape (axes,)
-            Of the levels: along the first axis, or along all three.
+        steps : float64 array, shape (n, axes)
+            What levels move: along the first axis, where steps are equal, or along all three.
         worth : float
             What a bit is worth, over the mean cost of an error of one step along the normal.
         reach : float64 array, shape (n,)
             How far a vertex may come to lie from its place, but for rounding.
         """
+        levels = np.rint(offsets[:, : steps.shape[1]] / steps).clip(-_MOST, _MOST).astype(np.int32)
+        self._settle(levels, 0, offsets, frames, steps, worth, reach)
+        return levels
+
+    def slides(
+        self, levels: Levels, offsets: Matrix, frames: Matrix, steps: Matrix, worth: float, reach: Matrix
+    ) -> Levels:
+        """From `levels`, shape (n, 3), whose first column stays, those that are worth their bits at other steps."""
+        settled = levels.copy()
+        self._settle(settled, 1, offsets, frames, steps, worth, reach)
+        return settled
+
+    def _settle(
+        self, levels: Levels, fixed: int, offsets: Matrix, frames: Matrix, steps: Matrix, worth: float, reach: Matrix
+    ) -> None:
+        """Improve levels, shape (n, axes), but for those of the first `fixed` axes."""
         normal, tangent = self.costs
-        axes, unit = len(steps), worth * float(normal.mean()) * float(steps[0]) ** 2
+        count, axes = steps.shape
+        unit = worth * float(normal.mean()) * float(steps[0, 0]) ** 2
         losses = np.column_stack([np.maximum(normal - tangent, 0.0), tangent]) / max(unit, 1e-300)
-        normals = np.einsum("nij,nj->ni", frames.reshape(-1, 3, 3), self._frames[:, 0])
-        levels = np.rint(offsets[:, :axes] / steps).clip(-_MOST, _MOST).astype(np.int32)
+        normals = in_frames(self._frames[:, 0], frames)
         rates, counts = np.tile(BITS, (AROUND * axes, 1)), np.empty((AROUND * axes, SIZES))
         for _ in range(SWEEPS):
             moved = _kernels.settle_levels(
-                np.ascontiguousarray(offsets), normals, losses, np.resize(steps, 3),
-                np.ascontiguousarray(reach, np.float64), self._graph.offsets, self._graph.neighbours,
-                rates, PULL, levels, counts,
+                np.ascontiguousarray(offsets), normals, losses,
+                np.ascontiguousarray(np.broadcast_to(steps, (count, 3))), np.ascontiguousarray(reach, np.float64),
+                self._graph.offsets, self._graph.neighbours, rates, PULL, fixed, levels, counts,
             )  # fmt: skip
             if not moved:
                 break
             rates = _bits(counts)
-        return levels
 
     @cached_property
     def _frames(self) -> Matrix:

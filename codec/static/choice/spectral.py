@@ -11,7 +11,7 @@ from bsm.bitstream.limits import NAMED_LIMITS
 from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Levels, Matrix
 from bsm.codec.signal.chain import AS_SPECIFIED, Trial
-from bsm.codec.signal.frames import displaced, in_frames, local_frames
+from bsm.codec.signal.frames import in_frames, local_frames, raised, slide, tangent_steps
 from bsm.codec.signal.smooth import smooth
 from bsm.codec.static.admission import admit, patience
 from bsm.codec.static.assembly import blended
@@ -61,11 +61,25 @@ class Base:
         """Positions of which nothing is missing along the normals, shape (n, 3)."""
         return self.positions + self.frames[:, :3] * self.offsets[:, :1]
 
-    def wanted(self, layer: Layer) -> tuple[Levels, Matrix]:
-        """The nearest levels of a layer, shape (n, axes), and what one of each moves, shape (n, axes, 3)."""
-        steps = layer_steps(layer)
-        directions = self.frames.reshape(-1, 3, 3)[:, : layer.axes] * steps[:, None]
-        return np.rint(self.offsets[:, : layer.axes] / steps).astype(np.int32), directions
+    def expected_steps(self, layer: Layer) -> Matrix:
+        """About what levels of a layer move each vertex, shape (n, axes), before any is chosen."""
+        steps = np.full((len(self.positions), layer.axes), layer.step)
+        if layer.axes > 1:
+            original, faces = self.prepared.positions, self.prepared.mesh.faces
+            steps[:, 1:] = tangent_steps(original, faces, layer.step, layer.ratio)[:, None]
+        return steps
+
+    def known_steps(self, layer: Layer, levels: Levels) -> Matrix:
+        """What levels of a layer move each vertex, shape (n, 3), if its heights are those of `levels`, shape (n, 3)."""
+        upright = raised(self.positions, self.frames, levels, layer.step)
+        aside = tangent_steps(upright, self.prepared.mesh.faces, layer.step, layer.ratio)
+        return np.column_stack([np.full(len(aside), layer.step), aside, aside])
+
+    def wanted(self, steps: Matrix) -> tuple[Levels, Matrix]:
+        """The nearest levels to steps, both of shape (n, axes), and what one of each moves, shape (n, axes, 3)."""
+        axes = steps.shape[1]
+        directions = self.frames.reshape(-1, 3, 3)[:, :axes] * steps[:, :, None]
+        return np.rint(self.offsets[:, :axes] / steps).astype(np.int32), directions
 
     def layer(self, step: float, ratio: float) -> Layer:
         """A layer whose numbers a header can hold."""
@@ -73,9 +87,10 @@ class Base:
 
     def moved(self, layer: Layer, levels: Levels, positions: Matrix | None = None) -> Matrix:
         """Where levels, shape (n, axes), bring the base, or other positions, in BSM units, shape (n, 3)."""
-        return displaced(
-            self.positions if positions is None else positions, self.frames, levels, layer.step, layer.ratio
-        )
+        moved = raised(self.positions if positions is None else positions, self.frames, levels, layer.step)
+        if layer.axes > 1:
+            slide(moved, self.frames, levels, self.known_steps(layer, levels)[:, 1])
+        return moved
 
     def refined(self, *added: tuple[Layer, Levels], borders: bool = False) -> Stack:
         """With layers of levels, shapes (n, axes); with `borders`, the last has some at vertices of these alone."""
@@ -111,11 +126,6 @@ class Stack:
         numbers = tuple(number for layer, _ in self.added for number in (layer.step, layer.ratio))
         header = replace(base.draft.header, refinements=numbers, borders=int(self.borders))
         return Draft(header, body, base.prepared.units.back(self.positions))
-
-
-def layer_steps(layer: Layer) -> Matrix:
-    """How far a level of each axis moves a vertex, shape (axes,)."""
-    return np.array([layer.step, layer.step * layer.ratio, layer.step * layer.ratio][: layer.axes])
 
 
 def base_step(angle: float) -> float:

@@ -1,6 +1,8 @@
 """Layers of refinement over decoded blocks: the encoder's packets, and the stage of the decoder that takes them.
 
-What a layer adds, it adds in the frames of the base: layers know nothing of each other.
+What a layer adds, it adds in the frames of the base: layers know nothing of each other. Vertices are raised along
+normals as levels come; they move along the surface when all of the layer have, for their steps follow from how bent the
+raised surface is.
 """
 
 from __future__ import annotations
@@ -19,7 +21,7 @@ from bsm.bitstream.fields.levels import LevelsDecoder, LevelsEncoder
 from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Indices, Levels, Mask, Matrix
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.codec.signal.frames import displace, local_frames
+from bsm.codec.signal.frames import lift, local_frames, raised, slide, tangent_steps
 from bsm.codec.static.assembly import Assembly
 from bsm.codec.static.attributes.decoding import ValuesStage, completed
 from bsm.codec.static.attributes.solid import Solid
@@ -32,6 +34,8 @@ from bsm.codec.threads import Lanes, Pending
 
 CHUNK = 1 << 15
 """Vertices of a frame."""
+BENT_BY = 2
+"""How many rings of vertices a step along the surface follows from."""
 
 
 def encode_layer(faces: Indices, layer: int, levels: Levels, *, borders: bool = False) -> list[packets.Refinement]:
@@ -141,29 +145,49 @@ class Refined:
         self._structure = structure
         self._lossy = False
         self._reached = np.zeros((len(structure.header.layers), structure.header.vertices), np.bool_)
+        self._slides: Slides | None = None
 
     def add(self, layer: int, vertices: Indices, levels: Levels) -> Indices:
-        """Add the levels, shape (k, axes), of successive vertices, shape (k,).
+        """Add the levels, shape (k, axes), of successive vertices, shape (k,): heights at once, slides with the last.
 
-        Returns those that can be refined: all whose base is whole.
+        Returns those that were moved: all whose base is whole.
         """
-        positions, frames, known = self._base
-        rows, rule = slice(int(vertices[0]), int(vertices[-1]) + 1), self._structure.header.layers[layer]
-        whole = known[rows]
-        displace(positions[rows], frames[rows], levels * whole[:, None], rule.step, rule.ratio)
-        self._reached[layer, rows] = whole
-        return vertices[whole]
+        base, rule = self._base, self._structure.header.layers[layer]
+        rows, size = slice(int(vertices[0]), int(vertices[-1]) + 1), len(base.whole)
+        whole = base.whole[rows]
+        lift(self._positions[rows], base.frames[rows], levels * whole[:, None], rule.step)
+        if rule.axes == 1:
+            self._reached[layer, rows] = whole
+            return vertices[whole]
+        if self._slides is None or self._slides.layer != layer:
+            self._slides = Slides(layer, np.zeros((size, rule.axes), np.int32))
+        self._slides.levels[rows] = levels
+        return self._slid(self._slides) if rows.stop == size else vertices[whole]
+
+    def _slid(self, slides: Slides) -> Indices:
+        """Move vertices along the surface, as far as their steps are known: those around them must have heights."""
+        base, rule = self._base, self._structure.header.layers[slides.layer]
+        faces, fit = self._structure.faces, base.whole
+        for _ in range(0 if fit.all() else BENT_BY):
+            fit = fit.copy()
+            fit[faces[~fit[faces].all(axis=1)]] = False
+        upright = raised(base.positions, base.frames, slides.levels, rule.step)
+        steps = tangent_steps(upright, faces, rule.step, rule.ratio)
+        slide(self._positions, base.frames, slides.levels * fit[:, None], steps)
+        self._reached[slides.layer] = fit
+        self._slides = None
+        return np.flatnonzero(base.whole).astype(np.int32)
 
     def event(self, layer: int, vertices: Indices) -> RefinementEvent:
         """Say where vertices, shape (k,), are now."""
         numbers, rows = self._structure.numbering.spread(vertices)
-        positions = self._structure.units.back(self._base[0][vertices])
+        positions = self._structure.units.back(self._positions[vertices])
         return RefinementEvent(layer + 1, numbers, positions[rows])
 
     def mesh(self) -> TriangleMesh:
         """The mesh in its own unit."""
         numbering = self._structure.numbering
-        return TriangleMesh(numbering.arranged(self._structure.units.back(self._base[0])), numbering.faces)
+        return TriangleMesh(numbering.arranged(self._structure.units.back(self._positions)), numbering.faces)
 
     def lose(self) -> None:
         """Take note that levels are lost, and not just none were sent."""
@@ -171,7 +195,7 @@ class Refined:
 
     def solid(self) -> Solid | None:
         """Decoded positions; None if any of it is missing."""
-        return Solid(self._base[0]) if self._assembly.whole and not self._lossy else None
+        return Solid(self._positions) if self._assembly.whole and not self._lossy else None
 
     def losses(self) -> Losses:
         """What is missing or less good: also what a layer has begun to refine and not reached."""
@@ -182,7 +206,37 @@ class Refined:
         return Losses(lost.missing, np.union1d(lost.degraded, behind).astype(np.int32))
 
     @cached_property
-    def _base(self) -> tuple[Matrix, Matrix, Mask]:
-        """Positions in BSM units, which layers move; frames; and whose frames are those of the encoder."""
+    def _positions(self) -> Matrix:
+        """Where vertices are now, in BSM units, shape (n, 3)."""
+        return self._base.positions.copy()
+
+    @cached_property
+    def _base(self) -> Standing:
         positions, whole = self._assembly.base()
-        return positions, local_frames(positions, self._structure.faces), whole
+        return Standing(positions, local_frames(positions, self._structure.faces), whole)
+
+
+@dataclass(frozen=True, eq=False)
+class Standing:
+    """What layers refine.
+
+    Parameters
+    ----------
+    positions : float64 array, shape (n, 3)
+        In BSM units.
+    frames : float64 array, shape (n, 9)
+    whole : bool array, shape (n,)
+        Whose frames are those of the encoder.
+    """
+
+    positions: Matrix
+    frames: Matrix
+    whole: Mask
+
+
+@dataclass(frozen=True, eq=False)
+class Slides:
+    """Levels of a layer, shape (n, 3), that wait for the last of them: steps along the surface follow from heights."""
+
+    layer: int
+    levels: Levels

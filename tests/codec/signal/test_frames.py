@@ -4,7 +4,8 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from bsm.codec.signal.frames import displaced, in_frames, local_frames
+from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.signal.frames import in_frames, local_frames, raised, slide, tangent_steps
 from tests.shapes import tetrahedron, torus
 
 
@@ -35,8 +36,53 @@ def test_levels_add_up_along_the_axes() -> None:
     mesh = tetrahedron()
     frames = local_frames(mesh.positions, mesh.faces)
     levels = np.array([[1, -2, 3], [0, 0, 0], [4, 0, -1], [0, 5, 0]], np.int32)
-    moved = displaced(mesh.positions, frames, levels, 0.25, 2.0)
-    back = in_frames(moved - mesh.positions, frames)
-    assert np.allclose(back, levels * np.array([0.25, 0.5, 0.5]), atol=1e-12)
-    heights = displaced(mesh.positions, frames, levels[:, :1], 0.25, 0.0)
+    heights = raised(mesh.positions, frames, levels, 0.25)
     assert np.allclose(in_frames(heights - mesh.positions, frames), levels * np.array([0.25, 0.0, 0.0]), atol=1e-12)
+    assert (raised(mesh.positions, frames, levels[:, :1], 0.25) == heights).all()
+    wide = np.array([0.5, 1.0, 2.0, 0.25])
+    aside = heights.copy()
+    slide(aside, frames, levels, wide)
+    assert np.allclose(in_frames(aside - heights, frames)[:, 1:], levels[:, 1:] * wide[:, None], atol=1e-12)
+    assert np.allclose(in_frames(aside - heights, frames)[:, 0], 0.0, atol=1e-12)
+
+
+def folded(angle: float) -> TriangleMesh:
+    """A strip of squares, folded along the line x = 0."""
+    x, y = (values.ravel() for values in np.meshgrid(np.arange(-6.0, 7.0), np.arange(5.0)))
+    right = np.maximum(x, 0.0)
+    positions = np.column_stack([np.minimum(x, 0.0) + np.cos(angle) * right, y, np.sin(angle) * right])
+    corner = (np.arange(12) + 13 * np.arange(4)[:, None]).ravel()[:, None]
+    faces = np.concatenate([corner + np.array(face) for face in ((0, 1, 13), (1, 14, 13))]).astype(np.int32)
+    return TriangleMesh(positions, faces)
+
+
+def test_steps_along_the_surface_are_wide_where_it_is_flat_and_one_at_creases() -> None:
+    mesh = folded(np.pi / 2)
+    steps = tangent_steps(mesh.positions, mesh.faces, 0.5, 4.0)
+    across = np.abs(np.arange(65) % 13 - 6)
+    crease, beside = across == 0, across == 1
+    assert (steps[crease] < 0.75).all()
+    assert (steps >= 0.5).all()
+    assert np.allclose(steps[across > 1], 2.0)
+    assert (steps[beside] < 0.75).all()
+    sharper = tangent_steps(folded(0.3).positions, mesh.faces, 0.5, 4.0)
+    assert (sharper[crease] > steps[crease]).all()
+
+
+def test_a_ratio_of_one_or_less_is_the_same_everywhere() -> None:
+    mesh = folded(1.0)
+    for ratio in (0.25, 1.0):
+        assert (tangent_steps(mesh.positions, mesh.faces, 0.5, ratio) == 0.5 * ratio).all()
+
+
+def test_what_has_no_area_or_no_face_has_the_least_step() -> None:
+    steps = tangent_steps(np.zeros((4, 3)), np.array([[0, 1, 2]], np.int32), 0.5, 3.0)
+    assert np.allclose(steps, 0.5)
+
+
+@given(st.integers(0, 2**32 - 1))
+def test_places_off_by_rounding_change_steps_by_little(seed: int) -> None:
+    mesh = torus(12, 8)
+    noise = np.random.default_rng(seed).normal(size=mesh.positions.shape)
+    steps = tangent_steps(mesh.positions, mesh.faces, 1.0, 8.0)
+    assert np.abs(tangent_steps(mesh.positions + 1e-9 * noise, mesh.faces, 1.0, 8.0) - steps).max() < 1e-5

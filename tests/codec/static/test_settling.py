@@ -7,13 +7,15 @@ from bsm.codec import _kernels
 from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.look.measure import Looker
-from bsm.codec.signal.frames import local_frames
+from bsm.codec.signal.frames import in_frames, local_frames, tangent_steps
 from bsm.codec.static.choice.settling import AROUND, SIZES, Sensitivity
 from tests.shapes import patch, together, torus
 
 MESH = torus(40, 30)
 GRAPH = graph_of_faces(MESH.faces, len(MESH.positions))
 ANYWHERE = np.full(len(MESH.positions), np.inf)
+FRAMES = local_frames(MESH.positions, MESH.faces)
+STEPS = np.tile((0.002, 0.006, 0.006), (len(MESH.positions), 1))
 
 
 @pytest.fixture(scope="module")
@@ -32,16 +34,16 @@ def entropy(levels):
 
 
 def test_free_bits_are_rounding(sensitivity):
-    wanted, steps = offsets(0.01), np.array([0.002, 0.006, 0.006])
-    levels = sensitivity.levels(wanted, steps, 0.0, ANYWHERE)
+    wanted, steps = offsets(0.01), STEPS
+    levels = sensitivity.levels(wanted, FRAMES, steps, 0.0, ANYWHERE)
     assert (levels == np.rint(wanted / steps)).all()
 
 
 def test_bits_that_cost_are_saved(sensitivity):
-    wanted, steps = offsets(0.01), np.array([0.002, 0.006, 0.006])
+    wanted, steps = offsets(0.01), STEPS
     sizes, errors = [], []
     for worth in (0.0, 0.1, 0.3, 1.0):
-        levels = sensitivity.levels(wanted, steps, worth, ANYWHERE)
+        levels = sensitivity.levels(wanted, FRAMES, steps, worth, ANYWHERE)
         sizes.append(sum(entropy(levels[:, axis]) for axis in range(3)))
         errors.append(np.square(levels * steps - wanted).sum())
     assert sizes == sorted(sizes, reverse=True)
@@ -49,10 +51,10 @@ def test_bits_that_cost_are_saved(sensitivity):
 
 
 def test_no_vertex_ends_up_out_of_reach(sensitivity):
-    wanted, steps = offsets(0.01), np.array([0.002, 0.006, 0.006])
+    wanted, steps = offsets(0.01), STEPS
     rounded = np.sqrt(np.square(np.rint(wanted / steps) * steps - wanted).sum(axis=1))
     reach = np.full(len(wanted), 0.004)
-    levels = sensitivity.levels(wanted, steps, 3.0, reach)
+    levels = sensitivity.levels(wanted, FRAMES, steps, 3.0, reach)
     moved = np.sqrt(np.square(levels * steps - wanted).sum(axis=1))
     assert (moved <= np.maximum(reach, rounded) + 1e-12).all()
 
@@ -78,30 +80,53 @@ def test_what_is_hidden_costs_little():
 
 
 def test_the_step_for_a_look_is_about_right(sensitivity):
-    step = sensitivity.step_for(1.0, 4.0)
-    assert sensitivity.step_for(2.0, 4.0) == pytest.approx(step * 2 ** (0.5 / 0.8))
-    frames = local_frames(MESH.positions, MESH.faces).reshape(-1, 3, 3)
-    noise = np.random.default_rng(1).uniform(-0.5, 0.5, MESH.positions.shape) * step * (1, 4, 4)
-    seen = Looker(MESH).distance(MESH.positions + np.einsum("na,nad->nd", noise, frames))
+    step = sensitivity.step_for(1.0, 3)
+    assert sensitivity.step_for(2.0, 3) == pytest.approx(step * 2 ** (0.5 / 0.8))
+    aside = tangent_steps(MESH.positions, MESH.faces, step, sensitivity.ratio)
+    noise = np.random.default_rng(1).uniform(-0.5, 0.5, MESH.positions.shape)
+    noise *= np.column_stack([np.full(len(aside), step), aside, aside])
+    seen = Looker(MESH).distance(MESH.positions + np.einsum("na,nad->nd", noise, FRAMES.reshape(-1, 3, 3)))
     assert 0.4 < seen < 2.5
 
 
 def test_one_axis_will_do(sensitivity):
-    levels = sensitivity.levels(offsets(0.01)[:, :1], np.array([0.002]), 0.2, ANYWHERE)
+    levels = sensitivity.levels(offsets(0.01), FRAMES, STEPS[:, :1], 0.2, ANYWHERE)
     assert levels.shape == (len(MESH.positions), 1)
+
+
+def test_heights_make_good_what_is_left_along_axes_that_are_not_the_surfaces_own(sensitivity):
+    tilt = np.array([[np.cos(0.3), 0, np.sin(0.3)], [0, 1, 0], [-np.sin(0.3), 0, np.cos(0.3)]])
+    frames = np.einsum("ab,nbj->naj", tilt, FRAMES.reshape(-1, 3, 3)).reshape(-1, 9)
+    wanted, steps = offsets(0.01), STEPS * (1, 2, 2)
+    errors = [steps * levels - wanted for levels in (
+        np.rint(wanted / steps), sensitivity.levels(wanted, frames, steps, 0.001, ANYWHERE)
+    )]  # fmt: skip
+    plain, settled = (np.abs((in_frames(FRAMES[:, :3], frames) * error).sum(axis=1)).mean() for error in errors)
+    assert settled < 0.7 * plain
+
+
+def test_slides_keep_heights_and_follow_their_steps(sensitivity):
+    wanted, steps = offsets(0.01), STEPS
+    levels = sensitivity.levels(wanted, FRAMES, steps, 0.1, ANYWHERE)
+    finer = steps * (1, 0.25, 0.25)
+    slides = sensitivity.slides(levels, wanted, FRAMES, finer, 0.001, ANYWHERE)
+    assert (slides[:, 0] == levels[:, 0]).all()
+    assert np.abs((finer * slides - wanted)[:, 1:]).mean() < 0.7 * np.abs((steps * levels - wanted)[:, 1:]).mean()
 
 
 def test_the_kernel_refuses_what_does_not_fit():
     count = len(MESH.positions)
     rates = np.ones((3 * AROUND, SIZES))
     given = [
-        np.zeros((count, 3)), np.ones((count, 3)), np.ones(3), ANYWHERE, GRAPH.offsets, GRAPH.neighbours, rates, 0.8,
-        np.zeros((count, 3), np.int32), np.empty_like(rates),
+        np.zeros((count, 3)), np.ones((count, 3)), np.ones((count, 2)), np.ones((count, 3)), ANYWHERE, GRAPH.offsets,
+        GRAPH.neighbours, rates, 0.8, 0, np.zeros((count, 3), np.int32), np.empty_like(rates),
     ]  # fmt: skip
     assert _kernels.settle_levels(*given) == 0
-    for place in (0, 1, 2, 3, 4, 5, 6, 8, 9):
+    for place in (0, 1, 2, 3, 4, 5, 6, 7, 10, 11):
         with pytest.raises(ValueError, match="fit together"):
             _kernels.settle_levels(*(value[:-1] if k == place else value for k, value in enumerate(given)))
     _kernels.settle_levels(np.full((count, 3), 1e300), *given[1:])
     with pytest.raises(ValueError, match="fit together"):
-        _kernels.settle_levels(*given[:5], GRAPH.neighbours + count, *given[6:])
+        _kernels.settle_levels(*given[:3], np.zeros((count, 3)), *given[4:])
+    with pytest.raises(ValueError, match="fit together"):
+        _kernels.settle_levels(*given[:6], GRAPH.neighbours + count, *given[7:])

@@ -71,7 +71,7 @@ const KERNELS = [
     "find_fronts", "suspend", "factorize_fronts", "solve_columns", "resize_columns", "iteration_space", "iterate",
     "cholesky_onorm", "householder", "reconstruct", "look_around", "block_normals", "smooth_all",
     "find_rings", "filter_rows", "link_corners", "order_vertices", "keep_borders", "code_grid", "code_floats", "code_light", "place_values", "code_levels",
-    "local_frames", "add_levels", "code_matrix", "project", "code_edges", "join_corners",
+    "local_frames", "add_heights", "add_slides", "tangent_steps", "code_matrix", "project", "code_edges", "join_corners",
     "expect_normals", "code_scalars", "code_texcoords", "code_normals", "code_faces", "cotangents", "hold", "pull", "follow_rows",
 ];
 
@@ -99,7 +99,7 @@ const BLOCKS = [
     "make_value_tables", "learn_beforehand", "add_noise", "order_vertices", "points_of_levels", "code_rows", "code_block", "code_labels", "vertex_faces", "bisect", "refine_partition", "group_by_label", "chain_blocks",
     "order_scratch", "order_block", "add_copies", "collect_edges", "find_fronts", "suspend", "factorize_fronts", "solve_columns",
     "resize_columns", "iteration_space", "iterate", "cholesky_onorm", "householder", "reconstruct", "look_around", "block_normals",
-    "smooth_all", "find_rings", "filter_rows", "keep_borders", "code_grid", "code_floats", "code_levels", "local_frames", "add_levels",
+    "smooth_all", "find_rings", "filter_rows", "keep_borders", "code_grid", "code_floats", "code_levels", "local_frames", "add_heights", "add_slides", "tangent_steps",
 ];
 
 /** Name and version of the compiler, of which the bytes are a function; undefined where there is none. */

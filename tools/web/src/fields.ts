@@ -81,7 +81,7 @@ export class Refinement {
         private readonly memory: Memory,
         private readonly faces: Ints,
         private readonly header: Header,
-        base: Float64Array,
+        private readonly base: Float64Array,
         spoilt: Int32Array,
     ) {
         this.spoilt = new Uint8Array(header.vertices);
@@ -98,19 +98,40 @@ export class Refinement {
         if (first !== this.coded) throw new CorruptError(`layer ${layer + 1} lacks the vertices before ${first}: the rest is lost`);
         decodeChunk(memory, "code_levels", this.state, payload, first, count);
         this.coded += count;
-        const [step, ratio] = header.refinements.slice(2 * layer, 2 * layer + 2);
         const moved = this.positions.part(3 * first, 3 * count, 3);
         const levels = begun(this.levels).part(this.axes * first, this.axes * count, this.axes);
-        const before = moved.view.slice();
-        memory.call("add_levels", moved, this.frames.part(9 * first, 9 * count, 9), levels, step, ratio);
         const spoilt = this.spoilt.subarray(first, first + count);
-        const rows = upTo(count).filter((row) => !spoilt[row]);
-        const after = moved.view;
-        for (let row = 0; row < count; row++) if (spoilt[row]) after.set(before.subarray(3 * row, 3 * row + 3), 3 * row);
-        const positions = rowsOf(after, rows);
-        const vertices = rows.map((row) => first + row);
-        for (const vertex of vertices) this.reached[layer][vertex] = 1;
-        return { vertices, positions: inMeshUnits(positions, header), final: new Uint8Array(rows.length) };
+        moveBut(spoilt, moved, () => memory.call("add_heights", moved, this.frames.part(9 * first, 9 * count, 9), levels, header.refinements[2 * layer]));
+        const raised = upTo(count).filter((row) => !spoilt[row]).map((row) => first + row);
+        if (this.axes === 1) for (const vertex of raised) this.reached[layer][vertex] = 1;
+        const vertices = this.axes === 3 && this.coded === header.vertices ? this.slide(layer) : raised;
+        return { vertices, positions: inMeshUnits(rowsOf(this.positions.view, vertices), header), final: new Uint8Array(vertices.length) };
+    }
+
+    /** Move vertices along the surface by steps that follow from all heights of a layer (M 17.4). */
+    private slide(layer: number): Int32Array {
+        const { memory, faces, header, frames, spoilt } = this;
+        const [step, ratio] = header.refinements.slice(2 * layer, 2 * layer + 2);
+        const levels = begun(this.levels);
+        const upright = memory.copy(this.base, 3);
+        memory.call("add_heights", upright, frames, levels, step);
+        const steps = memory.doubles(header.vertices);
+        memory.call("tangent_steps", upright, faces, step, ratio, memory.doubles(4 * header.vertices, 4), steps);
+        const unknown = spoilt.includes(1) ? this.around(this.around(spoilt)) : spoilt;
+        moveBut(unknown, this.positions, () => memory.call("add_slides", this.positions, frames, levels, steps));
+        for (const [vertex, without] of unknown.entries()) if (!without) this.reached[layer][vertex] = 1;
+        return upTo(header.vertices).filter((vertex) => !spoilt[vertex]);
+    }
+
+    /** Marked vertices, and all that have a face with one. */
+    private around(marked: Uint8Array): Uint8Array {
+        const found = marked.slice();
+        const corners = this.faces.view;
+        for (let i = 0; i < corners.length; i += 3) {
+            const face = corners.subarray(i, i + 3);
+            if (face.some((vertex) => marked[vertex])) for (const vertex of face) found[vertex] = 1;
+        }
+        return found;
     }
 
     /** Vertices that a layer which has begun did not reach. */
@@ -146,4 +167,13 @@ export class Refinement {
         if (header.borders && 2 * layer === header.refinements.length - 2) memory.call("keep_borders", corners);
         this.state = [makeBank(memory, LEVELS), corners, [this.levels, field(), field(), learners]];
     }
+}
+
+/** Do `work` on positions, but for those of vertices that are marked. */
+function moveBut(marked: Uint8Array, positions: Doubles, work: () => void): void {
+    if (!marked.includes(1)) return work();
+    const before = positions.view.slice();
+    work();
+    const after = positions.view;
+    for (const [vertex, kept] of marked.entries()) if (kept) after.set(before.subarray(3 * vertex, 3 * vertex + 3), 3 * vertex);
 }

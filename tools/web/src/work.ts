@@ -64,7 +64,7 @@ export const LIGHT_COST: GridCost = {
 
 /** Of a layer of refinement or an attribute, before its bytes are counted. */
 export function layerCost(vertices: number, faces: number, axes: number): number {
-    return vertices * (400 + 230 * axes) + 100 * faces;
+    return vertices * (400 + 230 * axes) + 130 * faces;
 }
 
 /** Of the declaration of an attribute. */
