@@ -89,6 +89,8 @@ NEAR = 8.0
 """How far shaping along all axes may bring a vertex from its place, in steps of the layer."""
 FEW_LOOKS = 4000
 """Meshes of more vertices are looked at in one way to code alone, the one that is likely to be smaller."""
+SMOOTH = 10.0
+"""Below this mean angle between faces beside each other, such a mesh is tried in blocks, however flat its spectrum."""
 DENSE, TINY, PREVIEW = 0.0062, 0.0012, 2.0
 """Below this look, meshes with sharp edges are smaller on grids, unless the mean edge is shorter than the first; and so
 are all where it is shorter than the second: pictures do not show their faces."""
@@ -204,8 +206,13 @@ class Fulfilment:
         if self._thorough:
             return True
         if self._contract.look < math.inf:
-            return self._prepared.graph.size < FEW_LOOKS
+            return self._few_looks
         return self.bytes_on_grids < smallest
+
+    @property
+    def _few_looks(self) -> bool:
+        """Whether pictures may be taken of more than one way."""
+        return self._contract.look < math.inf and self._prepared.graph.size < FEW_LOOKS
 
     @property
     def bytes_on_grids(self) -> float:
@@ -245,7 +252,10 @@ class Fulfilment:
         sharp = self._shaper.character.is_sharp and self._edge >= DENSE
         if self._contract.look < PREVIEW and (sharp or self._edge < TINY):
             return False
-        return self._prepared.has_low_frequencies and not self._blocks.is_flat(COARSE, FLAT)
+        if not self._prepared.has_low_frequencies:
+            return False
+        smooth = self._few_looks and self._shaper.character.roughness < SMOOTH
+        return smooth or not self._blocks.is_flat(COARSE, FLAT)
 
     @cached_property
     def _blocks(self) -> Spectral:
