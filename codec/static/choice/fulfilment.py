@@ -10,6 +10,7 @@ import math
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
@@ -422,11 +423,8 @@ class Fulfilment:
 
         def choose(layer: Layer) -> Levels:
             reach = np.minimum(self._reaches, NEAR_SEEN * layer.step)
-            levels = sensitivity.levels(offsets, base.frames, base.expected_steps(layer), WORTH_OF_LOOK, reach)
-            if layer.axes == 1:
-                return levels
-            steps = base.known_steps(layer, levels)
-            return sensitivity.slides(levels, offsets, base.frames, steps, WORTH_OF_LOOK, reach)
+            steps, known = base.expected_steps(layer), partial(base.known_steps, layer)
+            return sensitivity.levels(offsets, base.frames, steps, known, WORTH_OF_LOOK, reach)
 
         return choose
 

@@ -8,6 +8,7 @@ what is cheap to code is taken where it costs little.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from functools import cached_property
 
 import numpy as np
@@ -28,7 +29,7 @@ TRUST = 1.0
 """Levels that each size is counted with from the start."""
 LEAST = 0.1
 """What errors cost at least, of their mean cost: nothing is hidden from all sides that somebody may look from."""
-PLAIN, FINER = 2.2, 0.47
+PLAIN, FINER = 2.8, 0.47
 """Share of what is visible over dissimilarity, both over what is at distance 1, of noise where `step_for` is right; and
 how steps get finer with it, in their logarithms."""
 ASIDE, MOST_RATIO = 0.5, 64.0
@@ -90,7 +91,15 @@ class Sensitivity:
         wanted = MOST_RATIO * math.sqrt(ASIDE * float(normal.sum()) / float((tangent * np.square(steps)).sum()))
         return min(max(wanted, 1.0), MOST_RATIO)
 
-    def levels(self, offsets: Matrix, frames: Matrix, steps: Matrix, worth: float, reach: Matrix) -> Levels:
+    def levels(
+        self,
+        offsets: Matrix,
+        frames: Matrix,
+        steps: Matrix,
+        known: Callable[[Levels], Matrix],
+        worth: float,
+        reach: Matrix,
+    ) -> Levels:
         """Levels that are worth their bits, shape (n, axes).
 
         Parameters
@@ -100,43 +109,37 @@ class Sensitivity:
         frames : float64 array, shape (n, 9)
             The axes of the levels.
         steps : float64 array, shape (n, axes)
-            What levels move: along the first axis, where steps are equal, or along all three.
+            About what levels move: along the first axis, where steps are equal and right, or along all three.
+        known : callable
+            What they move along all three when those along the first are those of its argument, shape (n, 3).
         worth : float
             What a bit is worth, over the mean cost of an error of one step along the normal.
         reach : float64 array, shape (n,)
             How far a vertex may come to lie from its place, but for rounding.
         """
-        levels = np.rint(offsets[:, : steps.shape[1]] / steps).clip(-_MOST, _MOST).astype(np.int32)
-        self._settle(levels, 0, offsets, frames, steps, worth, reach)
-        return levels
-
-    def slides(
-        self, levels: Levels, offsets: Matrix, frames: Matrix, steps: Matrix, worth: float, reach: Matrix
-    ) -> Levels:
-        """From `levels`, shape (n, 3), whose first column stays, those that are worth their bits at other steps."""
-        settled = levels.copy()
-        self._settle(settled, 1, offsets, frames, steps, worth, reach)
-        return settled
-
-    def _settle(
-        self, levels: Levels, fixed: int, offsets: Matrix, frames: Matrix, steps: Matrix, worth: float, reach: Matrix
-    ) -> None:
-        """Improve levels, shape (n, axes), but for those of the first `fixed` axes."""
         normal, tangent = self.costs
         count, axes = steps.shape
         unit = worth * float(normal.mean()) * float(steps[0, 0]) ** 2
         losses = np.column_stack([np.maximum(normal - tangent, 0.0), tangent]) / max(unit, 1e-300)
         normals = in_frames(self._frames[:, 0], frames)
+        levels = np.rint(offsets[:, :axes] / steps).clip(-_MOST, _MOST).astype(np.int32)
         rates, counts = np.tile(BITS, (AROUND * axes, 1)), np.empty((AROUND * axes, SIZES))
-        for _ in range(SWEEPS):
-            moved = _kernels.settle_levels(
+
+        def sweep(steps: Matrix, fixed: int) -> int:
+            return _kernels.settle_levels(
                 np.ascontiguousarray(offsets), normals, losses,
                 np.ascontiguousarray(np.broadcast_to(steps, (count, 3))), np.ascontiguousarray(reach, np.float64),
                 self._graph.offsets, self._graph.neighbours, rates, PULL, fixed, levels, counts,
             )  # fmt: skip
+
+        for _ in range(SWEEPS):
+            moved = sweep(steps, 0)
+            rates = _bits(counts)
             if not moved:
                 break
-            rates = _bits(counts)
+        if axes > 1:
+            sweep(known(levels), 1)
+        return levels
 
     @cached_property
     def _frames(self) -> Matrix:

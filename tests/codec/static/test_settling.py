@@ -28,6 +28,10 @@ def offsets(size, seed=0):
     return np.random.default_rng(seed).normal(0, size, MESH.positions.shape)
 
 
+def same(levels):
+    return STEPS
+
+
 def entropy(levels):
     counts = np.unique(levels, return_counts=True)[1] / levels.size
     return -(counts * np.log2(counts)).sum()
@@ -35,7 +39,7 @@ def entropy(levels):
 
 def test_free_bits_are_rounding(sensitivity):
     wanted, steps = offsets(0.01), STEPS
-    levels = sensitivity.levels(wanted, FRAMES, steps, 0.0, ANYWHERE)
+    levels = sensitivity.levels(wanted, FRAMES, steps, same, 0.0, ANYWHERE)
     assert (levels == np.rint(wanted / steps)).all()
 
 
@@ -43,7 +47,7 @@ def test_bits_that_cost_are_saved(sensitivity):
     wanted, steps = offsets(0.01), STEPS
     sizes, errors = [], []
     for worth in (0.0, 0.1, 0.3, 1.0):
-        levels = sensitivity.levels(wanted, FRAMES, steps, worth, ANYWHERE)
+        levels = sensitivity.levels(wanted, FRAMES, steps, same, worth, ANYWHERE)
         sizes.append(sum(entropy(levels[:, axis]) for axis in range(3)))
         errors.append(np.square(levels * steps - wanted).sum())
     assert sizes == sorted(sizes, reverse=True)
@@ -54,7 +58,7 @@ def test_no_vertex_ends_up_out_of_reach(sensitivity):
     wanted, steps = offsets(0.01), STEPS
     rounded = np.sqrt(np.square(np.rint(wanted / steps) * steps - wanted).sum(axis=1))
     reach = np.full(len(wanted), 0.004)
-    levels = sensitivity.levels(wanted, FRAMES, steps, 3.0, reach)
+    levels = sensitivity.levels(wanted, FRAMES, steps, same, 3.0, reach)
     moved = np.sqrt(np.square(levels * steps - wanted).sum(axis=1))
     assert (moved <= np.maximum(reach, rounded) + 1e-12).all()
 
@@ -90,7 +94,7 @@ def test_the_step_for_a_look_is_about_right(sensitivity):
 
 
 def test_one_axis_will_do(sensitivity):
-    levels = sensitivity.levels(offsets(0.01), FRAMES, STEPS[:, :1], 0.2, ANYWHERE)
+    levels = sensitivity.levels(offsets(0.01), FRAMES, STEPS[:, :1], same, 0.2, ANYWHERE)
     assert levels.shape == (len(MESH.positions), 1)
 
 
@@ -99,7 +103,7 @@ def test_heights_make_good_what_is_left_along_axes_that_are_not_the_surfaces_own
     frames = np.einsum("ab,nbj->naj", tilt, FRAMES.reshape(-1, 3, 3)).reshape(-1, 9)
     wanted, steps = offsets(0.01), STEPS * (1, 2, 2)
     errors = [steps * levels - wanted for levels in (
-        np.rint(wanted / steps), sensitivity.levels(wanted, frames, steps, 0.001, ANYWHERE)
+        np.rint(wanted / steps), sensitivity.levels(wanted, frames, steps, lambda _: steps, 0.001, ANYWHERE)
     )]  # fmt: skip
     plain, settled = (np.abs((in_frames(FRAMES[:, :3], frames) * error).sum(axis=1)).mean() for error in errors)
     assert settled < 0.7 * plain
@@ -107,9 +111,9 @@ def test_heights_make_good_what_is_left_along_axes_that_are_not_the_surfaces_own
 
 def test_slides_keep_heights_and_follow_their_steps(sensitivity):
     wanted, steps = offsets(0.01), STEPS
-    levels = sensitivity.levels(wanted, FRAMES, steps, 0.1, ANYWHERE)
+    levels = sensitivity.levels(wanted, FRAMES, steps, same, 0.001, ANYWHERE)
     finer = steps * (1, 0.25, 0.25)
-    slides = sensitivity.slides(levels, wanted, FRAMES, finer, 0.001, ANYWHERE)
+    slides = sensitivity.levels(wanted, FRAMES, steps, lambda _: finer, 0.001, ANYWHERE)
     assert (slides[:, 0] == levels[:, 0]).all()
     assert np.abs((finer * slides - wanted)[:, 1:]).mean() < 0.7 * np.abs((steps * levels - wanted)[:, 1:]).mean()
 
