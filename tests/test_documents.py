@@ -93,6 +93,9 @@ def folder(request, tmp_path_factory):
     write_mesh(folder / "scan.ply", TriangleMesh(noisy, mesh.faces))
     frames = np.array([mesh.positions * (1 + 0.1 * np.sin(t)) for t in range(6)])
     np.savez(folder / "dance.npz", positions=frames, faces=mesh.faces)
+    (folder / "capture").mkdir()
+    for number, shape in enumerate((mesh, mesh, knot(300))):
+        write_mesh(folder / f"capture/{number}.ply", shape)
     programs = {
         "bsm": f'exec "{sys.executable}" -m bsm "$@"',
         "python": f'exec "{sys.executable}" "$@"',

@@ -49,7 +49,7 @@ Runs: TypeAlias = Sequence[tuple[Positions, Positions, Faces]]
 
 
 def compare_runs(runs: Runs) -> SequenceComparison:
-    """The same of frames whose faces change: of each run its frames, the decoded ones, and their faces."""
+    """How far frames whose faces change are from decoded ones: a run is its frames, the decoded ones, and faces."""
     each = []
     wrong = extent = flicker = motion = 0.0
     for original, decoded, faces in runs:

@@ -143,7 +143,7 @@ class Sensitivity:
 
     @cached_property
     def _frames(self) -> Matrix:
-        """Of the original: normals and tangents, shape (n, 3, 3)."""
+        """Normals and tangents of the original's vertices, shape (n, 3, 3)."""
         return local_frames(self._positions, self._faces).reshape(-1, 3, 3)
 
     def _spread(self, blame: Matrix) -> Matrix:

@@ -107,7 +107,7 @@ class SequenceStream:
             yield index, positions
 
     def changing_frames(self) -> Iterator[tuple[int, Positions]]:
-        """The same, where `faces` may change from frame to frame."""
+        """Frames and their indices, where `faces` may change from frame to frame."""
         from bsm.codec.sequence.decoder import FrameEvent
         from bsm.codec.static.events import LossEvent
 
