@@ -8,8 +8,6 @@ from dataclasses import dataclass
 from typing import Protocol, TypeVar
 
 import numpy as np
-from scipy.ndimage import gaussian_filter1d
-from scipy.sparse import csr_array
 
 from bsm.bitstream.errors import MeshError, TargetError
 from bsm.codec.arrays import Faces, Matrix, Positions
@@ -249,7 +247,10 @@ class Sight:
 def _evening(shares: Matrix) -> Matrix:
     """Weights of frames, shape (T,), with which all of them would look about alike."""
     logarithms = np.log(np.maximum(shares, 1e-3 * shares.max()))
-    weights = gaussian_filter1d(EVENING / SLOPE * (logarithms - logarithms.mean()), SMOOTHNESS, mode="nearest")
+    reach = int(4.0 * SMOOTHNESS)
+    bell = np.exp(-0.5 * (np.arange(-reach, reach + 1) / SMOOTHNESS) ** 2)
+    padded = np.pad(EVENING / SLOPE * (logarithms - logarithms.mean()), reach, mode="edge")
+    weights = np.convolve(padded, bell / bell.sum(), mode="valid")
     evening: Matrix = np.exp(np.clip(weights - weights.mean(), -WIDEST, WIDEST))
     return evening
 
@@ -258,10 +259,7 @@ class Shading:
     """How faces are shaded, for a measure that is much cheaper than pictures: by normals of vertices alone."""
 
     def __init__(self, positions: Positions, faces: Faces) -> None:
-        self._faces = faces
-        count = len(positions)
-        corners = np.ones(faces.size), (faces.ravel(), np.repeat(np.arange(len(faces)), 3))
-        self._around = csr_array(corners, shape=(count, len(faces)))
+        self._faces, self._count = faces, len(positions)
 
     def error(self, original: Positions, decoded: Positions) -> float:
         """How far normals of vertices of `decoded` are off those of `original`, both of shape (n, 3).
@@ -277,7 +275,11 @@ class Shading:
         """Normals of vertices, shape (n, 3), with the areas around them, shape (n,)."""
         a, b, c = (positions[self._faces[:, k]] for k in range(3))
         crosses = np.cross(b - a, c - a)
-        sums = self._around @ crosses
+        sums = np.stack([self._around(column) for column in crosses.T], axis=1)
         lengths = np.sqrt(np.einsum("ij,ij->i", sums, sums))[:, None]
         unit = np.divide(sums, lengths, out=np.zeros_like(sums), where=lengths > 0.0)
-        return unit, self._around @ np.sqrt(np.einsum("ij,ij->i", crosses, crosses))
+        return unit, self._around(np.sqrt(np.einsum("ij,ij->i", crosses, crosses)))
+
+    def _around(self, values: Matrix) -> Matrix:
+        """Sums around vertices, shape (n,), of values of faces, shape (f,)."""
+        return np.asarray(np.bincount(self._faces.ravel(), np.repeat(values, 3), self._count), np.float64)

@@ -118,6 +118,11 @@ def extension():
     found["operator"] = [list(done), bpy.context.object.name, bpy.context.scene.frame_end]
     done = bpy.ops.export_scene.bsm(filepath=str(folder / "out.bsm"), preset="fine", animation=True)
     found["written"] = [list(done), (folder / "out.bsm").stat().st_size > 100]
+    looks = []
+    for name, look in (("near", 0.3), ("far", 2.5)):
+        bpy.ops.export_scene.bsm(filepath=str(folder / f"{name}.bsm"), preset="small", look=look, animation=False)
+        looks.append((folder / f"{name}.bsm").stat().st_size)
+    found["looks"] = looks
     (folder / "broken.bsm").write_bytes((folder / "moving.bsm").read_bytes()[:200])
     try:
         bpy.ops.import_scene.bsm(filepath=str(folder / "broken.bsm"))

@@ -99,6 +99,8 @@ def test_an_object_is_written_as_it_is_seen(found, folder):
 def test_operators_and_dropped_files(found):
     assert found["operator"] == [["FINISHED"], "moving", 10]
     assert found["written"] == [["FINISHED"], True]
+    near, far = found["looks"]
+    assert near > far
     assert "broken.bsm" in found["broken"]
     assert found["handler"] == ".bsm"
 

@@ -124,7 +124,10 @@ class SequenceStream:
                 case LossEvent(_, error, frames):
                     assert self._note is not None
                     first, last = frames.start, frames.stop - 1
-                    what = f"frames {first} to {last} are" if frames else f"what follows frame {first} is"
+                    if not frames:
+                        what = f"what follows frame {first} is"
+                    else:
+                        what = f"frame {first} is" if first == last else f"frames {first} to {last} are"
                     self._note(f"{what} lost: {error}")
 
 

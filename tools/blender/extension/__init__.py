@@ -5,13 +5,13 @@ from contextlib import contextmanager
 
 import bpy
 from bpy.app.handlers import persistent
-from bpy.props import BoolProperty, CollectionProperty, EnumProperty, IntProperty, StringProperty
+from bpy.props import BoolProperty, CollectionProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
 from bpy_extras.io_utils import ExportHelper, ImportHelper
 
 PRESETS = [
-    ("balanced", "Balanced", "The farthest vertex within 1 % of the diagonal"),
-    ("fine", "Fine", "Closer to the original, larger"),
-    ("small", "Small", "Farther from the original, smaller"),
+    ("balanced", "Balanced", "Nobody can tell it from the original; the farthest vertex within 1 % of the diagonal"),
+    ("fine", "Fine", "Twice as close to the original, larger"),
+    ("small", "Small", "A preview, smaller"),
 ]
 
 
@@ -73,6 +73,13 @@ class BSM_OT_export(bpy.types.Operator, ExportHelper):
     filter_glob: StringProperty(default="*.bsm", options={"HIDDEN"})
     animation: BoolProperty(name="Animation", default=True, description="All frames of the scene, not only this one")
     preset: EnumProperty(name="Preset", items=PRESETS, default="balanced")
+    look: FloatProperty(
+        name="Look",
+        default=0.0,
+        min=0.0,
+        soft_max=3.0,
+        description="How far it may look from the original; at 1 nobody can tell, and 0 is what the preset promises",
+    )
 
     @classmethod
     def poll(cls, context):
@@ -82,9 +89,10 @@ class BSM_OT_export(bpy.types.Operator, ExportHelper):
         from bsm.bitstream.errors import BsmError
         from bsm.blender import export_object
 
+        quality = {"preset": self.preset} | ({"look": self.look} if self.look else {})
         with progress_of(context) as progress:
             try:
-                done = export_object(self.filepath, animation=self.animation, preset=self.preset, progress=progress)
+                done = export_object(self.filepath, animation=self.animation, progress=progress, **quality)
             except (BsmError, OSError) as error:
                 self.report({"ERROR"}, str(error))
                 return {"CANCELLED"}
