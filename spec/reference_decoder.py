@@ -1142,12 +1142,17 @@ def tangent_ratios(faces, places, ratio):
     if ratio <= 1:
         return np.full(len(places), ratio)
     sums, areas = np.zeros((len(places), 3)), np.zeros(len(places))
+    rims, lengths = np.zeros((len(places), 3)), np.zeros(len(places))
     for a, b, c in faces:
         normal = np.cross(places[b] - places[a], places[c] - places[a])
-        for v in (a, b, c):
+        for v, start, end in ((a, b, c), (b, c, a), (c, a, b)):
+            rim = places[end] - places[start]
             sums[v] += normal
             areas[v] += math.sqrt(normal @ normal)
+            rims[v] += rim
+            lengths[v] += math.sqrt(rim @ rim)
     own = 1 - np.sqrt((sums**2).sum(axis=1)) / (areas + 2.0**-200)
+    own += np.sqrt((rims**2).sum(axis=1)) / (lengths + 2.0**-200)
     bends, corners = np.zeros(len(places)), np.zeros(len(places))
     for a, b, c in faces:
         for v, others in ((a, (b, c)), (b, (c, a)), (c, (a, b))):

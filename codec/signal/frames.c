@@ -49,46 +49,50 @@ int64_t local_frames(ConstDoubles2 positions, ConstInts2 faces, Doubles2 frames)
 static const double FLAT = 0x1p-12; /* bends that are flat; the ratio halves with every factor of 16 beyond */
 
 /* How long a step in the plane is at each vertex, `steps` (n): `ratio` times `step` where the surface is flat, and less
- * the more it is bent, down to `step`; `scratch` is n x 4. Continuous, too. */
+ * the more it is bent, and at borders, down to `step`; `scratch` is n x 8. Continuous, too. */
 int64_t tangent_steps(ConstDoubles2 positions, ConstInts2 faces, double step, double ratio, Doubles2 scratch,
                       Doubles steps) {
     int64_t n = positions.rows;
-    if (positions.columns != 3 || faces.columns != 3 || scratch.columns != 4 || scratch.rows != n || steps.size != n)
+    if (positions.columns != 3 || faces.columns != 3 || scratch.columns != 8 || scratch.rows != n || steps.size != n)
         return MISUSED;
     double least = ratio < 1.0 ? ratio : 1.0;
     if (ratio <= 1.0) {
         for (int64_t v = 0; v < n; v++) steps.data[v] = step * least;
         return 0;
     }
-    for (int64_t i = 0; i < 4 * n; i++) scratch.data[i] = 0.0;
+    for (int64_t i = 0; i < 8 * n; i++) scratch.data[i] = 0.0;
     for (int64_t f = 0; f < faces.rows; f++) {
         const int32_t *face = faces.data + 3 * f;
         double across[3];
         cross_of(positions, face, across);
         double area = __builtin_sqrt(dot(across, across));
         for (int k = 0; k < 3; k++) {
-            double *sum = scratch.data + 4 * (int64_t)face[k];
-            for (int j = 0; j < 3; j++) sum[j] += across[j];
-            sum[3] += area;
+            double *sum = scratch.data + 8 * (int64_t)face[k], rim[3];
+            const double *from = positions.data + 3 * (int64_t)face[(k + 1) % 3];
+            const double *to = positions.data + 3 * (int64_t)face[(k + 2) % 3];
+            for (int j = 0; j < 3; j++) rim[j] = to[j] - from[j], sum[j] += across[j], sum[4 + j] += rim[j];
+            sum[3] += area, sum[7] += __builtin_sqrt(dot(rim, rim));
         }
     }
-    /* The bend of each vertex; then four times the sum over its corners, half of it of the others', and four times their number. */
+    /* The bend of each vertex, more at borders, where what is around does not close; then four times the sum over its
+     * corners, half of it of the others', and four times their number. */
     for (int64_t v = 0; v < n; v++) {
-        double *at = scratch.data + 4 * v;
-        at[0] = 1.0 - __builtin_sqrt(dot(at, at)) / (at[3] + 0x1p-200);
+        double *at = scratch.data + 8 * v;
+        double open = __builtin_sqrt(dot(at + 4, at + 4)) / (at[7] + 0x1p-200);
+        at[0] = 1.0 - __builtin_sqrt(dot(at, at)) / (at[3] + 0x1p-200) + open;
         at[1] = at[2] = 0.0;
     }
     for (int64_t f = 0; f < faces.rows; f++) {
         const int32_t *face = faces.data + 3 * f;
         double sum = 0.0;
-        for (int k = 0; k < 3; k++) sum += scratch.data[4 * (int64_t)face[k]];
+        for (int k = 0; k < 3; k++) sum += scratch.data[8 * (int64_t)face[k]];
         for (int k = 0; k < 3; k++) {
-            double *at = scratch.data + 4 * (int64_t)face[k];
+            double *at = scratch.data + 8 * (int64_t)face[k];
             at[1] += at[0] + sum, at[2] += 4.0;
         }
     }
     for (int64_t v = 0; v < n; v++) {
-        const double *at = scratch.data + 4 * v;
+        const double *at = scratch.data + 8 * v;
         double bend = at[2] > 0.0 ? at[1] / at[2] : 1.0;
         double share = ratio * __builtin_sqrt(__builtin_sqrt(FLAT / (FLAT + bend)));
         steps.data[v] = step * (share > least ? share : least);

@@ -77,11 +77,11 @@ def tangent_steps(positions: Positions, faces: Faces, step: float, ratio: float)
     faces : int32 array, shape (m, 3)
     step, ratio : float
         A level along a normal; and how many times that one along a tangent is where the surface is flat. It is less
-        where that is bent, but not below 1.
+        where that is bent and at its borders, but not below 1.
     """
     steps = np.empty(len(positions))
     given = np.ascontiguousarray(positions, np.float64), np.ascontiguousarray(faces, np.int32)
-    _kernels.tangent_steps(*given, step, ratio, np.empty((len(positions), 4)), steps)
+    _kernels.tangent_steps(*given, step, ratio, np.empty((len(positions), 8)), steps)
     return steps
 
 

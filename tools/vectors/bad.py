@@ -379,7 +379,7 @@ PAYLOADS: dict[str, Bad] = {
         lambda: _changed(_edit(BLOCK, lambda p: p[:1] + b"\x3c" + p[2:], which=0), _small_component),
     ),
     "bad-details-missing": Bad(
-        "details announced, and none in the blocks", "corrupt", _entries(details=6, detail_step=0.5)
+        "details announced, and none in the blocks", "truncated", _entries(details=6, detail_step=0.5)
     ),
     "bad-levels-short": Bad("levels that end too early", "truncated", _framed(_edit(BLOCK, lambda p: p[:3]))),
     "bad-levels-long": Bad("bytes behind the levels", "corrupt", _framed(_edit(BLOCK, lambda p: p + b"\x55" * 8))),

@@ -116,7 +116,7 @@ export class Refinement {
         const upright = memory.copy(this.base, 3);
         memory.call("add_heights", upright, frames, levels, step);
         const steps = memory.doubles(header.vertices);
-        memory.call("tangent_steps", upright, faces, step, ratio, memory.doubles(4 * header.vertices, 4), steps);
+        memory.call("tangent_steps", upright, faces, step, ratio, memory.doubles(8 * header.vertices, 8), steps);
         const unknown = spoilt.includes(1) ? this.around(this.around(spoilt)) : spoilt;
         moveBut(unknown, this.positions, () => memory.call("add_slides", this.positions, frames, levels, steps));
         for (const [vertex, without] of unknown.entries()) if (!without) this.reached[layer][vertex] = 1;
