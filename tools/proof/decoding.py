@@ -16,7 +16,7 @@ from bsm.codec.static.decoder import Decoder, decode
 from bsm.codec.static.events import AttributeEvent, BlockEvent, ConnectivityEvent, LossEvent, RefinementEvent
 from tools.proof.tally import Decoded, Outcome
 from tools.surgery import first_entries
-from tools.vectors.store import arrays_of
+from tools.vectors.store import Arrays, arrays_of
 
 GOP_FRAMES = 23
 """Header key that only sequences store."""
@@ -56,6 +56,7 @@ def _by_events(
     positions: list[np.ndarray] = []
     frames: list[np.ndarray] = []
     values: dict[str, Attribute] = {}
+    runs: list[tuple[int, int, np.ndarray]] = []
     with kind(limits, threads, tolerant=tolerant) as decoder:
         for piece in (*pieces, b""):
             if piece:
@@ -65,6 +66,9 @@ def _by_events(
             while (event := decoder.next_event()) is not NEED_DATA and event is not END_OF_STREAM:
                 match event:
                     case ConnectivityEvent():
+                        if event.section == 0 and kind is SequenceDecoder:  # a run, with a mesh of its own
+                            faces, vertices, positions = np.zeros((0, 3), np.int32), 0, []
+                            runs.append((len(frames), event.vertices, event.faces))
                         faces = np.concatenate([faces, event.faces])
                         more = np.full((event.vertices - vertices, 3), np.nan)
                         positions, vertices = [np.concatenate([*positions, more])], event.vertices
@@ -80,10 +84,19 @@ def _by_events(
                         values[event.name] = _with_values(values.get(event.name), event, rows)
                     case LossEvent():
                         losses += 1
+        if len(runs) > 1 and isinstance(decoder, SequenceDecoder):
+            return _of_runs(frames, runs, arrays_of([] if losses else decoder.attributes)), losses
         arrays = arrays_of([] if losses else _completed(decoder, values))
     if kind is SequenceDecoder:
         return (np.array(frames).reshape(len(frames), vertices, 3), faces, arrays), losses
     return (positions[0] if positions else np.zeros((0, 3)), faces, arrays), losses
+
+
+def _of_runs(frames: list[np.ndarray], runs: list[tuple[int, int, np.ndarray]], arrays: Arrays) -> Decoded:
+    """Frames of several meshes, one behind the other, as the vectors hold them."""
+    table = np.array([(first, vertices, len(faces)) for first, vertices, faces in runs], np.int32)
+    positions = np.concatenate([np.zeros((0, 3)), *frames])
+    return positions, np.concatenate([faces for _, _, faces in runs]), arrays | {"runs": table}
 
 
 def _completed(decoder: Decoder | SequenceDecoder, told: dict[str, Attribute]) -> list[Attribute]:
