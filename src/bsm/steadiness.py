@@ -66,9 +66,8 @@ def unsteadiness(stream: bytes, *, limits: Limits = DEFAULT_LIMITS, threads: int
     moved, _ = _decoded(stream, limits, threads, shaken)
     if positions.size == 0:
         return 0.0, 0.0
-    points = positions.reshape(-1, 3)
-    diagonal = float(np.linalg.norm(np.ptp(points / 2, axis=0)) * 2)
-    extent = max(scale, diagonal, 2.0**-20 * float(np.abs(points).max()))
+    diagonal = float(np.linalg.norm(np.ptp(positions / 2, axis=0)) * 2)
+    extent = max(scale, diagonal, 2.0**-20 * float(np.abs(positions).max()))
     apart = np.linalg.norm(moved / extent - positions / extent, axis=-1)
     return float(np.sqrt((apart**2).mean())), float(apart.max())
 
@@ -106,20 +105,20 @@ def check_steadiness(stream: bytes, *, limits: Limits = DEFAULT_LIMITS, threads:
 
 
 def _decoded(stream: bytes, limits: Limits, threads: int | None, rounding: Rounding) -> tuple[Positions, float]:
-    """Positions, shape (n, 3) or (T, n, 3), and the header's scale."""
+    """Positions, shape (n, 3), of all frames one below the other, and the header's scale."""
 
     reader = Reader(limits)
     reader.receive_data(stream)
     header = reader.next_packet()
     if isinstance(header, Header) and header.gop_frames:
-        frames: list[Positions] = []
+        frames: list[Positions] = [np.empty((0, 3))]
         with SequenceDecoder(limits, threads, trial=Trial(rounding)) as decoder:
             decoder.receive_data(stream)
             decoder.receive_eof()
             while (event := decoder.next_event()) is not END_OF_STREAM:
                 if isinstance(event, FrameEvent):
                     frames.append(event.positions)
-        return np.array(frames), header.scale
+        return np.concatenate(frames), header.scale
     with Decoder(limits, threads, trial=Trial(rounding)) as static:
         static.receive_data(stream)
         mesh = static.finish()

@@ -20,7 +20,8 @@ AHEAD = 2
 def on_cluster(work: Work, tasks: Tasks, address: str) -> Outcomes:
     """Do jobs on the workers of a cluster; those of a worker that dies are taken up by others.
 
-    Those that were on several workers that died, each time, are tried again in the end, each alone.
+    Those that were on several workers that died, each time, are tried again in the end, each alone; twice, since the
+    cluster may still be recovering from the one before.
 
     Parameters
     ----------
@@ -64,7 +65,10 @@ def on_cluster(work: Work, tasks: Tasks, address: str) -> Outcomes:
                 else:
                     yield number, outcome
             for number, args in suspects:
-                outcome = _outcome(client.submit(far_outcome, work, args, key=f"bsm-{run}-{number}-alone"))
+                for attempt in ("alone", "again"):
+                    outcome = _outcome(client.submit(far_outcome, work, args, key=f"bsm-{run}-{number}-{attempt}"))
+                    if outcome:
+                        break
                 yield number, outcome or Outcome({}, MemoryError(f"{args.input}: its workers died, again and again"))
         except distributed.CancelledError as error:
             raise OSError(errno.ECONNRESET, "the Dask scheduler went away", address) from error
