@@ -21,16 +21,19 @@ class Processor:
     ----------
     name : str
         As Linux calls it.
-    zig : str, optional
-        The target for Zig's C compiler, which compiles for any processor; None: this machine's own compiler is used.
+    glibc : str
+        The oldest C library that its wheels run with.
+    own : bool
+        Whether it is this machine's, whose compiler is used; Zig's, which compiles for any, is used for others.
     """
 
     name: str
-    zig: str | None = None
+    glibc: str = "2.17"
+    own: bool = False
 
 
-INTEL = Processor("x86_64")
-ARM = Processor("aarch64", "aarch64-linux-gnu.2.28")
+INTEL = Processor("x86_64", own=True)
+ARM = Processor("aarch64")
 
 
 def make_sdist(sources: Path, output: Path) -> Path:
@@ -68,16 +71,15 @@ def make_wheel(sdist: Path, python: Path, processor: Processor, output: Path) ->
         The folder for the wheel.
     """
     with tempfile.TemporaryDirectory() as folder:
-        environment = clean()
-        if processor.zig is not None:
-            environment |= _cross(Path(folder), processor)
+        environment = clean() | (_old_glibc(Path(folder)) if processor.own else _cross(Path(folder), processor))
         raw = Path(folder, "raw")
         # By the path that was given: a virtual environment's Python knows no other way to itself.
         command = [str(python), "-m", "pip", "wheel", "-q", "--disable-pip-version-check", "--no-deps"]
         subprocess.run([*command, "--no-cache-dir", "-w", str(raw), str(sdist)], check=True, env=environment)
         (made,) = raw.glob("*.whl")
         before = set(output.glob("*.whl"))
-        repair = [sys.executable, "-m", "auditwheel", "repair", "-w", str(output), str(made)]
+        platform = f"manylinux_{processor.glibc.replace('.', '_')}_{processor.name}"
+        repair = [sys.executable, "-m", "auditwheel", "repair", "--plat", platform, "-w", str(output), str(made)]
         subprocess.run(repair, check=True, env=environment | {"PATH": _with_own(environment["PATH"])})
         new = set(output.glob("*.whl")) - before
     wheel = new.pop() if new else max(output.glob(f"*{processor.name}.whl"), key=os.path.getmtime)
@@ -112,11 +114,19 @@ def _with_own(path: str) -> str:
     return f"{Path(sys.executable).parent}{os.pathsep}{path}"
 
 
+def _old_glibc(folder: Path) -> dict[str, str]:
+    """What makes GCC's code run with glibc 2.17: a C++ library of its own, and an object that stands for newer parts."""
+    made = folder / "old_glibc.o"
+    source = Path(__file__).with_name("old_glibc.c")
+    subprocess.run(["gcc", "-O2", "-fPIC", "-fno-builtin", "-c", source, "-o", made], check=True)
+    return {"CC": "gcc", "CXX": "g++", "LDFLAGS": f"{made} -static-libstdc++ -Wl,--exclude-libs,ALL"}
+
+
 def _cross(folder: Path, processor: Processor) -> dict[str, str]:
     """Compilers for another processor, and what makes Python's tools believe in it."""
     told = [f"-DCMAKE_SYSTEM_NAME=Linux -DCMAKE_SYSTEM_PROCESSOR={processor.name}"]
     # Zig's headers for C++ do not bring stdio.h along, as GNU's do.
-    compiled = f"-target {processor.zig} -include stdio.h"
+    compiled = f"-target {processor.name}-linux-gnu.{processor.glibc} -include stdio.h"
     programs = {"C_COMPILER": f"cc {compiled}", "CXX_COMPILER": f"c++ {compiled}", "AR": "ar", "RANLIB": "ranlib"}
     for name, program in programs.items():
         path = folder / f"zig-{name.lower()}"
