@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, fields
 
 from bsm.bitstream.errors import ArgumentError, LimitError, OptionError
@@ -129,12 +130,12 @@ class Limits:
         if value > bound:
             raise LimitError(
                 f"{name} = {_worded(value)} is over the limit of {_worded(bound)}; "
-                f"if you trust the source, raise Limits.{name}"
+                + _cure(name, lambda limits: value <= getattr(limits, name))
             )
 
     def check_work(self, value: float, vertices: int, received: int = 0) -> None:
         """Raise `LimitError` if a stream of so many vertices, and bytes received, takes more work."""
-        self._check_sum("work", value, self.work_for(vertices, received))
+        self._check_sum("work", value, lambda limits: limits.work_for(vertices, received))
 
     def work_for(self, vertices: int, received: int) -> float:
         """Nanoseconds of work that a stream of so many vertices, and bytes received, may take."""
@@ -142,18 +143,18 @@ class Limits:
 
     def check_memory(self, value: float, vertices: int, received: int = 0) -> None:
         """Raise `LimitError` if a stream of so many vertices, and bytes received, needs more memory."""
-        self._check_sum("memory", value, self.memory_for(vertices, received))
+        self._check_sum("memory", value, lambda limits: limits.memory_for(vertices, received))
 
     def memory_for(self, vertices: int, received: int) -> float:
         """Bytes that a stream of so many vertices, and bytes received, may take."""
         granted = self.memory + self.memory_per_vertex * vertices + self.memory_per_byte * received
         return min(granted, self.most_memory)
 
-    def _check_sum(self, name: str, value: float, bound: float) -> None:
-        if value > bound:
+    def _check_sum(self, name: str, value: float, granted: Callable[[Limits], float]) -> None:
+        if value > granted(self):
             raise LimitError(
-                f"{name} = {value:g} is over the limit of {bound:g} for what the stream holds; "
-                f"if you trust the source, raise Limits.{name}, or take Limits.wide()"
+                f"{name} = {value:g} is over the limit of {granted(self):g} for what the stream holds; "
+                + _cure(name, lambda limits: value <= granted(limits))
             )
 
 
@@ -162,6 +163,15 @@ def as_limits(limits: Limits) -> Limits:
     if not isinstance(limits, Limits):
         raise ArgumentError(f"limits must be bsm.Limits, not {limits!r}")
     return limits
+
+
+def _cure(name: str, enough: Callable[[Limits], bool]) -> str:
+    """What allows more, on the command line and in Python."""
+    named = next((word for word, make in NAMED_LIMITS.items() if enough(make())), None)
+    if named is None:
+        return f"if you trust the source, decode it in Python with a higher Limits.{name}"
+    call = "Limits()" if named == "default" else f"Limits.{named}()"
+    return f"if you trust the source, allow more: --limits {named}, in Python {call}"
 
 
 def _worded(value: float) -> str:

@@ -49,6 +49,15 @@ def test_saved_page_holds_the_streams(tmp_path):
     assert base64.b64decode(first["data"]) == stream.read_bytes()
 
 
+def test_meshes_are_encoded_on_the_way(tmp_path, capsys):
+    mesh, source, page = torus(), tmp_path / "ball.ply", tmp_path / "page.html"
+    bsm.save(mesh, source)
+    assert main(["view", str(source), "--save", str(page)]) == 0
+    (entry,) = listed(page.read_text("utf-8"))
+    assert base64.b64decode(entry["data"]) == bsm.encode(source)
+    assert f"{len(bsm.encode(source))} bytes as a stream" in capsys.readouterr().err
+
+
 def test_page_is_not_overwritten_unasked(tmp_path):
     page = tmp_path / "page.html"
     page.write_text("mine")
@@ -120,10 +129,10 @@ def in_order(data: bytes, mesh: bsm.TriangleMesh) -> bsm.TriangleMesh:
     return bsm.TriangleMesh(original.astype(float), bsm.decode(data).faces)
 
 
-def test_what_is_no_stream_is_refused(tmp_path, capsys):
-    bsm.save(torus(), tmp_path / "ball.ply")
-    assert main(["view", str(tmp_path / "ball.ply"), "--save", str(tmp_path / "page.html")]) == 3
-    assert "make one of it with bsm encode" in capsys.readouterr().err
+def test_what_is_neither_stream_nor_mesh_is_refused(tmp_path, capsys):
+    (tmp_path / "ball.txt").write_text("round")
+    assert main(["view", str(tmp_path / "ball.txt"), "--save", str(tmp_path / "page.html")]) != 0
+    assert "ball.txt" in capsys.readouterr().err
     assert not (tmp_path / "page.html").exists()
 
 

@@ -33,7 +33,7 @@ def try_wheel(wheel: Path, python: Path, sources: Path, tests: list[str]) -> Non
     """
     first, second = readme_commands(sources)
     with tempfile.TemporaryDirectory() as folder:
-        environment = _without_compilers(Path(folder))
+        environment = without_compilers(Path(folder))
         subprocess.run([python, "-m", "venv", Path(folder, ".venv")], check=True)
         code = "import bsm; print(bsm.__file__)"
         _run(f"{_from_wheel(first, wheel)} && .venv/bin/bsm verify out/bsm_demo.bsm", folder, environment)
@@ -66,7 +66,7 @@ def _run(command: str, folder: str, environment: dict[str, str]) -> None:
     subprocess.run(["bash", "-ec", command], cwd=folder, env=environment, check=True)
 
 
-def _without_compilers(folder: Path) -> dict[str, str]:
+def without_compilers(folder: Path) -> dict[str, str]:
     """The environment with a PATH of all programs but compilers."""
     programs = folder / "programs"
     programs.mkdir()

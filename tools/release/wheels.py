@@ -8,6 +8,7 @@ import subprocess
 import sys
 import tarfile
 import tempfile
+import tomllib
 import zipfile
 from dataclasses import dataclass
 from pathlib import Path
@@ -72,10 +73,11 @@ def make_wheel(sdist: Path, python: Path, processor: Processor, output: Path) ->
     """
     with tempfile.TemporaryDirectory() as folder:
         environment = clean() | (_old_glibc(Path(folder)) if processor.own else _cross(Path(folder), processor))
+        builder = _builder(Path(folder, "builder"), python)
+        environment["PATH"] = f"{builder.parent}{os.pathsep}{environment['PATH']}"
         raw = Path(folder, "raw")
-        # By the path that was given: a virtual environment's Python knows no other way to itself.
-        command = [str(python), "-m", "pip", "wheel", "-q", "--disable-pip-version-check", "--no-deps"]
-        subprocess.run([*command, "--no-cache-dir", "-w", str(raw), str(sdist)], check=True, env=environment)
+        command = [str(builder), "-m", "pip", "wheel", "-q", "--no-build-isolation", "--no-deps", "--no-cache-dir"]
+        subprocess.run([*command, "-w", str(raw), str(sdist)], check=True, env=environment)
         (made,) = raw.glob("*.whl")
         before = set(output.glob("*.whl"))
         platform = f"manylinux_{processor.glibc.replace('.', '_')}_{processor.name}"
@@ -114,12 +116,23 @@ def _with_own(path: str) -> str:
     return f"{Path(sys.executable).parent}{os.pathsep}{path}"
 
 
+def _builder(folder: Path, python: Path) -> Path:
+    """A Python that has what builds need. (In pip's own isolation that would be programs of the other processor.)"""
+    # By the path that was given: a virtual environment's Python knows no other way to itself.
+    subprocess.run([python, "-m", "venv", folder], check=True, env=clean())
+    needed = tomllib.loads((Path(__file__).parents[2] / "pyproject.toml").read_text())["build-system"]["requires"]
+    made = folder / "bin" / "python"
+    command = [made, "-m", "pip", "install", "-q", "--disable-pip-version-check", "cmake>=3.20", "ninja", *needed]
+    subprocess.run(command, check=True, env=clean())
+    return made
+
+
 def _old_glibc(folder: Path) -> dict[str, str]:
-    """What makes GCC's code run with glibc 2.17: a C++ library of its own, and an object that stands for newer parts."""
+    """What makes GCC's code run with glibc 2.17: the C++ library inside, an object that stands for newer parts."""
     made = folder / "old_glibc.o"
     source = Path(__file__).with_name("old_glibc.c")
     subprocess.run(["gcc", "-O2", "-fPIC", "-fno-builtin", "-c", source, "-o", made], check=True)
-    return {"CC": "gcc", "CXX": "g++", "LDFLAGS": f"{made} -static-libstdc++ -Wl,--exclude-libs,ALL"}
+    return {"CC": "gcc", "CXX": "g++", "LDFLAGS": f"{made} -lm -static-libstdc++ -Wl,--exclude-libs,ALL"}
 
 
 def _cross(folder: Path, processor: Processor) -> dict[str, str]:

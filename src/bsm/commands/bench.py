@@ -27,14 +27,15 @@ def run(args: argparse.Namespace, console: Console) -> None:
     """Measure and print."""
     from bsm.evaluation.bench import bench_tables, run_bench
 
-    result = run_bench(
-        args.meshes,
-        sample=args.sample,
-        repeats=args.repeat,
-        largest=args.largest,
-        solvers=not args.no_solvers,
-        note=console.note,
-    )
+    with console.progress("reading") as progress:
+        result = run_bench(
+            args.meshes,
+            sample=args.sample,
+            repeats=args.repeat,
+            largest=args.largest,
+            solvers=not args.no_solvers,
+            note=progress.stage,
+        )
     if args.json:
         print_json(result)
     else:

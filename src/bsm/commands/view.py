@@ -7,6 +7,7 @@ import itertools
 import webbrowser
 from pathlib import Path
 
+from bsm.api import encode
 from bsm.bitstream.container.wire import MAGIC
 from bsm.bitstream.errors import FormatError, OptionError
 from bsm.commands.limits import add_limits_flag, limits_of
@@ -22,7 +23,12 @@ from bsm.viewer.page import PageServer, page_with
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare what the command takes."""
-    parser.add_argument("inputs", metavar="IN", nargs="+", help="stream, of a mesh or a sequence, or - for a pipe")
+    parser.add_argument(
+        "inputs",
+        metavar="IN",
+        nargs="+",
+        help="stream, of a mesh or a sequence, or - for a pipe; or a mesh file, which is encoded on the way",
+    )
     parser.add_argument("--original", metavar="MESH", help="mesh file that the stream was made of, to compare it with")
     add_reader_flag(parser)
     add_limits_flag(parser)
@@ -38,7 +44,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(args: argparse.Namespace, console: Console) -> int:
     """Write the page, or serve it until interrupted."""
     with console.progress("reading and comparing" if args.original else "reading"):
-        contents = _contents(args)
+        contents = _contents(args, console)
     if args.save:
         with open_output(args.save, overwrite=args.force) as file:
             file.write(page_with(contents).encode())
@@ -57,14 +63,11 @@ def run(args: argparse.Namespace, console: Console) -> int:
     return 0
 
 
-def _contents(args: argparse.Namespace) -> list[Content]:
+def _contents(args: argparse.Namespace, console: Console) -> list[Content]:
     """All inputs under names of their own; a damaged stream is for the page to tell, unless it is to be compared."""
     streams: dict[str, bytes] = {}
     for path in args.inputs:
-        data = b"".join(read_chunks(path))
-        if not data.startswith(MAGIC[: len(data)]):
-            raise FormatError(f"{path} is no BSM stream; make one of it with bsm encode")
-        streams[_free_name(Path(path).name, streams)] = data
+        streams[_free_name(Path(path).name, streams)] = _stream(path, args.reader, console)
     if args.original is None:
         return [Content(name, data) for name, data in streams.items()]
     if len(streams) > 1:
@@ -73,6 +76,19 @@ def _contents(args: argparse.Namespace) -> list[Content]:
         mesh = read_mesh(args.original, reader=args.reader).mesh
     with about(args.inputs[0]):
         return [compared(name, data, mesh, limits_of(args.limits)) for name, data in streams.items()]
+
+
+def _stream(path: str, reader: str | None, console: Console) -> bytes:
+    """A stream as it is, a mesh file encoded as `bsm encode` does."""
+    data = b"".join(read_chunks(path))
+    if data.startswith(MAGIC[: len(data)]):
+        return data
+    if path == "-":
+        raise FormatError("what came through the pipe is no BSM stream; encode it on the way: bsm encode - -o - | ...")
+    with about(path):
+        stream = encode(read_mesh(path, reader=reader).mesh)
+    console.note(f"{path}: {len(stream)} bytes as a stream of the default preset")
+    return stream
 
 
 def _free_name(name: str, taken: dict[str, bytes]) -> str:

@@ -52,7 +52,7 @@ def run_bench(
     solvers : bool
         Measure eigensolvers as well.
     note : callable
-        Takes a line about progress.
+        Takes what begins, in a few words.
 
     Returns
     -------
@@ -64,12 +64,12 @@ def run_bench(
     rows = []
     for path in meshes:
         mesh = read_mesh(path).mesh.bare.without_isolated_vertices()[0]
-        note(f"{path}: whole files")
+        note(f"{Path(path).name}, whole files")
         files = compare_with_draco(mesh, repeats)
         row = {"mesh": Path(path).stem, "vertices": len(mesh.positions), "files": files}
         row |= {"link": compare_links(mesh, repeats), "dictionaries": [], "speedups": []}
         if solvers:
-            note(f"{path}: eigensolvers")
+            note(f"{Path(path).name}, eigensolvers")
             row |= summarise(time_solvers(mesh, KEEPS, sample, repeats))
         rows.append(row)
     return {"meshes": rows, "growth": measure_growth(meshes[0], largest, repeats, note) if largest else []}
@@ -151,7 +151,7 @@ def measure_growth(path: str, largest: int, repeats: int, note: Note) -> list[di
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder, "mesh.ply")
         while len(mesh.positions) <= largest:
-            note(f"{path}: {len(mesh.positions)} vertices")
+            note(f"{Path(path).name} of {len(mesh.positions)} vertices")
             file.write_bytes(format_mesh(mesh, "ply"))
             rows.append({"vertices": len(mesh.positions), **measure_resources(file, repeats)})
             mesh = subdivide(mesh)

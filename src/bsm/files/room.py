@@ -46,8 +46,8 @@ def require_inflated(size: int, compressed: int, limits: Limits) -> None:
     most = most_inflated(compressed, limits)
     if size > most:
         raise LimitError(
-            f"{compressed} compressed bytes take {size} bytes of memory or more, over the limit of {most}; if you "
-            "trust the file, decompress it yourself, or raise Limits.memory"
+            f"{compressed} compressed bytes take {size} bytes of memory or more, over the limit of {most} "
+            "(Limits.memory); if you trust the file, decompress it yourself"
         )
 
 
@@ -128,8 +128,8 @@ def require_room(kind: str, data: bytes, limits: Limits) -> None:
     granted = limits.memory_for(vertices, len(data))
     if memory > granted:
         raise LimitError(
-            f"{lines} lines of text take {memory:.3g} bytes of memory, over the limit of {granted:.3g}; if you trust "
-            "the file, raise Limits.memory, or save it in a binary format"
+            f"{lines} lines of text take {memory:.3g} bytes of memory, over the limit of {granted:.3g} "
+            "(Limits.memory); if you trust the file, save it in a binary format"
         )
 
 
