@@ -38,37 +38,46 @@ INLINE void substitute_forward(const int vectors, int64_t lane, const Fronts *fr
     }
 }
 
+/* Sums of each row on the way back, which take the entries of its border in turn, so that no addition waits for the one
+ * before; and rows side by side. Without fused products the last bits differ anyway, and more rows are worth more. */
+#ifdef __wasm__
+#define SUMS 1
+#else
+#define SUMS 2
+#endif
+#define BACK (ROWS / SUMS)
+
 /* D C^T X = B for successive rows of a front from its row k on: each divided by its pivot, less its share of the rows
- * after it; first those of the border, the odd ones in a sum of their own, then those of its front. */
+ * after it; first those of the border, then those of its front. */
 INLINE void take_back(const int vectors, const int rows, int64_t lane, const Front *front, int64_t k,
                       const uint32_t *border, const double *matrix, const double *inverse, double *x) {
-    Vector lanes[ROWS / 2][VECTORS], others[ROWS / 2][VECTORS];
+    Vector sums[SUMS][BACK][VECTORS];
     const int64_t size = front->width - front->own;
     double *own = x + front->first * lane;
     const double *entries = matrix + k * front->apart;
     EACH(i, rows) {
         EACH(v, vectors) {
-            lanes[i][v] = scaled(load(own + (k + i) * lane + v * WIDTH), inverse[front->first + k + i]);
-            others[i][v] = zeros();
+            sums[SUMS - 1][i][v] = zeros();
+            sums[0][i][v] = scaled(load(own + (k + i) * lane + v * WIDTH), inverse[front->first + k + i]);
         }
     }
-    for (int64_t j = 0; j < size; j += 2) {
-        const double *even = x + border[j] * lane, *odd = x + border[j + 1] * lane;
+    for (int64_t j = 0; j < size; j += SUMS) {
         EACH(i, rows) {
             const double *entry = entries + i * front->apart + front->own + j;
-            EACH(v, vectors) {
-                lanes[i][v] = add_scaled(lanes[i][v], -entry[0], load(even + v * WIDTH));
-                others[i][v] = add_scaled(others[i][v], -entry[1], load(odd + v * WIDTH));
-            }
+            EACH(v, vectors) EACH(s, SUMS)
+                sums[s][i][v] = add_scaled(sums[s][i][v], -entry[s], load(x + border[j + s] * lane + v * WIDTH));
         }
     }
     EACH(down, rows) {
         const int i = rows - 1 - down;
         for (int64_t j = k + i + 1; j < front->own; j++) {
             double entry = -entries[i * front->apart + j];
-            EACH(v, vectors) lanes[i][v] = add_scaled(lanes[i][v], entry, load(own + j * lane + v * WIDTH));
+            EACH(v, vectors) sums[0][i][v] = add_scaled(sums[0][i][v], entry, load(own + j * lane + v * WIDTH));
         }
-        EACH(v, vectors) store(own + (k + i) * lane + v * WIDTH, sum_of(lanes[i][v], others[i][v]));
+        EACH(v, vectors) {
+            Vector whole = SUMS > 1 ? sum_of(sums[0][i][v], sums[SUMS - 1][i][v]) : sums[0][i][v];
+            store(own + (k + i) * lane + v * WIDTH, whole);
+        }
     }
 }
 
@@ -79,7 +88,7 @@ INLINE void substitute_back(const int vectors, int64_t lane, const Fronts *front
         const uint32_t *border = fronts->borders.data + front.edge;
         const double *matrix = matrices + front.place;
         int64_t k = front.own;
-        for (; k >= ROWS / 2; k -= ROWS / 2) take_back(vectors, ROWS / 2, lane, &front, k - ROWS / 2, border, matrix, inverse, x);
+        for (; k >= BACK; k -= BACK) take_back(vectors, BACK, lane, &front, k - BACK, border, matrix, inverse, x);
         if (k > 0) take_back(vectors, 1, lane, &front, 0, border, matrix, inverse, x);
     }
 }

@@ -71,10 +71,15 @@ export class Decoder {
 
     /** The next event, or `NEED_DATA`; with helpers `NEED_BLOCK`; `END_OF_STREAM` after the end and `receiveEof`. */
     nextEvent(): Event | Signal | typeof NEED_BLOCK {
-        const item = this.nextItem();
-        if (typeof item === "string" || "type" in item) return item;
-        if ("make" in item) return { type: "frame", index: item.frame, positions: this.guarded((stages) => stages.framed(item)) };
-        return this.guarded((stages) => stages.changed(item), item.index);
+        for (;;) {
+            const item = this.nextItem();
+            if (typeof item === "string") return item;
+            if ("make" in item) return { type: "frame", index: item.frame, positions: this.guarded((stages) => stages.framed(item)) };
+            if (!this.wishes.whole) return "type" in item ? item : this.guarded((stages) => stages.changed(item), item.index);
+            if (!("type" in item)) this.guarded((stages) => stages.add(item), item.index);
+            else if (item.type === "end") return { ...item, positions: this.guarded((stages) => stages.atEnd()) };
+            else if (item.type !== "block" && item.type !== "refinement") return item;
+        }
     }
 
     /** Decode the rest of a complete stream; faster than asking for events. Without helpers it is there at once. */

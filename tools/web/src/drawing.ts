@@ -149,8 +149,9 @@ export class Drawing {
                 return this.show(event);
             case "end":
                 this.flush();
+                if (event.positions) this.take(event.positions);
                 if (!this.shape) this.finish();
-                return this.show(event);
+                return this.show({ ...event, positions: undefined });
             default:
                 return this.show(event);
         }
@@ -291,12 +292,17 @@ export class Drawing {
         return corners;
     }
 
+    /** All vertices are there. */
+    private take(positions: Float64Array): void {
+        this.points = Float32Array.from(positions);
+        this.origin.fill(0);
+    }
+
     private addFrame({ index, positions: points }: FrameEvent): void {
         this.kept += 18 * (points.length / 3);
         checkLimit(this.limits, "keptBytes", this.kept);
         if (!this.shape) {
-            this.points = Float32Array.from(points);
-            this.origin.fill(0);
+            this.take(points);
             this.finish();
         }
         const { vertices } = begun(this.shape);

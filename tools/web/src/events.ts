@@ -60,6 +60,8 @@ export interface EndEvent {
     missing: Int32Array;
     /** Vertices that are less good than they were encoded. */
     degraded: Int32Array;
+    /** Where all vertices of a static mesh are, shape (n, 3), if that was wished for as a whole. */
+    positions?: Float64Array;
 }
 
 export type Event = HeaderEvent | MetadataEvent | ConnectivityEvent | BlockEvent | RefinementEvent | AttributeEvent | FrameEvent | LossEvent | EndEvent;
@@ -68,6 +70,8 @@ export type Event = HeaderEvent | MetadataEvent | ConnectivityEvent | BlockEvent
 export interface Wishes {
     /** Report damage behind the faces as `LossEvent`, and go on with everything that does not depend on what is lost. */
     tolerant?: boolean;
+    /** Tell positions of a static mesh at its end, all at once, and not what each block changes: that is less work. */
+    whole?: boolean;
     /** Asked once the header is there: how many helpers share the work on chains of blocks. */
     helpers?: (header: Header) => number;
 }

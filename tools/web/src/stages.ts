@@ -122,6 +122,11 @@ export class Stages {
         return this.numbers.arranged(this.wholePositions());
     }
 
+    /** The same of a static mesh; frames of a sequence have been told. */
+    atEnd(): Float64Array | undefined {
+        return this.header.gopFrames > 0 ? undefined : this.whole();
+    }
+
     private get assembled(): Assembly {
         return begun(this.assembly);
     }

@@ -22,8 +22,9 @@ class DecodersDesk implements Taking {
         say: Say,
         private readonly guarded: Guard,
     ) {
-        const { kernels, limits, tolerant } = start;
-        this.decoder = new Decoder(new Kernels(kernels), limits, { tolerant, helpers: (header) => this.findHelpers(header) });
+        const { kernels, limits, tolerant, drawing } = start;
+        const whole = drawing === "whole" && !tolerant;
+        this.decoder = new Decoder(new Kernels(kernels), limits, { tolerant, whole, helpers: (header) => this.findHelpers(header) });
         this.teller = new Teller(this.decoder, start, say);
     }
 

@@ -4,7 +4,7 @@ import { join } from "node:path";
 import { pathToFileURL } from "node:url";
 import { crc16, crc32 } from "../src/checksums";
 import { parseVarint } from "../src/varint";
-import { decode, Decoder, END_OF_STREAM, Kernels, NEED_DATA, type Attribute, type Event, type Limits, type Mesh } from "../src/index";
+import { decode, Decoder, END_OF_STREAM, Kernels, NEED_DATA, type Attribute, type Event, type Limits, type Mesh, type Wishes } from "../src/index";
 
 export const WEB = process.cwd();
 export const VECTORS = join(WEB, "../../spec/vectors");
@@ -29,8 +29,8 @@ export function compile(build: string): Promise<Kernels> {
 }
 
 /** All events of a stream that comes in pieces of `size` bytes; the error is thrown behind them. */
-export function* eventsOf(kernels: Kernels, data: Uint8Array, size: number, limits: Partial<Limits> = {}): Generator<Event> {
-    const decoder = new Decoder(kernels, limits);
+export function* eventsOf(kernels: Kernels, data: Uint8Array, size: number, limits: Partial<Limits> = {}, wishes: Wishes = {}): Generator<Event> {
+    const decoder = new Decoder(kernels, limits, wishes);
     for (let at = 0; at < data.length || at === 0; at += Math.max(size, 1)) {
         decoder.receiveData(data.subarray(at, at + size));
         for (let event; (event = decoder.nextEvent()) !== NEED_DATA; ) yield event as Event;
@@ -41,7 +41,7 @@ export function* eventsOf(kernels: Kernels, data: Uint8Array, size: number, limi
 
 /** The mesh that block events add up to; of a sequence all its frames, one behind the other. */
 export function meshOfEvents(events: Iterable<Event>): Mesh {
-    let positions = new Float64Array(0);
+    let positions: Float64Array = new Float64Array(0);
     let faces = new Int32Array(0);
     const frames: Float64Array[] = [];
     const attributes: Attribute[] = [];
@@ -54,6 +54,7 @@ export function meshOfEvents(events: Iterable<Event>): Mesh {
             event.loose.vertices.forEach((v, i) => positions.set(event.loose.positions.subarray(3 * i, 3 * i + 3), 3 * v));
         }
         if (event.type === "attribute") attributes.push(event);
+        if (event.type === "end" && event.positions) positions = event.positions;
         if (event.type === "frame") frames.push(event.positions);
         if (event.type === "block" || event.type === "refinement") event.vertices.forEach((v, i) => positions.set(event.positions.subarray(3 * i, 3 * i + 3), 3 * v));
     }

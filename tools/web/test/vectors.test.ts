@@ -18,6 +18,7 @@ const { vectors } = JSON.parse(readFileSync(join(VECTORS, "manifest.json"), "utf
 const WAYS: [string, (kernels: Kernels, data: Uint8Array) => Mesh][] = [
     ["whole", decode],
     ["in events", (kernels, data) => meshOfEvents(eventsOf(kernels, data, data.length))],
+    ["as a whole, in events", (kernels, data) => meshOfEvents(eventsOf(kernels, data, data.length, {}, { whole: true }))],
     ["byte by byte", (kernels, data) => meshOfEvents(eventsOf(kernels, data, 1))],
 ];
 
