@@ -68,14 +68,14 @@ def first_entries(stream: bytes) -> dict[int, Any]:
         return {}
 
 
-def with_header(stream: bytes, **changes: Any) -> bytes:
-    """The stream with other header fields, by name (None: not stored), unchecked."""
-    frames = frames_of(stream)
-    entries = header_entries(frames[0][1])
+def with_header(stream: bytes, which: int = 0, /, **changes: Any) -> bytes:
+    """The stream with other fields in the header of a run, by name (None: not stored), unchecked."""
+    headers = [payload for kind, payload in frames_of(stream) if kind == FrameType.HEADER]
+    entries = header_entries(headers[which])
     for name, value in changes.items():
         entries[HEADER_FIELDS[name].key] = value
     kept = sorted((key, value) for key, value in entries.items() if value is not None)
-    return stream_of([(FrameType.HEADER, write_map(kept)), *frames[1:]])
+    return with_payload(stream, FrameType.HEADER, write_map(kept), which)
 
 
 def with_declaration(stream: bytes, index: int, **changes: Any) -> bytes:

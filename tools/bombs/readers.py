@@ -38,8 +38,7 @@ from bsm.files.mesh import format_mesh, read_mesh
 from bsm.files.motion.frames import Wanted
 from bsm.files.motion.told import Told
 from bsm.files.sequence import SEQUENCES_READ, open_sequence, sequence_writer
-from tools.bombs.measure import Taken, forget_peak, resident, seconds_of_cpu
-from tools.bombs.walk import bounds
+from tools.bombs.measure import Taken, bounds, forget_peak, resident, seconds_of_cpu
 from tools.vectors.meshes import torus
 
 HUGE_WORDS = (b"2147483647", b"999999999999999999", b"9" * 400, b"-1", b"1e300")
@@ -714,7 +713,7 @@ def problems(cases: list[Case], limits: str) -> Iterator[str]:
 
 
 def _problem(taken: Taken, size: int, limits: str) -> str | None:
-    memory, seconds = bounds(limits, taken, size)
+    memory, seconds = bounds(limits, "whole", taken.vertices, taken.shown, size)
     if taken.outcome.startswith("escaped"):
         return taken.outcome
     if taken.memory > memory or taken.seconds > seconds:

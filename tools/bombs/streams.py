@@ -204,7 +204,7 @@ def _scattered(shape: tuple[Any, ...], parts: int) -> tuple[int, bytes]:
     coded = _coded(*shape)
     graph = graph_of_faces(coded.faces, len(coded.vertex_order))
     labels = partition_of_labels(np.arange(graph.size, dtype=np.int32) % parts).labels
-    return FrameType.PARTITION, b"\0" + encode_labels(graph.offsets, graph.neighbours, labels, parts)
+    return FrameType.PARTITION, encode_labels(graph.offsets, graph.neighbours, labels, parts)
 
 
 def _tiny_blocks(shape: tuple[Any, ...], size: int, **fields: Any) -> bytes:

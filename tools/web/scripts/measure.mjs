@@ -17,13 +17,12 @@ for (const path of paths) {
     const [before, begin] = [process.memoryUsage.rss(), seconds()];
     const told = { vertices: 0, shown: 0, memory: 0, seconds: 0, escaped: "", outcome: "decoded" };
     let size = 0;
+    const decoder = new Decoder(kernels);
     try {
-        const decoder = new Decoder(kernels);
         decoder.receiveData(data);
         decoder.receiveEof();
         for (let event; (event = decoder.nextEvent()) !== END_OF_STREAM; ) {
             if (event.type === "header") size = event.header.vertices;
-            if (event.type === "connectivity") told.vertices = event.vertices;
             if (event.type === "frame") told.shown += size;
             told.memory = Math.max(told.memory, process.memoryUsage.rss() - before);
         }
@@ -31,6 +30,7 @@ for (const path of paths) {
         told.outcome = `${error}`.slice(0, 100);
         if (!(error instanceof BsmError)) told.escaped = `${error}`;
     }
+    told.vertices = decoder.vertices;
     told.memory = Math.max(told.memory, process.memoryUsage.rss() - before);
     told.seconds = seconds() - begin;
     console.log(JSON.stringify(told));

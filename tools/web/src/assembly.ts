@@ -1,6 +1,6 @@
 /** Putting decoded blocks together: which vertices have moved, and which are final (specification, M 12). */
-import { membersOf, type Blocks } from "./blocks";
-import { Blend, type DecodedBlock } from "./chain";
+import { edgesOf, membersOf, type Blocks } from "./blocks";
+import { Blend, type Allowance, type DecodedBlock } from "./chain";
 import { NumericError } from "./errors";
 import type { Header } from "./header";
 import type { Doubles, Ints, Memory } from "./kernels";
@@ -8,6 +8,8 @@ import { areFinite, rowsOf, upTo } from "./numbers";
 
 const DEGREE = 5;
 const NODES = [0.4, 0.9, 1.4, 1.8];
+/** Nanoseconds for looking at an edge while rings are found, for finding them at all, and for telling of a vertex. */
+const [LOOK, CALL, COPY] = [18, 2e4, 90];
 
 /** What a block changed: vertices, their positions in the unit of the mesh, and which of them are final. */
 export interface Changes {
@@ -43,6 +45,8 @@ export class Assembly {
     private blocks!: Blocks;
     private missing = new Int32Array(0);
     private final!: Uint8Array;
+    /** Which vertices the filter cannot be used on yet; zero between calls. */
+    private waits!: Uint8Array;
     private blended!: Doubles;
     private number!: Ints;
     private rows!: Ints;
@@ -57,6 +61,7 @@ export class Assembly {
     constructor(
         private readonly memory: Memory,
         private readonly header: Header,
+        private readonly allowance: Allowance,
     ) {}
 
     /** Be ready for memory that is given back; `extend` must follow. */
@@ -75,6 +80,7 @@ export class Assembly {
         this.rows = memory.ints(size);
         this.number.view.fill(-1);
         this.final = new Uint8Array(size);
+        this.waits = new Uint8Array(size);
         this.missing = new Int32Array(size);
         this.missing.set(missing);
         for (const vertex of blocks.members.view) this.missing[vertex]++;
@@ -142,6 +148,7 @@ export class Assembly {
         // What levels or frames move later is not final.
         const final = new Uint8Array(vertices.length);
         if (this.header.refinements.length === 0 && this.header.gopFrames === 0) final.fill(1, moved.length);
+        this.allowance.spend(COPY * vertices.length);
         return { vertices, positions: inMeshUnits(positions, this.header), final };
     }
 
@@ -157,8 +164,12 @@ export class Assembly {
     private finished(complete: Int32Array): Int32Array {
         if (this.header.smoothing === 0) return complete;
         const around = this.around(complete, 2 * DEGREE);
-        const waiting = new Set(this.around(around.filter((vertex) => this.missing[vertex] > 0), DEGREE));
-        return this.around(complete, DEGREE).filter((vertex) => !this.final[vertex] && !waiting.has(vertex));
+        const waiting = this.around(around.filter((vertex) => this.missing[vertex] > 0), DEGREE);
+        const { waits, final } = this;
+        for (const vertex of waiting) waits[vertex] = 1;
+        const finished = this.around(complete, DEGREE).filter((vertex) => !final[vertex] && !waits[vertex]);
+        for (const vertex of waiting) waits[vertex] = 0;
+        return finished;
     }
 
     /** `vertices` and all others at most `rings` edges away. */
@@ -175,6 +186,7 @@ export class Assembly {
         const count = memory.call("find_rings", offsets, neighbours, number, given, rows, starts);
         const found = rows.part(0, count);
         this.forget(found);
+        this.allowance.spend(CALL + LOOK * edgesOf(this.blocks.graph, found));
         return { rows: found, starts: Float64Array.from(starts.view, Number) };
     }
 

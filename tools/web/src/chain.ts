@@ -10,7 +10,7 @@ import { Coder } from "./entropy";
 import { CorruptError, NumericError } from "./errors";
 import type { Header } from "./header";
 import type { Bytes, Doubles, Ints, Longs, Memory } from "./kernels";
-import { checkLimit, type Limits } from "./limits";
+import { checkLimit, checkMemory, type Limits } from "./limits";
 import { blockCost, FRAME } from "./work";
 import { areFinite } from "./numbers";
 
@@ -117,24 +117,20 @@ export class Allowance {
     /** Take note of work to come, and of the bytes that ask for it. */
     spend(work: number, received = 0): void {
         this.owed += Math.max(0, work - this.limits.workPerByte * received);
-        this.check("work", this.owed, this.limits.workPerVertex * (this.vertices + this.shown));
+        const { limits, vertices, shown } = this;
+        checkLimit({ ...limits, work: limits.work + limits.workPerVertex * (vertices + shown) }, "work", this.owed);
     }
 
     /** Take note of memory for a while. */
     hold(memory: number): void {
-        this.check("blockMemory", memory, this.limits.blockMemoryPerVertex * (this.vertices - this.gone));
+        checkMemory(this.limits, this.kept + memory, this.vertices - this.gone, this.received);
     }
 
     /** Take note of memory that is kept to the end, and of bytes that stand for it. */
     keep(memory: number, received = 0): void {
         this.kept += memory;
         this.received += received;
-        const { blockMemoryPerVertex, memoryPerByte } = this.limits;
-        this.check("blockMemory", this.kept, blockMemoryPerVertex * (this.vertices - this.gone) + memoryPerByte * this.received);
-    }
-
-    private check(name: "work" | "blockMemory", value: number, granted: number): void {
-        checkLimit({ ...this.limits, [name]: this.limits[name] + granted }, name, value);
+        this.hold(0);
     }
 }
 

@@ -3,7 +3,7 @@ import { Coder, makeBank, unsignedSpan, type Bank } from "./entropy";
 import { CorruptError } from "./errors";
 import { mostCopies, sectionsOf, type Header, type Section } from "./header";
 import type { Ints, Longs, Memory } from "./kernels";
-import { checkLimit, type Limits } from "./limits";
+import { checkLimit, checkMemory, type Limits } from "./limits";
 
 const ONE = 65536;
 const VALENCE = { contexts: 14, nodes: 16 };
@@ -16,6 +16,8 @@ const FRONT = { columns: 8, buckets: 8, heads: 18, made: 8, alive: 9 };
 const TALLIES = { size: 9, fans: 1, dummies: 3, turns: 4, steps: 5, stop: 8 };
 const [NONSENSE, NO_ROOM] = [1, 2];
 const ORDER = { unary: 6, inputs: 4, classes: 32 };
+/** Bytes that decoding, and the graph that follows, take at most for each; only fans count that are sewn together. */
+const [FACE, VERTEX, FAN] = [100, 400, 240];
 const LABEL = { inputs: 3, candidates: 4, contexts: 80 };
 
 type Models = readonly [valence: Bank, event: Bank, rare: Bank, bits: bigint];
@@ -111,6 +113,7 @@ export class ConnectivityDecoder {
             throw coder.nonsense("the counts at its start contradict each other");
         }
         checkLimit(limits, "vertices", fans + loops);
+        checkMemory(limits, FACE * header.faces + VERTEX * header.vertices + FAN * (surplus + loops), header.vertices, payload.length);
         const before = sections.at(-2);
         if (before && (surplus > 0 || before.faces >= proper)) throw coder.nonsense("it cannot come in these sections");
         const heads = memory.ints(FRONT.heads);

@@ -69,6 +69,11 @@ export class Decoder {
         return this.reader.position;
     }
 
+    /** Vertices that the faces so far really have. */
+    get vertices(): number {
+        return this.allowance.counted.vertices;
+    }
+
     /** The next event, or `NEED_DATA`; with helpers `NEED_BLOCK`; `END_OF_STREAM` after the end and `receiveEof`. */
     nextEvent(): Event | Signal | typeof NEED_BLOCK {
         for (;;) {

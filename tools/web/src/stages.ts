@@ -421,7 +421,7 @@ export class Stages {
     private built(): Blocks {
         const { blocks, connectivity } = this.structure;
         if (this.chains) return blocks;
-        this.assembly ??= new Assembly(this.memory, this.header);
+        this.assembly ??= new Assembly(this.memory, this.header, this.allowance);
         this.assembly.extend(blocks, connectivity.whole);
         this.chains = this.structure.chains;
         this.announce();
