@@ -11,11 +11,11 @@ from typing import IO, Any
 from bsm.api import decode, encode
 from bsm.bitstream.limits import DEFAULT_LIMITS
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.files.formats.for_trimesh import arguments_of
+from bsm.files.formats.for_trimesh import arguments_of, parts_of
 from bsm.files.formats.with_trimesh import import_trimesh, joined, polygons_of
 from bsm.meshes import as_mesh
 
-__all__ = ["from_trimesh", "to_trimesh"]
+__all__ = ["from_trimesh", "to_scene", "to_trimesh"]
 _library = import_trimesh(".bsm files are opened by trimesh only")
 
 
@@ -45,6 +45,41 @@ def to_trimesh(mesh: Any) -> Any:
     True
     """
     return _library.Trimesh(**arguments_of(as_mesh(mesh)))
+
+
+def to_scene(mesh: Any) -> Any:
+    """A mesh as a `trimesh.Scene`, with a geometry for each part that it was made of, under its name.
+
+    Parts are what the whole numbers of the face attribute ``part`` say; without it all is one part.
+
+    Parameters
+    ----------
+    mesh : mesh, pair of arrays, or path
+        As `bsm.encode` takes it.
+
+    Returns
+    -------
+    trimesh.Scene
+
+    Raises
+    ------
+    ArgumentError
+        If this is no mesh.
+
+    Examples
+    --------
+    >>> import bsm.trimesh, trimesh
+    >>> scene = trimesh.Scene({"box": trimesh.creation.box(), "ball": trimesh.creation.icosphere()})
+    >>> sorted(bsm.trimesh.to_scene(bsm.decode(bsm.encode(scene))).geometry)
+    ['ball', 'box']
+    """
+    whole = as_mesh(mesh)
+    scene = _library.Scene()
+    for name, part in parts_of(whole):
+        scene.add_geometry(_library.Trimesh(**arguments_of(part)), geom_name=name)
+    of_parts = ("material.", "image.", "part.")
+    scene.metadata.update({name: value for name, value in whole.metadata.items() if not name.startswith(of_parts)})
+    return scene
 
 
 def from_trimesh(mesh: Any) -> TriangleMesh:

@@ -4,6 +4,7 @@ import importlib
 import os
 import subprocess
 import sys
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -111,6 +112,31 @@ def test_a_scene_of_trimesh(trimesh):
     assert ours.metadata["part.0.name"] == "ring" and ours.metadata["part.1.name"] == "box"
     assert np.bincount(attribute(ours, "part").values[:, 0]).tolist() == [len(first.faces), len(second.faces)]
     assert as_mesh(scene).metadata == ours.metadata
+
+
+def test_a_mesh_of_parts_is_a_scene_of_trimesh(trimesh):
+    first, second = bsm.trimesh.to_trimesh(painted()), trimesh.creation.box()
+    second.metadata["maker"] = "somebody"
+    ours = bsm.trimesh.from_trimesh(trimesh.Scene({"ring": first, "box": second}))
+    scene = bsm.trimesh.to_scene(bsm.decode(bsm.encode(ours, **EXACT)))
+    assert set(scene.geometry) == {"ring", "box"} and scene.metadata["maker"] == "somebody"
+    ring, box = scene.geometry["ring"], scene.geometry["box"]
+    assert len(ring.faces) == len(first.faces) and len(box.faces) == len(second.faces)
+    assert ring.visual.material.baseColorTexture is not None
+    assert not hasattr(box.visual, "material") or box.visual.material.baseColorTexture is None
+    np.testing.assert_allclose(ring.bounds, first.bounds, atol=1e-3)
+    assert np.bincount(attribute(bsm.trimesh.from_trimesh(scene), "part").values[:, 0]).tolist() == [
+        len(first.faces),
+        len(second.faces),
+    ]
+    alone = bsm.trimesh.to_scene(trimesh.creation.box())
+    assert len(alone.geometry) == 1
+
+
+def test_parts_of_one_name_stay_apart(trimesh):
+    mesh = as_mesh(trimesh.Scene({"a": trimesh.creation.box(), "b": trimesh.creation.box()}))
+    mesh = replace(mesh, metadata={**mesh.metadata, "part.0.name": "same", "part.1.name": "same"})
+    assert len(bsm.trimesh.to_scene(mesh).geometry) == 2
 
 
 def test_parts_without_a_material_get_none(trimesh, tmp_path):

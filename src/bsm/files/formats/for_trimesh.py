@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import math
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
@@ -12,7 +13,7 @@ from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
 from bsm.codec.geometry.splitting import split_by_attributes
 from bsm.files.formats.columns import Array
-from bsm.files.formats.materials import Material, as_gltf, images_in, materials_in
+from bsm.files.formats.materials import Material, as_gltf, described, images_in, materials_in, names_in
 from bsm.files.formats.with_trimesh import import_trimesh
 from bsm.files.formats.written import face_numbers, first
 
@@ -68,6 +69,31 @@ def arguments_of(mesh: TriangleMesh) -> dict[str, Any]:
         "process": False,
     }
     return {name: value for name, value in arguments.items() if value is not None}
+
+
+def parts_of(mesh: TriangleMesh) -> Iterator[tuple[str, TriangleMesh]]:
+    """The parts that a mesh was made of, and their names; each has the materials of its faces, and no other metadata.
+
+    All of it is one part where nothing is said of parts.
+    """
+    part, material = face_numbers(mesh, "part"), face_numbers(mesh, "material")
+    numbers = np.zeros(len(mesh.faces), np.int64) if part is None else part.values[:, 0]
+    attributes = [attribute for attribute in mesh.attributes if attribute is not part]
+    words, names = materials_in(mesh.metadata), names_in(mesh.metadata, "part")
+    images = {name: value for name, value in mesh.metadata.items() if name.startswith("image.")}
+    every_vertex = np.arange(len(mesh.positions))
+    for number in np.unique(numbers).tolist():
+        faces = np.flatnonzero(numbers == number)
+        used = {0} if material is None else set(material.values[faces, 0].tolist())
+        known = described({which: known for which, known in words.items() if which in used})
+        piece = TriangleMesh(
+            mesh.positions,
+            mesh.faces[faces],
+            tuple(attribute.taken(every_vertex, faces) for attribute in attributes),
+            {**known, **(images if known else {})},
+        )
+        called = names.get(number) or (mesh.metadata.get("name") if part is None else None)
+        yield str(called or f"part {number}"), piece.without_isolated_vertices()[0]
 
 
 def shown_by_trimesh(mesh: TriangleMesh) -> tuple[Attribute | None, Attribute | None, Attribute | None]:
