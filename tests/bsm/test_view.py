@@ -20,6 +20,7 @@ import bsm
 from bsm.cli import main
 from bsm.evaluation.draco import encode_draco
 from bsm.viewer.content import DRACO_LEVEL, compared
+from bsm.viewer.growing import Growing, written_to
 from tests.bitstream.streams import frame_ends
 from tests.shapes import torus
 
@@ -31,6 +32,33 @@ ROOT = Path(__file__).parents[2]
 VECTORS = ROOT / "spec" / "vectors"
 WEB = ROOT / "tools" / "web"
 SLOT = re.compile(r'<script type="application/json" id="bsm-streams">(.*?)</script>', re.DOTALL)
+
+
+def moving(frames: int) -> tuple[np.ndarray, np.ndarray]:
+    """A torus that sways."""
+    mesh = torus()
+    turns = np.linspace(0.0, 1.0, frames)[:, None, None]
+    sway = np.sin(3.0 * mesh.positions[None, :, 2:] + 6.0 * turns)
+    return (mesh.positions[None] + 0.1 * sway * [1.0, 0.0, 0.0]).astype(np.float32), mesh.faces
+
+
+def sent_to(growing: Growing) -> bytes:
+    """What a page is sent of a stream that has ended meanwhile."""
+    return b"".join(growing.chunks())
+
+
+def frames_sent(data: bytes) -> tuple[list[np.ndarray], list[int]]:
+    """Frames of a stream that may begin late, and how many are missing where."""
+    frames, lost = [], []
+    with bsm.SequenceDecoder(tolerant=True) as decoder:
+        decoder.receive_data(data)
+        decoder.receive_eof()
+        while (event := decoder.next_event()) is not bsm.END_OF_STREAM:
+            if isinstance(event, bsm.FrameEvent):
+                frames.append(event.positions)
+            if isinstance(event, bsm.LossEvent):
+                lost.append(len(event.frames))
+    return frames, lost
 
 
 def listed(page: str) -> list[dict[str, str]]:
@@ -82,6 +110,95 @@ def test_server_has_the_page_and_its_streams():
                 urllib.request.urlopen(elsewhere)
         finally:
             server.terminate()
+
+
+def test_late_joiners_enter_at_the_newest_group():
+    whole = bsm.encode_sequence(*moving(12), gop=4)
+    *_, second, third, _ = frame_ends(whole)
+    growing = Growing("sway.bsm")
+    growing.take(whole[: second + 3])
+    late = growing.chunks()
+    head = next(late)
+    assert len(head) < second
+    growing.receive([whole[second + 3 : third], whole[third:]])
+    everything, lost = frames_sent(whole)
+    assert lost == []
+    frames, lost = frames_sent(head + b"".join(late))
+    assert lost == [4]
+    np.testing.assert_array_equal(frames, everything[4:])
+    assert sent_to(growing) == whole
+
+
+def test_late_joiners_enter_at_the_run_of_a_mesh_of_its_own():
+    positions, faces = moving(4)
+    kept = faces[(positions[0][faces, 2] > 0.0).all(axis=1)]
+    half, few = np.unique(kept, return_inverse=True)
+    small, few = positions[:, half], few.reshape(-1, 3).astype(np.int32)
+    meshes = [bsm.TriangleMesh(p.astype(float), f) for ps, f in ((positions, faces), (small, few)) for p in ps]
+    whole = bsm.encode_frames(meshes, frame_rate=12)
+    growing = Growing("halves.bsm")
+    growing.take(whole[:-1])
+    late = growing.chunks()
+    head = next(late)
+    growing.take(whole[-1:])
+    frames, lost = frames_sent(head + b"".join(late))
+    assert 0 < len(half) < positions.shape[1]
+    assert [len(frame) for frame in frames] == [len(half)] * 4
+    assert lost == [4]
+    assert b"frame_rate" in head
+
+
+def test_what_is_damaged_is_sent_from_its_beginning():
+    whole = bytearray(bsm.encode_sequence(*moving(12), gop=4))
+    place = frame_ends(bytes(whole))[-3]
+    whole[place : place + 5] = b"\xff" * 5  # a tag that none can be
+    growing = Growing("sway.bsm")
+    growing.take(bytes(whole))
+    assert next(growing.chunks()) == bytes(whole)
+
+
+def test_a_file_that_is_begun_again_has_ended(tmp_path):
+    path = tmp_path / "sway.bsm"
+    path.write_bytes(b"abcdef")
+    chunks = written_to(path.open("rb"))
+    assert next(chunks) == b"abcdef"
+    with path.open("ab") as file:
+        file.write(b"gh")
+    assert next(chunks) == b"gh"
+    path.write_bytes(b"ab")
+    assert list(chunks) == []
+
+
+def test_following_needs_no_whole(tmp_path, capsys):
+    for more in (["--save", str(tmp_path / "page.html")], ["--original", "ball.ply"]):
+        assert main(["view", "--follow", str(VECTORS / "good-chain.bsm"), *more]) == 2
+        assert "--follow" in capsys.readouterr().err
+
+
+@needs_packages
+@pytest.mark.parametrize("way", ["file", "pipe"])
+def test_what_is_still_being_written_is_watched(way, tmp_path):
+    whole = bsm.encode_sequence(*moving(12), gop=4, frame_rate=30)
+    stream, growing = tmp_path / "whole.bsm", tmp_path / "growing.bsm"
+    stream.write_bytes(whole)
+    *_, first, _, _, _ = frame_ends(whole)
+    os.mkfifo(growing) if way == "pipe" else growing.write_bytes(whole[:first])
+    inputs = ["-"] if way == "pipe" else ["--follow", str(growing)]
+    command = [sys.executable, "-m", "bsm", "view", "--no-open", *inputs]
+    source = os.open(growing, os.O_RDWR) if way == "pipe" else None
+    quiet: Any = {"stdin": source, "stdout": subprocess.PIPE, "stderr": subprocess.DEVNULL, "text": True}
+    with subprocess.Popen(command, **quiet) as server:
+        try:
+            if source is not None:
+                os.write(source, whole[:first])
+            assert server.stdout
+            address = server.stdout.readline().strip()
+            live = {"address": address, "whole": str(stream), "growing": str(growing), "ends": frame_ends(whole)[-4:]}
+            javascript("live", BSM_LIVE=json.dumps(live))
+        finally:
+            server.terminate()
+            if source is not None:
+                os.close(source)
 
 
 def javascript(tests: str, **environment: str) -> None:

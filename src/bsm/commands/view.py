@@ -6,6 +6,7 @@ import argparse
 import itertools
 import webbrowser
 from pathlib import Path
+from threading import Thread
 
 from bsm.api import encode
 from bsm.bitstream.container.wire import MAGIC
@@ -18,6 +19,7 @@ from bsm.files.mesh import read_mesh
 from bsm.files.output import open_output
 from bsm.files.pipes import read_chunks
 from bsm.viewer.content import Content, compared
+from bsm.viewer.growing import Growing, written_to
 from bsm.viewer.page import PageServer, page_with
 
 
@@ -30,6 +32,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="stream, of a mesh or a sequence, or - for a pipe; or a mesh file, which is encoded on the way",
     )
     parser.add_argument("--original", metavar="MESH", help="mesh file that the stream was made of, to compare it with")
+    parser.add_argument(
+        "--follow", action="store_true", help="the files are still being written: go on as they grow, as with a pipe"
+    )
     add_reader_flag(parser)
     add_limits_flag(parser)
     parser.add_argument(
@@ -43,14 +48,19 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace, console: Console) -> int:
     """Write the page, or serve it until interrupted."""
-    with console.progress("reading and comparing" if args.original else "reading"):
-        contents = _contents(args, console)
+    if args.follow and (args.save or args.original):
+        raise OptionError(f"{'--save' if args.save else '--original'} needs streams that are written: no --follow")
+    reading = console.progress("reading and comparing" if args.original else "reading")
     if args.save:
+        with reading:
+            contents = _contents(args, console)
         with open_output(args.save, overwrite=args.force) as file:
             file.write(page_with(contents).encode())
         console.note(f"{args.save}: open it in a browser")
         return 0
-    with PageServer(contents, args.port) as server:
+    with reading:
+        served = _contents(args, console) if args.original else _served(args, console)
+    with PageServer(served, args.port) as server:
         address = f"http://{server.host}/"
         print(address, flush=True)
         if not args.no_open:
@@ -64,10 +74,8 @@ def run(args: argparse.Namespace, console: Console) -> int:
 
 
 def _contents(args: argparse.Namespace, console: Console) -> list[Content]:
-    """All inputs under names of their own; a damaged stream is for the page to tell, unless it is to be compared."""
-    streams: dict[str, bytes] = {}
-    for path in args.inputs:
-        streams[_free_name(Path(path).name, streams)] = _stream(path, args.reader, console)
+    """All inputs, as wholes; a damaged stream is for the page to tell, unless it is to be compared."""
+    streams = {name: _stream(path, args.reader, console) for name, path in _named(args.inputs).items()}
     if args.original is None:
         return [Content(name, data) for name, data in streams.items()]
     if len(streams) > 1:
@@ -78,20 +86,51 @@ def _contents(args: argparse.Namespace, console: Console) -> list[Content]:
         return [compared(name, data, mesh, limits_of(args.limits)) for name, data in streams.items()]
 
 
+def _served(args: argparse.Namespace, console: Console) -> list[Content | Growing]:
+    """All inputs: what is still being written while it comes."""
+    return [
+        _growing(name, path) if args.follow or path == "-" else Content(name, _stream(path, args.reader, console))
+        for name, path in _named(args.inputs).items()
+    ]
+
+
 def _stream(path: str, reader: str | None, console: Console) -> bytes:
     """A stream as it is, a mesh file encoded as `bsm encode` does."""
     data = b"".join(read_chunks(path))
     if data.startswith(MAGIC[: len(data)]):
         return data
     if path == "-":
-        raise FormatError("what came through the pipe is no BSM stream; encode it on the way: bsm encode - -o - | ...")
+        raise _no_stream(path)
     with about(path):
         stream = encode(read_mesh(path, reader=reader).mesh)
     console.note(f"{path}: {len(stream)} bytes as a stream of the default preset")
     return stream
 
 
-def _free_name(name: str, taken: dict[str, bytes]) -> str:
+def _growing(name: str, path: str) -> Growing:
+    growing = Growing(name)
+    chunks = read_chunks(path) if path == "-" else written_to(open(path, "rb"))  # noqa: SIM115
+    Thread(target=growing.receive, args=(chunks,), daemon=True).start()
+    if not growing.begins():
+        raise _no_stream(path)
+    return growing
+
+
+def _no_stream(path: str) -> FormatError:
+    if path == "-":
+        return FormatError("what came through the pipe is no BSM stream; encode it on the way: bsm encode - -o - | ...")
+    return FormatError(f"{path} is no BSM stream; only a stream can be followed")
+
+
+def _named(paths: list[str]) -> dict[str, str]:
+    """Paths under names of their own."""
+    named: dict[str, str] = {}
+    for path in paths:
+        named[_free_name(Path(path).name, named)] = path
+    return named
+
+
+def _free_name(name: str, taken: dict[str, str]) -> str:
     if name not in taken:
         return name
     return next(other for n in itertools.count(2) if (other := f"{name} ({n})") not in taken)

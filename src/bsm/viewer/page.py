@@ -5,6 +5,7 @@ from __future__ import annotations
 import base64
 import json
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from dataclasses import asdict
 from http import HTTPStatus
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
@@ -13,6 +14,7 @@ from typing import Any
 
 from bsm.bitstream.errors import DependencyError
 from bsm.viewer.content import Content
+from bsm.viewer.growing import Growing
 
 LOOPBACK = "127.0.0.1"
 
@@ -39,19 +41,22 @@ def built(name: str) -> str:
 
 def page_with(contents: Sequence[Content]) -> str:
     """One page that needs nothing beside it: all streams are inside."""
-    return _page(contents, lambda _, data: {"data": base64.b64encode(data).decode()})
+    return _page(
+        [_listed(content, "", lambda _, data: {"data": base64.b64encode(data).decode()}) for content in contents]
+    )
 
 
-def _page(contents: Sequence[Content], place: Place) -> str:
-    """The page, with what `place` says of where the bytes are that have a path."""
-    entries: list[dict[str, Any]] = []
-    for number, content in enumerate(contents):
-        entry: dict[str, Any] = {"name": content.name} | place(f"/{number}", content.stream)
-        if content.original is not None:
-            entry["original"] = place(f"/{number}/original", content.original.astype("<f4").tobytes())
-        if content.draco is not None:
-            entry["draco"] = asdict(content.draco)
-        entries.append(entry)
+def _listed(content: Content, path: str, place: Place) -> dict[str, Any]:
+    """What the page knows of a stream, with what `place` says of where the bytes are that have a path."""
+    entry: dict[str, Any] = {"name": content.name} | place(path, content.stream)
+    if content.original is not None:
+        entry["original"] = place(f"{path}/original", content.original.astype("<f4").tobytes())
+    if content.draco is not None:
+        entry["draco"] = asdict(content.draco)
+    return entry
+
+
+def _page(entries: list[dict[str, Any]]) -> str:
     # Inside a script nothing may look like the end of it.
     listed = json.dumps(entries).replace("<", "\\u003c")
     return built("page.html").replace(f"{_SLOT}[]", _SLOT + listed, 1).replace(_SCRIPT, built("viewer.js"), 1)
@@ -62,22 +67,29 @@ class PageServer(ThreadingHTTPServer):
 
     Parameters
     ----------
-    contents : sequence of Content
+    contents : sequence of Content or Growing
     port : int
         0: any that is free.
     """
 
     daemon_threads = True
 
-    def __init__(self, contents: Sequence[Content], port: int = 0) -> None:
+    def __init__(self, contents: Sequence[Content | Growing], port: int = 0) -> None:
         super().__init__((LOOPBACK, port), _Handler)
-        self.content: dict[str, tuple[str, bytes]] = {}
+        self.content: dict[str, tuple[str, bytes | Growing]] = {}
 
-        def place(path: str, data: bytes) -> dict[str, str]:
+        def place(path: str, data: bytes | Growing) -> dict[str, str]:
             self.content[path] = (_BYTES, data)
             return {"url": path}
 
-        self.content["/"] = ("text/html; charset=utf-8", _page(contents, place).encode())
+        entries = []
+        for number, content in enumerate(contents):
+            path = f"/{number}"
+            if isinstance(content, Growing):
+                entries.append({"name": content.name, "live": True} | place(path, content))
+            else:
+                entries.append(_listed(content, path, place))
+        self.content["/"] = ("text/html; charset=utf-8", _page(entries).encode())
 
     @property
     def host(self) -> str:
@@ -99,10 +111,13 @@ class _Handler(BaseHTTPRequestHandler):
             kind, data = self.server.content[self.path]
             self.send_response(HTTPStatus.OK)
             self.send_header("Content-Type", kind)
-            self.send_header("Content-Length", str(len(data)))
             self.send_header("X-Content-Type-Options", "nosniff")
+            if isinstance(data, bytes):
+                self.send_header("Content-Length", str(len(data)))
             self.end_headers()
-            self.wfile.write(data)
+            with suppress(ConnectionError):  # the page is closed
+                for piece in [data] if isinstance(data, bytes) else data.chunks():
+                    self.wfile.write(piece)
 
     def log_message(self, format: str, *args: object) -> None:
         """Say nothing of requests."""

@@ -19,7 +19,8 @@ export interface Rival {
 /** A stream, and what it is compared with: the original's positions as the stream numbers them. */
 export interface Content {
     name: string;
-    stream: Uint8Array;
+    /** Whether it is still being written, so that what was before one came is not missed. */
+    live?: boolean;
     original?: Float32Array;
     draco?: Rival;
 }
@@ -52,7 +53,13 @@ export class View {
     private readonly frame: HTMLInputElement;
     private readonly colour: HTMLSelectElement;
     private readonly play: HTMLButtonElement;
-    private content: Content = { name: "", stream: new Uint8Array(0) };
+    private content: Content = { name: "" };
+    /** What has come of the stream, with room for more; how many bytes that is, and whether it is all. */
+    private stream = new Uint8Array(0);
+    private length = 0;
+    private whole = false;
+    /** Frames that had gone by when a live stream was entered. */
+    private missed = 0;
     private geometry = new BSMGeometry();
     private decoding?: StreamDecoding;
     private playback?: Playback;
@@ -64,6 +71,8 @@ export class View {
     private completed?: number;
     private losses: LossEvent[] = [];
     private over = true;
+    /** Whether the decoder knows that no more bytes come. */
+    private ended = false;
     private shown = true;
     private stale = false;
     private frameShown = -1;
@@ -108,14 +117,34 @@ export class View {
         this.streams.addEventListener("change", () => choose(Number(this.streams.value)));
     }
 
-    /** Show another stream from its first byte on. */
+    /** Show another stream, whose bytes will come. */
     open(content: Content): void {
         if (this.streams.length === 0) this.offer([content.name], () => this.restart());
         this.content = content;
-        this.cut.max = String(content.stream.length);
-        this.cut.value = this.cut.max;
+        [this.stream, this.length, this.whole] = [new Uint8Array(0), 0, false];
+        this.cut.max = this.cut.value = "0";
         this.allow("error", content.original !== undefined);
         this.restart();
+    }
+
+    /** Take bytes of the stream. */
+    receive(bytes: Uint8Array): void {
+        const length = this.length + bytes.length;
+        if (length > this.stream.length) {
+            const stream = new Uint8Array(Math.max(length, 2 * this.stream.length));
+            stream.set(this.stream.subarray(0, this.length));
+            this.stream = stream;
+        }
+        this.stream.set(bytes, this.length);
+        const all = this.cut.value === this.cut.max;
+        this.length = length;
+        this.cut.max = String(length);
+        if (all) this.cut.value = this.cut.max;
+    }
+
+    /** Take note that all bytes have come. */
+    finish(): void {
+        this.whole = true;
     }
 
     /** Offer a way to colour, or not. */
@@ -160,7 +189,8 @@ export class View {
         this.dressed = false;
         this.allow("own", false);
         this.losses = [];
-        this.shown = this.over = false;
+        this.missed = 0;
+        this.shown = this.over = this.ended = false;
         this.started = performance.now();
         this.part("problem").textContent = "";
         this.root.dataset.state = "loading";
@@ -186,9 +216,12 @@ export class View {
         if (Number(this.cut.value) < this.fed) this.restart();
         const allowed = this.allowed();
         if (!this.over && this.fed < allowed) {
-            this.decoding?.receiveData(this.content.stream.subarray(this.fed, allowed));
+            this.decoding?.receiveData(this.stream.subarray(this.fed, allowed));
             this.fed = allowed;
-            if (allowed === this.content.stream.length) this.decoding?.receiveEof();
+        }
+        if (this.whole && !this.ended && this.fed === this.length) {
+            this.ended = true;
+            this.decoding?.receiveEof();
         }
         this.playOn(now);
         if (this.stale && this.shown) this.paint();
@@ -212,6 +245,10 @@ export class View {
 
     /** Say what is lost; what could be decoded stays to be seen. */
     private lose(loss: LossEvent): void {
+        if (this.content.live && loss.frames?.first === 0) {
+            this.missed = loss.frames.count;
+            return;
+        }
         this.losses.push(loss);
         const blocks = this.losses.flatMap(({ block }) => (block === undefined ? [] : [block]));
         const frames = this.losses.reduce((sum, { frames }) => sum + (frames?.count ?? 0), 0);
@@ -282,7 +319,7 @@ export class View {
     }
 
     private playOn(now: number): void {
-        const { playback, geometry } = this;
+        const { playback, geometry, missed } = this;
         const part = this.part("sequence");
         part.hidden = !playback;
         if (!playback) return;
@@ -293,15 +330,16 @@ export class View {
             geometry.showFrame(this.frameShown);
             this.stale = true;
         }
-        const total = geometry.header!.frames || there;
+        const total = Math.max(geometry.header!.frames - missed, there);
         this.root.dataset.frame = String(this.frameShown);
         this.root.dataset.there = String(there);
         this.frame.max = String(total - 1);
         this.frame.value = String(this.frameShown);
         this.label(playback);
         const ahead = there < total ? `, ${there} are there` : "";
-        this.say("time", `${this.frameShown + 1} of ${total}${ahead}; ${spent((this.frameShown / playback.rate) * SECOND)}`);
-        this.frame.setAttribute("aria-valuetext", `frame ${this.frameShown + 1} of ${total}`);
+        const place = `${missed + this.frameShown + 1} of ${missed + total}`;
+        this.say("time", `${place}${ahead}; ${spent(((missed + this.frameShown) / playback.rate) * SECOND)}`);
+        this.frame.setAttribute("aria-valuetext", `frame ${place}`);
     }
 
     /** Colours and errors of what is there. */
@@ -316,10 +354,9 @@ export class View {
     }
 
     private report(): void {
-        const { fed, geometry, content, errors, root } = this;
-        const length = content.stream.length;
+        const { fed, geometry, length, errors, root } = this;
         const share = length ? Math.round((100 * fed) / length) : 0;
-        this.say("bytes", `${counted(fed)} of ${counted(length)} bytes (${share} %)`);
+        this.say("bytes", `${counted(fed)} of ${counted(length)} bytes (${share} %)${this.whole ? "" : ", more are to come"}`);
         this.say("status", this.statusText());
         const times = [["first faces", this.firstDrawn], ["complete", this.completed]] as const;
         this.say("times", times.flatMap(([name, time]) => (time === undefined ? [] : [`${name} after ${spent(time)}`])).join("; "));
@@ -336,7 +373,8 @@ export class View {
         const parts = header.blocks ? `${blocks} of ${header.blocks} blocks` : `${blocks} chunks of a grid`;
         const most = header.refinements.length / 2;
         const quality = most > 0 ? `, ${layers} of ${most} quality layers` : "";
-        const frames = header.gopFrames > 0 ? `, ${header.frames || "any number of"} frames` : "";
+        const entered = this.missed > 0 ? `, entered at frame ${this.missed + 1}` : "";
+        const frames = header.gopFrames > 0 ? `, ${header.frames || "any number of"} frames${entered}` : "";
         const attributes = header.attributes > 0 ? `, ${this.geometry.carried.length} of ${header.attributes} attributes` : "";
         return `${parts}${turns}${quality}, ${counted(header.vertices)} vertices${frames}${attributes}`;
     }

@@ -14,6 +14,7 @@ interface Place {
 /** A stream of the page; the original in single precision, least byte first. */
 interface Source extends Place {
     name: string;
+    live?: boolean;
     original?: Place;
     draco?: Rival;
 }
@@ -25,16 +26,15 @@ interface Model {
     off(event: string, listener: () => void): void;
 }
 
-async function bytesOf(name: string, { url, data }: Place): Promise<Uint8Array> {
+async function responseOf(name: string, { url, data }: Place): Promise<Response> {
     const response = await fetch(url ?? `data:application/octet-stream;base64,${data}`);
     if (!response.ok) throw new Error(`${name}: ${response.status} ${response.statusText}`);
-    return new Uint8Array(await response.arrayBuffer());
+    return response;
 }
 
-async function contentOf(source: Source): Promise<Content> {
-    const stream = await bytesOf(source.name, source);
-    const original = source.original && floats(await bytesOf(source.name, source.original));
-    return { name: source.name, stream, original, draco: source.draco };
+async function contentOf({ name, live, original, draco }: Source): Promise<Content> {
+    const bytes = original && new Uint8Array(await (await responseOf(name, original)).arrayBuffer());
+    return { name, live, original: bytes && floats(bytes), draco };
 }
 
 function floats(bytes: Uint8Array): Float32Array {
@@ -45,11 +45,21 @@ function floats(bytes: Uint8Array): Float32Array {
 async function fillPage(list: HTMLElement): Promise<void> {
     const sources = JSON.parse(list.textContent!) as Source[];
     const view = new View(document.body, new Pool(inlined), LICENCES);
+    let turns = 0;
     const open = async (index: number): Promise<void> => {
+        const turn = ++turns;
         try {
-            view.open(await contentOf(sources[index]));
+            const content = await contentOf(sources[index]);
+            const reader = (await responseOf(content.name, sources[index])).body!.getReader();
+            if (turn === turns) view.open(content);
+            for (;;) {
+                const { done, value } = await reader.read();
+                if (turn !== turns) return void reader.cancel();
+                if (done) return view.finish();
+                view.receive(value);
+            }
         } catch (error) {
-            view.fail(`The stream could not be fetched. ${error instanceof Error ? error.message : error}`);
+            if (turn === turns) view.fail(`The stream could not be fetched. ${error instanceof Error ? error.message : error}`);
         }
     };
     view.offer(sources.map(({ name }) => name), open);
@@ -67,7 +77,9 @@ async function render({ model, el }: { model: Model; el: HTMLElement }): Promise
     };
     const open = (): void => {
         const original = bytes("original");
-        view.open({ name: String(model.get("name")), stream: bytes("stream"), original: original.length > 0 ? floats(original) : undefined });
+        view.open({ name: String(model.get("name")), original: original.length > 0 ? floats(original) : undefined });
+        view.receive(bytes("stream"));
+        view.finish();
     };
     model.on("change:stream", open);
     open();
