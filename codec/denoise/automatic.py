@@ -15,6 +15,7 @@ from bsm.codec.denoise.noise.estimate import NoiseLevel
 from bsm.codec.denoise.noise.finding import Finding, find_noise
 from bsm.codec.denoise.noise.outliers import Outliers, find_outliers
 from bsm.codec.denoise.noise.probe import Probe
+from bsm.codec.denoise.noise.ripples import Ripples, find_ripples
 from bsm.codec.denoise.recipe import Recipe, Step, blend, perform
 from bsm.codec.denoise.rehearsal import GOALS, LEARNT_SHARE, MOST_MEMBERS, Rehearsal, Told, silent
 from bsm.codec.denoise.safety import Verdict, judge, keep_good, restraint
@@ -68,8 +69,8 @@ class AutomaticChoice:
     steps : tuple of Step
         The result is their mean; none: the mesh is best left alone.
     kind : str
-        Of the noise, see `codec.denoise.noise.finding.Finding`; "outliers" where single vertices were all there was,
-        and "unsteady" where noise was removed in time alone.
+        Of the noise, see `codec.denoise.noise.finding.Finding`; "outliers" or "ripples" where that was all there
+        was, and "unsteady" where noise was removed in time alone.
     reason : str
         A sentence on what was found.
     noise : NoiseLevel
@@ -83,6 +84,8 @@ class AutomaticChoice:
         Share of the learnt normals (`codec.denoise.learnt`) in the result.
     outliers : int
         Vertices that stood out by themselves and were put back before all else.
+    ripples : tuple of float
+        Lengths, in mean edges, of waves that crossed the mesh and were taken away before all else.
     """
 
     steps: tuple[Step, ...]
@@ -94,13 +97,16 @@ class AutomaticChoice:
     rehearsals: int
     learnt: float = 0.0
     outliers: int = 0
+    ripples: tuple[float, ...] = ()
 
-    def after(self, outliers: Outliers) -> AutomaticChoice:
-        """The choice for a mesh of which outliers have been put back."""
-        count = len(outliers.vertices)
-        if count == 0 or self.steps:
-            return replace(self, outliers=count)
-        return replace(self, kind="outliers", reason=f"{count} vertices that stood out by themselves", outliers=count)
+    def after(self, outliers: Outliers, ripples: Ripples) -> AutomaticChoice:
+        """The choice for a mesh of which outliers and ripples have been put back."""
+        count, lengths = len(outliers.vertices), tuple(float(length) for length in ripples.lengths)
+        choice = replace(self, outliers=count, ripples=lengths)
+        if self.steps or not (count or lengths):
+            return choice
+        alone = f"{count} vertices that stood out by themselves"
+        return replace(choice, kind="ripples" if lengths else "outliers", reason=ripples.said if lengths else alone)
 
 
 def denoise_automatically(
@@ -126,8 +132,10 @@ def denoise_automatically(
     patient = Patient(faces, len(welded))
     outliers = find_outliers(welded, patient.probe)
     calmed = outliers.put_back(welded)
+    ripples = find_ripples(calmed, patient.probe)
+    calmed = ripples.put_back(calmed)
     finding = find_noise(calmed, patient.probe)
-    choice = choose(calmed, finding, patient, goal).after(outliers)
+    choice = choose(calmed, finding, patient, goal).after(outliers, ripples)
     result, verdict = treat(choice, calmed, finding, patient)
     choice = replace(choice, learnt=verdict.learnt)
     if not verdict.holds:

@@ -17,6 +17,7 @@ from bsm.codec.denoise.filters.fine import fine_step
 from bsm.codec.denoise.handover import hand_over
 from bsm.codec.denoise.noise.finding import Finding, find_noise
 from bsm.codec.denoise.noise.outliers import find_outliers
+from bsm.codec.denoise.noise.ripples import find_ripples
 from bsm.codec.denoise.options import DenoiseOptions
 from bsm.codec.denoise.rehearsal import Told, silent
 from bsm.codec.denoise.safety import judge, keep_good
@@ -125,23 +126,28 @@ class FrameDenoiser:
             assert self.choice is not None and found is not None
             if self.choice.outliers:
                 welded = find_outliers(welded, self._patient.probe).put_back(welded)
+            if self.choice.ripples:
+                welded = find_ripples(welded, self._patient.probe).put_back(welded)
             return given, treat(self.choice, welded, found, self._patient)[0]
 
         for group, remaining in self._steadied(frames):
             if found is None:
                 begun = group[0][1]
-                outliers = None if remaining is not None else find_outliers(begun, self._patient.probe)
-                begun = begun if outliers is None else outliers.put_back(begun)
                 self._told("finding noise")
+                if remaining is None:
+                    outliers = find_outliers(begun, self._patient.probe)
+                    begun = outliers.put_back(begun)
+                    ripples = find_ripples(begun, self._patient.probe)
+                    begun = ripples.put_back(begun)
                 found = find_noise(begun, self._patient.probe)
                 if remaining is not None:
                     found = _what_is_left(found, remaining, len(begun))
                 goal = "both" if remaining is not None and self._goal == "shading" else self._goal
                 self.choice = choose(begun, found, self._patient, goal, self._told)
                 self._told("filtering")
-                if outliers is not None:
-                    self.choice = self.choice.after(outliers)
-                if remaining is not None and not self.choice.steps:
+                if remaining is None:
+                    self.choice = self.choice.after(outliers, ripples)
+                elif not self.choice.steps:
                     self.choice = replace(self.choice, kind="unsteady", reason="noise that changes with the frames")
             yield from ordered_map(finish, group, None)
 

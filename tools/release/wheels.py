@@ -80,11 +80,12 @@ def make_wheel(sdist: Path, python: Path, processor: Processor, output: Path) ->
         subprocess.run([*command, "-w", str(raw), str(sdist)], check=True, env=environment)
         (made,) = raw.glob("*.whl")
         before = set(output.glob("*.whl"))
-        platform = f"manylinux_{processor.glibc.replace('.', '_')}_{processor.name}"
-        repair = [sys.executable, "-m", "auditwheel", "repair", "--plat", platform, "-w", str(output), str(made)]
+        repair = [sys.executable, "-m", "auditwheel", "repair", "-w", str(output), str(made)]
         subprocess.run(repair, check=True, env=environment | {"PATH": _with_own(environment["PATH"])})
         new = set(output.glob("*.whl")) - before
     wheel = new.pop() if new else max(output.glob(f"*{processor.name}.whl"), key=os.path.getmtime)
+    if f"manylinux_{processor.glibc.replace('.', '_')}_" not in wheel.name:
+        raise SystemExit(f"{wheel.name} asks for a newer glibc than {processor.glibc}")
     check_contents(wheel)
     return wheel
 

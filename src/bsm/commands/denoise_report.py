@@ -21,8 +21,11 @@ def found(choice: AutomaticChoice | None, goal: str, edge: float, unit: str) -> 
     lines = []
     if choice.outliers:
         lines.append(f"put back   {choice.outliers} vertices that stood out by themselves")
+    if choice.ripples:
+        waves = ", ".join(f"{length * edge:.2g}" for length in choice.ripples)
+        lines.append(f"took away  waves of {waves} {unit}".rstrip() + " across the whole mesh")
     if not choice.steps:
-        if not choice.outliers:
+        if not (choice.outliers or choice.ripples):
             said = "steadied   " if choice.kind == "unsteady" else "left       as it was: "
             lines.append(f"{said}{choice.reason}")
             if choice.kind == "none":

@@ -14,14 +14,16 @@ from bsm.codec.denoise.noise.gaussian import (
     gaussian_in_part,
     gaussian_with_range,
     impulsive,
+    ripples_along_normals,
     rounded,
     uniform_along_normals,
 )
 from bsm.codec.denoise.noise.outliers import find_outliers
 from bsm.codec.denoise.noise.probe import Probe
+from bsm.codec.denoise.noise.ripples import find_ripples
 from bsm.codec.denoise.noise.rounding import find_grid
 from bsm.codec.denoise.safety import judge, keep_good, restraint
-from bsm.codec.geometry.metrics import mean_edge_length, theta
+from bsm.codec.geometry.metrics import Reference, mean_edge_length, theta
 from tests.codec.denoise.denoise_shapes import Partners, cube, grid, sphere
 
 KINDS = {
@@ -169,6 +171,31 @@ def test_neither_clean_shapes_nor_white_noise_have_outliers(shape) -> None:  # t
     probe = Probe(Topology(faces, len(clean)))
     for positions in (clean, gaussian_along_normals(clean, faces, 0.2, 3)):
         assert len(find_outliers(positions, probe).vertices) == 0
+
+
+@pytest.mark.parametrize("length", [3.5, 5.0])
+def test_waves_are_taken_away(length: float) -> None:
+    clean, faces = sphere(24)
+    noisy = ripples_along_normals(clean, faces, 0.2, 3, length)
+    ripples = find_ripples(noisy, Probe(Topology(faces, len(clean))))
+    assert ripples.lengths == pytest.approx(np.full(3, length), rel=0.1)
+    assert ripples.level == pytest.approx(0.2, rel=0.1)
+    reference = Reference(clean, faces)
+    assert reference.theta(ripples.put_back(noisy)) < 0.1 * reference.theta(noisy)
+    result, choice = denoise_automatically(noisy, faces)
+    assert choice.kind == "ripples" and "across the whole mesh" in choice.reason
+    assert reference.theta(result) < 0.1 * reference.theta(noisy)
+
+
+def test_neither_clean_shapes_nor_white_noise_nor_corrugated_sheets_have_waves() -> None:
+    for shape in (cube, sphere):
+        clean, faces = shape(24)
+        for positions in (clean, gaussian_along_normals(clean, faces, 0.2, 3)):
+            assert len(find_ripples(positions, Probe(Topology(faces, len(clean)))).lengths) == 0
+    sheet, faces = grid(40)
+    sheet[:, 2] = 0.2 * np.sin(2.0 * np.pi * sheet[:, 0] / 4.0)
+    ripples = find_ripples(sheet, Probe(Topology(faces, len(sheet))))
+    assert (ripples.put_back(sheet) == sheet).all()
 
 
 def test_less_is_done_where_faint_noise_seems_mixed_with_detail() -> None:

@@ -1,0 +1,211 @@
+"""Ripples: smooth waves that cross a whole mesh, as a scanner that trembles leaves them, found and taken away.
+
+Filters that smooth take a wave of a few edges for shape, or shape with it. But a plane wave is three numbers, and goes
+through the whole mesh with one phase, whichever way the surface faces: detail does not. So the strongest peak of the
+spectrum of what the fine filter sees (its values on a grid of space, by FFT) begins a wave, Gauss and Newton's method
+moves its wave vector, phase and height until the filter sees least, and the next peak is looked for in the rest. Waves
+are believed only if most windows of the mesh are calmer without them.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy import fft
+
+from bsm.codec.arrays import Positions
+from bsm.codec.denoise.filters.vertex_update import Floats
+from bsm.codec.denoise.noise.probe import BOUND, SHARE, Probe
+from bsm.codec.geometry.metrics import mean_edge_length
+
+LENGTHS = (2.8, 10.0)
+"""Of waves, in mean edges: shorter ones look like noise to a mesh, of longer ones the fine filter sees little."""
+CELL, MOST_CELLS = 0.9, 1 << 24
+"""Of the grid of space, in mean edges, and how many it may have; meshes that need more are searched in their middle."""
+DISTINCT = 30.0
+"""Power of a peak over the mean of the spectrum: the strongest of some million values of noise is 17, clean meshes
+reach this here and there."""
+MOST_WAVES = 6
+WORTH = 0.97
+"""A wave has to lower the level of what the filter sees to this."""
+SETTLING, POLISHING = 3, 14
+"""Steps after each wave, and after the last."""
+SMOOTHING = 1
+"""Averagings of the heights at which phases are taken."""
+FAINTEST, STRONGEST = 0.04, 1.0
+"""Standard deviation of all waves together, in mean edges, that is believed."""
+CALMER, MOST_WINDOWS = 0.9, 0.6
+"""Levels of windows without the waves, over those with them; and the share of windows that have to be calmer by it."""
+ROUND = 0.05
+"""Share of the normals in their least direction: a corrugated sheet has none, and keeps its waves."""
+FEWEST = 1000
+"""Vertices."""
+OUTSIDE = 2.5
+"""Standardised values from which on they are creases, not waves."""
+
+
+@dataclass(frozen=True, eq=False)
+class Ripples:
+    """Waves, and what they did to the vertices.
+
+    Attributes
+    ----------
+    lengths : ndarray of float64, shape (k,)
+        Of the waves, in mean edges.
+    level : float
+        Standard deviation of the displacements, in mean edges.
+    displacements : ndarray of float64, shape (n, 3)
+    """
+
+    lengths: Floats
+    level: float
+    displacements: Floats
+
+    @property
+    def said(self) -> str:
+        """A few words on the waves."""
+        lengths = ", ".join(f"{length:.1f}" for length in self.lengths)
+        return f"waves of {lengths} mean edges across the whole mesh, {self.level:.2f} edges high"
+
+    def put_back(self, positions: Positions) -> Positions:
+        """The positions, shape (n, 3), without the waves; bit for bit where there are none."""
+        return positions - self.displacements if len(self.lengths) else positions
+
+
+def find_ripples(positions: Positions, probe: Probe) -> Ripples:
+    """Look for waves.
+
+    Parameters
+    ----------
+    positions : ndarray of float64, shape (n, 3)
+        Welded.
+    probe : Probe
+    """
+    none = Ripples(np.zeros(0), 0.0, np.zeros_like(positions))
+    edge = mean_edge_length(positions, probe.topology.faces)
+    normals = probe.smooth_normals(positions)[probe.counted]
+    if len(normals) < FEWEST or not edge > 0.0 or np.linalg.eigvalsh(normals.T @ normals / len(normals))[0] < ROUND:
+        return none
+    fit = _Fit(positions / edge, probe)
+    while fit.count < MOST_WAVES and (begun := fit.peak()) is not None:
+        wider = fit.with_wave(begun)
+        for _ in range(SETTLING):
+            wider.step()
+        if wider.level > WORTH * fit.level:
+            break
+        fit = wider
+    if fit.count == 0:
+        return none
+    for _ in range(POLISHING):
+        fit.look_again()
+        fit.step()
+    lengths = 2.0 * np.pi / np.linalg.norm(fit.vectors, axis=1)
+    level = float(fit.amounts.std())
+    valid = probe.windows.valid
+    calmer = float((probe.levels(fit.rest)[valid] < CALMER * probe.levels(fit.seen)[valid]).mean())
+    sound = bool(((lengths > LENGTHS[0]) & (lengths < LENGTHS[1])).all())
+    if not sound or not FAINTEST < level < STRONGEST or calmer < MOST_WINDOWS:
+        return none
+    return Ripples(lengths, level, edge * fit.amounts[:, None] * fit.normals)
+
+
+class _Fit:
+    """Waves along the normals, and what the fine filter sees with and without them; in mean edges.
+
+    Heights are filtered, not displacements: normals of a noisy mesh are noise themselves.
+    """
+
+    def __init__(self, places: Positions, probe: Probe) -> None:
+        self._probe, self._given = probe, places - places.mean(axis=0)
+        self.vectors = np.zeros((0, 3))
+        self.amounts = np.zeros(len(places))
+        self._look(self._given, passes=2)
+
+    @property
+    def count(self) -> int:
+        return len(self.vectors)
+
+    def with_wave(self, vector: Floats) -> _Fit:
+        """The same with one more wave, its vector of shape (3,), which the next step gives its height."""
+        other = object.__new__(_Fit)
+        other.__dict__.update(self.__dict__)
+        other.vectors = np.vstack([self.vectors, vector])
+        return other
+
+    def look_again(self) -> None:
+        """See the surface as it is without the waves: its normals, and where the vertices were."""
+        self._look(self._given - self.amounts[:, None] * self.normals, passes=1)
+
+    def _look(self, places: Positions, passes: int) -> None:
+        self.normals = self._probe.smooth_normals(places, passes)
+        # Where a plane lies across a wave, the phases of noisy heights would be a picture of the noise.
+        smooth = places
+        for _ in range(SMOOTHING):
+            smooth = self._probe.average @ smooth
+        self._places = places - np.einsum("ij,ij->i", places - smooth, self.normals)[:, None] * self.normals
+        self.seen = np.einsum("ij,ij->i", self._probe.fine(self._given), self.normals)
+        self._weigh(self._probe.fine(self.amounts[:, None])[:, 0])
+
+    def _weigh(self, explained: Floats) -> None:
+        """Know the rest, and trust calm windows and ordinary values."""
+        probe = self._probe
+        self.rest = np.where(probe.counted, self.seen - explained, 0.0)
+        self.level = float(np.quantile(np.abs(self.rest[probe.counted]), SHARE)) / BOUND
+        levels = np.where(probe.windows.valid, probe.levels(self.rest), np.inf)
+        self._local = np.maximum(levels, 0.5 * self.level)[probe.windows.labels]
+        calm = np.minimum(1.0, self.level / self._local)
+        self._trust = probe.counted * calm / np.sqrt(1.0 + np.square(self.rest / (2.0 * self.level or 1.0)))
+
+    def step(self) -> None:
+        """Move heights, phases and wave vectors to where the filter sees less."""
+        phases = self._places @ self.vectors.T
+        even, odd = np.cos(phases), np.sin(phases)
+        basis = np.concatenate([even, odd], axis=1)
+        filtered = self._probe.fine(basis)
+        heights = self._solved(filtered, self.seen)
+        a, b = heights.reshape(2, -1)
+        slopes = ((b * even - a * odd)[:, :, None] * self._places[:, None, :]).reshape(len(phases), -1)
+        change = self._solved(
+            np.concatenate([filtered, self._probe.fine(slopes)], axis=1), self.seen - filtered @ heights
+        )
+        turned = change[len(heights) :].reshape(-1, 3)
+        most = 2.0 * np.pi / float(np.ptp(self._given, axis=0).max())
+        turned *= np.minimum(1.0, most / np.maximum(np.linalg.norm(turned, axis=1, keepdims=True), 1e-12))
+        self.vectors = self.vectors + turned
+        phases = self._places @ self.vectors.T
+        basis = np.concatenate([np.cos(phases), np.sin(phases)], axis=1)
+        filtered = self._probe.fine(basis)
+        heights = self._solved(filtered, self.seen)
+        self.amounts = basis @ heights
+        self._weigh(filtered @ heights)
+
+    def _solved(self, columns: Floats, values: Floats) -> Floats:
+        weighted = columns * self._trust[:, None]
+        normal = weighted.T @ weighted
+        normal[np.diag_indices_from(normal)] += 1e-9 * np.trace(normal) / len(normal) + 1e-30
+        return np.asarray(np.linalg.solve(normal, weighted.T @ (values * self._trust)), dtype=np.float64)
+
+    def peak(self) -> Floats | None:
+        """The wave vector, shape (3,), of the strongest peak, if it is distinct."""
+        values = self.rest / self._local
+        values = np.where(np.abs(values) < OUTSIDE, values, 0.0) * np.minimum(1.0, self.level / self._local)
+        places = self._places
+        half = 0.5 * CELL * MOST_CELLS ** (1.0 / 3.0)
+        near = self._probe.counted & (np.abs(places) < half).all(axis=1)
+        places, values = places[near], values[near]
+        if len(places) < FEWEST:
+            return None
+        at = ((places - places.min(axis=0)) / CELL + 0.5).astype(np.int64)
+        shape = tuple(fft.next_fast_len(int(size) + 1, real=True) for size in at.max(axis=0))
+        grid = np.bincount(np.ravel_multi_index(tuple(at.T), shape), values, int(np.prod(shape))).reshape(shape)
+        spectrum = fft.rfftn(grid.astype(np.float32))
+        power = np.square(spectrum.real) + np.square(spectrum.imag)
+        axes = [fft.fftfreq(shape[0]), fft.fftfreq(shape[1]), fft.rfftfreq(shape[2])]
+        turns = np.add.outer(np.add.outer(*(np.square(axis) for axis in axes[:2])), np.square(axes[2])) / CELL**2
+        power[(turns > LENGTHS[0] ** -2) | (turns < LENGTHS[1] ** -2)] = 0.0
+        best = np.unravel_index(int(np.argmax(power)), power.shape)
+        if power[best] < DISTINCT * float(values @ values):
+            return None
+        vector = [float(axis[place]) for axis, place in zip(axes, best, strict=True)]
+        return np.asarray(vector, dtype=np.float64) * (2.0 * np.pi / CELL)
