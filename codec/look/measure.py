@@ -10,7 +10,7 @@ import numpy as np
 
 from bsm.bitstream.errors import MeshError
 from bsm.bitstream.public import public
-from bsm.codec.arrays import Faces, Indices, Mask, Matrix, Positions
+from bsm.codec.arrays import Faces, Mask, Matrix, Positions
 from bsm.codec.geometry.attribute_errors import at_corners
 from bsm.codec.geometry.box import box_around
 from bsm.codec.geometry.mesh import TriangleMesh
@@ -25,7 +25,7 @@ from bsm.codec.look.pictures import (
     draw,
     draw_owned,
 )
-from bsm.codec.look.sides import CORNERS, FEW, cameras, pixels_for
+from bsm.codec.look.sides import FEW, cameras, pixels_for
 from bsm.codec.threads import ordered_map
 
 DISSIMILAR = 0.03
@@ -107,9 +107,7 @@ class Looker:
         self._shape = Shape.of(positions, mesh.faces)
         self.pixels = pixels_for(positions, mesh.faces)
         self._cameras = cameras(self._placed(used), self.pixels)
-        drawn = self._drawn(positions, self._shape.faces, self._shape.normals(positions))
-        self._pictures = [picture for picture, _ in drawn]
-        self._owners = {number: drawn[number][1] for number in CORNERS}
+        self._pictures = self._drawn(positions, self._shape.faces, self._shape.normals(positions))
         if not any(picture.min() < BACKGROUND for picture in self._pictures):
             raise MeshError("the mesh cannot be looked at: its faces have no area")
 
@@ -165,56 +163,44 @@ class Looker:
         own, others = own_normals(self._mesh), own_normals(other)
         if own is None:
             return seen
-        pictures = [one for one, _ in self._drawn(self._placed(self._mesh.positions), self._shape.faces, own)]
+        pictures = self._drawn(self._placed(self._mesh.positions), self._shape.faces, own)
         shaded = self._seen(pictures, placed, shape.faces, smooth if others is None else others)
         return max(seen, shaded, key=lambda look: look.distance)
 
-    def blame(self, *versions: Positions) -> list[tuple[Matrix, Look]]:
-        """Where versions look different: how unlike the pixels are that show each face of the original, added.
+    def blame(self, positions: Positions) -> tuple[Matrix, Look]:
+        """Where a version looks different: how unlike the pixels are that show each of its faces, added.
 
-        That is their 1 - SSIM, and up to 1 more where they differ visibly; over all pixels that the original covers, as
-        seen from the corners of a cube around it; and how each version looks from there. `versions` are positions,
-        shape (n, 3); the faces' numbers have shape (m,).
+        That is their 1 - SSIM, and up to 1 more where they differ visibly; over all pixels that show a face; and how
+        the version looks. `positions` have shape (n, 3), the faces' numbers (m,).
         """
-        placed = [self._placed(positions) for positions in versions]
-        drawn = [(positions, self._shape.normals(positions)) for positions in placed]
-        faces = self._shape.faces
+        placed, faces = self._placed(positions), self._shape.faces
+        normals = self._shape.normals(placed)
 
-        def blamed(number: int) -> tuple[int, list[tuple[Matrix, Matrix]]]:
-            picture, owner = self._pictures[number], self._owners[number]
+        def blamed(side: int) -> tuple[int, Matrix, Matrix]:
+            version, owner = draw_owned(placed, faces, normals, self._cameras[side], self.pixels)
+            sums, unlike = difference_map(self._pictures[side], version)
             shown = owner >= 0
-            found = []
-            for positions, normals in drawn:
-                version = draw(positions, faces, normals, self._cameras[number], self.pixels)
-                sums, unlike = difference_map(picture, version)
-                added = np.bincount(owner[shown], unlike[shown].astype(np.float64), len(faces)).astype(np.float64)
-                found.append((added, sums))
-            return int(shown.sum()), found
+            return int(shown.sum()), np.bincount(owner[shown], unlike[shown], len(faces)).astype(np.float64), sums
 
-        sides = list(ordered_map(blamed, CORNERS, self._threads))
-        covered = sum(count for count, _ in sides) or 1
-        return [
-            (np.sum([added for added, _ in found], axis=0) / covered, summed(np.array([sums for _, sums in found])))
-            for found in zip(*(found for _, found in sides), strict=True)
-        ]
+        counts, added, sums = zip(*ordered_map(blamed, range(len(self._cameras)), self._threads), strict=True)
+        return np.sum(added, axis=0) / max(sum(counts), 1), summed(np.array(sums))
 
     def pictures(self, other: TriangleMesh) -> tuple[Picture, Picture]:
         """Both meshes from the side where they differ most, each of shape (pixels, pixels)."""
         placed = self._placed(other.positions)
         shape = Shape.of(placed, other.faces)
         drawn = self._drawn(placed, shape.faces, shape.normals(placed))
-        pairs = [(picture, other) for picture, (other, _) in zip(self._pictures, drawn, strict=True)]
-        return max(pairs, key=lambda pair: difference(*pair)[0])
+        return max(zip(self._pictures, drawn, strict=True), key=lambda pair: difference(*pair)[0])
 
     def _placed(self, positions: Positions) -> Positions:
         """In units of the diagonal, from the middle of the original."""
         return np.ascontiguousarray((positions - self._middle) / self._diagonal)
 
-    def _drawn(self, placed: Positions, faces: Faces, normals: Normals) -> list[tuple[Picture, Indices]]:
-        """From all sides, with the face that each pixel shows."""
+    def _drawn(self, placed: Positions, faces: Faces, normals: Normals) -> list[Picture]:
+        """From all sides."""
 
-        def drawn(camera: Matrix) -> tuple[Picture, Indices]:
-            return draw_owned(placed, faces, normals, camera, self.pixels)
+        def drawn(camera: Matrix) -> Picture:
+            return draw(placed, faces, normals, camera, self.pixels)
 
         return list(ordered_map(drawn, self._cameras, self._threads))
 

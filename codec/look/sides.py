@@ -15,8 +15,6 @@ TOWARDS = (
     *((x, y, z) for x, y in ((101, 101), (-101, 101), (-101, -101), (101, -101)) for z in (100, -100)),
 )
 """Where the camera is, from the middle of the mesh: around it, above and below, and at the corners of a cube."""
-CORNERS = tuple(range(6, 14))
-"""Those of the cube: few, and all of a mesh is seen from them."""
 FEW = (0, 3, 6, 9, 12)
 """Those from which a mesh looks about as it does from all."""
 LIGHT = (0.35, 0.5, 0.79)

@@ -25,7 +25,7 @@ from bsm.codec.static.choice.judge import Judge, Sight
 from bsm.codec.static.choice.lattices import rounded
 from bsm.codec.static.choice.reaches import reaches
 from bsm.codec.static.choice.search import LOOK_SLACK, LOOK_TRIES, SLACK, THOROUGH, Trial, widest_step
-from bsm.codec.static.choice.settling import Sensitivity
+from bsm.codec.static.choice.settling import RATIO, Sensitivity
 from bsm.codec.static.choice.shaping import Aim
 from bsm.codec.static.choice.spectral import Base, Spectral, Stack, base_step
 from bsm.codec.static.contract import Contract
@@ -76,10 +76,9 @@ STEEP, STEEP_HEIGHTS = 1.05, 0.65
 """How angles grow with the step of a layer, in their logarithms: of one along all axes, and along normals alone."""
 FLATTER = 0.6
 """And how much less they may."""
-NOISE_OF_LOOK, WORTH_OF_LOOK, STEEP_LOOK = 4.0, 0.11, (0.9, 1.8)
-"""Where a look is asked for: how much more noise there is along the surface when sensitivity is measured; what a bit is
-worth, over the mean cost of an error of one step along the normal, which is about what it saves where all is rounded;
-and how pictures get worse with the step, in their logarithms."""
+WORTH_OF_LOOK, STEEP_LOOK = 0.11, (1.0, 1.3)
+"""Where a look is asked for: what a bit is worth, over the mean cost of an error of one step along the normal, which is
+about what it saves where all is rounded; and how pictures get worse with the step, in their logarithms."""
 LOOK_BASE, LOOK_BASE_IF_ROUGH, COARSEST_LOOK_BASE = 18.0, 0.0006, 0.016
 """The step of blocks below a layer, in steps of that; at least so much for each degree between faces beside each other,
 for what is rough is not in low frequencies; and at most."""
@@ -434,15 +433,15 @@ class Fulfilment:
         looker = None if self._contract.look == math.inf else self._sight.looker
         if looker is None:
             return None
-        step = FIRST_LOOK * self._first_layer(NOISE_OF_LOOK)
+        step = FIRST_LOOK * self._first_layer(RATIO)
         positions, faces = self._prepared.positions, self._prepared.mesh.faces
-        return Sensitivity(positions, faces, self._prepared.graph, looker, (step, NOISE_OF_LOOK * step))
+        return Sensitivity(positions, faces, self._prepared.graph, looker, step)
 
     @property
     def _ratio(self) -> float:
         if self._contract.visual < math.inf:
             return ALL_AXES / 2.0
-        return ALL_AXES if self._sensitivity is None else self._sensitivity.ratio
+        return ALL_AXES if self._sensitivity is None else RATIO
 
     def _first_layer(self, ratio: float) -> float:
         """The step of a layer that should be about right."""

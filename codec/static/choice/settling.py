@@ -1,8 +1,8 @@
 """Levels chosen by what errors cost where they are seen, which is measured in pictures. Encoder only.
 
 Errors show where there are contours, creases and reflections, and hardly where a surface is rough anyway, hidden, or
-flat and moved in its plane. How much, two pictures of a noisy mesh tell for every vertex, along its normal and across;
-what is cheap to code is taken where it costs little.
+flat and moved in its plane. How much, pictures of a noisy mesh tell for every vertex; what is cheap to code is taken
+where it costs little.
 """
 
 from __future__ import annotations
@@ -27,14 +27,19 @@ BITS = 2.0 * np.log2(1.0 + np.arange(SIZES)) + 0.5
 """What they are before any is counted."""
 TRUST = 1.0
 """Levels that each size is counted with from the start."""
+NOISE = 1.0 / math.sqrt(12.0)
+"""Errors of this size, over the step, have the variance of rounding."""
+SPREADS = 2
+"""Costs are as those of neighbours, so often over: what a vertex was blamed for is part chance."""
 LEAST = 0.1
 """What errors cost at least, of their mean cost: nothing is hidden from all sides that somebody may look from."""
-PLAIN, FINER = 2.8, 0.47
+PLAIN, FINER = 2.4, 0.76
 """Share of what is visible over dissimilarity, both over what is at distance 1, of noise where `step_for` is right; and
 how steps get finer with it, in their logarithms."""
-ASIDE, MOST_RATIO = 0.5, 64.0
-"""What rounding along a tangent may cost in all, over what it costs along the normal; and the largest ratio."""
-SWEEPS = 3
+ASIDE, RATIO = 0.35, 10.0
+"""What rounding along a tangent costs over what it costs along the normal, where steps are as of a layer of this
+ratio."""
+SWEEPS = 2
 """More move few levels, and take no bytes off."""
 _MOST = 1 << 30
 
@@ -50,29 +55,27 @@ class Sensitivity:
         Of its faces.
     looker : Looker
     faces : int32 array, shape (m, 3)
-    steps : (float, float)
-        Errors that are about those to come, along normals and across, in BSM units.
+    step : float
+        Of a layer whose errors are about those to come, in BSM units.
     """
 
-    def __init__(
-        self, positions: Positions, faces: Levels, graph: Graph, looker: Looker, steps: tuple[float, float]
-    ) -> None:
+    def __init__(self, positions: Positions, faces: Levels, graph: Graph, looker: Looker, step: float) -> None:
         self._positions, self._faces, self._graph = positions, faces, graph
-        self._looker, self._steps = looker, steps
+        self._looker, self._step = looker, step
         self._finer = 1.0
 
     @cached_property
     def costs(self) -> tuple[Matrix, Matrix]:
         """What pictures differ by per square of an error, along the normal and along a tangent, shapes (n,)."""
-        frames = self._frames
-        noise = np.random.default_rng(0).uniform(-0.5, 0.5, self._positions.shape)
-        along, across = self._steps
-        upright = self._positions + noise[:, :1] * along * frames[:, 0]
-        aside = self._positions + np.einsum("na,nad->nd", noise[:, 1:] * across, frames[:, 1:])
-        (first, look), (second, _) = self._looker.blame(upright, aside)
+        aside = tangent_steps(self._positions, self._faces, 1.0, RATIO)
+        # All errors of a direction alike, so that no vertex costs more than another by chance.
+        noise = np.where(np.random.default_rng(0).random(self._positions.shape) < 0.5, -NOISE, NOISE)
+        noise[:, 1:] *= aside[:, None]
+        blame, look = self._looker.blame(self._positions + self._step * np.einsum("na,nad->nd", noise, self._frames))
         plain = (look.visible / VISIBLE_SHARE) / max(look.dissimilarity / DISSIMILAR, 1e-300)
         self._finer = (min(max(plain, 1.0), 8.0) / PLAIN) ** -FINER
-        return self._spread(12.0 * first / along**2), self._spread(6.0 * second / across**2)
+        normal = self._spread(blame / (NOISE * self._step) ** 2 / (1.0 + 2.0 * ASIDE))
+        return normal, ASIDE * normal / np.square(aside)
 
     def first_step(self, distance: float, axes: int) -> float:
         """The step that levels should have; finer where errors are plain to see rather than many."""
@@ -82,14 +85,6 @@ class Sensitivity:
         """The step, in BSM units, at which rounding along so many axes is about as bad."""
         unlike = DISSIMILAR * distance ** (1.0 / POWER)
         return math.sqrt(12.0 * unlike / (float(self.costs[0].sum()) * (1.0 + (axes - 1) * ASIDE)))
-
-    @cached_property
-    def ratio(self) -> float:
-        """How much wider steps along the surface should be where it is flat, see `tangent_steps`."""
-        normal, tangent = self.costs
-        steps = tangent_steps(self._positions, self._faces, 1.0, MOST_RATIO)
-        wanted = MOST_RATIO * math.sqrt(ASIDE * float(normal.sum()) / float((tangent * np.square(steps)).sum()))
-        return min(max(wanted, 1.0), MOST_RATIO)
 
     def levels(
         self,
@@ -147,13 +142,14 @@ class Sensitivity:
         return local_frames(self._positions, self._faces).reshape(-1, 3, 3)
 
     def _spread(self, blame: Matrix) -> Matrix:
-        """From faces to vertices, half of it to their neighbours."""
+        """From faces to vertices, and half of it to their neighbours, `SPREADS` times."""
         graph, count = self._graph, len(self._positions)
-        own = np.bincount(self._faces.ravel(), np.repeat(blame / 3.0, 3), count)
+        cost = np.bincount(self._faces.ravel(), np.repeat(blame / 3.0, 3), count).astype(np.float64)
         degree = np.diff(graph.offsets)
         rows = np.repeat(np.arange(count), degree)
-        around = np.bincount(rows, own[graph.neighbours], count) / np.maximum(degree, 1)
-        cost = (own + around) / 2.0
+        for _ in range(SPREADS):
+            around = np.bincount(rows, cost[graph.neighbours], count) / np.maximum(degree, 1)
+            cost = (cost + around) / 2.0
         return np.maximum(cost, max(LEAST * float(cost.mean()), 1e-300))
 
 
