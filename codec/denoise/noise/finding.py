@@ -25,8 +25,11 @@ FEWEST_WINDOWS, FEWEST_INNER = 5, 3
 """Windows without which nothing is said; and those wholly inside a noisy part."""
 FAINTEST = 0.05
 """Levels below, in mean edges, are left alone: the finest detail of real surfaces is as strong."""
-MANY_WINDOWS, FAINTEST_OF_FEW, CORRELATED_OF_FEW = 20, 0.085, 0.1
+MANY_WINDOWS = 20
+FAINTEST_OF_FEW = {"white": 0.085, "correlated": 0.1, "impulses": 0.14, "local": 0.14}
 """With fewer windows their spread says less, and noise has to be this strong."""
+BROADEST_OF_FEW = 1.06
+"""And no stronger at lower frequencies: noise reads 0.9 to 1.03, fractal detail of made shapes 0.96 to 1.5."""
 FAINT, SURE = 0.115, 0.15
 """Up to here it is still like the detail of the roughest surfaces; from here on it may be mixed with more shape."""
 EVEN_FAINT, EVEN, EVEN_CORRELATED, UNEVEN = 0.1, 0.145, 0.18, 0.26
@@ -181,12 +184,20 @@ def _everywhere(positions: Positions, evidence: _Evidence) -> Finding | None:
     if level < FAINTEST or not _looks_random(evidence, chosen):
         return None
     kind, whiteness = _colour(positions, evidence, windows.valid, chosen)
-    if len(levels) < MANY_WINDOWS and level < (CORRELATED_OF_FEW if kind == "correlated" else FAINTEST_OF_FEW):
-        return None
+    if len(levels) < MANY_WINDOWS:
+        broad = _levels(evidence, evidence.probe.broad(positions / evidence.edge))
+        share = float(np.quantile(broad[windows.valid] / levels, 0.25))
+        if level < FAINTEST_OF_FEW[kind] or (level < SURE and share > BROADEST_OF_FEW):
+            return None
     if _spread(levels, windows) > _allowed(level, kind, whiteness):
         return None
     amount = np.full(len(positions), level * evidence.edge)
     return Finding(kind, level * evidence.edge, amount, evidence.edge, "noise all over", whiteness=whiteness)
+
+
+def _levels(evidence: _Evidence, filtered: Floats) -> Floats:
+    """Levels in the windows of what another filter leaves, shape (n, 3), along the normals."""
+    return evidence.probe.levels(np.einsum("ij,ij->i", filtered, evidence.normals))
 
 
 def _allowed(level: float, kind: str, whiteness: float) -> float:
@@ -290,7 +301,8 @@ def _here_and_there(positions: Positions, evidence: _Evidence) -> Finding | None
         return None
     strong, weak = levels[inner], levels[windows.valid & ~above]
     level = float(np.median(strong))
-    if level < LOCAL_LEVEL or level < LOCAL_STEP * np.median(weak):
+    least = LOCAL_LEVEL if len(usual) >= MANY_WINDOWS else FAINTEST_OF_FEW["local"]
+    if level < least or level < LOCAL_STEP * np.median(weak):
         return None
     if _spread(strong, windows) > _allowed(level, "white", 0.0):
         return None
@@ -338,7 +350,7 @@ def _is_random(values: Floats) -> bool:
 def _colour(positions: Positions, evidence: _Evidence, valid: Mask, chosen: Mask) -> tuple[str, float]:
     """White, white with heavy tails, or correlated between neighbours; and the level of the finest over the fine."""
     probe = evidence.probe
-    finest = probe.levels(np.einsum("ij,ij->i", probe.finest(positions / evidence.edge), evidence.normals))
+    finest = _levels(evidence, probe.finest(positions / evidence.edge))
     ratio = float(np.quantile(finest[valid], 0.25) / np.quantile(evidence.levels[valid], 0.25))
     if ratio < WHITE:
         return "correlated", ratio

@@ -6,6 +6,8 @@ each vertex by the norm of its row makes white noise of standard deviation s com
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 import numpy.typing as npt
 from scipy import sparse
@@ -63,9 +65,13 @@ class Probe:
 
     @cached_property
     def _finest_gain(self) -> Floats:
-        # The rows of the sixth power are too full to be formed: their norms are estimated with random signs.
+        return self._gain(self._repeated)
+
+    def _gain(self, filtered: Callable[[Floats], Floats]) -> Floats:
+        """The norms of a filter's rows, which are too full to be formed: estimated with random signs."""
         signs = np.random.default_rng(0).choice(np.array([-1.0, 1.0]), (self.topology.n, GAIN_PROBES))
-        return np.asarray(np.sqrt(np.square(self._repeated(signs)).mean(axis=1)))
+        gain = np.sqrt(np.square(filtered(signs)).mean(axis=1))
+        return np.asarray(np.where(gain > 0.0, gain, np.inf))
 
     def fine(self, values: Floats) -> Floats:
         """What two Laplacians leave of `values`, shape (n, d), as standard deviations of white noise."""
@@ -74,8 +80,15 @@ class Probe:
 
     def finest(self, values: Floats) -> Floats:
         """What six Laplacians leave of `values`, shape (n, d), as standard deviations of white noise."""
-        gain = self._finest_gain
-        return self._repeated(values) / np.where(gain > 0.0, gain, np.inf)[:, None]
+        return self._repeated(values) / self._finest_gain[:, None]
+
+    def broad(self, values: Floats) -> Floats:
+        """What two averagings and two Laplacians leave of `values`, shape (n, d), as `fine` does."""
+        return self._band(values) / self._gain(self._band)[:, None]
+
+    def _band(self, values: Floats) -> Floats:
+        operator = self.fine_operator[0]
+        return np.asarray(operator @ (self.average @ (self.average @ values)))
 
     def smooth_normals(self, positions: Positions, passes: int = NORMAL_PASSES) -> Floats:
         """Unit vertex normals, shape (n, 3), after as many averagings of the positions; averaged once more."""
