@@ -42,8 +42,8 @@ import json, sys
 import bsm
 from bsm.evaluation.draco import decode_draco, encode_draco, positions_in_order
 from bsm.viewer.content import DRACO_LEVEL
-from codec.geometry.mesh import TriangleMesh
-from codec.geometry.metrics import Reference
+from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.geometry.metrics import Reference
 meshes, folder = sys.argv[1:]
 mesh = bsm.load(f"{meshes}/static/bunny_34834.ply")
 original, races = TriangleMesh(mesh.positions.astype(float), mesh.faces), []
@@ -335,6 +335,7 @@ function playInPage(folder, stream, slow) {
         const saved = join(folder, "page.html");
         execFileSync(PYTHON, ["-m", "bsm", "view", join(folder, stream), "-f", "-q", "--save", saved], { cwd: ROOT });
         await page.goto(pathToFileURL(saved).href);
+        await page.getByText("Controls", { exact: true }).click();
         await page.getByLabel("Link, Mbit/s").fill("1");
         await page.getByLabel("Begin again at the end").uncheck();
         if (slow === "main thread") await session.send("Emulation.setCPUThrottlingRate", { rate: 4 });
