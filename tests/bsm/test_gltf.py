@@ -254,13 +254,48 @@ def test_the_validator_finds_no_error(tmp_path):
     across = (mesh.positions - mesh.positions.min(axis=0)) / np.ptp(mesh.positions, axis=0)
     uv = bsm.codec.geometry.attributes.Attribute("TEXCOORD_0", across[:, :2].astype(np.float32), "vertex", "texcoord")
     bsm.save(bsm.TriangleMesh(mesh.positions, mesh.faces, (uv,), {}), tmp_path / "plain.glb")
-    written = [str(tmp_path / name) for name in ("plain.glb", "small.glb", "two.glb")]
+    written = [str(tmp_path / name) for name in ("plain.glb", "small.glb", "two.glb", "moving.glb")]
+    (tmp_path / "moving.bsm").write_bytes(waves())
     assert main(["glb", written[0], "-o", written[1]]) == 0
     assert main(["glb", written[0], "-o", written[2], "--fallback"]) == 0
+    assert main(["glb", str(tmp_path / "moving.bsm"), "-o", written[3]]) == 0
     assert all(coded_of(read_document(name)) for name in written[1:])
     command = ["node", "--input-type=module", "-e", VALIDATOR, *written]
     found = subprocess.run(command, cwd=WEB, capture_output=True, text=True, check=True, timeout=120).stdout
-    assert [json.loads(line) for line in found.splitlines()] == [[], [], []]
+    assert [json.loads(line) for line in found.splitlines()] == [[], [], [], []]
+
+
+def waves(count=8):
+    mesh = torus(40, 24)
+    times = np.linspace(0, 2 * np.pi, count, endpoint=False)
+    frames = np.stack([mesh.positions * (1 + 0.1 * np.sin(3 * mesh.positions[:, :1] + time)) for time in times])
+    across = ((mesh.positions - mesh.positions.min(axis=0)) / np.ptp(mesh.positions, axis=0)).astype(np.float32)
+    uv = bsm.codec.geometry.attributes.Attribute("uv", across[:, :2], "vertex", "texcoord")
+    return bsm.encode_sequence(frames, mesh.faces, mesh_attributes=(uv,), metadata={"up": "z", "name": "waves"})
+
+
+def test_a_sequence_becomes_a_scene_that_moves(tmp_path, capsys):
+    stream = waves()
+    (tmp_path / "waves.bsm").write_bytes(stream)
+    given = [str(tmp_path / name) for name in ("waves.bsm", "waves.glb")]
+    assert main(["glb", given[0], "-o", given[1]]) == 0
+    document = read_document(given[1])
+    tree = document.tree
+    assert document.view(0) == stream and tree["meshes"][0]["extensions"][EXTENSION] == {"stream": 0}
+    assert tree["nodes"][0]["name"] == "waves" and tree["nodes"][0]["rotation"][0] < 0
+    first = bsm.decode_sequence(stream)[0][0].astype(np.float32)
+    found = {told["attribute"]: accessor for told, accessor in coded_of(document).values()}
+    assert found["POSITION"]["max"] == first.max(axis=0).tolist() and found["indices"]["count"] == 3 * 40 * 24 * 2
+    assert {name: one["type"] for name, one in found.items() if one["count"] == len(first)} == {
+        "POSITION": "VEC3",
+        "NORMAL": "VEC3",
+        "TEXCOORD_0": "VEC2",
+    }
+    for more in (["--fallback"], ["--quick"], ["--preset", "fine"], ["--images", "webp"]):
+        assert main(["glb", given[0], "-o", given[1], "-f", *more]) == 2
+    (tmp_path / "still.bsm").write_bytes(bsm.encode(torus(12, 8)))
+    assert main(["glb", str(tmp_path / "still.bsm"), "-o", given[1], "-f"]) == 3
+    assert "no sequence" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize(

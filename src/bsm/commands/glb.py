@@ -1,4 +1,4 @@
-"""bsm glb: a scene of glTF with its geometry coded."""
+"""bsm glb: a scene of glTF with its geometry coded, or one of a sequence."""
 
 from __future__ import annotations
 
@@ -10,9 +10,12 @@ from bsm.bitstream.errors import OptionError
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.console import Console
 from bsm.files.output import open_output
+from bsm.files.pipes import read_bytes
+from bsm.files.stream import is_stream
 from bsm.gltf.compress import compress, count_primitives
 from bsm.gltf.document import read_document
 from bsm.gltf.images import ImageRule
+from bsm.gltf.moving import moving_scene
 
 MANY = 16
 """Primitives from which on a page waits longer for decoding than for the bytes that it saves."""
@@ -21,12 +24,16 @@ PRESETS = ("balanced", "fine", "near-lossless", "grid14")
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare what the command takes."""
-    parser.add_argument("input", metavar="SCENE", help=".glb, or .gltf with the files beside it")
+    parser.add_argument(
+        "input",
+        metavar="SCENE",
+        help=".glb, or .gltf with the files beside it; or the stream of a sequence, which becomes a scene as it is",
+    )
     parser.add_argument("-o", "--output", metavar="OUT.glb", required=True, help="the smaller scene")
     parser.add_argument(
         "--preset",
         choices=PRESETS,
-        default="grid14",
+        default=PRESETS[-1],
         help="what is promised of each mesh (default: grid14, positions as exact as Draco's of 14 bits)",
     )
     parser.add_argument(
@@ -55,6 +62,15 @@ def run(args: argparse.Namespace, console: Console) -> None:
     rule = ImageRule.parse(args.images) if args.images else None
     if Path(args.output).suffix.lower() != ".glb":
         raise OptionError(f"the output is a .glb, not {args.output}")
+    if is_stream(args.input):
+        if args.fallback or args.images or args.quick is not None or args.preset != PRESETS[-1]:
+            raise OptionError("a stream becomes a scene as it is: only -o, -f and -q go with it")
+        stream = read_bytes(args.input)
+        scene = moving_scene(stream)
+        with open_output(args.output, overwrite=args.force) as file:
+            file.write(scene)
+        console.note(f"{args.input} -> {args.output}: a mesh that moves, {len(stream)} -> {len(scene)} bytes")
+        return
     document = read_document(args.input)
     quick = count_primitives(document) >= MANY if args.quick is None else args.quick
     keywords: dict[str, Any] = {"preset": args.preset, "quick": quick}

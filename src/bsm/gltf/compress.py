@@ -143,7 +143,8 @@ def _stored(values: npt.NDArray[Any], component: int) -> npt.NDArray[Any]:
     return values.astype(_KINDS[component])
 
 
-def _bounds(positions: npt.NDArray[Any]) -> Tree:
+def bounds_of(positions: npt.NDArray[Any]) -> Tree:
+    """What an accessor of positions says of them."""
     return {"min": positions.min(axis=0).astype(float).tolist(), "max": positions.max(axis=0).astype(float).tolist()}
 
 
@@ -226,7 +227,7 @@ class _Scene:
             "type": _TYPES[array.shape[1]],
         }
         accessor |= {"normalized": True} if normalized else {}
-        return accessor | (_bounds(array) if name.rpartition("/")[2] == "POSITION" else {})
+        return accessor | (bounds_of(array) if name.rpartition("/")[2] == "POSITION" else {})
 
     @staticmethod
     def _corners(view: int, piece: tuple[int, int]) -> Tree:

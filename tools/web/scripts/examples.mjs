@@ -8,11 +8,13 @@ import { extname, join } from "node:path";
 import { chromium } from "playwright-core";
 import { WEB } from "./kernels.mjs";
 
-const PAGES = { vanilla: "textured", r3f: "textured", gltf: "textured", sequence: "plain" };
+const PAGES = { first: "textured", vanilla: "textured", r3f: "textured", gltf: "textured", sequence: "plain" };
 const TYPES = { ".html": "text/html", ".js": "text/javascript", ".wasm": "application/wasm" };
 const FLAGS = ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"];
 const CHROMIUM = process.env.CHROMIUM ?? "/usr/bin/chromium";
 const SEEN = 0.05;
+/** Lines from the package to a textured mesh. */
+const MOST_LINES = 8;
 
 const folder = mkdtempSync(join(tmpdir(), "bsm-examples-"));
 const run = (program, ...args) => execFileSync(program, args, { cwd: folder, stdio: ["ignore", "inherit", "inherit"] });
@@ -20,6 +22,9 @@ const [pictures] = process.argv.slice(2);
 try {
     cpSync(join(WEB, "examples"), folder, { recursive: true });
     run(process.env.PYTHON ?? "python3", "make.py", "public");
+    const lines = readFileSync(join(folder, "first/main.ts"), "utf8").trim().split("\n").length;
+    if (lines > MOST_LINES) throw new Error(`a first textured mesh takes ${lines} lines, more than ${MOST_LINES}`);
+    console.log(`a first textured mesh takes ${lines} lines`);
     const [{ filename }] = JSON.parse(execFileSync("npm", ["pack", "--json", "--silent", "--pack-destination", folder], { cwd: WEB, encoding: "utf8" }));
     run("npm", "install", "--no-audit", "--no-fund", "--silent", "--prefer-offline", join(folder, filename));
     run("npm", "run", "--silent", "check");
