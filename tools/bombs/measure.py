@@ -12,7 +12,10 @@ import sys
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
+from bsm.bitstream.container.gop import METHODS, GopMethod
+from bsm.bitstream.container.header import HEADER_FIELDS
 from bsm.bitstream.container.reader import END_OF_STREAM, NEED_DATA
+from bsm.bitstream.container.wire import Cursor, FrameType
 from bsm.bitstream.errors import BsmError
 from bsm.bitstream.limits import NAMED_LIMITS, Limits
 from bsm.codec.sequence.decoder import FrameEvent, SequenceDecoder
@@ -20,10 +23,12 @@ from bsm.codec.static.decoder import Decoder
 from bsm.codec.static.encoder import encode
 from bsm.codec.static.events import HeaderEvent, LossEvent
 from bsm.files.sequence_stream import peek_header
+from tools.surgery import frames_of, header_entries
 from tools.vectors.meshes import torus
 
 HOWS = ("events", "whole", "tolerant", "browser")
 MOST_SECONDS = 600
+SEQUENCE_BYTES = Limits().sequence_bytes
 WEB = Path(__file__).parents[2] / "tools" / "web" / "scripts" / "measure.mjs"
 
 
@@ -72,14 +77,34 @@ def taken_by(path: Path, how: str, limits: str) -> Taken:
     return Taken(**told)
 
 
-def bounds(limits: str, how: str, vertices: int, shown: int, size: int) -> tuple[float, float]:
-    """Bytes and seconds that a stream may take (M 14.8, M 14.9); in browsers 64 MiB more, and four times as long."""
-    if how == "browser":
-        memory, seconds = bounds("default", "events", vertices, shown, size)
-        return memory + (1 << 26), 4.0 * seconds
+def bounds(limits: str, taken: Taken, size: int) -> tuple[float, float]:
+    """Bytes and seconds that a stream of so many bytes may take (M 14.8, M 14.9)."""
     if limits == "service":
         return float(1 << 30), 10.0
-    return (1 << 26) + 1024.0 * vertices + 64.0 * size, 1.0 + 4e-5 * (vertices + shown) + 2e-5 * size
+    vertices = taken.vertices
+    return (1 << 26) + 1024.0 * vertices + 64.0 * size, 1.0 + 4e-5 * (vertices + taken.shown) + 2e-5 * size
+
+
+def browser_bounds(taken: Taken, stream: bytes) -> tuple[float, float]:
+    """Those of the decoder for browsers: 64 MiB and what sequences keep more, and four times as long."""
+    memory, seconds = bounds("default", taken, len(stream))
+    return memory + (1 << 26) + sequence_memory(stream, taken.vertices), 4.0 * seconds
+
+
+def sequence_memory(stream: bytes, vertices: int) -> float:
+    """Bytes of all dictionaries of a sequence, for so many vertices, and of its largest GOP."""
+    columns, gop = 0, 0
+    try:
+        for kind, payload in frames_of(stream):
+            cursor = Cursor(payload)
+            if kind == FrameType.HEADER and (entries := header_entries(payload)).get(HEADER_FIELDS["gop_frames"].key):
+                columns = max(columns, entries.get(HEADER_FIELDS["coefficients"].key, 0))
+            elif kind == FrameType.GOP and cursor.varint() >= 0 and cursor.take(1)[0] % METHODS == GopMethod.LEARNT:
+                frames, _, components = cursor.varint(), cursor.take(4), cursor.varint()
+                gop = max(gop, 16 * components * (vertices + 3 * frames))
+    except (BsmError, ValueError, TypeError):
+        pass  # behind that nothing is decoded
+    return min(8.0 * vertices * columns, SEQUENCE_BYTES) + min(gop, SEQUENCE_BYTES)
 
 
 def seconds_of_cpu() -> float:

@@ -655,6 +655,15 @@ def _grown_usd(size: int) -> dict[str, Callable[[], Sample]]:
             + b"}\n"
         ),
         "usd, prims": prims,
+        "usd, subsets": lambda: stage(
+            mesh
+            + points
+            + b"".join(
+                b'def Material "m%d" {}\ndef GeomSubset "s%d" { uniform token elementType = "face"\n'
+                b"int[] indices = [0]\nrel material:binding = </a/m%d> }\n" % (number, number, number)
+                for number in range(size // 120)
+            )
+        ),
         "usd, nested": lambda: Sample("usda", head + b'def "a" {\n' * (size // 10) + b"}\n" * (size // 10)),
         "usd, instances": lambda: Sample(
             "usda",
@@ -713,7 +722,7 @@ def problems(cases: list[Case], limits: str) -> Iterator[str]:
 
 
 def _problem(taken: Taken, size: int, limits: str) -> str | None:
-    memory, seconds = bounds(limits, "whole", taken.vertices, taken.shown, size)
+    memory, seconds = bounds(limits, taken, size)
     if taken.outcome.startswith("escaped"):
         return taken.outcome
     if taken.memory > memory or taken.seconds > seconds:

@@ -24,7 +24,7 @@ from bsm.bitstream.container.header import HEADER_FIELDS, Field, fields_of
 from bsm.bitstream.container.maps import MAX_ENTRIES, write_map
 from bsm.bitstream.container.wire import SKIPPABLE_TYPES, FrameType, write_varint
 from bsm.bitstream.limits import NAMED_LIMITS
-from tools.bombs.measure import WEB, Taken, bounds, decode_all, forget_peak, resident, seconds_of_cpu
+from tools.bombs.measure import WEB, Taken, bounds, browser_bounds, decode_all, forget_peak, resident, seconds_of_cpu
 from tools.surgery import Frames, frames_of, stream_of, with_declaration, with_header
 
 VECTORS = Path(__file__).parents[2] / "spec" / "vectors"
@@ -195,7 +195,7 @@ def taken_in_child(stream: bytes, how: str, limits: str) -> Taken:
 def problem_of(stream: bytes, how: str, limits: str) -> str | None:
     """Where a stream takes more than it may, or something else than an error of ours comes out."""
     taken = taken_in_child(stream, how, limits)
-    memory, seconds = bounds(limits, how, taken.vertices, taken.shown, len(stream))
+    memory, seconds = bounds(limits, taken, len(stream))
     if taken.outcome == "died" or taken.outcome.startswith("escaped"):
         return taken.outcome
     if taken.memory > memory or taken.seconds > seconds:
@@ -212,7 +212,7 @@ def web_problems(streams: dict[str, bytes]) -> list[str]:
     found = []
     for name, (line, stream) in zip(streams, zip(done.stdout.splitlines(), streams.values(), strict=True), strict=True):
         told = json.loads(line)
-        memory, seconds = bounds("default", "browser", told["vertices"], told["shown"], len(stream))
+        memory, seconds = browser_bounds(Taken(vertices=told["vertices"], shown=told["shown"]), stream)
         if told["escaped"] or told["memory"] > memory or told["seconds"] > seconds:
             found.append(f"{name}: {told}")
     return found

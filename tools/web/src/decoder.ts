@@ -38,7 +38,7 @@ export class Decoder {
     private readonly shared = new Map<number, SharedBlock>();
 
     constructor(
-        private readonly kernels: Kernels,
+        kernels: Kernels,
         limits: Partial<Limits> = {},
         private readonly wishes: Wishes = {},
     ) {
@@ -177,13 +177,13 @@ export class Decoder {
     }
 
     private begin(header: Header): void {
-        const { kernels, limits, allowance, queue, reader } = this;
-        const open = (memory: Memory, course?: Course): Stages => {
+        const { memory, limits, allowance, queue, reader } = this;
+        const open = (course?: Course): Stages => {
             const wishes = header.run > 0 ? { ...this.wishes, helpers: undefined } : this.wishes;
             return new Stages(memory, header, limits, allowance, wishes, queue, () => reader.position, course);
         };
-        if (header.gopFrames === 0) return void (this.stages = open(this.memory));
-        this.runs ??= new Runs(kernels, this.memory, limits, allowance, this.wishes.tolerant ?? false);
+        if (header.gopFrames === 0) return void (this.stages = open());
+        this.runs ??= new Runs(memory, allowance, this.wishes.tolerant ?? false);
         this.stages = this.runs.begin(header, open);
     }
 

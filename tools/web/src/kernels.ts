@@ -90,6 +90,8 @@ export class Memory {
     buffer: ArrayBuffer;
     private readonly frame: number;
     private top: number;
+    /** Bytes of what was taken out. */
+    private elsewhere = 0;
 
     constructor(
         private readonly exports: Exports,
@@ -114,6 +116,27 @@ export class Memory {
     /** Give back everything that was allocated since `mark`. */
     release(mark: number): void {
         this.top = mark;
+    }
+
+    /** Take what was allocated since `mark` out of here; `putBack` makes it as it was. */
+    takeOut(mark: number): Uint8Array {
+        const bytes = new Uint8Array(this.buffer, mark, this.top - mark).slice();
+        this.release(mark);
+        this.elsewhere += bytes.length;
+        return bytes;
+    }
+
+    /** Put back, in place of all that was allocated since `mark`, what was taken out there. */
+    putBack(bytes: Uint8Array, mark: number): void {
+        this.forget(bytes);
+        this.release(mark);
+        new Uint8Array(this.buffer).set(bytes, this.bytes(bytes.length).pointer);
+        this.top = mark + bytes.length;
+    }
+
+    /** Take note that what was taken out is not kept any more. */
+    forget(bytes: Uint8Array): void {
+        this.elsewhere -= bytes.length;
     }
 
     /** What `work` returns; all that it allocates is given back. */
@@ -216,7 +239,8 @@ export class Memory {
     }
 
     private reserve(end: number): void {
-        if (end > this.limit) throw new LimitError(`memory = ${end} bytes is over the limit of ${this.limit}`);
+        const all = end + this.elsewhere;
+        if (all > this.limit) throw new LimitError(`memory = ${all} bytes is over the limit of ${this.limit}`);
         const size = this.buffer.byteLength;
         if (end <= size) return;
         try {

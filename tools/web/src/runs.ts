@@ -2,8 +2,7 @@
 import type { Allowance, Counted } from "./chain";
 import { BsmError, CorruptError } from "./errors";
 import type { Header } from "./header";
-import type { Kernels, Memory } from "./kernels";
-import type { Limits } from "./limits";
+import type { Memory } from "./kernels";
 import type { Item, Stages } from "./stages";
 
 const KEPT_MESHES = 8;
@@ -48,7 +47,8 @@ export class Course {
 /** A mesh that a run has had, and what is kept for later runs of it. */
 interface Kept {
     stages: Stages;
-    memory: Memory;
+    /** What they have in memory. */
+    bytes: Uint8Array;
     counted: Counted;
 }
 
@@ -63,33 +63,28 @@ export class Runs {
     private present?: Stages;
     private frames = 0;
     private before: Counted;
+    private readonly mark: number;
 
-    /** `memory` is that of the first run. */
+    /** All runs have the same `memory`, one after the other. */
     constructor(
-        private readonly kernels: Kernels,
-        private memory: Memory,
-        private readonly limits: Limits,
+        private readonly memory: Memory,
         private readonly allowance: Allowance,
         private readonly tolerant: boolean,
     ) {
         this.course = new Course(tolerant);
         this.before = allowance.counted;
+        this.mark = memory.mark();
     }
 
     /** The stages of a run that begins; `open` makes those of a mesh of its own. */
-    begin(header: Header, open: (memory: Memory, course: Course) => Stages): Stages {
-        const first = !this.present && !this.lost;
+    begin(header: Header, open: (course: Course) => Stages): Stages {
         this.leave();
         this.lost = undefined;
         this.frames = header.frames;
         this.mesh = header.again > 0 ? header.again - 1 : header.run;
         if (header.again > 0) return (this.present = this.resumed(header));
         if (this.kept.size === KEPT_MESHES) this.giveUpOldest();
-        if (!first) {
-            const others = [...this.kept.values()].reduce((sum, { memory }) => sum + memory.size, 0);
-            this.memory = this.kernels.instantiate(this.limits.memory - others);
-        }
-        return (this.present = open(this.memory, this.course));
+        return (this.present = open(this.course));
     }
 
     /** Whether it is borne that the present run is lost. */
@@ -117,7 +112,7 @@ export class Runs {
         if (!kept) throw new CorruptError(`run ${header.run} has the mesh of run ${this.mesh}, which is not there any more`);
         this.kept.delete(this.mesh);
         this.kept.set(this.mesh, kept);
-        this.memory = kept.memory;
+        this.memory.putBack(kept.bytes, this.mark);
         kept.stages.resume(header);
         return kept.stages;
     }
@@ -128,16 +123,22 @@ export class Runs {
         const now = allowance.counted;
         const counted = { memory: now.memory - before.memory, vertices: now.vertices - before.vertices };
         const kept = this.kept.get(this.mesh);
-        if (!present?.suspend()) allowance.giveBack(counted);
-        else if (!kept) this.kept.set(this.mesh, { stages: present, memory, counted });
-        else kept.counted = { memory: kept.counted.memory + counted.memory, vertices: kept.counted.vertices + counted.vertices };
+        if (present?.suspend()) {
+            const bytes = memory.takeOut(this.mark);
+            const all = { memory: counted.memory + (kept?.counted.memory ?? 0), vertices: counted.vertices + (kept?.counted.vertices ?? 0) };
+            this.kept.set(this.mesh, { stages: present, bytes, counted: all });
+        } else {
+            allowance.giveBack(counted);
+            memory.release(this.mark);
+        }
         this.before = allowance.counted;
         this.present = undefined;
     }
 
     private giveUpOldest(): void {
-        const [oldest, { counted }] = this.kept.entries().next().value as [number, Kept];
+        const [oldest, { bytes, counted }] = this.kept.entries().next().value as [number, Kept];
         this.kept.delete(oldest);
+        this.memory.forget(bytes);
         this.allowance.giveBack(counted);
         this.before = this.allowance.counted;
     }

@@ -19,11 +19,13 @@ from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.codec.arrays import Faces, Positions
 from bsm.codec.geometry.attributes import MOST_COMPONENTS, Attribute, Domain, Semantic
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.files.formats.columns import Array, Column, color_column
+from bsm.files.formats.columns import PLURALS, Array, Column, color_column
 from bsm.files.formats.materials import named, without_materials
 from bsm.files.formats.polygons import MeshFile, Polygons
+from bsm.files.formats.written import face_numbers
 from bsm.files.motion.frames import Frames, Wanted, checked_frames
 from bsm.files.motion.told import Told
+from bsm.files.motion.usd_materials import Materials, bind_materials, write_materials
 from bsm.files.rows import Doubles, Ints, single_suffices
 from bsm.lengths import metres
 
@@ -40,10 +42,12 @@ _UNITS = {1.0: "meters", 0.1: "decimeters", 0.01: "centimeters", 0.001: "millime
 def import_usd() -> Any:
     """The modules of usd-core; `DependencyError` where they are missing."""
     try:
+        import pxr.Gf
         import pxr.Sdf
         import pxr.Tf
         import pxr.Usd
         import pxr.UsdGeom
+        import pxr.UsdShade
         import pxr.UsdSkel
         import pxr.UsdUtils
         import pxr.Vt
@@ -62,10 +66,10 @@ class _Part:
         mesh = pxr.UsdGeom.Mesh(prim)
         self._pxr, self.prim, self._points = pxr, prim, mesh.GetPointsAttr()
         self.counts_attr, self.corners_attr = mesh.GetFaceVertexCountsAttr(), mesh.GetFaceVertexIndicesAttr()
-        self._time = pxr.Usd.TimeCode.EarliestTime() if time is None else pxr.Usd.TimeCode(time)
-        self.counts: Ints = np.array(self.counts_attr.Get(self._time) or [], np.int64)
-        self.corners: Ints = np.array(self.corners_attr.Get(self._time) or [], np.int64)
-        self.vertices = len(self._points.Get(self._time) or [])
+        self.time = pxr.Usd.TimeCode.EarliestTime() if time is None else pxr.Usd.TimeCode(time)
+        self.counts: Ints = np.array(self.counts_attr.Get(self.time) or [], np.int64)
+        self.corners: Ints = np.array(self.corners_attr.Get(self.time) or [], np.int64)
+        self.vertices = len(self._points.Get(self.time) or [])
         if (self.counts < 0).any() or self.counts.sum() != len(self.corners):
             raise FormatError(
                 f"the faces of {prim.GetPath()} have {len(self.corners)} corners, not {self.counts.sum()}"
@@ -103,22 +107,26 @@ class _Part:
         with np.errstate(over="ignore", invalid="ignore"):  # what is not finite is refused later
             return points @ matrix[:3, :3] + matrix[3, :3]
 
+    @property
+    def rows(self) -> dict[Domain, int]:
+        """How many values a column of each domain has."""
+        return {"vertex": self.vertices, "face": len(self.counts), "corner": len(self.corners)}
+
     def columns(self) -> list[Column]:
         """Texture coordinates, colours and other numbers; those of corners have indices."""
         found = []
-        rows = {"vertex": self.vertices, "face": len(self.counts), "corner": len(self.corners)}
         for primvar in self._pxr.UsdGeom.PrimvarsAPI(self.prim).GetPrimvars():
             name, kind = str(primvar.GetPrimvarName()), str(primvar.GetTypeName())
             domain = _DOMAINS.get(primvar.GetInterpolation())
-            value = primvar.Get(self._time)
+            value = primvar.Get(self.time)
             if domain is None or value is None or not kind.endswith("[]") or name == "normals":
                 continue
             values = np.array(value)
             values = values[:, None] if values.ndim == 1 else values
             if values.dtype.kind not in "iuf" or values.ndim != 2 or values.shape[1] > MOST_COMPONENTS:
                 continue
-            places = np.array(primvar.GetIndices(self._time) or np.arange(len(values)), np.int64)
-            if len(places) == rows[domain] and 0 <= places.min(initial=0) <= places.max(initial=0) < len(values):
+            places = np.array(primvar.GetIndices(self.time) or np.arange(len(values)), np.int64)
+            if len(places) == self.rows[domain] and 0 <= places.min(initial=0) <= places.max(initial=0) < len(values):
                 named_as, values, semantic = _meant(name, kind, values)
                 at_corners = domain == "corner"
                 table = values if at_corners else values[places]
@@ -166,7 +174,7 @@ class _Stage:
     """What is seen of a stage."""
 
     def __init__(self, path: str, limits: Limits) -> None:
-        self._limits = limits
+        self._limits, self._path = limits, path
         self.pxr = pxr = import_usd()
         _require_room(path, limits)
         try:
@@ -220,21 +228,49 @@ class _Stage:
         up = str(geom.GetStageUpAxis(self.stage)).lower()
         unit = float(geom.GetStageMetersPerUnit(self.stage))
         metadata: dict[str, str | int | float | bytes] = {"up": up, "unit": _UNITS.get(round(unit, 9), f"{unit:g} m")}
-        columns = []
+        columns, lacking = _columns(parts)
+        places = [None if column.indices is None else column.indices[order] for column in columns]
+        columns = [replace(column, indices=where) for column, where in zip(columns, places)]
+        materials = Materials(self.pxr, self._path)
+        numbers = np.concatenate([materials.of_faces(part.prim, len(part.counts), part.time) for part in parts])
+        if len(np.unique(numbers)) > 1:
+            columns.append(Column("material", numbers[:, None], "face"))
+        of_materials, absent = materials.metadata(self._limits.metadata_bytes)
+        metadata |= of_materials
+        notes += [*lacking, *absent]
         if len(parts) == 1:
             metadata["name"] = parts[0].prim.GetName()
-            for column in parts[0].columns():
-                places = None if column.indices is None else column.indices[order]
-                columns.append(replace(column, indices=places))
         else:
             owner = np.repeat(np.arange(len(parts), dtype=np.int32), [len(part.counts) for part in parts])
             columns.append(Column("part", owner[:, None], "face"))
             metadata |= named([str(part.prim.GetPath()) for part in parts], "part")
-            if any(part.columns() for part in parts):
-                notes.append("left out: texture coordinates and colours of several parts")
         return Polygons(positions, sizes, corners[order], tuple(notes), (), tuple(columns), metadata).checked(
             self._limits
         )
+
+
+def _columns(parts: list[_Part]) -> tuple[list[Column], list[str]]:
+    """The columns of all parts, one behind the other, and notes; parts that lack one have zeros there."""
+    of_parts = [{(column.name, column.domain): column for column in part.columns()} for part in parts]
+    found, notes = [], []
+    for key in dict.fromkeys(key for columns in of_parts for key in columns):
+        model = next(columns[key] for columns in of_parts if key in columns)
+        tables, places, begin, lacking = [], [], 0, 0
+        for part, columns in zip(parts, of_parts):
+            column = columns.get(key)
+            rows = part.rows[model.domain]
+            if column is None or column.values.shape[1] != model.values.shape[1]:
+                lacking += 1
+                blank = np.zeros((min(rows, 1) if model.domain == "corner" else rows, model.values.shape[1]))
+                column = replace(model, values=blank.astype(model.values.dtype), indices=np.zeros(rows, np.int64))
+            tables.append(column.values)
+            places.append(begin + (np.empty(0, np.int64) if column.indices is None else column.indices))
+            begin += len(column.values)
+        if lacking:
+            notes.append(f"parts without {PLURALS.get(model.name, model.name)} were given zeros: {lacking}")
+        at_corners = np.concatenate(places) if model.domain == "corner" else None
+        found.append(replace(model, values=np.concatenate(tables), indices=at_corners))
+    return found, notes
 
 
 def _turned(sizes: Ints, turned: Array) -> Ints:
@@ -322,18 +358,19 @@ def write_usd(file: BinaryIO, kind: str, faces: Faces, told: Told) -> Iterator[C
         path = str(Path(folder, "mesh.usdc" if kind == "usdz" else f"mesh.{kind}"))
         stage = pxr.Usd.Stage.CreateNew(path)
         mesh: Any = None
+        materials: dict[int, Any] = {}
         still: TriangleMesh | None = None  # the first mesh, as long as its faces are those of all frames
         taken = 0
 
         def write(frame: Positions, other: Faces | None = None) -> None:
-            nonlocal mesh, taken, still
+            nonlocal mesh, materials, taken, still
             if mesh is None:
                 still = told.mesh(frame, faces)
-                mesh = _begun(pxr, stage, still, told)
+                mesh, materials = _begun(pxr, stage, still, told, Path(folder) if kind == "usdz" else None)
             if other is not None:
                 if still is not None:
-                    _set_mesh(pxr, mesh, still, 0)
-                _set_mesh(pxr, mesh, told.mesh(frame, other), taken)
+                    _set_mesh(pxr, mesh, materials, still, 0)
+                _set_mesh(pxr, mesh, materials, told.mesh(frame, other), taken)
                 still = None
             if not single_suffices(frame):
                 raise MeshError(f"frame {taken} needs double precision, which points of USD do not have; write npz")
@@ -357,8 +394,8 @@ def write_usd(file: BinaryIO, kind: str, faces: Faces, told: Told) -> Iterator[C
             shutil.copyfileobj(written, file)
 
 
-def _begun(pxr: Any, stage: Any, first: TriangleMesh, told: Told) -> Any:
-    """A stage with everything of a mesh but its points."""
+def _begun(pxr: Any, stage: Any, first: TriangleMesh, told: Told, images: Path | None) -> tuple[Any, dict[int, Any]]:
+    """A stage with everything of a mesh but its points, and its materials by their numbers; images go to a folder."""
     geom, rate = pxr.UsdGeom, told.frame_rate or USUAL_RATE
     metadata = without_materials(first.metadata)
     geom.SetStageUpAxis(stage, geom.Tokens.z if str(metadata.get("up", "y")).lower() == "z" else geom.Tokens.y)
@@ -377,19 +414,26 @@ def _begun(pxr: Any, stage: Any, first: TriangleMesh, told: Told) -> Any:
     mesh.CreateFaceVertexIndicesAttr(pxr.Vt.IntArray.FromNumpy(np.ascontiguousarray(first.faces.reshape(-1))))
     mesh.CreatePointsAttr()
     mesh.CreateExtentAttr()
-    told.loses(one.name for one in first.attributes if not _written(pxr, mesh, one))
-    told.loses(
-        name for name in first.metadata if name not in ("up", "name", "frame_rate") and (name != "unit" or size is None)
-    )
-    return mesh
+    materials, said = write_materials(pxr, mesh, first, images)
+    told.loses(one.name for one in _others(first, materials) if not _written(pxr, mesh, one))
+    said |= {"up", "name", "frame_rate"} | ({"unit"} if size else set())
+    told.loses(name for name in first.metadata if name not in said)
+    return mesh, materials
 
 
-def _set_mesh(pxr: Any, mesh: Any, frame: TriangleMesh, time: int) -> None:
+def _others(frame: TriangleMesh, materials: dict[int, Any]) -> list[Attribute]:
+    """The attributes that materials do not say."""
+    shown = face_numbers(frame, "material") if materials else None
+    return [one for one in frame.attributes if one is not shown]
+
+
+def _set_mesh(pxr: Any, mesh: Any, materials: dict[int, Any], frame: TriangleMesh, time: int) -> None:
     """Let the mesh have the faces and attributes of a frame from a time on."""
     mesh.GetFaceVertexCountsAttr().Set(pxr.Vt.IntArray(len(frame.faces), 3), time)
     corners = np.ascontiguousarray(frame.faces.reshape(-1))
     mesh.GetFaceVertexIndicesAttr().Set(pxr.Vt.IntArray.FromNumpy(corners), time)
-    for one in frame.attributes:
+    bind_materials(pxr, mesh, frame, materials, time)
+    for one in _others(frame, materials):
         _written(pxr, mesh, one, time)
 
 

@@ -102,6 +102,47 @@ def morphing(folder):
     save(folder, "morphing", scene, moving)
 
 
+def dressed(name, color=None, image=None, **inputs):
+    made = bpy.data.materials.new(name)
+    made.use_nodes = True
+    surface = made.node_tree.nodes["Principled BSDF"]
+    if color is not None:
+        inputs["Base Color"] = color
+    if image is not None:
+        texture = made.node_tree.nodes.new("ShaderNodeTexImage")
+        texture.image = image
+        made.node_tree.links.new(texture.outputs["Color"], surface.inputs["Base Color"])
+    for called, value in inputs.items():
+        surface.inputs[called].default_value = value
+    return made
+
+
+def painted(folder):
+    scene = fresh()
+    scene.frame_end = 5
+    image = bpy.data.images.new("checker", 4, 4)
+    image.pixels = [c for i in range(16) for c in ((1, 0, 0, 1) if (i + i // 4) % 2 else (0, 1, 0, 1))]
+    image.filepath_raw, image.file_format = f"{folder}/checker.png", "PNG"
+    image.save()
+    image = bpy.data.images.load(f"{folder}/checker.png")
+    red = dressed("Red", (0.8, 0.1, 0.05, 1), Metallic=1.0)
+    bpy.ops.mesh.primitive_cube_add()
+    box = bpy.context.object
+    box.name = "Box"
+    for material in (dressed("Painted", image=image, Roughness=0.25), red):
+        box.data.materials.append(material)
+    for number, polygon in enumerate(box.data.polygons):
+        polygon.material_index = int(number >= 4)
+    for number, place in ((1, (0, 0, 0)), (5, (2, 0, 0))):
+        box.location = place
+        box.keyframe_insert("location", frame=number)
+    bpy.ops.mesh.primitive_uv_sphere_add(segments=8, ring_count=5, location=(0, 0, 3))
+    bpy.context.object.name = "Ball"
+    bpy.context.object.data.materials.append(red)
+    bpy.ops.wm.usd_export(filepath=f"{folder}/painted.usdz", export_animation=True)
+
+
 if __name__ == "__main__":
     skinned(sys.argv[-1])
     morphing(sys.argv[-1])
+    painted(sys.argv[-1])

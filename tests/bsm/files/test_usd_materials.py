@@ -1,0 +1,122 @@
+"""Materials of USD: what Blender writes is read, and what is written here usd-core reads."""
+
+import shutil
+import zipfile
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from bsm.cli import main
+from bsm.files.mesh import read_mesh
+from bsm.files.sequence import open_sequence
+
+PAINTED = Path(__file__).parent / "moving" / "painted.usdz"
+"""A ball in red and a box in red and a texture; it moves. `moving/make.py` makes it in Blender."""
+pytest.importorskip("pxr.Usd")
+
+
+def found_in(path):
+    source = open_sequence(str(path))
+    assert source is not None
+    return source
+
+
+def of_faces(source, name):
+    return next(one for one in source.attributes if one.name == name).values[:, 0]
+
+
+def materials_of(source):
+    """What is said of each material, by its name, with its image's bytes; and of how many faces."""
+    found = {}
+    for number, count in zip(*np.unique(of_faces(source, "material"), return_counts=True), strict=True):
+        begin = f"material.{number}."
+        words = {name.removeprefix(begin): value for name, value in source.metadata.items() if name.startswith(begin)}
+        if "baseColorTexture" in words:
+            words["baseColorTexture"] = source.metadata[f"image.{words['baseColorTexture']}.data"]
+        found[words.pop("name")] = (words, int(count))
+    return found
+
+
+EXPECTED = {
+    "Red": {"baseColorFactor": "0.8 0.1 0.05 1", "metallicFactor": "1", "roughnessFactor": "0.5"},
+    "Painted": {"metallicFactor": "0", "roughnessFactor": "0.25"},
+}
+
+
+def test_materials_of_blender_come_in():
+    with zipfile.ZipFile(PAINTED) as package:
+        (image,) = (package.read(name) for name in package.namelist() if name.endswith(".png"))
+    source = found_in(PAINTED)
+    told = materials_of(source)
+    assert told["Red"] == (EXPECTED["Red"], 64 + 4)
+    assert told["Painted"] == (EXPECTED["Painted"] | {"baseColorTexture": image}, 8)
+    assert len(set(of_faces(source, "part"))) == 2
+    texcoord = next(one for one in source.attributes if one.semantic == "texcoord")
+    assert texcoord.indices is not None and texcoord.indices.shape == (76, 3)
+    assert read_mesh(PAINTED).mesh.metadata == source.metadata
+
+
+def test_images_beside_a_stage_are_looked_for_there_alone(tmp_path):
+    with zipfile.ZipFile(PAINTED) as package:
+        package.extractall(tmp_path / "here")
+    (stage,) = (tmp_path / "here").glob("*.usdc")
+    assert materials_of(found_in(stage)) == materials_of(found_in(PAINTED))
+    shutil.copy(stage, tmp_path / "alone.usdc")
+    source = found_in(tmp_path / "alone.usdc")
+    assert "image.0.data" not in source.metadata
+    assert any("image" in note and "left out" in note for note in source.notes)
+
+
+@pytest.mark.parametrize("kind", ["usdz", "usdc"])
+def test_materials_there_and_back(kind, tmp_path, capsys):
+    from pxr import Usd, UsdGeom, UsdShade
+
+    stream, back = tmp_path / "painted.bsm", tmp_path / f"back.{kind}"
+    assert main(["encode", str(PAINTED), "-o", str(stream)]) == 0
+    capsys.readouterr()
+    assert main(["decode", str(stream), "-o", str(back)]) == 0
+    said, shown = capsys.readouterr().err, found_in(back)
+    before, after = materials_of(found_in(PAINTED)), None
+    if kind == "usdz":
+        after = materials_of(shown)
+        assert "image" not in said
+    else:  # which has no images in it, and says so
+        assert "image.0.data" in said
+        assert not any(name.startswith("image.") for name in shown.metadata)
+        del before["Painted"][0]["baseColorTexture"]
+        after = materials_of(shown)
+    assert after == before
+
+    stage = Usd.Stage.Open(str(back))
+    mesh = UsdGeom.Mesh(stage.GetDefaultPrim())
+    valid, why = UsdGeom.Subset.ValidateFamily(mesh, UsdGeom.Tokens.face, UsdShade.Tokens.materialBind)
+    assert valid, why
+    subsets = UsdShade.MaterialBindingAPI(mesh).GetMaterialBindSubsets()
+    bound = {str(UsdShade.MaterialBindingAPI(one).ComputeBoundMaterial()[0].GetPrim().GetName()) for one in subsets}
+    assert bound == {"Red", "Painted"}
+    assert sum(len(one.GetIndicesAttr().Get()) for one in subsets) == 76
+
+
+def test_one_material_needs_no_subsets(tmp_path):
+    from pxr import Gf, Sdf, Usd, UsdGeom, UsdShade
+
+    path = str(tmp_path / "one.usda")
+    stage = Usd.Stage.CreateNew(path)
+    mesh = UsdGeom.Mesh.Define(stage, "/mesh")
+    mesh.CreateFaceVertexCountsAttr([3])
+    mesh.CreateFaceVertexIndicesAttr([0, 1, 2])
+    mesh.CreatePointsAttr([Gf.Vec3f(0, 0, 0), Gf.Vec3f(1, 0, 0), Gf.Vec3f(0, 1, 0)])
+    material = UsdShade.Material.Define(stage, "/mesh/glass")
+    surface = UsdShade.Shader.Define(stage, "/mesh/glass/surface")
+    surface.CreateIdAttr("UsdPreviewSurface")
+    surface.CreateInput("opacity", Sdf.ValueTypeNames.Float).Set(0.25)
+    surface.CreateInput("diffuseColor", Sdf.ValueTypeNames.Color3f).Set(Gf.Vec3f(1, 1, 0.5))
+    surface.CreateInput("emissiveColor", Sdf.ValueTypeNames.Color3f).Set(Gf.Vec3f(0, float("nan"), 0))
+    material.CreateSurfaceOutput().ConnectToSource(surface.ConnectableAPI(), "surface")
+    UsdShade.MaterialBindingAPI.Apply(mesh.GetPrim()).Bind(material)
+    stage.Save()
+    found = read_mesh(path).mesh
+    assert found.metadata["material.0.baseColorFactor"] == "1 1 0.5 0.25"
+    assert "material.0.emissiveFactor" not in found.metadata
+    assert not any(one.name == "material" for one in found.attributes)
