@@ -1,4 +1,4 @@
-/* Normals of faces, and the geometric Laplacian of NMSVE (paper, section 8). */
+/* Normals of faces, what those of vertices are made of, and the geometric Laplacian of NMSVE (paper, section 8). */
 #include "codec/geometry/metrics.h"
 
 /* Unit normals; zero where a face has no area. */
@@ -16,6 +16,28 @@ void face_normals(ConstDoubles2 positions, ConstInts2 faces, Doubles2 normals) {
         normal[0] = length > 0.0 ? x / length : 0.0;
         normal[1] = length > 0.0 ? y / length : 0.0;
         normal[2] = length > 0.0 ? z / length : 0.0;
+    }
+}
+
+/* Adds up around each vertex the cross products of its faces' edges, and their lengths; both begin as zeros. */
+void crosses_around(ConstDoubles2 positions, ConstInts2 faces, Doubles2 crosses, Doubles lengths) {
+    if (crosses.rows < positions.rows || lengths.size < positions.rows) return;
+    for (int64_t f = 0; f < faces.rows; f++) {
+        const int32_t *face = faces.data + 3 * f;
+        const double *a = positions.data + 3 * (int64_t)face[0];
+        const double *b = positions.data + 3 * (int64_t)face[1];
+        const double *c = positions.data + 3 * (int64_t)face[2];
+        double ux = b[0] - a[0], uy = b[1] - a[1], uz = b[2] - a[2];
+        double vx = c[0] - a[0], vy = c[1] - a[1], vz = c[2] - a[2];
+        double x = uy * vz - uz * vy, y = uz * vx - ux * vz, z = ux * vy - uy * vx;
+        double length = __builtin_sqrt(x * x + y * y + z * z);
+        for (int k = 0; k < 3; k++) {
+            double *sum = crosses.data + 3 * (int64_t)face[k];
+            sum[0] += x;
+            sum[1] += y;
+            sum[2] += z;
+            lengths.data[face[k]] += length;
+        }
     }
 }
 

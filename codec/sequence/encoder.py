@@ -26,6 +26,7 @@ from bsm.codec.geometry.mesh import Metadata, TriangleMesh
 from bsm.codec.sequence.cost import gop_cost, gop_memory, loop_memory
 from bsm.codec.sequence.decoder import decode_sequence
 from bsm.codec.sequence.gop import GopDecoder, GopEncoder, Setting, make_setting, silent
+from bsm.codec.sequence.level_writer import ROUNDS
 from bsm.codec.sequence.options import SequenceOptions
 from bsm.codec.sequence.row_prediction import LARGEST_LEVEL
 from bsm.codec.sequence.runs import Cutter, Frame, Run, Shelf
@@ -52,6 +53,9 @@ FINEST_STEP = 2e-5
 
 FIRST_STEP = 0.4
 """Of the first frame, in steps of the others; 0.35 and 0.5 cost about as much, 0.7 costs 1 % more."""
+
+NEAR = 0.8, 1.15
+"""A first frame will do for steps so many times that for which it was coded."""
 
 FIRST_FRAME = ChainRules(
     exact=False,
@@ -303,15 +307,19 @@ class SequenceEncoder:
         What decoders may still do follows from `before`, of the runs so far.
         """
 
-        def attempt(step: float, weights: Matrix | None, singly: bool | None, tell: Progress = silent) -> Coded:
-            chosen = replace(options, step=step)
-            opening = open_sequence(prepared, chosen, self._count, tell, before)
-            encoder = GopEncoder(opening.setting, chosen)
-            encoder.weights, encoder.singly = weights, singly
-            return Coded(opening, encoder, tuple(_affordable(opening, encoder, frames, 0, tell)))
+        opened: Opening | None = None
+        opened_for = 0.0
+
+        def attempt(wish: Wish, tell: Progress = silent) -> Coded:
+            nonlocal opened, opened_for
+            if opened is None or not NEAR[0] <= wish.step / opened_for <= NEAR[1]:
+                opened_for = wish.step
+                opened = open_sequence(prepared, replace(options, step=wish.step), self._count, tell, before)
+            encoder = GopEncoder(opened.setting, options)
+            return _attempted(opened, encoder, wish, frames, 0, tell)
 
         if options.promise is None:
-            return attempt(options.step, None, None, tell)
+            return attempt(Wish(options.step), tell)
         coded = self._kept(attempt, frames, prepared, options, None)
         for _ in range(2):
             tell(len(coded.opening.blocks), len(coded.opening.blocks))
@@ -329,20 +337,18 @@ class SequenceEncoder:
         """The GOP behind another, with the step that keeps the options' promise in it, if there is one."""
         opening = before.opening
 
-        def attempt(step: float, weights: Matrix | None, singly: bool | None, tell: Progress = silent) -> Coded:
-            encoder = before.encoder.copy()
-            encoder.step, encoder.weights, encoder.singly = step, weights, singly
-            return Coded(opening, encoder, tuple(_affordable(opening, encoder, frames, number, tell)))
+        def attempt(wish: Wish, tell: Progress = silent) -> Coded:
+            return _attempted(opening, before.encoder.copy(), wish, frames, number, tell)
 
         if options.promise is None:
-            return attempt(before.encoder.step, None, None, tell)
+            return attempt(Wish(before.encoder.step), tell)
         coded = self._kept(attempt, frames, prepared, options, before.encoder.step)
         tell(len(opening.blocks), len(opening.blocks))
         return coded
 
     def _kept(
         self,
-        attempt: Callable[[float, Matrix | None, bool | None], Coded],
+        attempt: Callable[[Wish], Coded],
         frames: list[Matrix],
         prepared: Prepared,
         options: SequenceOptions,
@@ -354,13 +360,23 @@ class SequenceEncoder:
         finest = max(FINEST_STEP, self._finest_step(frames))
         singly: bool | None = None
 
-        def settled(step: float, weights: Matrix | None) -> Coded:
+        def settled(step: float, weights: Matrix | None, rounds: int) -> Coded:
             nonlocal singly
-            coded = attempt(step, weights, singly)
+            coded = attempt(Wish(step, weights, singly, rounds))
             singly = coded.singly  # as the first attempt was, so are the others
             return coded
 
         return watch.settle(settled, first or promise.first_step, finest)
+
+
+@dataclass(frozen=True, eq=False)
+class Wish:
+    """How GOPs are to be encoded; see the attributes of `GopEncoder`."""
+
+    step: float
+    weights: Matrix | None = None
+    singly: bool | None = None
+    rounds: int = ROUNDS
 
 
 @dataclass(frozen=True, eq=False)
@@ -423,6 +439,13 @@ class Opening:
             allowance.limits.check("sequence_bytes", gop_memory(vertices, body))
             again = dictionaries.reserve(gop_memory(vertices, body), loop_memory(dictionaries.largest, body))
             allowance.spend(again + gop_cost(dictionaries.sites, vertices, body), received)
+
+
+def _attempted(
+    opening: Opening, encoder: GopEncoder, wish: Wish, frames: list[Matrix], number: int, tell: Progress
+) -> Coded:
+    encoder.step, encoder.weights, encoder.singly, encoder.rounds = wish.step, wish.weights, wish.singly, wish.rounds
+    return Coded(opening, encoder, tuple(_affordable(opening, encoder, frames, number, tell)))
 
 
 def _affordable(

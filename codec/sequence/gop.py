@@ -18,7 +18,7 @@ from bsm.bitstream.entropy.range_coder import Bank, copy_bank
 from bsm.bitstream.errors import CorruptError
 from bsm.codec.arrays import Faces, Levels, Matrix
 from bsm.codec.sequence.dictionaries import Dictionaries, Part, Site, find_sites
-from bsm.codec.sequence.level_writer import WEIGHT, LevelWriter
+from bsm.codec.sequence.level_writer import ROUNDS, WEIGHT, LevelWriter
 from bsm.codec.sequence.options import SequenceOptions
 from bsm.codec.sequence.row_prediction import (
     Loop,
@@ -160,6 +160,8 @@ class GopEncoder:
         What errors of the next GOP's frames count, beside each other; None: all the same.
     singly : bool, optional
         Whether these frames are sent one by one; None: if that costs less.
+    rounds : int
+        As of `LevelWriter`.
     latest : float64 array, shape (n, 3), optional
         What decoders make of the latest frame that was sent by itself.
     """
@@ -171,6 +173,7 @@ class GopEncoder:
         self.step = options.step
         self.weights: Matrix | None = None
         self.singly: bool | None = None
+        self.rounds = ROUNDS
         self.latest: Matrix | None = None
         self._history = FrameHistory(setting.first)
 
@@ -236,7 +239,7 @@ class GopEncoder:
             self._history = FrameHistory(self._setting.first)
         history = self._history
         frame = np.zeros_like(wanted)
-        writer, coefficients = LevelWriter(history.bank, 3), []
+        writer, coefficients = LevelWriter(history.bank, 3, self.rounds), []
         for k, part in enumerate(self._parts):
             target = part.difference(wanted, frame) - history.base(k)
             change = writer.write(history.loops[k], history.known(k), target, step, history.levels[k])
@@ -256,12 +259,13 @@ class GopEncoder:
         basis = decode_basis(body) * weights[:, None]
         wanted = motion @ projection(basis)
         field = np.zeros_like(wanted)
-        writer = LevelWriter(make_level_bank(), body.components)
+        writer = LevelWriter(make_level_bank(), body.components, self.rounds)
         for part, first in zip(self._parts, self._setting.first, strict=True):
             target = part.difference(wanted, field)
             part.place(field, writer.write(Loop(3, body.components), first, target, self._step))
             progress(len(writer.levels), len(self._parts))
-        error = float(np.square(motion - field @ basis.T).sum()) / self._step**2
+        left = np.square(motion).sum() - _energy(wanted, basis)  # of the fit, which `wanted - field` is orthogonal to
+        error = float(left + _energy(wanted - field, basis)) / self._step**2
         return replace(body, levels=writer.finish()), error
 
     def _learnt(self, motion: Matrix, weights: Matrix) -> GopBody:
@@ -269,7 +273,7 @@ class GopEncoder:
         basis = learn_basis(motion, self._step, MAX_EXPONENT)
         spectrum = spectrum_of(basis.columns / weights[:, None], basis.exponents)
         _, frames, columns = spectrum.shape
-        writer = LevelWriter(make_level_bank(), columns)
+        writer = LevelWriter(make_level_bank(), columns, self.rounds)
         for matrix in spectrum:
             writer.write(Loop(0, columns, 0), np.empty((frames, 0)), matrix, 1.0)
         return GopBody(GopMethod.LEARNT, frames, self._step, columns, basis.exponents, writer.finish(), b"")
@@ -320,6 +324,11 @@ class GopDecoder:
         decode_levels(make_level_bank(), body.levels, levels, level_references(levels, columns))
         field = setting.field(columns, lambda k: Loop(3, columns).decode(setting.first[k], levels[k], body.step))
         return _batches(field, basis.reshape(3, body.frames, columns))
+
+
+def _energy(field: Matrix, basis: Matrix) -> float:
+    """Sum of the squares of `field @ basis.T`, of shapes (n, r) and (3T, r)."""
+    return float(np.vdot(field, field @ (basis.T @ basis)))
 
 
 def _batches(field: Matrix, basis: Matrix) -> Iterator[Matrix]:

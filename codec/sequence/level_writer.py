@@ -23,6 +23,8 @@ class LevelWriter:
     bank : Bank
         Adaptive state of the entropy coder; is updated at the end.
     columns : int
+    rounds : int
+        How often levels are chosen before those that stay.
 
     Attributes
     ----------
@@ -30,10 +32,11 @@ class LevelWriter:
         What was written so far.
     """
 
-    def __init__(self, bank: Bank, columns: int) -> None:
+    def __init__(self, bank: Bank, columns: int, rounds: int = ROUNDS) -> None:
         self.levels: list[Levels] = []
         self._references: list[Levels] = []
         self._bank = bank
+        self._rounds = rounds
         self._ahead = copy_bank(bank)
         self._none = np.zeros((0, columns), np.int32)
 
@@ -55,7 +58,7 @@ class LevelWriter:
         if reference is None:
             reference = self.levels[-1] if self.levels else self._none
         prices = np.zeros((*targets.shape, 2, PRICED), np.int16)
-        for _ in range(ROUNDS):
+        for _ in range(self._rounds):
             levels, _ = loop.copy().search(known, targets, step, prices, WEIGHT)
             prices = price_levels(self._ahead, levels, reference)
         levels, decoded = loop.search(known, targets, step, prices, WEIGHT)

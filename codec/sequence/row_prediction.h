@@ -29,11 +29,17 @@ INLINE void factorize_moments(Doubles2 moments, double ridge, double *factor) {
 /* Whether the weights of the prediction are made anew before row j. */
 INLINE bool is_renewed(PredictionRules rules, int64_t j) { return j < rules.dense_rows || j % rules.renewal == 0; }
 
-/* Let column b, which is `surprise` off, move what is expected of those behind it. */
-INLINE void expect_behind(const double *factor, int64_t width, int64_t b, double surprise, double *expect) {
+/* What is expected of the columns behind b, which is `surprise` off, given what was: `before`, or `after` itself. */
+INLINE void expect_apart(
+    const double *factor, int64_t width, int64_t b, double surprise, const double *before, double *after) {
     const double *line = factor + b * width;
     surprise /= line[b];
-    for (int64_t c = b + 1; c < width; c++) expect[c] += surprise * line[c];
+    for (int64_t c = b + 1; c < width; c++) after[c] = before[c] + surprise * line[c];
+}
+
+/* Let column b, which is `surprise` off, move what is expected of those behind it. */
+INLINE void expect_behind(const double *factor, int64_t width, int64_t b, double surprise, double *expect) {
+    expect_apart(factor, width, b, surprise, expect, expect);
 }
 
 /* Learn from row j, whose columns are all known. */

@@ -81,8 +81,7 @@ KERNEL void search_rows(ConstDoubles2 known, ConstDoubles2 targets, ConstShorts 
                 new[s].expect = before;
                 if (b >= size) continue;
                 new[s].expect = room + width * s;
-                for (int64_t c = b + 1; c < width; c++) new[s].expect[c] = before[c];
-                expect_behind(factor.data, width, b, values.data[STATES * i + s] - before[b], new[s].expect);
+                expect_apart(factor.data, width, b, values.data[STATES * i + s] - before[b], before, new[s].expect);
             }
         }
         int best = state;

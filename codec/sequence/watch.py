@@ -10,9 +10,11 @@ from typing import Protocol, TypeVar
 import numpy as np
 
 from bsm.bitstream.errors import MeshError, TargetError
+from bsm.codec import _kernels
 from bsm.codec.arrays import Faces, Matrix, Positions
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.look.measure import Looker
+from bsm.codec.sequence.level_writer import ROUNDS
 from bsm.codec.sequence.promise import Promise
 from bsm.codec.static.targets import COARSEST_STEP
 
@@ -26,6 +28,8 @@ KEPT = 1 << 29
 """Bytes of pictures of originals that are kept from attempt to attempt."""
 SLACK, SLACK_OF_ONE = 0.04, 0.15
 """Part of a bound that may be left, in a GOP and in a frame by itself, which must be quick."""
+ROUGH = 1
+"""Rounds over levels in a first attempt, which only tells what weights frames need: a third of the time."""
 SLOPE, SLOPES = 0.7, (0.4, 2.5)
 """What is seen grows with about this power of the step; and the range of what two attempts may say about it."""
 EVENING, SMOOTHNESS = 0.8, 2.0
@@ -70,16 +74,17 @@ class Watch:
         self._room = KEPT
         self._knots: list[int] = []
         if promise.look < math.inf:
-            self._shading = Shading(frames[0], faces)
+            self._shading = Shading(frames.shape[1], faces)
             self._knots = np.linspace(0, len(frames) - 1, min(KNOTS, len(frames))).round().astype(int).tolist()
 
-    def settle(self, attempt: Callable[[float, Matrix | None], Found], first: float, finest: float) -> Found:
+    def settle(self, attempt: Callable[[float, Matrix | None, int], Found], first: float, finest: float) -> Found:
         """What keeps the promise in every frame with little to spare.
 
         Parameters
         ----------
         attempt : callable
-            Encodes with a step, and with weights of frames, shape (T,), if there are any: what a frame's errors count.
+            Encodes with a step, with weights of frames, shape (T,), if there are any: what a frame's errors count, and
+            with so many rounds over levels, see `level_writer.ROUNDS`.
         first, finest : float
             The step to try first, and the last one.
 
@@ -92,7 +97,7 @@ class Watch:
         at = min(max(math.log(first), low), high)
         weights = None
         if self._knots and len(self._frames) > 1:
-            sight = self._see(attempt(math.exp(at), None).decoded)
+            sight = self._see(attempt(math.exp(at), None, ROUGH).decoded)
             weights = _evening(sight.shares)
             at = min(max(at - (min(sight.excess, 3.0) + SLACK / 2) / SLOPE, low), high)
         slack = SLACK if len(self._frames) > 1 else SLACK_OF_ONE
@@ -100,7 +105,7 @@ class Watch:
         broken: tuple[float, float] | None = None  # that, and the excess
         before: tuple[float, float] | None = None
         for tries in range(_TRIES):
-            found = attempt(math.exp(at), weights)
+            found = attempt(math.exp(at), weights, ROUNDS)
             sight = self._see(found.decoded)
             excess = sight.excess
             if excess <= 0.0 and (kept is None or at > kept[0]):
@@ -132,7 +137,7 @@ class Watch:
             if at <= low:
                 break
             at = max(at - (sight.excess + slack / 2) / SLOPE, low)
-            found = attempt(math.exp(at), weights)
+            found = attempt(math.exp(at), weights, ROUNDS)
             sight = self._see(found.decoded)
         raise self._refusal(math.exp(at))
 
@@ -145,7 +150,7 @@ class Watch:
         farthest = math.sqrt(max(float(np.square(a - b).sum(axis=1).max()) for a, b in pairs)) / self._reach
         if not self._knots:
             return Sight(farthest, np.zeros(0), {})
-        errors = np.array([self._shading.error(own, other) for own, other in pairs]).clip(1e-12)
+        errors = np.array([self._shading.error(self._shading.normals(a), b) for a, b in pairs]).clip(1e-12)
         sight = Sight(farthest, errors, {index: self._look(index, decoded) for index in self._knots})
         for _ in range(MORE):
             index = sight.doubtful
@@ -258,28 +263,22 @@ def _evening(shares: Matrix) -> Matrix:
 class Shading:
     """How faces are shaded, for a measure that is much cheaper than pictures: by normals of vertices alone."""
 
-    def __init__(self, positions: Positions, faces: Faces) -> None:
-        self._faces, self._count = faces, len(positions)
+    def __init__(self, vertices: int, faces: Faces) -> None:
+        self._faces, self._count = np.ascontiguousarray(faces, np.int32), vertices
 
-    def error(self, original: Positions, decoded: Positions) -> float:
-        """How far normals of vertices of `decoded` are off those of `original`, both of shape (n, 3).
+    def normals(self, positions: Positions) -> tuple[Matrix, Matrix]:
+        """Normals of vertices, shape (n, 3), with the areas around them, shape (n,), of `positions`, shape (n, 3)."""
+        sums, areas = np.zeros((self._count, 3)), np.zeros(self._count)
+        _kernels.crosses_around(np.ascontiguousarray(positions, np.float64), self._faces, sums, areas)
+        lengths = np.sqrt(np.einsum("ij,ij->i", sums, sums))[:, None]
+        return np.divide(sums, lengths, out=sums, where=lengths > 0.0), areas
+
+    def error(self, original: tuple[Matrix, Matrix], decoded: Positions) -> float:
+        """How far normals of vertices of `decoded`, shape (n, 3), are off those that `normals` gives of the original.
 
         That is the root of 1 - cosine, mean by area.
         """
-        (own, areas), (other, _) = self._normals(original), self._normals(decoded)
+        (own, areas), (other, _) = original, self.normals(decoded)
         cosines = np.minimum(np.einsum("ij,ij->i", own, other), 1.0)
         total = float(areas.sum())
         return float(areas @ np.sqrt(1.0 - cosines)) / total if total else 0.0
-
-    def _normals(self, positions: Positions) -> tuple[Matrix, Matrix]:
-        """Normals of vertices, shape (n, 3), with the areas around them, shape (n,)."""
-        a, b, c = (positions[self._faces[:, k]] for k in range(3))
-        crosses = np.cross(b - a, c - a)
-        sums = np.stack([self._around(column) for column in crosses.T], axis=1)
-        lengths = np.sqrt(np.einsum("ij,ij->i", sums, sums))[:, None]
-        unit = np.divide(sums, lengths, out=np.zeros_like(sums), where=lengths > 0.0)
-        return unit, self._around(np.sqrt(np.einsum("ij,ij->i", crosses, crosses)))
-
-    def _around(self, values: Matrix) -> Matrix:
-        """Sums around vertices, shape (n,), of values of faces, shape (f,)."""
-        return np.asarray(np.bincount(self._faces.ravel(), np.repeat(values, 3), self._count), np.float64)

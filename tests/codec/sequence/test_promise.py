@@ -161,10 +161,12 @@ def test_errors_of_normals_are_angles() -> None:
     turned = positions[0] @ np.array(
         [[np.cos(angle), np.sin(angle), 0.0], [-np.sin(angle), np.cos(angle), 0.0], [0.0, 0.0, 1.0]]
     )
-    shading = Shading(positions[0], faces)
-    assert shading.error(positions[0], positions[0]) == pytest.approx(0.0, abs=1e-7)
-    assert 0.3 * angle < shading.error(positions[0], turned) < angle
-    assert shading.error(np.zeros_like(turned), turned) == 0.0  # no area is no error
+    shading = Shading(len(turned), faces)
+    normals = shading.normals(positions[0])
+    assert np.linalg.norm(normals[0], axis=1) == pytest.approx(1.0)
+    assert shading.error(normals, positions[0]) == pytest.approx(0.0, abs=1e-7)
+    assert 0.3 * angle < shading.error(normals, turned) < angle
+    assert shading.error(shading.normals(np.zeros_like(turned)), turned) == 0.0  # no area is no error
 
 
 def test_flicker_is_what_changes_from_frame_to_frame() -> None:
