@@ -35,8 +35,9 @@ SMOOTHING = 1
 """Averagings of the heights at which phases are taken."""
 FAINTEST, STRONGEST = 0.04, 1.0
 """Standard deviation of all waves together, in mean edges, that is believed."""
-CALMER, MOST_WINDOWS = 0.9, 0.6
-"""Levels of windows without the waves, over those with them; and the share of windows that have to be calmer by it."""
+CALMER, MANY_WINDOWS, CALMER_OF_FEW = 0.85, 20, 0.62
+"""Median over the windows of the level without the waves, over that with them: of many windows, and of fewer, where six
+waves have more to choose from; clean made shapes of few windows reach 0.67."""
 ROUND = 0.05
 """Share of the normals in their least direction: a corrugated sheet has none, and keeps its waves."""
 FEWEST = 1000
@@ -85,7 +86,10 @@ def find_ripples(positions: Positions, probe: Probe) -> Ripples:
     none = Ripples(np.zeros(0), 0.0, np.zeros_like(positions))
     edge = mean_edge_length(positions, probe.topology.faces)
     normals = probe.smooth_normals(positions)[probe.counted]
-    if len(normals) < FEWEST or not edge > 0.0 or np.linalg.eigvalsh(normals.T @ normals / len(normals))[0] < ROUND:
+    valid = probe.windows.valid
+    if len(normals) < FEWEST or not valid.any() or not edge > 0.0:
+        return none
+    if np.linalg.eigvalsh(normals.T @ normals / len(normals))[0] < ROUND:
         return none
     fit = _Fit(positions / edge, probe)
     while fit.count < MOST_WAVES and (begun := fit.peak()) is not None:
@@ -102,10 +106,10 @@ def find_ripples(positions: Positions, probe: Probe) -> Ripples:
         fit.step()
     lengths = 2.0 * np.pi / np.linalg.norm(fit.vectors, axis=1)
     level = float(fit.amounts.std())
-    valid = probe.windows.valid
-    calmer = float((probe.levels(fit.rest)[valid] < CALMER * probe.levels(fit.seen)[valid]).mean())
+    calmer = float(np.median(probe.levels(fit.rest)[valid] / np.maximum(probe.levels(fit.seen)[valid], 1e-12)))
+    most = CALMER if int(valid.sum()) >= MANY_WINDOWS else CALMER_OF_FEW
     sound = bool(((lengths > LENGTHS[0]) & (lengths < LENGTHS[1])).all())
-    if not sound or not FAINTEST < level < STRONGEST or calmer < MOST_WINDOWS:
+    if not sound or not FAINTEST < level < STRONGEST or calmer > most:
         return none
     return Ripples(lengths, level, edge * fit.amounts[:, None] * fit.normals)
 
@@ -188,6 +192,8 @@ class _Fit:
 
     def peak(self) -> Floats | None:
         """The wave vector, shape (3,), of the strongest peak, if it is distinct."""
+        if not self.level > 0.0:
+            return None
         values = self.rest / self._local
         values = np.where(np.abs(values) < OUTSIDE, values, 0.0) * np.minimum(1.0, self.level / self._local)
         places = self._places
