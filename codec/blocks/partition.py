@@ -76,7 +76,7 @@ def metis_partition(graph: Graph, parts: int) -> Partition:
     try:
         import pymetis
     except ImportError:
-        raise DependencyError(f"METIS is not installed: {how_to_install('paper')}") from None
+        raise DependencyError(f"METIS is not installed: {how_to_install('denoise')}") from None
     if parts == 1:
         return partition_of_labels(np.zeros(graph.size, np.int32))
     adjacency = pymetis.CSRAdjacency(graph.offsets, graph.neighbours)

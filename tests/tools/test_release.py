@@ -44,17 +44,19 @@ KERNELS = [f"bsm/{room}_kernels.abi3.so" for room in ("", "codec/", "bitstream/"
         (["bsm/py.typed", *KERNELS[:2]], "_kernels"),
         (["bsm/py.typed", *KERNELS, "codec/geometry.py"], "codec"),
         (["bsm/py.typed", *KERNELS, "bsm/codec/levels.c"], "levels.c"),
+        (["bsm/py.typed", *(name.replace("abi3", "cpython-311-aarch64-linux-gnu") for name in KERNELS)], None),
+        (["bsm/py.typed", *(name.replace("abi3", "cpython-311-x86_64-linux-gnu") for name in KERNELS)], "not what"),
     ],
 )
 def test_wheels_are_looked_into(names, said, tmp_path):
-    with zipfile.ZipFile(tmp_path / "a.whl", "w") as wheel:
+    with zipfile.ZipFile(tmp_path / "a-linux_aarch64.whl", "w") as wheel:
         for name in (*names, "bsm_codec-1.dist-info/METADATA"):
             wheel.writestr(name, "")
     if said is None:
-        check_contents(tmp_path / "a.whl")
+        check_contents(tmp_path / "a-linux_aarch64.whl")
     else:
         with pytest.raises(SystemExit, match=said):
-            check_contents(tmp_path / "a.whl")
+            check_contents(tmp_path / "a-linux_aarch64.whl")
 
 
 def test_each_python_has_its_wheel():

@@ -72,8 +72,9 @@ def make_wheel(sdist: Path, python: Path, processor: Processor, output: Path) ->
         The folder for the wheel.
     """
     with tempfile.TemporaryDirectory() as folder:
-        environment = clean() | (_old_glibc(Path(folder)) if processor.own else _cross(Path(folder), processor))
         builder = _builder(Path(folder, "builder"), python)
+        environment = clean()
+        environment |= _old_glibc(Path(folder)) if processor.own else _cross(Path(folder), processor, builder)
         environment["PATH"] = f"{builder.parent}{os.pathsep}{environment['PATH']}"
         raw = Path(folder, "raw")
         command = [str(builder), "-m", "pip", "wheel", "-q", "--no-build-isolation", "--no-deps", "--no-cache-dir"]
@@ -96,13 +97,15 @@ def check_contents(wheel: Path) -> None:
     Raises
     ------
     SystemExit
-        If it installs anything but `bsm`, carries sources, or lacks kernels or types.
+        If it installs anything but `bsm`, carries sources, lacks kernels or types, or has kernels by a name that no
+        Python looks for on its processor.
     """
     names = zipfile.ZipFile(wheel).namelist()
     tops = {name.partition("/")[0] for name in names}
     strange = {top for top in tops if top != "bsm" and not top.endswith(".dist-info")}
     sources = [name for name in names if name.endswith((".c", ".h", ".cpp", ".hpp"))]
     kernels = [name for name in names if "_kernels." in name and name.endswith(".so")]
+    kernels = [name for name in kernels if ".abi3." in name or wheel.stem.endswith(tuple(name.split("-")[2:3]))]
     if strange or sources or len(kernels) != 3 or "bsm/py.typed" not in names:
         raise SystemExit(f"{wheel.name}: {strange or sources or kernels} is not what a wheel should have")
 
@@ -136,8 +139,10 @@ def _old_glibc(folder: Path) -> dict[str, str]:
     return {"CC": "gcc", "CXX": "g++", "LDFLAGS": f"{made} -lm -static-libstdc++ -Wl,--exclude-libs,ALL"}
 
 
-def _cross(folder: Path, processor: Processor) -> dict[str, str]:
+def _cross(folder: Path, processor: Processor, python: Path) -> dict[str, str]:
     """Compilers for another processor, and what makes Python's tools believe in it."""
+    code = "import sysconfig; print(sysconfig.get_config_var('EXT_SUFFIX'))"
+    suffix = subprocess.run([python, "-c", code], capture_output=True, text=True, check=True, env=clean()).stdout
     told = [f"-DCMAKE_SYSTEM_NAME=Linux -DCMAKE_SYSTEM_PROCESSOR={processor.name}"]
     # Zig's headers for C++ do not bring stdio.h along, as GNU's do.
     compiled = f"-target {processor.name}-linux-gnu.{processor.glibc} -include stdio.h"
@@ -151,6 +156,7 @@ def _cross(folder: Path, processor: Processor) -> dict[str, str]:
     return {
         "CMAKE_ARGS": " ".join(told),
         "_PYTHON_HOST_PLATFORM": f"linux-{processor.name}",
+        "SETUPTOOLS_EXT_SUFFIX": suffix.strip().replace(INTEL.name, processor.name),
         "ZIG_GLOBAL_CACHE_DIR": str(folder / "cache"),
         "ZIG_LOCAL_CACHE_DIR": str(folder / "cache"),
     }
