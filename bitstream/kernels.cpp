@@ -89,8 +89,8 @@ NB_MODULE(_kernels, m) {
     m.def("order_vertices", checked<order_vertices>, "corners"_a, "order"_a, "scratch"_a, Unlocked());
     m.def("code_grid", checked<code_grid>, "coder"_a, "model"_a, "corners"_a, "grid"_a, "first"_a, "count"_a,
         Unlocked());
-    m.def("code_floats", checked<code_floats>, "coder"_a, "floats"_a, "values"_a, "low"_a, "high"_a, "chosen"_a,
-        Unlocked());
+    m.def("code_floats", checked<code_floats>, "coder"_a, "floats"_a, "values"_a, "low"_a, "nearest"_a, "high"_a,
+        "chosen"_a, Unlocked());
     m.def("code_light", checked<code_light>, "coder"_a, "corners"_a, "light"_a, "first"_a, "count"_a, Unlocked());
     m.def("code_edges", checked<code_edges>, "coder"_a, "bank"_a, "corners"_a, "seams"_a, "others"_a, "ends"_a,
         Unlocked());

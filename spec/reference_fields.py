@@ -822,18 +822,18 @@ class ExactReader:
 
     def number(self, decoder: RangeDecoder, j: int, k: int) -> int:
         center, scale = self.header["center"][j], self.header["scale"]
-        low, high = (number_of(center + scale * (k + side)) for side in (-0.5, 0.5))  # V 16.2
+        low, nearest, high = (number_of(center + scale * (k + side)) for side in (-0.5, 0, 0.5))  # V 16.2
         if low >= high:
             decoder.fail("a cell without floats")
-        if (j, k) in self.known:
-            place = j, self.asked[j]
-            slot = self.slots.get(place, (1 << 21, 0))
-            bit = decoder.bit(clamp(slot[0] >> 6, 1, 65535))
-            self.slots[place] = learn_slot(slot, bit, 43)
+        again = (j, k) in self.known
+        place = j, self.asked[j] if again else 8
+        slot = self.slots.get(place, (1 << 21, 0))
+        bit = decoder.bit(clamp(slot[0] >> 6, 1, 65535))
+        self.slots[place] = learn_slot(slot, bit, 43)
+        if again:
             self.asked[j] = (2 * self.asked[j] + bit) % 8
-            if bit:
-                return self.known[j, k]
-        self.known[j, k] = low + decoder.uniform(high - low)
+        guess = self.known[j, k] if again else nearest
+        self.known[j, k] = guess if bit else low + decoder.uniform(high - low)
         return self.known[j, k]
 
 

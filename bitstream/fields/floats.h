@@ -6,11 +6,12 @@
 
 /* What has been learnt, as Python keeps it. */
 typedef struct {
-    Words slots;  /* 3 x 8 */
-    Longs latest; /* 3: bits of the last three answers on each axis */
+    Words slots;  /* 3 x 9: by the last three answers where a value comes again, and one where it is new */
+    Longs latest; /* 3: bits of the last three answers on each axis where a value came again */
     Longs2 known; /* 3 x values: the last float in each cell of an axis, or `NO_FLOAT` */
 } Floats;
 
-int64_t code_floats(Coder coder, Floats floats, ConstInts2 values, ConstLongs2 low, ConstLongs2 high, Longs2 chosen);
+int64_t code_floats(Coder coder, Floats floats, ConstInts2 values, ConstLongs2 low, ConstLongs2 nearest, ConstLongs2 high,
+                    Longs2 chosen);
 
 #endif

@@ -1,10 +1,13 @@
 """Floats of single precision behind a grid: which one of those in the cell of its value each coordinate is; exact.
 
 Floats are counted in their order, so that the cells of a grid part them: in a cell there are as many numbers as floats,
-none of them likelier than others but the one that was there last.
+none of them likelier than others but the one that was there last. In a new cell that is the one nearest to its place:
+there decimals are.
 """
 
 from __future__ import annotations
+
+from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -25,7 +28,7 @@ Ints = npt.NDArray[np.int32]
 Numbers = npt.NDArray[np.int64]
 
 AXES = 3
-_HISTORIES = 8
+_SLOTS = 9
 _NO_FLOAT = 1 << 40
 _ROOM, _BYTES_PER_ROW = 1024, 16
 
@@ -44,13 +47,26 @@ def floats_of(numbers: Numbers) -> npt.NDArray[np.float32]:
     return np.ascontiguousarray(bits.astype(np.uint32)).view(np.float32)
 
 
-def cells_of(values: Ints, origin: npt.NDArray[np.float64], step: float) -> tuple[Numbers, Numbers]:
-    """Numbers of the first float in the cell of each value, shape (k, 3), and of the first behind it (V 16.2).
+class Cells(NamedTuple):
+    """Numbers of floats in the cells of values (V 16.2), all of shape (k, 3).
 
-    `origin`, shape (3,), is the place of value 0; the numbers have the shape of `values`.
+    Parameters
+    ----------
+    low, high : integers
+        Of the first in each, and of the first behind it.
+    nearest : integers
+        Of that which is nearest to the place of the value.
     """
+
+    low: Numbers
+    nearest: Numbers
+    high: Numbers
+
+
+def cells_of(values: Ints, origin: npt.NDArray[np.float64], step: float) -> Cells:
+    """The cells of values, shape (k, 3); `origin`, shape (3,), is the place of value 0."""
     with np.errstate(over="ignore"):
-        return ordered((values - 0.5) * step + origin), ordered((values + 0.5) * step + origin)
+        return Cells(*(ordered((values + side) * step + origin) for side in (-0.5, 0.0, 0.5)))
 
 
 class Floats:
@@ -64,7 +80,7 @@ class Floats:
 
     def __init__(self, largest: tuple[int, ...]) -> None:
         self._state = (
-            np.full(AXES * _HISTORIES, 1 << 31, np.uint32),
+            np.full(AXES * _SLOTS, 1 << 31, np.uint32),
             np.zeros(AXES, np.int64),
             np.full((AXES, max(largest) + 1), _NO_FLOAT, np.int64),
         )
@@ -74,23 +90,23 @@ class Floats:
         """Bytes of memory that it takes."""
         return 24 * (max(largest) + 1)
 
-    def encode(self, values: Ints, low: Numbers, high: Numbers, floats: Numbers) -> bytes:
-        """Code the numbers of floats, shape (k, 3), each from `low` to below `high`, of values of a grid.
+    def encode(self, values: Ints, cells: Cells, floats: Numbers) -> bytes:
+        """Code the numbers of floats, shape (k, 3), each in its cell, of values of a grid, shape (k, 3).
 
         Raises
         ------
         OptionError
             If a float is not in the cell of its value.
         """
-        if ((floats < low) | (floats >= high)).any():
+        if ((floats < cells.low) | (floats >= cells.high)).any():
             raise OptionError("a float is not in the cell of its value")
         coder, done = start_writing(_ROOM), 0
         while done < len(values):
             coder = make_room(coder, _ROOM + _BYTES_PER_ROW * (len(values) - done))
-            done += self._code(coder, values[done:], low[done:], high[done:], floats[done:])
+            done += self._code(coder, values[done:], Cells(*(numbers[done:] for numbers in cells)), floats[done:])
         return finish_writing(coder)
 
-    def decode(self, payload: bytes, values: Ints, low: Numbers, high: Numbers) -> Numbers:
+    def decode(self, payload: bytes, values: Ints, cells: Cells) -> Numbers:
         """Twin of `encode`: returns the numbers of the floats, shape (k, 3).
 
         Raises
@@ -100,7 +116,7 @@ class Floats:
         """
         floats = np.zeros(values.shape, np.int64)
         coder = start_reading(payload)
-        done = self._code(coder, values, low, high, floats)
+        done = self._code(coder, values, cells, floats)
         if overran(coder):
             raise TruncatedError(f"a payload of {len(payload)} bytes ends before the last of its {len(values)} floats")
         if done < len(values):
@@ -108,5 +124,5 @@ class Floats:
         finish_reading(coder)
         return floats
 
-    def _code(self, coder: Coder, values: Ints, low: Numbers, high: Numbers, floats: Numbers) -> int:
-        return _kernels.code_floats(coder, self._state, np.ascontiguousarray(values), low, high, floats)
+    def _code(self, coder: Coder, values: Ints, cells: Cells, floats: Numbers) -> int:
+        return _kernels.code_floats(coder, self._state, np.ascontiguousarray(values), *cells, floats)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
+import numpy.typing as npt
 
 from bsm.bitstream.container.header import Header
 from bsm.bitstream.errors import TargetError
@@ -21,6 +22,8 @@ from bsm.codec.static.ways.grid import Grid, encode_exact, encode_grid
 MOST_SINGLE = 1e38
 EXACT_CELLS = 65535
 """Along the longest side, where floats are exact; from 2^15 to 2^20 bytes are the same within 0.1 %."""
+FIRST_DIGIT, LAST_DIGIT = -3, 12
+"""Decimal places that coordinates may have, where floats are exact."""
 PART_OF_CELL = 1.0 / 64.0
 MOST_WHOLE = 2.0**52
 """Below it, floating point numbers know halves."""
@@ -66,19 +69,34 @@ def exact(prepared: Prepared) -> Draft:
     """Every position, which is one of single precision, to the bit: a grid, and which float of its cell each is."""
     narrow = prepared.mesh.positions.astype(np.float32)
     held, floats = narrow.astype(np.float64), ordered(narrow)
-    coarsest = float(np.spacing(np.abs(narrow).max()))  # in a smaller cell there may be no float
-    step = max(float(np.ptp(held, axis=0).max()) / EXACT_CELLS, 2.0 * coarsest)
-    origin = held.min(axis=0) - step
+    coarsest = 2.0 * float(np.spacing(np.abs(narrow).max()))  # in a smaller cell there may be no float
+    step = _decimal(narrow, coarsest)
+    if step is None:
+        step = max(float(np.ptp(held, axis=0).max()) / EXACT_CELLS, coarsest)
+    origin = (np.floor(held.min(axis=0) / step) - 1.0) * step
     places = np.floor((held - origin) / step + 0.5).astype(np.int64)
     grid = Grid(tuple(map(float, origin)), step, tuple(int(value) for value in places.max(axis=0) + 1), exact=True)
     for _ in range(4):  # where rounding has put one beside its cell
-        low, high = grid.cells(places.astype(np.int32))
-        places += (floats >= high).astype(np.int64) - (floats < low)
+        cells = grid.cells(places.astype(np.int32))
+        places += (floats >= cells.high).astype(np.int64) - (floats < cells.low)
     coded = places.astype(np.int32)
     grid = replace(grid, largest=tuple(int(value) for value in coded.max(axis=0)))
     header = Header(vertices=prepared.graph.size, faces=len(prepared.mesh.faces), **grid.fields)
     body = (*prepared.before_grid, *encode_exact(prepared.mesh.faces, grid, coded, floats))
     return Draft(header, body, held, coded)
+
+
+def _decimal(narrow: npt.NDArray[np.float32], least: float) -> float | None:
+    """A power of ten, at least so much, of which all coordinates, shape (n, 3), are multiples, but for rounding."""
+    held = narrow.astype(np.float64)
+    for digits in range(FIRST_DIGIT, LAST_DIGIT):
+        step = float(f"1e{-digits}")
+        places = np.rint(held / step)
+        if step < least or np.ptp(places, axis=0).max() >= MOST_LARGEST - 1:
+            return None
+        if (np.float32(places * step) == narrow).all():
+            return step
+    return None
 
 
 def rounded_to_cells(prepared: Prepared, cell: float, origin: tuple[float, float, float]) -> Draft:

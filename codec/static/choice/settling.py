@@ -33,9 +33,9 @@ SPREADS = 2
 """Costs are as those of neighbours, so often over: what a vertex was blamed for is part chance."""
 LEAST = 0.1
 """What errors cost at least, of their mean cost: nothing is hidden from all sides that somebody may look from."""
-PLAIN, FINER = 2.4, 0.76
-"""Share of what is visible over dissimilarity, both over what is at distance 1, of noise where `step_for` is right; and
-how steps get finer with it, in their logarithms."""
+PLAIN, FINER, LEAST_PLAIN = 2.4, 0.76, 1.5
+"""Share of what is visible over dissimilarity, both over what is at distance 1, of noise where `step_for` is right; how
+steps get finer with it, in their logarithms; and the share below which they do not get coarser."""
 ASIDE, RATIO = 0.35, 10.0
 """What rounding along a tangent costs over what it costs along the normal, where steps are as of a layer of this
 ratio."""
@@ -73,7 +73,7 @@ class Sensitivity:
         noise[:, 1:] *= aside[:, None]
         blame, look = self._looker.blame(self._positions + self._step * np.einsum("na,nad->nd", noise, self._frames))
         plain = (look.visible / VISIBLE_SHARE) / max(look.dissimilarity / DISSIMILAR, 1e-300)
-        self._finer = (min(max(plain, 1.0), 8.0) / PLAIN) ** -FINER
+        self._finer = (min(max(plain, LEAST_PLAIN), 8.0) / PLAIN) ** -FINER
         normal = self._spread(blame / (NOISE * self._step) ** 2 / (1.0 + 2.0 * ASIDE))
         return normal, ASIDE * normal / np.square(aside)
 

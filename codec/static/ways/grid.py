@@ -14,7 +14,7 @@ from bsm.bitstream.container.header import EXACT, Header
 from bsm.bitstream.container.reader import Signal
 from bsm.bitstream.container.wire import Cursor, write_varint
 from bsm.bitstream.errors import BsmError, CorruptError, NumericError
-from bsm.bitstream.fields.floats import Floats, Numbers, cells_of, floats_of
+from bsm.bitstream.fields.floats import Cells, Floats, Numbers, cells_of, floats_of
 from bsm.bitstream.fields.grid import GridDecoder, GridEncoder
 from bsm.bitstream.fields.lattice import spread
 from bsm.bitstream.fields.light import LightDecoder, LightEncoder
@@ -65,8 +65,8 @@ class Grid:
         places = spread(coded, self.lattice) + np.array(self.corner or (0, 0, 0), np.int64)
         return np.asarray(places * self.step + np.array(self.origin))
 
-    def cells(self, coded: Levels) -> tuple[Numbers, Numbers]:
-        """Numbers of the floats between which the cell of each coded value, shape (n, 3), is, both of this shape."""
+    def cells(self, coded: Levels) -> Cells:
+        """The cells of coded values, shape (n, 3)."""
         return cells_of(coded, np.array(self.origin), self.step)
 
     @property
@@ -100,7 +100,7 @@ def encode_exact(faces: Indices, grid: Grid, coded: Levels, floats: Numbers) -> 
     result = []
     for packet in encode_grid(faces, grid, coded):
         rows = order[packet.first : packet.first + packet.count]
-        behind = model.encode(coded[rows], *grid.cells(coded[rows]), floats[rows])
+        behind = model.encode(coded[rows], grid.cells(coded[rows]), floats[rows])
         result.append(packets.Grid(packet.first, packet.count, write_varint(len(packet.data)) + packet.data + behind))
     return result
 
@@ -175,8 +175,8 @@ class GridStage:
             return vertices, coded, self._grid.positions(coded)
         cursor = Cursor(packet.data)
         vertices, coded = self._decoder.chunk(cursor.take(cursor.varint()), packet.count)
-        low, high = self._grid.cells(coded)
-        positions = floats_of(self._floats.decode(cursor.rest(), coded, low, high)).astype(np.float64)
+        floats = self._floats.decode(cursor.rest(), coded, self._grid.cells(coded))
+        positions = floats_of(floats).astype(np.float64)
         if not np.isfinite(positions).all():
             raise NumericError("positions are not finite in the unit of the mesh")
         return vertices, coded, positions

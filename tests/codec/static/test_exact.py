@@ -12,7 +12,7 @@ from bsm.bitstream.errors import OptionError
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.static.decoder import decode
 from bsm.codec.static.encoder import Encoder, encode
-from bsm.codec.static.options import PRESETS
+from bsm.codec.static.options import PRESETS, EncodeOptions
 from bsm.files.mesh import read_mesh
 from tests.shapes import patch, torus
 
@@ -48,6 +48,15 @@ def test_zeros_keep_their_sign_and_are_different_vertices() -> None:
     assert_exact(positions, mesh.faces)
     two = TriangleMesh(np.array([[0.0, 0, 0], [-0.0, 0, 0], [1, 0, 0], [0, 1, 0]]), np.array([[0, 2, 3], [1, 3, 2]]))
     assert len(decode(encode(two, LOSSLESS)).positions) == 4
+
+
+def test_decimals_take_about_what_their_grid_does() -> None:
+    mesh = torus(40, 30)
+    decimals = TriangleMesh(np.round(mesh.positions, 4).astype(np.float32), mesh.faces)
+    assert_exact(decimals.positions, mesh.faces)
+    on_grid = encode(decimals, EncodeOptions(grid_cell=1e-4))
+    assert len(encode(decimals, LOSSLESS)) < 1.03 * len(on_grid)
+    assert len(encode(TriangleMesh(mesh.positions.astype(np.float32), mesh.faces), LOSSLESS)) > 1.3 * len(on_grid)
 
 
 def test_any_floats_come_back() -> None:

@@ -6,7 +6,7 @@ import type { Header } from "./header";
 import type { Argument, Memory } from "./kernels";
 import { areFinite } from "./numbers";
 
-const SLOTS = 24;
+const SLOTS = 27;
 const NO_FLOAT = 1n << 40n;
 
 const single = new Float32Array(1);
@@ -48,14 +48,15 @@ export class Floats {
         return memory.scratch(() => {
             const coder = new Coder(memory, payload);
             const given = memory.ints(values.length, 3);
-            const [low, high, chosen] = [0, 1, 2].map(() => memory.longs(values.length, 3));
+            const [low, nearest, high, chosen] = [0, 1, 2, 3].map(() => memory.longs(values.length, 3));
             given.view.set(values);
             values.forEach((value, i) => {
                 low.view[i] = numberOf(header.center[i % 3] + header.scale * (value - 0.5));
+                nearest.view[i] = numberOf(header.center[i % 3] + header.scale * value);
                 high.view[i] = numberOf(header.center[i % 3] + header.scale * (value + 0.5));
             });
             chosen.view.fill(0n);
-            const done = memory.call("code_floats", coder.parts, this.state, given, low, high, chosen);
+            const done = memory.call("code_floats", coder.parts, this.state, given, low, nearest, high, chosen);
             if (coder.overran || done < values.length / 3) throw coder.nonsense(`vertex ${done} is in a cell without floats`);
             coder.finish();
             const positions = Float64Array.from(chosen.view, floatOf);
