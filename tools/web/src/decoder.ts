@@ -38,7 +38,7 @@ export class Decoder {
     private readonly shared = new Map<number, SharedBlock>();
 
     constructor(
-        kernels: Kernels,
+        private readonly kernels: Kernels,
         limits: Partial<Limits> = {},
         private readonly wishes: Wishes = {},
     ) {
@@ -85,6 +85,11 @@ export class Decoder {
             else if (item.type === "end") return { ...item, positions: this.guarded((stages) => stages.atEnd()) };
             else if (item.type !== "block" && item.type !== "refinement") return item;
         }
+    }
+
+    /** Leave the memory to the next decoder; this one is not to be asked for anything more. */
+    release(): void {
+        this.kernels.take(this.memory);
     }
 
     /** Decode the rest of a complete stream; faster than asking for events. Without helpers it is there at once. */

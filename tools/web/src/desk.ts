@@ -3,6 +3,7 @@ import { END_OF_STREAM, NEED_BLOCK, NEED_DATA, type Event, type FrameEvent } fro
 import { Drawing, type Picture } from "./drawing";
 import { BsmError, type Described } from "./errors";
 import type { Share, SharedBlock } from "./helper";
+import { Kernels } from "./kernels";
 import type { Limits } from "./limits";
 
 /** What a thread says of a stream; frames come in single precision, as they are drawn. */
@@ -54,10 +55,10 @@ export interface Desk {
 }
 
 export type Guard = (work: () => void) => void;
-export type Open = (start: Start, say: Say, guarded: Guard) => Pick<Desk, "take"> & { close?: () => void };
+export type Open = (start: Start, kernels: Kernels, say: Say, guarded: Guard) => Pick<Desk, "take"> & { close?: () => void };
 
 /** Someone to take the bytes of a stream; after a fault nothing more is said. */
-export function openDesk(open: Open, start: Start, say: Say): Desk {
+export function openDesk(open: Open, start: Start, say: Say, kernels = new Kernels(start.kernels)): Desk {
     let over = false;
     let desk: ReturnType<Open> | undefined;
     const guarded: Guard = (work) => {
@@ -70,7 +71,7 @@ export function openDesk(open: Open, start: Start, say: Say): Desk {
             say(error instanceof BsmError ? { problem: error.described } : { fault: `${error}` });
         }
     };
-    guarded(() => (desk = open(start, (said, moved) => over || say(said, moved), guarded)));
+    guarded(() => (desk = open(start, kernels, (said, moved) => over || say(said, moved), guarded)));
     return {
         take: (data) => guarded(() => desk?.take(data)),
         stop: () => {
@@ -80,14 +81,15 @@ export function openDesk(open: Open, start: Start, say: Say): Desk {
     };
 }
 
-/** Take orders from one end of a line. */
-export function attend(end: Endpoint, open: Open): void {
+/** Take orders from one end of a line. A thread has the kernels of its first stream for all. */
+export function attend(end: Endpoint, open: Open, own: { kernels?: Kernels } = {}): void {
     const desks = new Map<number, Desk>();
     end.onmessage = ({ data: order }: MessageEvent<Message>) => {
-        if ("help" in order) return attend(order.help, open);
+        if ("help" in order) return attend(order.help, open, own);
         const { task } = order;
         if ("start" in order) {
-            desks.set(task, openDesk(open, order.start, (said, moved = []) => end.postMessage({ task, ...said }, moved)));
+            own.kernels ??= new Kernels(order.start.kernels);
+            desks.set(task, openDesk(open, order.start, (said, moved = []) => end.postMessage({ task, ...said }, moved), own.kernels));
         } else if ("stop" in order) {
             desks.get(task)?.stop();
             desks.delete(task);
@@ -107,6 +109,7 @@ export interface Decoding {
     receiveData(data: Uint8Array): void;
     receiveEof(): void;
     nextEvent(): Event | typeof NEED_DATA | typeof NEED_BLOCK | typeof END_OF_STREAM;
+    release(): void;
 }
 
 /** Says what a decoder decodes. */
@@ -135,7 +138,10 @@ export class Teller {
             if (typeof event === "string") {
                 this.drawing?.flush();
                 if (event === NEED_DATA) this.say({ taken: this.taken });
-                if (event === END_OF_STREAM) this.say({ over: true });
+                if (event === END_OF_STREAM) {
+                    this.decoder.release();
+                    this.say({ over: true });
+                }
                 return event;
             }
             if (this.drawing) this.drawing.accept(event);

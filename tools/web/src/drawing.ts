@@ -294,7 +294,7 @@ export class Drawing {
 
     /** All vertices are there. */
     private take(positions: Float64Array): void {
-        this.points = Float32Array.from(positions);
+        this.points = new Float32Array(positions);
         this.origin.fill(0);
     }
 
@@ -315,15 +315,16 @@ export class Drawing {
     /** The mesh is whole: part its vertices where its attributes do, and sort its faces by parts and materials. */
     private finish(): void {
         const { faces, origin, points } = this;
-        const whole = upTo(faces.length / 3).filter((face) => [0, 1, 2].every((k) => origin[faces[3 * face + k]] >= 0));
+        const isThere = (corner: number): boolean => origin[faces[corner]] >= 0;
+        const whole = upTo(faces.length / 3).filter((face) => isThere(3 * face) && isThere(3 * face + 1) && isThere(3 * face + 2));
         const labels = [PART, MATERIAL].map((name) => this.carried.find((one) => one.name === name && one.domain === "face" && one.components === 1));
         const [part, material] = labels.map((one) => (face: number): number => one?.values[face] ?? 0);
         if (labels.some((one) => one)) whole.sort((a, b) => part(a) - part(b) || material(a) - material(b) || a - b);
         const pieces: Piece[] = [];
+        let last: Piece | undefined;
         whole.forEach((face, i) => {
-            const last = pieces.at(-1);
             if (last?.part === part(face) && last.material === material(face)) last.count += 3;
-            else pieces.push({ part: part(face), material: material(face), start: 3 * i, count: 3 });
+            else pieces.push((last = { part: part(face), material: material(face), start: 3 * i, count: 3 }));
         });
         const drawn = this.carried.filter((one) => !labels.includes(one));
         const { index, vertices, rows } = parted(faces, whole, drawn, points.length / 3);
@@ -390,7 +391,7 @@ function normalsOf(faces: Int32Array, origin: Int32Array, p: ArrayLike<number>):
 
 /** Rows of numbers, `width` in each, one for each of `vertices`; without these as they are. */
 function spread(numbers: ArrayLike<number>, width: number, vertices?: Int32Array): Float32Array {
-    if (!vertices) return Float32Array.from(numbers);
+    if (!vertices) return new Float32Array(numbers);
     const rows = new Float32Array(width * vertices.length);
     for (let i = 0; i < vertices.length; i++) for (let d = 0; d < width; d++) rows[width * i + d] = numbers[width * vertices[i] + d];
     return rows;
@@ -423,7 +424,9 @@ function parted(faces: Int32Array, chosen: Int32Array, attributes: Attribute[], 
     const index = new Uint32Array(3 * chosen.length);
     const parting = attributes.filter(({ domain }) => domain !== "vertex");
     if (parting.length === 0) {
-        for (let i = 0; i < index.length; i++) index[i] = faces[3 * chosen[Math.floor(i / 3)] + (i % 3)];
+        chosen.forEach((face, i) => {
+            for (let k = 0; k < 3; k++) index[3 * i + k] = faces[3 * face + k];
+        });
         return { index, rows: attributes.map(() => undefined) };
     }
     const values = parting.map((one) => valuesOf(one, faces, chosen));

@@ -29,7 +29,10 @@ export class Decoder {
     private grid?: Grid;
     private chunks = 0;
 
-    constructor(kernels: Kernels, limits: Partial<Limits> = {}) {
+    constructor(
+        private readonly kernels: Kernels,
+        limits: Partial<Limits> = {},
+    ) {
         this.limits = { ...DEFAULT_LIMITS, ...limits };
         this.memory = kernels.instantiate(this.limits.memory);
         this.allowance = new Allowance(this.limits);
@@ -66,6 +69,11 @@ export class Decoder {
                 this.error = error.located({ offset: this.reader.position });
             }
         }
+    }
+
+    /** Leave the memory to the next decoder; this one is not to be asked for anything more. */
+    release(): void {
+        this.kernels.take(this.memory);
     }
 
     /** Decode the rest of a complete stream. */

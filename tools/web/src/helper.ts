@@ -39,7 +39,7 @@ export class Helper {
     private over = false;
 
     constructor(
-        kernels: Kernels,
+        private readonly kernels: Kernels,
         private readonly share: Share,
         limits: Partial<Limits> = {},
         private readonly tolerant = false,
@@ -57,6 +57,11 @@ export class Helper {
 
     receiveEof(): void {
         this.reader.receiveEof();
+    }
+
+    /** Leave the memory to the next decoder; this one is not to be asked for anything more. */
+    release(): void {
+        this.kernels.take(this.memory);
     }
 
     /** The next block of the share, `NEED_DATA`, or `END_OF_STREAM` if no more will come. */

@@ -1,10 +1,10 @@
 /** The desk of the decoder of light grids. */
 import { openDesk as opened, serveWith, Teller, type Desk, type Say, type Start } from "./desk";
 import { Decoder } from "./grids";
-import { Kernels } from "./kernels";
+import type { Kernels } from "./kernels";
 
-function open(start: Start, say: Say): Pick<Desk, "take"> {
-    const teller = new Teller(new Decoder(new Kernels(start.kernels), start.limits), start, say);
+function open(start: Start, kernels: Kernels, say: Say): Pick<Desk, "take"> {
+    const teller = new Teller(new Decoder(kernels, start.limits), start, say);
     return {
         take(data) {
             teller.take(data);

@@ -3,7 +3,7 @@ import { Decoder, END_OF_STREAM, NEED_BLOCK, NEED_DATA } from "./decoder";
 import { openDesk as opened, serveWith, Teller, type Desk, type Guard, type Say, type Start } from "./desk";
 import type { Header } from "./header";
 import { Helper, type Share, type SharedBlock } from "./helper";
-import { Kernels } from "./kernels";
+import type { Kernels } from "./kernels";
 import { helpersFor, Team } from "./team";
 
 type Taking = Pick<Desk, "take">;
@@ -19,12 +19,13 @@ class DecodersDesk implements Taking {
 
     constructor(
         private readonly start: Start,
+        kernels: Kernels,
         say: Say,
         private readonly guarded: Guard,
     ) {
-        const { kernels, limits, tolerant, drawing } = start;
+        const { limits, tolerant, drawing } = start;
         const whole = drawing === "whole" && !tolerant;
-        this.decoder = new Decoder(new Kernels(kernels), limits, { tolerant, whole, helpers: (header) => this.findHelpers(header) });
+        this.decoder = new Decoder(kernels, limits, { tolerant, whole, helpers: (header) => this.findHelpers(header) });
         this.teller = new Teller(this.decoder, start, say);
     }
 
@@ -78,11 +79,12 @@ class HelpersDesk implements Taking {
     private readonly helper: Helper;
 
     constructor(
-        { kernels, limits, tolerant }: Start,
+        { limits, tolerant }: Start,
+        kernels: Kernels,
         share: Share,
         private readonly say: Say,
     ) {
-        this.helper = new Helper(new Kernels(kernels), share, limits, tolerant);
+        this.helper = new Helper(kernels, share, limits, tolerant);
     }
 
     take(data: Uint8Array | null): void {
@@ -90,15 +92,18 @@ class HelpersDesk implements Taking {
         if (data) helper.receiveData(data);
         else helper.receiveEof();
         for (let shared; (shared = helper.nextBlock()) !== NEED_DATA; ) {
-            if (shared === END_OF_STREAM) return this.say({ through: true });
+            if (shared === END_OF_STREAM) {
+                helper.release();
+                return this.say({ through: true });
+            }
             const { block } = shared;
             this.say({ shared }, block && [block.vertices.buffer, block.positions.buffer, block.weights.buffer]);
         }
     }
 }
 
-function open(start: Start, say: Say, guarded: Guard): Taking {
-    return start.share ? new HelpersDesk(start, start.share, say) : new DecodersDesk(start, say, guarded);
+function open(start: Start, kernels: Kernels, say: Say, guarded: Guard): Taking {
+    return start.share ? new HelpersDesk(start, kernels, start.share, say) : new DecodersDesk(start, kernels, say, guarded);
 }
 
 /** Decode a stream in this thread, as another one would. */

@@ -37,6 +37,7 @@ export function* eventsOf(kernels: Kernels, data: Uint8Array, size: number, limi
     }
     decoder.receiveEof();
     for (let event; (event = decoder.nextEvent()) !== END_OF_STREAM; ) yield event as Event;
+    decoder.release(); // so that the next test finds what this one leaves in memory
 }
 
 /** The mesh that block events add up to; of a sequence all its frames, one behind the other. */
