@@ -20,7 +20,7 @@ from bsm.codec.static.choice.shaping import Shaper
 from bsm.codec.static.contract import ANY_ANGLE, Contract
 from bsm.codec.static.preamble_encoding import Prepared
 
-NEARLY = (0.85, 1.15)
+NEARLY = (0.85, 1.08)
 """Over the look that is asked for: what comes to less or more from a few sides is not seen from all of them while steps
 are searched."""
 LEAST_EXCESS = math.log(1e-6)

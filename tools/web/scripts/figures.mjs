@@ -36,25 +36,22 @@ open(f"{folder}/samba-groups.bsm", "wb").write(groups)
 print("null")
 `;
 
-/** Draco's files of a mesh, and streams whose normals are as good. */
+/** Draco's files of a mesh, and streams that look as much like it. */
 const ENTER = `
 import json, sys
 import bsm
-from bsm.evaluation.draco import decode_draco, encode_draco, positions_in_order
+from bsm.evaluation.draco import decode_draco, encode_draco
 from bsm.viewer.content import DRACO_LEVEL
-from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.codec.geometry.metrics import Reference
 meshes, folder = sys.argv[1:]
 mesh = bsm.load(f"{meshes}/static/bunny_34834.ply")
-original, races = TriangleMesh(mesh.positions.astype(float), mesh.faces), []
-reference = Reference(original.positions, original.faces)
-for bits in (9, 10, 11, 12, 14):
-    draco = encode_draco(original, bits, DRACO_LEVEL)
-    theta = reference.theta(positions_in_order(original, decode_draco(draco), bits))
-    runners = {"draco": draco, "smallest": bsm.encode(mesh, theta=theta), "quick": bsm.encode(mesh, theta=theta, quick=True)}
+races = []
+for bits in (9, 10, 11, 12):
+    draco = encode_draco(mesh, bits, DRACO_LEVEL)
+    distance = bsm.look(mesh, decode_draco(draco)).distance
+    runners = {"draco": draco, "smallest": bsm.encode(mesh, look=distance), "quick": bsm.encode(mesh, look=distance, quick=True)}
     for way, stream in runners.items():
         open(f"{folder}/{way}-{bits}", "wb").write(stream)
-    races.append({"bits": bits, "theta": theta})
+    races.append({"bits": bits, "distance": distance})
 print(json.dumps(races))
 `;
 
@@ -282,8 +279,8 @@ async function overLink(address, script, bytes) {
     throw new Error("this Chromium imitates no slow link");
 }
 
-/** The same mesh at the same mean angle of normals, cold, each in pages of its own and in turns: minimum and median. */
-async function race(address, files, { bits, theta }) {
+/** The same mesh with the same look, cold, each in pages of its own and in turns: minimum and median. */
+async function race(address, files, { bits, distance }) {
     const runs = Object.fromEntries(Object.keys(WAYS).map((way) => [way, []]));
     const sizes = Object.fromEntries(Object.entries(WAYS).map(([way, { decoder }]) => [way, [...decoder, `${way}-${bits}`].map((name) => files[name].length)]));
     for (let k = 0; k < PAGES; k++) {
@@ -292,7 +289,7 @@ async function race(address, files, { bits, theta }) {
             runs[way].push(await overLink(address, script(`${way}-${bits}`), bytes));
         }
     }
-    console.log(`bunny over ${LINK / 1e6} Mbit/s, cold, at ${theta.toFixed(2)} degrees (Draco's ${bits} bits):`);
+    console.log(`bunny over ${LINK / 1e6} Mbit/s, cold, at a look of ${distance.toFixed(2)} (Draco's ${bits} bits):`);
     for (const [way, [glue, wasm, stream]] of Object.entries(sizes)) {
         const [cold, fetched, warm] = ["cold", "fetched", "warm"].map((name) => runs[way].map((run) => run[name]).sort((a, b) => a - b));
         console.log(`    ${way.padEnd(8)} ${milliseconds(cold[0])} (median ${milliseconds(cold[PAGES >> 1])}), all fetched after ${milliseconds(fetched[0])}; warm ${milliseconds(warm[0])}; ${glue + wasm} + ${stream} bytes`);
