@@ -355,6 +355,34 @@ def test_a_cluster_whose_store_fails_tells_of_each_and_goes_on(cluster, sources,
     assert (tmp_path / "file").read_bytes() == b"mine"
 
 
+NOBODYS = Path("/sys/kernel")
+"""A folder in which not even root makes files."""
+
+
+def test_a_cluster_that_may_not_write_says_where(cluster, sources, tmp_path, capsys):
+    """A folder where one file should be costs that file; one that takes no files costs each, with a sentence."""
+    where = cluster.scheduler_address
+    (tmp_path / "out" / "01.bsm").mkdir(parents=True)
+    done = bsm.encode_many(sources[:3], tmp_path / "out", dask=where, grid=8, overwrite=True)
+    assert [facts.get("exit") for facts in done] == [None, 9, None]
+    assert done[1]["error"] == f"{tmp_path}/out/01.bsm: the output is a folder"
+    streams = [tmp_path / "out" / f"{name}.bsm" for name in ("00", "02")]
+    assert sorted(path.name for path in (tmp_path / "out").iterdir()) == ["00.bsm", "01.bsm", "02.bsm"]
+    if not NOBODYS.is_dir():
+        pytest.skip("there is no folder that takes no files")
+    before = sorted(NOBODYS.iterdir())
+    for command, inputs in (("encode", sources[:2]), ("decode", streams)):
+        assert main([command, *map(str, inputs), "-o", f"{NOBODYS}/", "--dask", where]) == 9
+        said = capsys.readouterr().err.splitlines()
+        assert sum(line.startswith(f"bsm: {NOBODYS}/") for line in said) == 2
+        assert said[-1].startswith("0 of 2 files")
+    report = NOBODYS / "report.json"
+    with pytest.raises(OSError, match=r"report\.json"):
+        bsm.encode_many(sources[:2], tmp_path / "late", dask=where, grid=8, report=report)
+    assert not list((tmp_path / "late").iterdir()), "work was done for a report that cannot be written"
+    assert sorted(NOBODYS.iterdir()) == before
+
+
 def test_what_is_not_ours_is_not_written_over(sources, tmp_path, capsys):
     (tmp_path / "00.bsm").write_bytes(b"mine")
     done = bsm.encode_many(sources[:2], tmp_path, report=tmp_path / "r.json", resume=True)
