@@ -1,5 +1,6 @@
 """Scenes of glTF: geometry is coded, all else stays as it was."""
 
+import contextlib
 import copy
 import functools
 import io
@@ -14,7 +15,7 @@ import pytest
 import bsm
 from bsm.cli import main
 from bsm.files.stream import inspect_stream
-from bsm.gltf.compress import EXTENSION, compress
+from bsm.gltf.compress import EXTENSION, compress, count_primitives
 from bsm.gltf.document import glb, read_document
 from bsm.gltf.images import ImageRule, smaller
 from bsm.gltf.primitives import drawn
@@ -369,6 +370,11 @@ def test_numbers_are_as_short_as_single_precision_allows(source, tmp_path, numbe
         lambda tree: tree["bufferViews"][0].update(byteOffset=10**9),
         lambda tree: tree["bufferViews"][0].update(byteOffset=-4),
         lambda tree: tree["accessors"][0].update(count=10**9),
+        lambda tree: tree["accessors"][0].update(byteOffset=-4),
+        lambda tree: tree["bufferViews"][0].update(byteLength=-4),
+        lambda tree: tree["bufferViews"][0].update(byteStride=-16),
+        lambda tree: tree["bufferViews"][0].update(byteStride=-(2**40)),
+        lambda tree: tree["bufferViews"][0].update(byteStride=12.5),
         lambda tree: tree["accessors"][0].update(componentType=1),
         lambda tree: tree["accessors"][4].update(count="many"),
         lambda tree: tree.update(meshes={"primitives": []}),
@@ -381,8 +387,77 @@ def test_scenes_that_contradict_themselves(tmp_path, damage):
     damage(tree)
     path = tmp_path / "bad.glb"
     path.write_bytes(glb(tree, data))
-    with pytest.raises(bsm.FormatError):
+    with pytest.raises((bsm.FormatError, bsm.LimitError)):
         compress(read_document(str(path)), bsm.encode)
+
+
+WRONG = (-1, 0, 2**31 - 1, 2**63, -(2**40), 1.5, 1e308, float("nan"), None, True, "x", "data:,a\0", [], {}, [[]], 5125)
+
+
+def test_whatever_a_tree_holds_is_an_error_of_ours(tmp_path):
+    """Each value replaced by some of what it may not be: numbers, names, lists, whole entries."""
+    tree, data = scene()
+
+    def placed(node, path=()):
+        for key, value in node.items() if isinstance(node, dict) else enumerate(node):
+            yield (*path, key)
+            if isinstance(value, dict | list):
+                yield from placed(value, (*path, key))
+
+    tried = refused = 0
+    path = tmp_path / "wrong.glb"
+    for number, place in enumerate(placed(tree)):
+        for value in WRONG[number % 5 :: 5]:
+            wrong = copy.deepcopy(tree)
+            node = wrong
+            for key in place[:-1]:
+                node = node[key]
+            node[place[-1]] = value
+            path.write_bytes(glb(wrong, data))
+            tried += 1
+            try:
+                document = read_document(str(path))
+                count_primitives(document)
+                compress(document, lambda mesh, *, attributes: b"a stream")
+            except bsm.BsmError:
+                refused += 1
+    assert tried > 300 and refused > tried / 5
+
+
+def test_bytes_that_are_used_again_and_again_are_counted(tmp_path):
+    """A mebibyte of floats as many overlapping accessors of as many primitives of one mesh."""
+    count, data = 80_000, bytes(1 << 20)
+    accessors = [
+        {"bufferView": 0, "byteOffset": 4 * k, "componentType": 5126, "type": "VEC3", "count": count}
+        for k in range(200)
+    ]
+    tree = {
+        "asset": {"version": "2.0"},
+        "buffers": [{"byteLength": len(data)}],
+        "bufferViews": [{"buffer": 0, "byteLength": len(data)}],
+        "accessors": accessors,
+        "meshes": [{"primitives": [{"attributes": {"POSITION": k}} for k in range(200)]}],
+    }
+    path = tmp_path / "again.glb"
+    path.write_bytes(glb(tree, data))
+    with pytest.raises(bsm.LimitError, match="memory"):
+        compress(read_document(str(path)), bsm.encode)
+
+
+def test_trees_that_are_nested_without_end(tmp_path):
+    path = tmp_path / "deep.gltf"
+    for depth in (700, 100_000):
+        path.write_text('{"asset": {"version": "2.0"}, "extras": ' + "[" * depth + "]" * depth + "}")
+        with contextlib.suppress(bsm.FormatError):
+            compress(read_document(str(path)), bsm.encode)
+
+
+def test_images_that_no_format_holds_stay_as_they_are():
+    image = pytest.importorskip("PIL.Image")
+    file = io.BytesIO()
+    image.new("F", (64, 64)).save(file, "tiff")
+    assert smaller(file.getvalue(), ImageRule.parse("png")) is None
+    assert smaller(b"\x89PNG\r\n\x1a\n" + bytes(40), ImageRule.parse("webp")) is None
 
 
 def test_no_gltf(tmp_path):

@@ -14,7 +14,8 @@ from urllib.parse import quote
 import numpy as np
 import numpy.typing as npt
 
-from bsm.bitstream.errors import FormatError
+from bsm.bitstream.errors import BsmError, FormatError
+from bsm.files.motion.gltf import NONSENSE
 from bsm.gltf.bundles import Bundle, Coded, bundles_of, code_bundle, size_of, that_share, users_of
 from bsm.gltf.document import Document, Tree, glb
 from bsm.gltf.images import MIME, ImageRule, smaller
@@ -75,9 +76,9 @@ def compress(
     FormatError
         If the scene contradicts itself, or its geometry is compressed already.
     """
-    for name in _COMPRESSED & set(document.tree.get("extensionsUsed", [])):
-        raise FormatError(f"its geometry is compressed already, by {name}; start from the scene before that")
     with _consistent():
+        for name in _COMPRESSED & set(document.tree.get("extensionsUsed", [])):
+            raise FormatError(f"its geometry is compressed already, by {name}; start from the scene before that")
         return _compressed(document, coder, images, fallback, progress)
 
 
@@ -91,7 +92,9 @@ def count_primitives(document: Document) -> int:
 def _consistent() -> Iterator[None]:
     try:
         yield
-    except (LookupError, TypeError, ValueError, AttributeError) as error:
+    except NONSENSE as error:
+        if isinstance(error, BsmError):
+            raise
         raise FormatError(f"this glTF contradicts itself: {type(error).__name__}: {error}") from error
 
 

@@ -15,6 +15,7 @@ import numpy as np
 import numpy.typing as npt
 
 from bsm.bitstream.errors import FormatError
+from bsm.files.motion.gltf import NONSENSE
 
 Tree = dict[str, Any]
 
@@ -53,7 +54,7 @@ class Document:
         view = self._entry("bufferViews", index)
         start, length = view.get("byteOffset", 0), view["byteLength"]
         data = self.buffers[view["buffer"]]
-        if start + length > len(data):
+        if min(start, length) < 0 or start + length > len(data):
             raise FormatError(f"bufferView {index} ends behind its buffer")
         return data[start : start + length]
 
@@ -69,12 +70,20 @@ class Document:
         count, size = accessor["count"], kind.itemsize * width
         stride, data = view.get("byteStride") or size, self.view(accessor["bufferView"])
         start = accessor.get("byteOffset", 0)
-        if count < 1 or start + stride * (count - 1) + size > len(data):
-            raise FormatError(f"accessor {index} ends behind its bufferView")
-        rows = np.lib.stride_tricks.as_strided(
-            np.frombuffer(data, np.uint8, offset=start), (count, size), (stride, 1), writeable=False
-        )
-        return np.ascontiguousarray(rows).view(kind).reshape(count, width)
+        if count < 1 or min(start, stride) < 0 or start + stride * (count - 1) + size > len(data):
+            raise FormatError(f"accessor {index} is not inside of its bufferView")
+        rows: npt.NDArray[Any] = np.ndarray((count, width), kind, data, start, (stride, kind.itemsize))
+        return np.ascontiguousarray(rows)
+
+    def claimed(self, index: int) -> int:
+        """How many numbers an accessor says that it has."""
+        accessor = self._entry("accessors", index)
+        return int(accessor["count"]) * _WIDTHS.get(accessor["type"], 1)
+
+    @property
+    def received(self) -> int:
+        """Bytes of all buffers."""
+        return sum(map(len, self.buffers))
 
     def _entry(self, kind: str, index: int) -> Tree:
         try:
@@ -94,15 +103,21 @@ def read_document(path: str) -> Document:
     """
     data = Path(path).read_bytes()
     folder = Path(path).parent.resolve()
-    chunk = b""
     try:
-        if data.startswith(_MAGIC):
-            chunks = dict(_chunks(data))
-            data, chunk = chunks.get(_JSON, b""), chunks.get(_BIN, b"")
-        tree: Tree = json.loads(data)
-        tree["asset"]["version"]
-    except (ValueError, KeyError, TypeError, struct.error) as error:
-        raise FormatError(f"{path} is no glTF: {error}") from error
+        return _document(data, folder)
+    except (*NONSENSE, struct.error) as error:
+        if isinstance(error, FormatError):
+            raise
+        raise FormatError(f"{path} is no glTF: {type(error).__name__}: {error}") from error
+
+
+def _document(data: bytes, folder: Path) -> Document:
+    chunk = b""
+    if data.startswith(_MAGIC):
+        chunks = dict(_chunks(data))
+        data, chunk = chunks.get(_JSON, b""), chunks.get(_BIN, b"")
+    tree: Tree = json.loads(data)
+    tree["asset"]["version"]
     buffers = [
         _resource(buffer["uri"], folder) if "uri" in buffer else chunk if number == 0 else b""
         for number, buffer in enumerate(tree.get("buffers", []))

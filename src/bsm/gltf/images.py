@@ -5,7 +5,7 @@ from __future__ import annotations
 import io
 import re
 from dataclasses import dataclass
-from typing import Self
+from typing import Any, Self
 
 from bsm.bitstream.errors import DependencyError, OptionError
 from bsm.bitstream.extras import how_to_install
@@ -43,13 +43,19 @@ def smaller(data: bytes, rule: ImageRule) -> bytes | None:
     except ImportError as error:
         raise DependencyError(f"images are written with Pillow; run: {how_to_install('formats')}") from error
     try:
-        image: Image.Image = Image.open(io.BytesIO(data))
-        image.load()
-    except (UnidentifiedImageError, OSError, ValueError, Image.DecompressionBombError):
+        found = _written(Image.open(io.BytesIO(data)), rule)
+    except (UnidentifiedImageError, OSError, ValueError, SyntaxError, Image.DecompressionBombError):
         return None
+    return found if found and len(found) < len(data) else None
+
+
+def _written(image: Any, rule: ImageRule) -> bytes | None:
+    """The file of an image; None if the format would lose what shows through."""
+    from PIL import Image
+
     if rule.kind == "jpeg" and image.mode not in ("RGB", "L"):
         if "A" in image.getbands() or "transparency" in image.info:
-            return None  # what shows through would be lost
+            return None
         image = image.convert("RGB")
     if rule.side and max(image.size) > rule.side:
         factor = rule.side / max(image.size)
@@ -57,5 +63,4 @@ def smaller(data: bytes, rule: ImageRule) -> bytes | None:
         image = image.resize(size, Image.Resampling.LANCZOS)
     written = io.BytesIO()
     image.save(written, rule.kind, quality=rule.quality, **({"method": 6} if rule.kind == "webp" else {}))
-    found = written.getvalue()
-    return found if len(found) < len(data) else None
+    return written.getvalue()

@@ -10,8 +10,10 @@ from typing import Any, Protocol
 import numpy as np
 import numpy.typing as npt
 
+from bsm.bitstream.limits import DEFAULT_LIMITS
 from bsm.codec.geometry.attributes import Attribute, Semantic
 from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.files.motion.gltf import PER_NUMBER
 from bsm.gltf.document import Document, Tree
 
 _TRIANGLES = 4
@@ -68,6 +70,7 @@ def as_mesh(document: Document, primitives: Sequence[Tree]) -> Carried | str:
     """Primitives that are alike as one mesh, or why they stay as they are."""
     if primitives[0].get("mode", _TRIANGLES) != _TRIANGLES:
         return "no triangles"
+    _check_room(document, primitives)
     tables: dict[str, int] = {}  # where the vertices of which accessors begin
     parts: list[dict[str, npt.NDArray[Any]]] = []
     faces: list[npt.NDArray[np.int64]] = []
@@ -111,6 +114,14 @@ def as_mesh(document: Document, primitives: Sequence[Tree]) -> Carried | str:
         attributes.append(Attribute(_PIECE, numbers.astype(np.uint16), "face"))
     mesh = TriangleMesh(positions.astype(np.float64), corners.reshape(-1, 3).astype(np.int32), tuple(attributes), {})
     return Carried(mesh, accessors, qualities)
+
+
+def _check_room(document: Document, primitives: Sequence[Tree]) -> None:
+    """Bound what is made of accessors, which may share bytes."""
+    given = {index for primitive in primitives for index in arrays_of(primitive).values()}
+    numbers = sum(map(document.claimed, given))
+    numbers += sum(document.claimed(primitive["indices"]) for primitive in primitives if "indices" in primitive)
+    DEFAULT_LIMITS.check_memory(PER_NUMBER * numbers, 0, document.received)
 
 
 def _vertices(document: Document, primitive: Tree) -> dict[str, npt.NDArray[Any]] | str:
