@@ -98,11 +98,10 @@ def test_every_kernel_defends_itself(refusals: dict[str, int]) -> None:
     payload = light.LightEncoder(decoded, positions, (6, 6, 6)).chunk(vertices)
     places, found = light.LightDecoder(decoded, vertices, (6, 6, 6)).chunk(payload, vertices)
     np.testing.assert_array_equal(found, positions[places])
-    low, high = (np.int64(10) * (positions + more) for more in (0, 1))
-    payload = floats.Floats((6, 6, 6)).encode(positions.astype(np.int32), low, high, low + 3)
-    np.testing.assert_array_equal(
-        floats.Floats((6, 6, 6)).decode(payload, positions.astype(np.int32), low, high), low + 3
-    )
+    cells = floats.Cells(*(10 * positions.astype(np.int64) + more for more in (0, 5, 10)))
+    payload = floats.Floats((6, 6, 6)).encode(positions.astype(np.int32), cells, cells.low + 3)
+    found = floats.Floats((6, 6, 6)).decode(payload, positions.astype(np.int32), cells)
+    np.testing.assert_array_equal(found, cells.low + 3)
     payload = levels.LevelsEncoder(decoded, positions - 3).chunk(vertices)
     np.testing.assert_array_equal(levels.LevelsDecoder(decoded, vertices, 3).chunk(payload, vertices)[1], positions - 3)
     payload = levels.LevelsEncoder(decoded, 0 * positions, borders=True).chunk(vertices)
