@@ -256,9 +256,11 @@ def encode_sequence(
     from bsm.codec.sequence.encoder import encode_sequence as encode_frames
     from bsm.codec.sequence.options import SequenceOptions
 
+    told = {} if metadata is None else metadata
+    check_mapping("metadata", told)
     chosen = _chosen(options, SequenceOptions, keywords, keywords_to.sequence_options)
     with watched("encoding") as progress:
-        return encode_frames(positions, faces, chosen, metadata or {}, mesh_attributes, progress)
+        return encode_frames(positions, faces, chosen, told, mesh_attributes, progress)
 
 
 def encode_frames(
@@ -306,6 +308,10 @@ def encode_frames(
     from bsm.codec.sequence.encoder import SequenceEncoder
     from bsm.codec.sequence.options import SequenceOptions
 
+    if isinstance(meshes, (str, bytes)) or not isinstance(meshes, Iterable):
+        raise ArgumentError(f"a mesh for each frame is expected, not {type(meshes).__name__}")
+    told = {} if metadata is None else metadata
+    check_mapping("metadata", told)
     given = {"runs": True, **keywords} if options is None else keywords
     chosen = _chosen(options, SequenceOptions, given, keywords_to.sequence_options)
     frames = map(as_mesh, meshes)
@@ -314,7 +320,7 @@ def encode_frames(
         raise MeshError("a sequence needs at least one frame")
     attributes = [one for one in first.attributes if one.semantic != "normal"]
     count = len(meshes) if isinstance(meshes, Sequence) else 0
-    encoder = SequenceEncoder(first.faces, chosen, count, metadata or {}, attributes)
+    encoder = SequenceEncoder(first.faces, chosen, count, told, attributes)
     return b"".join(encoder.chunks(chain([first], frames)))
 
 
