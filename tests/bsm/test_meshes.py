@@ -77,7 +77,7 @@ def test_polygons_are_cut():
     assert as_mesh((SQUARE, [[0, 1, 2, 3], [2, 1, 0]])).faces.tolist() == [[0, 1, 2], [0, 2, 3], [2, 1, 0]]
 
 
-@settings(max_examples=50, deadline=None)
+@settings(max_examples=50)
 @given(st.lists(st.integers(3, 9), min_size=1, max_size=40), st.integers(0, 1000))
 def test_flat_faces_are_polygons_one_behind_the_other(sizes, seed):
     random = np.random.default_rng(seed)

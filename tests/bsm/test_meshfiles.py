@@ -51,7 +51,7 @@ def triangle_meshes(draw):
 
 
 @pytest.mark.parametrize("kind", ["npz", "obj", "off", "ply"])
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 @given(mesh=triangle_meshes())
 def test_any_mesh_survives(kind, mesh, tmp_path_factory):
     path = tmp_path_factory.mktemp("files") / f"mesh.{kind}"

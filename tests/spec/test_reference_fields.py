@@ -29,7 +29,7 @@ from tools.measure.grids import rounded, welded
 
 SPEC = Path(__file__).parents[2] / "spec"
 DOCUMENT = (SPEC / "fields.md").read_text()
-quick = settings(deadline=None, max_examples=40)
+quick = settings(max_examples=40)
 CHUNKS = st.sampled_from([1, 7, 100])
 SEEDS = st.integers(0, 2**32 - 1)
 

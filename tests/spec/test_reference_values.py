@@ -24,7 +24,7 @@ from tools.measure.grids import rounded, welded
 
 SPEC = Path(__file__).parents[2] / "spec"
 DOCUMENT = (SPEC / "attributes.md").read_text()
-quick = settings(deadline=None, max_examples=60)
+quick = settings(max_examples=60)
 CHUNKS = st.sampled_from([1, 7, 100])
 SEEDS = st.integers(0, 2**32 - 1)
 SHAPES = st.sampled_from(["none", "flat", "small", "large"])

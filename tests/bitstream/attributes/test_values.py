@@ -23,7 +23,7 @@ from tests.bitstream.fields.fields import KINDS, SOUPS, decode, encode, values
 from tests.shapes import grid_faces
 from tools.measure.grids import rounded, welded
 
-quick = settings(deadline=None, max_examples=100)
+quick = settings(max_examples=100)
 CHUNKS = st.sampled_from([1, 3, 20, 1000])
 SEEDS = st.integers(0, 2**32 - 1)
 TORUS = grid_faces(12, 9, close_rows=True, close_columns=True)

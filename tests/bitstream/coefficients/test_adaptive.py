@@ -41,7 +41,7 @@ def entropy_of_laplace(mean: float) -> float:
     return (-p * np.log2(p) - (1 - p) * np.log2(1 - p)) / p + (1 - p)
 
 
-@settings(deadline=None, max_examples=60)
+@settings(max_examples=60)
 @given(CHAINS)
 def test_any_chain_of_blocks_round_trips(chain: list[list[tuple[int, int, int]]]) -> None:
     blocks = [np.array(block, np.int32) for block in chain]
@@ -51,7 +51,7 @@ def test_any_chain_of_blocks_round_trips(chain: list[list[tuple[int, int, int]]]
         np.testing.assert_array_equal(decode_coefficients(reader, payload, len(block)), block)
 
 
-@settings(deadline=None, max_examples=60)
+@settings(max_examples=60)
 @given(CHAINS, st.integers(1, 3))
 def test_any_groups_of_blocks_round_trip(chain: list[list[tuple[int, int, int]]], size: int) -> None:
     blocks = [np.array(block, np.int32) for block in chain]
@@ -80,7 +80,7 @@ def test_groups_of_another_length_are_noticed() -> None:
             decode_blocks(CoefficientModel(60), payload, count)
 
 
-@settings(deadline=None, max_examples=100)
+@settings(max_examples=100)
 @given(st.binary(max_size=100), st.integers(1, 6))
 def test_hostile_groups_raise_or_give_legal_blocks(payload: bytes, count: int) -> None:
     try:
@@ -150,7 +150,7 @@ def test_every_truncation_of_a_payload_is_noticed() -> None:
         assert not np.array_equal(decoded, levels)
 
 
-@settings(deadline=None, max_examples=100)
+@settings(max_examples=100)
 @given(st.binary(max_size=200), st.integers(1, 50))
 def test_hostile_payloads_raise_or_give_legal_levels(payload: bytes, count: int) -> None:
     try:

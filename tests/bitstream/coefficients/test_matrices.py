@@ -1,6 +1,6 @@
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import array_shapes, arrays
 
@@ -23,7 +23,6 @@ def round_trip(matrices, references):
     return payload, decoded
 
 
-@settings(deadline=None)
 @given(
     arrays(np.int32, array_shapes(min_dims=2, max_dims=2, max_side=30), elements=st.integers(-(2**23) + 1, 2**23 - 1))
 )
@@ -107,7 +106,6 @@ def test_truncated_and_trailing_payloads():
         decode_levels(make_level_bank(), payload + bytes(8), [np.zeros_like(matrix)], [empty(20)])
 
 
-@settings(deadline=None)
 @given(st.binary(max_size=200))
 def test_noise_is_a_typed_error_or_levels(noise):
     matrices = [np.zeros((9, 5), np.int32), np.zeros((4, 5), np.int32)]

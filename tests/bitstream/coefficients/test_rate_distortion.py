@@ -6,7 +6,7 @@ import itertools
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from bsm.bitstream.coefficients.adaptive import MAX_LEVEL, CoefficientModel, encode_coefficients
@@ -42,7 +42,6 @@ def chosen(seeds: range, weight: float) -> list[np.ndarray]:
     return blocks
 
 
-@settings(deadline=None)
 @given(st.lists(st.tuples(UNITS, UNITS, UNITS), min_size=1, max_size=12), st.floats(0.0, 4.0))
 def test_a_point_is_within_a_step_or_zero(rows: list[tuple[int, int, int]], weight: float) -> None:
     wanted = np.array(rows, np.int64)

@@ -16,7 +16,7 @@ from bsm.bitstream.errors import BsmError, CorruptError, LimitError, MeshError, 
 from bsm.bitstream.limits import DEFAULT_LIMITS
 from tests.shapes import Faces, grid_faces
 
-quick = settings(deadline=None, max_examples=200)
+quick = settings(max_examples=200)
 
 SOUPS = st.integers(1, 14).flatmap(lambda n: st.lists(st.tuples(*[st.integers(0, n - 1)] * 3), min_size=1, max_size=40))
 

@@ -1,6 +1,6 @@
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 
@@ -33,7 +33,6 @@ def numbered(labels):
 GRID = grid(6, 7)
 
 
-@settings(deadline=None)
 @given(hnp.arrays(np.int32, 42, elements=st.integers(0, 41)))
 def test_any_labels_come_back(labels):
     labels = numbered(labels)
@@ -55,7 +54,6 @@ def test_another_number_of_parts_is_refused():
             decode_labels(data, *GRID, parts)
 
 
-@settings(deadline=None)
 @given(st.binary(max_size=40), st.integers(1, 42))
 def test_any_bytes_decode_to_a_partition_or_an_error(data, parts):
     try:

@@ -21,7 +21,7 @@ from bsm.bitstream.errors import CorruptError, OptionError, TruncatedError
 from bsm.bitstream.limits import DEFAULT_LIMITS
 from tests.shapes import Faces, grid_faces
 
-quick = settings(deadline=None, max_examples=100)
+quick = settings(max_examples=100)
 
 
 @quick

@@ -55,7 +55,7 @@ def check_pieces(faces: Faces, vertices: int, cut_behind: list[int]) -> None:
     assert known[-1].vertices == vertices
 
 
-@settings(deadline=None, max_examples=60)
+@settings(max_examples=60)
 @given(st.lists(st.integers(1, len(FACES) - 1), min_size=1, max_size=7, unique=True).map(sorted))
 def test_a_surface_in_pieces(cut_behind):
     encoded, _ = irregular(*cut_behind)
@@ -63,7 +63,7 @@ def test_a_surface_in_pieces(cut_behind):
     check_pieces(FACES, COUNT, cut_behind)
 
 
-@settings(deadline=None, max_examples=200)
+@settings(max_examples=200)
 @given(SOUPS, st.data())
 def test_any_faces_in_pieces(soup, data):
     faces, vertices = compact(np.array(soup, np.int32))
@@ -121,7 +121,7 @@ def test_the_last_bytes_that_an_encoder_saves_are_there_for_the_piece_that_needs
     assert len(decoded([first, second], 4, 2, [1])[1].faces) == 2
 
 
-@settings(deadline=None, max_examples=200)
+@settings(max_examples=200)
 @given(st.data())
 def test_damaged_pieces_are_typed_errors(data):
     _, pieces = irregular(100, 300)

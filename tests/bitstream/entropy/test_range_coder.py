@@ -88,7 +88,6 @@ def _entropy(counts: np.ndarray) -> float:
     return float(-(p * np.log2(p)).sum())
 
 
-@settings(deadline=None)
 @given(st.lists(st.tuples(st.integers(1, entropy.ONE - 1), st.integers(0, 1)), max_size=300))
 def test_bits_of_any_probability_round_trip(pairs: list[tuple[int, int]]) -> None:
     probabilities = np.array([p for p, _ in pairs], np.int64)
@@ -104,7 +103,6 @@ def test_bits_of_any_probability_round_trip(pairs: list[tuple[int, int]]) -> Non
     assert len(payload) <= 2 * len(bits) + 1
 
 
-@settings(deadline=None)
 @given(st.lists(st.integers(1, 1 << 32).flatmap(lambda c: st.tuples(st.just(c), st.integers(0, c - 1))), max_size=50))
 def test_uniform_integers_round_trip(pairs: list[tuple[int, int]]) -> None:
     counts = np.array([c for c, _ in pairs], np.int64)
@@ -117,7 +115,6 @@ def test_uniform_integers_round_trip(pairs: list[tuple[int, int]]) -> None:
     np.testing.assert_array_equal(decoded, values)
 
 
-@settings(deadline=None)
 @given(st.lists(st.one_of(st.integers(0, 10), st.integers(0, (1 << 24) - 2)), max_size=100))
 def test_unsigned_integers_round_trip(values: list[int]) -> None:
     array = np.array(values, np.int64)
@@ -129,7 +126,6 @@ def test_unsigned_integers_round_trip(values: list[int]) -> None:
     np.testing.assert_array_equal(decoded, array)
 
 
-@settings(deadline=None)
 @given(st.lists(st.one_of(st.integers(-4, 4), st.integers(1 - (1 << 24), (1 << 24) - 1)), max_size=100))
 def test_signed_integers_round_trip(values: list[int]) -> None:
     array = np.array(values, np.int64)
@@ -186,7 +182,7 @@ def test_a_constant_source_costs_almost_nothing() -> None:
     assert len(payload) < 20
 
 
-@settings(max_examples=50, deadline=None)
+@settings(max_examples=50)
 @given(st.binary(max_size=200))
 def test_random_bytes_are_read_without_harm(payload: bytes) -> None:
     values = np.zeros(100000, np.int64)
@@ -205,7 +201,7 @@ def test_what_no_range_contains_is_refused() -> None:
         start_reading(b"\xff" * 9)
 
 
-@settings(max_examples=50, deadline=None)
+@settings(max_examples=50)
 @given(st.binary(max_size=50), st.integers(1, 1 << 32))
 def test_uniform_values_stay_below_their_count(payload: bytes, count: int) -> None:
     values = np.zeros(20, np.int64)

@@ -26,7 +26,7 @@ from tools import field_tables
 from tools.measure.grids import encode as encode_stream
 from tools.measure.grids import welded
 
-quick = settings(deadline=None, max_examples=150)
+quick = settings(max_examples=150)
 
 LARGEST = st.tuples(*[st.sampled_from([0, 1, 2, 63, 64, 1000, MOST_LARGEST])] * 3)
 CHUNKS = st.sampled_from([1, 3, 20, 1000])

@@ -23,7 +23,7 @@ from tests.bitstream.fields.fields import KINDS, SOUPS, decode, encode, values
 from tests.shapes import grid_faces
 from tools.measure.grids import rounded, welded
 
-quick = settings(deadline=None, max_examples=150)
+quick = settings(max_examples=150)
 
 LARGEST = st.tuples(*[st.sampled_from([0, 1, 2, 63, 64, 1000, MOST_LARGEST])] * 3)
 CHUNKS = st.sampled_from([1, 3, 20, 1000])

@@ -464,7 +464,7 @@ def meshes(draw):
     return TriangleMesh(mesh.positions, mesh.faces, found, draw(st.dictionaries(names, value, max_size=3)))
 
 
-@settings(max_examples=60, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+@settings(max_examples=60, suppress_health_check=[HealthCheck.too_slow])
 @given(mesh=meshes(), kind=st.sampled_from(MESH_FORMATS))
 def test_whatever_is_written_is_read(mesh, kind):
     written = written_mesh(mesh, kind, "a")
@@ -495,7 +495,7 @@ words = st.sampled_from(
 things = st.sampled_from(["", "1 0 0", "1 1 1 x", "nan", "-s 1", "\n", "\ud800"]) | st.integers(-1, 3) | st.floats()
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 @given(
     said=st.dictionaries(st.tuples(st.integers(0, 2), words), things, max_size=5),
     images=st.dictionaries(st.integers(0, 2), st.sampled_from([b"", b"x", png(), png()[:20]]), max_size=2),

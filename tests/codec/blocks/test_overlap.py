@@ -1,6 +1,6 @@
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 
@@ -103,7 +103,6 @@ def test_blocks_do_not_grow_over_hubs():
     assert sum(0 in blocks.members_of(index) for index in range(20)) == 1
 
 
-@settings(deadline=None)
 @given(soups, st.integers(1, 6), st.sampled_from([1.0, 1.5]))
 def test_a_blocks_graph_is_that_of_its_vertices(faces, parts, overlap):
     graph = graph_of_faces(faces, 20)

@@ -1,6 +1,6 @@
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 
@@ -20,7 +20,6 @@ def cut(graph, partition):
     return np.count_nonzero(partition.labels[source] != partition.labels[graph.neighbours]) // 2
 
 
-@settings(deadline=None)
 @given(soups, st.integers(1, 20))
 def test_derived_parts_cover_any_graph(faces, parts):
     graph = graph_of_faces(faces, 20)
@@ -56,7 +55,6 @@ def test_one_part_and_as_many_as_vertices():
     assert metis_partition(graph, 1).parts == 1
 
 
-@settings(deadline=None)
 @given(hnp.arrays(np.int32, st.integers(1, 60), elements=st.integers(0, 9)))
 def test_labels_are_numbered_by_first_appearance(labels):
     partition = partition_of_labels(labels)

@@ -1,6 +1,6 @@
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 
@@ -11,7 +11,6 @@ from tests.shapes import grid_faces
 soups = hnp.arrays(np.int32, st.tuples(st.integers(1, 40), st.just(3)), elements=st.integers(0, 19))
 
 
-@settings(deadline=None)
 @given(soups)
 def test_a_graph_holds_each_edge_once_in_both_directions(faces):
     graph = graph_of_faces(faces, 20)
@@ -20,7 +19,6 @@ def test_a_graph_holds_each_edge_once_in_both_directions(faces):
     assert found == sorted(edges)
 
 
-@settings(deadline=None)
 @given(soups, st.integers(1, 20))
 def test_a_graph_is_connected_where_it_is_one_component(faces, size):
     graph = graph_of_faces(faces % size, size)
@@ -33,7 +31,6 @@ def test_a_vertex_of_high_degree_has_sorted_neighbours():
     assert graph.neighbours[: graph.offsets[1]].tolist() == list(range(1, 61))
 
 
-@settings(deadline=None)
 @given(soups, st.integers(1, 20))
 def test_bisection_cuts_any_graph_into_equal_parts(faces, parts):
     order, bounds = bisect(graph_of_faces(faces, 20), parts)

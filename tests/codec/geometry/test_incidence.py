@@ -1,7 +1,7 @@
 """Rows of faces and neighbours against sets built the slow way."""
 
 import numpy as np
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from bsm.codec.geometry.incidence import mesh_edges, vertex_faces, vertex_neighbours
@@ -9,7 +9,6 @@ from bsm.codec.geometry.incidence import mesh_edges, vertex_faces, vertex_neighb
 triangles = st.lists(st.tuples(*[st.integers(0, 8)] * 3), min_size=1, max_size=20)
 
 
-@settings(deadline=None)
 @given(triangles)
 def test_rows_equal_sets_built_the_slow_way(rows: list[tuple[int, int, int]]) -> None:
     faces = np.array(rows, dtype=np.int32)

@@ -31,7 +31,7 @@ def test_a_different_triangulation_of_the_same_surface_is_no_distance() -> None:
     assert surface_distance(SQUARE, TWO, middle, fan, samples=2000).hausdorff < 1e-12
 
 
-@settings(deadline=None, max_examples=40)
+@settings(max_examples=40)
 @given(st.integers(0, 2**32 - 1))
 def test_the_tree_finds_the_nearest_triangle(seed: int) -> None:
     random = np.random.default_rng(seed)

@@ -508,7 +508,7 @@ def test_every_truncation_is_a_typed_error(way):
             decode_sequence(data[:size])
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 @given(st.data())
 def test_hostile_gops_give_typed_errors_or_frames(data):
     packets = list(small_packets(data.draw(st.integers(0, len(WAYS) - 1))))

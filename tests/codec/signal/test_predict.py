@@ -1,6 +1,6 @@
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from bsm.codec.basis.laplacian import dense_laplacian, laplacian_of
@@ -80,7 +80,6 @@ def test_springs_count_edges_that_leave_and_known_rows():
     assert np.array_equal(known.around(laplacian_of(block), SHIFT).springs, around.springs)
 
 
-@settings(deadline=None)
 @given(st.integers(0, 2**32 - 1))
 def test_the_extension_is_the_equilibrium_within_the_hull_of_the_pulls(seed):
     random = np.random.default_rng(seed)

@@ -1,6 +1,6 @@
 import numpy as np
 import scipy.sparse as sp
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from bsm.codec.geometry.graph import graph_of_faces
@@ -42,7 +42,6 @@ def test_smoothing_leaves_isolated_vertices_and_constants_alone():
     assert np.array_equal(smooth(graph, positions, 0.0), positions)
 
 
-@settings(deadline=None)
 @given(st.sets(st.integers(0, 360), max_size=40), st.floats(0.5, 32.0))
 def test_some_vertices_are_smoothed_as_all_are_and_look_no_farther_than_the_rings(chosen, amount):
     mesh = patch(19, 19)

@@ -47,7 +47,7 @@ def test_a_column_that_is_zero_or_not_finite_has_no_triangle(value):
     assert factorized(columns)[1] == 0.0
 
 
-@settings(deadline=None, max_examples=30)
+@settings(max_examples=30)
 @given(st.integers(1, 70), st.integers(1, 70), st.integers(0, 2**31))
 def test_columns_to_the_right_change_no_bit(c, more, seed):
     columns = np.random.default_rng(seed).standard_normal((150, c + more))

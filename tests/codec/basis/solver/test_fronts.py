@@ -39,7 +39,7 @@ def fill(block, fronts):
     return pattern
 
 
-@settings(deadline=None, max_examples=12)
+@settings(max_examples=12)
 @given(soups)
 def test_fronts_hold_everything_that_elimination_fills(faces):
     block = unordered(faces, 70)
@@ -66,7 +66,7 @@ def test_bisection_keeps_the_fill_small():
     assert fronts.places[-1] < 30_000
 
 
-@settings(deadline=None, max_examples=40)
+@settings(max_examples=40)
 @given(soups, st.floats(1e-3, 10.0), st.integers(1, 3))
 def test_any_graph_can_be_solved(faces, shift, power):
     block = unordered(faces, 70)

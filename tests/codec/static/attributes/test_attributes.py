@@ -361,7 +361,7 @@ def test_targets_count_attributes(kind, value):
     assert attempt.size <= value if kind == "size" else attempt.comparison.theta_deg <= value
 
 
-@settings(deadline=None, max_examples=60)
+@settings(max_examples=60)
 @given(st.integers(0, 2**32 - 1), st.integers(1, 14), st.integers(1, 12), st.booleans())
 def test_any_triangles_keep_what_they_carry(seed, vertices, faces, ordered):
     random = np.random.default_rng(seed)
