@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from typing import Any, Literal, get_args
 
@@ -138,3 +139,18 @@ def _stored(values: npt.NDArray[Any], what: str) -> npt.NDArray[Any]:
     if values.dtype.kind == "f" and not np.isfinite(values).all():
         raise MeshError(f"a value of {what} is not finite")
     return np.ascontiguousarray(values)
+
+
+def has(attributes: Iterable[Attribute], one: Attribute) -> bool:
+    """Whether an attribute is among others, with the same values."""
+    return any(
+        (one.name, one.domain, one.semantic, one.values.dtype)
+        == (other.name, other.domain, other.semantic, other.values.dtype)
+        and np.array_equal(one.values, other.values)
+        and (one.indices is other.indices or np.array_equal(_rows(one), _rows(other)))
+        for other in attributes
+    )
+
+
+def _rows(attribute: Attribute) -> Indices:
+    return np.empty(0, np.int32) if attribute.indices is None else attribute.indices

@@ -222,7 +222,8 @@ class SequenceEncoder:
         writer = Writer()
         number = 0
         self.run_starts, self.samples = [], 0
-        for index, run in enumerate(Cutter(frames, self._faces, allowed=options.runs).runs()):
+        cutter = Cutter(frames, self._faces, allowed=options.runs)
+        for index, run in enumerate(cutter.runs()):
             attributes = tuple(one for one in run.mesh.attributes if one.semantic != "normal")
             mesh = replace(run.mesh, attributes=attributes if index else self._attributes)
             if not index:
@@ -234,6 +235,8 @@ class SequenceEncoder:
             raise MeshError("a sequence needs at least one frame")
         if self._count and number != self._count:
             raise OptionError(f"{self._count} frames were announced and {number} came")
+        changes = (f"{name} changes at frame {first}, but stays as before" for name, first in cutter.changed.items())
+        self.notes = (*self.notes, *changes)
         yield writer.end()
 
     def _run(

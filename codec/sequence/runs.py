@@ -10,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from bsm.bitstream.errors import MeshError
+from bsm.codec.geometry.attributes import has
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.static.work import Allowance
 
@@ -50,6 +51,12 @@ class Cutter:
         Of frames that are arrays.
     allowed : bool
         Whether faces may change.
+
+    Attributes
+    ----------
+    changed : dict of str to int
+        Attributes but normals that are not in all frames what they are in the first one of their run, by name, with
+        the first such frame.
     """
 
     def __init__(self, frames: Iterable[Frame], faces: npt.ArrayLike, *, allowed: bool) -> None:
@@ -58,6 +65,7 @@ class Cutter:
         self._allowed = allowed
         self._ahead: Frame | None = next(self._frames, None)
         self._number = 0
+        self.changed: dict[str, int] = {}
 
     def runs(self) -> Iterator[Run]:
         """One run after the other.
@@ -86,6 +94,9 @@ class Cutter:
                 return
             else:
                 positions = ahead.positions
+                for one in mesh.attributes if ahead is not mesh else ():
+                    if one.semantic != "normal" and not has(ahead.attributes, one):
+                        self.changed.setdefault(one.name, self._number)
             self._number += 1
             yield positions
             self._ahead = next(self._frames, None)  # no sooner, since frames may come live

@@ -18,7 +18,7 @@ from bsm.bitstream.limits import Limits
 from bsm.codec.arrays import Positions
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.files.formats.npy import read_npy
-from bsm.files.formats.npz import Archive, npz_frames, npz_shape, read_arrays, shape_of
+from bsm.files.formats.npz import MOST_NAMED, npz_frames, npz_shape, opened_archive, read_arrays, shape_of
 from bsm.files.motion.frames import Frames
 from bsm.files.pipes import Input
 from bsm.files.room import AS_NUMBERS, require_inflated
@@ -27,7 +27,7 @@ from bsm.files.room import AS_NUMBERS, require_inflated
 def read_archive(given: Input, limits: Limits) -> Frames | None:
     """The sequence of an npz; None if it holds a mesh. Shapes are looked at before numbers are read."""
     held = b"" if given.is_file else given.peek(1 << 32)
-    archive: Archive = given.name if given.is_file else io.BytesIO(held)
+    archive = given.name if given.is_file else io.BytesIO(held)
     shape = npz_shape(archive)
     if len(shape) != 3:
         return None
@@ -40,7 +40,11 @@ def read_archive(given: Input, limits: Limits) -> Frames | None:
     require_inflated(AS_NUMBERS * 3 * shape[1] + max(size, AS_NUMBERS * math.prod(of_faces)), compressed, limits)
     (faces,) = read_arrays(archive, "faces")
     mesh = TriangleMesh(next(npz_frames(archive)), faces)
-    return Frames(mesh.faces, shape[0], npz_frames(archive))
+    with opened_archive(archive) as opened:
+        others = [name.removesuffix(".npy") for name in opened.namelist() if name not in ("positions.npy", "faces.npy")]
+    others[MOST_NAMED:] = [f"{len(others) - MOST_NAMED} other arrays"] if len(others) > MOST_NAMED else []
+    notes = (f"left out: {', '.join(others)}",) if others else ()
+    return Frames(mesh.faces, shape[0], npz_frames(archive), notes=notes)
 
 
 def read_pipe(given: Input, limits: Limits) -> Frames:

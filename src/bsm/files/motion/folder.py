@@ -15,7 +15,7 @@ import numpy as np
 from bsm.bitstream.errors import FormatError, MeshError, OptionError
 from bsm.bitstream.limits import Limits
 from bsm.codec.arrays import Positions
-from bsm.codec.geometry.attributes import Attribute
+from bsm.codec.geometry.attributes import has
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.sequence.runs import other_faces
 from bsm.files.about import about
@@ -144,26 +144,21 @@ def read_files(
                     f"faces than {names[0]}: {difference}; if their faces change, --set runs=yes; to work on each by "
                     "itself, name the files and write to a folder, -o FOLDER/"
                 )
+            for one in kept:
+                if not has(mesh.attributes, one):
+                    raise MeshError(
+                        f"{one.name} is another at {name} (frame {number}), and what it was again in the last frame; "
+                        "attributes of a sequence do not change: --set runs=yes keeps them as the first frame has them"
+                    )
             yield mesh.positions
 
     last = read(len(names) - 1) if first.attributes and len(names) > 1 else first
-    kept = tuple(one for one in first.attributes if one.semantic != "normal" and _has(last, one))
+    kept = tuple(one for one in first.attributes if one.semantic != "normal" and has(last.attributes, one))
     moving = [one.name for one in first.attributes if one not in kept]
     notes = [f"left out, for they move or change: {', '.join(moving)}"] if moving else []
     if kept and len(names) > 1:
         notes.append(f"{', '.join(one.name for one in kept)}: as the first frame has them")
     return Frames(first.faces, len(names), frames(), kept, tuple(notes), metadata=first.metadata)
-
-
-def _has(mesh: TriangleMesh, attribute: Attribute) -> bool:
-    """Whether a mesh has the same attribute with the same values."""
-    for one in mesh.attributes:
-        if (one.name, one.domain, one.semantic) == (attribute.name, attribute.domain, attribute.semantic):
-            alike = np.array_equal(one.values, attribute.values) and one.values.dtype == attribute.values.dtype
-            if one.indices is None or attribute.indices is None:
-                return alike
-            return alike and np.array_equal(one.indices, attribute.indices)
-    return False
 
 
 # --------------------------------------------------------------------------------------------------------- the way back
