@@ -180,7 +180,8 @@ export function orthogonalIteration(
         if (independence >= TWICE) return;
         // R^power has all but lost the higher columns: orthonormalised after every R they stay (M 8.4).
         allowance.spend(iterations * power * (solutionCost(block, columns) + 1.1 * roundingCost(rows, columns)));
-        subspace.view.set((start.columns === columns ? start : resized(memory, start, rows, columns)).view);
+        const given = start.columns === columns ? start : resized(memory, start, rows, columns); // which may move all views
+        subspace.view.set(given.view);
         for (let k = 0; k < iterations * power; k++) solveOnorm(memory, block, factor, subspace, allowance);
     });
     return subspace;
