@@ -24,6 +24,8 @@ import { chunkCost, exactCost, GRID_COST, layerCost, LIGHT_COST, orderCost, type
 
 /** What may come behind the first frame of a sequence. */
 const BEHIND_FIRST: readonly string[] = ["gop", "end", "metadata", "damaged"];
+/** What makes the positions that levels and values refer to. */
+const BEFORE_LEVELS: readonly string[] = ["connectivity", "partition", "order", "block"];
 
 /** A frame that is made when it is its turn. */
 export interface ComingFrame {
@@ -142,6 +144,8 @@ export class Stages {
             if (!this.wishes.tolerant) throw error;
             return this.loseFrames(this.sequence, error);
         }
+        // Behind a loss the grammar does not know what came before it.
+        if ((this.refinement || this.attributesBegun) && BEFORE_LEVELS.includes(packet.type)) throw new CorruptError(`${packet.type} may not come here`);
         switch (packet.type) {
             case "header":
                 return;

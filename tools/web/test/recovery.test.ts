@@ -68,3 +68,35 @@ test("blocks of other chains than the damaged one are as they were", async () =>
     const end = found.at(-1)!;
     assert.ok(end.type === "end" && end.missing.length + end.degraded.length > 0);
 });
+
+/** Streams that ended in a foreign error once, and how they end. */
+const FOUND = {
+    "a block behind a layer": {
+        stream: [
+            "iUJTTQCRBYgBOAJwAwIEIAUKCAISykB4jj4elMo8AAAAygAAAADKOwAAAMpAQAAA8H1jq2X7loDJr2uWBAAKhNDqezJ7DNk/V5AXq9tx+j8MCBdtQCfDi07N",
+            "yOR16a5wrRABADhEgCSBziGkpJamVg3S0cXo4ZmHYlg+6xDIbghSf+aNn3T28Zwk7dUV1eLBMqJ/NjiP6RImuCLVeByUdvGRD/1Wye0Rj+j+OOy3MZCD78+W",
+            "VqMjCXCqEk//DzJVmfgPUkE/auHuZSv1vThIk/OfrCYcJIyxEn8g2HYa4dXIET5dQJkW0Y0CAB4abhjl1oADN/b8msrqtK/btgMBChD1ewLKugM9V2T4i1R2",
+            "RX+bGkmDUbGS51N1vV8GGgwAM094",
+        ].join(""),
+        events: ["header", "connectivity", "block", "loss", "refinement", "loss"],
+        error: "CorruptError",
+    },
+    "a dictionary for which memory grows": {
+        stream: [
+            "iUJTTQCRBowBzQGAAs0DAAMEBG4FFggEEMo8QAAAEspAeHMbE8pHf/8AFMo/gAAAGco7gAAAGm5sJHOqtcTB8EHY4R6GCgAWm4NCNQOY7DmwksFev0V4IAzc",
+            "OE6yLTJGfJgbjPSTD98X+xPTZWzdq3AIWJRnSn/s4LIPcxaw6IpfLus/FcJmYeb1R9kcO7wbbNpFT1PTiijWCAEWo6mGYDZurhD9bz7AFXMq1SUyp1tdOvLD",
+            "Q7q0ltzaZcDjxJNB4iIJt8tVyG10CcyzDk3+gQTHIiSkUHlijUbZpbcrRYWA1gcCFhA1dYzVcUwGDlcyZhmp3RSMh0sTwo7SqpOWLOCjc++vCOYUSG+7j1My",
+            "zs7mYCbSIRa2hnC6UiM3bY/SS+GWBgMPVLuy6sb6e1stm+7kRLxJN7oTTKhgG7DvlRAcEPcV940o3LXxD19YCCU5vmP6p0JLCV8GFG/Zh85Q",
+        ].join(""),
+        events: ["header", "connectivity", "block", "block", "block", "block", "end"],
+        error: undefined,
+    },
+};
+
+for (const [name, found] of Object.entries(FOUND)) {
+    test(name, async () => {
+        const data = Buffer.from(found.stream, "base64");
+        const { events, error } = await told(data, data.length);
+        assert.deepEqual({ events: events.map((event) => event.type), error }, { events: found.events, error: found.error });
+    });
+}
