@@ -22,7 +22,7 @@ KNOTS = 10
 """Frames, evenly over a GOP, that pictures are drawn of at every attempt."""
 MORE = 6
 """If all is well there, so many of those that may be the worst are drawn as well."""
-DEVIATIONS = 3.0
+DEVIATIONS = 5.0
 """An attempt is taken once all frames are drawn that may look worse than the bound, by so many standard deviations."""
 KEPT = 1 << 29
 """Bytes of pictures of originals that are kept from attempt to attempt."""
