@@ -6,21 +6,23 @@ import os
 import signal
 from pathlib import Path
 
-import hypothesis
 import pytest
 
 HERE = Path(__file__).resolve().parent
 
 
-def pytest_configure() -> None:
+def pytest_configure(config: pytest.Config) -> None:
     """Let examples take their time, and signals reach programs under test."""
     # What a shell runs in the background passes on that it ignores them.
     for number in (signal.SIGINT, signal.SIGTERM):
         if signal.getsignal(number) == signal.SIG_IGN:
             signal.signal(number, signal.default_int_handler if number == signal.SIGINT else signal.SIG_DFL)
     # How long an example takes says how busy the machine is.
-    hypothesis.settings.register_profile("patient", deadline=None)
-    hypothesis.settings.load_profile("patient")
+    if config.pluginmanager.hasplugin("hypothesispytest"):
+        from hypothesis import settings
+
+        settings.register_profile("patient", deadline=None)
+        settings.load_profile("patient")
 
 
 def mesh_folder() -> Path | None:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
 from hashlib import sha256
 from itertools import islice
 from types import MappingProxyType
@@ -201,7 +200,7 @@ class SequenceEncoder:
         finest = max(FINEST_STEP, self._finest_step(frames))
         return search_step(lambda step: self.attempt(frames, step, progress), target, self.options.step, finest)
 
-    def _finest_step(self, frames: Sequence[Matrix]) -> float:
+    def _finest_step(self, frames: Sequence[Matrix] | Positions) -> float:
         """A step whose levels can be coded however the motion falls into one component."""
         scale = float(np.linalg.norm(np.ptp(frames[0], axis=0))) or 1.0
         reach = max(float(np.abs(frame - frames[0].mean(axis=0)).max()) for frame in frames) / scale
@@ -253,7 +252,8 @@ class SequenceEncoder:
             prepared = opened.prepared
         self.vertex_order, self.face_order = prepared.vertex_order, prepared.face_order
         checked = _checked(run, prepared)
-        group = list(islice(checked, longest))
+        vertices = len(prepared.positions)
+        group = _group(checked, longest, vertices)
         if opened is None:
             coded = self._first_gop(group, prepared, options, tell, shelf.allowance)
             yield from self._opened(run.mesh, index, prepared, coded.opening, options)
@@ -270,14 +270,15 @@ class SequenceEncoder:
                 again=opened.run + 1,
             )
         opening = coded.opening
-        while group:
+        while len(group):
             for body in coded.bodies:
                 opening.admit(body, self._done)
                 yield packets.Gop(run.first + self._done, write_gop_body(body, index))
                 self._done += body.frames
                 self.samples += body.frames * opening.header.vertices
-            group = list(islice(checked, longest))
-            if group:
+            del group  # before the next one is read
+            group = _group(checked, longest, vertices)
+            if len(group):
                 coded = self._later_gop(group, self._done, prepared, options, coded, tell)
         shelf.keep(OpenedMesh(index if opened is None else opened.run, prepared, coded), run.mesh)
 
@@ -299,7 +300,7 @@ class SequenceEncoder:
 
     def _first_gop(
         self,
-        frames: list[Matrix],
+        frames: Positions,
         prepared: Prepared,
         options: SequenceOptions,
         tell: Progress,
@@ -330,7 +331,7 @@ class SequenceEncoder:
 
     def _later_gop(
         self,
-        frames: list[Matrix],
+        frames: Positions,
         number: int,
         prepared: Prepared,
         options: SequenceOptions,
@@ -352,14 +353,14 @@ class SequenceEncoder:
     def _kept(
         self,
         attempt: Callable[[Wish], Coded],
-        frames: list[Matrix],
+        frames: Positions,
         prepared: Prepared,
         options: SequenceOptions,
         first: float | None,
     ) -> Coded:
         promise = options.promise
         assert promise is not None
-        watch = Watch(np.array(frames), prepared.mesh.faces, promise, prepared.units.scale, options.threads)
+        watch = Watch(frames, prepared.mesh.faces, promise, prepared.units.scale, options.threads)
         finest = max(FINEST_STEP, self._finest_step(frames))
         singly: bool | None = None
 
@@ -395,13 +396,16 @@ class Coded:
         """Whether frames are sent one by one."""
         return self.bodies[0].method is not GopMethod.LEARNT
 
-    @cached_property
+    @property
     def decoded(self) -> Positions:
-        """What the decoder makes of them, shape (T, n, 3), in BSM units."""
+        """What the decoder makes of them, shape (T, n, 3), in BSM units; not kept, since it is large."""
         if self.encoder.low_delay and self.encoder.latest is not None:
             return self.encoder.latest[None]
         decoder = GopDecoder(self.opening.setting)
-        return np.array([frame for body in self.bodies for frame in decoder.decode(body)])
+        frames = np.empty((sum(body.frames for body in self.bodies), self.opening.setting.vertices, 3))
+        for number, frame in enumerate(frame for body in self.bodies for frame in decoder.decode(body)):
+            frames[number] = frame
+        return frames
 
 
 @dataclass(frozen=True, eq=False)
@@ -445,26 +449,25 @@ class Opening:
 
 
 def _attempted(
-    opening: Opening, encoder: GopEncoder, wish: Wish, frames: list[Matrix], number: int, tell: Progress
+    opening: Opening, encoder: GopEncoder, wish: Wish, frames: Positions, number: int, tell: Progress
 ) -> Coded:
     encoder.step, encoder.weights, encoder.singly, encoder.rounds = wish.step, wish.weights, wish.singly, wish.rounds
     return Coded(opening, encoder, tuple(_affordable(opening, encoder, frames, number, tell)))
 
 
 def _affordable(
-    opening: Opening, encoder: GopEncoder, frames: list[Matrix], number: int, progress: Progress
+    opening: Opening, encoder: GopEncoder, frames: Positions, number: int, progress: Progress
 ) -> Iterator[GopBody]:
     """Frames as one GOP or one by one, whatever costs less, or as shorter GOPs where decoders would lack the memory."""
     if encoder.low_delay:
         yield encoder.encode_single(frames[0], number, progress)
         return
     if encoder.singly:
-        yield from encoder.encode_singles(np.array(frames))
+        yield from encoder.encode_singles(frames)
         return
-    together = np.array(frames)
-    learnt, cost = encoder.encode_learnt(together, progress)
+    learnt, cost = encoder.encode_learnt(frames, progress)
     half = len(frames) // 2
-    if encoder.singly is None and (singles := encoder.encode_singles(together, cost)):
+    if encoder.singly is None and (singles := encoder.encode_singles(frames, cost)):
         yield from singles
     elif half and not opening.has_room(learnt):
         weights = encoder.weights
@@ -592,6 +595,12 @@ def _checked(run: Run, prepared: Prepared) -> Iterator[Matrix]:
         if not np.isfinite(positions).all():
             raise MeshError(f"frame {number} has a coordinate that is not finite; remove or repair it")
         yield prepared.units.into(positions)
+
+
+def _group(frames: Iterator[Matrix], longest: int, vertices: int) -> Positions:
+    """The next frames, shape (T, n, 3), as many as a GOP may have; none behind the last."""
+    # Not a list first, which would hold them twice.
+    return np.fromiter(islice(frames, longest), np.dtype((np.float64, (vertices, 3))))
 
 
 class _Rounds:

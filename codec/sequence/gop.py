@@ -253,8 +253,8 @@ class GopEncoder:
         return GopBody(method, 1, step, 3, np.empty(0, np.int32), b"", payload)
 
     def _transformed(self, motion: Matrix, weights: Matrix, progress: Progress) -> tuple[GopBody, float]:
-        """Encode trajectories, shape (n, 3T), whose columns count by `weights`, shape (3T,)."""
-        motion = motion * weights
+        """Encode trajectories, shape (n, 3T), whose columns count by `weights`, shape (3T,), and are weighed here."""
+        motion *= weights
         body = self._learnt(motion, weights)
         basis = decode_basis(body) * weights[:, None]
         wanted = motion @ projection(basis)
@@ -264,7 +264,7 @@ class GopEncoder:
             target = part.difference(wanted, field)
             part.place(field, writer.write(Loop(3, body.components), first, target, self._step))
             progress(len(writer.levels), len(self._parts))
-        left = np.square(motion).sum() - _energy(wanted, basis)  # of the fit, which `wanted - field` is orthogonal to
+        left = np.vdot(motion, motion) - _energy(wanted, basis)  # of the fit, which `wanted - field` is orthogonal to
         error = float(left + _energy(wanted - field, basis)) / self._step**2
         return replace(body, levels=writer.finish()), error
 

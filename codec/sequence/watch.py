@@ -24,7 +24,7 @@ MORE = 6
 """If all is well there, so many of those that may be the worst are drawn as well."""
 DEVIATIONS = 5.0
 """An attempt is taken once all frames are drawn that may look worse than the bound, by so many standard deviations."""
-KEPT = 1 << 29
+KEPT = 1 << 27
 """Bytes of pictures of originals that are kept from attempt to attempt."""
 SLACK, SLACK_OF_ONE = 0.04, 0.15
 """Part of a bound that may be left, in a GOP and in a frame by itself, which must be quick."""
@@ -38,7 +38,7 @@ change quickly are dear in the temporal basis."""
 WIDEST = 1.0
 """Logarithm of the largest weight, and of one over the smallest."""
 _TRIES = 20
-_PIXEL = 4 * 22
+_PIXEL = 4 * 14
 """Bytes of a `Looker` for each pixel of its pictures' side, squared."""
 
 
