@@ -245,7 +245,8 @@ def test_forms_of_the_output():
         "ply",
         "obj",
     ]
-    for pair in (("a.ply", None), ("-", "ply"), ("a.npz", "npy")):
+    assert sequence_kind("a.dae/", None) == sequence_kind("take1.2", None) == "ply"
+    for pair in (("a.ply", None), ("-", "ply"), ("a.npz", "npy"), ("a.gltf", None), ("%04d.dae", None)):
         with pytest.raises(OptionError):
             sequence_kind(*pair)
 

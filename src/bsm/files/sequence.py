@@ -230,7 +230,7 @@ def sequence_kind(path: str, file_format: str | None) -> str:
     Raises
     ------
     OptionError
-        If a single mesh file is named.
+        If a single mesh file is named, or the name ends like that of a form that is not written.
     """
     if path == "-":
         kind = file_format or "npy"
@@ -248,5 +248,10 @@ def sequence_kind(path: str, file_format: str | None) -> str:
         raise OptionError(
             f"{path}: this is a sequence; write it to one file (.{', .'.join(ONE_FILE)}), to a folder, or to numbered "
             f"files, {Path(path).with_suffix('')}%04d.{suffix}"
+        )
+    if file_format is None and suffix[:1].isalpha() and not _is_folder(path):
+        raise OptionError(
+            f"{path}: sequences are not written as {suffix}; as {', '.join(SEQUENCE_FORMATS)} they are, and a folder "
+            "of this name ends in /"
         )
     return file_format or "ply"

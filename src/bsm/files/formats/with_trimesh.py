@@ -120,7 +120,8 @@ def _absent_images(data: bytes, kind: str, path: str | None) -> list[str]:
 def _unread(data: bytes, kind: str) -> list[str]:
     """What a glTF holds and trimesh does not tell of."""
     tree = _tree(data, kind)
-    found = [name for name in ("animations", "skins", "cameras") if tree.get(name)]
+    told = {"animations": "animations (--animation encodes one)", "skins": "skins", "cameras": "cameras"}
+    found = [told[name] for name in told if tree.get(name)]
     found += [name for name in tree.get("extensionsUsed", []) if name not in _READ_BY_TRIMESH]
     for mesh in tree.get("meshes", []):
         for primitive in mesh["primitives"]:
