@@ -86,7 +86,7 @@ def bounds(limits: str, taken: Taken, size: int) -> tuple[float, float]:
 
 
 def browser_bounds(taken: Taken, stream: bytes) -> tuple[float, float]:
-    """Those of the decoder for browsers: 64 MiB and what sequences keep more, and four times as long."""
+    """Bytes and seconds of the decoder for browsers: 64 MiB and what sequences keep more, and four times as long."""
     memory, seconds = bounds("default", taken, len(stream))
     return memory + (1 << 26) + sequence_memory(stream, taken.vertices), 4.0 * seconds
 

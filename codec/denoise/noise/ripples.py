@@ -131,7 +131,7 @@ class _Fit:
         return len(self.vectors)
 
     def with_wave(self, vector: Floats) -> _Fit:
-        """The same with one more wave, its vector of shape (3,), which the next step gives its height."""
+        """A fit with one more wave, its vector of shape (3,), which the next step gives its height."""
         other = object.__new__(_Fit)
         other.__dict__.update(self.__dict__)
         other.vectors = np.vstack([self.vectors, vector])
