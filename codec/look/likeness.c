@@ -89,11 +89,11 @@ INLINE int64_t densest(const float *marks, float *ring, float *columns, int64_t 
  * differ by more than `plain` in the square that has most of these. `map`, which may be empty, gets for each pixel how unlike
  * it is: 1 - SSIM, and up to as much again by the square of its difference. */
 KERNEL int64_t likeness(ConstSingles2 first, ConstSingles2 second, ConstSingles wide, ConstSingles narrow,
-                        double visible, double plain, Singles2 scratch, Doubles sums,
-                        Singles2 map) {
+                        double visible, double plain, Singles2 scratch, Doubles sums, Singles2 map) {
     int64_t stride = scratch.columns, box[4];
     if (first.rows != second.rows || first.columns != second.columns || wide.size != WIDE + 1 ||
-        narrow.size != NARROW + 1 || sums.size != 4 || (map.rows && (map.rows != first.rows || map.columns != first.columns)) || stride < first.columns + 2 * WIDE ||
+        narrow.size != NARROW + 1 || sums.size != 4 || stride < first.columns + 2 * WIDE ||
+        (map.rows && (map.rows != first.rows || map.columns != first.columns)) ||
         scratch.rows < (FIELDS + 1) * (KEPT + 2) + WINDOW + 2)
         return MISUSED;
     float *padded = scratch.data, *down = padded + (FIELDS + 1) * stride, *ring = down + (FIELDS + 1) * stride;
@@ -138,11 +138,10 @@ KERNEL int64_t likeness(ConstSingles2 first, ConstSingles2 second, ConstSingles 
             seen += inside && (double)__builtin_fabsf(change[i]) > visible;
             count += inside;
         }
-        for (int64_t i = from; i < to && map.rows; i++)
-{
-                float part = change[i] / (float)visible, soft = part * part < 1.0f ? part * part : 1.0f;
-                map.data[at * first.columns + i] = covered(own[i], other[i]) ? one_less[i] + LOUD * soft : 0.0f;
-            }
+        for (int64_t i = from; i < to && map.rows; i++) {
+            float part = change[i] / (float)visible, soft = part * part < 1.0f ? part * part : 1.0f;
+            map.data[at * first.columns + i] = covered(own[i], other[i]) ? one_less[i] + LOUD * soft : 0.0f;
+        }
         for (int64_t i = from; i < to; i++) marks[i] = (double)__builtin_fabsf(change[i]) > plain ? 1.0f : 0.0f;
         gone = largest(gone, densest(marks, marked + at % WINDOW * stride, columns, from, to));
     }
