@@ -730,7 +730,7 @@ def hash_columns(rows, columns):
 # ---------------------------------------------------------------- M 9: coefficients
 
 EXPERIENCE = Path(__file__).parent / "priors.bin"
-EXPERIENCE_SHA256 = "2a44d8f808d49ca9672132ecc3cc14e6ce99bec020504b7a96d206d4cfc47b34"
+EXPERIENCE_SHA256 = "b83638c890a01953e9da4b4dc4889f4f77a6d48759ff986e09e37dfa1e6fbb46"
 NEIGHBOURS, BINS, NODES, EXPECTATIONS = 20, 48, 38, 3
 
 

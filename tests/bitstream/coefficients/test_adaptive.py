@@ -23,7 +23,7 @@ from bsm.bitstream.coefficients.contexts import BINS, NEIGHBOURS, expectation_bi
 from bsm.bitstream.coefficients.priors import Experience, coordinate_experience, detail_experience, shipped_experiences
 from bsm.bitstream.errors import BsmError, CorruptError, OptionError, TruncatedError
 
-HASH = "2a44d8f808d49ca9672132ecc3cc14e6ce99bec020504b7a96d206d4cfc47b34"
+HASH = "b83638c890a01953e9da4b4dc4889f4f77a6d48759ff986e09e37dfa1e6fbb46"
 
 LEVELS = st.integers(-3, 3) | st.integers(-300, 300) | st.sampled_from([MAX_LEVEL, -MAX_LEVEL, MAX_LEVEL // 3])
 CHAINS = st.lists(st.lists(st.tuples(LEVELS, LEVELS, LEVELS), min_size=1, max_size=20), min_size=1, max_size=4)

@@ -1,1 +1,1 @@
-import{serve}from"./quick.js";serve();
+import{serve as i}from"./quick.js";i();

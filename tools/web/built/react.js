@@ -1,1 +1,1 @@
-import{useLoader as o}from"@react-three/fiber";import{BSMLoader as t,BSMSceneLoader as S}from"./three.js";function d(e,r){return o(t,e,r)}function B(e,r){return o(S,e,r)}export{d as useBSM,B as useBSMScene};
+import{useLoader as e}from"@react-three/fiber";import{BSMLoader as r,BSMSceneLoader as o}from"./three.js";function t(o,t){return e(r,o,t)}function a(r,t){return e(o,r,t)}export{t as useBSM,a as useBSMScene};

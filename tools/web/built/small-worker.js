@@ -1,1 +1,1 @@
-import{serve}from"./small.js";serve();
+import{serve as m}from"./small.js";m();

@@ -1,1 +1,1 @@
-import{serve}from"./bsm.js";serve();
+import{serve as m}from"./bsm.js";m();

@@ -3,6 +3,7 @@
 import { existsSync, mkdirSync, readdirSync, readFileSync, writeFileSync } from "node:fs";
 import { dirname, join, relative } from "node:path";
 import { build } from "esbuild";
+import { minify } from "terser";
 import { compileKernels, compiler, KERNEL_BUILDS, WEB } from "./kernels.mjs";
 
 const VIEWER = join(WEB, "../../src/bsm/viewer");
@@ -46,6 +47,11 @@ function privateNames() {
 async function bundle(entry, options = {}) {
     const result = await build({ ...OPTIONS, ...options, entryPoints: [entry] });
     return result.outputFiles[0].text;
+}
+
+/** A module in fewer bytes. */
+async function smaller(text) {
+    return (await minify(text, { module: true, ecma: 2022, compress: { passes: 3 } })).code;
 }
 
 /** A module that others call by all of its names. */
@@ -102,7 +108,7 @@ async function products() {
         "react.js": await open("react.ts", beside("three")),
     };
     return [
-        ...Object.entries(built).map(([name, text]) => [join(WEB, "built", name), text]),
+        ...(await Promise.all(Object.entries(built).map(async ([name, text]) => [join(WEB, "built", name), `${await smaller(text)}\n`]))),
         [join(WEB, "built/LICENSES.txt"), `${licences(BUNDLED)}\n`],
         [join(VIEWER, "page.html"), readFileSync(join(SOURCES, "viewer/page.html"), "utf8")],
         [join(VIEWER, "viewer.js"), script],

@@ -113,13 +113,19 @@ function withoutPackages() {
     return process.env.PATH.split(delimiter).filter((folder) => !folder.includes("node_modules")).join(delimiter);
 }
 
-/** Slots that nothing was learnt for have one of these: they are sent as counts above those of the others. */
-const UNLEARNT = [2048, 409, 3686].map((probability) => probability << 4);
+/** Slots that nothing was learnt for have one of these, and a count of 0. */
+const UNLEARNT = [2048, 409, 3686];
+
+/** Numbers as places in a list of the different ones, which are few. */
+function indexed(numbers) {
+    const list = [...new Set(numbers)].sort((a, b) => a - b);
+    return { list, places: numbers.map((number) => list.indexOf(number)) };
+}
 
 /**
  * What coefficients start from (specification, M 9.1), as bytes that are easier to compress: for every slot, by node, bin and
- * expectation, its count, or which of `UNLEARNT` it is; the probabilities of the others; weights. Those of 16 bits
- * come as all their low bytes and then the high ones. `learn_beforehand` makes a model of them.
+ * expectation, its count, or which of `UNLEARNT` it is; the probabilities of the others; weights. `learn_beforehand`
+ * makes a model of them.
  */
 function packedPriors(bytes) {
     const words = new Uint16Array(bytes.buffer, bytes.byteOffset, bytes.length / 2);
@@ -129,35 +135,36 @@ function packedPriors(bytes) {
     const [counts, probabilities, weights] = [[], [], []];
     for (let start = 0; start < words.length; start += others + slots) {
         probabilities.before = probabilities.length;
-        weights.push(...words.subarray(start, start + others));
+        weights.push(...new Int16Array(words.slice(start, start + others).buffer));
         for (let i = 0; i < slots; i++) {
             const [node, bin, expectation] = [Math.floor(i / expectations / bins), Math.floor(i / expectations) % bins, i % expectations];
             const word = words[start + others + (expectation * bins + bin) * nodes + node];
-            const unlearnt = UNLEARNT.indexOf(word);
-            counts.push(unlearnt < 0 ? word & 15 : unlearnt && 15 + unlearnt);
-            if (unlearnt < 0 && (word & 15) === 0) throw new Error("a slot that nothing was learnt for has another probability");
-            if (unlearnt < 0) probabilities.push(word >> 4);
+            const [count, probability] = [word & 15, word >> 4];
+            if (count === 0 && !UNLEARNT.includes(probability)) throw new Error("a slot that nothing was learnt for has another probability");
+            counts.push(count || -UNLEARNT.indexOf(probability));
+            if (count > 0) probabilities.push(probability);
         }
     }
-    const planes = (numbers) => [...numbers.map((number) => number & 255), ...numbers.map((number) => number >> 8)];
+    const [count, share, number] = [counts, probabilities, weights].map(indexed);
     return `#include "bitstream/kernel.h"
-static const uint8_t COUNTS[] = {${counts}}, PROBABILITIES[] = {${planes(probabilities)}}, NUMBERS[] = {${planes(weights)}};
+static const uint8_t COUNTS[] = {${count.places}}, SHARES[] = {${share.places}}, NUMBERS[] = {${number.places}};
 int64_t learn_beforehand(int64_t details, Ints2 expectations, Ints2 weights, Words slots) {
+    static const int16_t NUMBER[] = {${number.list}};
+    static const uint16_t SHARE[] = {${share.list}}, UNLEARNT[] = {${UNLEARNT}};
+    static const int8_t COUNT[] = {${count.list}};
     int64_t learnt = expectations.rows * expectations.columns, others = learnt + weights.rows * weights.columns;
     if (others != ${others} || slots.size != ${slots} || details < 0 || details > 1) return MISUSED;
-    static const uint16_t UNLEARNT[] = {${UNLEARNT.map((word) => word >> 4)}};
-    const uint8_t *count = COUNTS + details * slots.size, *probability = PROBABILITIES + details * ${probabilities.before}, *number = NUMBERS + details * others;
-    for (int64_t i = 0; i < others; i++, number++) {
-        int32_t value = number[0] | number[${weights.length}] << 8;
+    const uint8_t *count = COUNTS + details * slots.size, *share = SHARES + details * ${probabilities.before}, *number = NUMBERS + details * others;
+    for (int64_t i = 0; i < others; i++) {
+        int32_t value = NUMBER[number[i]];
         if (i < learnt) expectations.data[i] = value;
-        else weights.data[i - learnt] = 16 * (int16_t)value;
+        else weights.data[i - learnt] = 16 * value;
     }
     for (int node = 0; node < ${nodes}; node++)
-        for (int i = 0; i < ${expectations * bins}; i++, count++) {
-            int known = *count && *count < 16;
-            uint32_t share = known ? probability[0] | probability[${probabilities.length}] << 8 : UNLEARNT[*count ? *count - 15 : 0];
-            probability += known;
-            slots.data[(i % ${expectations} * ${bins} + i / ${expectations}) * ${nodes} + node] = share << 20 | 1 << 19 | (known ? *count << 2 : 0);
+        for (int i = 0; i < ${expectations * bins}; i++) {
+            int seen = COUNT[*count++];
+            uint32_t probability = seen > 0 ? SHARE[*share++] : UNLEARNT[-seen];
+            slots.data[(i % ${expectations} * ${bins} + i / ${expectations}) * ${nodes} + node] = probability << 20 | 1 << 19 | (seen > 0 ? seen << 2 : 0);
         }
     return 0;
 }

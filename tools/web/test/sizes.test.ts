@@ -1,0 +1,23 @@
+/** What pages load is not more than it was. */
+import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
+import { join } from "node:path";
+import test from "node:test";
+import { brotliCompressSync } from "node:zlib";
+import { WEB } from "./shared";
+
+/** Bytes in brotli, at most, of the files that a page fetches to decode streams of a kind, and for the page itself. */
+const LOADS: Record<string, [most: number, files: string[]]> = {
+    "light grids": [25300, ["quick-worker.js", "quick.js", "errors.js", "quick.wasm"]],
+    "static meshes": [61400, ["small-worker.js", "small.js", "errors.js", "small.wasm"]],
+    "everything": [87300, ["worker.js", "bsm.js", "errors.js", "kernels.wasm"]],
+    "the page": [8900, ["three.js", "pool.js"]],
+};
+
+for (const [what, [most, files]] of Object.entries(LOADS)) {
+    test(`${what} is at most ${most} bytes`, () => {
+        const sizes = files.map((name) => brotliCompressSync(readFileSync(join(WEB, "built", name))).length);
+        const whole = sizes.reduce((sum, size) => sum + size);
+        assert.ok(whole <= most, `${whole}: ${files.map((name, i) => `${name} ${sizes[i]}`).join(", ")}`);
+    });
+}
