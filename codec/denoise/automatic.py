@@ -8,19 +8,16 @@ import numpy as np
 
 from bsm.codec.arrays import Faces, Positions
 from bsm.codec.choices import named
-from bsm.codec.denoise.coarse import CoarseFilter
-from bsm.codec.denoise.filters.topology import Topology
-from bsm.codec.denoise.learnt.cascade import Learner, joined
+from bsm.codec.denoise.learnt.cascade import joined
 from bsm.codec.denoise.noise.estimate import NoiseLevel
 from bsm.codec.denoise.noise.finding import Finding, find_noise
 from bsm.codec.denoise.noise.outliers import Outliers, find_outliers
-from bsm.codec.denoise.noise.probe import Probe
 from bsm.codec.denoise.noise.ripples import Ripples, find_ripples
-from bsm.codec.denoise.recipe import Recipe, Step, blend, perform
+from bsm.codec.denoise.patient import Patient
+from bsm.codec.denoise.recipe import Recipe, Step
 from bsm.codec.denoise.rehearsal import GOALS, LEARNT_SHARE, MOST_MEMBERS, Rehearsal, Told, silent
 from bsm.codec.denoise.safety import Verdict, judge, keep_good, restraint
 from bsm.codec.denoise.sample import sample
-from bsm.codec.geometry.metrics import mean_edge_length
 from bsm.codec.geometry.welding import weld
 
 BASE = Recipe("normals", 0.2, "patches", 0.35)
@@ -38,9 +35,9 @@ CANDIDATES = (
     Recipe("none", 0.2, "patches", 0.35),
     *(Recipe("none", 0.2, "local", sigma_r) for sigma_r in (0.35, 0.45, 0.6)),
 )
+LARGEST_KEEP = max(recipe.keep for recipe in CANDIDATES)
 HERALDS = (CANDIDATES[0], *CANDIDATES[1:3], CANDIDATES[7], CANDIDATES[-2])
 """Those that compete for the second guess."""
-LARGEST_KEEP = max(recipe.keep for recipe in CANDIDATES)
 LEARNT_MORE = 0.025
 """Movement over noise with the learnt normals, above that without them, from which on they are left out."""
 SLIDING = 0.6
@@ -48,8 +45,6 @@ SLIDING = 0.6
 DROWNED = 0.42
 """Level of noise, in mean edges, from which on they may slide: the noisy faces tell nothing there, and the coarse mesh
 alone is up to an eighth better, for normals and vertices."""
-BLOCK_SIZE = 500
-"""About the paper's; half or twice of it leaves 2.4 and 0.6 % more of the angle (tools.constants)."""
 LARGE, MOST_LARGE_MEMBERS = 100_000, 2
 """From so many vertices on a blend has fewer members, for the sake of time."""
 WORTH = 0.9
@@ -144,34 +139,6 @@ def denoise_automatically(
     return np.where(moved[:, None], result[index], given), choice
 
 
-class Patient:
-    """What depends on the faces alone, for a mesh that is welded.
-
-    Parameters
-    ----------
-    faces : ndarray of int32, shape (m, 3)
-    n : int
-    """
-
-    def __init__(self, faces: Faces, n: int) -> None:
-        self.topology = Topology(faces, n)
-        self.probe = Probe(self.topology)
-        self._coarse: CoarseFilter | None = None
-        self.learner = Learner(self.topology)
-        self._keep = 0.0
-
-    def edge(self, positions: Positions) -> float:
-        """Mean edge length of `positions`, shape (n, 3)."""
-        return mean_edge_length(positions, self.topology.faces)
-
-    def smooth(self, positions: Positions, keep: float, most: float) -> Positions:
-        """The coarse mesh, shape (n, 3), as `positions` are; `most` is the largest fraction that will be asked for."""
-        if self._coarse is None or self._keep < keep:
-            self._keep = max(keep, most)
-            self._coarse = CoarseFilter(self.topology.faces, self.topology.n, self._keep, BLOCK_SIZE)
-        return self._coarse(positions, keep)
-
-
 def choose(
     positions: Positions, finding: Finding, patient: Patient, goal: str = "shading", told: Told = silent
 ) -> AutomaticChoice:
@@ -179,14 +146,11 @@ def choose(
     if not finding.noisy:
         return AutomaticChoice((), finding.kind, finding.reason, NoiseLevel(0.0, 0.0), 0.0, 0.0, 0)
     members, part = sample(patient.topology.faces, finding.levels)
-    probe, learner = patient.probe, patient.learner
-    if len(members) < patient.topology.n:
-        probe = Probe(Topology(part, len(members)))
-        positions, learner = positions[members], Learner(probe.topology)
-    coarse = CoarseFilter(part, len(members), LARGEST_KEEP, BLOCK_SIZE)
-    local = finding.on(members)
-    rehearsal = Rehearsal(positions, local, probe, coarse, BASE, named("goal", GOALS, goal), learner, told)
     most = MOST_MEMBERS if patient.topology.n <= LARGE else MOST_LARGE_MEMBERS
+    if len(members) < patient.topology.n:
+        positions, patient = positions[members], Patient(part, len(members))
+    patient.expect(LARGEST_KEEP)
+    rehearsal = Rehearsal(positions, finding.on(members), patient, BASE, named("goal", GOALS, goal), told)
     candidates, heralds = (_suited(recipes, rehearsal.level, finding.edge) for recipes in (CANDIDATES, HERALDS))
     # What a few of them make, in the mean with the learnt normals, is a better guess than the one that they were chosen
     # with. A third round would believe its own mistakes.
@@ -220,8 +184,8 @@ def treat(choice: AutomaticChoice, noisy: Positions, finding: Finding, patient: 
     """Do to `noisy`, shape (n, 3), what was chosen, where there is noise and as far as the result may stand."""
     if not choice.steps:
         return noisy, Verdict(np.ones(len(noisy), dtype=np.bool_), 0.0, 0.0, "")
-    results = {step: _perform(step, choice, noisy, patient) for step in set(choice.steps)}
-    result, verdict = _judged(blend([results[step] for step in choice.steps]), noisy, finding, patient)
+    patient.expect(max(step.recipe.keep for step in choice.steps))
+    result, verdict = _judged(patient.treatments(noisy).mean(choice.steps), noisy, finding, patient)
     if choice.learnt > 0.0:
         mean = joined(result, patient.learner(noisy), choice.learnt, patient.topology)
         other, judgement = _judged(mean, noisy, finding, patient)
@@ -242,10 +206,3 @@ def _judged(result: Positions, noisy: Positions, finding: Finding, patient: Pati
     if finding.grid is not None:
         result = finding.grid.within_cells(noisy, result)
     return result, judge(noisy, result, finding, patient.probe)
-
-
-def _perform(step: Step, choice: AutomaticChoice, noisy: Positions, patient: Patient) -> Positions:
-    recipe = step.recipe
-    most = max(other.recipe.keep for other in choice.steps)
-    smooth = patient.smooth(noisy, recipe.keep, most) if recipe.needs_coarse else noisy
-    return perform(step, noisy, smooth, patient.topology)

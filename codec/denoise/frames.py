@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from bsm.bitstream.errors import HarmError, MeshError, OptionError
 from bsm.codec.arrays import Faces, Positions
-from bsm.codec.denoise.automatic import AutomaticChoice, Patient, choose, treat
+from bsm.codec.denoise.automatic import AutomaticChoice, choose, treat
 from bsm.codec.denoise.coarse import BLOCK_SIZE, KEEP, CoarseFilter
 from bsm.codec.denoise.filters.fine import fine_step
 from bsm.codec.denoise.handover import hand_over
@@ -19,6 +19,7 @@ from bsm.codec.denoise.noise.finding import Finding, find_noise
 from bsm.codec.denoise.noise.outliers import find_outliers
 from bsm.codec.denoise.noise.ripples import find_ripples
 from bsm.codec.denoise.options import DenoiseOptions
+from bsm.codec.denoise.patient import Patient
 from bsm.codec.denoise.rehearsal import Told, silent
 from bsm.codec.denoise.safety import judge, keep_good
 from bsm.codec.denoise.temporal import FEWEST_FRAMES, TemporalFilter

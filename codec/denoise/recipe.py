@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from itertools import islice
 
@@ -56,20 +56,41 @@ class Step:
     iterations: int
 
 
-def iterates(recipe: Recipe, noisy: Positions, smooth: Positions, topology: Topology) -> Iterator[Positions]:
-    """The positions, shape (n, 3), after the hand-over and 0, 1, 2, ... iterations, without end.
+class Treatments:
+    """What recipes make of one mesh: where they start is found once for all that start there, and so are results.
 
-    `noisy` and `smooth`, the coarse mesh, have that shape too.
+    Parameters
+    ----------
+    noisy : ndarray of float64, shape (n, 3)
+        Nobody may change it in place.
+    smooth : callable
+        From a fraction of the frequencies to the coarse mesh, shape (n, 3).
+    topology : Topology
     """
-    positions = hand_over(recipe.hand_over)(noisy, smooth, topology)
-    if recipe.guide == LOCAL:
-        return filtered_normals(positions, topology, recipe.sigma_r)
-    return _guided(positions, named("guide", GUIDES, recipe.guide), recipe.sigma_r, topology)
 
+    def __init__(self, noisy: Positions, smooth: Callable[[float], Positions], topology: Topology) -> None:
+        self.noisy, self._smooth, self._topology = noisy, smooth, topology
+        self._starts: dict[tuple[str, float], GuidedFilter] = {}
+        self._results: dict[Step, Positions] = {}
 
-def perform(step: Step, noisy: Positions, smooth: Positions, topology: Topology) -> Positions:
-    """The positions, shape (n, 3), after the step, from the noisy and the coarse ones."""
-    return next(islice(iterates(step.recipe, noisy, smooth, topology), step.iterations, None))
+    def iterates(self, recipe: Recipe) -> Iterator[Positions]:
+        """The positions, shape (n, 3), after the hand-over and 0, 1, 2, ... iterations, without end."""
+        where = (recipe.hand_over, recipe.keep if recipe.needs_coarse else 0.0)
+        start = self._starts.get(where)
+        if start is None:
+            smooth = self._smooth(recipe.keep) if recipe.needs_coarse else self.noisy
+            positions = hand_over(recipe.hand_over)(self.noisy, smooth, self._topology)
+            start = self._starts[where] = GuidedFilter(positions, self._topology)
+        if recipe.guide == LOCAL:
+            return filtered_normals(start.positions, self._topology, recipe.sigma_r)
+        return _guided(start, named("guide", GUIDES, recipe.guide), recipe.sigma_r)
+
+    def mean(self, steps: tuple[Step, ...]) -> Positions:
+        """The mean of what the steps make, shape (n, 3); any number of threads may ask."""
+        for step in steps:
+            if step not in self._results:
+                self._results[step] = next(islice(self.iterates(step.recipe), step.iterations, None))
+        return blend([self._results[step] for step in steps])
 
 
 def blend(results: list[Positions]) -> Positions:
@@ -78,8 +99,8 @@ def blend(results: list[Positions]) -> Positions:
     return mean
 
 
-def _guided(positions: Positions, guide: Guide, sigma_r: float, topology: Topology) -> Iterator[Positions]:
-    filter_ = GuidedFilter(positions, topology)
+def _guided(start: GuidedFilter, guide: Guide, sigma_r: float) -> Iterator[Positions]:
+    positions = start.positions
     while True:
         yield positions
-        positions = filter_.step(positions, guide, sigma_r)
+        positions = start.step(positions, guide, sigma_r)

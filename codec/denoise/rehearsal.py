@@ -17,13 +17,12 @@ from itertools import islice
 import numpy as np
 
 from bsm.codec.arrays import Positions
-from bsm.codec.denoise.coarse import CoarseFilter
-from bsm.codec.denoise.learnt.cascade import Learner, joined, learnt
+from bsm.codec.denoise.learnt.cascade import joined, learnt
 from bsm.codec.denoise.noise.estimate import NoiseLevel, estimate_noise
 from bsm.codec.denoise.noise.finding import Finding
-from bsm.codec.denoise.noise.probe import Probe
 from bsm.codec.denoise.noise.synthesis import Synthesis
-from bsm.codec.denoise.recipe import Recipe, Step, blend, iterates, perform
+from bsm.codec.denoise.patient import Patient
+from bsm.codec.denoise.recipe import Recipe, Step, blend
 from bsm.codec.geometry.metrics import Reference, mean_edge_length
 from bsm.codec.threads import ordered_map
 
@@ -97,14 +96,12 @@ class Rehearsal:
     noisy : ndarray of float64, shape (n, 3)
     finding : Finding
         Its levels are those of this mesh.
-    probe : Probe
-    coarse : CoarseFilter
+    patient : Patient
+        Of this connectivity.
     base : Recipe
         Makes the guess.
     goal : callable
         What is to be small: from the reference and positions to a number.
-    learner : Learner
-        Of this connectivity.
     told : callable, optional
         Is told what goes on.
     """
@@ -113,21 +110,16 @@ class Rehearsal:
         self,
         noisy: Positions,
         finding: Finding,
-        probe: Probe,
-        coarse: CoarseFilter,
+        patient: Patient,
         base: Recipe,
         goal: Goal,
-        learner: Learner,
         told: Told = silent,
     ) -> None:
-        topology = probe.topology
-        self._learner, self._told = learner, told
-        self._topology, self._coarse, self._goal = topology, coarse, goal
+        self._patient, self._topology, self._goal, self._told = patient, patient.topology, goal, told
         self._given, self._finding, self._touched = noisy, finding, finding.levels > 0.0
-        smooth = coarse(noisy, base.keep)
-        self.level = estimate_noise(noisy, smooth, topology)
-        guesses = iterates(base, noisy, smooth, topology)
-        self._synthesis = Synthesis(finding, probe, self.level.tangential)
+        self.level = estimate_noise(noisy, patient.smooth(noisy, base.keep), patient.topology)
+        guesses = patient.treatments(noisy).iterates(base)
+        self._synthesis = Synthesis(finding, patient.probe, self.level.tangential)
         given, done, self.rounds = 1, -1, 0
         while True:
             guess = self._within(next(islice(guesses, given - done - 1, None)), noisy)
@@ -150,15 +142,9 @@ class Rehearsal:
 
     def perform(self, steps: tuple[Step, ...], share: float = 0.0) -> Positions:
         """The steps' result, shape (n, 3), on the mesh that is rehearsed for, with `share` of the learnt normals."""
-
-        def one(step: Step) -> Positions:
-            recipe = step.recipe
-            smooth = self._coarse(self._given, recipe.keep) if recipe.needs_coarse else self._given
-            return perform(step, self._given, smooth, self._topology)
-
-        result = blend([one(step) for step in steps])
+        result = self._patient.treatments(self._given).mean(steps)
         if share > 0.0:
-            result = joined(result, self._learner(self._given), share, self._topology)
+            result = joined(result, self._patient.learner(self._given), share, self._topology)
         return self._within(result, self._given)
 
     def changed(self, steps: tuple[Step, ...], share: float) -> float:
@@ -175,6 +161,7 @@ class Rehearsal:
     def _rehearse(self, guess: Positions, noisy: Positions) -> None:
         self.truth = Reference(guess, self._topology.faces)
         self.noisy = noisy
+        self._treatments = self._patient.treated(noisy)
 
     @property
     def untreated(self) -> float:
@@ -183,9 +170,8 @@ class Rehearsal:
 
     def attempt(self, recipe: Recipe) -> Trial:
         """Iterate until nothing has improved for a while."""
-        smooth = self._coarse(self.noisy, recipe.keep) if recipe.needs_coarse else self.noisy
         best = Trial(Step(recipe, 0), np.inf, self.noisy)
-        run = iterates(recipe, self.noisy, smooth, self._topology)
+        run = self._treatments.iterates(recipe)
         for count, positions in enumerate(islice(run, MOST_ITERATIONS + 1)):
             result = self._within(positions, self.noisy)
             error = self._goal(self.truth, result)

@@ -51,7 +51,7 @@ CONSTANTS = (
     Constant("sequence", "bsm.codec.sequence.row_prediction", "NOISE"),
     Constant("sequence", "bsm.codec.sequence.dictionaries", "TETHER"),
     Constant("denoising", "bsm.codec.denoise.handover", "SIGMA_R"),
-    Constant("denoising", "bsm.codec.denoise.automatic", "BLOCK_SIZE"),
+    Constant("denoising", "bsm.codec.denoise.patient", "BLOCK_SIZE"),
     Constant("denoising", "bsm.codec.denoise.rehearsal", "MOST_MEMBERS"),
     Constant("denoising", "bsm.codec.denoise.filters.guided", "VERTEX_ITERATIONS"),
     Constant("denoising", "bsm.codec.denoise.filters.bilateral_normal", "PATIENT_VERTICES"),

@@ -8,6 +8,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from functools import partial
 from itertools import islice
 from pathlib import Path
 from unittest.mock import patch
@@ -31,7 +32,7 @@ from bsm.codec.denoise.noise.gaussian import (
     rounded,
     uniform_along_normals,
 )
-from bsm.codec.denoise.recipe import Recipe, iterates
+from bsm.codec.denoise.recipe import Recipe, Treatments
 from bsm.codec.geometry.metrics import Reference, mean_edge_length, rms_over_edge, theta
 from bsm.files.formats.npz import read_arrays
 from bsm.files.mesh import read_mesh
@@ -288,18 +289,16 @@ def flicker(clean: np.ndarray, frames: np.ndarray, faces: Faces) -> float:
 
 def oracle(noisy: Positions, faces: Faces, reference: Reference) -> dict[str, float]:
     """Theta of every rival at its best iteration."""
-    topology = Topology(faces, len(noisy))
-    coarse = CoarseFilter(faces, len(noisy))(noisy)
-    return {name: _best(iterates(rival, noisy, coarse, topology), reference) for name, rival in RIVALS.items()}
+    treatments = _treatments(noisy, faces)
+    return {name: _best(treatments.iterates(rival), reference) for name, rival in RIVALS.items()}
 
 
 def best_fixed(noisy: Positions, faces: Faces, reference: Reference) -> float:
     """Theta of the best of the rivals with numbers of iterations that a user might ask for."""
-    topology = Topology(faces, len(noisy))
-    coarse = CoarseFilter(faces, len(noisy))(noisy)
+    treatments = _treatments(noisy, faces)
     found = []
     for name, rival in RIVALS.items():
-        run = iterates(rival, noisy, coarse, topology)
+        run = treatments.iterates(rival)
         done = -1
         for count in FIXED_ITERATIONS[name]:
             # The local filter counts in twos.
@@ -307,6 +306,11 @@ def best_fixed(noisy: Positions, faces: Faces, reference: Reference) -> float:
             found.append(reference.theta(next(islice(run, count - done - 1, None))))
             done = count
     return min(found)
+
+
+def _treatments(noisy: Positions, faces: Faces) -> Treatments:
+    coarse = CoarseFilter(faces, len(noisy))
+    return Treatments(noisy, partial(coarse, noisy), Topology(faces, len(noisy)))
 
 
 def _best(run: Iterator[Positions], reference: Reference) -> float:

@@ -1,22 +1,30 @@
 /* How consistent patches of faces are, and the mean normal of the most consistent one that holds a face. */
+#include "codec/denoise/filters/exponential.h"
 #include "codec/denoise/filters/guidance.h"
 #include "codec/denoise/filters/vectors3.h"
 
 /* `steps`: distance between the normals of each pair of neighbouring faces. A low score is a consistent patch. */
-void patch_scores(ConstDoubles2 normals, ConstDoubles areas, ConstLongs starts, ConstInts members, ConstDoubles steps,
+KERNEL void patch_scores(ConstDoubles2 normals, ConstDoubles areas, ConstLongs starts, ConstInts members, ConstDoubles steps,
                   ConstLongs inner_starts, ConstInts inner, Doubles scores, Doubles2 means) {
     for (int64_t f = 0; f < normals.rows; f++) {
         int64_t first = starts.data[f], last = starts.data[f + 1];
         double widest = 0.0, total = 0.0, highest = 0.0;
         Vector3 sum = {0.0, 0.0, 0.0};
-        for (int64_t k = first; k < last; k++) {
-            Vector3 normal = row_of(normals.data, members.data[k]);
-            sum = plus_scaled(sum, areas.data[members.data[k]], normal);
+        for (int64_t k = first; k < last; k++)
+            sum = plus_scaled(sum, areas.data[members.data[k]], row_of(normals.data, members.data[k]));
+        for (int64_t k = first; k < last; k += EIGHT) {
+            Vector3 some[EIGHT];
+            for (int lane = 0; lane < EIGHT; lane++)
+                some[lane] = row_of(normals.data, members.data[least(k + lane, last - 1)]);
+#define LANES(c) {some[0].c, some[1].c, some[2].c, some[3].c, some[4].c, some[5].c, some[6].c, some[7].c}
+            Eight x = LANES(x), y = LANES(y), z = LANES(z), squares = {0.0};
             for (int64_t q = k + 1; q < last; q++) {
-                Vector3 apart = less(row_of(normals.data, members.data[q]), normal);
-                double squared = dot(apart, apart);
-                widest = squared > widest ? squared : widest;
+                Vector3 other = row_of(normals.data, members.data[q]);
+                Eight a = x - other.x, b = y - other.y, c = z - other.z, squared = a * a + b * b + c * c;
+                EightLongs wider = squared > squares;
+                squares = (Eight)(((EightLongs)squared & wider) | ((EightLongs)squares & ~wider));
             }
+            for (int lane = 0; lane < EIGHT; lane++) widest = squares[lane] > widest ? squares[lane] : widest;
         }
         for (int64_t k = inner_starts.data[f]; k < inner_starts.data[f + 1]; k++) {
             double step = steps.data[inner.data[k]];

@@ -11,7 +11,7 @@ import numpy as np
 
 from bsm.codec import _kernels
 from bsm.codec.denoise.filters.topology import Topology
-from bsm.codec.denoise.filters.vertex_update import FaceGeometry, Floats
+from bsm.codec.denoise.filters.vertex_update import FaceGeometry, Floats, pair_distances
 
 
 def patch_guidance(geometry: FaceGeometry, topology: Topology) -> Floats:
@@ -28,8 +28,8 @@ def patch_guidance(geometry: FaceGeometry, topology: Topology) -> Floats:
         Unit normals, zero only where a patch's normals cancel.
     """
     patches, inner = topology.patches, topology.inner
-    normals, pairs = geometry.normals, topology.pairs
-    steps = np.linalg.norm(normals[pairs[:, 0]] - normals[pairs[:, 1]], axis=1)
+    normals = geometry.normals
+    steps = pair_distances(normals, topology.pairs)
     scores, means, guide = np.empty(len(normals)), np.empty_like(normals), np.empty_like(normals)
     _kernels.patch_scores(normals, geometry.areas, *patches, steps, *inner, scores, means)
     _kernels.most_consistent(scores, means, *patches, guide)

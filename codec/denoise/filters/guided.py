@@ -45,7 +45,7 @@ class GuidedFilter:
     """
 
     def __init__(self, positions: Positions, topology: Topology) -> None:
-        self.topology = topology
+        self.positions, self.topology = positions, topology
         centroids = face_geometry(positions, topology.faces).centroids
         radius = RADIUS * mean_centroid_distance(centroids, topology.pairs)
         self._near = reach(centroids, themselves(len(centroids)), centroids, topology.patches, radius)

@@ -13,6 +13,14 @@ void face_geometry(ConstDoubles2 positions, ConstInts2 faces, Doubles2 centroids
     }
 }
 
+/* Distance between the two rows of `values` that each pair names. */
+void pair_distances(ConstDoubles2 values, ConstInts2 pairs, Doubles distances) {
+    for (int64_t p = 0; p < distances.size; p++) {
+        const int32_t *pair = pairs.data + 2 * p;
+        distances.data[p] = length_of(less(row_of(values.data, pair[0]), row_of(values.data, pair[1])));
+    }
+}
+
 /* The plain mean of the normals of the faces around each vertex, of length one; zero where they cancel. */
 void vertex_normals(ConstDoubles2 normals, ConstLongs starts, ConstInts around, Doubles2 averaged) {
     for (int64_t v = 0; v < starts.size - 1; v++) {

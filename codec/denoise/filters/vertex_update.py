@@ -43,6 +43,13 @@ def vertex_normals(normals: Floats, around: Rows) -> Floats:
     return averaged
 
 
+def pair_distances(values: Floats, pairs: Indices) -> Floats:
+    """How far the rows of `values`, shape (m, 3), that each of `pairs`, shape (e, 2), names are from each other."""
+    distances = np.empty(len(pairs))
+    _kernels.pair_distances(values, pairs, distances)
+    return distances
+
+
 def mean_centroid_distance(centroids: Floats, pairs: Indices) -> float:
     """Mean distance between the centroids, shape (m, 3), of faces that share an edge, `pairs`, shape (e, 2).
 
@@ -50,7 +57,7 @@ def mean_centroid_distance(centroids: Floats, pairs: Indices) -> float:
     """
     if len(pairs) == 0:
         return 1.0
-    return float(np.linalg.norm(centroids[pairs[:, 0]] - centroids[pairs[:, 1]], axis=1).mean()) or 1.0
+    return float(pair_distances(centroids, pairs).mean()) or 1.0
 
 
 def follow_normals(
