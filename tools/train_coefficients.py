@@ -185,8 +185,9 @@ def rounded(experience: Experience) -> Experience:
 
 def _leading(values: npt.NDArray[np.int64], digits: int) -> npt.NDArray[np.int64]:
     """Numbers >= 0 of any shape, rounded to so many binary digits."""
-    unit = np.maximum(np.frexp(values)[1] - digits, 0)
-    return values + (1 << unit >> 1) >> unit << unit
+    unit = np.maximum(np.frexp(values)[1].astype(np.int64) - digits, 0)
+    leading: npt.NDArray[np.int64] = values + (1 << unit >> 1) >> unit << unit
+    return leading
 
 
 def _surroundings(chain: ChainLevels) -> tuple[npt.NDArray[np.int32], ...]:

@@ -19,8 +19,10 @@ const instead = (modules, name) => ({
     },
 });
 
-/** Leaves out what most meshes can do without: sequences, attributes, split vertices, damage, packed coefficients. */
-const SMALL = instead(["sequence", "runs", "attributes", "declaration", "splits", "tolerant", "zstd"], "absent.ts");
+/** What most streams can do without: attributes, split vertices, damage, packed coefficients. */
+const SELDOM = ["attributes", "declaration", "splits", "tolerant", "zstd"];
+const SMALL = instead([...SELDOM, "sequence", "runs"], "absent.ts");
+const MOVING = instead([...SELDOM, "fields", "grid"], "absent.ts");
 
 /** Modules that are files of their own beside the one that asks for them. */
 const BESIDE = { errors: "errors.js", index: "bsm.js", quick: "quick.js", pool: "pool.js", three: "three.js" };
@@ -96,9 +98,11 @@ async function products() {
         "bsm.js": await plain("index.ts", [beside("errors")]),
         "small.js": await plain("small.ts", [SMALL, beside("errors")]),
         "quick.js": await plain("quick.ts", [SMALL, beside("errors")]),
+        "moving.js": await plain("small.ts", [MOVING, beside("errors")]),
         "worker.js": thread("bsm.js"),
         "small-worker.js": thread("small.js"),
         "quick-worker.js": thread("quick.js"),
+        "moving-worker.js": thread("moving.js"),
         "pool.js": await open("pool.ts", beside("errors", "index", "quick")),
         "main.js": await open("facade.ts", beside("errors", "index", "pool")),
         "three.js": await open("three.ts", beside("errors", "index", "pool")),

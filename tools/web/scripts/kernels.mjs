@@ -88,18 +88,23 @@ const LINK = [
 /** Sources whose functions are copied to where they are called only if that makes them smaller: they are not the slow ones. */
 const LEAN = /connectivity|attributes|fields|codec\/blocks|fronts\.c|geometry/;
 
-/** Kernels of sequences and attributes. */
-const REST = [
-    "code_matrix", "project", "cotangents", "hold", "pull", "follow_rows", "code_edges", "join_corners", "expect_normals",
-    "code_scalars", "code_texcoords", "code_normals", "code_faces",
+/** Kernels of sequences, and of split vertices. */
+const FRAMES = ["code_matrix", "project", "cotangents", "hold", "pull", "follow_rows"];
+/** Kernels of attributes. */
+const ATTRIBUTES = ["code_edges", "join_corners", "expect_normals", "code_scalars", "code_texcoords", "code_normals", "code_faces"];
+/** Kernels of light grids. */
+const LIGHT = ["link_corners", "code_light", "place_values"];
+/** Kernels of grids and refinements. */
+const FIELDS = [
+    "make_value_tables", "order_vertices", "keep_borders", "code_grid", "code_floats", "code_levels", "local_frames", "add_heights", "add_slides",
+    "tangent_steps",
 ];
-
-/** Kernels without which positions on light grids can do. */
+/** Kernels of blocks. */
 const BLOCKS = [
-    "make_value_tables", "learn_beforehand", "add_noise", "order_vertices", "points_of_levels", "code_rows", "code_block", "code_labels", "vertex_faces", "bisect", "refine_partition", "group_by_label", "chain_blocks",
-    "order_scratch", "order_block", "add_copies", "collect_edges", "find_fronts", "suspend", "factorize_fronts", "solve_columns",
-    "resize_columns", "iteration_space", "iterate", "cholesky_onorm", "householder", "reconstruct", "look_around", "block_normals",
-    "smooth_all", "find_rings", "filter_rows", "keep_borders", "code_grid", "code_floats", "code_levels", "local_frames", "add_heights", "add_slides", "tangent_steps",
+    "learn_beforehand", "add_noise", "points_of_levels", "code_rows", "code_block", "code_labels", "vertex_faces", "bisect", "refine_partition",
+    "group_by_label", "chain_blocks", "order_scratch", "order_block", "add_copies", "collect_edges", "find_fronts", "suspend", "factorize_fronts",
+    "solve_columns", "resize_columns", "iteration_space", "iterate", "cholesky_onorm", "householder", "reconstruct", "look_around", "block_normals",
+    "smooth_all", "find_rings", "filter_rows",
 ];
 
 /** Name and version of the compiler, of which the bytes are a function; undefined where there is none. */
@@ -208,8 +213,9 @@ const HOT = /fields|conquest/;
 export const KERNEL_BUILDS = {
     "built/kernels.wasm": { vectors: true, fast: HOT },
     "built/kernels-scalar.wasm": { vectors: false, fast: HOT },
-    "built/small.wasm": { vectors: true, without: REST },
-    "built/quick.wasm": { vectors: true, without: [...REST, ...BLOCKS], fast: HOT },
+    "built/small.wasm": { vectors: true, without: [...FRAMES, ...ATTRIBUTES] },
+    "built/moving.wasm": { vectors: true, without: [...LIGHT, ...FIELDS, ...ATTRIBUTES] },
+    "built/quick.wasm": { vectors: true, without: [...FRAMES, ...ATTRIBUTES, ...FIELDS, ...BLOCKS], fast: HOT },
 };
 
 /** One of them. */

@@ -1,4 +1,4 @@
-/** What the small build leaves out: it takes the place of the modules that are named in `scripts/build.mjs`. */
+/** What lesser builds leave out: it takes the place of the modules that are named in `scripts/build.mjs`. */
 import { UnsupportedError } from "./errors";
 
 function absent(what: string): never {
@@ -37,6 +37,26 @@ export class TolerantReader {
     constructor() {
         absent("damaged streams");
     }
+}
+
+export class Refinement {
+    constructor() {
+        absent("refinements");
+    }
+}
+
+export class Grid {
+    constructor() {
+        absent("grids");
+    }
+}
+
+export function gridKernel(): never {
+    return absent("grids");
+}
+
+export function lightKernel(): never {
+    return absent("grids");
 }
 
 export function unpackZstd(): never {

@@ -4,8 +4,8 @@ import { BsmError } from "./errors";
 import { parseMap } from "./maps";
 import { parseVarint } from "./varint";
 
-/** The decoders that there are: of light grids, of static meshes, of everything. */
-export type Build = "quick" | "small" | "whole";
+/** The decoders that there are: of light grids, of static meshes, of sequences, of everything. */
+export type Build = "quick" | "small" | "moving" | "whole";
 
 /** Which decoder a stream needs, unless that finds that it does not, and how many vertices it says to have. */
 export interface Need {
@@ -22,8 +22,9 @@ export function needOf(data: Uint8Array): Need | undefined {
         if (end > data.length) return data[0] === PREAMBLE[0] && tag.value % 16 === 1 ? undefined : { build: "whole", vertices: 0 };
         const header = new Map(parseMap(data.subarray(tag.end, end)).map(([key, { value }]) => [Number(key.value), Number(value)]));
         const { vertices, coding, gopFrames, attributes, light } = HEADER_FIELDS;
-        const isWhole = header.has(gopFrames.key) || header.has(attributes.key) || header.get(coding.key) === 0;
-        return { build: isWhole ? "whole" : header.get(light.key) === 1 ? "quick" : "small", vertices: header.get(vertices.key) ?? 0 };
+        const isWhole = header.has(attributes.key) || header.get(coding.key) === 0;
+        const build = isWhole ? "whole" : header.has(gopFrames.key) ? "moving" : header.get(light.key) === 1 ? "quick" : "small";
+        return { build, vertices: header.get(vertices.key) ?? 0 };
     } catch (error) {
         if (!(error instanceof BsmError)) throw error;
         return { build: "whole", vertices: 0 };

@@ -16,15 +16,17 @@ const WORKERS: Record<Build, () => Worker> = {
     whole: () => new Worker(new URL("./worker.js", import.meta.url), { type: "module", name: "BSM" }),
     small: () => new Worker(new URL("./small-worker.js", import.meta.url), { type: "module", name: "BSM" }),
     quick: () => new Worker(new URL("./quick-worker.js", import.meta.url), { type: "module", name: "BSM" }),
+    moving: () => new Worker(new URL("./moving-worker.js", import.meta.url), { type: "module", name: "BSM" }),
 };
 const KERNELS: Record<Build | "scalar", () => URL> = {
     whole: () => new URL("./kernels.wasm", import.meta.url),
     small: () => new URL("./small.wasm", import.meta.url),
     quick: () => new URL("./quick.wasm", import.meta.url),
+    moving: () => new URL("./moving.wasm", import.meta.url),
     scalar: () => new URL("./kernels-scalar.wasm", import.meta.url),
 };
-const SCRIPTS: Record<Build, string> = { whole: "worker.js", small: "small-worker.js", quick: "quick-worker.js" };
-const FILES: Record<Build | "scalar", string> = { whole: "kernels.wasm", small: "small.wasm", quick: "quick.wasm", scalar: "kernels-scalar.wasm" };
+const SCRIPTS: Record<Build, string> = { whole: "worker.js", small: "small-worker.js", quick: "quick-worker.js", moving: "moving-worker.js" };
+const FILES: Record<Build | "scalar", string> = { whole: "kernels.wasm", small: "small.wasm", quick: "quick.wasm", moving: "moving.wasm", scalar: "kernels-scalar.wasm" };
 
 /** The lesser builds have vector instructions only; a machine without them has the whole one. */
 function buildOf(build: Build): Build {

@@ -42,7 +42,7 @@ export class BSMLoader extends Loader<BSMGeometry> {
         return this;
     }
 
-    /** Have a thread and the decoder ready before there is a stream: of all meshes, static ones, or those of `--quick`. */
+    /** Have a thread and the decoder ready before there is a stream: of all meshes, static ones, sequences, or those of `--quick`. */
     preload(build: Build = "small"): this {
         this.pool.preload(build).catch((error) => console.error(error));
         return this;
@@ -97,7 +97,7 @@ export class BSMLoader extends Loader<BSMGeometry> {
         let sequence: BSMSequence | undefined;
         return new Promise((keep, fail) => {
             const onFrame = (index: number, geometry: BSMGeometry): void => {
-                if (index === 0) keep((sequence = new BSMSequence(geometry)));
+                if (index === 0 && !sequence) keep((sequence = new BSMSequence(geometry)));
             };
             const onLoad = (): void => {
                 if (sequence) sequence.complete = true;

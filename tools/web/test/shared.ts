@@ -18,9 +18,10 @@ export const FLAGS = [
 ];
 
 /** A build of less than all, as the decoder that tests of the sources take. */
-export async function lesserDecode(build: "small" | "quick"): Promise<(data: Uint8Array) => Mesh> {
-    const lesser = (await import(pathToFileURL(join(WEB, `built/${build}.js`)).href)) as { decode: typeof decode; Kernels: typeof Kernels };
+export async function lesserDecode(build: "small" | "quick" | "moving"): Promise<(data: Uint8Array) => Mesh> {
+    const lesser = (await import(pathToFileURL(join(WEB, `built/${build}.js`)).href)) as { decode: typeof decode; Decoder: typeof Decoder; Kernels: typeof Kernels };
     const kernels = await lesser.Kernels.compile(readFileSync(join(WEB, `built/${build}.wasm`)));
+    if (build === "moving") return (data) => meshOfEvents(eventsOf(kernels, data, data.length, {}, {}, lesser.Decoder));
     return (data) => lesser.decode(kernels, data);
 }
 
@@ -29,8 +30,8 @@ export function compile(build: string): Promise<Kernels> {
 }
 
 /** All events of a stream that comes in pieces of `size` bytes; the error is thrown behind them. */
-export function* eventsOf(kernels: Kernels, data: Uint8Array, size: number, limits: Partial<Limits> = {}, wishes: Wishes = {}): Generator<Event> {
-    const decoder = new Decoder(kernels, limits, wishes);
+export function* eventsOf(kernels: Kernels, data: Uint8Array, size: number, limits: Partial<Limits> = {}, wishes: Wishes = {}, Type = Decoder): Generator<Event> {
+    const decoder = new Type(kernels, limits, wishes);
     for (let at = 0; at < data.length || at === 0; at += Math.max(size, 1)) {
         decoder.receiveData(data.subarray(at, at + size));
         for (let event; (event = decoder.nextEvent()) !== NEED_DATA; ) yield event as Event;

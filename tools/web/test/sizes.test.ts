@@ -10,6 +10,7 @@ import { WEB } from "./shared";
 const LOADS: Record<string, [most: number, files: string[]]> = {
     "light grids": [25300, ["quick-worker.js", "quick.js", "errors.js", "quick.wasm"]],
     "static meshes": [61400, ["small-worker.js", "small.js", "errors.js", "small.wasm"]],
+    "sequences": [55700, ["moving-worker.js", "moving.js", "errors.js", "moving.wasm"]],
     "everything": [87300, ["worker.js", "bsm.js", "errors.js", "kernels.wasm"]],
     "the page": [8900, ["three.js", "pool.js"]],
 };

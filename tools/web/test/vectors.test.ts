@@ -52,6 +52,22 @@ test("the small build decodes all other meshes to the same", async () => {
     }
 });
 
+test("the build of sequences decodes those without attributes to the same, and says that it has no grids", async () => {
+    const [take, full] = [await lesserDecode("moving"), await compile(BUILDS[0])];
+    let sequences = 0;
+    for (const { name } of vectors.filter(({ name }) => name.startsWith("good-"))) {
+        const data = readFileSync(join(VECTORS, `${name}.bsm`));
+        const begin = eventsOf(full, data, data.length).next().value as Event;
+        assert.ok(begin.type === "header");
+        const { coding, attributes, gopFrames, grid } = begin.header;
+        if (grid.length > 0) assert.throws(() => take(data), { name: "UnsupportedError" }, name);
+        if (gopFrames === 0 || coding === 0 || attributes > 0) continue;
+        assert.deepEqual(take(data), meshOfEvents(eventsOf(full, data, data.length)), name);
+        sequences++;
+    }
+    assert.ok(sequences > 0);
+});
+
 test("the quick build decodes meshes on light grids to the same, and says that it has nothing else", async () => {
     const [take, full] = [await lesserDecode("quick"), await compile(BUILDS[0])];
     let lights = 0;

@@ -1,0 +1,1 @@
+import{serve as m}from"./moving.js";m();
