@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from hashlib import sha256
 from itertools import islice
 from types import MappingProxyType
 
@@ -12,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from bsm.bitstream.container import packets
-from bsm.bitstream.container.gop import GopBody, GopMethod, write_gop_body
+from bsm.bitstream.container.gop import write_gop_body
 from bsm.bitstream.container.header import Header
 from bsm.bitstream.container.writer import Writer
 from bsm.bitstream.errors import ArgumentError, MeshError, OptionError
@@ -22,50 +21,30 @@ from bsm.codec.arrays import Matrix, Order, Positions
 from bsm.codec.choices import check_mapping
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
-from bsm.codec.sequence.cost import gop_cost, gop_memory, loop_memory
 from bsm.codec.sequence.decoder import decode_sequence
-from bsm.codec.sequence.gop import GopDecoder, GopEncoder, Setting, make_setting, silent
-from bsm.codec.sequence.level_writer import ROUNDS
+from bsm.codec.sequence.first_frame_encoding import Opening, open_sequence
+from bsm.codec.sequence.gop import GopEncoder, silent
+from bsm.codec.sequence.gop_encoding import Coded, Wish, attempted
 from bsm.codec.sequence.options import SequenceOptions
 from bsm.codec.sequence.row_prediction import LARGEST_LEVEL
-from bsm.codec.sequence.runs import Cutter, Frame, Run, Shelf
+from bsm.codec.sequence.runs import Cutter, Frame, Run
+from bsm.codec.sequence.runs_encoding import Meshes, OpenedMesh
 from bsm.codec.sequence.targets import SequenceComparison, compare_sequences
 from bsm.codec.sequence.watch import Watch
-from bsm.codec.signal.chain import ChainRules
-from bsm.codec.signal.quantize import smallest_step
-from bsm.codec.static.admission import admit, as_of_decoders
-from bsm.codec.static.assembly import blended
 from bsm.codec.static.attributes.encoding import carry, place_of_first_frame, with_attributes
 from bsm.codec.static.attributes.quality import qualities
-from bsm.codec.static.coding import Adaptive
 from bsm.codec.static.draft import Draft
 from bsm.codec.static.encoder import PROMISED_SIZES
 from bsm.codec.static.preamble_encoding import Parts, Prepared, prepare
-from bsm.codec.static.rules import STIFFNESS, Scheme
 from bsm.codec.static.targets import search_step
-from bsm.codec.static.units import single
-from bsm.codec.static.ways.block_coder import FRAME, CodedBlock, Progress, encode_blocks
+from bsm.codec.static.ways.block_coder import Progress
 from bsm.codec.static.work import Allowance
 
 FINEST_STEP = 2e-5
 """Below, a search for a target does not look."""
 
-FIRST_STEP = 0.4
-"""Of the first frame, in steps of the others; 0.35 and 0.5 cost about as much, 0.7 costs 1 % more."""
-
 NEAR = 0.8, 1.15
 """A first frame will do for steps so many times that for which it was coded."""
-
-FIRST_FRAME = ChainRules(
-    exact=False,
-    key_interval=0,
-    power=2,
-    iterations=2,
-    key_iterations=2,
-    shift=2.0**-5,
-    stiffness=STIFFNESS,
-)
-"""The first frame is one chain; the dictionaries of its key block and those of all parts start from cosines alike."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -320,7 +299,7 @@ class SequenceEncoder:
                 opened_for = wish.step
                 opened = open_sequence(prepared, replace(options, step=wish.step), self._count, tell, before)
             encoder = GopEncoder(opened.setting, options)
-            return _attempted(opened, encoder, wish, frames, 0, tell)
+            return attempted(opened, encoder, wish, frames, 0, tell)
 
         if options.promise is None:
             return attempt(Wish(options.step), tell)
@@ -342,7 +321,7 @@ class SequenceEncoder:
         opening = before.opening
 
         def attempt(wish: Wish, tell: Progress = silent) -> Coded:
-            return _attempted(opening, before.encoder.copy(), wish, frames, number, tell)
+            return attempted(opening, before.encoder.copy(), wish, frames, number, tell)
 
         if options.promise is None:
             return attempt(Wish(before.encoder.step), tell)
@@ -371,217 +350,6 @@ class SequenceEncoder:
             return coded
 
         return watch.settle(settled, first or promise.first_step, finest)
-
-
-@dataclass(frozen=True, eq=False)
-class Wish:
-    """How GOPs are to be encoded; see the attributes of `GopEncoder`."""
-
-    step: float
-    weights: Matrix | None = None
-    singly: bool | None = None
-    rounds: int = ROUNDS
-
-
-@dataclass(frozen=True, eq=False)
-class Coded:
-    """GOPs that were encoded with some step, the first frame before them, and their encoder."""
-
-    opening: Opening
-    encoder: GopEncoder
-    bodies: tuple[GopBody, ...]
-
-    @property
-    def singly(self) -> bool:
-        """Whether frames are sent one by one."""
-        return self.bodies[0].method is not GopMethod.LEARNT
-
-    @property
-    def decoded(self) -> Positions:
-        """What the decoder makes of them, shape (T, n, 3), in BSM units; not kept, since it is large."""
-        if self.encoder.low_delay and self.encoder.latest is not None:
-            return self.encoder.latest[None]
-        decoder = GopDecoder(self.opening.setting)
-        frames = np.empty((sum(body.frames for body in self.bodies), self.opening.setting.vertices, 3))
-        for number, frame in enumerate(frame for body in self.bodies for frame in decoder.decode(body)):
-            frames[number] = frame
-        return frames
-
-
-@dataclass(frozen=True, eq=False)
-class Opening:
-    """Everything before the GOPs but the connectivity: the first frame, coded as a static mesh is.
-
-    Parameters
-    ----------
-    header : Header
-    blocks : list of CodedBlock
-    setting : Setting
-        What the decoder will have when the first frame is complete.
-    allowance : Allowance
-        What it may still do then.
-    limits : str
-        Whose allowance that is.
-    """
-
-    header: Header
-    blocks: list[CodedBlock]
-    setting: Setting
-    allowance: Allowance
-    limits: str
-
-    def has_room(self, body: GopBody) -> bool:
-        """Whether decoders have the memory for a GOP."""
-        dictionaries = self.setting.dictionaries
-        beside = loop_memory(dictionaries.largest, body)
-        return dictionaries.fits(gop_memory(self.setting.vertices, body), beside, len(body.levels) + len(body.basis))
-
-    def admit(self, body: GopBody, number: int) -> None:
-        """Do the sums of decoders for a GOP from frame `number` on, or raise `OptionError` if they would refuse it."""
-        vertices, allowance, dictionaries = self.setting.vertices, self.allowance, self.setting.dictionaries
-        received = len(body.levels) + len(body.basis)
-        allowance.keep(0.0, received)
-        allowance.show(vertices * (body.frames if number else body.frames - 1))
-        with as_of_decoders(self.limits):
-            allowance.limits.check("sequence_bytes", gop_memory(vertices, body))
-            again = dictionaries.reserve(gop_memory(vertices, body), loop_memory(dictionaries.largest, body))
-            allowance.spend(again + gop_cost(dictionaries.sites, vertices, body), received)
-
-
-def _attempted(
-    opening: Opening, encoder: GopEncoder, wish: Wish, frames: Positions, number: int, tell: Progress
-) -> Coded:
-    encoder.step, encoder.weights, encoder.singly, encoder.rounds = wish.step, wish.weights, wish.singly, wish.rounds
-    return Coded(opening, encoder, tuple(_affordable(opening, encoder, frames, number, tell)))
-
-
-def _affordable(
-    opening: Opening, encoder: GopEncoder, frames: Positions, number: int, progress: Progress
-) -> Iterator[GopBody]:
-    """Frames as one GOP or one by one, whatever costs less, or as shorter GOPs where decoders would lack the memory."""
-    if encoder.low_delay:
-        yield encoder.encode_single(frames[0], number, progress)
-        return
-    if encoder.singly:
-        yield from encoder.encode_singles(frames)
-        return
-    learnt, cost = encoder.encode_learnt(frames, progress)
-    half = len(frames) // 2
-    if encoder.singly is None and (singles := encoder.encode_singles(frames, cost)):
-        yield from singles
-    elif half and not opening.has_room(learnt):
-        weights = encoder.weights
-        for part in (slice(half), slice(half, None)):
-            encoder.weights = None if weights is None else weights[part]
-            yield from _affordable(opening, encoder, frames[part], number + (part.start or 0), silent)
-    else:
-        yield learnt
-
-
-@dataclass(frozen=True, eq=False)
-class OpenedMesh:
-    """A mesh that a run has had: the number of the run that brought it, and what was coded of it last."""
-
-    run: int
-    prepared: Prepared
-    coded: Coded
-
-
-class Meshes:
-    """The meshes that runs have had, as far as decoders keep them, see `Shelf`, and what decoders may still do.
-
-    Attributes
-    ----------
-    allowance : Allowance
-        When the present run begins.
-    """
-
-    def __init__(self, options: SequenceOptions) -> None:
-        self.allowance = Allowance(NAMED_LIMITS[options.limits]())
-        self._shelf: Shelf[OpenedMesh] = Shelf(self.allowance)
-        self._known: dict[bytes, int] = {}  # the run that brought a mesh, by its faces
-
-    def again(self, mesh: TriangleMesh) -> OpenedMesh | None:
-        """What is kept of the mesh of a run that begins; None: it is to be sent."""
-        run = self._known.get(_digest(mesh), -1)
-        opened = self._shelf.take(run) if run in self._shelf else None
-        if opened is None:
-            self._shelf.make_room()
-            return None
-        allowance = opened.coded.opening.allowance
-        allowance.follow(self.allowance)
-        allowance.show(opened.coded.opening.header.vertices)  # the first GOP does, at least
-        return opened
-
-    def keep(self, opened: OpenedMesh, mesh: TriangleMesh) -> None:
-        """Take note that a run of this mesh has ended."""
-        opening = opened.coded.opening
-        opening.setting.dictionaries.release()
-        self.allowance.follow(opening.allowance)
-        if opened.run not in self._shelf:
-            self._shelf.put(opened.run, opened)
-        self._shelf.leave(opened.run)
-        self._known[_digest(mesh)] = opened.run
-
-
-def _digest(mesh: TriangleMesh) -> bytes:
-    """What meshes of the same faces and attributes have in common, and no others."""
-    found = sha256(len(mesh.positions).to_bytes(8, "little") + mesh.faces.tobytes())
-    for one in mesh.attributes:
-        found.update(repr((one.name, one.domain, one.semantic, one.values.dtype, one.values.shape)).encode())
-        found.update(one.values.tobytes())
-        if one.indices is not None:
-            found.update(one.indices.tobytes())
-    return found.digest()
-
-
-def open_sequence(
-    prepared: Prepared, options: SequenceOptions, frames: int, progress: Progress, before: Allowance
-) -> Opening:
-    """Code the first frame, which all others of a run build upon; `frames` as for `SequenceEncoder`.
-
-    What decoders may still do follows from `before`.
-
-    Raises
-    ------
-    OptionError
-        If the options' first step is too fine.
-    """
-    finest = smallest_step(prepared.size)
-    step = options.first_step or max(FIRST_STEP * options.step, finest)
-    if step < finest:
-        raise OptionError(f"first_step = {step:g} is too fine for blocks of {prepared.size}, try {finest:.1e}")
-    width = max(1, round(options.keep * prepared.size))
-    scheme = Scheme(prepared.blocks[0], FIRST_FRAME, Adaptive(width, single(step)))
-    blocks = encode_blocks([scheme], prepared.positions, threads=options.threads, progress=progress)
-    header = Header(
-        vertices=prepared.graph.size,
-        faces=len(prepared.mesh.faces),
-        block_size=prepared.size,
-        coefficients=width,
-        center=prepared.units.center,
-        scale=prepared.units.scale,
-        frames=frames,
-        gop_frames=options.gop if options.mode == "gop" else 1,
-        **scheme.fields(),
-    )
-    positions = blended(prepared.graph.size, (block.decoded for block in blocks))
-    allowance = Allowance(NAMED_LIMITS[options.limits]())
-    allowance.follow(before)
-    allowance.show(header.vertices)  # the first GOP does, at least
-    with as_of_decoders(options.limits):
-        admit(allowance, prepared, blocks)
-        allowance.keep(0.0, sum(len(block.packet.data) + FRAME for block in blocks))
-        allowance.limits.check("sequence_bytes", 8.0 * header.vertices * header.coefficients)
-        setting = make_setting(
-            scheme,
-            prepared.mesh.faces,
-            positions,
-            width=width,
-            threads=options.threads,
-            allowance=allowance,
-        )
-    return Opening(header, blocks, setting, allowance, options.limits)
 
 
 def _checked(run: Run, prepared: Prepared) -> Iterator[Matrix]:

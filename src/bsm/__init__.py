@@ -60,8 +60,9 @@ if TYPE_CHECKING:
     from bsm.codec.geometry.mesh import TriangleMesh as TriangleMesh
     from bsm.codec.geometry.metrics import Comparison as Comparison
     from bsm.codec.look.measure import Look as Look
-    from bsm.codec.sequence.decoder import FrameEvent as FrameEvent, SequenceDecoder as SequenceDecoder
+    from bsm.codec.sequence.decoder import SequenceDecoder as SequenceDecoder
     from bsm.codec.sequence.encoder import SequenceEncoder as SequenceEncoder
+    from bsm.codec.sequence.events import FrameEvent as FrameEvent
     from bsm.codec.sequence.options import SequenceOptions as SequenceOptions
     from bsm.codec.sequence.targets import SequenceTarget as SequenceTarget
     from bsm.codec.static.contract import Contract as Contract
@@ -110,8 +111,9 @@ _ROOMS = {
     "bsm.codec.geometry.mesh": "TriangleMesh",
     "bsm.codec.geometry.metrics": "Comparison",
     "bsm.codec.look.measure": "Look",
-    "bsm.codec.sequence.decoder": "FrameEvent SequenceDecoder",
+    "bsm.codec.sequence.decoder": "SequenceDecoder",
     "bsm.codec.sequence.encoder": "SequenceEncoder",
+    "bsm.codec.sequence.events": "FrameEvent",
     "bsm.codec.sequence.options": "SequenceOptions",
     "bsm.codec.sequence.targets": "SequenceTarget",
     "bsm.codec.static.contract": "Contract",

@@ -356,7 +356,8 @@ def decode_frames(
     >>> for frame in bsm.decode_frames("dance.bsm"):
     ...     bounds = frame.positions.min(axis=0), frame.positions.max(axis=0)
     """
-    from bsm.codec.sequence.decoder import FrameEvent, SequenceDecoder
+    from bsm.codec.sequence.decoder import SequenceDecoder
+    from bsm.codec.sequence.events import FrameEvent
     from bsm.files.stream import events
 
     with SequenceDecoder(limits, threads) as decoder:

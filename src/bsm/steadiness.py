@@ -15,7 +15,8 @@ from bsm.bitstream.container.reader import END_OF_STREAM, Reader
 from bsm.bitstream.errors import NumericError
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.codec.arrays import Matrix, Positions
-from bsm.codec.sequence.decoder import FrameEvent, SequenceDecoder
+from bsm.codec.sequence.decoder import SequenceDecoder
+from bsm.codec.sequence.events import FrameEvent
 from bsm.codec.signal.chain import Rounding, Trial, unchanged
 from bsm.codec.static.decoder import Decoder
 

@@ -18,7 +18,8 @@ from bsm.bitstream.container.reader import END_OF_STREAM, NEED_DATA
 from bsm.bitstream.container.wire import Cursor, FrameType
 from bsm.bitstream.errors import BsmError
 from bsm.bitstream.limits import NAMED_LIMITS, Limits
-from bsm.codec.sequence.decoder import FrameEvent, SequenceDecoder
+from bsm.codec.sequence.decoder import SequenceDecoder
+from bsm.codec.sequence.events import FrameEvent
 from bsm.codec.static.decoder import Decoder
 from bsm.codec.static.encoder import encode
 from bsm.codec.static.events import HeaderEvent, LossEvent

@@ -31,7 +31,8 @@ from bsm.bitstream.fields.levels import LevelsDecoder, LevelsEncoder
 from bsm.bitstream.fields.light import LightDecoder, LightEncoder
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.codec.geometry.graph import graph_of_faces
-from bsm.codec.sequence.decoder import FrameEvent, SequenceDecoder
+from bsm.codec.sequence.decoder import SequenceDecoder
+from bsm.codec.sequence.events import FrameEvent
 from bsm.codec.static.decoder import Decoder, decode
 from bsm.codec.static.events import BlockEvent
 from bsm.files.mesh import MESH_FORMATS, read_mesh

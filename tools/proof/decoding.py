@@ -11,7 +11,8 @@ from bsm.bitstream.container.reader import END_OF_STREAM, NEED_DATA
 from bsm.bitstream.errors import BsmError
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.codec.geometry.attributes import Attribute
-from bsm.codec.sequence.decoder import FrameEvent, SequenceDecoder
+from bsm.codec.sequence.decoder import SequenceDecoder
+from bsm.codec.sequence.events import FrameEvent
 from bsm.codec.static.decoder import Decoder, decode
 from bsm.codec.static.events import AttributeEvent, BlockEvent, ConnectivityEvent, LossEvent, RefinementEvent
 from tools.proof.tally import Decoded, Outcome

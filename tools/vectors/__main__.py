@@ -23,7 +23,8 @@ import numpy as np
 
 from bsm.bitstream.container.reader import END_OF_STREAM
 from bsm.bitstream.errors import BsmError
-from bsm.codec.sequence.decoder import FrameEvent, SequenceDecoder
+from bsm.codec.sequence.decoder import SequenceDecoder
+from bsm.codec.sequence.events import FrameEvent
 from bsm.codec.static.decoder import decode
 from bsm.codec.static.events import ConnectivityEvent
 from tools.vectors.example import example

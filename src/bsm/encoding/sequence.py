@@ -143,7 +143,7 @@ class Echo:
     def compare(self, chunk: bytes, order: np.ndarray) -> None:
         """Decode a piece of the stream and add up the error of its frames; vertex j of a decoded one is `order[j]`."""
         from bsm.bitstream.container.reader import Signal
-        from bsm.codec.sequence.decoder import FrameEvent
+        from bsm.codec.sequence.events import FrameEvent
 
         self._decoder.receive_data(chunk)
         while not isinstance(event := self._decoder.next_event(), Signal):

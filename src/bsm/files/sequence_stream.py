@@ -108,7 +108,7 @@ class SequenceStream:
 
     def changing_frames(self) -> Iterator[tuple[int, Positions]]:
         """Frames and their indices, where `faces` may change from frame to frame."""
-        from bsm.codec.sequence.decoder import FrameEvent
+        from bsm.codec.sequence.events import FrameEvent
         from bsm.codec.static.events import LossEvent
 
         given = False

@@ -12,8 +12,9 @@ from bsm.bitstream.container.wire import FrameType, write_preamble
 from bsm.bitstream.errors import BsmError, CorruptError, MeshError, OptionError
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.codec.sequence.decoder import FrameEvent, SequenceDecoder, decode_sequence
+from bsm.codec.sequence.decoder import SequenceDecoder, decode_sequence
 from bsm.codec.sequence.encoder import SequenceEncoder
+from bsm.codec.sequence.events import FrameEvent
 from bsm.codec.sequence.options import SequenceOptions
 from bsm.codec.sequence.promise import Promise
 from bsm.codec.sequence.runs import KEPT_MESHES

@@ -23,9 +23,10 @@ from bsm.bitstream.errors import (
 )
 from bsm.bitstream.limits import NAMED_LIMITS, Limits
 from bsm.codec.geometry.metrics import kg_error
-from bsm.codec.sequence.decoder import FrameEvent, SequenceDecoder, decode_sequence
+from bsm.codec.sequence.decoder import SequenceDecoder, decode_sequence
 from bsm.codec.sequence.dictionaries import Dictionaries
 from bsm.codec.sequence.encoder import SequenceEncoder, encode_sequence
+from bsm.codec.sequence.events import FrameEvent
 from bsm.codec.sequence.gop import GopEncoder
 from bsm.codec.sequence.options import SequenceOptions
 from bsm.codec.sequence.promise import Promise

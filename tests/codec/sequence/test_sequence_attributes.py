@@ -8,8 +8,9 @@ from bsm.bitstream.container import packets
 from bsm.bitstream.container.reader import END_OF_STREAM, Reader, read_packets
 from bsm.bitstream.errors import BsmError, OptionError
 from bsm.codec.geometry.attributes import Attribute
-from bsm.codec.sequence.decoder import FrameEvent, SequenceDecoder, decode_sequence
+from bsm.codec.sequence.decoder import SequenceDecoder, decode_sequence
 from bsm.codec.sequence.encoder import encode_sequence
+from bsm.codec.sequence.events import FrameEvent
 from bsm.codec.sequence.options import SequenceOptions
 from bsm.codec.static.events import AttributeEvent, LossEvent
 from tests.shapes import torus

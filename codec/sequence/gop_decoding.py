@@ -1,0 +1,168 @@
+"""GOPs of a run, as they come; the twin of `codec.sequence.gop_encoding`."""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Callable, Iterator
+from typing import TypeVar
+
+from bsm.bitstream.container import packets
+from bsm.bitstream.container.gop import GopBody, GopMethod, parse_gop_body
+from bsm.bitstream.container.header import Header
+from bsm.bitstream.container.reader import Signal
+from bsm.bitstream.container.wire import FrameType
+from bsm.bitstream.errors import BsmError, CorruptError
+from bsm.codec.arrays import Matrix
+from bsm.codec.sequence.cost import gop_cost, gop_memory, loop_memory
+from bsm.codec.sequence.course import Course, DecoderRequest
+from bsm.codec.sequence.events import FrameEvent, Item
+from bsm.codec.sequence.gop import GopDecoder, make_setting
+from bsm.codec.static.events import HeaderEvent, unreadable
+from bsm.codec.static.preamble_decoding import Structure
+from bsm.codec.static.stages import Arrival, Ended, Stage, misplaced
+
+Result = TypeVar("Result")
+
+
+class Gops:
+    """The first frame of a run is known, shape (n, 3), in BSM units; GOPs come, also of later runs of its mesh."""
+
+    def __init__(self, structure: Structure, first_frame: Matrix, request: DecoderRequest, course: Course) -> None:
+        self.header = structure.header
+        self._structure = structure
+        self._first_frame = first_frame
+        self._request = request
+        self._course = course
+        self._attributes = tuple(request.attributes)
+        self._decoder: GopDecoder | None = None  # made when a GOP is there, whose frames and bytes pay for it
+        self._skipped: list[GopBody] = []  # low-delay frames since the latest key frame, not decoded
+
+    def suspend(self) -> None:
+        """Keep only what a later run of this mesh cannot do without."""
+        self._forget()
+        if self._decoder is not None:
+            self._decoder.setting.dictionaries.release()
+
+    def resume(self, header: Header, queue: deque[Item]) -> None:
+        """Begin another run of this mesh.
+
+        Raises
+        ------
+        CorruptError
+            If its header speaks of another mesh.
+        """
+        own = self._structure.header
+        if (header.vertices, header.faces) != (own.vertices, own.faces):
+            raise CorruptError(f"run {header.run} has another mesh than the run that it names")
+        self.header = header
+        self._request.attributes[:] = self._attributes
+        queue.append(HeaderEvent(header))
+        queue.append(self._structure.numbering.event(own.vertices))
+
+    def accept(self, arrival: Arrival, queue: deque[Item]) -> Stage[Item]:
+        match arrival:
+            case packets.Gop():
+                self._accept_gop(arrival, queue)
+            case packets.Damaged():
+                if arrival.type is not FrameType.END or not self._course.lossy:
+                    self._lose(unreadable(arrival))
+            case packets.End():
+                pass  # what may come behind it, damaged, is a loss that belongs before the end
+            case Signal.END_OF_STREAM:
+                self._course.end(self.header.frames, queue)
+                return Ended()
+            case _ if self._request.tolerant:
+                self._lose(misplaced(arrival))
+            case _:
+                raise misplaced(arrival)
+        return self
+
+    def _accept_gop(self, packet: packets.Gop, queue: deque[Item]) -> None:
+        if packet.index > self._course.next:
+            self._course.report_loss(packet.index - self._course.next, queue)
+            self._forget()
+        body = self._tolerated(lambda: self._parsed(packet))
+        if body is None:
+            return
+        decoder = self._paid_for(body, len(packet.data))
+        frames = self._tolerated(lambda: self._frames(decoder, body, len(packet.data)))
+        if frames is None:
+            self._structure.allowance.show(-self._structure.header.vertices * body.frames)
+            return
+        queue.append(self._events(self._course.next, frames))
+        self._course.next += body.frames
+
+    def _parsed(self, packet: packets.Gop) -> GopBody:
+        header, limits = self.header, self._structure.allowance.limits
+        if packet.index < self._course.next:
+            raise CorruptError(f"frame {packet.index} comes again behind frame {self._course.next - 1}")
+        body = parse_gop_body(packet.data, header.gop_frames, header.run)
+        limits.check("sequence_bytes", gop_memory(header.vertices, body))
+        last = packet.index + body.frames - 1
+        if 0 < header.frames <= last:
+            raise CorruptError(f"frames {packet.index} to {last} of {header.frames}")
+        return body
+
+    def _tolerated(self, work: Callable[[], Result]) -> Result | None:
+        """What `work` gives, or None if a loss is what it gives."""
+        try:
+            return work()
+        except BsmError as error:
+            if not self._request.tolerant:
+                raise
+            self._lose(error)
+            return None
+
+    def _paid_for(self, body: GopBody, received: int) -> GopDecoder:
+        """The decoder, made when a GOP is there: it may do what the GOP's bytes and frames grant."""
+        structure, header = self._structure, self._structure.header
+        structure.allowance.keep(0.0, received)
+        structure.allowance.show(header.vertices * body.frames)
+        if self._decoder is None:
+            setting = make_setting(
+                structure.scheme,
+                structure.faces,
+                self._first_frame,
+                width=header.coefficients,
+                threads=self._request.threads,
+                allowance=structure.allowance,
+            )
+            self._decoder = GopDecoder(setting)
+        return self._decoder
+
+    def _frames(self, decoder: GopDecoder, body: GopBody, received: int) -> Iterator[Matrix]:
+        """`_decoded`, if that is allowed."""
+        vertices, dictionaries = self._structure.header.vertices, decoder.setting.dictionaries
+        again = dictionaries.reserve(gop_memory(vertices, body), loop_memory(dictionaries.largest, body))
+        self._structure.allowance.spend(again + gop_cost(dictionaries.sites, vertices, body), received)
+        return self._decoded(decoder, body)
+
+    def _decoded(self, decoder: GopDecoder, body: GopBody) -> Iterator[Matrix]:
+        """Frames of a GOP, or nothing of it where no frame of it is wanted and none that is depends on it."""
+        if body.method is not GopMethod.NEXT_FRAME:
+            self._skipped.clear()
+        if self._course.next + body.frames <= self._request.start:
+            if body.method >= GopMethod.KEY_FRAME:
+                self._skipped.append(body)
+            return iter(())
+        for earlier in self._skipped:
+            decoder.decode(earlier)
+        self._skipped.clear()
+        return decoder.decode(body)
+
+    def _events(self, first: int, frames: Iterator[Matrix]) -> Iterator[FrameEvent]:
+        numbering, units = self._structure.numbering, self._structure.units
+        for index, frame in enumerate(frames, first):
+            if index >= self._request.start:
+                yield FrameEvent(index, numbering.arranged(units.back(frame)), numbering.faces)
+
+    def _lose(self, error: BsmError) -> None:
+        """Take note that frames are lost; how many is known when the next ones come."""
+        self._course.lose(error)
+        self._forget()
+
+    def _forget(self) -> None:
+        """No frame refers to one that has come."""
+        self._skipped.clear()
+        if self._decoder is not None:
+            self._decoder.forget()

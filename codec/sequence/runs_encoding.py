@@ -1,0 +1,71 @@
+"""The meshes that runs have had, for later ones; the twin of `codec.sequence.runs_decoding`."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from hashlib import sha256
+
+from bsm.bitstream.limits import NAMED_LIMITS
+from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.sequence.gop_encoding import Coded
+from bsm.codec.sequence.options import SequenceOptions
+from bsm.codec.sequence.runs import Shelf
+from bsm.codec.static.preamble_encoding import Prepared
+from bsm.codec.static.work import Allowance
+
+
+@dataclass(frozen=True, eq=False)
+class OpenedMesh:
+    """A mesh that a run has had: the number of the run that brought it, and what was coded of it last."""
+
+    run: int
+    prepared: Prepared
+    coded: Coded
+
+
+class Meshes:
+    """The meshes that runs have had, as far as decoders keep them, see `Shelf`, and what decoders may still do.
+
+    Attributes
+    ----------
+    allowance : Allowance
+        When the present run begins.
+    """
+
+    def __init__(self, options: SequenceOptions) -> None:
+        self.allowance = Allowance(NAMED_LIMITS[options.limits]())
+        self._shelf: Shelf[OpenedMesh] = Shelf(self.allowance)
+        self._known: dict[bytes, int] = {}  # the run that brought a mesh, by its faces
+
+    def again(self, mesh: TriangleMesh) -> OpenedMesh | None:
+        """What is kept of the mesh of a run that begins; None: it is to be sent."""
+        run = self._known.get(_digest(mesh), -1)
+        opened = self._shelf.take(run) if run in self._shelf else None
+        if opened is None:
+            self._shelf.make_room()
+            return None
+        allowance = opened.coded.opening.allowance
+        allowance.follow(self.allowance)
+        allowance.show(opened.coded.opening.header.vertices)  # the first GOP does, at least
+        return opened
+
+    def keep(self, opened: OpenedMesh, mesh: TriangleMesh) -> None:
+        """Take note that a run of this mesh has ended."""
+        opening = opened.coded.opening
+        opening.setting.dictionaries.release()
+        self.allowance.follow(opening.allowance)
+        if opened.run not in self._shelf:
+            self._shelf.put(opened.run, opened)
+        self._shelf.leave(opened.run)
+        self._known[_digest(mesh)] = opened.run
+
+
+def _digest(mesh: TriangleMesh) -> bytes:
+    """What meshes of the same faces and attributes have in common, and no others."""
+    found = sha256(len(mesh.positions).to_bytes(8, "little") + mesh.faces.tobytes())
+    for one in mesh.attributes:
+        found.update(repr((one.name, one.domain, one.semantic, one.values.dtype, one.values.shape)).encode())
+        found.update(one.values.tobytes())
+        if one.indices is not None:
+            found.update(one.indices.tobytes())
+    return found.digest()
