@@ -182,9 +182,14 @@ class SequenceEncoder:
     def _finest_step(self, frames: Sequence[Matrix] | Positions) -> float:
         """A step whose levels can be coded however the motion falls into one component."""
         scale = float(np.linalg.norm(np.ptp(frames[0], axis=0))) or 1.0
-        reach = max(float(np.abs(frame - frames[0].mean(axis=0)).max()) for frame in frames) / scale
-        values = 3 * min(self.options.gop, len(frames)) * 2 * self.options.block_size
-        return float(2.0 * reach * np.sqrt(values) / LARGEST_LEVEL)
+        middle, longest = frames[0].mean(axis=0), self.options.longest(len(frames[0]))
+        most = 0.0
+        for first in range(0, len(frames), longest):
+            energies = np.zeros(len(frames[0]))
+            for frame in frames[first : first + longest]:
+                energies += np.square(frame - middle).sum(axis=1)
+            most = max(most, float(np.sort(energies)[-2 * self.options.block_size :].sum()))
+        return 2.0 * float(np.sqrt(most)) / scale / LARGEST_LEVEL
 
     def attempt(self, frames: Sequence[Matrix], step: float, progress: Progress | None = None) -> SequenceAttempt:
         """Encode frames, each of shape (n, 3), with a given step, and see what the decoder will."""
@@ -194,8 +199,7 @@ class SequenceEncoder:
         return SequenceAttempt(chunks, decoded.size // 3, compare_sequences(original, decoded, faces))
 
     def _chunks(self, frames: Iterable[Frame], options: SequenceOptions, progress: Progress | None) -> Iterator[bytes]:
-        gops = -(-self._count // (options.gop if options.mode == "gop" else 1))
-        tell = _Rounds(progress if gops else None, 1 + gops)
+        tell: Progress = silent
         shelf = Meshes(options)
         writer = Writer()
         number = 0
@@ -205,6 +209,8 @@ class SequenceEncoder:
             attributes = tuple(one for one in run.mesh.attributes if one.semantic != "normal")
             mesh = replace(run.mesh, attributes=attributes if index else self._attributes)
             if not index:
+                gops = -(-self._count // options.together(len(mesh.positions)))
+                tell = _Rounds(progress if gops else None, 1 + gops)
                 yield writer.start()
             for packet in self._run(replace(run, mesh=mesh), index, shelf, options, tell):
                 yield writer.write(packet)
@@ -223,7 +229,6 @@ class SequenceEncoder:
         """The packets of a run; `_done` grows by its frames."""
         self.run_starts.append(run.first)
         self._done = 0
-        longest = options.gop if options.mode == "gop" else 1
         opened = shelf.again(run.mesh)
         if opened is None:
             prepared = self._prepared(run.mesh, options)
@@ -232,6 +237,7 @@ class SequenceEncoder:
         self.vertex_order, self.face_order = prepared.vertex_order, prepared.face_order
         checked = _checked(run, prepared)
         vertices = len(prepared.positions)
+        longest = options.together(vertices)
         group = _group(checked, longest, vertices)
         if opened is None:
             coded = self._first_gop(group, prepared, options, tell, shelf.allowance)
@@ -342,11 +348,12 @@ class SequenceEncoder:
         watch = Watch(frames, prepared.mesh.faces, promise, prepared.units.scale, options.threads)
         finest = max(FINEST_STEP, self._finest_step(frames))
         singly: bool | None = None
+        cut: bool | None = None
 
         def settled(step: float, weights: Matrix | None, rounds: int) -> Coded:
-            nonlocal singly
-            coded = attempt(Wish(step, weights, singly, rounds))
-            singly = coded.singly  # as the first attempt was, so are the others
+            nonlocal singly, cut
+            coded = attempt(Wish(step, weights, singly, cut, rounds))
+            singly, cut = coded.singly, coded.cut  # as the first attempt was, so are the others
             return coded
 
         return watch.settle(settled, first or promise.first_step, finest)

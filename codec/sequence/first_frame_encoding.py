@@ -104,7 +104,7 @@ def open_sequence(
         center=prepared.units.center,
         scale=prepared.units.scale,
         frames=frames,
-        gop_frames=options.gop if options.mode == "gop" else 1,
+        gop_frames=options.together(prepared.graph.size),
         **scheme.fields(),
     )
     positions = blended(prepared.graph.size, (block.decoded for block in blocks))

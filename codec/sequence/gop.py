@@ -156,10 +156,6 @@ class GopEncoder:
 
     Attributes
     ----------
-    weights : float64 array, shape (T,), optional
-        What errors of the next GOP's frames count, beside each other; None: all the same.
-    singly : bool, optional
-        Whether these frames are sent one by one; None: if that costs less.
     rounds : int
         As of `LevelWriter`.
     latest : float64 array, shape (n, 3), optional
@@ -171,8 +167,6 @@ class GopEncoder:
         self._parts: tuple[Part, ...] = tuple(setting.dictionaries.each(lambda _, part: part))
         self._options = options
         self.step = options.step
-        self.weights: Matrix | None = None
-        self.singly: bool | None = None
         self.rounds = ROUNDS
         self.latest: Matrix | None = None
         self._history = FrameHistory(setting.first)
@@ -199,10 +193,10 @@ class GopEncoder:
 
     def encode_single(self, frame: Matrix, number: int, progress: Progress) -> GopBody:
         """Encode frame `number`, shape (n, 3), of a sequence of low delay."""
-        return self._single(frame, self._step, number % self._options.gop == 0, progress)
+        return self._single(frame, self._step, number % self._options.longest(len(frame)) == 0, progress)
 
-    def encode_learnt(self, frames: Matrix, progress: Progress) -> tuple[GopBody, float]:
-        """Encode frames, shape (T, n, 3), by a basis that is learnt from them.
+    def encode_learnt(self, frames: Matrix, weights: Matrix, progress: Progress) -> tuple[GopBody, float]:
+        """Encode frames, shape (T, n, 3), whose errors count by `weights`, shape (T,), by a basis learnt from them.
 
         Returns
         -------
@@ -210,19 +204,18 @@ class GopEncoder:
         cost : float
             Squared steps of all weighed errors, and what the bits are worth.
         """
-        weights = self._weights_of(frames)
         body, error = self._transformed(trajectories(frames), np.tile(weights, 3), progress)
         return body, error + WEIGHT * 8.0 * (len(body.levels) + len(body.basis) + SINGLE)
 
-    def encode_singles(self, frames: Matrix, most: float = math.inf) -> tuple[GopBody, ...]:
-        """Encode frames, shape (T, n, 3), one by one.
+    def encode_singles(self, frames: Matrix, weights: Matrix, most: float = math.inf) -> tuple[GopBody, ...]:
+        """Encode frames, shape (T, n, 3), whose errors count by `weights`, shape (T,), one by one.
 
         Steps are finer for what weighs more, as they are with a basis. Gives up, mostly soon, with
         nothing, if the cost is not likely to stay below `most`.
         """
         bodies: list[GopBody] = []
         cost = 0.0
-        for frame, weight in zip(frames, self._weights_of(frames), strict=True):
+        for frame, weight in zip(frames, weights, strict=True):
             bodies.append(self._single(frame, float(np.float32(self._step / weight)), not bodies, silent))
             assert self.latest is not None
             error = float(np.square(weight * (self.latest - frame)).sum()) / self._step**2
@@ -230,9 +223,6 @@ class GopEncoder:
             if cost > most * (len(bodies) / len(frames) if len(bodies) >= TRIED else 1.0):
                 return ()
         return tuple(bodies)
-
-    def _weights_of(self, frames: Matrix) -> Matrix:
-        return np.ones(len(frames)) if self.weights is None else self.weights
 
     def _single(self, wanted: Matrix, step: float, key: bool, progress: Progress) -> GopBody:
         if key:

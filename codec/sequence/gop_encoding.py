@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -14,14 +14,31 @@ from bsm.codec.sequence.gop import GopDecoder, GopEncoder, silent
 from bsm.codec.sequence.level_writer import ROUNDS
 from bsm.codec.static.ways.block_coder import Progress
 
+HARDLY_CUT = 256
+"""So many frames are one GOP: in no sequence seen did two cost less."""
+
 
 @dataclass(frozen=True, eq=False)
 class Wish:
-    """How GOPs are to be encoded; see the attributes of `GopEncoder`."""
+    """How frames are to be encoded.
+
+    Parameters
+    ----------
+    step : float
+    weights : float64 array, shape (T,), optional
+        What errors of each frame count, beside each other; None: all the same.
+    singly : bool, optional
+        Whether frames are sent one by one; None: if that costs less.
+    cut : bool, optional
+        Whether those that are not are two GOPs and not one; None: if that costs less.
+    rounds : int
+        As of `LevelWriter`.
+    """
 
     step: float
     weights: Matrix | None = None
     singly: bool | None = None
+    cut: bool | None = None
     rounds: int = ROUNDS
 
 
@@ -39,6 +56,11 @@ class Coded:
         return self.bodies[0].method is not GopMethod.LEARNT
 
     @property
+    def cut(self) -> bool:
+        """Whether there are several GOPs."""
+        return len(self.bodies) > 1
+
+    @property
     def decoded(self) -> Positions:
         """What the decoder makes of them, shape (T, n, 3), in BSM units; not kept, since it is large."""
         if self.encoder.low_delay and self.encoder.latest is not None:
@@ -53,28 +75,34 @@ class Coded:
 def attempted(
     opening: Opening, encoder: GopEncoder, wish: Wish, frames: Positions, number: int, tell: Progress
 ) -> Coded:
-    encoder.step, encoder.weights, encoder.singly, encoder.rounds = wish.step, wish.weights, wish.singly, wish.rounds
-    return Coded(opening, encoder, tuple(_affordable(opening, encoder, frames, number, tell)))
-
-
-def _affordable(
-    opening: Opening, encoder: GopEncoder, frames: Positions, number: int, progress: Progress
-) -> Iterator[GopBody]:
-    """Frames as one GOP or one by one, whatever costs less, or as shorter GOPs where decoders would lack the memory."""
+    """Encode the next frames, shape (T, n, 3), of which the first has this number, in the way that costs least."""
+    encoder.step, encoder.rounds = wish.step, wish.rounds
+    weights = np.ones(len(frames)) if wish.weights is None else wish.weights
     if encoder.low_delay:
-        yield encoder.encode_single(frames[0], number, progress)
-        return
-    if encoder.singly:
-        yield from encoder.encode_singles(frames)
-        return
-    learnt, cost = encoder.encode_learnt(frames, progress)
-    half = len(frames) // 2
-    if encoder.singly is None and (singles := encoder.encode_singles(frames, cost)):
-        yield from singles
-    elif half and not opening.has_room(learnt):
-        weights = encoder.weights
-        for part in (slice(half), slice(half, None)):
-            encoder.weights = None if weights is None else weights[part]
-            yield from _affordable(opening, encoder, frames[part], number + (part.start or 0), silent)
+        bodies: tuple[GopBody, ...] = (encoder.encode_single(frames[0], number, tell),)
+    elif wish.singly:
+        bodies = encoder.encode_singles(frames, weights)
     else:
-        yield learnt
+        bodies, cost = _learnt(opening, encoder, frames, weights, wish.cut, tell)
+        if wish.singly is None:
+            bodies = encoder.encode_singles(frames, weights, cost) or bodies
+    return Coded(opening, encoder, bodies)
+
+
+def _learnt(
+    opening: Opening, encoder: GopEncoder, frames: Positions, weights: Matrix, cut: bool | None, tell: Progress
+) -> tuple[tuple[GopBody, ...], float]:
+    """Frames as one GOP, or as more where that costs less or decoders would lack the memory; with the cost."""
+    half = len(frames) // 2
+    whole: tuple[tuple[GopBody, ...], float] = (), math.inf
+    if not (cut and half):
+        body, cost = encoder.encode_learnt(frames, weights, tell)
+        has_room = opening.has_room(body)
+        if not half or (has_room and (cut is not None or len(frames) <= HARDLY_CUT)):
+            return (body,), cost
+        if has_room:
+            whole = (body,), cost
+    parts = (slice(half), slice(half, None))
+    first, second = (_learnt(opening, encoder, frames[part], weights[part], False, silent) for part in parts)
+    halves = first[0] + second[0], first[1] + second[1]
+    return halves if halves[1] < whole[1] else whole

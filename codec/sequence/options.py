@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+import numpy as np
+
 from bsm.bitstream.errors import OptionError
 from bsm.bitstream.limits import NAMED_LIMITS
 from bsm.bitstream.public import public
@@ -17,6 +19,9 @@ CHOICES = {
     "mode": ("gop", "low-delay"),
     "limits": tuple(NAMED_LIMITS),
 }
+SIZES, SPANS = (5_000, 10_000), (512, 256)
+"""Frames of a GOP by default, up to so many vertices and from so many on, and in between evenly; that takes much the
+same memory."""
 RANGES: dict[str, tuple[float, float]] = {
     "step": (1e-7, 1.0),
     "first_step": (1e-7, 1.0),
@@ -43,8 +48,9 @@ class SequenceOptions:
         Quantization step, relative to the bounding box's diagonal of the first frame.
     first_step : float, optional
         That of the first frame, which all others are predicted from; None: 0.4 of `step`.
-    gop : int
-        Frames of a GOP at most, or between key frames: what a loss costs at most, and what the encoder holds.
+    gop : int, optional
+        Frames of a GOP at most, or between key frames: what a loss costs at most, and what the encoder holds. None:
+        between key frames 256; of a GOP 512 up to 5,000 vertices, 256 from 10,000 on, and in between evenly.
     keep : float
         Columns of the dictionary as a fraction of the block size; below 1, fine detail is lost.
     block_size, overlap
@@ -81,7 +87,7 @@ class SequenceOptions:
     mode: str = "gop"
     step: float = 0.002
     first_step: float | None = None
-    gop: int = 256
+    gop: int | None = None
     keep: float = 1.0
     block_size: int = 400
     overlap: float = 1.0
@@ -99,3 +105,13 @@ class SequenceOptions:
         if self.promise is not None and self.target is not None:
             raise OptionError("a sequence keeps a promise or meets a target")
         object.__setattr__(self, "attributes", checked_qualities(self.attributes))
+
+    def longest(self, vertices: int) -> int:
+        """What `gop` is for a mesh of so many vertices."""
+        if self.gop is not None:
+            return self.gop
+        return int(np.interp(vertices, SIZES, SPANS)) if self.mode == "gop" else SPANS[-1]
+
+    def together(self, vertices: int) -> int:
+        """Frames of such a mesh that are coded together, at most."""
+        return self.longest(vertices) if self.mode == "gop" else 1

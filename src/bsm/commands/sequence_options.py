@@ -17,7 +17,9 @@ def add_sequence_flags(parser: argparse.ArgumentParser) -> None:
     )
     group.add_argument("--kg", type=float, metavar="PERCENT", help="Karni and Gotsman's error at most PERCENT")
     group.add_argument("--bpvf", type=float, metavar="X", help="at most X bits per vertex and frame, the whole file")
-    group.add_argument("--gop", type=int, metavar="N", help="frames that are coded together, at most (default 256)")
+    group.add_argument(
+        "--gop", type=int, metavar="N", help="frames that are coded together, at most (default 256 to 512)"
+    )
     group.add_argument(
         "--low-delay", action="store_true", default=None, help="send each frame as it comes; --gop: every N a key frame"
     )

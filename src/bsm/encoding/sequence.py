@@ -106,10 +106,11 @@ def _staged(
     frames: Iterator[Positions | TriangleMesh], count: int, chosen: SequenceOptions, progress: Progress
 ) -> Iterator[Positions | TriangleMesh]:
     """The frames, which begin a stage with each GOP."""
-    gops = f" of {-(-count // chosen.gop)}" if count else ""
     for number, frame in enumerate(frames):
-        if chosen.mode == "gop" and number and number % chosen.gop == 0:
-            progress.stage(f"encoding GOP {1 + number // chosen.gop}{gops}")
+        longest = chosen.longest(len(frame.positions if isinstance(frame, TriangleMesh) else frame))
+        if chosen.mode == "gop" and number and number % longest == 0:
+            gops = f" of {-(-count // longest)}" if count else ""
+            progress.stage(f"encoding GOP {1 + number // longest}{gops}")
         yield frame
 
 

@@ -23,6 +23,7 @@ from bsm.bitstream.errors import (
 )
 from bsm.bitstream.limits import NAMED_LIMITS, Limits
 from bsm.codec.geometry.metrics import kg_error
+from bsm.codec.sequence import gop_encoding
 from bsm.codec.sequence.decoder import SequenceDecoder, decode_sequence
 from bsm.codec.sequence.dictionaries import Dictionaries
 from bsm.codec.sequence.encoder import SequenceEncoder, encode_sequence
@@ -483,6 +484,54 @@ def test_frames_that_are_sent_one_by_one_keep_promises():
     assert methods_of(data) == [1, *11 * [2]]
     wrong = np.linalg.norm(decode_sequence(data)[0] - positions[:, encoder.vertex_order], axis=2).max()
     assert 0.7 * 0.002 < wrong / np.linalg.norm(np.ptp(positions[0], axis=0)) <= 0.002
+
+
+def many_ways(frames, *, change):
+    """A torus bent and dented in a dozen ways at once; with `change` in a dozen others from the middle on."""
+    positions, faces = bending(1, 20, 12)
+    random = np.random.default_rng(9)
+    time = np.arange(frames) / 25.0
+    moved = np.repeat(positions, frames, axis=0)
+    for half in (slice(frames // 2), slice(frames // 2, None)) if change else (slice(None),):
+        ways = random.normal(size=(12, *positions.shape[1:]))
+        paces, phases = random.uniform(1.0, 9.0, (2, 12, 1))
+        moved[half] += 0.03 * np.einsum("kt,kni->tni", np.sin(paces * time[half] + phases), ways)
+    return moved, faces
+
+
+def test_long_motion_is_one_gop_or_two_whatever_costs_less(monkeypatch):
+    def firsts_and_bytes(positions, faces, **chosen):
+        data, wanted = encoded(positions, faces, **{"gop": None, "step": 0.005, **chosen})
+        np.testing.assert_allclose(decode_sequence(data)[0], wanted, atol=0.05)
+        return [first for first, _, _ in gop_spans(data)], len(data)
+
+    lasting, changing = many_ways(300, change=False), many_ways(300, change=True)
+    firsts, size = firsts_and_bytes(*lasting)
+    assert firsts == [0]
+    assert size < 0.8 * firsts_and_bytes(*lasting, gop=150)[1]
+    firsts, size = firsts_and_bytes(*changing)
+    assert firsts == [0, 150]
+    monkeypatch.setattr(gop_encoding, "HARDLY_CUT", 300)
+    assert size < 0.9 * firsts_and_bytes(*changing)[1]
+
+
+@pytest.mark.parametrize(
+    ("vertices", "mode", "frames"),
+    [(1, "gop", 512), (5000, "gop", 512), (7500, "gop", 384), (10_000, "gop", 256), (100, "low-delay", 256)],
+)
+def test_gops_have_fewer_frames_of_larger_meshes(vertices, mode, frames):
+    assert SequenceOptions(mode=mode).longest(vertices) == frames
+    assert SequenceOptions(mode=mode, gop=9).longest(vertices) == 9
+
+
+def test_frames_may_go_far_in_a_long_gop():
+    positions, faces = bending(300, 20, 12)
+    positions[..., 0] += 0.2 * np.arange(300)[:, None]
+    chosen = SequenceOptions(block_size=100, promise=Promise(0.001), threads=1)
+    encoder = SequenceEncoder(faces, chosen, len(positions))
+    data = b"".join(encoder.chunks(positions))
+    wrong = np.linalg.norm(decode_sequence(data)[0] - positions[:, encoder.vertex_order], axis=2).max()
+    assert wrong / np.linalg.norm(np.ptp(positions[0], axis=0)) <= 0.001
 
 
 def test_frames_that_are_shown_grant_work():
