@@ -11,7 +11,9 @@ typedef int64_t EightLongs __attribute__((vector_size(64)));
 /* exp(x) to 2e-11 of itself, for x of at most 0; below -700 what exp(-700) is, 1e-304. */
 INLINE Eight exponentials(Eight x) {
     EightLongs above = x > -700.0;
-    x = (Eight)(((EightLongs)x & above) | ((EightLongs)(Eight){-700, -700, -700, -700, -700, -700, -700, -700} & ~above));
+    Eight lowest = {0.0};
+    lowest -= 700.0;
+    x = (Eight)(((EightLongs)x & above) | ((EightLongs)lowest & ~above));
     /* 1.5 * 2^52: the sum has the nearest whole number of halvings in its last bits. */
     Eight shifted = x * 1.4426950408889634 + 6755399441055744.0;
     Eight whole = shifted - 6755399441055744.0;

@@ -39,7 +39,8 @@ NUMBERS = OWN + 3 * len(REPEATED) + 1
 """The last one is the same for the whole mesh: how much its normals differ from the smoothed ones."""
 BASE = slice(45, 48)
 """The filtered normal to which a network adds: guided by patches, both kernels wide."""
-BATCH = 8192
+BATCH = 1024
+"""Faces whose numbers pass the layers together: what a layer makes of so many stays in the cache."""
 
 
 def descriptions(positions: Positions, topology: Topology, batch: int = BATCH) -> Iterator[tuple[Singles, Floats]]:

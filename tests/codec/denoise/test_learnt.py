@@ -42,7 +42,7 @@ def test_the_same_mesh_elsewhere_gives_the_same_normals_there() -> None:
 def test_batches_make_no_difference() -> None:
     _, noisy, faces = noisy_sphere(10)
     topology = Topology(faces, len(noisy))
-    whole = next(descriptions(noisy, topology))
+    whole = next(descriptions(noisy, topology, batch=len(faces)))
     parts = list(descriptions(noisy, topology, batch=97))
     assert whole[0].shape == (len(faces), NUMBERS) and whole[0].dtype == np.float32
     for index in range(2):
