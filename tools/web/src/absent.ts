@@ -33,9 +33,27 @@ export class Attributes {
     }
 }
 
+export function dressed(): never {
+    return absent("attributes");
+}
+
 export class TolerantReader {
     constructor() {
         absent("damaged streams");
+    }
+}
+
+export function checkAgain(): never {
+    return absent("sequences");
+}
+
+export function checkBlocks(): never {
+    return absent("blocks");
+}
+
+export class Floats {
+    constructor() {
+        absent("floats");
     }
 }
 

@@ -1,6 +1,6 @@
 /** Attributes: seams, values, and how the user is given them (specification, D, A). */
 import { begun } from "./begun";
-import { Cursor } from "./reader";
+import { Cursor } from "./packets";
 import { BITS, CORNER, FACE, isByVertex, LEVELS, OCTAHEDRAL, RECOMPUTED, scaleOf, TEXCOORD, VERTEX, wordsOf, type Declaration } from "./declaration";
 import { Coder, makeBank } from "./entropy";
 import { CorruptError } from "./errors";

@@ -3,24 +3,13 @@ import { begun } from "./begun";
 import type { Attribute } from "./attributes";
 import type { Changes } from "./assembly";
 import type { ConnectivityEvent, EndEvent, Event, FrameEvent, HeaderEvent, LossEvent, MetadataEvent, RefinementEvent } from "./decoder";
+import { spread, type DrawnAttribute, type Dress, type Piece } from "./dress";
 import { checkLimit, DEFAULT_LIMITS, type Limits } from "./limits";
 import { inverse } from "./numbering";
 import { upTo } from "./numbers";
+import { dressed } from "./parting";
 
-/** Faces with one material, of one part: `count` corners from `start` on. */
-export interface Piece {
-    material: number;
-    part: number;
-    start: number;
-    count: number;
-}
-
-/** Numbers of the drawn vertices under one name. */
-export interface DrawnAttribute {
-    name: string;
-    components: number;
-    values: Float32Array;
-}
+export type { DrawnAttribute, Piece };
 
 /** A whole mesh as it is drawn: `vertices` says which vertex of the stream each drawn one is, if that is not the same. */
 export interface Shape {
@@ -90,10 +79,7 @@ type Show = (picture: Picture, moved?: Transferable[]) => void;
 
 /** Milliseconds between pictures of a mesh that grows. */
 const PAUSE = 30;
-/** Attributes of faces that say what belongs together, and are not drawn. */
-const [MATERIAL, PART] = ["material", "part"];
 const MOST_NORMAL = 32767;
-const BASES = { texcoord: "uv", color: "color", normal: "normal" } as const;
 
 /** Turns the events of a stream into pictures. */
 export class Drawing {
@@ -314,35 +300,22 @@ export class Drawing {
 
     /** The mesh is whole: part its vertices where its attributes do, and sort its faces by parts and materials. */
     private finish(): void {
-        const { faces, origin, points } = this;
+        const { faces, origin, points, carried } = this;
         const isThere = (corner: number): boolean => origin[faces[corner]] >= 0;
         const whole = upTo(faces.length / 3).filter((face) => isThere(3 * face) && isThere(3 * face + 1) && isThere(3 * face + 2));
-        const labels = [PART, MATERIAL].map((name) => this.carried.find((one) => one.name === name && one.domain === "face" && one.components === 1));
-        const [part, material] = labels.map((one) => (face: number): number => one?.values[face] ?? 0);
-        if (labels.some((one) => one)) whole.sort((a, b) => part(a) - part(b) || material(a) - material(b) || a - b);
-        const pieces: Piece[] = [];
-        let last: Piece | undefined;
-        whole.forEach((face, i) => {
-            if (last?.part === part(face) && last.material === material(face)) last.count += 3;
-            else pieces.push((last = { part: part(face), material: material(face), start: 3 * i, count: 3 }));
-        });
-        const drawn = this.carried.filter((one) => !labels.includes(one));
-        const { index, vertices, rows } = parted(faces, whole, drawn, points.length / 3);
-        const own = drawn.find(({ semantic, domain }) => semantic === "normal" && domain !== "face");
+        const { index, vertices, pieces, attributes, own } = carried.length > 0 ? dressed(faces, whole, carried, points.length / 3) : this.bare(whole);
         const positions = spread(points, 3, vertices);
-        const normals = own ? numbersOf(own, rows[drawn.indexOf(own)]) : spread(normalsOf(faces, origin, points), 3, vertices);
-        const used = new Map([["position", 1], ["normal", 1]]);
-        const attributes = drawn.flatMap((one, i) => {
-            if (one === own) return [];
-            const base = one.semantic === "generic" ? one.name : BASES[one.semantic];
-            const count = used.get(base) ?? 0;
-            used.set(base, count + 1);
-            return [{ name: count ? `${base}${count}` : base, components: one.components, values: numbersOf(one, rows[i]) }];
-        });
+        const normals = own ?? spread(normalsOf(faces, origin, points), 3, vertices);
         const shape = (this.shape = { index, positions, normals, attributes, vertices, pieces, ...boundsOf(positions) });
         const buffers = [index, positions, normals, ...attributes.map(({ values }) => values)].map(({ buffer }) => buffer);
         if (this.run > 0) this.kept += buffers.reduce((sum, { byteLength }) => sum + byteLength, 0);
         this.show({ type: "whole", shape, run: this.run }, buffers);
+    }
+
+    /** Some of the faces, of a mesh without attributes. */
+    private bare(faces: Int32Array): Dress {
+        const index = this.cornersOf(faces);
+        return { index, pieces: index.length > 0 ? [{ part: 0, material: 0, start: 0, count: index.length }] : [], attributes: [] };
     }
 }
 
@@ -387,77 +360,6 @@ function normalsOf(faces: Int32Array, origin: Int32Array, p: ArrayLike<number>):
         n[i + 2] /= length;
     }
     return n;
-}
-
-/** Rows of numbers, `width` in each, one for each of `vertices`; without these as they are. */
-function spread(numbers: ArrayLike<number>, width: number, vertices?: Int32Array): Float32Array {
-    if (!vertices) return new Float32Array(numbers);
-    const rows = new Float32Array(width * vertices.length);
-    for (let i = 0; i < vertices.length; i++) for (let d = 0; d < width; d++) rows[width * i + d] = numbers[width * vertices[i] + d];
-    return rows;
-}
-
-/** The value of each corner of some faces that an attribute has; of faces, equal ones have the number of the first. */
-function valuesOf({ domain, values, components, indices }: Attribute, faces: Int32Array, chosen: Int32Array): Int32Array {
-    const numbers = new Int32Array(3 * chosen.length);
-    const first = new Map<string, number>();
-    chosen.forEach((face, i) => {
-        let ofFace = face;
-        if (domain === "face") {
-            const key = values.subarray(components * face, components * (face + 1)).join();
-            ofFace = first.get(key) ?? face;
-            first.set(key, ofFace);
-        }
-        for (let k = 0; k < 3; k++) {
-            const corner = 3 * face + k;
-            numbers[3 * i + k] = domain === "face" ? ofFace : domain === "corner" ? indices?.[corner] ?? 0 : faces[corner];
-        }
-    });
-    return numbers;
-}
-
-/**
- * A vertex for each vertex of `faces` and values of the attributes that meet at a corner of the `chosen` ones: which drawn vertices these
- * have, which vertex each drawn one is, and which value of each attribute it has. Nothing is parted where nothing needs it.
- */
-function parted(faces: Int32Array, chosen: Int32Array, attributes: Attribute[], size: number): { index: Uint32Array; vertices?: Int32Array; rows: (Int32Array | undefined)[] } {
-    const index = new Uint32Array(3 * chosen.length);
-    const parting = attributes.filter(({ domain }) => domain !== "vertex");
-    if (parting.length === 0) {
-        chosen.forEach((face, i) => {
-            for (let k = 0; k < 3; k++) index[3 * i + k] = faces[3 * face + k];
-        });
-        return { index, rows: attributes.map(() => undefined) };
-    }
-    const values = parting.map((one) => valuesOf(one, faces, chosen));
-    // The drawn vertices of each vertex are a chain, from the one met last to the first.
-    const [heads, next] = [new Int32Array(size).fill(-1), new Int32Array(index.length)];
-    const [vertices, corners] = [new Int32Array(index.length), new Int32Array(index.length)];
-    let count = 0;
-    for (let i = 0; i < index.length; i++) {
-        const vertex = faces[3 * chosen[Math.floor(i / 3)] + (i % 3)];
-        let drawn = heads[vertex];
-        while (drawn >= 0 && !values.every((numbers) => numbers[corners[drawn]] === numbers[i])) drawn = next[drawn];
-        if (drawn < 0) {
-            drawn = count++;
-            [next[drawn], heads[vertex], vertices[drawn], corners[drawn]] = [heads[vertex], drawn, vertex, i];
-        }
-        index[i] = drawn;
-    }
-    const used = vertices.slice(0, count);
-    const rows = attributes.map((one) => {
-        const numbers = values[parting.indexOf(one)];
-        return numbers ? corners.subarray(0, count).map((corner) => numbers[corner]) : used;
-    });
-    return { index, vertices: used, rows };
-}
-
-/** Numbers of the drawn vertices; integers of colours are shares of their range. */
-function numbersOf({ semantic, kind, components, values }: Attribute, rows?: Int32Array): Float32Array {
-    const most = semantic === "color" ? { uint8: 255, uint16: 65535 }[kind as string] ?? 1 : 1;
-    const numbers = spread(values, components, rows);
-    if (most > 1) for (let i = 0; i < numbers.length; i++) numbers[i] /= most;
-    return numbers;
 }
 
 function boundsOf(p: Float32Array): Pick<Shape, "center" | "radius" | "low" | "high"> {

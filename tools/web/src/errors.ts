@@ -38,12 +38,13 @@ export class BsmError extends Error {
         this.place.frame ??= place.frame;
         this.place.block ??= place.block;
         const { offset, frame, block } = this.place;
+        const problem = this.problem || "this stream is wrong; bsm.js says how";
         const parts = [
             ["byte", offset],
             ["frame", frame],
             ["block", block],
         ].flatMap(([name, value]) => (value === undefined ? [] : [`${name} ${value}`]));
-        this.message = parts.length ? `${this.problem} [${parts.join(", ")}]` : this.problem;
+        this.message = parts.length ? `${problem} [${parts.join(", ")}]` : problem;
         return this;
     }
 }

@@ -6,7 +6,7 @@ import { Floats } from "./floats";
 import { EXACT, type Header } from "./header";
 import type { Argument, Doubles, Ints, Memory } from "./kernels";
 import { upTo } from "./numbers";
-import { Cursor } from "./reader";
+import { Cursor } from "./packets";
 
 const LIGHT_SLOTS = 24 * 151;
 

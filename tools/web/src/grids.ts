@@ -102,7 +102,7 @@ export class Decoder {
     }
 
     private acceptHeader(header: Header): void {
-        if (header.light !== 1) throw new UnsupportedError("this build decodes light grids alone, which this is not; small.js and bsm.js decode more");
+        if (header.light !== 1 || header.attributes > 0) throw new UnsupportedError("this build decodes light grids alone, which this is not; small.js and bsm.js decode more");
         this.header = header;
         this.connectivity = new ConnectivityDecoder(this.memory, header, this.limits);
         this.queue.push({ type: "header", header });

@@ -6,7 +6,7 @@ import type { Header } from "./header";
 import type { Ints, Memory } from "./kernels";
 import { checkLimit, type Limits } from "./limits";
 import { permuted, type Numbering } from "./numbering";
-import { Cursor } from "./reader";
+import { Cursor } from "./packets";
 import { split } from "./splits";
 
 /** Given vertices, so that every number of one can be coded (F 9.1). */

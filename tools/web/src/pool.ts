@@ -35,8 +35,6 @@ export interface StreamDecoding {
 
 const LIMIT = 4;
 const WORTHWHILE = 8192;
-/** Other builds are asked what a lesser one does not know. */
-const UNSUPPORTED = "UnsupportedError";
 
 /** A thread, and the streams that it works on, as their decoder or as a helper. */
 interface Hand {
@@ -273,7 +271,8 @@ class PooledStream implements StreamDecoding {
         else if ("event" in said) listener.onEvent?.(said.event);
         else if ("taken" in said) listener.onTaken?.(said.taken);
         else if ("problem" in said) {
-            if (said.problem.name === UNSUPPORTED && this.need.build !== "whole") this.again();
+            // Lesser builds do not know everything, nor what to say of it.
+            if (this.need.build !== "whole") this.again();
             else this.fail(errorLike(said.problem));
         } else if ("fault" in said) this.fail(new Error(said.fault));
         else if ("over" in said) {

@@ -8,7 +8,7 @@ import type { Header } from "./header";
 import type { Doubles, Ints, Memory } from "./kernels";
 import { checkLimit, type Limits } from "./limits";
 import { areFinite } from "./numbers";
-import { Cursor } from "./reader";
+import { Cursor } from "./packets";
 import type { Course } from "./runs";
 import { blockCost, partCost, shownCost, UNCODED } from "./work";
 

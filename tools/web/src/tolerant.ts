@@ -1,7 +1,9 @@
 /** A reader that goes on behind damage (specification, F 8). */
 import { BsmError } from "./errors";
 import type { Limits } from "./limits";
-import { END_OF_STREAM, NEED_DATA, Reader, type Damaged, type Packet, type Signal, type Spend } from "./reader";
+import type { Kind } from "./packets";
+import { END_OF_STREAM, frameOf, kinds, NEED_DATA, Reader, type Damaged, type Packet, type Signal, type Spend } from "./reader";
+import { parseVarint } from "./varint";
 
 const SCAN_BYTES = 2 ** 20;
 const SCAN_FACTOR = 64;
@@ -124,5 +126,24 @@ export class TolerantReader extends Reader {
             return false;
         }
         return this.eof ? false : undefined;
+    }
+
+    /** What the tag of the frame `ahead` bytes from here says, if it can be read: kind and bytes of the whole frame. */
+    private tagAt(ahead: number): { kind?: Kind; size: number } | undefined {
+        try {
+            const tag = parseVarint(this.buffer, this.begin + ahead, this.end);
+            if (!tag) return undefined;
+            const { type, end } = frameOf(tag);
+            return { kind: kinds[type], size: end - this.begin - ahead };
+        } catch (error) {
+            if (error instanceof BsmError) return undefined;
+            throw error;
+        }
+    }
+
+    /** Take note that an unknown number of frames is missing here. */
+    private lose(): void {
+        this.damaged = true;
+        this.grammar.lose();
     }
 }

@@ -32,12 +32,19 @@ import { readFileSync } from "node:fs";
 import { decode, loadKernels, Pool } from "bsm-decoder";
 const data = new Uint8Array(readFileSync(process.argv[2]));
 const { positions, faces } = decode(await loadKernels(), data);
+const damaged = data.slice();
+damaged[data.length >> 1] ^= 1;
+const problem = await new Promise((keep) => {
+    const stream = new Pool().open({ onError: keep, onEnd: keep }, { drawing: "whole" });
+    stream.receiveData(damaged);
+    stream.receiveEof();
+});
 const drawn = await new Promise((keep, fail) => {
     const stream = new Pool().open({ onPicture: (picture) => picture.type === "whole" && keep(picture.shape.index.length), onError: fail }, { drawing: "whole" });
     stream.receiveData(data);
     stream.receiveEof();
 });
-console.log(JSON.stringify([positions.length > 0, faces.length === drawn]));
+console.log(JSON.stringify([positions.length > 0, faces.length === drawn, problem.message.includes("the checksum of a frame")]));
 `;
 
 describe("the package", () => {
@@ -73,6 +80,6 @@ describe("the package", () => {
 
     test("decodes in Node", () => {
         writeFileSync(join(folder, "program.js"), PROGRAM);
-        for (const name of ["good-labels", "good-light"]) assert.deepEqual(JSON.parse(run(process.execPath, "program.js", join(VECTORS, `${name}.bsm`))), [true, true]);
+        for (const name of ["good-labels", "good-light"]) assert.deepEqual(JSON.parse(run(process.execPath, "program.js", join(VECTORS, `${name}.bsm`))), [true, true, true]);
     });
 });

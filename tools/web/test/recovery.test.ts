@@ -73,20 +73,20 @@ test("blocks of other chains than the damaged one are as they were", async () =>
 const FOUND = {
     "a block behind a layer": {
         stream: [
-            "iUJTTQCRBYgBOAJwAwIEIAUKCAISykB4jj4elMo8AAAAygAAAADKOwAAAMpAQAAA8H1jq2X7loDJr2uWBAAKhNDqezJ7DNk/V5AXq9tx+j8MCBdtQCfDi07N",
-            "yOR16a5wrRABADhEgCSBziGkpJamVg3S0cXo4ZmHYlg+6xDIbghSf+aNn3T28Zwk7dUV1eLBMqJ/NjiP6RImuCLVeByUdvGRD/1Wye0Rj+j+OOy3MZCD78+W",
-            "VqMjCXCqEk//DzJVmfgPUkE/auHuZSv1vThIk/OfrCYcJIyxEn8g2HYa4dXIET5dQJkW0Y0CAB4abhjl1oADN/b8msrqtK/btgMBChD1ewLKugM9V2T4i1R2",
-            "RX+bGkmDUbGS51N1vV8GGgwAM094",
+            "iUJTTQCRBYgBOAJwAwIEIAUKCAISykB4jj4elMo8AAAAygAAAADKOwAAAMpAQAAA8H1jq2X7loDJr2uWBAAKhKpRaRlcLcdat5FmY+k8hn8NHfi6mR2P/Tp9",
+            "llGejuBWrRABADhEgCSBziGkpJamVg3S0cXo4ZmHYlg+6xDIbghSf+aNn3T28Zwk7dUV1eLBMqJ/NjiP6RImuCLVeByUdvGRD/1Wye0Rj+j+OOy3MZCD78+W",
+            "VqMjCXCqEk//DzJVmfgPUkE/auHuZSv1vThIk/OfrCYcJIyxEn8g2HYa4dXIET5dQJkW0Y0CAB4abhjl1oADN/b8msrqtK/btgMBChBUQky2ah47CbqX4hf9",
+            "0t3PRHGT3ukLpfU+Xl8Gc5qD1VDL",
         ].join(""),
         events: ["header", "connectivity", "block", "loss", "refinement", "loss"],
         error: "CorruptError",
     },
     "a dictionary for which memory grows": {
         stream: [
-            "iUJTTQCRBowBzQGAAs0DAAMEBG4FFggEEMo8QAAAEspAeHMbE8pHf/8AFMo/gAAAGco7gAAAGm5sJHOqtcTB8EHY4R6GCgAWm4NCNQOY7DmwksFev0V4IAzc",
-            "OE6yLTJGfJgbjPSTD98X+xPTZWzdq3AIWJRnSn/s4LIPcxaw6IpfLus/FcJmYeb1R9kcO7wbbNpFT1PTiijWCAEWo6mGYDZurhD9bz7AFXMq1SUyp1tdOvLD",
-            "Q7q0ltzaZcDjxJNB4iIJt8tVyG10CcyzDk3+gQTHIiSkUHlijUbZpbcrRYWA1gcCFhA1dYzVcUwGDlcyZhmp3RSMh0sTwo7SqpOWLOCjc++vCOYUSG+7j1My",
-            "zs7mYCbSIRa2hnC6UiM3bY/SS+GWBgMPVLuy6sb6e1stm+7kRLxJN7oTTKhgG7DvlRAcEPcV940o3LXxD19YCCU5vmP6p0JLCV8GFG/Zh85Q",
+            "iUJTTQCRBowBzQGAAs0DAAMEBG4FFggEEMo8QAAAEspAeHMbE8pHf/8AFMo/gAAAGco7gAAAGm5sJHOqtcTB8EHY4R72CQAWmoODWfjEM4ZFhfUbHX4GEXVn",
+            "0OA13W0jEv1OyayDNqEvijzuQjB0spebqpFg6s8t8F+CHkIca12Py+APFZRKwqx8kMcdAJm3MY7l8CwZhtYIARad/LgaGQ5YvQc3B54vjGYBkSHIkHXQ3+ax",
+            "modsTmukSE6mTLRqKl5EUwHvoa4tB2j7sE0qBSw2TUfvGy9MIq0GqWw98O7mBwIWFzj6tzfA8YOXY8jGuDULQZe0QmgCdHxNPIfiALU2M73H9PsxftScKm7E",
+            "g3h3I4zx/nK/KmRCl4ZyqBEPJx6WBgMPU8PgEpERVycBpcpIGnEpkpxlO4fJvAO8PCeWml6S/5Yxs+RoJv40c20RXU/Tm8VyNl8GkXNHabUg",
         ].join(""),
         events: ["header", "connectivity", "block", "block", "block", "block", "end"],
         error: undefined,

@@ -1,0 +1,33 @@
+/** What is drawn of faces and attributes. */
+
+/** Faces with one material, of one part: `count` corners from `start` on. */
+export interface Piece {
+    material: number;
+    part: number;
+    start: number;
+    count: number;
+}
+
+/** Numbers of the drawn vertices under one name. */
+export interface DrawnAttribute {
+    name: string;
+    components: number;
+    values: Float32Array;
+}
+
+/** Faces as they are drawn, which vertex each drawn one is if that is not the same, and what they carry; `own`: normals. */
+export interface Dress {
+    index: Uint32Array;
+    vertices?: Int32Array;
+    pieces: Piece[];
+    attributes: DrawnAttribute[];
+    own?: Float32Array;
+}
+
+/** Rows of numbers, `width` in each, one for each of `vertices`; without these as they are. */
+export function spread(numbers: ArrayLike<number>, width: number, vertices?: Int32Array): Float32Array {
+    if (!vertices) return new Float32Array(numbers);
+    const rows = new Float32Array(width * vertices.length);
+    for (let i = 0; i < vertices.length; i++) for (let d = 0; d < width; d++) rows[width * i + d] = numbers[width * vertices[i] + d];
+    return rows;
+}

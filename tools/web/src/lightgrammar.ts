@@ -1,0 +1,54 @@
+/** The grammar of meshes on light grids alone: it takes the place of `grammar.ts` as `scripts/build.mjs` says. */
+import { CorruptError } from "./errors";
+import type { Header } from "./header";
+import { checkChunk, checkNames, checkWhole, COMMON, type Kind, type Packet } from "./packets";
+
+export const PARSERS = COMMON;
+
+/** What may follow a packet of each kind, metadata aside. */
+const FOLLOWERS: Partial<Record<Kind | "start", readonly Kind[]>> = {
+    start: ["header"],
+    header: ["connectivity"],
+    connectivity: ["order", "grid", "end"],
+    order: ["grid", "end"],
+    grid: ["grid", "end"],
+};
+
+/** Which packet may follow which, and what it must have to agree with the header. */
+export class Grammar {
+    header?: Header;
+    readonly joined = false;
+    private last: Kind | "start" = "start";
+    private readonly told = new Set<string>();
+    private nextVertex = 0;
+
+    announces(): boolean {
+        return true; // nothing else has a parser
+    }
+
+    get ended(): boolean {
+        return this.last === "end";
+    }
+
+    /** Throw what is wrong with a packet that comes here. */
+    check(packet: Packet): void {
+        const { header, nextVertex } = this;
+        const may = packet.type === "metadata" ? header : FOLLOWERS[this.last]?.includes(packet.type);
+        if (!may) throw new CorruptError(`${packet.type} may not come here`);
+        if (packet.type === "metadata") checkNames(packet.entries, this.told);
+        if (!header) return;
+        if (packet.type === "grid") checkChunk(packet, nextVertex, header);
+        if (packet.type === "end") checkWhole(nextVertex, header);
+    }
+
+    /** Take note of a packet that nothing is wrong with. */
+    advance(packet: Packet): void {
+        if (packet.type === "metadata") {
+            for (const name of packet.entries.keys()) this.told.add(name);
+            return;
+        }
+        if (packet.type === "header") this.header = packet.header;
+        if (packet.type === "grid") this.nextVertex = packet.first + packet.count;
+        this.last = packet.type;
+    }
+}

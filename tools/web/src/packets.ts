@@ -1,0 +1,104 @@
+/** Packets, and how payloads become those that every decoder knows (specification, F 5). */
+import { CorruptError } from "./errors";
+import type { Declaration } from "./declaration";
+import { parseHeader, type Header } from "./header";
+import { checkLimit, type Limits } from "./limits";
+import { parseMap } from "./maps";
+import { parseVarint } from "./varint";
+
+/** What the author says of a mesh, by names. */
+export type Metadata = Map<string, string | number | bigint | Uint8Array>;
+
+export type Packet =
+    | { type: "header"; header: Header }
+    | { type: "metadata"; entries: Metadata }
+    | { type: "connectivity" | "partition" | "order"; data: Uint8Array }
+    | { type: "block"; index: number; coefficients: number; data: Uint8Array }
+    | { type: "gop"; index: number; data: Uint8Array }
+    | { type: "grid"; first: number; count: number; data: Uint8Array }
+    | { type: "refinement"; layer: number; first: number; count: number; data: Uint8Array }
+    | { type: "attribute"; index: number; declaration: Declaration; seams: Uint8Array }
+    | { type: "values"; attribute: number; first: number; count: number; data: Uint8Array }
+    | { type: "end"; frames: number; crc: number };
+
+export type Kind = Packet["type"];
+
+/** Reads a payload from front to back; what it lacks or has too much is a `CorruptError`. */
+export class Cursor {
+    private at = 0;
+
+    constructor(private readonly payload: Uint8Array) {}
+
+    varint(): number {
+        const parsed = parseVarint(this.payload, this.at, this.payload.length);
+        if (!parsed) throw new CorruptError("a payload ends inside a varint");
+        this.at = parsed.end;
+        return parsed.value;
+    }
+
+    take(count: number): Uint8Array {
+        if (count > this.payload.length - this.at) throw new CorruptError(`a payload lacks ${count} bytes`);
+        this.at += count;
+        return this.payload.subarray(this.at - count, this.at);
+    }
+
+    rest(): Uint8Array {
+        return this.take(this.payload.length - this.at);
+    }
+
+    get ended(): boolean {
+        return this.at === this.payload.length;
+    }
+
+    finish(): void {
+        if (this.at !== this.payload.length) throw new CorruptError("a payload has bytes too many");
+    }
+}
+
+/** What becomes of a payload of each kind. */
+export type Parsers = Partial<Record<Kind, (payload: Cursor, limits: Limits) => Packet>>;
+
+export const COMMON: Parsers = {
+    header: (payload, limits) => ({ type: "header", header: parseHeader(payload.rest(), limits) }),
+    metadata: (payload, limits) => {
+        const data = payload.rest();
+        checkLimit(limits, "metadataBytes", data.length);
+        const entries: Metadata = new Map();
+        for (const [key, value] of parseMap(data)) {
+            if (key.type !== "string" || value.type === "array") throw new CorruptError("metadata of a wrong type");
+            entries.set(key.value, value.value);
+        }
+        return { type: "metadata", entries };
+    },
+    connectivity: (payload) => ({ type: "connectivity", data: payload.rest() }),
+    order: (payload) => ({ type: "order", data: payload.rest() }),
+    grid: (payload) => ({ type: "grid", first: payload.varint(), count: payload.varint(), data: payload.rest() }),
+    end: (payload) => {
+        const frames = payload.varint();
+        const crc = payload.take(4);
+        payload.finish();
+        return { type: "end", frames, crc: littleEndian(crc) };
+    },
+};
+
+/** Refuse metadata that speak of what others have spoken of. */
+export function checkNames(entries: Metadata, told: Set<string>): void {
+    for (const name of entries.keys()) if (told.has(name)) throw new CorruptError(`metadata speak of "${name}" again`);
+}
+
+/** Check that vertices follow those before them; with `lossy` some may be missing. */
+export function checkChunk({ first, count }: { first: number; count: number }, following: number, header: Header, lossy = false): void {
+    if (first < following || (first > following && !lossy)) {
+        throw new CorruptError(`vertices from ${first} on where those from ${following} on must follow`);
+    }
+    if (count === 0 || count > header.vertices - first) throw new CorruptError(`${count} vertices from ${first} on`);
+}
+
+/** Check that a grid has the positions of all vertices. */
+export function checkWhole(vertices: number, header: Header): void {
+    if (vertices < header.vertices) throw new CorruptError(`the positions end at vertex ${vertices} of ${header.vertices}`);
+}
+
+export function littleEndian(bytes: Uint8Array): number {
+    return bytes.reduceRight((value, byte) => value * 256 + byte, 0);
+}

@@ -1,0 +1,95 @@
+/** Vertices parted where attributes part them, and faces sorted by parts and materials. */
+import type { Attribute } from "./attributes";
+import { spread, type Dress, type Piece } from "./dress";
+
+/** Attributes of faces that say what belongs together, and are not drawn. */
+const [MATERIAL, PART] = ["material", "part"];
+const BASES = { texcoord: "uv", color: "color", normal: "normal" } as const;
+
+/** Faces `whole`, which are sorted, of a mesh of `size` vertices, with all that it carries. */
+export function dressed(faces: Int32Array, whole: Int32Array, carried: Attribute[], size: number): Dress {
+    const labels = [PART, MATERIAL].map((name) => carried.find((one) => one.name === name && one.domain === "face" && one.components === 1));
+    const [part, material] = labels.map((one) => (face: number): number => one?.values[face] ?? 0);
+    if (labels.some((one) => one)) whole.sort((a, b) => part(a) - part(b) || material(a) - material(b) || a - b);
+    const pieces: Piece[] = [];
+    let last: Piece | undefined;
+    whole.forEach((face, i) => {
+        if (last?.part === part(face) && last.material === material(face)) last.count += 3;
+        else pieces.push((last = { part: part(face), material: material(face), start: 3 * i, count: 3 }));
+    });
+    const drawn = carried.filter((one) => !labels.includes(one));
+    const { index, vertices, rows } = parted(faces, whole, drawn, size);
+    const normal = drawn.find(({ semantic, domain }) => semantic === "normal" && domain !== "face");
+    const used = new Map([["position", 1], ["normal", 1]]);
+    const attributes = drawn.flatMap((one, i) => {
+        if (one === normal) return [];
+        const base = one.semantic === "generic" ? one.name : BASES[one.semantic];
+        const count = used.get(base) ?? 0;
+        used.set(base, count + 1);
+        return [{ name: count ? `${base}${count}` : base, components: one.components, values: numbersOf(one, rows[i]) }];
+    });
+    return { index, vertices, pieces, attributes, own: normal && numbersOf(normal, rows[drawn.indexOf(normal)]) };
+}
+
+/** The value of each corner of some faces that an attribute has; of faces, equal ones have the number of the first. */
+function valuesOf({ domain, values, components, indices }: Attribute, faces: Int32Array, chosen: Int32Array): Int32Array {
+    const numbers = new Int32Array(3 * chosen.length);
+    const first = new Map<string, number>();
+    chosen.forEach((face, i) => {
+        let ofFace = face;
+        if (domain === "face") {
+            const key = values.subarray(components * face, components * (face + 1)).join();
+            ofFace = first.get(key) ?? face;
+            first.set(key, ofFace);
+        }
+        for (let k = 0; k < 3; k++) {
+            const corner = 3 * face + k;
+            numbers[3 * i + k] = domain === "face" ? ofFace : domain === "corner" ? indices?.[corner] ?? 0 : faces[corner];
+        }
+    });
+    return numbers;
+}
+
+/**
+ * A vertex for each vertex of `faces` and values of the attributes that meet at a corner of the `chosen` ones: which drawn vertices these
+ * have, which vertex each drawn one is, and which value of each attribute it has. Nothing is parted where nothing needs it.
+ */
+function parted(faces: Int32Array, chosen: Int32Array, attributes: Attribute[], size: number): { index: Uint32Array; vertices?: Int32Array; rows: (Int32Array | undefined)[] } {
+    const index = new Uint32Array(3 * chosen.length);
+    const parting = attributes.filter(({ domain }) => domain !== "vertex");
+    if (parting.length === 0) {
+        chosen.forEach((face, i) => {
+            for (let k = 0; k < 3; k++) index[3 * i + k] = faces[3 * face + k];
+        });
+        return { index, rows: attributes.map(() => undefined) };
+    }
+    const values = parting.map((one) => valuesOf(one, faces, chosen));
+    // The drawn vertices of each vertex are a chain, from the one met last to the first.
+    const [heads, next] = [new Int32Array(size).fill(-1), new Int32Array(index.length)];
+    const [vertices, corners] = [new Int32Array(index.length), new Int32Array(index.length)];
+    let count = 0;
+    for (let i = 0; i < index.length; i++) {
+        const vertex = faces[3 * chosen[Math.floor(i / 3)] + (i % 3)];
+        let drawn = heads[vertex];
+        while (drawn >= 0 && !values.every((numbers) => numbers[corners[drawn]] === numbers[i])) drawn = next[drawn];
+        if (drawn < 0) {
+            drawn = count++;
+            [next[drawn], heads[vertex], vertices[drawn], corners[drawn]] = [heads[vertex], drawn, vertex, i];
+        }
+        index[i] = drawn;
+    }
+    const used = vertices.slice(0, count);
+    const rows = attributes.map((one) => {
+        const numbers = values[parting.indexOf(one)];
+        return numbers ? corners.subarray(0, count).map((corner) => numbers[corner]) : used;
+    });
+    return { index, vertices: used, rows };
+}
+
+/** Numbers of the drawn vertices; integers of colours are shares of their range. */
+function numbersOf({ semantic, kind, components, values }: Attribute, rows?: Int32Array): Float32Array {
+    const most = semantic === "color" ? { uint8: 255, uint16: 65535 }[kind as string] ?? 1 : 1;
+    const numbers = spread(values, components, rows);
+    if (most > 1) for (let i = 0; i < numbers.length; i++) numbers[i] /= most;
+    return numbers;
+}
