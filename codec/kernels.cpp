@@ -39,6 +39,7 @@ extern "C" {
 #include "codec/signal/predict.h"
 #include "codec/signal/smooth.h"
 #include "codec/signal/transform.h"
+#include "codec/static/choice/creases.h"
 #include "codec/static/choice/settling.h"
 #include "codec/static/choice/shaping.h"
 }
@@ -54,6 +55,7 @@ struct nb::detail::type_caster<PredictionRules>
 
 BSM_STRUCT(Wanted, ConstDoubles2, ConstInts2, ConstLongs, ConstInts, ConstInts, ConstInts, ConstDoubles2, ConstDoubles)
 BSM_STRUCT(Aim, double, double, int64_t)
+BSM_STRUCT(Creases, ConstInts2, ConstInts2, ConstBytes, ConstDoubles, ConstInts, ConstInts, double)
 
 using namespace nb::literals;
 
@@ -186,8 +188,12 @@ NB_MODULE(_kernels, m) {
     m.def("count_bends_on", checked<&count_bends_on>, "corners"_a, "step"_a, "counts"_a, Unlocked());
     m.def("shape_levels", checked<&shape_levels>, "wanted"_a, "aim"_a, "moved"_a, "levels"_a, "directions"_a,
           "scales"_a, "pull"_a, "open"_a, Unlocked());
+    m.def("collect_creases", checked<&collect_creases>, "positions"_a, "faces"_a, "starts"_a, "around"_a, "most"_a,
+          "cosine"_a, "least"_a, "largest"_a, "crosses"_a, "pairs"_a, "sharp"_a, "costs"_a, Unlocked());
+    m.def("hang_creases", checked<&hang_creases>, "faces"_a, "pairs"_a, "starts"_a, "members"_a, Unlocked());
     m.def("settle_levels", checked<&settle_levels>, "offsets"_a, "normals"_a, "losses"_a, "steps"_a,
-          "reach"_a, "starts"_a, "members"_a, "rates"_a, "pull"_a, "fixed"_a, "levels"_a, "counts"_a, Unlocked());
+          "reach"_a, "starts"_a, "members"_a, "rates"_a, "pull"_a, "fixed"_a, "creases"_a, "places"_a, "frames"_a,
+          "moved"_a, "levels"_a, "counts"_a, Unlocked());
     m.def("shape_grid", checked<&shape_grid>, "wanted"_a, "aim"_a, "moved"_a, "places"_a, "step"_a, "flaps"_a,
           "starts"_a, "members"_a, "bends"_a, "rates"_a, "axes"_a, "open"_a, Unlocked());
 }

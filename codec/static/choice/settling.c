@@ -48,20 +48,28 @@ INLINE double best_error(const Vertex *x, int a) {
     return bend > 0.0 ? -x->more * own * others / bend : 0.0;
 }
 
+INLINE void place(const double *frame, const double *origin, const double *error, double *to) {
+    for (int d = 0; d < 3; d++)
+        to[d] = origin[d] + error[0] * frame[d] + error[1] * frame[3 + d] + error[2] * frame[6 + d];
+}
+
 /* One sweep over levels (n x axes), but for those of the first `fixed` axes: for each the least of its loss and its rate. `offsets` (n x 3) is what is wanted, along
  * axes of which a level moves a vertex by `steps` (n x 3); those that have no level keep it. An error costs `losses` (n x 2) times
  * the square of its length, and times that of its share along `normals` (n x 3, in the same axes). Rates have a row for
  * each axis and class of what is around (mean size of the neighbours' levels), and depend on the distance from `pull` times
- * the neighbours' mean. No vertex ends up farther from its place than its `reach`, unless it was. Counts, in the shape of
+ * the neighbours' mean. `creases` that are wrong add their costs: `moved` (n x 3) is room for where vertices come to lie, whose places are
+ * `places` (n x 3), in the axes `frames` (n x 9). No vertex ends up farther from its place than its `reach`, unless it was. Counts, in the shape of
  * rates, are of the levels that were taken. Returns how often one moved. */
 KERNEL int64_t settle_levels(ConstDoubles2 offsets, ConstDoubles2 normals, ConstDoubles2 losses, ConstDoubles2 steps,
                              ConstDoubles reach, ConstInts starts, ConstInts members, ConstDoubles2 rates, double pull,
-                             int64_t fixed, Ints2 levels, Doubles2 counts) {
+                             int64_t fixed, Creases creases, ConstDoubles2 places, ConstDoubles2 frames, Doubles2 moved,
+                             Ints2 levels, Doubles2 counts) {
     int64_t n = offsets.rows, axes = levels.columns, moves = 0;
     if (offsets.columns != 3 || normals.rows != n || normals.columns != 3 || losses.rows != n || losses.columns != 2 ||
         steps.rows != n || steps.columns != 3 || levels.rows != n || axes < 1 || axes > 3 || fixed < 0 ||
         reach.size != n || starts.size != n + 1 || rates.rows != axes * AROUND || rates.columns != SIZES ||
-        counts.rows != rates.rows || counts.columns != rates.columns)
+        counts.rows != rates.rows || counts.columns != rates.columns || places.rows != n || places.columns != 3 ||
+        frames.rows != n || frames.columns != 9 || moved.rows != n || moved.columns != 3 || !fits_creases(&creases, n))
         return MISUSED;
     for (int64_t i = 0; i < 3 * n; i++)
         if (!(steps.data[i] > 0.0)) return MISUSED;
@@ -70,6 +78,12 @@ KERNEL int64_t settle_levels(ConstDoubles2 offsets, ConstDoubles2 normals, Const
     for (int64_t i = 0; i < members.size; i++)
         if (members.data[i] < 0 || members.data[i] >= n) return MISUSED;
     for (int64_t i = 0; i < counts.rows * counts.columns; i++) counts.data[i] = 0.0;
+    for (int64_t v = 0; v < n; v++) {
+        double error[3];
+        for (int a = 0; a < 3; a++)
+            error[a] = (a < (int)axes ? steps.data[3 * v + a] * levels.data[v * axes + a] : 0.0) - offsets.data[3 * v + a];
+        place(frames.data + 9 * v, places.data + 3 * v, error, moved.data + 3 * v);
+    }
     for (int64_t v = 0; v < n; v++) {
         double far = 0.0, most = reach.data[v] * reach.data[v];
         int32_t first = starts.data[v], end = starts.data[v + 1];
@@ -80,6 +94,9 @@ KERNEL int64_t settle_levels(ConstDoubles2 offsets, ConstDoubles2 normals, Const
             x.error[a] = moved - offsets.data[3 * v + a];
             far += x.error[a] * x.error[a];
         }
+        const double *frame = frames.data + 9 * v, *origin = places.data + 3 * v;
+        double *at = moved.data + 3 * v;
+        bool hangs = creases.starts.data[v + 1] > creases.starts.data[v];
         /* Normals last: they make good what was left along the surface where the axes are not quite its own. */
         for (int a = (int)axes; a-- > (int)fixed;) {
             int32_t *level = levels.data + v * axes + a, before = *level;
@@ -95,13 +112,20 @@ KERNEL int64_t settle_levels(ConstDoubles2 offsets, ConstDoubles2 normals, Const
             int32_t ideal = nearest((offset + best_error(&x, a)) / step);
             int32_t tried[TRIED] = {ideal, centre, 0, before - 1, before + 1};
             double best = loss_of(&x, x.error) + rate[size_of(before, centre)];
+            if (hangs) best += wrong_creases(&creases, moved.data, v);
             for (int i = 0; i < TRIED; i++) {
                 double error[3] = {x.error[0], x.error[1], x.error[2]};
                 error[a] = step * tried[i] - offset;
                 double then = along(error, error), cost = loss_of(&x, error) + rate[size_of(tried[i], centre)];
                 if (cost >= best || (then > most && then > far)) continue;
+                if (hangs) {
+                    place(frame, origin, error, at);
+                    cost += wrong_creases(&creases, moved.data, v);
+                    if (cost >= best) continue;
+                }
                 best = cost, *level = tried[i], far = then, x.error[a] = error[a];
             }
+            if (hangs) place(frame, origin, x.error, at);
             counts.data[row + size_of(*level, centre)] += 1.0;
             moves += *level != before;
         }

@@ -18,6 +18,7 @@ from bsm.codec.arrays import Levels, Matrix, Positions
 from bsm.codec.geometry.graph import Graph
 from bsm.codec.look.measure import DISSIMILAR, POWER, VISIBLE_SHARE, Looker
 from bsm.codec.signal.frames import in_frames, local_frames, tangent_steps
+from bsm.codec.static.choice.creases import Creases, creases_of
 
 PULL = 0.8
 """A level is expected at so much of the mean of its neighbours'."""
@@ -33,14 +34,16 @@ SPREADS = 2
 """Costs are as those of neighbours, so often over: what a vertex was blamed for is part chance."""
 LEAST = 0.1
 """What errors cost at least, of their mean cost: nothing is hidden from all sides that somebody may look from."""
-PLAIN, FINER, LEAST_PLAIN = 2.4, 0.76, 1.5
+PLAIN, FINER, LEAST_PLAIN = 2.6, 0.76, 1.5
 """Share of what is visible over dissimilarity, both over what is at distance 1, of noise where `step_for` is right; how
 steps get finer with it, in their logarithms; and the share below which they do not get coarser."""
 ASIDE, RATIO = 0.35, 10.0
 """What rounding along a tangent costs over what it costs along the normal, where steps are as of a layer of this
 ratio."""
 SWEEPS = 2
-"""More move few levels, and take no bytes off."""
+"""More move few levels, and take no bytes off: over all axes, and over those along the surface."""
+SHADED = 0.5
+"""How unlike pixels count that a crease shades otherwise which is there in only one of two pictures."""
 _MOST = 1 << 30
 
 
@@ -118,23 +121,30 @@ class Sensitivity:
         losses = np.column_stack([np.maximum(normal - tangent, 0.0), tangent]) / max(unit, 1e-300)
         normals = in_frames(self._frames[:, 0], frames)
         levels = np.rint(offsets[:, :axes] / steps).clip(-_MOST, _MOST).astype(np.int32)
+        creases = self._creases.priced(SHADED / max(unit, 1e-300))
+        given, moved = np.ascontiguousarray(frames), np.empty((count, 3))
         rates, counts = np.tile(BITS, (AROUND * axes, 1)), np.empty((AROUND * axes, SIZES))
 
         def sweep(steps: Matrix, fixed: int) -> int:
             return _kernels.settle_levels(
                 np.ascontiguousarray(offsets), normals, losses,
                 np.ascontiguousarray(np.broadcast_to(steps, (count, 3))), np.ascontiguousarray(reach, np.float64),
-                self._graph.offsets, self._graph.neighbours, rates, PULL, fixed, levels, counts,
+                self._graph.offsets, self._graph.neighbours, rates, PULL, fixed, creases, self._positions, given, moved,
+                levels, counts,
             )  # fmt: skip
 
         for _ in range(SWEEPS):
-            moved = sweep(steps, 0)
+            any_moved = sweep(steps, 0)
             rates = _bits(counts)
-            if not moved:
+            if not any_moved:
                 break
-        if axes > 1:
+        for _ in range(SWEEPS if axes > 1 else 0):
             sweep(known(levels), 1)
         return levels
+
+    @cached_property
+    def _creases(self) -> Creases:
+        return creases_of(self._positions, self._faces)
 
     @cached_property
     def _frames(self) -> Matrix:

@@ -1,0 +1,142 @@
+/* Creases that shading hangs on. Encoder only.
+ *
+ * Viewers shade faces that are bent by less than some angle as one smooth surface, and others each by itself. Where the
+ * bend is near that angle, an error that nobody would see turns one into the other, which is plain to see. */
+#include "codec/static/choice/creases.h"
+
+enum { SIDES = 3 };
+
+INLINE double dot(const double *a, const double *b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+INLINE void cross_of(const double *positions, const int32_t *face, double *n) {
+    const double *a = positions + 3 * (int64_t)face[0], *b = positions + 3 * (int64_t)face[1];
+    const double *c = positions + 3 * (int64_t)face[2];
+    double ux = b[0] - a[0], uy = b[1] - a[1], uz = b[2] - a[2];
+    double vx = c[0] - a[0], vy = c[1] - a[1], vz = c[2] - a[2];
+    n[0] = uy * vz - uz * vy;
+    n[1] = uz * vx - ux * vz;
+    n[2] = ux * vy - uy * vx;
+}
+
+INLINE bool has(const int32_t *face, int sides, int32_t vertex) {
+    for (int k = 0; k < sides; k++)
+        if (face[k] == vertex) return true;
+    return false;
+}
+
+static bool fits_faces(ConstInts2 faces, int64_t vertices) {
+    if (faces.columns != SIDES) return false;
+    for (int64_t i = 0; i < SIDES * faces.rows; i++)
+        if (faces.data[i] < 0 || faces.data[i] >= vertices) return false;
+    return true;
+}
+
+static bool fits_rows(ConstInts starts, ConstInts members, int64_t rows, int64_t count) {
+    if (starts.size != rows + 1 || starts.data[0] != 0 || starts.data[rows] > members.size) return false;
+    for (int64_t i = 0; i < rows; i++)
+        if (starts.data[i] > starts.data[i + 1]) return false;
+    for (int64_t i = 0; i < members.size; i++)
+        if (members.data[i] < 0 || members.data[i] >= count) return false;
+    return true;
+}
+
+static bool fits_pairs(ConstInts2 pairs, int64_t faces) {
+    if (pairs.columns != 2) return false;
+    for (int64_t i = 0; i < 2 * pairs.rows; i++)
+        if (pairs.data[i] < 0 || pairs.data[i] >= faces) return false;
+    return true;
+}
+
+/* How many pairs of faces around a vertex have a bend whose cosine is between `least` and `largest`; `pairs` (k x 2) gets the
+ * first k of them, `sharp` whether the cosine is at most `cosine`, and `costs` the area of the corners that are shaded
+ * otherwise then: a third of both faces at each vertex that they share. Faces around a vertex are `around`, from its `starts` on;
+ * of more than `most` each is shaded by itself. `crosses` is room for four numbers a face. */
+KERNEL int64_t collect_creases(ConstDoubles2 positions, ConstInts2 faces, ConstLongs starts, ConstInts around, int64_t most,
+                               double cosine, double least, double largest, Doubles2 crosses, Ints2 pairs, Bytes sharp,
+                               Doubles costs) {
+    int64_t n = positions.rows, found = 0;
+    if (positions.columns != 3 || !fits_faces(faces, n) || starts.size != n + 1 || crosses.rows != faces.rows ||
+        crosses.columns != 4 || pairs.columns != 2 || sharp.size != pairs.rows || costs.size != pairs.rows)
+        return MISUSED;
+    for (int64_t v = 0; v < n; v++)
+        if (starts.data[v] < 0 || starts.data[v] > starts.data[v + 1] || starts.data[v + 1] > around.size) return MISUSED;
+    for (int64_t i = 0; i < around.size; i++)
+        if (around.data[i] < 0 || around.data[i] >= faces.rows) return MISUSED;
+    for (int64_t f = 0; f < faces.rows; f++) {
+        double *cross = crosses.data + 4 * f;
+        cross_of(positions.data, faces.data + SIDES * f, cross);
+        cross[3] = __builtin_sqrt(dot(cross, cross));
+    }
+    for (int64_t v = 0; v < n; v++) {
+        int64_t from = starts.data[v], to = starts.data[v + 1];
+        for (int64_t i = from; to - from <= most && i < to; i++)
+            for (int64_t j = from; j < i; j++) {
+                const double *f = crosses.data + 4 * (int64_t)around.data[i], *g = crosses.data + 4 * (int64_t)around.data[j];
+                double bend = dot(f, g), unit = f[3] * g[3];
+                if (!(bend > least * unit && bend < largest * unit)) continue;
+                const int32_t *one = faces.data + SIDES * (int64_t)around.data[i];
+                const int32_t *other = faces.data + SIDES * (int64_t)around.data[j];
+                int shared = 0;
+                bool first = true; /* of the vertices that they share */
+                for (int k = 0; k < SIDES; k++)
+                    if (has(other, SIDES, one[k])) shared++, first &= one[k] >= v;
+                if (!first) continue;
+                if (found < pairs.rows) {
+                    pairs.data[2 * found] = around.data[i], pairs.data[2 * found + 1] = around.data[j];
+                    sharp.data[found] = !(bend > cosine * unit);
+                    costs.data[found] = shared * (f[3] + g[3]) / SIDES;
+                }
+                found++;
+            }
+    }
+    return found;
+}
+
+/* The vertices of a pair, each once; returns how many. */
+INLINE int vertices_of(const int32_t *faces, const int32_t *pair, int32_t *vertices) {
+    int count = 0;
+    for (int k = 0; k < 2 * SIDES; k++) {
+        int32_t v = faces[SIDES * (int64_t)pair[k / SIDES] + k % SIDES];
+        if (!has(vertices, count, v)) vertices[count++] = v;
+    }
+    return count;
+}
+
+/* Group pairs by the vertices of their faces: `members`, with room for six a pair, gets those of vertex v from `starts[v]`
+ * on. Returns how many members there are. */
+KERNEL int64_t hang_creases(ConstInts2 faces, ConstInts2 pairs, Ints starts, Ints members) {
+    int64_t n = starts.size - 1;
+    if (n < 0 || !fits_faces(faces, n) || !fits_pairs(pairs, faces.rows) || members.size < 2 * SIDES * pairs.rows)
+        return MISUSED;
+    int32_t vertices[2 * SIDES];
+    for (int64_t v = 0; v <= n; v++) starts.data[v] = 0;
+    for (int64_t i = 0; i < pairs.rows; i++)
+        for (int k = vertices_of(faces.data, pairs.data + 2 * i, vertices); k-- > 0;) starts.data[vertices[k] + 1]++;
+    for (int64_t v = 0; v < n; v++) starts.data[v + 1] += starts.data[v];
+    int32_t all = starts.data[n]; /* ends of rows, one place on, become starts while these are filled from behind */
+    for (int64_t i = pairs.rows; i-- > 0;)
+        for (int k = vertices_of(faces.data, pairs.data + 2 * i, vertices); k-- > 0;)
+            members.data[--starts.data[vertices[k] + 1]] = (int32_t)i;
+    for (int64_t v = 0; v < n; v++) starts.data[v] = starts.data[v + 1];
+    starts.data[n] = all;
+    return all;
+}
+
+bool fits_creases(const Creases *c, int64_t vertices) {
+    return fits_faces(c->faces, vertices) && fits_pairs(c->pairs, c->faces.rows) && c->sharp.size == c->pairs.rows &&
+           c->costs.size == c->pairs.rows && fits_rows(c->starts, c->members, vertices, c->pairs.rows);
+}
+
+/* What it costs that pairs are wrong whose bend hangs on a vertex. */
+double wrong_creases(const Creases *c, const double *positions, int64_t vertex) {
+    double sum = 0.0;
+    for (int32_t i = c->starts.data[vertex]; i < c->starts.data[vertex + 1]; i++) {
+        int64_t pair = c->members.data[i];
+        double f[3], g[3];
+        cross_of(positions, c->faces.data + SIDES * (int64_t)c->pairs.data[2 * pair], f);
+        cross_of(positions, c->faces.data + SIDES * (int64_t)c->pairs.data[2 * pair + 1], g);
+        bool sharp = !(dot(f, g) > c->cosine * __builtin_sqrt(dot(f, f) * dot(g, g)));
+        sum += sharp != (c->sharp.data[pair] != 0) ? c->costs.data[pair] : 0.0;
+    }
+    return sum;
+}

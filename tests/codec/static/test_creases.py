@@ -1,0 +1,135 @@
+"""Creases that shading hangs on: which are watched, and that levels keep them."""
+
+from itertools import combinations
+
+import numpy as np
+import pytest
+
+from bsm.codec import _kernels
+from bsm.codec.geometry.graph import graph_of_faces
+from bsm.codec.geometry.incidence import vertex_faces
+from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.look.measure import Looker
+from bsm.codec.look.pictures import CREASE
+from bsm.codec.signal.frames import local_frames
+from bsm.codec.static.choice import settling
+from bsm.codec.static.choice.creases import WITHIN, Creases, creases_of
+from bsm.codec.static.choice.settling import Sensitivity
+from tests.shapes import torus
+
+MESH = torus(60, 9)
+"""Bends around its tube are near 40 degrees, more on the outside than on the inside."""
+RNG = np.random.default_rng(3)
+ROUGH = TriangleMesh(MESH.positions + RNG.normal(0, 0.003 * MESH.diagonal, MESH.positions.shape), MESH.faces)
+
+
+def roof(*degrees):
+    """Faces that share an edge or a vertex with the first one, bent against it by so much."""
+    positions = [(0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (0.5, -1.0, 0.0)]
+    faces = [(0, 2, 1)]
+    for k, angle in enumerate(np.radians(degrees)):
+        positions.append((0.5, np.cos(angle), -np.sin(angle)))
+        faces.append((0, 1, 3 + k))
+    return np.array(positions), np.array(faces, np.int32)
+
+
+def unit_normals(positions, faces):
+    a, b, c = (positions[faces[:, k]] for k in range(3))
+    normals = np.cross(b - a, c - a)
+    return normals / np.linalg.norm(normals, axis=1, keepdims=True)
+
+
+def wrong(creases: Creases, positions):
+    normals = unit_normals(positions, creases.faces)
+    cosines = (normals[creases.pairs[:, 0]] * normals[creases.pairs[:, 1]]).sum(axis=1)
+    return (cosines <= CREASE) != creases.sharp.astype(bool)
+
+
+@pytest.mark.parametrize("angle", (31.0, 33.0, 39.0, 41.0, 47.0, 49.0))
+def test_what_is_near_a_crease_is_watched(angle):
+    creases = creases_of(*roof(angle))
+    near = abs(angle - 40.0) < WITHIN
+    assert len(creases.pairs) == near
+    assert not near or bool(creases.sharp[0]) == (angle > 40.0)
+
+
+def test_pairs_and_costs_are_those_of_all_corners():
+    positions, faces = ROUGH.positions, ROUGH.faces
+    creases = creases_of(positions, faces)
+    normals = unit_normals(positions, faces)
+    area = np.linalg.norm(
+        np.cross(positions[faces[:, 1]] - positions[faces[:, 0]], positions[faces[:, 2]] - positions[faces[:, 0]]),
+        axis=1,
+    )
+    around = vertex_faces(faces, len(positions))
+    expected = {}
+    for vertex in range(len(positions)):
+        rows = around.members[around.starts[vertex] : around.starts[vertex + 1]]
+        for f, g in combinations(sorted(int(row) for row in rows), 2):
+            if abs(np.degrees(np.arccos(normals[f] @ normals[g])) - 40.0) < WITHIN:
+                expected[f, g] = expected.get((f, g), 0.0) + (area[f] + area[g]) / (3 * area.sum())
+    found = {tuple(sorted(map(int, pair))): cost for pair, cost in zip(creases.pairs, creases.costs, strict=True)}
+    assert found.keys() == expected.keys()
+    assert len(found) == len(creases.pairs) > 100
+    assert found == pytest.approx(expected)
+    assert not wrong(creases, positions).any()
+    assert 0 < creases.sharp.sum() < len(creases.sharp)
+
+
+def test_pairs_hang_on_the_vertices_of_their_faces():
+    creases = creases_of(ROUGH.positions, ROUGH.faces)
+    hanging = [set() for _ in ROUGH.positions]
+    for number, pair in enumerate(creases.pairs):
+        for vertex in ROUGH.faces[pair].ravel():
+            hanging[vertex].add(number)
+    for vertex, numbers in enumerate(hanging):
+        members = creases.members[creases.starts[vertex] : creases.starts[vertex + 1]]
+        assert sorted(members) == sorted(numbers)
+
+
+def test_levels_keep_creases(monkeypatch):
+    positions, faces = ROUGH.positions / ROUGH.diagonal, ROUGH.faces
+    graph, count = graph_of_faces(faces, len(positions)), len(positions)
+    frames = local_frames(positions, faces)
+    offsets = np.random.default_rng(0).normal(0, 0.01, (count, 3))
+    steps = np.tile((0.002, 0.006, 0.006), (count, 1))
+    creases = creases_of(positions, faces)
+    broken, errors = [], []
+    for shaded in (0.0, settling.SHADED):
+        monkeypatch.setattr(settling, "SHADED", shaded)
+        sensitivity = Sensitivity(positions, faces, graph, Looker(TriangleMesh(positions, faces)), 0.002)
+        levels = sensitivity.levels(offsets, frames, steps, lambda _: steps, 0.05, np.full(count, np.inf))
+        error = levels * steps - offsets
+        broken.append(wrong(creases, positions + np.einsum("na,nad->nd", error, frames.reshape(-1, 3, 3))).mean())
+        errors.append(np.sqrt(np.square(error).mean()))
+    assert broken[1] < 0.5 * broken[0]
+    assert errors[1] < 1.5 * errors[0]
+
+
+def test_a_mesh_without_faces_has_none():
+    creases = creases_of(np.zeros((3, 3)), np.empty((0, 3), np.int32))
+    assert len(creases.pairs) == len(creases.members) == 0
+
+
+def test_kernels_refuse_what_does_not_fit():
+    positions, faces = ROUGH.positions, ROUGH.faces
+    around = vertex_faces(faces, len(positions))
+    given = [
+        positions, faces, around.starts, around.members, 128, 0.7, 0.6, 0.8, np.empty((len(faces), 4)),
+        np.empty((5, 2), np.int32), np.empty(5, np.uint8), np.empty(5),
+    ]  # fmt: skip
+    assert _kernels.collect_creases(*given) > 5
+    for place in (0, 2, 8, 9, 10, 11):
+        with pytest.raises(ValueError, match="fit together"):
+            _kernels.collect_creases(*(value[:-1] if k == place else value for k, value in enumerate(given)))
+    for place in (1, 3):
+        with pytest.raises(ValueError, match="fit together"):
+            _kernels.collect_creases(*(value + len(faces) if k == place else value for k, value in enumerate(given)))
+    pairs, members = np.zeros((4, 2), np.int32), np.empty(24, np.int32)
+    starts = np.empty(len(positions) + 1, np.int32)
+    assert _kernels.hang_creases(faces, pairs, starts, members) == 12
+    for wrongly in (faces + 900, pairs, starts, members), (faces, pairs - 1, starts, members), (
+        faces, pairs, starts, members[:-1],
+    ), (faces, pairs, starts[:-1], members):  # fmt: skip
+        with pytest.raises(ValueError, match="fit together"):
+            _kernels.hang_creases(*wrongly)
