@@ -24,6 +24,7 @@ typedef struct {
  * found, it goes on, one step farther away, from the last vertex of the segment that is still missing. */
 static void sweep(Work *work, const uint32_t *segment, int64_t size, uint32_t start, int32_t *distance) {
     uint32_t *colours = work->colours, *queue = work->queue;
+    const int32_t *offsets = work->offsets, *neighbours = work->neighbours;
     uint32_t colour = colours[start];
     colours[start] = colour + 1;
     queue[0] = start;
@@ -33,12 +34,14 @@ static void sweep(Work *work, const uint32_t *segment, int64_t size, uint32_t st
         while (head < end) {
             uint32_t v = queue[head++];
             distance[v] = level;
-            for (int64_t i = work->offsets[v]; i < work->offsets[v + 1]; i++) {
+            const int32_t *last = neighbours + offsets[v + 1];
+            for (const int32_t *next = neighbours + offsets[v]; next < last; next++) {
                 /* Without a branch, which the processor could not predict: what is not new is overwritten. */
-                uint32_t w = (uint32_t)work->neighbours[i], fresh = colours[w] == colour;
-                colours[w] += fresh;
+                uint32_t w = (uint32_t)*next, seen = colours[w];
+                uint64_t fresh = seen == colour;
+                colours[w] = seen + (uint32_t)fresh;
                 queue[tail] = w;
-                tail += fresh;
+                tail += (int64_t)fresh;
             }
         }
         if (tail == end) {
@@ -56,26 +59,24 @@ static void sweep(Work *work, const uint32_t *segment, int64_t size, uint32_t st
 static void sort_segment(Work *work, uint32_t *segment, int64_t size) {
     const int32_t *low = work->distances[0], *high = work->distances[1];
     uint32_t *source = work->queue, *target = segment, *keys = work->keys, *buckets = work->buckets;
-    int32_t least = low[source[0]] - high[source[0]], most = least;
-    for (int64_t i = 0; i < size; i++) {
-        int32_t difference = low[source[i]] - high[source[i]];
-        least = difference < least ? difference : least;
-        most = difference > most ? difference : most;
-    }
+    int32_t least = INT32_MAX, most = INT32_MIN;
     for (int64_t i = 0; i < size; i++) {
         uint32_t v = source[i];
-        keys[v] = (uint32_t)(low[v] - high[v] - least);
+        int32_t difference = low[v] - high[v];
+        least = difference < least ? difference : least;
+        most = difference > most ? difference : most;
+        keys[v] = (uint32_t)difference;
     }
     uint32_t span = (uint32_t)(most - least), bits = 1;
     while (span >> bits > 0 && (size << 2) >> bits > 0) bits++;
     uint32_t mask = (1u << bits) - 1;
     for (uint32_t shift = 0;;) {
         for (int64_t k = 0; k < (int64_t)mask + 2; k++) buckets[k] = 0;
-        for (int64_t i = 0; i < size; i++) buckets[((keys[source[i]] >> shift) & mask) + 1]++;
+        for (int64_t i = 0; i < size; i++) buckets[(((keys[source[i]] - (uint32_t)least) >> shift) & mask) + 1]++;
         for (int64_t k = 0; k < (int64_t)mask; k++) buckets[k + 1] += buckets[k];
         for (int64_t i = 0; i < size; i++) {
             uint32_t v = source[i];
-            target[buckets[(keys[v] >> shift) & mask]++] = v;
+            target[buckets[((keys[v] - (uint32_t)least) >> shift) & mask]++] = v;
         }
         uint32_t *swapped = source;
         source = target;

@@ -46,7 +46,7 @@ INLINE void leave(const int vectors, int64_t p, const double *matrix, int64_t ap
     }
 }
 
-/* Factorise the matrix that has `diagonal`, and minus its weight, one without any, for every edge, to the columns of C, as rows of the
+/* Factorise the matrix that has `diagonal`, and minus its weight, one without any, for every edge, to the columns of -C, as rows of the
  * fronts' matrices, and D^-1. `column` is scratch of n + 1, `scratch` of two rows of a front's matrix, at most
  * 2 (n + 16). */
 void LEVEL(factorize_fronts)(ConstInts offsets, ConstInts neighbours, ConstDoubles weights, ConstDoubles diagonal,
@@ -95,6 +95,6 @@ void LEVEL(factorize_fronts)(ConstInts offsets, ConstInts neighbours, ConstDoubl
         }
         for (int64_t k = 0; k < own; k++)
             for (int64_t p = 0; p < apart; p += WIDTH)
-                store(matrix + k * apart + p, scaled(load(matrix + k * apart + p), pivots[k]));
+                store(matrix + k * apart + p, scaled(load(matrix + k * apart + p), -pivots[k]));
     }
 }

@@ -1,83 +1,94 @@
 /* Forward and back substitution for all columns at once: R^z X, with R = (C D C^T)^-1 (paper, section 4). */
 #include "codec/basis/solver/substitution.h"
 
-/* C X = B: each row, less what the rows before it take of it. As many rows of the border at a time as keep the
- * processor busy: an addition takes longer than it needs to begin the next. */
-INLINE void take_border(const int vectors, const int rows, int64_t lane, const Front *front, const uint32_t *border,
-                        const double *column, double *x) {
-    Vector lanes[ROWS][VECTORS];
-        EACH(i, rows)
-        EACH(v, vectors) lanes[i][v] = load(x + border[i] * lane + v * WIDTH);
-    for (int64_t k = 0; k < front->own; k++) {
-        const double *source = x + (front->first + k) * lane, *entry = column + k * front->apart;
-        EACH(i, rows)
-            EACH(v, vectors) lanes[i][v] = add_scaled(lanes[i][v], -entry[i], load(source + v * WIDTH));
-    }
-    EACH(i, rows)
-        EACH(v, vectors) store(x + border[i] * lane + v * WIDTH, lanes[i][v]);
-}
-
-INLINE void substitute_forward(const int vectors, int64_t lane, const Fronts *fronts, const double *matrices, double *x) {
-        for (int64_t t = 0; t < fronts->firsts.size - 1; t++) {
-        Front front = front_at(fronts, t);
-        const double *matrix = matrices + front.place;
-        double *own = x + front.first * lane;
-        for (int64_t i = 1; i < front.own; i++) {
-            Vector lanes[VECTORS];
-            EACH(v, vectors) lanes[v] = load(own + i * lane + v * WIDTH);
-            for (int64_t k = 0; k < i; k++) {
-                double entry = -matrix[k * front.apart + i];
-                EACH(v, vectors) lanes[v] = add_scaled(lanes[v], entry, load(own + k * lane + v * WIDTH));
-            }
-            EACH(v, vectors) store(own + i * lane + v * WIDTH, lanes[v]);
+/* Rows `start` to `end` of a panel, less what some rows of a front take of each; these stay in registers. */
+INLINE void take_rows(const int vectors, const int rows, Vector taken[ROWS][VECTORS], const double *entries, int64_t apart,
+                      const uint32_t *border, int64_t start, int64_t end, double *x, int64_t lane) {
+    for (int64_t j = start; j < end; j++) {
+        double *row = x + (border ? border[j] : j) * lane;
+        Vector lanes[VECTORS];
+        EACH(v, vectors) lanes[v] = load(row + v * WIDTH);
+        EACH(i, rows) {
+            double entry = entries[i * apart + j];
+            EACH(v, vectors) lanes[v] = add_scaled(lanes[v], entry, taken[i][v]);
         }
-        const uint32_t *border = fronts->borders.data + front.edge;
-        int64_t size = front.width - front.own, i = 0;
-        for (; i + ROWS <= size; i += ROWS) take_border(vectors, ROWS, lane, &front, border + i, matrix + front.own + i, x);
-        for (; i < size; i += 2) take_border(vectors, 2, lane, &front, border + i, matrix + front.own + i, x);
+        EACH(v, vectors) store(row + v * WIDTH, lanes[v]);
     }
 }
 
-/* Sums of each row on the way back, which take the entries of its border in turn, so that no addition waits for the one
- * before; and rows side by side. Without fused products the last bits differ anyway, and more rows are worth more. */
-#ifdef __wasm__
-#define SUMS 1
-#else
-#define SUMS 2
-#endif
-#define BACK (ROWS / SUMS)
+/* C X = B for successive rows of a front from its row k on: what they take of each other, of the later rows of the front,
+ * and of its border. */
+INLINE void take_forward(const int vectors, const int rows, int64_t lane, const Front *front, int64_t k,
+                         const uint32_t *border, const double *matrix, double *x) {
+    Vector taken[ROWS][VECTORS];
+    double *own = x + front->first * lane;
+    const double *entries = matrix + k * front->apart;
+    EACH(i, rows) {
+        EACH(v, vectors) taken[i][v] = load(own + (k + i) * lane + v * WIDTH);
+        EACH(j, rows) if (j < i) {
+            double entry = entries[j * front->apart + k + i];
+            EACH(v, vectors) taken[i][v] = add_scaled(taken[i][v], entry, taken[j][v]);
+        }
+        EACH(v, vectors) store(own + (k + i) * lane + v * WIDTH, taken[i][v]);
+    }
+    take_rows(vectors, rows, taken, entries, front->apart, 0, k + rows, front->own, own, lane);
+    take_rows(vectors, rows, taken, entries + front->own, front->apart, border, 0, front->width - front->own, x, lane);
+}
+
+/* Sums of rows on the way back, each row of which is multiplied by what it has at rows `start` to `end` of a panel. */
+INLINE void add_rows(const int vectors, const int rows, Vector sums[ROWS][VECTORS], const double *entries, int64_t apart,
+                     const uint32_t *border, int64_t start, int64_t end, const double *x, int64_t lane) {
+    for (int64_t j = start; j < end; j++) {
+        const double *row = x + (border ? border[j] : j) * lane;
+        EACH(i, rows) {
+            double entry = entries[i * apart + j];
+            EACH(v, vectors) sums[i][v] = add_scaled(sums[i][v], entry, load(row + v * WIDTH));
+        }
+    }
+}
 
 /* D C^T X = B for successive rows of a front from its row k on: each divided by its pivot, less its share of the rows
  * after it; first those of the border, then those of its front. */
 INLINE void take_back(const int vectors, const int rows, int64_t lane, const Front *front, int64_t k,
                       const uint32_t *border, const double *matrix, const double *inverse, double *x) {
-    Vector sums[SUMS][BACK][VECTORS];
-    const int64_t size = front->width - front->own;
+    Vector sums[ROWS][VECTORS];
     double *own = x + front->first * lane;
     const double *entries = matrix + k * front->apart;
-    EACH(i, rows) {
-        EACH(v, vectors) {
-            sums[SUMS - 1][i][v] = zeros();
-            sums[0][i][v] = scaled(load(own + (k + i) * lane + v * WIDTH), inverse[front->first + k + i]);
-        }
-    }
-    for (int64_t j = 0; j < size; j += SUMS) {
-        EACH(i, rows) {
-            const double *entry = entries + i * front->apart + front->own + j;
-            EACH(v, vectors) EACH(s, SUMS)
-                sums[s][i][v] = add_scaled(sums[s][i][v], -entry[s], load(x + border[j + s] * lane + v * WIDTH));
-        }
-    }
+    EACH(i, rows)
+        EACH(v, vectors) sums[i][v] = scaled(load(own + (k + i) * lane + v * WIDTH), inverse[front->first + k + i]);
+    add_rows(vectors, rows, sums, entries + front->own, front->apart, border, 0, front->width - front->own, x, lane);
+    add_rows(vectors, rows, sums, entries, front->apart, 0, k + rows, front->own, own, lane);
     EACH(down, rows) {
         const int i = rows - 1 - down;
-        for (int64_t j = k + i + 1; j < front->own; j++) {
-            double entry = -entries[i * front->apart + j];
-            EACH(v, vectors) sums[0][i][v] = add_scaled(sums[0][i][v], entry, load(own + j * lane + v * WIDTH));
+        EACH(j, rows) if (j > i) {
+            double entry = entries[i * front->apart + k + j];
+            EACH(v, vectors) sums[i][v] = add_scaled(sums[i][v], entry, sums[j][v]);
         }
-        EACH(v, vectors) {
-            Vector whole = SUMS > 1 ? sum_of(sums[0][i][v], sums[SUMS - 1][i][v]) : sums[0][i][v];
-            store(own + (k + i) * lane + v * WIDTH, whole);
-        }
+        EACH(v, vectors) store(own + (k + i) * lane + v * WIDTH, sums[i][v]);
+    }
+}
+
+/* Call `function(vectors, rows, ...)` for what is left of `ROWS` rows. */
+#if ROWS == 2
+#define WITH_REST(rows, function, vectors, ...)                                                                        \
+    if ((rows) == 1) function(vectors, 1, __VA_ARGS__)
+#else
+#define WITH_REST(rows, function, vectors, ...)                                                                        \
+    switch (rows) {                                                                                                    \
+        case 1: function(vectors, 1, __VA_ARGS__); break;                                                              \
+        case 2: function(vectors, 2, __VA_ARGS__); break;                                                              \
+        case 3: function(vectors, 3, __VA_ARGS__);                                                                     \
+    }
+#endif
+
+INLINE void substitute_forward(const int vectors, int64_t lane, const Fronts *fronts, const double *matrices, double *x) {
+    for (int64_t t = 0; t < fronts->firsts.size - 1; t++) {
+        Front front = front_at(fronts, t);
+        const uint32_t *border = fronts->borders.data + front.edge;
+        const double *matrix = matrices + front.place;
+        int64_t k = 0;
+        for (; k + ROWS <= front.own; k += ROWS) take_forward(vectors, ROWS, lane, &front, k, border, matrix, x);
+        WITH_REST(front.own - k, take_forward, vectors, lane, &front, k, border, matrix, x);
     }
 }
 
@@ -88,8 +99,8 @@ INLINE void substitute_back(const int vectors, int64_t lane, const Fronts *front
         const uint32_t *border = fronts->borders.data + front.edge;
         const double *matrix = matrices + front.place;
         int64_t k = front.own;
-        for (; k >= BACK; k -= BACK) take_back(vectors, BACK, lane, &front, k - BACK, border, matrix, inverse, x);
-        if (k > 0) take_back(vectors, 1, lane, &front, 0, border, matrix, inverse, x);
+        for (; k >= ROWS; k -= ROWS) take_back(vectors, ROWS, lane, &front, k - ROWS, border, matrix, inverse, x);
+        WITH_REST(k, take_back, vectors, lane, &front, 0, border, matrix, inverse, x);
     }
 }
 
