@@ -15,7 +15,7 @@ from bsm.codec.denoise.noise.outliers import Outliers, find_outliers
 from bsm.codec.denoise.noise.ripples import Ripples, find_ripples
 from bsm.codec.denoise.patient import Patient
 from bsm.codec.denoise.recipe import Recipe, Step
-from bsm.codec.denoise.rehearsal import GOALS, LEARNT_SHARE, MOST_MEMBERS, Rehearsal, Told, silent
+from bsm.codec.denoise.rehearsal import GOALS, MOST_MEMBERS, Rehearsal, Told, silent
 from bsm.codec.denoise.safety import Verdict, judge, keep_good, restraint
 from bsm.codec.denoise.sample import sample
 from bsm.codec.geometry.welding import weld
@@ -154,10 +154,12 @@ def choose(
     candidates, heralds = (_suited(recipes, rehearsal.level, finding.edge) for recipes in (CANDIDATES, HERALDS))
     # What a few of them make, in the mean with the learnt normals, is a better guess than the one that they were chosen
     # with. A third round would believe its own mistakes.
-    rehearsal.rehearse(rehearsal.perform(rehearsal.compete(heralds, most).steps, LEARNT_SHARE))
+    herald = rehearsal.compete(heralds, most)
+    share, gain = rehearsal.weigh(herald)
+    rehearsal.rehearse(rehearsal.perform(herald.steps, share))
     untreated = rehearsal.untreated
     winner = rehearsal.compete(candidates, most)
-    steps, (share, expected) = winner.steps, rehearsal.weigh(winner)
+    steps, expected = winner.steps, gain * winner.error
     reason = finding.reason
     if expected > WORTH * untreated:
         steps, expected = (), untreated

@@ -34,11 +34,8 @@ MOST_MEMBERS = 4
 """Of a blend; two leave 2.2 % more of the angle, eight 0.7 % less and take longer (tools.constants)."""
 GAIN = 1.01
 """Members join while the error stays below this multiple: what the guess lacks, several recipes miss less often."""
-LEARNT_SHARE = 0.4
-"""Of the learnt normals in the mean with those of the recipes; half costs more on uneven meshes than it gains,
-and alone they are worse on half of the meshes tried."""
-LEARNT_WORTH = 0.99
-"""The mean takes part below this multiple of the recipes' error in the rehearsal."""
+LEARNT_SHARES = (0.0, 0.2, 0.4, 0.6)
+"""Of the learnt normals in the mean with those of the recipes; alone they are worse on half of the meshes tried."""
 SEED = 1
 MIRRORED = ("impulses",)
 """Kinds of which too little is known to draw such noise anew: it is taken as it was found."""
@@ -152,11 +149,16 @@ class Rehearsal:
         return self._goal(Reference(self._given, self._topology.faces), self.perform(steps, share))
 
     def weigh(self, winner: Winner) -> tuple[float, float]:
-        """The share of the learnt normals in the mean with the winner's, and the error of that."""
+        """The share of the learnt normals in the mean with the winner's, and the error of that over the winner's.
+
+        The largest of those that are good: to be asked before the learnt normals have a part in a guess, which would
+        speak for more of them.
+        """
         other = learnt(self.noisy, self._topology)
-        mean = self._within(joined(winner.result, other, LEARNT_SHARE, self._topology), self.noisy)
-        error = self._goal(self.truth, mean)
-        return (LEARNT_SHARE, error) if error < LEARNT_WORTH * winner.error else (0.0, winner.error)
+        means = (joined(winner.result, other, share, self._topology) for share in LEARNT_SHARES)
+        errors = np.array([self._goal(self.truth, self._within(mean, self.noisy)) for mean in means])
+        best = int(np.flatnonzero(errors <= GAIN * errors.min())[-1])
+        return LEARNT_SHARES[best], float(errors[best]) / (winner.error or 1.0)
 
     def _rehearse(self, guess: Positions, noisy: Positions) -> None:
         self.truth = Reference(guess, self._topology.faces)

@@ -10,8 +10,8 @@ from bsm.codec.blocks.partition import metis_partition
 from bsm.codec.denoise.filters.vertex_update import Floats
 from bsm.codec.geometry.graph import graph_of_faces
 
-LARGEST = 14000
-PIECE = 3500
+LARGEST = 8000
+PIECE = 2000
 PIECES = 3
 
 

@@ -224,7 +224,7 @@ def scoreboard(folder: Path, full: bool) -> Figures:
                 off = [rms_over_edge(clean, positions, faces) for positions in (noisy, result)]
                 alone = after
                 if kind == "white" and choice.learnt > 0.0:
-                    with patch.object(rehearsal, "LEARNT_WORTH", 0.0):
+                    with patch.object(rehearsal, "LEARNT_SHARES", (0.0,)):
                         alone = reference.theta(denoise_automatically(noisy, faces)[0])
                     gains.append(after / alone)
                 untouched = bool((result == noisy).all())
