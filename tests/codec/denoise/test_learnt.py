@@ -11,7 +11,9 @@ from bsm.codec.denoise.filters.vertex_update import face_geometry
 from bsm.codec.denoise.learnt.cascade import Learner, Learnt, joined, learnt, regressed_normals
 from bsm.codec.denoise.learnt.descriptors import BASE, NUMBERS, descriptions, mirrored
 from bsm.codec.denoise.learnt.network import WEIGHTS, Network, read_networks, write_networks
+from bsm.codec.denoise.noise.finding import find_noise
 from bsm.codec.denoise.noise.gaussian import gaussian_along_normals
+from bsm.codec.denoise.patient import Patient
 from bsm.codec.denoise.rehearsal import LEARNT_SHARES
 from bsm.codec.geometry.metrics import rms_over_edge, theta
 from tests.codec.denoise.denoise_shapes import cube, grid, sphere
@@ -122,14 +124,14 @@ def test_a_network_of_zeros_says_the_filtered_normal() -> None:
 
 
 def test_the_choice_says_how_much_of_it_is_learnt(monkeypatch: pytest.MonkeyPatch) -> None:
+    """As much as networks are worth in the rehearsal: all of what they may have, or nothing."""
     clean, noisy, faces = noisy_sphere(20)
-    result, choice = automatic.denoise_automatically(noisy, faces)
-    assert choice.learnt in LEARNT_SHARES[1:]
-    assert theta(clean, result, faces) < 0.2 * theta(clean, noisy, faces)
-    noisy_normals = face_geometry(noisy, faces).normals
-    # Networks that know less than the recipes get no part.
-    monkeypatch.setattr(rehearsal, "learnt", lambda positions, topology: Learnt(positions, noisy_normals))
-    assert automatic.denoise_automatically(noisy, faces)[1].learnt == 0.0
+    patient = Patient(faces, len(noisy))
+    finding = find_noise(noisy, patient.probe)
+    for known, share in ((clean, LEARNT_SHARES[-1]), (noisy, 0.0)):
+        normals = face_geometry(known, faces).normals
+        monkeypatch.setattr(rehearsal, "learnt", lambda *_: Learnt(known, normals))  # noqa: B023
+        assert automatic.choose(noisy, finding, patient).learnt == share
 
 
 def test_a_learner_remembers_one_mesh_alone() -> None:
