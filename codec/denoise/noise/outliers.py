@@ -27,8 +27,9 @@ FEWEST_SHARE = 0.004
 FEWEST = 12
 MOST_SHARE = 0.2
 ONE_SIDED = 0.5
-FAINT, WORTH = 0.03, 0.15
-"""Smallest displacement looked for, in mean edges; and the median of the clear ones from which on it is worth it."""
+FAINT, WORTH, STRONG = 0.03, 0.05, 0.15
+"""Smallest displacement looked for, in mean edges; the median of those found from which on it is worth it; and the
+median from which on the least clear ones are believed as well: among faint ones they are detail."""
 LARGEST = 1.2
 """Less clear ones are no larger than the clear ones, of which nine in ten are smaller than this ratio says."""
 DISTINCT = 4.0
@@ -84,6 +85,8 @@ def find_outliers(positions: Positions, probe: Probe) -> Outliers:
         if share < CLEAR:
             if not _believed(amounts):
                 return Outliers(np.zeros(0, dtype=np.int64), np.zeros((0, 3)))
+            if share == LESS_CLEAR[-1] and _usual(amounts) < STRONG:
+                break
             standard = np.abs(rest) / np.where(gain > 0.0, gain, np.inf)
             if share == LESS_CLEAR[0]:
                 most = LARGEST * float(np.quantile(np.abs(amounts[amounts != 0.0]), 0.9))
@@ -115,7 +118,12 @@ def _believed(amounts: Floats) -> bool:
     off = amounts[amounts != 0.0]
     if len(off) < max(FEWEST, FEWEST_SHARE * len(amounts)):
         return False
-    return abs(float(np.sign(off).mean())) < ONE_SIDED and float(np.median(np.abs(off))) > WORTH
+    return abs(float(np.sign(off).mean())) < ONE_SIDED and _usual(amounts) > WORTH
+
+
+def _usual(amounts: Floats) -> float:
+    """Median displacement of those that are displaced, in mean edges."""
+    return float(np.median(np.abs(amounts[amounts != 0.0])))
 
 
 def _largest_nearby(values: Floats, neighbours: Rows) -> Floats:

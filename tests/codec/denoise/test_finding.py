@@ -166,6 +166,14 @@ def test_single_vertices_that_stand_out_are_put_back_and_no_others_move(shape) -
 
 
 @pytest.mark.parametrize("shape", [cube, sphere])
+def test_faint_ones_are_put_back_as_well(shape) -> None:  # type: ignore[no-untyped-def]
+    clean, faces = shape(30)
+    noisy = impulsive(clean, faces, 0.12, 0.1, seed=3)
+    outliers = find_outliers(noisy, Probe(Topology(faces, len(clean))))
+    assert theta(clean, outliers.put_back(noisy), faces) < 0.7 * theta(clean, noisy, faces)
+
+
+@pytest.mark.parametrize("shape", [cube, sphere])
 def test_neither_clean_shapes_nor_white_noise_have_outliers(shape) -> None:  # type: ignore[no-untyped-def]
     clean, faces = shape(30)
     probe = Probe(Topology(faces, len(clean)))
