@@ -68,7 +68,7 @@ async function smaller(text) {
 
 /** A module that others call by all of its names. */
 function open(entry, plugin) {
-    return bundle(join(SOURCES, entry), { plugins: [plugin], external: ["three", "three/addons/*", "@react-three/fiber", "@gltf-transform/core"] });
+    return bundle(join(SOURCES, entry), { plugins: [plugin], external: ["three", "three/addons/*", "@react-three/fiber", "@gltf-transform/core", "@babylonjs/*"] });
 }
 
 /** A module of the decoder: private names are short. */
@@ -118,6 +118,7 @@ async function products() {
         "three.js": await open("three.ts", beside("errors", "index", "pool")),
         "gltf.js": await open("gltf.ts", beside("errors", "index", "pool", "three")),
         "gltf-transform.js": await open("transform.ts", beside("errors", "index", "pool")),
+        "babylon.js": await open("babylon.ts", beside("errors", "index", "pool")),
         "player.js": await open("player.ts", beside("three")),
         "react.js": await open("react.ts", beside("three")),
     };

@@ -8,7 +8,7 @@ import { extname, join } from "node:path";
 import { chromium } from "playwright-core";
 import { WEB } from "./kernels.mjs";
 
-const PAGES = { first: "textured", vanilla: "textured", r3f: "textured", gltf: "textured", sequence: "plain" };
+const PAGES = { first: "textured", vanilla: "textured", r3f: "textured", gltf: "textured", babylon: "textured", sequence: "plain" };
 const TYPES = { ".html": "text/html", ".js": "text/javascript", ".wasm": "application/wasm" };
 const FLAGS = ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"];
 const CHROMIUM = process.env.CHROMIUM ?? "/usr/bin/chromium";

@@ -3,11 +3,12 @@ import assert from "node:assert/strict";
 import { existsSync, readFileSync } from "node:fs";
 import { join } from "node:path";
 import test, { after, before, describe } from "node:test";
+import { build } from "esbuild";
 import { chromium, type Browser, type Page } from "playwright-core";
 import { serveSite, POLICY, type Site } from "./server";
 import { decode } from "../src/index";
 import { sceneOf } from "./scene";
-import { BUILDS, CHROMIUM, compile, FLAGS, VECTORS } from "./shared";
+import { BUILDS, CHROMIUM, compile, FLAGS, VECTORS, WEB } from "./shared";
 
 const STREAM = "good-labels";
 const SECTIONS = "good-sections";
@@ -44,7 +45,7 @@ describe("the package in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromiu
                 }
             };
             const bytesOf = async (name) => new Uint8Array(await (await fetch("/stream/" + name + ".bsm")).arrayBuffer());
-            try { window.found = await (async () => { ${script} })(); } catch (error) { window.found = { failed: error.stack }; }`);
+            try { window.found = await (async () => { ${script} })(); } catch (error) { window.found = { failed: error.stack ?? String(error) }; }`);
         complaints.length = 0;
         await page.goto(site.address);
         const value = await (await page.waitForFunction(() => (window as unknown as { found: unknown }).found, undefined, { timeout: 30_000 })).jsonValue();
@@ -52,6 +53,16 @@ describe("the package in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromiu
         const told = value as Record<string, unknown>;
         assert.ok(!("failed" in told), String(told.failed));
         return told;
+    }
+
+    /** Scenes of one stream: as it is, said to have another size, and cut off. */
+    async function serveScenes(): Promise<void> {
+        const kernels = await compile(BUILDS[0]);
+        const stream = readFileSync(join(VECTORS, "good-attribute-textured.bsm"));
+        const { positions, faces } = decode(kernels, stream);
+        site.extra.set("/scene.glb", sceneOf(stream, positions.length / 3, faces.length));
+        site.extra.set("/wrong.glb", sceneOf(stream, positions.length / 3 + 1, faces.length));
+        site.extra.set("/broken.glb", sceneOf(stream.subarray(0, -30), positions.length / 3, faces.length));
     }
 
     test("fills a geometry of three.js from an address", async () => {
@@ -184,6 +195,35 @@ describe("the package in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromiu
         assert.deepEqual(seen, { name: "halves", size: [8, 8], space: "srgb", metalness: 0, uv: true, turned: true });
     });
 
+    test("is an extension of Babylon's loader", async () => {
+        const contents = `export { Engine } from "@babylonjs/core/Engines/engine.js";
+            export { Scene } from "@babylonjs/core/scene.js";
+            export { AppendSceneAsync } from "@babylonjs/core/Loading/sceneLoader.js";
+            export { registerGLTFExtension } from "@babylonjs/loaders/glTF/2.0/glTFLoaderExtensionRegistry.js";
+            import "@babylonjs/core/Loading/loadingScreen.js";
+            import "@babylonjs/loaders/glTF/2.0/glTFLoader.js";`;
+        const bundle = await build({ stdin: { contents, resolveDir: WEB }, bundle: true, format: "esm", write: false, logLevel: "error" });
+        site.extra.set("/babylon.js", bundle.outputFiles[0].contents);
+        await serveScenes();
+        const seen = await found(`
+            const { Engine, Scene, AppendSceneAsync } = await import("/babylon.js");
+            const { registerBSM } = await import("/bsm/babylon.js");
+            registerBSM();
+            const canvas = document.body.appendChild(document.createElement("canvas"));
+            const load = async (url) => {
+                const scene = new Scene(new Engine(canvas));
+                await AppendSceneAsync(url, scene);
+                return scene.meshes.find((mesh) => mesh.getTotalVertices() > 0);
+            };
+            const mesh = await load("/scene.glb");
+            const problems = await Promise.all(["/wrong.glb", "/broken.glb"].map((url) => load(url).then(() => "none", ({ message }) => message)));
+            const own = await new BSMLoader().loadAsync("/stream/good-attribute-textured.bsm");
+            const same = (name, kind) => [...mesh.getVerticesData(kind)].join() === [...own.getAttribute(name).array].join();
+            return { same: [same("position", "position"), same("normal", "normal"), same("uv", "uv")], index: [...mesh.getIndices()].join() === [...own.index.array].join(), problems };`, {});
+        assert.deepEqual([seen.same, seen.index], [[true, true, true], true]);
+        assert.match(String(seen.problems), /POSITION has \d+ bytes, not \d+.*the stream ends before its END frame/);
+    });
+
     test("moves meshes of glTF", async () => {
         const stream = readFileSync(join(VECTORS, "good-sequence-learnt.bsm"));
         const { positions, faces } = decode(await compile(BUILDS[0]), stream);
@@ -238,12 +278,7 @@ describe("the package in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromiu
     });
 
     test("is a plug-in of GLTFLoader", async () => {
-        const kernels = await compile(BUILDS[0]);
-        const stream = readFileSync(join(VECTORS, "good-attribute-textured.bsm"));
-        const { positions, faces } = decode(kernels, stream);
-        site.extra.set("/scene.glb", sceneOf(stream, positions.length / 3, faces.length));
-        site.extra.set("/wrong.glb", sceneOf(stream, positions.length / 3 + 1, faces.length));
-        site.extra.set("/broken.glb", sceneOf(stream.subarray(0, -30), positions.length / 3, faces.length));
+        await serveScenes();
         const seen = await found(`
             const { GLTFLoader } = await import("three/addons/loaders/GLTFLoader.js");
             const { GLTFBSMExtension } = await import("/bsm/gltf.js");

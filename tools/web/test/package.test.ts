@@ -13,6 +13,7 @@ import * as quick from "bsm-decoder/quick";
 import { BSMLoader, BSMSequence, type BSMGeometry } from "bsm-decoder/three";
 import { GLTFBSMExtension } from "bsm-decoder/gltf";
 import { EXTBSMCompression, loadSceneDecoder } from "bsm-decoder/gltf-transform";
+import { registerBSM } from "bsm-decoder/babylon";
 import { BSMPlayer } from "bsm-decoder/player";
 import { WebIO } from "@gltf-transform/core";
 import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
@@ -25,7 +26,7 @@ const scene: Promise<Group> = loader.loadScene("a.bsm");
 const sequence: Promise<BSMSequence> = loader.loadSequence("a.bsm");
 const geometry: Promise<BSMGeometry> = loader.parseAsync(new ArrayBuffer(8));
 const told: Metadata = new Map();
-export { BSMPlayer, gltf, io, decode, loadKernels, Pool, quick, scene, sequence, geometry, told };
+export { BSMPlayer, registerBSM, gltf, io, decode, loadKernels, Pool, quick, scene, sequence, geometry, told };
 `;
 const PROGRAM = `
 import { readFileSync } from "node:fs";
@@ -59,7 +60,7 @@ describe("the package", () => {
         const place = join(folder, "node_modules", own.name);
         mkdirSync(place, { recursive: true });
         run("tar", "xzf", join(folder, packed.filename), "-C", place, "--strip-components=1");
-        for (const name of ["three", "@types", "@gltf-transform", "property-graph"]) symlinkSync(join(WEB, "node_modules", name), join(folder, "node_modules", name));
+        for (const name of ["three", "@types", "@gltf-transform", "property-graph", "@babylonjs", "babylonjs-gltf2interface"]) symlinkSync(join(WEB, "node_modules", name), join(folder, "node_modules", name));
         writeFileSync(join(folder, "package.json"), '{"type": "module"}');
     });
     after(() => rmSync(folder, { recursive: true, force: true }));

@@ -7,7 +7,7 @@ import { VECTORS, WEB } from "./shared";
 
 const TYPES: Record<string, string> = { ".js": "text/javascript", ".html": "text/html", ".wasm": "application/wasm", ".glb": "model/gltf-binary" };
 /** What three.js is called, and nothing but files of one's own: no eval, no blob, no script in the page but the map. */
-const MAP = '{"imports":{"three":"/three/build/three.module.js","three/addons/":"/three/examples/jsm/","bsm":"/bsm/main.js","bsm/three":"/bsm/three.js"}}';
+const MAP = '{"imports":{"three":"/three/build/three.module.js","three/addons/":"/three/examples/jsm/","bsm":"/bsm/main.js","bsm/three":"/bsm/three.js","@babylonjs/loaders/glTF/2.0/glTFLoaderExtensionRegistry.js":"/babylon.js"}}';
 const MAP_HASH = "sha256-" + (await import("node:crypto")).createHash("sha256").update(MAP).digest("base64");
 export const POLICY = `default-src 'none'; connect-src 'self'; script-src 'self' 'wasm-unsafe-eval' '${MAP_HASH}'; worker-src 'self'`;
 const FOLDERS: Record<string, string> = { bsm: join(WEB, "built"), three: join(WEB, "node_modules/three"), stream: VECTORS };
