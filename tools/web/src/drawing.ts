@@ -302,7 +302,8 @@ export class Drawing {
     private finish(): void {
         const { faces, origin, points, carried } = this;
         const isThere = (corner: number): boolean => origin[faces[corner]] >= 0;
-        const whole = upTo(faces.length / 3).filter((face) => isThere(3 * face) && isThere(3 * face + 1) && isThere(3 * face + 2));
+        const all = upTo(faces.length / 3);
+        const whole = origin.includes(-1) ? all.filter((face) => isThere(3 * face) && isThere(3 * face + 1) && isThere(3 * face + 2)) : all;
         const { index, vertices, pieces, attributes, own } = carried.length > 0 ? dressed(faces, whole, carried, points.length / 3) : this.bare(whole);
         const positions = spread(points, 3, vertices);
         const normals = own ?? spread(normalsOf(faces, origin, points), 3, vertices);
@@ -314,7 +315,7 @@ export class Drawing {
 
     /** Some of the faces, of a mesh without attributes. */
     private bare(faces: Int32Array): Dress {
-        const index = this.cornersOf(faces);
+        const index = 3 * faces.length === this.faces.length ? new Uint32Array(this.faces) : this.cornersOf(faces);
         return { index, pieces: index.length > 0 ? [{ part: 0, material: 0, start: 0, count: index.length }] : [], attributes: [] };
     }
 }

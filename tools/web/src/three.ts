@@ -18,6 +18,7 @@ let shared: Pool | undefined;
 export class BSMLoader extends Loader<BSMGeometry> {
     private own?: Pool;
     private limits: Partial<Limits> = {};
+    private aborting = new AbortController();
 
     constructor(manager?: LoadingManager) {
         super(manager);
@@ -51,6 +52,13 @@ export class BSMLoader extends Loader<BSMGeometry> {
     /** Stop the threads, which all loaders share that have no decoder's path of their own. */
     dispose(): this {
         this.pool.dispose();
+        return this;
+    }
+
+    /** Stop the loads that have begun: they fail. */
+    override abort(): this {
+        this.aborting.abort();
+        this.aborting = new AbortController();
         return this;
     }
 
@@ -136,22 +144,28 @@ export class BSMLoader extends Loader<BSMGeometry> {
     }
 
     private fetched(url: string, onProgress?: (event: ProgressEvent) => void, progress?: Progress): Promise<BSMGeometry> {
-        return new Promise((keep, fail) => {
+        const over = new AbortController();
+        const found = new Promise<BSMGeometry>((keep, fail) => {
             const failed = (error: unknown): void => fail(naming(url, error));
             const stream = this.open(keep, failed, progress);
-            this.pass(url, stream, onProgress).catch((error) => {
+            const stop = (error: unknown): void => {
                 stream.close();
                 failed(error);
-            });
+            };
+            const signals = [this.aborting, this.manager.abortController as AbortController | undefined].flatMap((one) => one?.signal ?? []);
+            for (const signal of signals) signal.addEventListener("abort", () => stop(signal.reason), { signal: over.signal });
+            this.pass(url, stream, onProgress, AbortSignal.any?.(signals)).catch(stop);
         });
+        return found.finally(() => over.abort());
     }
 
     /** Give a stream its bytes as they come. */
-    private async pass(url: string, stream: StreamDecoding, onProgress?: (event: ProgressEvent) => void): Promise<void> {
+    private async pass(url: string, stream: StreamDecoding, onProgress?: (event: ProgressEvent) => void, signal?: AbortSignal): Promise<void> {
         const address = this.manager.resolveURL(this.path + url);
         const response = await fetch(new URL(address, globalThis.document?.baseURI ?? globalThis.location?.href), {
             headers: this.requestHeader,
             credentials: this.withCredentials ? "include" : "same-origin",
+            signal,
         });
         if (!response.ok || !response.body) throw new Error(`${response.status} ${response.statusText}`);
         const total = Number(response.headers.get("content-length") ?? 0);
@@ -185,7 +199,9 @@ export class BSMSceneLoader extends Loader<Group> {
 /** The same error, which says of which address it is. */
 function naming(url: string, error: unknown): Error {
     const given = error instanceof Error ? error : new Error(`${error}`);
-    given.message = `${url}: ${given.message}`;
+    const message = `${url}: ${given.message}`;
+    if (given instanceof DOMException) return new DOMException(message, given.name); // its own cannot be changed
+    given.message = message;
     return given;
 }
 

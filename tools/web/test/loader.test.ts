@@ -136,6 +136,18 @@ describe("the package in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromiu
         assert.deepEqual([seen.after, seen.cut, seen.stray, seen.more], [true, "TruncatedError", "FormatError", 0]);
     });
 
+    test("stops when it is told to", async () => {
+        const seen = await found(`
+            const problem = (load) => load.then(() => "none", ({ name, message }) => name + " " + message);
+            const loader = new BSMLoader();
+            const loads = ["${STREAM}", "no-such-file"].map((name) => problem(loader.loadAsync("/stream/" + name + ".bsm")));
+            loader.abort();
+            const parse = loader.loadAsync("/stream/${STREAM}.bsm");
+            return { stopped: await Promise.all(loads), faces: (await parse).index.count > 0 };`);
+        assert.ok(seen.faces);
+        for (const text of seen.stopped as string[]) assert.match(text, /^AbortError \/stream\/.*.bsm: /);
+    });
+
     test("is used as other loaders are", async () => {
         const seen = await found(`
             const { LoadingManager } = await import("three");
