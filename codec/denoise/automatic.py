@@ -10,9 +10,10 @@ from bsm.codec.arrays import Faces, Positions
 from bsm.codec.choices import named
 from bsm.codec.denoise.learnt.cascade import joined
 from bsm.codec.denoise.noise.estimate import NoiseLevel
-from bsm.codec.denoise.noise.finding import Finding, find_noise
+from bsm.codec.denoise.noise.finding import Finding
 from bsm.codec.denoise.noise.outliers import Outliers, find_outliers
 from bsm.codec.denoise.noise.ripples import Ripples, find_ripples
+from bsm.codec.denoise.noise.search import find_noise
 from bsm.codec.denoise.patient import Patient
 from bsm.codec.denoise.recipe import Recipe, Step
 from bsm.codec.denoise.rehearsal import GOALS, MOST_MEMBERS, Rehearsal, Told, silent

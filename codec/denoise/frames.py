@@ -15,9 +15,10 @@ from bsm.codec.denoise.automatic import AutomaticChoice, choose, treat
 from bsm.codec.denoise.coarse import BLOCK_SIZE, KEEP, CoarseFilter
 from bsm.codec.denoise.filters.fine import fine_step
 from bsm.codec.denoise.handover import hand_over
-from bsm.codec.denoise.noise.finding import Finding, find_noise
+from bsm.codec.denoise.noise.finding import Finding
 from bsm.codec.denoise.noise.outliers import find_outliers
 from bsm.codec.denoise.noise.ripples import find_ripples
+from bsm.codec.denoise.noise.search import find_noise
 from bsm.codec.denoise.options import DenoiseOptions
 from bsm.codec.denoise.patient import Patient
 from bsm.codec.denoise.rehearsal import Told, silent

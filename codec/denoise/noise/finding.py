@@ -1,10 +1,4 @@
-"""Whether a mesh is noisy, how much, and of what kind: all of it from the mesh itself.
-
-Noise does not know the shape. So it is as strong in one place as in another (or follows the direction of the surface,
-where a camera has put it, or covers some places and leaves others alone), it goes to both sides of the surface alike,
-and no value has a preference. Detail and creases are strong in some places and weak in others. Only what looks like
-noise in all these ways is taken for noise: the answer for anything else is "none", and "unknown" for small meshes.
-"""
+"""What is known about the noise of a mesh, and the evidence that it is concluded from."""
 
 from __future__ import annotations
 
@@ -14,58 +8,19 @@ import numpy as np
 import numpy.typing as npt
 
 from bsm.codec.arrays import Positions
-from bsm.codec.denoise.filters.topology import Mask
 from bsm.codec.denoise.filters.vertex_update import Floats
-from bsm.codec.denoise.noise.probe import BOUND, SHARE, Probe
-from bsm.codec.denoise.noise.rounding import Grid, find_grid
-from bsm.codec.denoise.noise.windows import FEWEST, Windows
-from bsm.codec.geometry.metrics import mean_edge_length
+from bsm.codec.denoise.noise.probe import Probe
+from bsm.codec.denoise.noise.rounding import Grid
+from bsm.codec.denoise.noise.windows import Windows
 
-FEWEST_WINDOWS, FEWEST_INNER = 5, 3
-"""Windows without which nothing is said; and those wholly inside a noisy part."""
-FAINTEST = 0.05
-"""Levels below, in mean edges, are left alone: the finest detail of real surfaces is as strong."""
-MANY_WINDOWS = 20
-FAINTEST_OF_FEW = {"white": 0.085, "correlated": 0.1, "impulses": 0.14, "local": 0.14}
-"""With fewer windows their spread says less, and noise has to be this strong."""
-BROADEST_OF_FEW = 1.06
-"""And no stronger at lower frequencies: noise reads 0.9 to 1.03, fractal detail of made shapes 0.96 to 1.5."""
-FAINT, SURE = 0.115, 0.15
-"""Up to here it is still like the detail of the roughest surfaces; from here on it may be mixed with more shape."""
-EVEN_FAINT, EVEN, EVEN_CORRELATED, UNEVEN = 0.1, 0.145, 0.18, 0.26
-"""Largest spread of the windows' levels (logarithms) beyond chance: for faint, for ordinary, for correlated (of which
-clean meshes have little), for strong noise."""
-SURELY_WHITE = (0.925, 1.06)
-"""Faint noise whose finest frequencies are in this ratio to the fine ones is judged like ordinary noise: noise of 0.08
-edges and more reads 0.93 to 1.03, the rough clean meshes as even as noise 0.87 and less."""
+UNEVEN = 0.26
+"""Largest spread of the levels of strong noise (logarithms) beyond chance."""
 LEVEL_SPREAD = 0.92
 """Chance makes levels of windows of w vertices spread by about this over sqrt(w)."""
 ASIDE = 0.2
 """Largest median of the standardised residual: noise lies on both sides."""
 CENTRE = (0.55, 1.6)
 """Share of residuals about zero, as a multiple of the normal distribution's."""
-WHITE = 0.82
-"""The finest frequencies carry as much white noise as the fine ones; below this ratio it is correlated."""
-HEAVY = 1.25
-"""Tails beyond the normal distribution's from which noise counts as impulses."""
-LOCAL_LEVEL, LOCAL_STEP, LOCAL_SHARE = 0.12, 1.5, 0.1
-"""Noise that is only here and there: how strong at least, over the rest at least, in how much of the mesh at least."""
-NEARBY = 4
-"""Rings about a vertex that decide whether it is in or out."""
-AXIS_LEVEL, AXIS_RANK, AXIS_REACH, AXIS_CALM, AXIS_FEWEST = 0.1, 0.3, 0.4, 0.6, 40
-"""Noise along an axis: how strong at least, how much weaker in the second direction, where it shows and where not."""
-AXIS_TAIL = 2.0
-"""Tails of what an axis explains, over the normal distribution's, that noise does not have: creases do."""
-DEPTH_FEWEST, DEPTH_WORTH, DEPTH_MOST = 12, 0.7, 3.0
-"""Noise that grows with depth: windows that are needed, what is left of the spread, and the logarithm of the ratio
-between both ends."""
-ROUNDED_SLANT, ROUNDED_SHARE = 0.98, 0.3
-"""Surfaces along an axis show nothing of rounding; so much of the mesh has to lie otherwise."""
-ROUNDED_LEVEL, ROUNDED_SEEN, ROUNDED_ZEROS = (0.025, 0.35), (0.4, 4.5), 0.15
-"""Rounding that is worth a treatment, in mean edges; how much of what is expected has to be there, creases included;
-and the largest share of vertices with nothing of it: shapes that were drawn on a grid have many."""
-HEAVY_LEVEL = 0.3
-"""From here on normals are taken from a smoother version."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -118,7 +73,7 @@ class Finding:
 
 
 @dataclass(frozen=True, eq=False)
-class _Evidence:
+class Evidence:
     """Fine residuals along the normals, and their levels in the windows, in mean edges."""
 
     probe: Probe
@@ -128,200 +83,14 @@ class _Evidence:
     edge: float
 
 
-def find_noise(positions: Positions, probe: Probe) -> Finding:
-    """Look for noise.
-
-    Parameters
-    ----------
-    positions : ndarray of float64, shape (n, 3)
-        Welded: a vertex of its own for every triangle has no neighbours to be compared with.
-    probe : Probe
-    """
-    edge = mean_edge_length(positions, probe.topology.faces)
-    if int(probe.windows.valid.sum()) < FEWEST_WINDOWS:
-        return Finding("unknown", 0.0, np.zeros(probe.topology.n), edge, "too few vertices to tell noise from shape")
-    evidence = _look(positions, probe, edge, passes=2)
-    if np.nanquantile(evidence.levels, 0.75) > HEAVY_LEVEL:
-        evidence = _look(positions, probe, edge, passes=8)
-    for test in (_rounded, _everywhere, _here_and_there, _one_axis):
-        finding = test(positions, evidence)
-        if finding is not None:
-            return finding
-    level = float(np.nanmedian(evidence.levels))
-    if level < FAINTEST:
-        return _none(probe, edge, f"at most {level:.3f} mean edges of noise, no more than a clean mesh has detail")
-    return _none(probe, edge, "its roughness follows the shape, as detail and edges do and noise does not")
-
-
-def _look(positions: Positions, probe: Probe, edge: float, passes: int) -> _Evidence:
+def look(positions: Positions, probe: Probe, edge: float, passes: int) -> Evidence:
+    """The evidence of positions, shape (n, 3), with normals from so many averagings of them."""
     normals = probe.smooth_normals(positions, passes)
     along = np.einsum("ij,ij->i", probe.fine(positions / edge), normals)
-    return _Evidence(probe, normals, along, probe.levels(along), edge)
+    return Evidence(probe, normals, along, probe.levels(along), edge)
 
 
-def _rounded(positions: Positions, evidence: _Evidence) -> Finding | None:
-    """Known from the coordinates, and as strong as the cells are large."""
-    grid = find_grid(positions)
-    if grid is None:
-        return None
-    slanted = evidence.probe.counted & (np.abs(evidence.normals).max(axis=1) < ROUNDED_SLANT)
-    expected = grid.levels(evidence.normals) / evidence.edge
-    level = float(np.median(expected))
-    if slanted.sum() < ROUNDED_SHARE * len(slanted) or not ROUNDED_LEVEL[0] < level < ROUNDED_LEVEL[1]:
-        return None
-    seen = np.abs(evidence.along[slanted] / expected[slanted])
-    if not ROUNDED_SEEN[0] < np.quantile(seen, SHARE) / BOUND < ROUNDED_SEEN[1] or (seen < 0.1).mean() > ROUNDED_ZEROS:
-        return None
-    reason = f"positions rounded to a grid of {float(grid.steps.max()) / evidence.edge:.2f} mean edges"
-    return Finding("grid", level * evidence.edge, expected * evidence.edge, evidence.edge, reason, grid=grid)
-
-
-def _everywhere(positions: Positions, evidence: _Evidence) -> Finding | None:
-    """As strong in one place as in another."""
-    windows, chosen = evidence.probe.windows, evidence.probe.counted
-    levels = evidence.levels[windows.valid]
-    level = float(np.median(levels))
-    if level < FAINTEST or not _looks_random(evidence, chosen):
-        return None
-    kind, whiteness = _colour(positions, evidence, windows.valid, chosen)
-    if len(levels) < MANY_WINDOWS:
-        broad = _levels(evidence, evidence.probe.broad(positions / evidence.edge))
-        share = float(np.quantile(broad[windows.valid] / levels, 0.25))
-        if level < FAINTEST_OF_FEW[kind] or (level < SURE and share > BROADEST_OF_FEW):
-            return None
-    if _spread(levels, windows) > _allowed(level, kind, whiteness):
-        return None
-    amount = np.full(len(positions), level * evidence.edge)
-    return Finding(kind, level * evidence.edge, amount, evidence.edge, "noise all over", whiteness=whiteness)
-
-
-def _levels(evidence: _Evidence, filtered: Floats) -> Floats:
-    """Levels in the windows of what another filter leaves, shape (n, 3), along the normals."""
-    return evidence.probe.levels(np.einsum("ij,ij->i", filtered, evidence.normals))
-
-
-def _allowed(level: float, kind: str, whiteness: float) -> float:
-    """Faint white noise is what fine detail looks most like."""
-    if kind != "correlated" and level < FAINT and not SURELY_WHITE[0] < whiteness < SURELY_WHITE[1]:
-        return EVEN_FAINT
-    share = min(max((level - SURE) / SURE, 0.0), 1.0)
-    usual = EVEN_CORRELATED if kind == "correlated" else EVEN
-    return usual + share * (UNEVEN - usual)
-
-
-def _one_axis(positions: Positions, evidence: _Evidence) -> Finding | None:
-    """As strong as the direction of the surface says: its variance is ``n^T S n``, one S of rank one for the mesh."""
-    chosen = evidence.probe.counted
-    normals, along = evidence.normals[chosen], np.abs(evidence.along[chosen])
-    folded = normals @ _hemisphere().T
-    facing = np.abs(folded).argmax(axis=1)
-    order = np.argsort(facing, kind="stable")
-    groups = np.split(order, np.flatnonzero(np.diff(facing[order])) + 1)
-    groups = [group for group in groups if len(group) >= FEWEST]
-    if len(groups) < 6:
-        return None
-    levels = np.array([np.quantile(along[group], SHARE) for group in groups]) / BOUND
-    moments = np.stack([normals[group].T @ normals[group] / len(group) for group in groups])
-    weights = np.sqrt([float(len(group)) for group in groups])
-    values, vectors = np.linalg.eigh(_covariance(moments, levels**2, weights))
-    if values[1] > AXIS_RANK * values[2]:
-        return None
-    # Cameras look along an axis of their own coordinates, which often are the file's.
-    found = [_along(axis, positions, evidence) for axis in (vectors[:, 2], *np.eye(3))]
-    best = min(found, key=lambda one: one.spread)
-    if best.spread > UNEVEN or best.level < AXIS_LEVEL or best.calm > AXIS_CALM * best.level:
-        return None
-    facing_it = np.abs(evidence.normals @ best.axis)
-    reached = evidence.probe.counted & (facing_it > AXIS_REACH)
-    explained = evidence.along[reached] / (best.level * best.growth * facing_it)[reached]
-    if not _is_random(explained) or np.quantile(np.abs(explained), 0.95) > AXIS_TAIL * 1.96:
-        return None
-    amount = best.level * best.growth * facing_it * evidence.edge
-    reason = f"noise along one axis ({', '.join(f'{component:.2f}' for component in best.axis)})"
-    grows = bool((best.growth != 1.0).any())
-    if grows:
-        reason += f", {best.growth.max() / best.growth.min():.1f} times as strong at one end as at the other"
-    growth = best.growth if grows else None
-    return Finding("axis", best.level * evidence.edge, amount, evidence.edge, reason, axis=best.axis, growth=growth)
-
-
-@dataclass(frozen=True, eq=False)
-class _Axis:
-    """How well noise along one axis explains what is there: its level, its spread, and the level where it is not."""
-
-    axis: Floats
-    level: float
-    spread: float
-    calm: float
-    growth: Floats
-
-
-def _along(axis: Floats, positions: Positions, evidence: _Evidence) -> _Axis:
-    probe = evidence.probe
-    slope = np.abs(evidence.normals @ axis)
-    reached = probe.counted & (slope > AXIS_REACH)
-    windows = Windows.of_labels(probe.windows, reached, AXIS_FEWEST)
-    growth = np.ones(len(slope))
-    if reached.sum() < LOCAL_SHARE * len(reached) or windows.valid.sum() < FEWEST_WINDOWS:
-        return _Axis(axis, 0.0, np.inf, 0.0, growth)
-    levels = windows.quantiles(np.abs(evidence.along) / np.maximum(slope, AXIS_REACH), SHARE)[windows.valid] / BOUND
-    spread = _spread(levels, windows)
-    depth = positions @ axis
-    depth = (depth - depth.min()) / (np.ptp(depth) or 1.0)
-    if len(levels) >= DEPTH_FEWEST and levels.min() > 0.0:
-        rate = _rate(windows.means(depth)[windows.valid], np.log(levels))
-        even = levels / np.exp(rate * (windows.means(depth)[windows.valid] - 0.5))
-        if abs(rate) < DEPTH_MOST and _spread(even, windows) < DEPTH_WORTH * spread:
-            growth, levels, spread = np.exp(rate * (depth - 0.5)), even, _spread(even, windows)
-    still = probe.counted & (slope < 0.5 * AXIS_REACH)
-    calm = float(np.quantile(np.abs(evidence.along[still]), SHARE)) / BOUND if still.sum() >= FEWEST else 0.0
-    return _Axis(axis, float(np.median(levels)), spread, calm, growth)
-
-
-def _rate(depth: Floats, logarithms: Floats) -> float:
-    """Slope of a line through the points; those far above it (creases) weigh less."""
-    weights, line = np.ones(len(depth)), np.zeros(2)
-    for _ in range(8):
-        line = np.polyfit(depth, logarithms, 1, w=np.sqrt(weights))
-        above = np.maximum(logarithms - np.polyval(line, depth), 0.0)
-        weights = 1.0 / (1.0 + np.square(above / 0.2))
-    return float(line[0])
-
-
-def _here_and_there(positions: Positions, evidence: _Evidence) -> Finding | None:
-    """Strong and even in some windows, weak in the others."""
-    probe = evidence.probe
-    windows = probe.windows
-    levels = np.where(windows.valid, evidence.levels, 0.0)
-    usual = levels[windows.valid]
-    split = np.exp(_otsu(np.sort(np.log(np.maximum(usual, 0.02)))))
-    above = levels > split
-    inner = above & ~windows.beside(~above & windows.valid)
-    if inner.sum() < FEWEST_INNER or above.sum() < LOCAL_SHARE * windows.count:
-        return None
-    strong, weak = levels[inner], levels[windows.valid & ~above]
-    level = float(np.median(strong))
-    least = LOCAL_LEVEL if len(usual) >= MANY_WINDOWS else FAINTEST_OF_FEW["local"]
-    if level < least or level < LOCAL_STEP * np.median(weak):
-        return None
-    if _spread(strong, windows) > _allowed(level, "white", 0.0):
-        return None
-    if not _looks_random(evidence, inner[windows.labels] & probe.counted):
-        return None
-    # Where windows of both sorts meet, the vertices decide: by what is about each of them.
-    inside = inner[windows.labels]
-    doubtful = (above & ~inner) | (~above & windows.beside(above))
-    nearby = np.square(np.minimum(np.abs(evidence.along), 3.0 * level))
-    for _ in range(NEARBY):
-        nearby = probe.average @ nearby
-    unsure = doubtful[windows.labels]
-    inside[unsure] = nearby[unsure] > (0.5 * level) ** 2
-    amount = np.where(inside, level * evidence.edge, 0.0)
-    share = f"noise in {100.0 * inside.mean():.0f} % of the mesh"
-    return Finding("local", level * evidence.edge, amount, evidence.edge, share)
-
-
-def _spread(levels: Floats, windows: Windows) -> float:
+def spread(levels: Floats, windows: Windows) -> float:
     """Spread of the lower half of the levels (creases are in the upper one), beyond what chance makes."""
     bottom, middle = np.quantile(levels, [0.1, 0.5])
     if bottom <= 0.0:
@@ -330,73 +99,7 @@ def _spread(levels: Floats, windows: Windows) -> float:
     return float(np.sqrt(max((np.log(middle / bottom) / 1.2816) ** 2 - chance**2, 0.0)))
 
 
-def _standardised(evidence: _Evidence, chosen: Mask) -> Floats:
-    scale = evidence.levels[evidence.probe.windows.labels[chosen]]
-    good = scale > 0.0
-    result: Floats = evidence.along[chosen][good] / scale[good]
-    return result
-
-
-def _looks_random(evidence: _Evidence, chosen: Mask) -> bool:
-    """Both sides alike, and neither a heap of zeros nor a hole there."""
-    return _is_random(_standardised(evidence, chosen))
-
-
-def _is_random(values: Floats) -> bool:
+def is_random(values: Floats) -> bool:
+    """Whether standardised values, shape (k,), lie on both sides, with neither a heap of zeros nor a hole there."""
     centre = float(np.mean(np.abs(values) < 0.1)) / 0.0797
     return abs(float(np.median(values))) < ASIDE and CENTRE[0] < centre < CENTRE[1]
-
-
-def _colour(positions: Positions, evidence: _Evidence, valid: Mask, chosen: Mask) -> tuple[str, float]:
-    """White, white with heavy tails, or correlated between neighbours; and the level of the finest over the fine."""
-    probe = evidence.probe
-    finest = _levels(evidence, probe.finest(positions / evidence.edge))
-    ratio = float(np.quantile(finest[valid], 0.25) / np.quantile(evidence.levels[valid], 0.25))
-    if ratio < WHITE:
-        return "correlated", ratio
-    values = np.abs(_standardised(evidence, chosen))
-    tail = float(np.quantile(values, 0.95)) / 1.96
-    heavy = tail > HEAVY and np.median(evidence.levels[valid]) > LOCAL_LEVEL
-    return ("impulses" if heavy else "white"), ratio
-
-
-def _hemisphere(count: int = 48) -> Floats:
-    """Directions spread evenly over half a sphere (a Fibonacci lattice)."""
-    place = np.arange(count) + 0.5
-    height, angle = 1.0 - place / count, np.pi * (1.0 + np.sqrt(5.0)) * place
-    radius = np.sqrt(1.0 - height**2)
-    return np.stack([radius * np.cos(angle), radius * np.sin(angle), height], axis=1)
-
-
-def _covariance(moments: Floats, measured: Floats, trust: Floats) -> Floats:
-    """Symmetric positive S with ``tr(S M)`` near the measured squares; large ones (creases) weigh less."""
-    rows, columns = np.triu_indices(3)
-    design = moments[:, rows, columns] * np.where(rows == columns, 1.0, 2.0)
-    weights = trust
-    covariance = np.zeros((3, 3))
-    for _ in range(12):
-        solution = np.linalg.lstsq(design * weights[:, None], measured * weights, rcond=None)[0]
-        covariance = np.zeros((3, 3))
-        covariance[rows, columns] = solution
-        covariance[columns, rows] = solution
-        values, vectors = np.linalg.eigh(covariance)
-        covariance = (vectors * np.maximum(values, 0.0)) @ vectors.T
-        predicted = np.maximum(np.einsum("ijk,jk->i", moments, covariance), 1e-4)
-        weights = trust / (predicted * (1.0 + np.abs(measured - predicted) / (0.2 * predicted)))
-    return covariance
-
-
-def _otsu(ordered: Floats) -> float:
-    """The value that parts sorted numbers into the two most different groups."""
-    count = len(ordered)
-    sums = np.cumsum(ordered)
-    below = np.arange(1, count)
-    if count < 2:
-        return float(ordered[0]) if count else 0.0
-    difference = sums[:-1] / below - (sums[-1] - sums[:-1]) / (count - below)
-    place = int(np.argmax(below * (count - below) * difference**2))
-    return float(0.5 * (ordered[place] + ordered[place + 1]))
-
-
-def _none(probe: Probe, edge: float, reason: str) -> Finding:
-    return Finding("none", 0.0, np.zeros(probe.topology.n), edge, reason)

@@ -1,0 +1,202 @@
+"""Whether a mesh is noisy, how much, and of what kind: all of it from the mesh itself.
+
+Noise does not know the shape. So it is as strong in one place as in another (or follows the direction of the surface,
+where a camera has put it, or covers some places and leaves others alone), it goes to both sides of the surface alike,
+and no value has a preference. Detail and creases are strong in some places and weak in others. Only what looks like
+noise in all these ways is taken for noise: the answer for anything else is "none", and "unknown" for small meshes.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from bsm.codec.arrays import Positions
+from bsm.codec.denoise.filters.topology import Mask
+from bsm.codec.denoise.filters.vertex_update import Floats
+from bsm.codec.denoise.noise.axis import one_axis
+from bsm.codec.denoise.noise.finding import UNEVEN, Evidence, Finding, is_random, look, spread
+from bsm.codec.denoise.noise.probe import BOUND, SHARE, Probe
+from bsm.codec.denoise.noise.rounding import find_grid
+from bsm.codec.geometry.metrics import mean_edge_length
+
+FEWEST_WINDOWS, FEWEST_INNER = 5, 3
+"""Windows without which nothing is said; and those wholly inside a noisy part."""
+FAINTEST = 0.05
+"""Levels below, in mean edges, are left alone: the finest detail of real surfaces is as strong."""
+MANY_WINDOWS = 20
+FAINTEST_OF_FEW = {"white": 0.085, "correlated": 0.1, "impulses": 0.14, "local": 0.14}
+"""With fewer windows their spread says less, and noise has to be this strong."""
+BROADEST_OF_FEW = 1.06
+"""And no stronger at lower frequencies: noise reads 0.9 to 1.03, fractal detail of made shapes 0.96 to 1.5."""
+FAINT, SURE = 0.115, 0.15
+"""Up to here it is still like the detail of the roughest surfaces; from here on it may be mixed with more shape."""
+EVEN_FAINT, EVEN, EVEN_CORRELATED = 0.1, 0.145, 0.18
+"""Largest spread of the levels of windows (logarithms) beyond chance: for faint, ordinary, and correlated noise, which
+clean meshes have little of."""
+SURELY_WHITE = (0.925, 1.06)
+"""Faint noise whose finest frequencies are in this ratio to the fine ones is judged like ordinary noise: noise of 0.08
+edges and more reads 0.93 to 1.03, the rough clean meshes as even as noise 0.87 and less."""
+WHITE = 0.82
+"""The finest frequencies carry as much white noise as the fine ones; below this ratio it is correlated."""
+HEAVY = 1.25
+"""Tails beyond the normal distribution's from which noise counts as impulses."""
+LOCAL_LEVEL, LOCAL_STEP, LOCAL_SHARE = 0.12, 1.5, 0.1
+"""Noise that is only here and there: how strong at least, over the rest at least, in how much of the mesh at least."""
+NEARBY = 4
+"""Rings about a vertex that decide whether it is in or out."""
+ROUNDED_SLANT, ROUNDED_SHARE = 0.98, 0.3
+"""Surfaces along an axis show nothing of rounding; so much of the mesh has to lie otherwise."""
+ROUNDED_LEVEL, ROUNDED_SEEN, ROUNDED_ZEROS = (0.025, 0.35), (0.4, 4.5), 0.15
+"""Rounding that is worth a treatment, in mean edges; how much of what is expected has to be there, creases included;
+and the largest share of vertices with nothing of it: shapes that were drawn on a grid have many."""
+HEAVY_LEVEL = 0.3
+"""From here on normals are taken from a smoother version."""
+
+
+def find_noise(positions: Positions, probe: Probe) -> Finding:
+    """Look for noise.
+
+    Parameters
+    ----------
+    positions : ndarray of float64, shape (n, 3)
+        Welded: a vertex of its own for every triangle has no neighbours to be compared with.
+    probe : Probe
+    """
+    edge = mean_edge_length(positions, probe.topology.faces)
+    if int(probe.windows.valid.sum()) < FEWEST_WINDOWS:
+        return Finding("unknown", 0.0, np.zeros(probe.topology.n), edge, "too few vertices to tell noise from shape")
+    evidence = look(positions, probe, edge, passes=2)
+    if np.nanquantile(evidence.levels, 0.75) > HEAVY_LEVEL:
+        evidence = look(positions, probe, edge, passes=8)
+    for test in (_rounded, _everywhere, _here_and_there, one_axis):
+        finding = test(positions, evidence)
+        if finding is not None:
+            return finding
+    level = float(np.nanmedian(evidence.levels))
+    if level < FAINTEST:
+        return _none(probe, edge, f"at most {level:.3f} mean edges of noise, no more than a clean mesh has detail")
+    return _none(probe, edge, "its roughness follows the shape, as detail and edges do and noise does not")
+
+
+def _rounded(positions: Positions, evidence: Evidence) -> Finding | None:
+    """Known from the coordinates, and as strong as the cells are large."""
+    grid = find_grid(positions)
+    if grid is None:
+        return None
+    slanted = evidence.probe.counted & (np.abs(evidence.normals).max(axis=1) < ROUNDED_SLANT)
+    expected = grid.levels(evidence.normals) / evidence.edge
+    level = float(np.median(expected))
+    if slanted.sum() < ROUNDED_SHARE * len(slanted) or not ROUNDED_LEVEL[0] < level < ROUNDED_LEVEL[1]:
+        return None
+    seen = np.abs(evidence.along[slanted] / expected[slanted])
+    if not ROUNDED_SEEN[0] < np.quantile(seen, SHARE) / BOUND < ROUNDED_SEEN[1] or (seen < 0.1).mean() > ROUNDED_ZEROS:
+        return None
+    reason = f"positions rounded to a grid of {float(grid.steps.max()) / evidence.edge:.2f} mean edges"
+    return Finding("grid", level * evidence.edge, expected * evidence.edge, evidence.edge, reason, grid=grid)
+
+
+def _everywhere(positions: Positions, evidence: Evidence) -> Finding | None:
+    """As strong in one place as in another."""
+    windows, chosen = evidence.probe.windows, evidence.probe.counted
+    levels = evidence.levels[windows.valid]
+    level = float(np.median(levels))
+    if level < FAINTEST or not _looks_random(evidence, chosen):
+        return None
+    kind, whiteness = _colour(positions, evidence, windows.valid, chosen)
+    if len(levels) < MANY_WINDOWS:
+        broad = _levels(evidence, evidence.probe.broad(positions / evidence.edge))
+        share = float(np.quantile(broad[windows.valid] / levels, 0.25))
+        if level < FAINTEST_OF_FEW[kind] or (level < SURE and share > BROADEST_OF_FEW):
+            return None
+    if spread(levels, windows) > _allowed(level, kind, whiteness):
+        return None
+    amount = np.full(len(positions), level * evidence.edge)
+    return Finding(kind, level * evidence.edge, amount, evidence.edge, "noise all over", whiteness=whiteness)
+
+
+def _levels(evidence: Evidence, filtered: Floats) -> Floats:
+    """Levels in the windows of what another filter leaves, shape (n, 3), along the normals."""
+    return evidence.probe.levels(np.einsum("ij,ij->i", filtered, evidence.normals))
+
+
+def _allowed(level: float, kind: str, whiteness: float) -> float:
+    """Faint white noise is what fine detail looks most like."""
+    if kind != "correlated" and level < FAINT and not SURELY_WHITE[0] < whiteness < SURELY_WHITE[1]:
+        return EVEN_FAINT
+    share = min(max((level - SURE) / SURE, 0.0), 1.0)
+    usual = EVEN_CORRELATED if kind == "correlated" else EVEN
+    return usual + share * (UNEVEN - usual)
+
+
+def _here_and_there(positions: Positions, evidence: Evidence) -> Finding | None:
+    """Strong and even in some windows, weak in the others."""
+    probe = evidence.probe
+    windows = probe.windows
+    levels = np.where(windows.valid, evidence.levels, 0.0)
+    usual = levels[windows.valid]
+    split = np.exp(_otsu(np.sort(np.log(np.maximum(usual, 0.02)))))
+    above = levels > split
+    inner = above & ~windows.beside(~above & windows.valid)
+    if inner.sum() < FEWEST_INNER or above.sum() < LOCAL_SHARE * windows.count:
+        return None
+    strong, weak = levels[inner], levels[windows.valid & ~above]
+    level = float(np.median(strong))
+    least = LOCAL_LEVEL if len(usual) >= MANY_WINDOWS else FAINTEST_OF_FEW["local"]
+    if level < least or level < LOCAL_STEP * np.median(weak):
+        return None
+    if spread(strong, windows) > _allowed(level, "white", 0.0):
+        return None
+    if not _looks_random(evidence, inner[windows.labels] & probe.counted):
+        return None
+    # Where windows of both sorts meet, the vertices decide: by what is about each of them.
+    inside = inner[windows.labels]
+    doubtful = (above & ~inner) | (~above & windows.beside(above))
+    nearby = np.square(np.minimum(np.abs(evidence.along), 3.0 * level))
+    for _ in range(NEARBY):
+        nearby = probe.average @ nearby
+    unsure = doubtful[windows.labels]
+    inside[unsure] = nearby[unsure] > (0.5 * level) ** 2
+    amount = np.where(inside, level * evidence.edge, 0.0)
+    share = f"noise in {100.0 * inside.mean():.0f} % of the mesh"
+    return Finding("local", level * evidence.edge, amount, evidence.edge, share)
+
+
+def _standardised(evidence: Evidence, chosen: Mask) -> Floats:
+    scale = evidence.levels[evidence.probe.windows.labels[chosen]]
+    good = scale > 0.0
+    result: Floats = evidence.along[chosen][good] / scale[good]
+    return result
+
+
+def _looks_random(evidence: Evidence, chosen: Mask) -> bool:
+    """Both sides alike, and neither a heap of zeros nor a hole there."""
+    return is_random(_standardised(evidence, chosen))
+
+
+def _colour(positions: Positions, evidence: Evidence, valid: Mask, chosen: Mask) -> tuple[str, float]:
+    """White, white with heavy tails, or correlated between neighbours; and the level of the finest over the fine."""
+    probe = evidence.probe
+    finest = _levels(evidence, probe.finest(positions / evidence.edge))
+    ratio = float(np.quantile(finest[valid], 0.25) / np.quantile(evidence.levels[valid], 0.25))
+    if ratio < WHITE:
+        return "correlated", ratio
+    values = np.abs(_standardised(evidence, chosen))
+    tail = float(np.quantile(values, 0.95)) / 1.96
+    heavy = tail > HEAVY and np.median(evidence.levels[valid]) > LOCAL_LEVEL
+    return ("impulses" if heavy else "white"), ratio
+
+
+def _otsu(ordered: Floats) -> float:
+    """The value that parts sorted numbers into the two most different groups."""
+    count = len(ordered)
+    sums = np.cumsum(ordered)
+    below = np.arange(1, count)
+    if count < 2:
+        return float(ordered[0]) if count else 0.0
+    difference = sums[:-1] / below - (sums[-1] - sums[:-1]) / (count - below)
+    place = int(np.argmax(below * (count - below) * difference**2))
+    return float(0.5 * (ordered[place] + ordered[place + 1]))
+
+
+def _none(probe: Probe, edge: float, reason: str) -> Finding:
+    return Finding("none", 0.0, np.zeros(probe.topology.n), edge, reason)
