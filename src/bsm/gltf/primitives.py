@@ -101,8 +101,7 @@ def as_mesh(document: Document, primitives: Sequence[Tree]) -> Carried | str:
     attributes, accessors = [], {"POSITION": (_FLOAT, False)}
     qualities: dict[str, str] = {}
     for name, array in arrays.items():
-        normalized = bool(document.tree["accessors"][arrays_of(primitives[0])[name]].get("normalized"))
-        carried = _carried(name, array, normalized)
+        carried = _carried(name, array, _is_normalized(document, arrays_of(primitives[0])[name]))
         if carried is None:
             return f"{name}, which streams do not carry as it is"
         attributes.append(carried[0])
@@ -131,13 +130,31 @@ def _vertices(document: Document, primitive: Tree) -> dict[str, npt.NDArray[Any]
         array = document.array(index)
         if array is None:
             return "accessors without plain bytes"
-        arrays[name] = array
+        arrays[name] = _floats(array, _is_normalized(document, index)) if _is_geometry(name) else array
     positions = arrays.get("POSITION")
     if positions is None or positions.dtype != np.float32 or not np.isfinite(positions).all():
         return "positions that are not plain floats"
     if any(len(array) != len(positions) for array in arrays.values()):
         return "attributes of different lengths"
     return arrays
+
+
+def _is_normalized(document: Document, index: int) -> bool:
+    return bool(document.tree["accessors"][index].get("normalized"))
+
+
+def _is_geometry(name: str) -> bool:
+    """Whether numbers mean the same as floats, whichever type they are stored in (KHR_mesh_quantization)."""
+    base = name.rpartition("/")[2]
+    return base in ("POSITION", "NORMAL", "TANGENT") or base.startswith("TEXCOORD_")
+
+
+def _floats(array: npt.NDArray[Any], normalized: bool) -> npt.NDArray[Any]:
+    """Short integers as what they stand for; any shape, float32 for these."""
+    if array.dtype.itemsize > 2 or array.dtype.kind not in "iu":
+        return array
+    values = array.astype(np.float32)
+    return np.maximum(values / np.iinfo(array.dtype).max, -1, dtype=np.float32) if normalized else values
 
 
 def _quality(name: str, array: npt.NDArray[Any], extent: float) -> str | None:
@@ -169,7 +186,7 @@ def _carried(name: str, array: npt.NDArray[Any], normalized: bool) -> tuple[Attr
         return Attribute(name, weights), 5121, True
     if array[0].nbytes % 4:  # accessors keep their elements at multiples of four bytes
         return None
-    return Attribute(name, array), _COMPONENTS[array.dtype.name], normalized
+    return Attribute(name, array), _COMPONENTS[array.dtype.name], normalized and not is_float
 
 
 def _eighths(weights: npt.NDArray[np.float64]) -> npt.NDArray[np.uint8]:

@@ -39,6 +39,9 @@ function compareKeys(a: Key, b: Key): number {
     return left.length - right.length;
 }
 
+/** Values of one, two or four bytes, or with so many for their length: the tag of the first, and the least that is not told shorter. */
+const LONG = [["int", 0xcc, 128], ["string", 0xd9, 32], ["binary", 0xc4, 0]] as const;
+
 class MapReader {
     private readonly view: DataView;
     private at = 0;
@@ -68,45 +71,31 @@ class MapReader {
 
     value(arrays: boolean): Value {
         const tag = this.byte();
-        if (tag < 0x80) return { type: "int", value: tag };
-        if (tag >= 0xe0) return { type: "int", value: tag - 256 };
+        if (tag < 0x80 || tag >= 0xe0) return { type: "int", value: (tag << 24) >> 24 };
         if (tag >= 0xa0 && tag <= 0xbf) return this.text(tag & 31);
         if (arrays && tag >= 0x90 && tag <= 0x9f) return this.array(tag & 15);
+        if (arrays && tag === 0xdc) return this.array(this.shortest(this.unsigned(2), 16));
+        for (const [type, first, least] of LONG) {
+            if (tag < first || tag > first + 2) continue;
+            const size = tag - first;
+            const value = this.shortest(this.unsigned(1 << size), [least, 256, 65536][size]);
+            return type === "int" ? { type, value } : type === "string" ? this.text(value) : { type, value: this.bytes(value) };
+        }
         switch (tag) {
-            case 0xcc:
-                return { type: "int", value: this.shortest(this.unsigned(1), 128) };
-            case 0xcd:
-                return { type: "int", value: this.shortest(this.unsigned(2), 256) };
-            case 0xce:
-                return { type: "int", value: this.shortest(this.unsigned(4), 2 ** 16) };
             case 0xcf:
-                return this.large(this.view64((at) => this.view.getBigUint64(at)), (v) => v >= 1n << 32n);
+                return this.large(this.view.getBigUint64(this.take(8)), (v) => v >= 1n << 32n);
             case 0xd0:
-                return this.negative(this.signed(1), -32);
+                return this.negative(this.view.getInt8(this.take(1)), -32);
             case 0xd1:
-                return this.negative(this.signed(2), -128);
+                return this.negative(this.view.getInt16(this.take(2)), -128);
             case 0xd2:
-                return this.negative(this.signed(4), -32768);
+                return this.negative(this.view.getInt32(this.take(4)), -32768);
             case 0xd3:
-                return this.large(this.view64((at) => this.view.getBigInt64(at)), (v) => v < -(1n << 31n));
+                return this.large(this.view.getBigInt64(this.take(8)), (v) => v < -(1n << 31n));
             case 0xca:
                 return { type: "float", value: this.finite(this.view.getFloat32(this.take(4))) };
             case 0xcb:
                 return this.double();
-            case 0xd9:
-                return this.text(this.shortest(this.unsigned(1), 32));
-            case 0xda:
-                return this.text(this.shortest(this.unsigned(2), 256));
-            case 0xdb:
-                return this.text(this.shortest(this.unsigned(4), 2 ** 16));
-            case 0xc4:
-                return { type: "binary", value: this.bytes(this.unsigned(1)) };
-            case 0xc5:
-                return { type: "binary", value: this.bytes(this.shortest(this.unsigned(2), 256)) };
-            case 0xc6:
-                return { type: "binary", value: this.bytes(this.shortest(this.unsigned(4), 2 ** 16)) };
-            case 0xdc:
-                if (arrays) return this.array(this.shortest(this.unsigned(2), 16));
         }
         throw new CorruptError(`a map may not hold what begins with the byte ${tag} here`);
     }
@@ -166,18 +155,8 @@ class MapReader {
         return this.data.slice(start, start + count);
     }
 
-    private unsigned(size: 1 | 2 | 4): number {
-        const at = this.take(size);
-        return size === 1 ? this.view.getUint8(at) : size === 2 ? this.view.getUint16(at) : this.view.getUint32(at);
-    }
-
-    private signed(size: 1 | 2 | 4): number {
-        const at = this.take(size);
-        return size === 1 ? this.view.getInt8(at) : size === 2 ? this.view.getInt16(at) : this.view.getInt32(at);
-    }
-
-    private view64(get: (at: number) => bigint): bigint {
-        return get(this.take(8));
+    private unsigned(size: number): number {
+        return this.bytes(size).reduce((value, byte) => 256 * value + byte, 0);
     }
 
     private take(count: number): number {
