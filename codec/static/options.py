@@ -142,8 +142,8 @@ class EncodeOptions:
 
     keep: float | None = None
     coefficients: int | None = None
-    block_size: int = 600
-    overlap: float = 1.15
+    block_size: int = 550
+    overlap: float = 1.05
     partition: str = "derived"
     key_seed: str | None = None
     key_interval: int = 32
