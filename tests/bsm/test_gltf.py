@@ -212,6 +212,33 @@ def test_quantized_geometry_becomes_floats(tmp_path):
     np.testing.assert_allclose(moved.values, 16 / 127, atol=1e-4)
 
 
+def test_what_plain_geometry_shares_with_coded_one_is_let_go(tmp_path):
+    tree, data = scene()
+    few = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]], np.float32)
+    corners = np.array([[0], [1], [2]], np.uint16)
+    merged = read_document_of(tree, data, tmp_path).view(4)
+    views = [merged + corners.tobytes() + b"\0\0", few.tobytes()]
+    for content in views:
+        tree["bufferViews"].append({"buffer": 0, "byteOffset": len(data), "byteLength": len(content)})
+        data += content
+    last = len(tree["bufferViews"]) - 1
+    tree["accessors"][4]["bufferView"] = last - 1
+    short = {"bufferView": last - 1, "byteOffset": len(merged), "componentType": 5123, "count": 3, "type": "SCALAR"}
+    corner = {"bufferView": last, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]}
+    tree["accessors"] += [short, corner]
+    count = len(tree["accessors"])
+    tree["meshes"].append({"primitives": [{"attributes": {"POSITION": count - 1}, "indices": count - 2}]})
+    tree["buffers"][0]["byteLength"] = len(data)
+    target = tmp_path / "small.glb"
+    found = compress(read_document_of(tree, data, tmp_path), functools.partial(bsm.encode, preset="near-lossless"))
+    target.write_bytes(found.data)
+    assert found.coded == 2
+    after = read_document(str(target))
+    index = after.tree["meshes"][2]["primitives"][0]["indices"]
+    np.testing.assert_array_equal(after.array(index), corners)
+    assert len(after.view(after.tree["accessors"][index]["bufferView"])) == corners.nbytes
+
+
 def read_document_of(tree, data, folder):
     path = folder / "given.glb"
     path.write_bytes(glb(tree, data))

@@ -17,7 +17,7 @@ import numpy.typing as npt
 from bsm.bitstream.errors import BsmError, FormatError
 from bsm.files.motion.gltf import NONSENSE
 from bsm.gltf.bundles import Bundle, Coded, bundles_of, code_bundle, size_of, that_share, users_of
-from bsm.gltf.document import Document, Tree, glb
+from bsm.gltf.document import Document, Tree, glb, is_plain, span_of
 from bsm.gltf.images import MIME, ImageRule, smaller
 from bsm.gltf.primitives import Coder
 
@@ -288,6 +288,7 @@ class _Scene:
                     "bufferView": self._add_bytes(data),
                 }
         _drop_unused(tree, "accessors", lambda node, key: key in _REFERENCES["accessors"])
+        self._trim()
         kept = _drop_unused(tree, "bufferViews", lambda node, key: key in _REFERENCES["bufferViews"])
         parts: list[bytes] = []
         at = 0
@@ -307,6 +308,56 @@ class _Scene:
             tree["buffers"].append(filled | ({"uri": quote(self._fallback)} if self._fallback else {}))
             self._use(EXTENSION, required=not self._fallback)
         return glb(_short(tree), b"".join(parts))
+
+    def _trim(self) -> None:
+        """Leave out of bufferViews that accessors share what none of them uses any more."""
+        readers: dict[int, list[Tree]] = {}
+        for accessor in self.tree.get("accessors", []):
+            if is_plain(accessor):
+                readers.setdefault(accessor["bufferView"], []).append(accessor)
+        references = Counter(_references(self.tree))
+        for number, accessors in readers.items():
+            view = self.tree["bufferViews"][number]
+            if number in self._fresh or view.get("extensions") or references[number] > len(accessors):
+                continue
+            kept = _used(self._document.view(number), [span_of(accessor, view) for accessor in accessors])
+            if kept is None:
+                continue
+            for accessor, start in zip(accessors, kept[1], strict=True):
+                accessor["byteOffset"] = start
+            self._fresh[number], view["byteLength"] = kept[0], len(kept[0])
+
+
+def _used(data: bytes, spans: list[tuple[int, int]]) -> tuple[bytes, list[int]] | None:
+    """The bytes that spans cover, and where each begins in them, of four bytes as before; None if that is all."""
+    if any(not 0 <= start < end <= len(data) for start, end in spans):
+        return None
+    kept = bytearray()
+    last = shift = 0
+    starts = [0] * len(spans)
+    for number in sorted(range(len(spans)), key=spans.__getitem__):
+        start, end = spans[number]
+        if start >= last:  # apart from those before it
+            kept += b"\0" * (-len(kept) % 4)
+            last = start // 4 * 4
+            shift = last - len(kept)
+        kept += data[last:end]
+        last = max(last, end)
+        starts[number] = start - shift
+    return (bytes(kept), starts) if len(kept) < len(data) else None
+
+
+def _references(node: Any) -> Iterator[int]:
+    """The bufferViews that anything in a tree names."""
+    if isinstance(node, list):
+        for item in node:
+            yield from _references(item)
+    elif isinstance(node, dict):
+        for key, value in node.items():
+            if key in _REFERENCES["bufferViews"] and isinstance(value, int):
+                yield value
+            else:
+                yield from _references(value)
 
 
 def _short(node: Any) -> Any:

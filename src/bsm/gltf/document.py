@@ -61,16 +61,15 @@ class Document:
     def array(self, index: int) -> npt.NDArray[Any] | None:
         """The values of an accessor, shape (n, c), as they are stored; None if it is sparse or without bytes."""
         accessor = self._entry("accessors", index)
-        if "sparse" in accessor or "bufferView" not in accessor or accessor["type"] not in _WIDTHS:
+        if not is_plain(accessor):
             return None
         view = self._entry("bufferViews", accessor["bufferView"])
         if view.get("extensions"):
             return None
         kind, width = np.dtype(_TYPES[accessor["componentType"]]).newbyteorder("<"), _WIDTHS[accessor["type"]]
-        count, size = accessor["count"], kind.itemsize * width
-        stride, data = view.get("byteStride") or size, self.view(accessor["bufferView"])
-        start = accessor.get("byteOffset", 0)
-        if count < 1 or min(start, stride) < 0 or start + stride * (count - 1) + size > len(data):
+        count, stride, data = accessor["count"], _stride(accessor, view), self.view(accessor["bufferView"])
+        start, end = span_of(accessor, view)
+        if count < 1 or min(start, stride) < 0 or end > len(data):
             raise FormatError(f"accessor {index} is not inside of its bufferView")
         rows: npt.NDArray[Any] = np.ndarray((count, width), kind, data, start, (stride, kind.itemsize))
         return np.ascontiguousarray(rows)
@@ -91,6 +90,26 @@ class Document:
         except (KeyError, IndexError) as error:
             raise FormatError(f"this glTF has no {kind}[{index}]") from error
         return entry
+
+
+def _size(accessor: Tree) -> int:
+    return np.dtype(_TYPES[accessor["componentType"]]).itemsize * _WIDTHS[accessor["type"]]
+
+
+def _stride(accessor: Tree, view: Tree) -> int:
+    stride: int = view.get("byteStride") or _size(accessor)
+    return stride
+
+
+def span_of(accessor: Tree, view: Tree) -> tuple[int, int]:
+    """Where the bytes of an accessor begin and end in its bufferView."""
+    start = accessor.get("byteOffset", 0)
+    return start, start + _stride(accessor, view) * (accessor["count"] - 1) + _size(accessor)
+
+
+def is_plain(accessor: Tree) -> bool:
+    """Whether its numbers are bytes of a bufferView, and no others."""
+    return "sparse" not in accessor and "bufferView" in accessor and accessor["type"] in _WIDTHS
 
 
 def read_document(path: str) -> Document:
