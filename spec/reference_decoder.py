@@ -1285,17 +1285,17 @@ class LevelModel:
         for model in self.sets:
             model.slots = self.sets[0].slots
 
-    def decode(self, payload, shapes, references):
-        """Matrices of the shapes given; a reference of None is the matrix before."""
+    def decode(self, payload, shapes, references, leads=None):
+        """Matrices of the shapes given; a reference of None is the matrix before. `leads` are of a basis."""
         decoder, matrices = RangeDecoder(payload), []
-        for (rows, columns), reference in zip(shapes, references):
+        for (rows, columns), reference, lead in zip(shapes, references, leads or [None] * len(shapes)):
             if reference is None:
                 reference = matrices[-1] if matrices else np.zeros((0, columns), int)
-            matrices.append(self.matrix(decoder, rows, columns, reference))
+            matrices.append(self.matrix(decoder, rows, columns, reference, lead))
         decoder.finish()
         return matrices
 
-    def matrix(self, decoder, rows, columns, reference):
+    def matrix(self, decoder, rows, columns, reference, lead=None):
         """S 4.1 to S 4.3."""
         levels, slow, grids = np.zeros((rows, columns), int), [0] * columns, Grids()
 
@@ -1307,7 +1307,8 @@ class LevelModel:
 
         for j in range(decoder.uniform(rows + 1)):
             mean = 0
-            for i in range(columns):
+            coded = columns if lead is None else min(columns, 3 * j + lead)
+            for i in range(coded):
                 above = 2 * a(j - 1, i) + a(j - 2, i) + a(j - 3, i)
                 left = 2 * a(j, i - 1) + a(j, i - 2)
                 around = a(j - 1, i + 1) + a(j - 1, i - 1)
@@ -1327,6 +1328,8 @@ class LevelModel:
                 magnitude = min(abs(int(levels[j, i])), 4096)
                 slow[i] += (64 * magnitude - slow[i]) >> 2
                 mean += (128 * magnitude - mean) >> 2
+            for _ in range(coded, columns):
+                grids.point(0)
             if decoder.overran():
                 decoder.fail("levels are missing")
         return levels
@@ -1368,9 +1371,24 @@ def cosines_over_time(frames):
 def temporal_basis(gop):
     """S 5: 3 T rows, r columns."""
     single = cosines_over_time(gop.frames)
-    matrices = LevelModel().decode(gop.basis, [(gop.frames, gop.columns)] * 3, [None] * 3)
+    matrices = LevelModel().decode(gop.basis, [(gop.frames, gop.columns)] * 3, [None] * 3, [1, 2, 3])
     steps = 2.0 ** (-np.array(gop.exponents, float) / 4)
-    return np.concatenate([single @ (points_of(matrix) * steps) for matrix in matrices])
+    free = np.array([points_of(matrix) * steps for matrix in matrices]).transpose(1, 0, 2)
+    columns = right_angles(free.reshape(3 * gop.frames, gop.columns)).reshape(free.shape)
+    return np.concatenate([single @ columns[:, d] for d in range(3)])
+
+
+def right_angles(free):
+    """S 5.3: the x_i of the y_i."""
+    columns = free.copy()
+    for k in reversed(range(free.shape[1])):
+        vector = free[:, k].copy()
+        length = np.linalg.norm(vector)
+        if length > 0:
+            vector[k] += -length if vector[k] < 0 else length
+            behind = columns[:, k + 1 :]
+            behind -= np.outer(vector, 2 * (vector @ behind) / (vector @ vector))
+    return columns
 
 
 class Loop:

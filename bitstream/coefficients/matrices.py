@@ -41,6 +41,8 @@ _CLASSES = 12
 _ROWS = 40
 _SLOTS = ((_INPUTS - 1) * _CLASSES * _CLASSES + _CLASSES * _ROWS) * _SPAN
 _SELECTORS = 3 * _SPAN
+_STAIR = 3
+_NEVER = np.iinfo(np.int16).max
 PRICED = 6
 """Magnitudes, from 0 on, that `price_levels` tells the prices of."""
 
@@ -50,7 +52,9 @@ def make_level_bank() -> Bank:
     return make_bank(_SLOTS, _SELECTORS, _INPUTS, limit=400, rate=10)
 
 
-def encode_levels(bank: Bank, matrices: Sequence[Levels], references: Sequence[Levels]) -> bytes:
+def encode_levels(
+    bank: Bank, matrices: Sequence[Levels], references: Sequence[Levels], leads: Sequence[int] | None = None
+) -> bytes:
     """Code matrices one behind the other.
 
     Parameters
@@ -61,14 +65,25 @@ def encode_levels(bank: Bank, matrices: Sequence[Levels], references: Sequence[L
         All with the same number of columns.
     references : sequence of int32 arrays, shapes (any, columns), C-contiguous
         What each matrix is expected to resemble in magnitude; may be an earlier matrix of `matrices`.
+    leads : sequence of int, optional
+        Of each matrix, how many columns are coded of the first row, three more of each next one; the others must be 0.
+        None: all.
     """
     coder = start_writing(16 * sum(m.size for m in matrices) + 8 * len(matrices) + 64)
-    for matrix, reference in zip(matrices, references, strict=True):
-        _code_matrix(coder, bank, matrix, reference, _occupied(matrix))
+    for matrix, reference, lead in zip(matrices, references, leads or _whole(matrices), strict=True):
+        _code_matrix(coder, bank, matrix, reference, _occupied(matrix), lead)
     return finish_writing(coder)
 
 
-def price_levels(bank: Bank, matrix: Levels, reference: Levels) -> Prices:
+def first_prices(rows: int, columns: int, lead: int | None = None) -> Prices:
+    """Prices before any are known, as of `price_levels`: nothing costs anything but what cannot be coded."""
+    prices = np.zeros((rows, columns, 2, PRICED), np.int16)
+    if lead is not None:
+        prices[np.arange(columns) >= lead + _STAIR * np.arange(rows)[:, None], :, 1:] = _NEVER
+    return prices
+
+
+def price_levels(bank: Bank, matrix: Levels, reference: Levels, lead: int | None = None) -> Prices:
     """What each place of a matrix would cost if it were coded next, and its neighbours as they are.
 
     Parameters
@@ -76,6 +91,7 @@ def price_levels(bank: Bank, matrix: Levels, reference: Levels) -> Prices:
     bank : Bank
         Stays as it is.
     matrix, reference : int32 arrays
+    lead : int, optional
         As of `encode_levels`.
 
     Returns
@@ -84,13 +100,21 @@ def price_levels(bank: Bank, matrix: Levels, reference: Levels) -> Prices:
         Of magnitudes on both grids (see `bitstream.coefficients.trellis`), in 1 / 256 bit.
     """
     rows, columns = matrix.shape
-    prices = np.zeros((rows, columns, 2, PRICED), np.int16)
+    prices = first_prices(rows, columns, lead)
     coder, slow = start_writing(16 * matrix.size + 64), np.empty(columns, np.int64)
-    _kernels.price_matrix(coder, copy_bank(bank), matrix, reference, _occupied(matrix), slow, COSTS, prices.reshape(-1))
+    first = columns if lead is None else min(lead, columns)
+    occupied = _occupied(matrix)
+    _kernels.price_matrix(coder, copy_bank(bank), matrix, reference, occupied, first, slow, COSTS, prices.reshape(-1))
     return prices
 
 
-def decode_levels(bank: Bank, payload: bytes, matrices: Sequence[Levels], references: Sequence[Levels]) -> None:
+def decode_levels(
+    bank: Bank,
+    payload: bytes,
+    matrices: Sequence[Levels],
+    references: Sequence[Levels],
+    leads: Sequence[int] | None = None,
+) -> None:
     """Twin of `encode_levels`: fill `matrices`, shapes (rows_k, columns), which hold zeros.
 
     Raises
@@ -99,8 +123,8 @@ def decode_levels(bank: Bank, payload: bytes, matrices: Sequence[Levels], refere
         If the payload does not hold exactly these matrices.
     """
     coder = start_reading(payload)
-    for matrix, reference in zip(matrices, references, strict=True):
-        _code_matrix(coder, bank, matrix, reference, 0)
+    for matrix, reference, lead in zip(matrices, references, leads or _whole(matrices), strict=True):
+        _code_matrix(coder, bank, matrix, reference, 0, lead)
         if overran(coder):
             break
     finish_reading(coder)
@@ -120,7 +144,8 @@ def code_column(coder: Coder, values: Levels) -> Coder:
     if not is_reading(coder):
         coder = make_room(coder, 16 * len(values) + 8)
     used = np.flatnonzero(values)
-    _code_matrix(coder, make_level_bank(), column, np.zeros((0, 1), np.int32), int(used[-1]) + 1 if len(used) else 0)
+    rows = int(used[-1]) + 1 if len(used) else 0
+    _code_matrix(coder, make_level_bank(), column, np.zeros((0, 1), np.int32), rows, 1)
     if overran(coder):
         raise TruncatedError(f"the payload of {len(values)} numbers ends too early")
     return coder
@@ -132,6 +157,12 @@ def _occupied(matrix: Levels) -> int:
     return int(occupied[-1]) + 1 if len(occupied) else 0
 
 
-def _code_matrix(coder: Coder, bank: Bank, levels: Levels, reference: Levels, rows: int) -> None:
+def _whole(matrices: Sequence[Levels]) -> list[int]:
+    """The leads of matrices that are coded whole."""
+    return [matrix.shape[1] for matrix in matrices]
+
+
+def _code_matrix(coder: Coder, bank: Bank, levels: Levels, reference: Levels, rows: int, lead: int) -> None:
     """Code the number of rows that are not zero behind, and these rows."""
-    _kernels.code_matrix(coder, bank, levels, reference, rows, np.empty(levels.shape[1], np.int64))
+    columns = levels.shape[1]
+    _kernels.code_matrix(coder, bank, levels, reference, rows, min(lead, columns), np.empty(columns, np.int64))

@@ -20,7 +20,8 @@ LOOP = 40.0
 def gop_memory(vertices: int, body: GopBody) -> float:
     """Bytes for decoding a GOP, besides those of one part after the other: levels, components, a few frames."""
     shown = 48.0 * min(body.frames, BATCH) + 96.0
-    return vertices * (12.0 * body.components + shown) + 72.0 * body.components * body.frames
+    basis = body.components * (120.0 * body.frames + 24.0 * body.components)
+    return vertices * (12.0 * body.components + shown) + basis
 
 
 def loop_memory(rows: int, body: GopBody) -> float:
@@ -32,9 +33,9 @@ def gop_cost(sites: tuple[Site, ...], vertices: int, body: GopBody) -> float:
     """Work of the levels, loops and fields of a GOP, and of its frames."""
     columns, frames = body.components, body.frames
     fields = sum(_part_cost(site.fronts, site.width, columns) for site in sites)
-    cosines = 30.0 * frames * columns if body.method is GopMethod.LEARNT else 0.0
+    basis = frames * columns * (30.0 + 6.0 * columns) if body.method is GopMethod.LEARNT else 0.0
     shown = frames * (FRAME + vertices * (SHOWN + 0.2 * columns))
-    return PART * len(sites) + fields + cosines + shown
+    return PART * len(sites) + fields + basis + shown
 
 
 def _part_cost(fronts: Fronts, width: int, columns: int) -> float:

@@ -21,6 +21,7 @@ from bsm.codec.sequence.dictionaries import Dictionaries, Part, Site, find_sites
 from bsm.codec.sequence.level_writer import ROUNDS, WEIGHT, LevelWriter
 from bsm.codec.sequence.options import SequenceOptions
 from bsm.codec.sequence.row_prediction import (
+    BASIS_LEADS,
     Loop,
     basis_of,
     frames_of,
@@ -102,7 +103,8 @@ def level_references(matrices: list[Levels], columns: int) -> list[Levels]:
 def decode_basis(body: GopBody) -> Matrix:
     """Temporal basis of a GOP, shape (3T, r)."""
     levels = np.zeros((3, body.frames, body.components), np.int32)
-    decode_levels(make_level_bank(), body.basis, list(levels), level_references(list(levels), body.components))
+    references = level_references(list(levels), body.components)
+    decode_levels(make_level_bank(), body.basis, list(levels), references, BASIS_LEADS)
     return basis_of(levels, body.exponents)
 
 
@@ -264,8 +266,8 @@ class GopEncoder:
         spectrum = spectrum_of(basis.columns / weights[:, None], basis.exponents)
         _, frames, columns = spectrum.shape
         writer = LevelWriter(make_level_bank(), columns, self.rounds)
-        for matrix in spectrum:
-            writer.write(Loop(0, columns, 0), np.empty((frames, 0)), matrix, 1.0)
+        for matrix, lead in zip(spectrum, BASIS_LEADS, strict=True):
+            writer.write(Loop(0, columns, 0), np.empty((frames, 0)), matrix, 1.0, lead=lead)
         return GopBody(GopMethod.LEARNT, frames, self._step, columns, basis.exponents, writer.finish(), b"")
 
 

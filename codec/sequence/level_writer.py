@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from bsm.bitstream.coefficients.matrices import PRICED, encode_levels, price_levels
+from bsm.bitstream.coefficients.matrices import encode_levels, first_prices, price_levels
 from bsm.bitstream.entropy.range_coder import Bank, copy_bank
 from bsm.codec.arrays import Levels, Matrix
 from bsm.codec.sequence.row_prediction import Loop
@@ -35,12 +35,22 @@ class LevelWriter:
     def __init__(self, bank: Bank, columns: int, rounds: int = ROUNDS) -> None:
         self.levels: list[Levels] = []
         self._references: list[Levels] = []
+        self._leads: list[int] = []
+        self._columns = columns
         self._bank = bank
         self._rounds = rounds
         self._ahead = copy_bank(bank)
         self._none = np.zeros((0, columns), np.int32)
 
-    def write(self, loop: Loop, known: Matrix, targets: Matrix, step: float, reference: Levels | None = None) -> Matrix:
+    def write(
+        self,
+        loop: Loop,
+        known: Matrix,
+        targets: Matrix,
+        step: float,
+        reference: Levels | None = None,
+        lead: int | None = None,
+    ) -> Matrix:
         """Choose and note the levels of a matrix.
 
         Parameters
@@ -49,6 +59,8 @@ class LevelWriter:
             As of `Loop.search`; the loop is updated.
         reference : int32 array, shape (any, columns), optional
             What the levels may resemble in magnitude; None: the matrix before.
+        lead : int, optional
+            As of `encode_levels`; targets that are not coded must be 0.
 
         Returns
         -------
@@ -57,16 +69,17 @@ class LevelWriter:
         """
         if reference is None:
             reference = self.levels[-1] if self.levels else self._none
-        prices = np.zeros((*targets.shape, 2, PRICED), np.int16)
+        prices = first_prices(len(targets), self._columns, lead)
         for _ in range(self._rounds):
             levels, _ = loop.copy().search(known, targets, step, prices, WEIGHT)
-            prices = price_levels(self._ahead, levels, reference)
+            prices = price_levels(self._ahead, levels, reference, lead)
         levels, decoded = loop.search(known, targets, step, prices, WEIGHT)
-        encode_levels(self._ahead, [levels], [reference])
+        self._leads.append(self._columns if lead is None else lead)
+        encode_levels(self._ahead, [levels], [reference], self._leads[-1:])
         self.levels.append(levels)
         self._references.append(reference)
         return decoded
 
     def finish(self) -> bytes:
         """All levels, coded."""
-        return encode_levels(self._bank, self.levels, self._references)
+        return encode_levels(self._bank, self.levels, self._references, self._leads)

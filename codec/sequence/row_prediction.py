@@ -21,6 +21,7 @@ from bsm.bitstream.errors import NumericError, OptionError
 from bsm.codec import _kernels
 from bsm.codec.arrays import Levels, Matrix
 from bsm.codec.basis.orthogonal_iteration import cosine_columns
+from bsm.codec.sequence.reflections import columns_of, free_of
 
 LEADING = 24
 """Columns of a row that help to predict the columns behind them."""
@@ -36,6 +37,9 @@ DENSE_ROWS = 16
 RENEWAL = 8
 RULES = (FORGETTING, RIDGE, NOISE, DENSE_ROWS, RENEWAL)
 LARGEST_LEVEL = (1 << 23) - 1
+BASIS_LEADS = 1, 2, 3
+"""Of the levels of a basis, of x, y and z, see `bitstream.coefficients.matrices.encode_levels`: column i has i numbers
+that are not free."""
 OCTAVE = 4
 """Exponents of the steps of a basis are in units of 1 / OCTAVE octaves."""
 
@@ -63,17 +67,22 @@ def basis_steps(exponents: npt.NDArray[np.int32]) -> Matrix:
 
 
 def spectrum_of(basis: Matrix, exponents: npt.NDArray[np.int32]) -> Matrix:
-    """A basis, shape (3T, r), as cosines over time in steps: shape (3, T, r)."""
+    """What is free in a basis, shape (3T, r), as cosines over time in steps: shape (3, T, r).
+
+    Its columns come out at right angles, with another sign where that is better.
+    """
     rows, components = basis.shape
-    spectrum = time_cosines(rows // 3).T @ basis.reshape(3, rows // 3, components) / basis_steps(exponents)
-    return np.ascontiguousarray(spectrum)
+    cosines = time_cosines(rows // 3).T @ basis.reshape(3, rows // 3, components)
+    free = free_of(cosines.transpose(1, 0, 2).reshape(rows, components)) / basis_steps(exponents)
+    return np.ascontiguousarray(free.reshape(rows // 3, 3, components).transpose(1, 0, 2))
 
 
 def basis_of(levels: Levels, exponents: npt.NDArray[np.int32]) -> Matrix:
-    """The basis, shape (3T, r), that levels, shape (3, T, r), stand for; its columns are nearly orthonormal."""
+    """The basis, shape (3T, r), that levels, shape (3, T, r), stand for; its columns are at right angles."""
     _, frames, components = levels.shape
     points = np.array([points_of_levels(np.ascontiguousarray(matrix)) for matrix in levels])
-    basis = time_cosines(frames) @ (0.5 * points * basis_steps(exponents))
+    free = (0.5 * points * basis_steps(exponents)).transpose(1, 0, 2).reshape(3 * frames, components)
+    basis = time_cosines(frames) @ columns_of(free).reshape(frames, 3, components).transpose(1, 0, 2)
     return np.ascontiguousarray(basis.reshape(3 * frames, components))
 
 

@@ -102,7 +102,7 @@ def sequence_memory(stream: bytes, vertices: int) -> float:
                 columns = max(columns, entries.get(HEADER_FIELDS["coefficients"].key, 0))
             elif kind == FrameType.GOP and cursor.varint() >= 0 and cursor.take(1)[0] % METHODS == GopMethod.LEARNT:
                 frames, _, components = cursor.varint(), cursor.take(4), cursor.varint()
-                gop = max(gop, 16 * components * (vertices + 3 * frames))
+                gop = max(gop, components * (16 * vertices + 120 * frames + 24 * components))
     except (BsmError, ValueError, TypeError):
         pass  # behind that nothing is decoded
     return min(8.0 * vertices * columns, SEQUENCE_BYTES) + min(gop, SEQUENCE_BYTES)

@@ -171,3 +171,18 @@ def test_illegal_steps_cannot_be_written():
         with pytest.raises(OptionError):
             write_gop_body(GopBody(GopMethod.LEARNT, 1, step, 0, NONE, b"", b""))
     assert MAX_EXPONENT == 400
+
+
+def test_places_that_are_not_coded_cost_nothing():
+    matrix = decaying(6)
+    columns = matrix.shape[1]
+    stairs = np.arange(columns) < 2 + 3 * np.arange(len(matrix))[:, None]
+    matrix = np.where(stairs, matrix, 0).astype(np.int32)
+    payload = encode_levels(make_level_bank(), [matrix], [empty(columns)], [2])
+    assert len(payload) < len(encode_levels(make_level_bank(), [matrix], [empty(columns)]))
+    decoded = np.zeros_like(matrix)
+    decode_levels(make_level_bank(), payload, [decoded], [empty(columns)], [2])
+    np.testing.assert_array_equal(decoded, matrix)
+    prices = price_levels(make_level_bank(), matrix, empty(columns), 2)
+    assert not prices[~stairs, :, 0].any()
+    assert (prices[~stairs, :, 1:] > prices[stairs].max()).all()

@@ -9,6 +9,7 @@ import type { Doubles, Ints, Memory } from "./kernels";
 import { checkLimit, type Limits } from "./limits";
 import { areFinite } from "./numbers";
 import { Cursor } from "./packets";
+import { columnsOf } from "./reflections";
 import type { Course } from "./runs";
 import { blockCost, partCost, shownCost, UNCODED } from "./work";
 
@@ -144,7 +145,7 @@ export class Sequence {
         const { header, run, course } = this;
         if (index !== course.next) throw new CorruptError(`frame ${index} where frame ${course.next} must follow`);
         const gop = parseGop(data, run);
-        checkLimit(this.limits, "sequenceBytes", 16 * gop.components * (header.vertices + 3 * gop.frames));
+        checkLimit(this.limits, "sequenceBytes", gop.components * (16 * header.vertices + 120 * gop.frames + 24 * gop.components));
         const last = index + gop.frames;
         if (run.frames > 0 && last > run.frames) throw new CorruptError(`frame ${last - 1} of ${run.frames}`);
         const frames = this.paidFor(gop, data.length);
@@ -264,8 +265,11 @@ export class Sequence {
         this.behindBank = this.memory.mark();
     }
 
-    /** Matrices of levels of so many rows, one behind the other; `references` has one for each, or none: the one before. */
-    private readLevels(data: Uint8Array, rows: number[], columns: number, references?: Levels[]): Levels[] {
+    /**
+     * Matrices of levels of so many rows, one behind the other; `references` has one for each, or none: the one before;
+     * `leads` how many columns of the first row are coded, or none: all (S 4.2).
+     */
+    private readLevels(data: Uint8Array, rows: number[], columns: number, references?: Levels[], leads?: number[]): Levels[] {
         const { memory } = this;
         return memory.scratch(() => {
             const coder = new Coder(memory, data);
@@ -273,11 +277,12 @@ export class Sequence {
             const read: Levels[] = [];
             for (const count of rows) {
                 const reference = references ? references[read.length] : (read.at(-1) ?? { rows: 0, values: new Int32Array(0) });
+                const lead = BigInt(Math.min(leads?.[read.length] ?? columns, columns));
                 const values = memory.scratch(() => {
                     const [levels, known] = [memory.ints(count * columns, columns), memory.ints(reference.values.length, columns)];
                     levels.view.fill(0);
                     known.view.set(reference.values);
-                    memory.call("code_matrix", coder.parts, this.bank, shaped(memory, levels, count), shaped(memory, known, reference.rows), 0n, slow);
+                    memory.call("code_matrix", coder.parts, this.bank, shaped(memory, levels, count), shaped(memory, known, reference.rows), 0n, lead, slow);
                     return levels.view.slice();
                 });
                 if (coder.overran) break;
@@ -362,12 +367,16 @@ export class Sequence {
     /** B, 3 T rows (S 5.2). */
     private learntBasis({ frames, components, exponents, basis }: Gop): Float64Array {
         const steps = exponents.map(fineness);
-        const matrices = this.readLevels(basis, [frames, frames, frames], components);
-        const cosines = temporalCosines(this.memory, frames);
+        const matrices = this.readLevels(basis, [frames, frames, frames], components, undefined, [1, 2, 3]);
         const columns = new Float64Array(3 * frames * components);
-        matrices.forEach(({ values }, d) => {
-            if (components === 0) return;
-            const spectrum = Float64Array.from(this.points(values), (point, i) => 0.5 * point * steps[i % components]);
+        if (components === 0) return columns;
+        const points = matrices.map(({ values }) => this.points(values));
+        const place = (d: number, i: number): number => 3 * i - 2 * (i % components) + d * components;
+        points.forEach((own, d) => own.forEach((point, i) => (columns[place(d, i)] = 0.5 * point * steps[i % components])));
+        const turned = columnsOf(this.memory, columns, components);
+        const cosines = temporalCosines(this.memory, frames);
+        points.forEach((own, d) => {
+            const spectrum = Float64Array.from(own, (_, i) => turned[place(d, i)]);
             columns.set(reconstruct(this.memory, cosines, spectrum, components), d * frames * components);
         });
         return columns;

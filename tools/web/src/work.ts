@@ -97,5 +97,5 @@ export function partCost(rows: number, width: number, components: number): numbe
 
 /** Of showing the frames of a GOP. */
 export function shownCost(vertices: number, frames: number, components: number): number {
-    return 30 * frames * components + frames * (2.5e4 + vertices * (11 + 0.2 * components));
+    return frames * components * (30 + 6 * components) + frames * (2.5e4 + vertices * (11 + 0.2 * components));
 }

@@ -1,0 +1,44 @@
+"""Columns at right angles to each other, told by what is free in them.
+
+Column k of a matrix is at right angles to the columns before it: k of its numbers say nothing new. Let reflections turn
+each of these columns into the direction of the coordinate of its number, one after the other; then column k has k zeros
+in front, and what is behind them is free.
+
+References
+----------
+A. S. Householder, "Unitary triangularization of a nonsymmetric matrix", 1958; T. Joffrain et al., "Accumulating
+Householder transformations, revisited", 2006 (many reflections at once).
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from bsm.codec.arrays import Matrix
+
+
+def free_of(columns: Matrix) -> Matrix:
+    """What is free in columns, shape (n, r) with r <= n: zeros above the diagonal, and nothing negative on it.
+
+    What a column has in the directions of those before is left out; its sign may change.
+    """
+    if not columns.size:
+        return columns.copy()
+    packed, factors = np.linalg.qr(columns, mode="raw")  # vectors are 1 on the diagonal, where lengths stand instead
+    lengths = np.diagonal(packed)
+    free = np.tril(packed.T, -1) * (-lengths * factors)
+    np.fill_diagonal(free, lengths * (1.0 - factors))
+    return np.asarray(free * np.where(np.diagonal(free) < 0.0, -1.0, 1.0))
+
+
+def columns_of(free: Matrix) -> Matrix:
+    """Columns at right angles, shape (n, r), of what is free in them; zeros are columns of nothing."""
+    lengths = np.sqrt(np.square(free).sum(axis=0))
+    diagonal = np.diagonal(free)
+    vectors = free.copy()
+    np.fill_diagonal(vectors, diagonal + np.where(diagonal < 0.0, -lengths, lengths))
+    products = vectors.T @ vectors
+    halves = 0.5 * np.diagonal(products)
+    turned = np.triu(products, 1)
+    np.fill_diagonal(turned, np.where(halves > 0.0, halves, 1.0))
+    return np.asarray(free - vectors @ np.linalg.solve(turned, np.triu(vectors.T @ free, 1)))

@@ -1,0 +1,55 @@
+import numpy as np
+import pytest
+
+from bsm.codec.sequence.reflections import columns_of, free_of
+
+
+def right_angled(rows, columns):
+    basis, _ = np.linalg.qr(np.random.default_rng(rows).normal(size=(rows, columns)))
+    return basis
+
+
+def one_by_one(free):
+    """`columns_of` as the specification has it."""
+    columns = free.copy()
+    for k in reversed(range(free.shape[1])):
+        vector = free[:, k].copy()
+        if length := np.linalg.norm(vector):
+            vector[k] += -length if vector[k] < 0.0 else length
+            columns[:, k + 1 :] -= np.outer(vector, 2.0 * (vector @ columns[:, k + 1 :]) / (vector @ vector))
+    return columns
+
+
+@pytest.mark.parametrize(("rows", "columns"), [(60, 13), (24, 24), (3, 1), (6, 0)])
+def test_columns_return_from_what_is_free_in_them(rows, columns):
+    basis = right_angled(rows, columns)
+    free = free_of(basis)
+    assert np.array_equal(free, np.tril(free))
+    assert (np.diagonal(free) >= 0.0).all()
+    found = columns_of(free)
+    np.testing.assert_allclose(found * np.sign((found * basis).sum(axis=0)), basis, atol=1e-13)
+
+
+def test_columns_that_are_not_at_right_angles_span_the_same():
+    basis = right_angled(40, 9) * np.linspace(0.7, 1.5, 40)[:, None]
+    found = columns_of(free_of(basis))
+    products = found.T @ found
+    np.testing.assert_allclose(products, np.diag(np.diagonal(products)), atol=1e-13)
+    span = found / np.linalg.norm(found, axis=0)
+    np.testing.assert_allclose(span @ (span.T @ basis), basis, atol=1e-13)
+
+
+def test_many_reflections_at_once_are_those_of_one_after_the_other():
+    free = np.tril(np.random.default_rng(1).normal(size=(50, 20)))
+    free[:, 3] = 0.0
+    free[5:, 5], free[5, 5] = 0.0, -2.0
+    np.testing.assert_allclose(columns_of(free), one_by_one(free), atol=1e-12)
+
+
+def test_rounding_leaves_columns_at_right_angles_and_near():
+    free = free_of(right_angled(300, 40))
+    rounded = np.tril(np.round(free / 0.02) * 0.02)
+    found = columns_of(rounded)
+    products = found.T @ found
+    np.testing.assert_allclose(products, np.diag(np.diagonal(products)), atol=1e-12)
+    assert np.linalg.norm(found - columns_of(free)) < 2.0 * np.linalg.norm(rounded - free)
