@@ -124,13 +124,14 @@ class Looker:
         MeshError
             If there are more or fewer, or one is not finite.
         """
-        return self.glance(positions, 0.0, math.inf)[0]
+        _, whole = self.glance(positions, 0.0, math.inf)
+        assert whole is not None
+        return whole
 
-    def glance(self, positions: Positions, least: float, most: float) -> tuple[Look, bool]:
-        """What `look` says of `positions`, shape (n, 3), or what a few sides alone say where that is clear.
+    def glance(self, positions: Positions, least: float, most: float) -> tuple[Look, Look | None]:
+        """How `positions`, shape (n, 3), look from a few sides; and from all, unless a few say enough.
 
-        It is clear where the distance is outside `least` to `most`; then this is quicker, and about right. The second
-        is whether all sides were seen. Raises as `look`.
+        They do, and the second is None, where their distance is outside `least` to `most`. Raises as `look`.
         """
         positions = np.ascontiguousarray(positions, np.float64)
         if positions.shape != self._mesh.positions.shape:
@@ -140,11 +141,13 @@ class Looker:
         placed = self._placed(positions)
         shown = placed, self._shape.faces, self._shape.normals(placed)
         few = self._sums(self._pictures, *shown, FEW)
-        if few[:, 2].any() and not least <= summed(few).distance <= most:
-            return summed(few), False
+        seen = summed(few) if few[:, 2].any() else None
+        if seen is not None and not least <= seen.distance <= most:
+            return seen, None
         others = [side for side in range(len(self._cameras)) if side not in FEW]
         rest = self._sums(self._pictures, *shown, others)
-        return summed(np.concatenate([few, rest])[np.argsort([*FEW, *others])]), True
+        whole = summed(np.concatenate([few, rest])[np.argsort([*FEW, *others])])
+        return seen or whole, whole
 
     def distance(self, positions: Positions) -> float:
         """The distance alone of `look` at `positions`, shape (n, 3)."""

@@ -197,7 +197,7 @@ class Encoder:
         are tried as long as that is so. Of a small one, and of one whose vertices are on some grid, the finest may.
         """
         ways = Fulfilment(self._prepared, self.options, promise, self._sight, progress)
-        bare = ways.draft()
+        bare = ways.draft(self._size)
         best = self._dressed(bare)
         few = len(self._prepared.positions) <= FEW
         for finer in finer_promises(promise):
@@ -206,7 +206,7 @@ class Encoder:
             if bare.size > SMALL_SHARE * best.size and not cheap:
                 continue
             try:
-                bare = others.draft()
+                bare = others.draft(self._size)
             except TargetError:
                 break
             dressed = self._dressed(bare)
@@ -258,7 +258,7 @@ class Encoder:
         sight = Sight(self._prepared, self.options.threads, alike=contract.alike)
         ways = Fulfilment(self._prepared, self.options, contract, sight, progress, thorough=True)
         try:
-            return self._judged(self._dressed(ways.draft()))
+            return self._judged(self._dressed(ways.draft(self._size)))
         except TargetError as error:
             if self.options.promise is not None:
                 raise
@@ -275,7 +275,7 @@ class Encoder:
             contract = replace(promised, angle=min(1.0 / fineness, promised.angle))
             try:
                 ways = Fulfilment(self._prepared, self.options, contract, self._sight, progress, thorough=thorough)
-                draft = ways.draft()
+                draft = ways.draft(self._size)
             except TargetError:
                 return Trial(fineness, UNHAD, True, None)
             seen.append(self._judged(self._dressed(draft)))
@@ -329,6 +329,10 @@ class Encoder:
         if not self._carried and not self._given.metadata:
             return draft
         return with_attributes(draft, self._carried, self._given.metadata)
+
+    def _size(self, draft: Draft) -> int:
+        """Bytes of a draft with all that the mesh carries."""
+        return self._dressed(draft).size
 
     def _admitted(self, draft: Draft) -> Draft:
         """The draft, once it is known that decoders take what it carries besides positions: it is decoded."""

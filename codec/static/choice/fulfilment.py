@@ -11,6 +11,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import replace
 from functools import partial
+from operator import attrgetter
 
 import numpy as np
 
@@ -89,11 +90,11 @@ NEAR = 8.0
 """How far shaping along all axes may bring a vertex from its place, in steps of the layer."""
 FEW_LOOKS = 4000
 """Meshes of more vertices are looked at in one way to code alone, the one that is likely to be smaller."""
-SMOOTH = 10.0
-"""Below this mean angle between faces beside each other, such a mesh is tried in blocks, however flat its spectrum."""
+DEARER = 1.1
+"""Of fewer, grids are looked at, too, unless what they should take is so much more than what blocks took."""
 DENSE, TINY, PREVIEW = 0.0062, 0.0012, 2.0
-"""Below this look, meshes with sharp edges are smaller on grids, unless the mean edge is shorter than the first; and so
-are all where it is shorter than the second: pictures do not show their faces."""
+"""Below this look, models with flat faces are smaller on grids, unless the mean edge is shorter than the first; and so
+are all meshes where it is shorter than the second: pictures do not show their faces."""
 MARGIN = 1e-9
 """Of a bound on distances, for what rounding may add."""
 
@@ -150,8 +151,13 @@ class Fulfilment:
             thorough=thorough,
         )
 
-    def draft(self) -> Draft:
+    def draft(self, size: Callable[[Draft], int] = attrgetter("size")) -> Draft:
         """The smallest draft that was found.
+
+        Parameters
+        ----------
+        size : callable
+            What a draft comes to with all that it has to carry: attributes may cost less on one way than on another.
 
         Raises
         ------
@@ -161,7 +167,8 @@ class Fulfilment:
         if not self._prepared.mesh.diagonal > 0.0:
             return rounded(self._prepared, 1)  # a point
         for every in (False, True):
-            for draft in sorted(self._drafts(every=every), key=lambda draft: draft.size):
+            found = self._drafts(every=every)
+            for draft in sorted(found, key=size) if len(found) > 1 else found:
                 if self.keeps(draft):
                     return draft
         finest = rounded(self._prepared, FINEST_BITS)
@@ -206,7 +213,7 @@ class Fulfilment:
         if self._thorough:
             return True
         if self._contract.look < math.inf:
-            return self._few_looks
+            return self._few_looks and self.bytes_on_grids < DEARER * smallest
         return self.bytes_on_grids < smallest
 
     @property
@@ -249,13 +256,12 @@ class Fulfilment:
             return self._prepared.graph.size >= FEW_VERTICES
         if self._grids.fits_model or (self._angle <= MODEL_ANGLE and self._shaper.character.is_model):
             return False
-        sharp = self._shaper.character.is_sharp and self._edge >= DENSE
-        if self._contract.look < PREVIEW and (sharp or self._edge < TINY):
+        plain = self._shaper.character.is_model and self._edge >= DENSE
+        if self._contract.look < PREVIEW and (plain or self._edge < TINY):
             return False
         if not self._prepared.has_low_frequencies:
             return False
-        smooth = self._few_looks and self._shaper.character.roughness < SMOOTH
-        return smooth or not self._blocks.is_flat(COARSE, FLAT)
+        return self._few_looks or not self._blocks.is_flat(COARSE, FLAT)
 
     @cached_property
     def _blocks(self) -> Spectral:

@@ -23,6 +23,8 @@ from bsm.codec.static.preamble_encoding import Prepared
 NEARLY = (0.85, 1.08)
 """Over the look that is asked for: what comes to less or more from a few sides is not seen from all of them while steps
 are searched."""
+MOST_SKEW = 1.25
+"""How much more, or less, may be seen from all sides than from a few: about as much from one trial to the next."""
 LEAST_EXCESS = math.log(1e-6)
 """Of what is as good as it can be."""
 ALL = (0.0, math.inf)
@@ -81,6 +83,7 @@ class Judge:
         self._borders = borders
         self._best: tuple[float, float, float, float] | None = None
         self._seen: dict[bytes, float] = {}
+        self._skew = 1.0
 
     def out(self, positions: Matrix) -> Mask:
         """Vertices, shape (n,), that are out of reach at `positions`, shape (n, 3), borders aside."""
@@ -137,8 +140,9 @@ class Judge:
         seen = np.ascontiguousarray(self._prepared.units.into(self._prepared.units.back(positions)))
         name = sha256(seen.tobytes()).digest()
         if name not in self._seen:
-            look, sure = looker.glance(seen, nearly[0] * asked, nearly[1] * asked)
-            if not sure:
-                return look.distance, False
-            self._seen[name] = look.distance
+            few, whole = looker.glance(seen, nearly[0] * asked / self._skew, nearly[1] * asked / self._skew)
+            if whole is None:
+                return self._skew * few.distance, False
+            self._skew = min(max(whole.distance / max(few.distance, 1e-300), 1.0 / MOST_SKEW), MOST_SKEW)
+            self._seen[name] = whole.distance
         return self._seen[name], True
