@@ -114,6 +114,17 @@ def test_quick_grids_are_light_with_the_same_positions(option: dict[str, Any]) -
     np.testing.assert_array_equal(one.faces, other.faces)
 
 
+def test_ways_are_compared_by_all_that_a_mesh_carries() -> None:
+    mesh = noisy(torus(40, 20), 0.004)
+    encoder, contract = Encoder(mesh), PRESETS["balanced"].contract
+    assert contract is not None
+    ways = Fulfilment(encoder._prepared, encoder.options, contract, encoder._sight)
+    plain = ways.draft()
+    dear = ways.draft(lambda draft: draft.size + (0 if draft.header.grid else plain.size))
+    assert not plain.header.grid
+    assert dear.header.grid and dear.size > plain.size
+
+
 def test_the_smallest_is_in_blocks_where_nothing_is_said() -> None:
     assert not Encoder(torus(80, 40)).draft().header.grid
 
