@@ -296,11 +296,12 @@ def test_one_bar_for_a_search_with_the_time_left(tmp_path):
     shares = [int(frame.partition("%")[0].rpartition(":")[2]) for frame in frames if "%|" in frame]
     assert len(shares) > 3 and max(shares) <= 100
     assert result.strip().startswith(str(tmp_path)), "the bar is gone"
+    write_mesh(tmp_path / "a.npz", knot(2000))
     assert on_a_terminal(*words, "-f", "-q") == ""
 
 
 def test_a_bar_for_sequences(tmp_path):
-    mesh = knot(80_000)
+    mesh = knot(30_000)
     positions, faces = mesh.positions, mesh.faces
     frames = np.array([positions * (1 + 0.1 * np.sin(t / 3)) for t in range(12)])
     np.savez(tmp_path / "a.npz", positions=frames, faces=faces)
