@@ -16,6 +16,9 @@ import numpy as np
 
 from bsm.codec.arrays import Matrix
 
+TOGETHER = 32
+"""Reflections that are made at once: fewer take longer, more take more memory."""
+
 
 def free_of(columns: Matrix) -> Matrix:
     """What is free in columns, shape (n, r) with r <= n: zeros above the diagonal, and nothing negative on it.
@@ -33,12 +36,16 @@ def free_of(columns: Matrix) -> Matrix:
 
 def columns_of(free: Matrix) -> Matrix:
     """Columns at right angles, shape (n, r), of what is free in them; zeros are columns of nothing."""
-    lengths = np.sqrt(np.square(free).sum(axis=0))
-    diagonal = np.diagonal(free)
-    vectors = free.copy()
-    np.fill_diagonal(vectors, diagonal + np.where(diagonal < 0.0, -lengths, lengths))
-    products = vectors.T @ vectors
-    halves = 0.5 * np.diagonal(products)
-    turned = np.triu(products, 1)
-    np.fill_diagonal(turned, np.where(halves > 0.0, halves, 1.0))
-    return np.asarray(free - vectors @ np.linalg.solve(turned, np.triu(vectors.T @ free, 1)))
+    columns = free.copy()
+    for first in reversed(range(0, free.shape[1], TOGETHER)):
+        own = slice(first, first + TOGETHER)
+        vectors = free[:, own].copy()
+        diagonal, lengths = np.diagonal(vectors[first:]), np.sqrt(np.square(vectors).sum(axis=0))
+        np.fill_diagonal(vectors[first:], diagonal + np.where(diagonal < 0.0, -lengths, lengths))
+        products = vectors.T @ vectors
+        halves = 0.5 * np.diagonal(products)
+        turned = np.triu(products, 1) + np.diag(np.where(halves > 0.0, halves, 1.0))
+        wanted = vectors.T @ columns[:, first:]
+        wanted[:, : len(turned)] = np.triu(wanted[:, : len(turned)], 1)
+        columns[:, first:] -= vectors @ np.linalg.solve(turned, wanted)
+    return columns
