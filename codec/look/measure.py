@@ -110,9 +110,13 @@ class Looker:
         self._pictures = self._drawn(positions, self._shape.faces, self._shape.normals(positions))
         if not any(picture.min() < BACKGROUND for picture in self._pictures):
             raise MeshError("the mesh cannot be looked at: its faces have no area")
+        own = own_normals(mesh)
+        self._own = None if own is None else (self._drawn(positions, self._shape.faces, own), own)
 
     def look(self, positions: Positions) -> Look:
         """How these positions look on the faces of the original, with normals that follow from them.
+
+        Where the original has normals of its own, also with these; what differs more counts.
 
         Parameters
         ----------
@@ -131,7 +135,8 @@ class Looker:
     def glance(self, positions: Positions, least: float, most: float) -> tuple[Look, Look | None]:
         """How `positions`, shape (n, 3), look from a few sides; and from all, unless a few say enough.
 
-        They do, and the second is None, where their distance is outside `least` to `most`. Raises as `look`.
+        They do, and the second is None, where their distance is outside `least` to `most`. Normals, and what is raised,
+        are those of `look`.
         """
         positions = np.ascontiguousarray(positions, np.float64)
         if positions.shape != self._mesh.positions.shape:
@@ -139,13 +144,20 @@ class Looker:
         if not np.isfinite(positions).all():
             raise MeshError("a position is not finite")
         placed = self._placed(positions)
-        shown = placed, self._shape.faces, self._shape.normals(placed)
-        few = self._sums(self._pictures, *shown, FEW)
+        shaded = [(self._pictures, self._shape.normals(placed)), *([self._own] if self._own else [])]
+        glances = [self._glanced(pictures, placed, normals, least, most) for pictures, normals in shaded]
+        return max(glances, key=lambda glance: (glance[1] or glance[0]).distance)
+
+    def _glanced(
+        self, pictures: Sequence[Picture], placed: Positions, normals: Normals, least: float, most: float
+    ) -> tuple[Look, Look | None]:
+        shown = placed, self._shape.faces, normals
+        few = self._sums(pictures, *shown, FEW)
         seen = summed(few) if few[:, 2].any() else None
         if seen is not None and not least <= seen.distance <= most:
             return seen, None
         others = [side for side in range(len(self._cameras)) if side not in FEW]
-        rest = self._sums(self._pictures, *shown, others)
+        rest = self._sums(pictures, *shown, others)
         whole = summed(np.concatenate([few, rest])[np.argsort([*FEW, *others])])
         return seen or whole, whole
 
@@ -163,11 +175,10 @@ class Looker:
         shape = Shape.of(placed, other.faces)
         smooth = shape.normals(placed)
         seen = self._seen(self._pictures, placed, shape.faces, smooth)
-        own, others = own_normals(self._mesh), own_normals(other)
-        if own is None:
+        if self._own is None:
             return seen
-        pictures = self._drawn(self._placed(self._mesh.positions), self._shape.faces, own)
-        shaded = self._seen(pictures, placed, shape.faces, smooth if others is None else others)
+        others = own_normals(other)
+        shaded = self._seen(self._own[0], placed, shape.faces, smooth if others is None else others)
         return max(seen, shaded, key=lambda look: look.distance)
 
     def blame(self, positions: Positions) -> tuple[Matrix, Look]:

@@ -17,6 +17,8 @@ from bsm.codec.arrays import Order
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.metrics import Comparison, Reference
+from bsm.codec.look.measure import own_normals
+from bsm.codec.look.pictures import Normals
 from bsm.codec.signal.quantize import smallest_step
 from bsm.codec.static.admission import as_of_decoders
 from bsm.codec.static.attributes.encoding import PreparedAttribute, carry, place_of, with_attributes
@@ -255,7 +257,7 @@ class Encoder:
             contract = replace(promise, angle=target.value, alike=True)
         else:
             contract = replace(promise, visual=max(10.0 ** (target.value / 10.0), LEAST_VISUAL))
-        sight = Sight(self._prepared, self.options.threads, alike=contract.alike)
+        sight = Sight(self._prepared, self.options.threads, self._normals, alike=contract.alike)
         ways = Fulfilment(self._prepared, self.options, contract, sight, progress, thorough=True)
         try:
             return self._judged(self._dressed(ways.draft(self._size)))
@@ -372,7 +374,19 @@ class Encoder:
 
     @cached_property
     def _sight(self) -> Sight:
-        return Sight(self._prepared, self.options.threads)
+        return Sight(self._prepared, self.options.threads, self._normals)
+
+    @cached_property
+    def _normals(self) -> Normals | None:
+        """Normals that the mesh is sent with, of its corners in the order of coding, shape (m, 9)."""
+        sent = any(one.semantic == "normal" for one, _ in self._wanted)
+        own = own_normals(self._given) if sent else None
+        if own is None:
+            return None
+        corners = place_of(self._given, self._joined, self._prepared).of_corners(
+            np.arange(3 * len(own), dtype=np.int32).reshape(-1, 3)
+        )
+        return own.reshape(-1, 3)[corners].reshape(-1, 9)
 
     @cached_property
     def _spectral(self) -> Spectral:

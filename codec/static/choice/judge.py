@@ -10,10 +10,12 @@ import numpy as np
 
 from bsm.bitstream.errors import MeshError
 from bsm.codec.arrays import Mask, Matrix
+from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.closeness import Original
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.metrics import Reference
 from bsm.codec.look.measure import Looker
+from bsm.codec.look.pictures import Normals
 from bsm.codec.static.choice.borders import Borders
 from bsm.codec.static.choice.search import Found, Trial
 from bsm.codec.static.choice.shaping import Shaper
@@ -38,13 +40,18 @@ class Sight:
     ----------
     prepared : Prepared
     threads : int, optional
+    normals : float32 array, shape (m, 9), optional
+        Of the corners of its faces, which it is sent with: it is to look the same shaded by these, too.
     alike : bool
         In mean angles all faces count alike, whatever their area.
     """
 
-    def __init__(self, prepared: Prepared, threads: int | None, *, alike: bool = False) -> None:
+    def __init__(
+        self, prepared: Prepared, threads: int | None, normals: Normals | None = None, *, alike: bool = False
+    ) -> None:
         self._prepared = prepared
         self._threads = threads
+        self._normals = normals
         self.original = Original(prepared.positions, prepared.mesh.faces, by_area=not alike)
         self.shaper = Shaper(self.original, prepared.graph)
 
@@ -56,8 +63,9 @@ class Sight:
     @cached_property
     def looker(self) -> Looker | None:
         """None: nothing of the mesh can be seen."""
+        own = () if self._normals is None else (Attribute("normal", self._normals.reshape(-1, 3), "corner", "normal"),)
         try:
-            return Looker(TriangleMesh(self._prepared.positions, self._prepared.mesh.faces), threads=self._threads)
+            return Looker(TriangleMesh(self._prepared.positions, self._prepared.mesh.faces, own), threads=self._threads)
         except MeshError:
             return None
 

@@ -162,6 +162,15 @@ def test_normals_that_a_mesh_has_are_looked_at_too():
     assert look(MESH, other).distance < 1e-3
 
 
+def test_positions_are_looked_at_by_normals_that_the_original_has():
+    shades = np.random.default_rng(0).normal(size=(len(MESH.faces), 3))  # every face shaded by itself
+    own = Attribute("normal", np.repeat(shades, 3, axis=0), "corner", "normal")
+    worse = noisy(MESH, 0.002)
+    known = look(TriangleMesh(MESH.positions, MESH.faces, (own,)), TriangleMesh(worse.positions, MESH.faces, (own,)))
+    assert Looker(TriangleMesh(MESH.positions, MESH.faces, (own,))).look(worse.positions) == known
+    assert known.distance > Looker(MESH).distance(worse.positions)
+
+
 # ------------------------------------------------------------------------------------------------ known answers
 
 

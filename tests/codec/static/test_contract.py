@@ -12,9 +12,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from bsm.bitstream.errors import MeshError, OptionError, TargetError
+from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.closeness import Original
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.codec.look.measure import Looker
+from bsm.codec.look.measure import Looker, look
 from bsm.codec.static.choice.fulfilment import Fulfilment
 from bsm.codec.static.contract import Contract
 from bsm.codec.static.decoder import decode
@@ -48,6 +49,19 @@ def looks(encoder: Encoder, data: bytes) -> float:
         return Looker(encoder.mesh.bare).look(decode(data).positions).distance
     except MeshError:
         return 0.0
+
+
+def patterned(mesh: TriangleMesh) -> TriangleMesh:
+    """With normals that have nothing to do with its shape: edges are seen that are no creases."""
+    normals = np.repeat(np.random.default_rng(0).normal(size=(len(mesh.faces), 3)), 3, axis=0)
+    return TriangleMesh(mesh.positions, mesh.faces, (Attribute("normal", normals, "corner", "normal"),))
+
+
+@pytest.mark.parametrize("preset", ["balanced", "small"])
+def test_a_look_holds_by_the_normals_that_are_sent(preset):
+    mesh, options = patterned(torus(60, 40)), PRESETS[preset]
+    assert options.contract is not None
+    assert look(mesh, decode(encode(mesh, options))).distance <= options.contract.look
 
 
 @pytest.mark.parametrize("preset", ["small", "balanced", "fine", "near-lossless"])
