@@ -162,7 +162,7 @@ def _experience(bank: Bank, expectations: npt.NDArray[np.uint16]) -> Experience:
 
 
 def rounded(experience: Experience) -> Experience:
-    """The same with few different numbers; what is round stays as it is.
+    """Learnt numbers with few different ones among them; what is round stays as it is.
 
     Parameters
     ----------

@@ -76,7 +76,10 @@ def encode_levels(
 
 
 def first_prices(rows: int, columns: int, lead: int | None = None) -> Prices:
-    """Prices before any are known, as of `price_levels`: nothing costs anything but what cannot be coded."""
+    """Prices before any are known, as of `price_levels`, of a matrix of shape (rows, columns).
+
+    Nothing costs anything but what cannot be coded.
+    """
     prices = np.zeros((rows, columns, 2, PRICED), np.int16)
     if lead is not None:
         prices[np.arange(columns) >= lead + _STAIR * np.arange(rows)[:, None], :, 1:] = _NEVER

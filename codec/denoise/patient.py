@@ -53,7 +53,7 @@ class Patient:
         return Treatments(positions, lambda keep: self.smooth(positions, keep), self.topology)
 
     def treatments(self, positions: Positions) -> Treatments:
-        """The same, remembered until other positions are asked for; any number of threads may ask."""
+        """What `treated` makes of `positions`, shape (n, 3), kept until others are asked for; by any thread."""
         last = self._last
         if last is None or last.noisy is not positions:
             last = self.treated(positions)

@@ -124,7 +124,8 @@ def test_obj_has_colours_that_every_reader_takes(tmp_path, capsys):
 def loop(tmp_path):
     """A stream that goes round twice, and the frames."""
     angles = 2 * np.pi * np.arange(24) / 12
-    frames = np.stack([MESH.positions + np.array([np.sin(a), np.cos(a), 0]) for a in angles])
+    waves = np.sin(3.0 * MESH.positions[None, :, 2:] + angles[:, None, None])
+    frames = MESH.positions + 0.1 * waves * [1.0, 0.0, 0.0]
     np.savez(tmp_path / "loop.npz", positions=frames, faces=MESH.faces)
     (tmp_path / "loop.bsm").write_bytes(bsm.encode_sequence(frames, MESH.faces, preset="near-lossless"))
     return tmp_path

@@ -113,7 +113,7 @@ def test_server_has_the_page_and_its_streams():
 
 
 def test_late_joiners_enter_at_the_newest_group():
-    whole = bsm.encode_sequence(*moving(12), gop=4)
+    whole = bsm.encode_sequence(*moving(18), gop=6)
     *_, second, third, _ = frame_ends(whole)
     growing = Growing("sway.bsm")
     growing.take(whole[: second + 3])
@@ -124,8 +124,8 @@ def test_late_joiners_enter_at_the_newest_group():
     everything, lost = frames_sent(whole)
     assert lost == []
     frames, lost = frames_sent(head + b"".join(late))
-    assert lost == [4]
-    np.testing.assert_array_equal(frames, everything[4:])
+    assert lost == [6]
+    np.testing.assert_array_equal(frames, everything[6:])
     assert sent_to(growing) == whole
 
 
@@ -149,7 +149,7 @@ def test_late_joiners_enter_at_the_run_of_a_mesh_of_its_own():
 
 
 def test_what_is_damaged_is_sent_from_its_beginning():
-    whole = bytearray(bsm.encode_sequence(*moving(12), gop=4))
+    whole = bytearray(bsm.encode_sequence(*moving(18), gop=6))
     place = frame_ends(bytes(whole))[-3]
     whole[place : place + 5] = b"\xff" * 5  # a tag that none can be
     growing = Growing("sway.bsm")
@@ -178,7 +178,7 @@ def test_following_needs_no_whole(tmp_path, capsys):
 @needs_packages
 @pytest.mark.parametrize("way", ["file", "pipe"])
 def test_what_is_still_being_written_is_watched(way, tmp_path):
-    whole = bsm.encode_sequence(*moving(12), gop=4, frame_rate=30)
+    whole = bsm.encode_sequence(*moving(18), gop=6, frame_rate=30)
     stream, growing = tmp_path / "whole.bsm", tmp_path / "growing.bsm"
     stream.write_bytes(whole)
     *_, first, _, _, _ = frame_ends(whole)

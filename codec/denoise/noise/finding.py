@@ -91,7 +91,7 @@ def look(positions: Positions, probe: Probe, edge: float, passes: int) -> Eviden
 
 
 def spread(levels: Floats, windows: Windows) -> float:
-    """Spread of the lower half of the levels (creases are in the upper one), beyond what chance makes."""
+    """Spread of the lower half of levels, shape (k,), beyond what chance makes; creases are in the upper one."""
     bottom, middle = np.quantile(levels, [0.1, 0.5])
     if bottom <= 0.0:
         return float("inf")

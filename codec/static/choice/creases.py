@@ -45,7 +45,7 @@ class Creases(NamedTuple):
     cosine: float
 
     def priced(self, price: float) -> Creases:
-        """The same at costs so many times as high."""
+        """These creases at costs so many times as high."""
         return self._replace(costs=self.costs * price)
 
 

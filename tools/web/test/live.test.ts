@@ -5,7 +5,7 @@ import { appendFileSync, existsSync, readFileSync } from "node:fs";
 import { chromium, type Page } from "playwright-core";
 import { CHROMIUM, FLAGS } from "./shared";
 
-const FRAMES = 4;
+const FRAMES = 6;
 const given = process.env.BSM_LIVE;
 
 test("a stream that is still being written", { skip: !given || (!existsSync(CHROMIUM) && `no Chromium at ${CHROMIUM}`) }, async () => {
@@ -25,7 +25,7 @@ test("a stream that is still being written", { skip: !given || (!existsSync(CHRO
         assert.equal(await state(early), "loading");
         await late.goto(address);
         await there(late, FRAMES);
-        assert.match((await late.locator("body").textContent())!, /entered at frame 5/);
+        assert.match((await late.locator("body").textContent())!, /entered at frame 7/);
         write(ends[1] + 2, stream.length);
         await Promise.all([there(early, 3 * FRAMES), there(late, 2 * FRAMES)]);
         for (const page of [early, late]) await page.waitForSelector("body[data-state=complete]");
