@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from importlib import metadata
 from pathlib import Path
 
 DISTRIBUTION = "bsm-codec"
@@ -22,6 +21,8 @@ def how_to_install(extra: str) -> str:
     str
         ``pip install ...``: from the index where it came from one, else from the checkout or the file.
     """
+    from importlib import metadata
+
     try:
         origin = metadata.distribution(DISTRIBUTION).read_text("direct_url.json")
     except metadata.PackageNotFoundError:  # run from a checkout that is not installed

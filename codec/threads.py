@@ -5,12 +5,14 @@ from __future__ import annotations
 import os
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator
-from concurrent.futures import Future, ThreadPoolExecutor
 from numbers import Integral
 from threading import Lock, Thread
-from typing import Any, Generic, TypeVar
+from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 from bsm.bitstream.errors import ArgumentError, OptionError
+
+if TYPE_CHECKING:
+    from concurrent.futures import Future, ThreadPoolExecutor
 
 Item = TypeVar("Item")
 Result = TypeVar("Result")
@@ -48,7 +50,7 @@ def ordered_map(work: Callable[[Item], Result], items: Iterable[Item], threads: 
     if count == 1:
         yield from map(work, items)
         return
-    pool = ThreadPoolExecutor(count)
+    pool = pool_of(count)
     pending: deque[Future[Result]] = deque()
     try:
         for item in items:
@@ -59,6 +61,13 @@ def ordered_map(work: Callable[[Item], Result], items: Iterable[Item], threads: 
             yield pending.popleft().result()
     finally:
         pool.shutdown(cancel_futures=True)
+
+
+def pool_of(threads: int) -> ThreadPoolExecutor:
+    """A pool of threads; who has one thread alone loads nothing for it."""
+    from concurrent.futures import ThreadPoolExecutor
+
+    return ThreadPoolExecutor(threads)
 
 
 class Pending(Generic[Result]):
@@ -121,7 +130,7 @@ class Lanes:
                 return pending
             self._waiting[lane] = deque([pending])
         if self._pool is None:
-            self._pool = ThreadPoolExecutor(self._count)
+            self._pool = pool_of(self._count)
         self._pool.submit(self._drain, lane)
         return pending
 

@@ -23,9 +23,8 @@ TARGET_UNIT = 256
 
 _BIT = 256
 _SHIFT = 4
-COSTS = np.array(
-    [round(_BIT * -np.log2(min(max(i, 0.5) * (1 << _SHIFT) / ONE, 1.0))) for i in range((ONE >> _SHIFT) + 1)], np.int64
-)
+_PROBABILITIES = np.maximum(np.arange((ONE >> _SHIFT) + 1), 0.5) * (1 << _SHIFT) / ONE
+COSTS = np.rint(_BIT * -np.log2(np.minimum(_PROBABILITIES, 1.0))).astype(np.int64)
 """What a decision costs by its probability, in 1 / 256 bit."""
 
 

@@ -9,6 +9,7 @@ import math
 from collections.abc import Callable, Iterator
 from copy import copy
 from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -19,7 +20,6 @@ from bsm.bitstream.errors import CorruptError
 from bsm.codec.arrays import Faces, Levels, Matrix
 from bsm.codec.sequence.dictionaries import Dictionaries, Part, Site, find_sites
 from bsm.codec.sequence.level_writer import ROUNDS, WEIGHT, LevelWriter
-from bsm.codec.sequence.options import SequenceOptions
 from bsm.codec.sequence.row_prediction import (
     BASIS_LEADS,
     Loop,
@@ -32,6 +32,9 @@ from bsm.codec.sequence.temporal import learn_basis, projection
 from bsm.codec.static.rules import Scheme
 from bsm.codec.static.ways.block_coder import Progress
 from bsm.codec.static.work import Allowance
+
+if TYPE_CHECKING:
+    from bsm.codec.sequence.options import SequenceOptions
 
 BATCH = 8
 """Frames that are reconstructed at a time."""

@@ -33,6 +33,15 @@ def test_a_name_loads_no_more_than_it_needs():
     assert not {"numpy", "codec"} & loaded
 
 
+def test_a_command_loads_nothing_that_speaks_http(tmp_path):
+    stream = ROOT / "spec" / "vectors" / "good-sequence-learnt.bsm"
+    words = ["decode", "-q", str(stream), "-o", str(tmp_path / "decoded.npz")]
+    program = f"import sys; from bsm.cli import main; code = main({words}); print(code, *sys.modules)"
+    code, *loaded = run(program).split()
+    assert code == "0" and "bsm.codec.sequence.decoder" in loaded
+    assert not {"urllib.request", "http.client", "ssl", "scipy"} & set(loaded)
+
+
 def test_help_lists_everything():
     text = run("import bsm; help(bsm)")
     for name in bsm.__all__[1:]:

@@ -9,7 +9,6 @@ import re
 import shutil
 import tempfile
 import urllib.parse
-import urllib.request
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
@@ -61,7 +60,9 @@ def without_scheme_of_files(path: str) -> str:
     """The path behind a `file://` URL; anything else as it is."""
     if not path.startswith("file://"):
         return path
-    return urllib.request.url2pathname(urllib.parse.urlsplit(path).path)
+    from urllib.request import url2pathname  # which takes with it all that speaks HTTP
+
+    return url2pathname(urllib.parse.urlsplit(path).path)
 
 
 def name_in(url: str) -> str:

@@ -14,7 +14,6 @@ import zlib
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from xml.parsers import expat
-from xml.sax.saxutils import quoteattr
 
 import numpy as np
 
@@ -328,7 +327,7 @@ def write_vtp(mesh: TriangleMesh, stem: str) -> Written:
         components = values.shape[1] if values.ndim == 2 else 1
         tag = (
             f'<{"Array" if kind == "String" else "DataArray"} type="{kind or _NAMES[values.dtype.str[1:]]}" '
-            f"Name={quoteattr(_UNPRINTABLE.sub('_', name))} "
+            f"Name={_quoted(name)} "
             f'NumberOf{"Tuples" if kind else "Components"}="{components}" format="appended" offset="{at}"/>'
         )
         blocks.append(len(data).to_bytes(8, "little") + data)
@@ -357,6 +356,13 @@ def write_vtp(mesh: TriangleMesh, stem: str) -> Written:
     return Written(data)
 
 
+def _quoted(name: str) -> str:
+    """A name as the value of an attribute of XML."""
+    from xml.sax.saxutils import quoteattr  # which takes with it all that speaks HTTP
+
+    return quoteattr(_UNPRINTABLE.sub("_", name))
+
+
 def _active(mesh: TriangleMesh, domain: Domain) -> str:
     """What is shown, of all values of a domain."""
     chosen: dict[str, Attribute | None] = {"Scalars": first(mesh, "generic", (1,), domain)}
@@ -364,4 +370,4 @@ def _active(mesh: TriangleMesh, domain: Domain) -> str:
         chosen["Normals"] = first(mesh, "normal", (3,), domain)
         chosen["TCoords"] = first(mesh, "texcoord", (2,), domain)
     named = [(tag, one.name) for tag, one in chosen.items() if one is not None]
-    return "".join(f" {tag}={quoteattr(_UNPRINTABLE.sub('_', name))}" for tag, name in named)
+    return "".join(f" {tag}={_quoted(name)}" for tag, name in named)
