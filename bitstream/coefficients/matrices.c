@@ -15,7 +15,6 @@ enum {
     TABLE = CLASSES * CLASSES * SPAN, /* slots of each of the first five inputs */
     MATRIX_SLOTS = 5 * TABLE + CLASSES * PLACES * SPAN,
     WEIGHT_SETS = 3,
-    STAIR = 3, /* of matrices whose first row is not coded whole: columns that each row has more */
     COST_SHIFT = 4, /* a cost for each probability, less these bits */
     COSTS = (ONE >> COST_SHIFT) + 1,
 };
@@ -81,15 +80,16 @@ INLINE void note_prices(
 }
 
 /* Code the number of rows that are not zero behind, and these rows; `prices` is filled if there are costs. Of the first
- * row `lead` columns are coded, of each next one STAIR more (S 4.2); the others are 0. */
+ * row `lead` columns are coded, of each next one `stair` more (S 4.2); the others are 0. */
 INLINE int64_t follow_matrix(Coder given, Bank bank, Ints2 levels, ConstInts2 reference, int64_t rows, int64_t lead,
-    Longs slow, const int64_t *costs, int16_t *prices) {
+    int64_t stair, Longs slow, const int64_t *costs, int16_t *prices) {
     RangeCoder coder;
     Mixer mixer;
     int64_t columns = levels.columns;
     if (!open_coder(&coder, given) || !open_bank(&mixer, bank, MATRIX_SLOTS, WEIGHT_SETS * SPAN, INPUTS)
         || reference.columns != columns || slow.size != columns || rows < 0 || rows > levels.rows
-        || levels.rows >= INT32_MAX || lead < 0 || lead > columns)
+        || levels.rows >= INT32_MAX || lead < 0 || lead > columns || stair < 0
+        || stair > columns)
         return MISUSED;
     for (int64_t i = 0; i < columns; i++) slow.data[i] = 0;
     rows = code_uniform(&coder, rows, levels.rows + 1);
@@ -98,7 +98,7 @@ INLINE int64_t follow_matrix(Coder given, Bank bank, Ints2 levels, ConstInts2 re
 #define A(row, column) at(levels.data, levels.rows, columns, row, column)
 #define B(row, column) at(reference.data, reference.rows, columns, row, column)
         int64_t band = octave(j), selector = SPAN * (j == 0 ? 0 : j < 12 ? 1 : 2), mean = 0;
-        int64_t place = j < 20 ? j : least(PLACES - 1, 20 + (j - 20) / 8), end = least(columns, lead + STAIR * j);
+        int64_t place = j < 20 ? j : least(PLACES - 1, 20 + (j - 20) / 8), end = least(columns, lead + stair * j);
         for (int64_t i = 0; i < end; i++) {
             int64_t above = 2 * A(j - 1, i) + A(j - 2, i) + A(j - 3, i);
             int64_t left = 2 * A(j, i - 1) + A(j, i - 2);
@@ -135,14 +135,14 @@ INLINE int64_t follow_matrix(Coder given, Bank bank, Ints2 levels, ConstInts2 re
 /* Code the number of rows that are not zero behind, and these rows; returns that number. `slow` is scratch, an entry a
  * column. */
 int64_t code_matrix(
-    Coder given, Bank bank, Ints2 levels, ConstInts2 reference, int64_t rows, int64_t lead, Longs slow) {
-    return follow_matrix(given, bank, levels, reference, rows, lead, slow, 0, 0);
+    Coder given, Bank bank, Ints2 levels, ConstInts2 reference, int64_t rows, int64_t lead, int64_t stair, Longs slow) {
+    return follow_matrix(given, bank, levels, reference, rows, lead, stair, slow, 0, 0);
 }
 
 /* The same, and what the magnitudes 0 .. PRICED - 1 of both grids would have cost at each place, all rows included:
  * `costs` are of probabilities, see COST_SHIFT. */
 int64_t price_matrix(Coder given, Bank bank, Ints2 levels, ConstInts2 reference, int64_t rows, int64_t lead,
-    Longs slow, ConstLongs costs, Shorts prices) {
+    int64_t stair, Longs slow, ConstLongs costs, Shorts prices) {
     if (costs.size != COSTS || prices.size != 2 * PRICED * levels.rows * levels.columns) return MISUSED;
-    return follow_matrix(given, bank, levels, reference, rows, lead, slow, costs.data, prices.data);
+    return follow_matrix(given, bank, levels, reference, rows, lead, stair, slow, costs.data, prices.data);
 }

@@ -7,8 +7,8 @@
 enum { PRICED = 6 }; /* magnitudes whose prices are told */
 
 int64_t code_matrix(
-    Coder coder, Bank bank, Ints2 levels, ConstInts2 reference, int64_t rows, int64_t lead, Longs slow);
+    Coder coder, Bank bank, Ints2 levels, ConstInts2 reference, int64_t rows, int64_t lead, int64_t stair, Longs slow);
 int64_t price_matrix(Coder coder, Bank bank, Ints2 levels, ConstInts2 reference, int64_t rows, int64_t lead,
-    Longs slow, ConstLongs costs, Shorts prices);
+    int64_t stair, Longs slow, ConstLongs costs, Shorts prices);
 
 #endif

@@ -9,6 +9,7 @@ the mixer of `bitstream.entropy.range_coder` weighs. All arithmetic is on intege
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import TypeAlias
 
 import numpy as np
 import numpy.typing as npt
@@ -33,6 +34,8 @@ from bsm.bitstream.errors import TruncatedError
 
 Levels = npt.NDArray[np.int32]
 Prices = npt.NDArray[np.int16]
+Lead: TypeAlias = tuple[int, int]
+"""How many columns are coded of the first row of a matrix, and how many more of each next one; the others are 0."""
 
 _INPUTS = 6
 _UNARY = 14
@@ -41,7 +44,6 @@ _CLASSES = 12
 _ROWS = 40
 _SLOTS = ((_INPUTS - 1) * _CLASSES * _CLASSES + _CLASSES * _ROWS) * _SPAN
 _SELECTORS = 3 * _SPAN
-_STAIR = 3
 _NEVER = np.iinfo(np.int16).max
 PRICED = 6
 """Magnitudes, from 0 on, that `price_levels` tells the prices of."""
@@ -53,7 +55,7 @@ def make_level_bank() -> Bank:
 
 
 def encode_levels(
-    bank: Bank, matrices: Sequence[Levels], references: Sequence[Levels], leads: Sequence[int] | None = None
+    bank: Bank, matrices: Sequence[Levels], references: Sequence[Levels], leads: Sequence[Lead] | None = None
 ) -> bytes:
     """Code matrices one behind the other.
 
@@ -65,9 +67,8 @@ def encode_levels(
         All with the same number of columns.
     references : sequence of int32 arrays, shapes (any, columns), C-contiguous
         What each matrix is expected to resemble in magnitude; may be an earlier matrix of `matrices`.
-    leads : sequence of int, optional
-        Of each matrix, how many columns are coded of the first row, three more of each next one; the others must be 0.
-        None: all.
+    leads : sequence of Lead, optional
+        Of each matrix; None: all of them are coded whole.
     """
     coder = start_writing(16 * sum(m.size for m in matrices) + 8 * len(matrices) + 64)
     for matrix, reference, lead in zip(matrices, references, leads or _whole(matrices), strict=True):
@@ -75,18 +76,19 @@ def encode_levels(
     return finish_writing(coder)
 
 
-def first_prices(rows: int, columns: int, lead: int | None = None) -> Prices:
+def first_prices(rows: int, columns: int, lead: Lead | None = None) -> Prices:
     """Prices before any are known, as of `price_levels`, of a matrix of shape (rows, columns).
 
     Nothing costs anything but what cannot be coded.
     """
     prices = np.zeros((rows, columns, 2, PRICED), np.int16)
     if lead is not None:
-        prices[np.arange(columns) >= lead + _STAIR * np.arange(rows)[:, None], :, 1:] = _NEVER
+        first, more = lead
+        prices[np.arange(columns) >= first + more * np.arange(rows)[:, None], :, 1:] = _NEVER
     return prices
 
 
-def price_levels(bank: Bank, matrix: Levels, reference: Levels, lead: int | None = None) -> Prices:
+def price_levels(bank: Bank, matrix: Levels, reference: Levels, lead: Lead | None = None) -> Prices:
     """What each place of a matrix would cost if it were coded next, and its neighbours as they are.
 
     Parameters
@@ -94,8 +96,7 @@ def price_levels(bank: Bank, matrix: Levels, reference: Levels, lead: int | None
     bank : Bank
         Stays as it is.
     matrix, reference : int32 arrays
-    lead : int, optional
-        As of `encode_levels`.
+    lead : Lead, optional
 
     Returns
     -------
@@ -105,9 +106,9 @@ def price_levels(bank: Bank, matrix: Levels, reference: Levels, lead: int | None
     rows, columns = matrix.shape
     prices = first_prices(rows, columns, lead)
     coder, slow = start_writing(16 * matrix.size + 64), np.empty(columns, np.int64)
-    first = columns if lead is None else min(lead, columns)
-    occupied = _occupied(matrix)
-    _kernels.price_matrix(coder, copy_bank(bank), matrix, reference, occupied, first, slow, COSTS, prices.reshape(-1))
+    first, more = _within(lead or (columns, 0), columns)
+    twin, occupied = copy_bank(bank), _occupied(matrix)
+    _kernels.price_matrix(coder, twin, matrix, reference, occupied, first, more, slow, COSTS, prices.reshape(-1))
     return prices
 
 
@@ -116,7 +117,7 @@ def decode_levels(
     payload: bytes,
     matrices: Sequence[Levels],
     references: Sequence[Levels],
-    leads: Sequence[int] | None = None,
+    leads: Sequence[Lead] | None = None,
 ) -> None:
     """Twin of `encode_levels`: fill `matrices`, shapes (rows_k, columns), which hold zeros.
 
@@ -148,7 +149,7 @@ def code_column(coder: Coder, values: Levels) -> Coder:
         coder = make_room(coder, 16 * len(values) + 8)
     used = np.flatnonzero(values)
     rows = int(used[-1]) + 1 if len(used) else 0
-    _code_matrix(coder, make_level_bank(), column, np.zeros((0, 1), np.int32), rows, 1)
+    _code_matrix(coder, make_level_bank(), column, np.zeros((0, 1), np.int32), rows, (1, 0))
     if overran(coder):
         raise TruncatedError(f"the payload of {len(values)} numbers ends too early")
     return coder
@@ -160,12 +161,17 @@ def _occupied(matrix: Levels) -> int:
     return int(occupied[-1]) + 1 if len(occupied) else 0
 
 
-def _whole(matrices: Sequence[Levels]) -> list[int]:
+def _whole(matrices: Sequence[Levels]) -> list[Lead]:
     """The leads of matrices that are coded whole."""
-    return [matrix.shape[1] for matrix in matrices]
+    return [(matrix.shape[1], 0) for matrix in matrices]
 
 
-def _code_matrix(coder: Coder, bank: Bank, levels: Levels, reference: Levels, rows: int, lead: int) -> None:
+def _within(lead: Lead, columns: int) -> Lead:
+    """A lead that says no more than there is."""
+    return min(lead[0], columns), min(lead[1], columns)
+
+
+def _code_matrix(coder: Coder, bank: Bank, levels: Levels, reference: Levels, rows: int, lead: Lead) -> None:
     """Code the number of rows that are not zero behind, and these rows."""
     columns = levels.shape[1]
-    _kernels.code_matrix(coder, bank, levels, reference, rows, min(lead, columns), np.empty(columns, np.int64))
+    _kernels.code_matrix(coder, bank, levels, reference, rows, *_within(lead, columns), np.empty(columns, np.int64))

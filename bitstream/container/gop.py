@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import struct
+from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import IntEnum
 
@@ -30,18 +31,18 @@ class GopMethod(IntEnum):
 
 
 @dataclass(frozen=True, eq=False)
-class GopBody:
-    """The data of a GOP.
+class GopField:
+    """What a GOP tells of one field: of positions, or of an attribute that moves.
 
     Parameters
     ----------
-    method : GopMethod
-    frames : int
-        Number of frames T, at least 1.
+    width : int
+        Numbers d of each vertex: 3 of positions.
     step : float
-        Quantization step in BSM units; a single-precision number above 0.
+        Quantization step, in BSM units or those of the attribute; a single-precision number above 0. 0: nothing is
+        told, the attribute is as in the first frame, or with low delay as in the frame before.
     components : int
-        Columns r of the temporal basis (3 for a single frame).
+        Columns r of the temporal basis (d for a single frame, 0 where nothing is told).
     exponents : int32 array, shape (r,)
         Steps of a learnt basis, from 0 to `MAX_EXPONENT`; empty otherwise.
     basis : bytes
@@ -50,33 +51,81 @@ class GopBody:
         Coded levels of all blocks.
     """
 
-    method: GopMethod
-    frames: int
+    width: int
     step: float
     components: int
     exponents: npt.NDArray[np.int32]
     basis: bytes
     levels: bytes
 
+    @property
+    def size(self) -> int:
+        """Bytes of all levels."""
+        return len(self.basis) + len(self.levels)
+
+
+@dataclass(frozen=True, eq=False)
+class GopBody:
+    """The data of a GOP.
+
+    Parameters
+    ----------
+    method : GopMethod
+    frames : int
+        Number of frames T, at least 1.
+    fields : tuple of GopField
+        Of positions, and of each attribute that moves.
+    """
+
+    method: GopMethod
+    frames: int
+    fields: tuple[GopField, ...]
+
+
+def still(width: int) -> GopField:
+    """A field of so many columns of which nothing is told."""
+    return GopField(width, 0.0, 0, np.empty(0, np.int32), b"", b"")
+
 
 def write_gop_body(body: GopBody, run: int = 0) -> bytes:
-    """Method and run (a byte), T, step (float 32), of a learnt basis r, the exponents and its coded length; all levels.
+    """Method and run (a byte), T; each attribute's field behind its length, 0 where nothing is told; that of positions.
 
-    Counts are varints; an exponent is the zigzag of its difference to the one before.
+    A field is its step (float 32), of a learnt basis r, the exponents and its coded length; all levels. Counts are
+    varints; an exponent is the zigzag of its difference to the one before.
     """
-    if not (0 < body.step < math.inf and float(np.float32(body.step)) == body.step):
-        raise OptionError(f"a GOP cannot have the step {body.step}")
-    parts = [bytes([body.method + METHODS * (run % RUNS)]), write_varint(body.frames), struct.pack("<f", body.step)]
-    if body.method is GopMethod.LEARNT:
-        parts.append(write_varint(body.components))
-        differences = np.diff(body.exponents, prepend=0).tolist()
+    positions, *attributes = (_write_field(field, body.method) for field in body.fields)
+    if not positions:
+        raise OptionError("a GOP needs positions")
+    parts = [bytes([body.method + METHODS * (run % RUNS)]), write_varint(body.frames)]
+    for data in attributes:
+        parts += [write_varint(len(data)), data]
+    return b"".join([*parts, positions])
+
+
+def _write_field(field: GopField, method: GopMethod) -> bytes:
+    if field.step == 0.0:
+        return b""
+    if not (0 < field.step < math.inf and float(np.float32(field.step)) == field.step):
+        raise OptionError(f"a GOP cannot have the step {field.step}")
+    parts = [struct.pack("<f", field.step)]
+    if method is GopMethod.LEARNT:
+        parts.append(write_varint(field.components))
+        differences = np.diff(field.exponents, prepend=0).tolist()
         parts += [write_varint(2 * d if d >= 0 else -2 * d - 1) for d in differences]
-        parts += [write_varint(len(body.basis)), body.basis]
-    return b"".join([*parts, body.levels])
+        parts += [write_varint(len(field.basis)), field.basis]
+    return b"".join([*parts, field.levels])
 
 
-def parse_gop_body(data: bytes, longest: int, run: int = 0) -> GopBody:
-    """Inverse of `write_gop_body`; `longest` is what the header says about the frames of a GOP.
+def parse_gop_body(data: bytes, longest: int, run: int = 0, widths: Sequence[int] = ()) -> GopBody:
+    """Inverse of `write_gop_body`.
+
+    Parameters
+    ----------
+    longest : int
+        What the header says about the frames of a GOP.
+    run : int
+    widths : sequence of int
+        Numbers of each attribute that moves.
 
     Raises
     ------
@@ -95,17 +144,24 @@ def parse_gop_body(data: bytes, longest: int, run: int = 0) -> GopBody:
     most = longest if method is GopMethod.LEARNT else 1
     if not 1 <= frames <= most:
         raise CorruptError(f"a GOP of {frames} frames where 1 to {most} are legal")
+    coded = [(width, cursor.take(cursor.varint())) for width in widths]
+    attributes = (_parse_field(part, method, frames, width) if part else still(width) for width, part in coded)
+    return GopBody(method, frames, (_parse_field(cursor.rest(), method, frames, 3), *attributes))
+
+
+def _parse_field(data: bytes, method: GopMethod, frames: int, width: int) -> GopField:
+    cursor = Cursor(data)
     step = float(struct.unpack("<f", cursor.take(4))[0])
     if not 0.0 < step < math.inf:
         raise CorruptError(f"a GOP with the step {step}")
-    components = cursor.varint() if method is GopMethod.LEARNT else 3
-    if components > 3 * frames:
+    if method is not GopMethod.LEARNT:
+        return GopField(width, step, width, np.empty(0, np.int32), b"", cursor.rest())
+    components = cursor.varint()
+    if components > width * frames:
         raise CorruptError(f"{components} components for {frames} frames")
-    exponents, basis = np.empty(0, np.int32), b""
-    if method is GopMethod.LEARNT:
-        exponents = _parse_exponents(cursor, components)
-        basis = cursor.take(cursor.varint())
-    return GopBody(method, frames, step, components, exponents, basis, cursor.rest())
+    exponents = _parse_exponents(cursor, components)
+    basis = cursor.take(cursor.varint())
+    return GopField(width, step, components, exponents, basis, cursor.rest())
 
 
 def _parse_exponents(cursor: Cursor, count: int) -> npt.NDArray[np.int32]:

@@ -9,8 +9,8 @@ from bsm.codec.sequence.dictionaries import Site
 from bsm.codec.sequence.gop import BATCH
 from bsm.codec.static.work import LEVEL
 
-FRAME, SHOWN = 2.5e4, 11.0
-"""Of a frame, and of a vertex in it."""
+FRAME, SHOWN = 2.5e4, 11.0 / 3.0
+"""Of a frame, and of a number of a vertex in it."""
 PART = 6e4
 """Of a part in a GOP, whatever its size."""
 LOOP = 40.0
@@ -19,23 +19,32 @@ LOOP = 40.0
 
 def gop_memory(vertices: int, body: GopBody) -> float:
     """Bytes for decoding a GOP, besides those of one part after the other: levels, components, a few frames."""
-    shown = 48.0 * min(body.frames, BATCH) + 96.0
-    basis = body.components * (120.0 * body.frames + 24.0 * body.components)
-    return vertices * (12.0 * body.components + shown) + basis
+    width = sum(field.width for field in body.fields)
+    shown = (16.0 * min(body.frames, BATCH) + 32.0) * width
+    bases = (field.components * (40.0 * field.width * body.frames + 24.0 * field.components) for field in body.fields)
+    return vertices * (12.0 * _columns(body) + shown) + sum(bases)
 
 
 def loop_memory(rows: int, body: GopBody) -> float:
     """Bytes for a part of so many vertices: its levels and coefficients in the loop, and what becomes of them."""
-    return 48.0 * rows * body.components
+    return 48.0 * rows * _columns(body)
 
 
 def gop_cost(sites: tuple[Site, ...], vertices: int, body: GopBody) -> float:
     """Work of the levels, loops and fields of a GOP, and of its frames."""
-    columns, frames = body.components, body.frames
-    fields = sum(_part_cost(site.fronts, site.width, columns) for site in sites)
-    basis = frames * columns * (30.0 + 6.0 * columns) if body.method is GopMethod.LEARNT else 0.0
-    shown = frames * (FRAME + vertices * (SHOWN + 0.2 * columns))
-    return PART * len(sites) + fields + basis + shown
+    frames = body.frames
+    fields = sum(_part_cost(site.fronts, site.width, _columns(body)) for site in sites)
+    work = PART * len(sites) + fields + frames * FRAME
+    for field in body.fields:
+        width, columns = field.width, field.components
+        basis = frames * width * columns * (10.0 + 2.0 * columns) if body.method is GopMethod.LEARNT else 0.0
+        work += basis + frames * vertices * width * (SHOWN + columns / 15.0)
+    return work
+
+
+def _columns(body: GopBody) -> int:
+    """Components of all fields."""
+    return sum(field.components for field in body.fields)
 
 
 def _part_cost(fronts: Fronts, width: int, columns: int) -> float:

@@ -244,7 +244,7 @@ class SequenceEncoder:
             yield from self._opened(run.mesh, index, prepared, coded.opening, options)
         else:
             opening = opened.coded.opening
-            fresh = Coded(opening, GopEncoder(opening.setting, replace(options, step=opened.coded.bodies[0].step)), ())
+            fresh = Coded(opening, GopEncoder(opening.setting, replace(options, step=opened.coded.encoder.step)), ())
             coded = self._later_gop(group, 0, prepared, options, fresh, tell)
             yield Header(
                 vertices=opening.header.vertices,

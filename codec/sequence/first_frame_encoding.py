@@ -63,18 +63,23 @@ class Opening:
         """Whether decoders have the memory for a GOP."""
         dictionaries = self.setting.dictionaries
         beside = loop_memory(dictionaries.largest, body)
-        return dictionaries.fits(gop_memory(self.setting.vertices, body), beside, len(body.levels) + len(body.basis))
+        return dictionaries.fits(gop_memory(self.setting.vertices, body), beside, _received(body))
 
     def admit(self, body: GopBody, number: int) -> None:
         """Do the sums of decoders for a GOP from frame `number` on, or raise `OptionError` if they would refuse it."""
         vertices, allowance, dictionaries = self.setting.vertices, self.allowance, self.setting.dictionaries
-        received = len(body.levels) + len(body.basis)
+        received = _received(body)
         allowance.keep(0.0, received)
         allowance.show(vertices * (body.frames if number else body.frames - 1))
         with as_of_decoders(self.limits):
             allowance.limits.check("sequence_bytes", gop_memory(vertices, body))
             again = dictionaries.reserve(gop_memory(vertices, body), loop_memory(dictionaries.largest, body))
             allowance.spend(again + gop_cost(dictionaries.sites, vertices, body), received)
+
+
+def _received(body: GopBody) -> int:
+    """Bytes of a GOP, about."""
+    return sum(field.size for field in body.fields)
 
 
 def open_sequence(

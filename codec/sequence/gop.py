@@ -1,28 +1,29 @@
 """GOPs: what every one of them builds upon, and the coders of their frames, one for each direction.
 
-Positions are in BSM units throughout.
+A frame has one field or more: positions, in BSM units throughout, and attributes that move, in their own, as what they
+differ from the first frame by.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from copy import copy
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
 from bsm.bitstream.coefficients.matrices import decode_levels, make_level_bank
-from bsm.bitstream.container.gop import MAX_EXPONENT, GopBody, GopMethod
+from bsm.bitstream.container.gop import MAX_EXPONENT, GopBody, GopField, GopMethod
 from bsm.bitstream.entropy.range_coder import Bank, copy_bank
 from bsm.bitstream.errors import CorruptError
 from bsm.codec.arrays import Faces, Levels, Matrix
 from bsm.codec.sequence.dictionaries import Dictionaries, Part, Site, find_sites
 from bsm.codec.sequence.level_writer import ROUNDS, WEIGHT, LevelWriter
 from bsm.codec.sequence.row_prediction import (
-    BASIS_LEADS,
     Loop,
+    basis_leads,
     basis_of,
     frames_of,
     spectrum_of,
@@ -36,12 +37,36 @@ from bsm.codec.static.work import Allowance
 if TYPE_CHECKING:
     from bsm.codec.sequence.options import SequenceOptions
 
+Frame: TypeAlias = tuple[Matrix, ...]
+"""Positions, shape (n, 3), and of each attribute that moves what it differs from the first frame by, shape (n, d)."""
+
 BATCH = 8
 """Frames that are reconstructed at a time."""
 SINGLE = 14
 """Bytes of the GOP of a single frame besides its levels, about."""
 TRIED = 8
 """Frames that are coded one by one before that is given up as dearer than a basis."""
+TRACK_MEMORY = 40.0
+"""Bytes of a number of a vertex in the first frame of an attribute that moves."""
+
+
+@dataclass(frozen=True, eq=False)
+class Track:
+    """What every GOP knows of one field before its first frame.
+
+    Parameters
+    ----------
+    width : int
+        Numbers d of a vertex.
+    first : list of float64 arrays, shapes (c_i, d)
+        The decoded first frame, each part as its difference from what the parts before let expect.
+    start : list of float64 arrays, shapes (c_i, d)
+        What a key frame is added to: of positions the first frame, of attributes nothing.
+    """
+
+    width: int
+    first: list[Matrix]
+    start: list[Matrix]
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,13 +77,13 @@ class Setting:
     ----------
     vertices : int
     dictionaries : Dictionaries
-    first : list of float64 arrays, shapes (c_i, 3)
-        The decoded first frame, each part as its difference from what the parts before let expect.
+    tracks : tuple of Track
+        Of positions, and of each attribute that moves.
     """
 
     vertices: int
     dictionaries: Dictionaries
-    first: list[Matrix]
+    tracks: tuple[Track, ...]
 
     @property
     def sites(self) -> tuple[Site, ...]:
@@ -86,13 +111,28 @@ def make_setting(
     width: int,
     threads: int | None,
     allowance: Allowance,
+    moving: Sequence[Matrix] = (),
 ) -> Setting:
-    """Make the dictionaries from the decoded first frame, shape (n, 3); see `find_sites`."""
+    """Make the dictionaries from the decoded first frame, shape (n, 3); see `find_sites`.
+
+    `moving` are the values, shapes (n, d), that attributes have in it.
+    """
     sites = find_sites(scheme.blocks, faces, first_frame, width=width, threads=threads, allowance=allowance)
     dictionaries = Dictionaries(sites, scheme.rules, allowance, threads)
     dictionaries.reserve()
-    first = list(dictionaries.each(lambda _, part: part.difference(first_frame, first_frame)))
-    return Setting(len(first_frame), dictionaries, first)
+    widths = [values.shape[1] for values in moving]
+    allowance.keep(TRACK_MEMORY * len(first_frame) * sum(widths))
+    known = np.hstack([first_frame, *moving])
+    differences = list(dictionaries.each(lambda _, part: part.difference(known, known)))
+    ends = np.cumsum([3, *widths])[:-1]
+    first, *attributes = (
+        [np.ascontiguousarray(part) for part in parts]
+        for parts in zip(*(np.split(part, ends, axis=1) for part in differences), strict=True)
+    )
+    others = (
+        Track(width, own, [np.zeros_like(part) for part in own]) for width, own in zip(widths, attributes, strict=True)
+    )
+    return Setting(len(first_frame), dictionaries, (Track(3, first, first), *others))
 
 
 def level_references(matrices: list[Levels], columns: int) -> list[Levels]:
@@ -103,12 +143,12 @@ def level_references(matrices: list[Levels], columns: int) -> list[Levels]:
     return [np.zeros((0, columns), np.int32), *matrices[:-1]]
 
 
-def decode_basis(body: GopBody) -> Matrix:
-    """Temporal basis of a GOP, shape (3T, r)."""
-    levels = np.zeros((3, body.frames, body.components), np.int32)
-    references = level_references(list(levels), body.components)
-    decode_levels(make_level_bank(), body.basis, list(levels), references, BASIS_LEADS)
-    return basis_of(levels, body.exponents)
+def decode_basis(field: GopField, frames: int) -> Matrix:
+    """Temporal basis of a field of a GOP of so many frames, shape (dT, r)."""
+    levels = np.zeros((field.width, frames, field.components), np.int32)
+    references = level_references(list(levels), field.components)
+    decode_levels(make_level_bank(), field.basis, list(levels), references, basis_leads(field.width))
+    return basis_of(levels, field.exponents)
 
 
 class FrameHistory:
@@ -122,32 +162,32 @@ class FrameHistory:
         Of the latest frame.
     """
 
-    def __init__(self, first: list[Matrix]) -> None:
+    def __init__(self, track: Track) -> None:
         self.bank: Bank = make_level_bank()
-        self.levels = [np.zeros((len(matrix), 3), np.int32) for matrix in first]
-        self.loops = [Loop(9, 3) for _ in first]
-        self._first = first
-        self._latest = first
-        self._before = first
+        self.levels = [np.zeros(matrix.shape, np.int32) for matrix in track.first]
+        self.loops = [Loop(3 * track.width, track.width) for _ in track.first]
+        self._track = track
+        self._latest = track.start
+        self._before = track.start
 
     def known(self, block: int) -> Matrix:
-        """What predicts a block's next change, shape (c_i, 9)."""
+        """What predicts a block's next change, shape (c_i, 3d)."""
         latest = self._latest[block]
-        return np.concatenate([self._first[block], latest, latest - self._before[block]], axis=1)
+        return np.concatenate([self._track.first[block], latest, latest - self._before[block]], axis=1)
 
     def base(self, block: int) -> Matrix:
-        """Coefficients that the change of a block is added to, shape (c_i, 3)."""
+        """Coefficients that the change of a block is added to, shape (c_i, d)."""
         return self._latest[block]
 
     def copy(self) -> FrameHistory:
         """An independent copy of the present state."""
-        twin = FrameHistory(self._first)
+        twin = FrameHistory(self._track)
         twin.bank, twin.loops = copy_bank(self.bank), [loop.copy() for loop in self.loops]
         twin.levels, twin._latest, twin._before = self.levels, self._latest, self._before
         return twin
 
     def commit(self, levels: list[Levels], coefficients: list[Matrix]) -> None:
-        """Make a frame the latest: its levels and coefficients, each of shape (c_i, 3)."""
+        """Make a frame the latest: its levels and coefficients, each of shape (c_i, d)."""
         self.levels = levels
         self._latest, self._before = coefficients, self._latest
 
@@ -157,24 +197,24 @@ def silent(done: int, blocks: int) -> None:
 
 
 class GopEncoder:
-    """Encodes one GOP after the other; the twin of `GopDecoder`.
+    """Encodes a track of one GOP after the other; the twin of `GopDecoder`.
 
     Attributes
     ----------
     rounds : int
         As of `LevelWriter`.
-    latest : float64 array, shape (n, 3), optional
+    latest : float64 array, shape (n, d), optional
         What decoders make of the latest frame that was sent by itself.
     """
 
-    def __init__(self, setting: Setting, options: SequenceOptions) -> None:
-        self._setting = setting
+    def __init__(self, setting: Setting, options: SequenceOptions, track: int = 0) -> None:
+        self._track = setting.tracks[track]
         self._parts: tuple[Part, ...] = tuple(setting.dictionaries.each(lambda _, part: part))
         self._options = options
         self.step = options.step
         self.rounds = ROUNDS
         self.latest: Matrix | None = None
-        self._history = FrameHistory(setting.first)
+        self._history = FrameHistory(self._track)
 
     @property
     def step(self) -> float:
@@ -196,45 +236,49 @@ class GopEncoder:
         """Whether every frame is sent as it comes."""
         return self._options.mode == "low-delay"
 
-    def encode_single(self, frame: Matrix, number: int, progress: Progress) -> GopBody:
-        """Encode frame `number`, shape (n, 3), of a sequence of low delay."""
-        return self._single(frame, self._step, number % self._options.longest(len(frame)) == 0, progress)
+    def is_key(self, number: int, vertices: int) -> bool:
+        """Whether frame `number` of a sequence of low delay is a key frame."""
+        return number % self._options.longest(vertices) == 0
 
-    def encode_learnt(self, frames: Matrix, weights: Matrix, progress: Progress) -> tuple[GopBody, float]:
-        """Encode frames, shape (T, n, 3), whose errors count by `weights`, shape (T,), by a basis learnt from them.
+    def encode_single(self, frame: Matrix, progress: Progress, *, key: bool) -> GopField:
+        """Encode a frame, shape (n, d), by itself."""
+        return self._single(frame, self._step, key, progress)
+
+    def encode_learnt(self, frames: Matrix, weights: Matrix, progress: Progress) -> tuple[GopField, float]:
+        """Encode frames, shape (T, n, d), whose errors count by `weights`, shape (T,), by a basis learnt from them.
 
         Returns
         -------
-        body : GopBody
+        field : GopField
         cost : float
             Squared steps of all weighed errors, and what the bits are worth.
         """
-        body, error = self._transformed(trajectories(frames), np.tile(weights, 3), progress)
-        return body, error + WEIGHT * 8.0 * (len(body.levels) + len(body.basis) + SINGLE)
+        field, error = self._transformed(trajectories(frames), np.tile(weights, self._track.width), progress)
+        return field, error + WEIGHT * 8.0 * (field.size + SINGLE)
 
-    def encode_singles(self, frames: Matrix, weights: Matrix, most: float = math.inf) -> tuple[GopBody, ...]:
-        """Encode frames, shape (T, n, 3), whose errors count by `weights`, shape (T,), one by one.
+    def encode_singles(self, frames: Matrix, weights: Matrix, most: float = math.inf) -> tuple[GopField, ...]:
+        """Encode frames, shape (T, n, d), whose errors count by `weights`, shape (T,), one by one.
 
         Steps are finer for what weighs more, as they are with a basis. Gives up, mostly soon, with
         nothing, if the cost is not likely to stay below `most`.
         """
-        bodies: list[GopBody] = []
+        fields: list[GopField] = []
         cost = 0.0
         for frame, weight in zip(frames, weights, strict=True):
-            bodies.append(self._single(frame, float(np.float32(self._step / weight)), not bodies, silent))
+            fields.append(self._single(frame, float(np.float32(self._step / weight)), not fields, silent))
             assert self.latest is not None
             error = float(np.square(weight * (self.latest - frame)).sum()) / self._step**2
-            cost += error + WEIGHT * 8.0 * (len(bodies[-1].levels) + SINGLE)
-            if cost > most * (len(bodies) / len(frames) if len(bodies) >= TRIED else 1.0):
+            cost += error + WEIGHT * 8.0 * (fields[-1].size + SINGLE)
+            if cost > most * (len(fields) / len(frames) if len(fields) >= TRIED else 1.0):
                 return ()
-        return tuple(bodies)
+        return tuple(fields)
 
-    def _single(self, wanted: Matrix, step: float, key: bool, progress: Progress) -> GopBody:
+    def _single(self, wanted: Matrix, step: float, key: bool, progress: Progress) -> GopField:
         if key:
-            self._history = FrameHistory(self._setting.first)
-        history = self._history
+            self._history = FrameHistory(self._track)
+        history, width = self._history, self._track.width
         frame = np.zeros_like(wanted)
-        writer, coefficients = LevelWriter(history.bank, 3, self.rounds), []
+        writer, coefficients = LevelWriter(history.bank, width, self.rounds), []
         for k, part in enumerate(self._parts):
             target = part.difference(wanted, frame) - history.base(k)
             change = writer.write(history.loops[k], history.known(k), target, step, history.levels[k])
@@ -244,90 +288,137 @@ class GopEncoder:
         payload = writer.finish()
         history.commit(writer.levels, coefficients)
         self.latest = frame
-        method = GopMethod.KEY_FRAME if key else GopMethod.NEXT_FRAME
-        return GopBody(method, 1, step, 3, np.empty(0, np.int32), b"", payload)
+        return GopField(width, step, width, np.empty(0, np.int32), b"", payload)
 
-    def _transformed(self, motion: Matrix, weights: Matrix, progress: Progress) -> tuple[GopBody, float]:
-        """Encode trajectories, shape (n, 3T), whose columns count by `weights`, shape (3T,), and are weighed here."""
+    def _transformed(self, motion: Matrix, weights: Matrix, progress: Progress) -> tuple[GopField, float]:
+        """Encode trajectories, shape (n, dT), whose columns count by `weights`, shape (dT,), and are weighed here."""
         motion *= weights
         body = self._learnt(motion, weights)
-        basis = decode_basis(body) * weights[:, None]
+        basis = decode_basis(body, motion.shape[1] // body.width) * weights[:, None]
         wanted = motion @ projection(basis)
         field = np.zeros_like(wanted)
         writer = LevelWriter(make_level_bank(), body.components, self.rounds)
-        for part, first in zip(self._parts, self._setting.first, strict=True):
+        for part, first in zip(self._parts, self._track.first, strict=True):
             target = part.difference(wanted, field)
-            part.place(field, writer.write(Loop(3, body.components), first, target, self._step))
+            part.place(field, writer.write(Loop(body.width, body.components), first, target, self._step))
             progress(len(writer.levels), len(self._parts))
         left = np.vdot(motion, motion) - _energy(wanted, basis)  # of the fit, which `wanted - field` is orthogonal to
         error = float(left + _energy(wanted - field, basis)) / self._step**2
         return replace(body, levels=writer.finish()), error
 
-    def _learnt(self, motion: Matrix, weights: Matrix) -> GopBody:
-        """The temporal basis of weighted trajectories, shape (n, 3T), without the levels of parts."""
+    def _learnt(self, motion: Matrix, weights: Matrix) -> GopField:
+        """The temporal basis of weighted trajectories, shape (n, dT), without the levels of parts."""
+        width = self._track.width
         basis = learn_basis(motion, self._step, MAX_EXPONENT)
-        spectrum = spectrum_of(basis.columns / weights[:, None], basis.exponents)
+        spectrum = spectrum_of(basis.columns / weights[:, None], basis.exponents, width)
         _, frames, columns = spectrum.shape
         writer = LevelWriter(make_level_bank(), columns, self.rounds)
-        for matrix, lead in zip(spectrum, BASIS_LEADS, strict=True):
+        for matrix, lead in zip(spectrum, basis_leads(width), strict=True):
             writer.write(Loop(0, columns, 0), np.empty((frames, 0)), matrix, 1.0, lead=lead)
-        return GopBody(GopMethod.LEARNT, frames, self._step, columns, basis.exponents, writer.finish(), b"")
+        return GopField(width, self._step, columns, basis.exponents, writer.finish(), b"")
 
 
 class GopDecoder:
-    """Decodes one GOP after the other."""
+    """Decodes one GOP after the other.
 
-    def __init__(self, setting: Setting) -> None:
+    Parameters
+    ----------
+    setting : Setting
+    tracks : sequence of Track, optional
+        Those of the fields of its GOPs; None: all.
+    """
+
+    def __init__(self, setting: Setting, tracks: Sequence[Track] | None = None) -> None:
         self.setting = setting
-        self._history: FrameHistory | None = None
+        self._tracks = setting.tracks if tracks is None else tracks
+        self._histories: list[FrameHistory] | None = None
 
     def forget(self) -> None:
         """Take note that frames are missing here."""
-        self._history = None
+        self._histories = None
 
-    def decode(self, body: GopBody) -> Iterator[Matrix]:
-        """The frames of a GOP, shape (n, 3); all that its levels can have wrong is raised before the first of them."""
+    def decode(self, body: GopBody) -> Iterator[Frame]:
+        """The frames of a GOP; all that its levels can have wrong is raised before the first of them."""
         if body.method is GopMethod.LEARNT:
             self.forget()
             return self._transformed(body)
         return iter([self._single(body)])
 
-    def _single(self, body: GopBody) -> Matrix:
+    def _single(self, body: GopBody) -> Frame:
         if body.method is GopMethod.KEY_FRAME:
-            self._history = FrameHistory(self.setting.first)
-        history, self._history = self._history, None  # until all has gone well
-        if history is None:
+            self._histories = [FrameHistory(track) for track in self._tracks]
+        histories, self._histories = self._histories, None  # until all has gone well
+        if histories is None:
             raise CorruptError("a frame refers to one that is not there")
-        levels = self.setting.empty_levels(3)
-        decode_levels(history.bank, body.levels, levels, history.levels)
-        coefficients = [np.empty(0)] * len(levels)
+        told = list(zip(histories, body.fields, strict=True))
+        read = []
+        for history, field in told:
+            levels = self.setting.empty_levels(field.width)
+            if field.components:
+                decode_levels(history.bank, field.levels, levels, history.levels)
+            read.append(levels)
+        found: list[list[Matrix]] = [[np.empty(0)] * len(self.setting.sites) for _ in told]
 
         def decoded(k: int) -> Matrix:
-            change = history.loops[k].decode(history.known(k), levels[k], body.step)
-            coefficients[k] = history.base(k) + change
-            return coefficients[k]
+            for own, levels, (history, field) in zip(found, read, told, strict=True):
+                own[k] = history.base(k)
+                if field.components:
+                    own[k] = own[k] + history.loops[k].decode(history.known(k), levels[k], field.step)
+            return np.hstack([own[k] for own in found])
 
-        frame = self.setting.field(3, decoded)
-        history.commit(levels, coefficients)
-        self._history = history
-        return frame
+        widths = [track.width for track in self._tracks]
+        frame = self.setting.field(sum(widths), decoded)
+        for levels, own, (history, _) in zip(read, found, told, strict=True):
+            history.commit(levels, own)
+        self._histories = histories
+        return tuple(_split(frame, widths))
 
-    def _transformed(self, body: GopBody) -> Iterator[Matrix]:
-        setting, columns = self.setting, body.components
-        basis = decode_basis(body)
-        levels = setting.empty_levels(columns)
-        decode_levels(make_level_bank(), body.levels, levels, level_references(levels, columns))
-        field = setting.field(columns, lambda k: Loop(3, columns).decode(setting.first[k], levels[k], body.step))
-        return _batches(field, basis.reshape(3, body.frames, columns))
+    def _transformed(self, body: GopBody) -> Iterator[Frame]:
+        setting = self.setting
+        bases = [decode_basis(field, body.frames) if field.step else _nothing(field, body) for field in body.fields]
+        read = []
+        for field in body.fields:
+            levels = setting.empty_levels(field.components)
+            if field.step:
+                references = level_references(levels, field.components)
+                decode_levels(make_level_bank(), field.levels, levels, references)
+            read.append(levels)
+
+        def decoded(k: int) -> Matrix:
+            return np.hstack(
+                [
+                    Loop(field.width, field.components).decode(track.first[k], levels[k], field.step)
+                    for track, field, levels in zip(self._tracks, body.fields, read, strict=True)
+                ]
+            )
+
+        widths = [field.components for field in body.fields]
+        fields = _split(setting.field(sum(widths), decoded), widths)
+        batches = (
+            _batches(field, basis.reshape(own.width, body.frames, own.components))
+            for own, field, basis in zip(body.fields, fields, bases, strict=True)
+        )
+        return zip(*batches, strict=True)
+
+
+def _nothing(field: GopField, body: GopBody) -> Matrix:
+    """The basis of a field of which nothing is told."""
+    return np.empty((field.width * body.frames, 0))
+
+
+def _split(matrix: Matrix, widths: Sequence[int]) -> list[Matrix]:
+    """A matrix of all fields' columns as those of each."""
+    return np.split(matrix, np.cumsum(widths)[:-1], axis=1)
 
 
 def _energy(field: Matrix, basis: Matrix) -> float:
-    """Sum of the squares of `field @ basis.T`, of shapes (n, r) and (3T, r)."""
+    """Sum of the squares of `field @ basis.T`, of shapes (n, r) and (dT, r)."""
     return float(np.vdot(field, field @ (basis.T @ basis)))
 
 
 def _batches(field: Matrix, basis: Matrix) -> Iterator[Matrix]:
-    """The frames of components, shape (n, r), over a basis, shape (3, T, r), a few at a time."""
-    for start in range(0, basis.shape[1], BATCH):
+    """The frames of components, shape (n, r), over a basis, shape (d, T, r), a few at a time."""
+    width, frames, columns = basis.shape
+    for start in range(0, frames, BATCH):
         part = basis[:, start : start + BATCH]
-        yield from frames_of(field @ part.reshape(3 * part.shape[1], -1 if part.size else 0).T)
+        yield from frames_of(field @ part.reshape(width * part.shape[1], columns).T, width)

@@ -16,7 +16,7 @@ from bsm.codec.arrays import Matrix
 from bsm.codec.sequence.cost import gop_cost, gop_memory, loop_memory
 from bsm.codec.sequence.course import Course, DecoderRequest
 from bsm.codec.sequence.events import FrameEvent, Item
-from bsm.codec.sequence.gop import GopDecoder, make_setting
+from bsm.codec.sequence.gop import Frame, GopDecoder, make_setting
 from bsm.codec.static.events import HeaderEvent, unreadable
 from bsm.codec.static.preamble_decoding import Structure
 from bsm.codec.static.stages import Arrival, Ended, Stage, misplaced
@@ -130,14 +130,14 @@ class Gops:
             self._decoder = GopDecoder(setting)
         return self._decoder
 
-    def _frames(self, decoder: GopDecoder, body: GopBody, received: int) -> Iterator[Matrix]:
+    def _frames(self, decoder: GopDecoder, body: GopBody, received: int) -> Iterator[Frame]:
         """`_decoded`, if that is allowed."""
         vertices, dictionaries = self._structure.header.vertices, decoder.setting.dictionaries
         again = dictionaries.reserve(gop_memory(vertices, body), loop_memory(dictionaries.largest, body))
         self._structure.allowance.spend(again + gop_cost(dictionaries.sites, vertices, body), received)
         return self._decoded(decoder, body)
 
-    def _decoded(self, decoder: GopDecoder, body: GopBody) -> Iterator[Matrix]:
+    def _decoded(self, decoder: GopDecoder, body: GopBody) -> Iterator[Frame]:
         """Frames of a GOP, or nothing of it where no frame of it is wanted and none that is depends on it."""
         if body.method is not GopMethod.NEXT_FRAME:
             self._skipped.clear()
@@ -150,11 +150,11 @@ class Gops:
         self._skipped.clear()
         return decoder.decode(body)
 
-    def _events(self, first: int, frames: Iterator[Matrix]) -> Iterator[FrameEvent]:
+    def _events(self, first: int, frames: Iterator[Frame]) -> Iterator[FrameEvent]:
         numbering, units = self._structure.numbering, self._structure.units
-        for index, frame in enumerate(frames, first):
+        for index, (positions, *_) in enumerate(frames, first):
             if index >= self._request.start:
-                yield FrameEvent(index, numbering.arranged(units.back(frame)), numbering.faces)
+                yield FrameEvent(index, numbering.arranged(units.back(positions)), numbering.faces)
 
     def _lose(self, error: BsmError) -> None:
         """Take note that frames are lost; how many is known when the next ones come."""

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from bsm.bitstream.container.gop import GopBody, GopMethod
+from bsm.bitstream.container.gop import GopBody, GopField, GopMethod
 from bsm.codec.arrays import Matrix, Positions
 from bsm.codec.sequence.first_frame_encoding import Opening
 from bsm.codec.sequence.gop import GopDecoder, GopEncoder, silent
@@ -65,9 +65,10 @@ class Coded:
         """What the decoder makes of them, shape (T, n, 3), in BSM units; not kept, since it is large."""
         if self.encoder.low_delay and self.encoder.latest is not None:
             return self.encoder.latest[None]
-        decoder = GopDecoder(self.opening.setting)
-        frames = np.empty((sum(body.frames for body in self.bodies), self.opening.setting.vertices, 3))
-        for number, frame in enumerate(frame for body in self.bodies for frame in decoder.decode(body)):
+        setting = self.opening.setting
+        decoder = GopDecoder(setting, setting.tracks[:1])
+        frames = np.empty((sum(body.frames for body in self.bodies), setting.vertices, 3))
+        for number, (frame,) in enumerate(frame for body in self.bodies for frame in decoder.decode(body)):
             frames[number] = frame
         return frames
 
@@ -79,14 +80,21 @@ def attempted(
     encoder.step, encoder.rounds = wish.step, wish.rounds
     weights = np.ones(len(frames)) if wish.weights is None else wish.weights
     if encoder.low_delay:
-        bodies: tuple[GopBody, ...] = (encoder.encode_single(frames[0], number, tell),)
+        key = encoder.is_key(number, frames.shape[1])
+        bodies = _singles((encoder.encode_single(frames[0], tell, key=key),), key=key)
     elif wish.singly:
-        bodies = encoder.encode_singles(frames, weights)
+        bodies = _singles(encoder.encode_singles(frames, weights))
     else:
         bodies, cost = _learnt(opening, encoder, frames, weights, wish.cut, tell)
         if wish.singly is None:
-            bodies = encoder.encode_singles(frames, weights, cost) or bodies
+            bodies = _singles(encoder.encode_singles(frames, weights, cost)) or bodies
     return Coded(opening, encoder, bodies)
+
+
+def _singles(fields: tuple[GopField, ...], *, key: bool = True) -> tuple[GopBody, ...]:
+    """Frames that were encoded one by one, the first of them as a key frame or not."""
+    methods = (GopMethod.NEXT_FRAME if number or not key else GopMethod.KEY_FRAME for number in range(len(fields)))
+    return tuple(GopBody(method, 1, (field,)) for method, field in zip(methods, fields, strict=True))
 
 
 def _learnt(
@@ -96,7 +104,8 @@ def _learnt(
     half = len(frames) // 2
     whole: tuple[tuple[GopBody, ...], float] = (), math.inf
     if not (cut and half):
-        body, cost = encoder.encode_learnt(frames, weights, tell)
+        field, cost = encoder.encode_learnt(frames, weights, tell)
+        body = GopBody(GopMethod.LEARNT, len(frames), (field,))
         has_room = opening.has_room(body)
         if not half or (has_room and (cut is not None or len(frames) <= HARDLY_CUT)):
             return (body,), cost

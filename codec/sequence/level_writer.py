@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from bsm.bitstream.coefficients.matrices import encode_levels, first_prices, price_levels
+from bsm.bitstream.coefficients.matrices import Lead, encode_levels, first_prices, price_levels
 from bsm.bitstream.entropy.range_coder import Bank, copy_bank
 from bsm.codec.arrays import Levels, Matrix
 from bsm.codec.sequence.row_prediction import Loop
@@ -35,7 +35,7 @@ class LevelWriter:
     def __init__(self, bank: Bank, columns: int, rounds: int = ROUNDS) -> None:
         self.levels: list[Levels] = []
         self._references: list[Levels] = []
-        self._leads: list[int] = []
+        self._leads: list[Lead] = []
         self._columns = columns
         self._bank = bank
         self._rounds = rounds
@@ -49,7 +49,7 @@ class LevelWriter:
         targets: Matrix,
         step: float,
         reference: Levels | None = None,
-        lead: int | None = None,
+        lead: Lead | None = None,
     ) -> Matrix:
         """Choose and note the levels of a matrix.
 
@@ -59,8 +59,8 @@ class LevelWriter:
             As of `Loop.search`; the loop is updated.
         reference : int32 array, shape (any, columns), optional
             What the levels may resemble in magnitude; None: the matrix before.
-        lead : int, optional
-            As of `encode_levels`; targets that are not coded must be 0.
+        lead : Lead, optional
+            None: it is coded whole; targets that are not coded must be 0.
 
         Returns
         -------
@@ -74,7 +74,7 @@ class LevelWriter:
             levels, _ = loop.copy().search(known, targets, step, prices, WEIGHT)
             prices = price_levels(self._ahead, levels, reference, lead)
         levels, decoded = loop.search(known, targets, step, prices, WEIGHT)
-        self._leads.append(self._columns if lead is None else lead)
+        self._leads.append(lead or (self._columns, 0))
         encode_levels(self._ahead, [levels], [reference], self._leads[-1:])
         self.levels.append(levels)
         self._references.append(reference)

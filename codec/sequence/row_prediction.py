@@ -1,9 +1,9 @@
 """The mathematics of sequences: the temporal transform, and the closed loop that predicts and quantizes rows.
 
-A sequence of T frames of n vertices is a matrix of n rows and 3T columns, the x of all frames, then y, then z. In
-space it is transformed by the dictionaries of the blocks, which makes its rows frequencies; in time by a temporal basis
-B of r columns (components), learnt from the frames and sent. What is left is a small matrix per block,
-one row per spatial frequency, one column per component.
+A sequence of T frames of n vertices is a matrix of n rows and 3T columns, the x of all frames, then y, then z; that of
+an attribute of d numbers has dT. In space it is transformed by the dictionaries of the blocks, which makes its rows
+frequencies; in time by a temporal basis B of r columns (components), learnt from the frames and sent. What is left is a
+small matrix per block, one row per spatial frequency, one column per component.
 
 The columns of such a row are predicted from what the decoder knows: the same row of the first frame, whose shape
 moves with every rigid motion of the block, and the columns before. The weights of this prediction are those that would
@@ -15,7 +15,7 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-from bsm.bitstream.coefficients.matrices import Prices
+from bsm.bitstream.coefficients.matrices import Lead, Prices
 from bsm.bitstream.coefficients.trellis import STATES, points_of_levels
 from bsm.bitstream.errors import NumericError, OptionError
 from bsm.codec import _kernels
@@ -37,21 +37,23 @@ DENSE_ROWS = 16
 RENEWAL = 8
 RULES = (FORGETTING, RIDGE, NOISE, DENSE_ROWS, RENEWAL)
 LARGEST_LEVEL = (1 << 23) - 1
-BASIS_LEADS = 1, 2, 3
-"""Of the levels of a basis, of x, y and z, see `bitstream.coefficients.matrices.encode_levels`: column i has i numbers
-that are not free."""
 OCTAVE = 4
 """Exponents of the steps of a basis are in units of 1 / OCTAVE octaves."""
 
 
+def basis_leads(width: int) -> list[Lead]:
+    """Of the levels of a basis of fields of so many numbers, one after the other: column i has i that are not free."""
+    return [(coordinate + 1, width) for coordinate in range(width)]
+
+
 def trajectories(frames: Matrix) -> Matrix:
-    """Frames, shape (T, n, 3), as a matrix of shape (n, 3T)."""
+    """Frames, shape (T, n, d), as a matrix of shape (n, dT)."""
     return np.ascontiguousarray(frames.transpose(1, 2, 0).reshape(frames.shape[1], -1))
 
 
-def frames_of(matrix: Matrix) -> Matrix:
-    """Inverse of `trajectories`: frames, shape (T, n, 3), of a matrix, shape (n, 3T)."""
-    return np.ascontiguousarray(matrix.reshape(len(matrix), 3, -1).transpose(2, 0, 1))
+def frames_of(matrix: Matrix, width: int) -> Matrix:
+    """Inverse of `trajectories`: frames, shape (T, n, d), of a matrix, shape (n, dT), and d."""
+    return np.ascontiguousarray(matrix.reshape(len(matrix), width, -1).transpose(2, 0, 1))
 
 
 def time_cosines(frames: int) -> Matrix:
@@ -66,24 +68,24 @@ def basis_steps(exponents: npt.NDArray[np.int32]) -> Matrix:
     return np.exp2(-exponents.astype(np.float64) / OCTAVE)
 
 
-def spectrum_of(basis: Matrix, exponents: npt.NDArray[np.int32]) -> Matrix:
-    """What is free in a basis, shape (3T, r), as cosines over time in steps: shape (3, T, r).
+def spectrum_of(basis: Matrix, exponents: npt.NDArray[np.int32], width: int) -> Matrix:
+    """What is free in a basis, shape (dT, r), d being `width`, as cosines over time in steps: shape (d, T, r).
 
     Its columns come out at right angles, with another sign where that is better.
     """
     rows, components = basis.shape
-    cosines = time_cosines(rows // 3).T @ basis.reshape(3, rows // 3, components)
+    cosines = time_cosines(rows // width).T @ basis.reshape(width, rows // width, components)
     free = free_of(cosines.transpose(1, 0, 2).reshape(rows, components)) / basis_steps(exponents)
-    return np.ascontiguousarray(free.reshape(rows // 3, 3, components).transpose(1, 0, 2))
+    return np.ascontiguousarray(free.reshape(rows // width, width, components).transpose(1, 0, 2))
 
 
 def basis_of(levels: Levels, exponents: npt.NDArray[np.int32]) -> Matrix:
-    """The basis, shape (3T, r), that levels, shape (3, T, r), stand for; its columns are at right angles."""
-    _, frames, components = levels.shape
+    """The basis, shape (dT, r), that levels, shape (d, T, r), stand for; its columns are at right angles."""
+    width, frames, components = levels.shape
     points = np.array([points_of_levels(np.ascontiguousarray(matrix)) for matrix in levels])
-    free = (0.5 * points * basis_steps(exponents)).transpose(1, 0, 2).reshape(3 * frames, components)
-    basis = time_cosines(frames) @ columns_of(free).reshape(frames, 3, components).transpose(1, 0, 2)
-    return np.ascontiguousarray(basis.reshape(3 * frames, components))
+    free = (0.5 * points * basis_steps(exponents)).transpose(1, 0, 2).reshape(width * frames, components)
+    basis = time_cosines(frames) @ columns_of(free).reshape(frames, width, components).transpose(1, 0, 2)
+    return np.ascontiguousarray(basis.reshape(width * frames, components))
 
 
 class Loop:

@@ -11,7 +11,7 @@ from bsm.codec.arrays import Matrix
 from bsm.codec.sequence.row_prediction import OCTAVE
 
 WORTH = 0.5
-"""A component is kept if its energy is above WORTH * 3T * step^2: below, it costs more than it brings. Half of
+"""A component is kept if its energy is above WORTH * dT * step^2: below, it costs more than it brings. Half of
 it costs 0.6 %, twice saves 0.3 % (tools.constants)."""
 PRECISION = 1.0
 """Error of a column of the basis, times the root of the energy that it multiplies, in steps. A bit of the basis and one
@@ -26,7 +26,7 @@ class LearntBasis:
 
     Parameters
     ----------
-    columns : float64 array, shape (3T, r)
+    columns : float64 array, shape (dT, r)
         Orthonormal, by descending energy.
     exponents : int32 array, shape (r,)
         Steps to quantize them with, see `codec.sequence.row_prediction.basis_steps`.
@@ -37,11 +37,11 @@ class LearntBasis:
 
 
 def learn_basis(motion: Matrix, step: float, limit: int) -> LearntBasis:
-    """Eigenvectors of the covariance of trajectories, x, y and z coupled.
+    """Eigenvectors of the covariance of trajectories, all coordinates coupled.
 
     Parameters
     ----------
-    motion : float64 array, shape (n, 3T)
+    motion : float64 array, shape (n, dT)
     step : float
         With which the components will be quantized.
     limit : int
@@ -57,7 +57,7 @@ def learn_basis(motion: Matrix, step: float, limit: int) -> LearntBasis:
 
 
 def projection(basis: Matrix) -> Matrix:
-    """Pseudo-inverse of a decoded basis, transposed, shape (3T, r), as the basis has it.
+    """Pseudo-inverse of a decoded basis, transposed, shape (dT, r), as the basis has it.
 
     Coefficients times this are the components that fit best.
     """

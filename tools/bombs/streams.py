@@ -28,7 +28,7 @@ from bsm.bitstream.connectivity.seams import code_seams
 from bsm.bitstream.connectivity.valence_model import RARE_HEADER, code_rare, make_models
 from bsm.bitstream.container import packets
 from bsm.bitstream.container.declaration import AS_CODED, CORNER, FACE, OTHERWISE, RECOMPUTED, Declaration
-from bsm.bitstream.container.gop import METHODS, RUNS, GopBody, GopMethod, write_gop_body
+from bsm.bitstream.container.gop import METHODS, RUNS, GopBody, GopField, GopMethod, write_gop_body
 from bsm.bitstream.container.header import HEADER_FIELDS
 from bsm.bitstream.container.layout import FRAME_TYPES, WRITERS
 from bsm.bitstream.container.maps import write_map
@@ -327,11 +327,12 @@ def _learnt_gop(frames: int, components: int, levels: bytes = b"") -> GopBody:
     """A GOP whose temporal basis is nothing but zeros, which take next to no bytes."""
     spectrum = [np.zeros((frames, components), np.int32)] * 3
     basis = encode_levels(make_level_bank(), spectrum, level_references(spectrum, components))
-    return GopBody(GopMethod.LEARNT, frames, 1.0, components, np.zeros(components, np.int32), basis, levels)
+    exponents = np.zeros(components, np.int32)
+    return GopBody(GopMethod.LEARNT, frames, (GopField(3, 1.0, components, exponents, basis, levels),))
 
 
 def _key_gops(count: int, levels: bytes) -> list[GopBody]:
-    return [GopBody(GopMethod.KEY_FRAME, 1, 1.0, 3, np.empty(0, np.int32), b"", levels)] * count
+    return [GopBody(GopMethod.KEY_FRAME, 1, (GopField(3, 1.0, 3, np.empty(0, np.int32), b"", levels),))] * count
 
 
 def _metadata(entries: int) -> bytes:

@@ -33,6 +33,7 @@ from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.sequence.decoder import SequenceDecoder
 from bsm.codec.sequence.events import FrameEvent
+from bsm.codec.sequence.row_prediction import basis_leads
 from bsm.codec.static.decoder import Decoder, decode
 from bsm.codec.static.events import BlockEvent
 from bsm.files.mesh import MESH_FORMATS, read_mesh
@@ -234,12 +235,14 @@ def attribute_values(data: bytes) -> None:
 
 def gops(data: bytes) -> None:
     """The data of a GOP, and the levels in it."""
-    body = parse_gop_body(data, 64)
-    if body.method is GopMethod.LEARNT:
-        levels = np.zeros((3, body.frames, body.components), np.int32)
-        decode_levels(make_level_bank(), body.basis, list(levels), [levels[0], *levels[:-1]])
-    levels = np.zeros((2, 10, body.components), np.int32)
-    decode_levels(make_level_bank(), body.levels, list(levels), [levels[0], *levels[:-1]])
+    body = parse_gop_body(data[1:], 64, widths=(1, 4)[: data[0] % 3] if data else ())
+    for field in body.fields:
+        if body.method is GopMethod.LEARNT:
+            levels = np.zeros((field.width, body.frames, field.components), np.int32)
+            leads = basis_leads(field.width)
+            decode_levels(make_level_bank(), field.basis, list(levels), [levels[0], *levels[:-1]], leads)
+        levels = np.zeros((2, 10, field.components), np.int32)
+        decode_levels(make_level_bank(), field.levels, list(levels), [levels[0], *levels[:-1]])
 
 
 def stream(data: bytes) -> None:
@@ -367,7 +370,7 @@ def _seed(name: str, kind: int, payload: bytes, header: object) -> bytes:
     if name == "attribute_values" and kind == FrameType.VALUES:
         return payload
     if name == "gops" and kind == FrameType.GOP:
-        return payload[1:]
+        return payload
     return b""
 
 

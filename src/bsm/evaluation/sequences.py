@@ -78,7 +78,7 @@ def temporal_bits(positions: Positions, step: float) -> dict[str, float]:
     """
     motion = trajectories((positions - positions[0].mean(axis=0)) / np.linalg.norm(np.ptp(positions[0], axis=0)))
     learnt = learn_basis(motion, step, MAX_EXPONENT)
-    spectrum = spectrum_of(learnt.columns, learnt.exponents)
+    spectrum = spectrum_of(learnt.columns, learnt.exponents, 3)
     cosines = time_cosines(len(positions))
     components: dict[str, tuple[Matrix, ...]] = {
         "learnt": (motion @ learnt.columns / step, spectrum),

@@ -6,7 +6,15 @@ from hypothesis.extra.numpy import array_shapes, arrays
 
 from bsm.bitstream.coefficients.matrices import PRICED, decode_levels, encode_levels, make_level_bank, price_levels
 from bsm.bitstream.coefficients.trellis import points_of_levels
-from bsm.bitstream.container.gop import MAX_EXPONENT, GopBody, GopMethod, parse_gop_body, write_gop_body
+from bsm.bitstream.container.gop import (
+    MAX_EXPONENT,
+    GopBody,
+    GopField,
+    GopMethod,
+    parse_gop_body,
+    still,
+    write_gop_body,
+)
 from bsm.bitstream.errors import BsmError, CorruptError, OptionError, TruncatedError, UnsupportedError
 
 NONE = np.empty(0, np.int32)
@@ -117,25 +125,29 @@ def test_noise_is_a_typed_error_or_levels(noise):
     assert all(np.array_equal(a, b) for a, b in zip(matrices, again))
 
 
+MOVING = GopField(3, 0.5, 3, np.array([7, 3, 40], np.int32), b"basis", b"levels")
+HEAT = GopField(1, 4.0, 2, np.array([3, 2], np.int32), b"heat", b"warm")
 BODIES = [
-    GopBody(GopMethod.LEARNT, 4, 0.5, 3, np.array([7, 3, 40], np.int32), b"basis", b"levels"),
-    GopBody(GopMethod.LEARNT, 4, 0.5, 0, NONE, b"", b""),
-    GopBody(GopMethod.KEY_FRAME, 1, 2.0**-20, 3, NONE, b"", b"x"),
-    GopBody(GopMethod.NEXT_FRAME, 1, 1.0, 3, NONE, b"", b""),
+    GopBody(GopMethod.LEARNT, 4, (MOVING,)),
+    GopBody(GopMethod.LEARNT, 4, (GopField(3, 0.5, 0, NONE, b"", b""),)),
+    GopBody(GopMethod.KEY_FRAME, 1, (GopField(3, 2.0**-20, 3, NONE, b"", b"x"),)),
+    GopBody(GopMethod.NEXT_FRAME, 1, (GopField(3, 1.0, 3, NONE, b"", b""),)),
+    GopBody(GopMethod.LEARNT, 4, (MOVING, HEAT, still(2))),
+    GopBody(
+        GopMethod.NEXT_FRAME, 1, (GopField(3, 1.0, 3, NONE, b"", b"z"), still(4), GopField(2, 1, 2, NONE, b"", b"y"))
+    ),
 ]
 
 
 @pytest.mark.parametrize("body", BODIES)
 def test_bodies(body):
-    parsed = parse_gop_body(write_gop_body(body), 4)
-    assert (parsed.method, parsed.frames, parsed.step, parsed.components) == (
-        body.method,
-        body.frames,
-        body.step,
-        body.components,
-    )
-    assert np.array_equal(parsed.exponents, body.exponents)
-    assert (parsed.basis, parsed.levels) == (body.basis, body.levels)
+    widths = [field.width for field in body.fields[1:]]
+    parsed = parse_gop_body(write_gop_body(body, 37), 4, 37, widths)
+    assert (parsed.method, parsed.frames) == (body.method, body.frames)
+    for one, other in zip(parsed.fields, body.fields, strict=True):
+        assert (one.width, one.step, one.components) == (other.width, other.step, other.components)
+        assert np.array_equal(one.exponents, other.exponents)
+        assert (one.basis, one.levels) == (other.basis, other.levels)
 
 
 def test_known_bytes_of_a_body():
@@ -169,7 +181,7 @@ def test_illegal_bodies(data, error):
 def test_illegal_steps_cannot_be_written():
     for step in (0.0, -1.0, float("inf"), float("nan"), 0.1):  # 0.1 is no single-precision number
         with pytest.raises(OptionError):
-            write_gop_body(GopBody(GopMethod.LEARNT, 1, step, 0, NONE, b"", b""))
+            write_gop_body(GopBody(GopMethod.LEARNT, 1, (GopField(3, step, 0, NONE, b"", b""),)))
     assert MAX_EXPONENT == 400
 
 
@@ -178,11 +190,11 @@ def test_places_that_are_not_coded_cost_nothing():
     columns = matrix.shape[1]
     stairs = np.arange(columns) < 2 + 3 * np.arange(len(matrix))[:, None]
     matrix = np.where(stairs, matrix, 0).astype(np.int32)
-    payload = encode_levels(make_level_bank(), [matrix], [empty(columns)], [2])
+    payload = encode_levels(make_level_bank(), [matrix], [empty(columns)], [(2, 3)])
     assert len(payload) < len(encode_levels(make_level_bank(), [matrix], [empty(columns)]))
     decoded = np.zeros_like(matrix)
-    decode_levels(make_level_bank(), payload, [decoded], [empty(columns)], [2])
+    decode_levels(make_level_bank(), payload, [decoded], [empty(columns)], [(2, 3)])
     np.testing.assert_array_equal(decoded, matrix)
-    prices = price_levels(make_level_bank(), matrix, empty(columns), 2)
+    prices = price_levels(make_level_bank(), matrix, empty(columns), (2, 3))
     assert not prices[~stairs, :, 0].any()
     assert (prices[~stairs, :, 1:] > prices[stairs].max()).all()

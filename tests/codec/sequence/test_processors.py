@@ -95,5 +95,5 @@ def decoded(data: bytes, setting: Setting) -> Positions:
     frames: list[Matrix] = []
     while (packet := reader.next_packet()) is not Signal.END_OF_STREAM:
         if isinstance(packet, packets.Gop):
-            frames.extend(decoder.decode(parse_gop_body(packet.data, 1024)))
+            frames.extend(positions for positions, *_ in decoder.decode(parse_gop_body(packet.data, 1024)))
     return np.array(frames)

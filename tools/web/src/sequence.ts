@@ -267,9 +267,9 @@ export class Sequence {
 
     /**
      * Matrices of levels of so many rows, one behind the other; `references` has one for each, or none: the one before;
-     * `leads` how many columns of the first row are coded, or none: all (S 4.2).
+     * of a basis of `width` of them, fewer columns are coded of the first rows (S 4.2).
      */
-    private readLevels(data: Uint8Array, rows: number[], columns: number, references?: Levels[], leads?: number[]): Levels[] {
+    private readLevels(data: Uint8Array, rows: number[], columns: number, references?: Levels[], width?: number): Levels[] {
         const { memory } = this;
         return memory.scratch(() => {
             const coder = new Coder(memory, data);
@@ -277,12 +277,12 @@ export class Sequence {
             const read: Levels[] = [];
             for (const count of rows) {
                 const reference = references ? references[read.length] : (read.at(-1) ?? { rows: 0, values: new Int32Array(0) });
-                const lead = BigInt(Math.min(leads?.[read.length] ?? columns, columns));
+                const [lead, stair] = width ? [Math.min(read.length + 1, columns), Math.min(width, columns)].map(BigInt) : [BigInt(columns), 0n];
                 const values = memory.scratch(() => {
                     const [levels, known] = [memory.ints(count * columns, columns), memory.ints(reference.values.length, columns)];
                     levels.view.fill(0);
                     known.view.set(reference.values);
-                    memory.call("code_matrix", coder.parts, this.bank, shaped(memory, levels, count), shaped(memory, known, reference.rows), 0n, lead, slow);
+                    memory.call("code_matrix", coder.parts, this.bank, shaped(memory, levels, count), shaped(memory, known, reference.rows), 0n, lead, stair, slow);
                     return levels.view.slice();
                 });
                 if (coder.overran) break;
@@ -367,7 +367,7 @@ export class Sequence {
     /** B, 3 T rows (S 5.2). */
     private learntBasis({ frames, components, exponents, basis }: Gop): Float64Array {
         const steps = exponents.map(fineness);
-        const matrices = this.readLevels(basis, [frames, frames, frames], components, undefined, [1, 2, 3]);
+        const matrices = this.readLevels(basis, [frames, frames, frames], components, undefined, 3);
         const columns = new Float64Array(3 * frames * components);
         if (components === 0) return columns;
         const points = matrices.map(({ values }) => this.points(values));
