@@ -1,6 +1,7 @@
 /* E = U^T V and V = U E (paper, section 4; specification, M 10.2).
  *
- * Every number is the sum of its terms in the order of rows, or of columns, each product rounded before it is added.
+ * Every number is the sum of its terms in the order of rows, or of columns, each product rounded before it is added. Where
+ * there are as many columns as a vector has, vectors lie along them.
  */
 #include "codec/signal/transform.h"
 
@@ -69,8 +70,42 @@ INLINE void reconstruct_tile(const int axes, ConstDoubles2 subspace, ConstDouble
             values.data[(r + i) * values.columns + d + a] = sums[a].part[i / REGISTER][i % REGISTER];
 }
 
+/* Some rows from r on, and some vectors side by side from column d on. */
+INLINE void reconstruct_rows(const int rows, const int vectors, ConstDoubles2 subspace, ConstDoubles2 coefficients,
+                             int64_t r, int64_t d, Doubles2 values) {
+    const double *left = subspace.data + r * subspace.columns, *right = coefficients.data + d;
+    Vector sums[ROWS][VECTORS];
+    EACH(i, rows) EACH(v, vectors) sums[i][v] = zeros();
+    for (int64_t q = 0; q < coefficients.rows; q++, right += coefficients.columns)
+        EACH(i, rows) EACH(v, vectors)
+            sums[i][v] = sum_of(sums[i][v], scaled(load(right + v * WIDTH), left[i * subspace.columns + q]));
+    EACH(i, rows) EACH(v, vectors) store(values.data + (r + i) * values.columns + d + v * WIDTH, sums[i][v]);
+}
+
+/* All rows of some vectors side by side. */
+INLINE void reconstruct_strip(const int vectors, int64_t d, ConstDoubles2 subspace, ConstDoubles2 coefficients,
+                              Doubles2 values) {
+    int64_t r = 0;
+    for (; r + ROWS <= subspace.rows; r += ROWS) reconstruct_rows(ROWS, vectors, subspace, coefficients, r, d, values);
+    for (; r < subspace.rows; r++) reconstruct_rows(1, vectors, subspace, coefficients, r, d, values);
+}
+
+/* A vector's columns or more; the last vector may lie over the one before. */
+static void reconstruct_wide(ConstDoubles2 subspace, ConstDoubles2 coefficients, Doubles2 values) {
+    int64_t d = 0, columns = values.columns;
+    for (; d + LANES <= columns; d += LANES)
+        WITH_VECTORS(VECTORS, d, reconstruct_strip, subspace, coefficients, values);
+    if (d + WIDTH <= columns)
+        WITH_VECTORS((columns - d) / WIDTH, d, reconstruct_strip, subspace, coefficients, values);
+    if (columns % WIDTH) reconstruct_strip(1, columns - WIDTH, subspace, coefficients, values);
+}
+
 /* V = U E, for as many columns U of `subspace` as there are rows of `coefficients`. */
 void LEVEL(reconstruct)(ConstDoubles2 subspace, ConstDoubles2 coefficients, Doubles2 values) {
+    if (values.columns >= WIDTH) {
+        reconstruct_wide(subspace, coefficients, values);
+        return;
+    }
     for (int64_t r = 0; r < subspace.rows; r += WIDTH) {
         int64_t d = 0;
         for (; d + 3 <= values.columns; d += 3) reconstruct_tile(3, subspace, coefficients, r, d, values);

@@ -18,6 +18,14 @@ def test_products_are_those_of_numpy(n, c, shape):
     assert np.allclose(reconstruct(subspace, coefficients), subspace[:, :c] @ coefficients, atol=1e-11)
 
 
+@pytest.mark.parametrize("d", [1, 7, 8, 9, 31, 33, 71])
+@pytest.mark.parametrize("n", [1, 3, 8, 21])
+def test_a_column_is_the_same_to_the_last_bit_beside_any_others(n, d):
+    subspace, coefficients = hash_columns(n, 9), hash_columns(d, 6).T.copy()
+    alone = [reconstruct(subspace, coefficients[:, column]) for column in range(d)]
+    assert np.array_equal(reconstruct(subspace, coefficients), np.array(alone).T)
+
+
 def test_later_columns_change_no_bit():
     subspace, values = hash_columns(21, 9), hash_columns(21, 3)
     narrow = np.ascontiguousarray(subspace[:, :4])
