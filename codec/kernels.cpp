@@ -33,6 +33,7 @@ extern "C" {
 #include "codec/look/shade.h"
 #include "codec/sequence/row_prediction.h"
 #include "codec/sequence/row_search.h"
+#include "codec/sequence/shown.h"
 #include "codec/signal/detail.h"
 #include "codec/signal/frames.h"
 #include "codec/signal/place.h"
@@ -42,6 +43,7 @@ extern "C" {
 #include "codec/static/choice/creases.h"
 #include "codec/static/choice/settling.h"
 #include "codec/static/choice/shaping.h"
+#include "codec/static/units.h"
 }
 
 template <>
@@ -140,6 +142,8 @@ NB_MODULE(_kernels, m) {
     m.def("householder", &householder, "work"_a, "scratch"_a, "q"_a, Unlocked());
     m.def("project", &project, "subspace"_a, "values"_a, "coefficients"_a, Unlocked());
     m.def("reconstruct", &reconstruct, "subspace"_a, "coefficients"_a, "values"_a, Unlocked());
+    m.def("show_frames", checked<&show_frames>, "field"_a, "first"_a, "weights"_a, "frames"_a, Unlocked());
+    m.def("back_into_unit", checked<&back_into_unit>, "positions"_a, "scale"_a, "center"_a, "moved"_a, Unlocked());
     m.def("look_around", &look_around, "offsets"_a, "neighbours"_a, "vertices"_a, "inside"_a, "sums"_a, "weights"_a,
           "stiffness"_a, "springs"_a, "pulls"_a, Unlocked());
     m.def("continue_known", &continue_known, "fronts"_a, "values"_a, "inverse"_a, "springs"_a, "total"_a, "pulls"_a,

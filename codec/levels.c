@@ -4,6 +4,7 @@
 #include "codec/basis/cosines.h"
 #include "codec/basis/orthogonal_iteration.h"
 #include "codec/basis/solver/solver.h"
+#include "codec/sequence/shown.h"
 #include "codec/signal/transform.h"
 
 #define CHOOSE(result, name, parameters, arguments)                                                                    \
@@ -38,6 +39,8 @@ CHOOSE(void, solve_columns,
        (fronts, values, inverse, columns, power, scratch, solution))
 CHOOSE(void, project, (ConstDoubles2 subspace, ConstDoubles2 values, Doubles2 coefficients),
        (subspace, values, coefficients))
+CHOOSE(int64_t, show_frames, (ConstDoubles2 field, int64_t first, ConstDoubles2 weights, Doubles2 frames),
+       (field, first, weights, frames))
 CHOOSE(void, reconstruct, (ConstDoubles2 subspace, ConstDoubles2 coefficients, Doubles2 values),
        (subspace, coefficients, values))
 

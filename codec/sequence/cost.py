@@ -6,7 +6,7 @@ from bsm.bitstream.container.gop import GopBody, GopMethod
 from bsm.codec.basis.cost import solve_cost
 from bsm.codec.basis.solver.fronts import Fronts
 from bsm.codec.sequence.dictionaries import Site
-from bsm.codec.sequence.gop import BATCH
+from bsm.codec.sequence.shown import BATCH
 from bsm.codec.static.work import LEVEL
 
 FRAME, SHOWN = 2.5e4, 11.0 / 3.0

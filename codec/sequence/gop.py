@@ -25,10 +25,10 @@ from bsm.codec.sequence.row_prediction import (
     Loop,
     basis_leads,
     basis_of,
-    frames_of,
     spectrum_of,
     trajectories,
 )
+from bsm.codec.sequence.shown import shown_frames
 from bsm.codec.sequence.temporal import learn_basis, projection
 from bsm.codec.static.rules import Scheme
 from bsm.codec.static.ways.block_coder import Progress
@@ -40,8 +40,6 @@ if TYPE_CHECKING:
 Frame: TypeAlias = tuple[Matrix, ...]
 """Positions, shape (n, 3), and of each attribute that moves what it differs from the first frame by, shape (n, d)."""
 
-BATCH = 8
-"""Frames that are reconstructed at a time."""
 SINGLE = 14
 """Bytes of the GOP of a single frame besides its levels, about."""
 TRIED = 8
@@ -393,10 +391,10 @@ class GopDecoder:
             )
 
         widths = [field.components for field in body.fields]
-        fields = _split(setting.field(sum(widths), decoded), widths)
+        components, places = setting.field(sum(widths), decoded), np.cumsum([0, *widths[:-1]])
         batches = (
-            _batches(field, basis.reshape(own.width, body.frames, own.components))
-            for own, field, basis in zip(body.fields, fields, bases, strict=True)
+            shown_frames(components, int(first), basis.reshape(own.width, body.frames, own.components))
+            for own, first, basis in zip(body.fields, places, bases, strict=True)
         )
         return zip(*batches, strict=True)
 
@@ -414,11 +412,3 @@ def _split(matrix: Matrix, widths: Sequence[int]) -> list[Matrix]:
 def _energy(field: Matrix, basis: Matrix) -> float:
     """Sum of the squares of `field @ basis.T`, of shapes (n, r) and (dT, r)."""
     return float(np.vdot(field, field @ (basis.T @ basis)))
-
-
-def _batches(field: Matrix, basis: Matrix) -> Iterator[Matrix]:
-    """The frames of components, shape (n, r), over a basis, shape (d, T, r), a few at a time."""
-    width, frames, columns = basis.shape
-    for start in range(0, frames, BATCH):
-        part = basis[:, start : start + BATCH]
-        yield from frames_of(field @ part.reshape(width * part.shape[1], columns).T, width)

@@ -51,11 +51,6 @@ def trajectories(frames: Matrix) -> Matrix:
     return np.ascontiguousarray(frames.transpose(1, 2, 0).reshape(frames.shape[1], -1))
 
 
-def frames_of(matrix: Matrix, width: int) -> Matrix:
-    """Inverse of `trajectories`: frames, shape (T, n, d), of a matrix, shape (n, dT), and d."""
-    return np.ascontiguousarray(matrix.reshape(len(matrix), width, -1).transpose(2, 0, 1))
-
-
 def time_cosines(frames: int) -> Matrix:
     """The orthonormal cosine transform (DCT-II), shape (T, T): row t, column frequency."""
     columns = cosine_columns(frames, 0, frames) * np.sqrt(2.0 / frames)

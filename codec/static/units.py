@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from bsm.bitstream.errors import NumericError
+from bsm.codec import _kernels
 from bsm.codec.arrays import Matrix, Positions
 from bsm.codec.geometry.box import box_around
 from bsm.codec.geometry.mesh import TriangleMesh
@@ -39,13 +40,10 @@ class Units:
         NumericError
             If one is beyond the range of numbers.
         """
-        with np.errstate(over="ignore", invalid="ignore"):
-            moved = np.multiply(positions, self.scale, out=out)
-            for axis, middle in enumerate(self.center):  # three long loops are faster than n short ones
-                moved[:, axis] += middle
-        if not np.isfinite(moved).all():
+        moved = np.empty(positions.shape) if out is None else out
+        if not _kernels.back_into_unit(np.ascontiguousarray(positions), self.scale, np.array(self.center), moved):
             raise NumericError("positions are not finite in the unit of the mesh")
-        return np.asarray(moved)
+        return moved
 
 
 def units_of(mesh: TriangleMesh) -> Units:

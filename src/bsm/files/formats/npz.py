@@ -291,7 +291,7 @@ def open_npz_sequence(file: BinaryIO, faces: Faces, count: int) -> Iterator[Call
         if taken == 0:
             header = {"descr": "<f8", "fortran_order": False, "shape": (count, *frame.shape)}
             np.lib.format.write_array_header_1_0(entry, header)
-        entry.write(np.ascontiguousarray(frame, "<f8").tobytes())
+        entry.write(np.ascontiguousarray(frame, "<f8").data)
         taken += 1
 
     with zipfile.ZipFile(file, "w", zipfile.ZIP_DEFLATED) as archive:

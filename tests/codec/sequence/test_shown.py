@@ -1,0 +1,36 @@
+"""Frames of the components of a field."""
+
+import numpy as np
+import pytest
+
+from bsm.codec import _kernels
+from bsm.codec.basis.orthogonal_iteration import hash_columns
+from bsm.codec.sequence.shown import BATCH, shown_frames
+
+
+@pytest.mark.parametrize("vertices", [0, 1, 4, 37])
+@pytest.mark.parametrize(("first", "components"), [(0, 20), (3, 9), (12, 0)])
+@pytest.mark.parametrize(("width", "frames"), [(3, 13), (3, 8), (1, 1), (2, 7), (4, 16), (5, 9), (11, 17)])
+def test_frames_are_components_times_the_basis(vertices, first, components, width, frames):
+    field = hash_columns(vertices, 20)
+    basis = hash_columns(width * frames, components).reshape(width, frames, components)
+    expected = np.einsum("vk,dtk->tvd", field[:, first : first + components], basis)
+    shown = np.array(list(shown_frames(field, first, basis))).reshape(frames, vertices, width)
+    assert np.allclose(shown, expected, atol=1e-14)
+
+
+def test_a_kernel_is_given_what_fits():
+    field, weights, frames = np.zeros((5, 7)), np.zeros((4, 3 * BATCH)), np.zeros((BATCH * 5, 3))
+    _kernels.show_frames(field, 3, weights, frames)
+    for first, given, to in (
+        (4, weights, frames),
+        (-1, weights, frames),
+        (0, weights[:, :-1].copy(), frames),
+        (0, weights, frames[:-1].copy()),
+        (0, weights, np.zeros(((BATCH + 1) * 5, 3))),
+        (0, weights, np.zeros((BATCH * 5, 2))),
+    ):
+        with pytest.raises(ValueError, match="fit together"):
+            _kernels.show_frames(field, first, given, to)
+    with pytest.raises(ValueError, match="fit together"):
+        _kernels.show_frames(np.zeros((0, 7)), 0, weights, frames)
