@@ -1258,11 +1258,11 @@ class Gop:
         if self.method > 2:
             raise UnsupportedError(f"GOP method {self.method}")  # S 2.2
         self.frames, at = payload_varint(data, 1)
-        require(1 <= self.frames <= (longest if self.method == 0 else 1), "a wrong number of frames")  # S 2.3
+        require(1 <= self.frames <= longest, "a wrong number of frames")  # S 2.3
         require(at + 4 <= len(data), "a GOP ends inside its step")
         self.step, at = struct.unpack("<f", data[at : at + 4])[0], at + 4
         require(0.0 < self.step < math.inf, "a step that is not finite and above 0")  # S 2.1
-        self.columns, self.exponents, self.basis = 3, [], b""
+        self.columns, self.exponents, self.basis = 3 * self.frames, [], b""
         if self.method == 0:
             self.columns, at = payload_varint(data, at)
             require(self.columns <= 3 * self.frames, "too many components")
@@ -1510,19 +1510,30 @@ def decode_frames(mesh, header, gops, first_frame, begin):
             frames += [mesh.result(wide[:, :, t]) for t in range(gop.frames)]
             continue
         if gop.method == 1:  # S 7.2
-            zeros = [np.zeros(shape, int) for shape in shapes]
-            history = [LevelModel(), [Loop(9, 3) for _ in parts], zeros, first, first]
+            history = [LevelModel(), [], [], [first, first]]
         require(history is not None, "a frame refers to one that is not there")
-        model, loops, references, latest, before = history
+        model, loops, references, shown = history
+        if not references or references[0].shape[1] != gop.columns:  # S 7.3
+            references = [np.zeros(shape, int) for shape in shapes]
+            loops = [Loop(9, gop.columns) for _ in parts]
         matrices = model.decode(gop.levels, shapes, references)
-        now = []
+        cosines = cosines_over_time(gop.frames)
+        before, latest = shown[-2:]
+        told = []
         for k, part in enumerate(parts):
             known = np.concatenate([first[k], latest[k], latest[k] - before[k]], axis=1)
-            now.append(latest[k] + loops[k].decode(known, matrices[k], gop.step))
-            part.place(field, now[k])
-        history = [model, loops, matrices, now, latest]
-        frames.append(mesh.result(field))
+            told.append(loops[k].decode(known, matrices[k], gop.step))
+            told[k][:, :3] += cosines[:, 0].sum() * latest[k]
+            part.place(field, told[k])
+        shown = shown[-1:] + [[over_time(cosines[t], own) for own in told] for t in range(gop.frames)]
+        history = [model, loops, matrices, shown]
+        frames += [mesh.result(over_time(cosines[t], field)) for t in range(gop.frames)]
     return frames
+
+
+def over_time(cosines, columns):
+    """S 7.2: x, y and z of a frame, of cosine after cosine."""
+    return sum(value * columns[:, 3 * f : 3 * f + 3] for f, value in enumerate(cosines))
 
 
 def declared_attributes(mesh, packets):

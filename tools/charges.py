@@ -69,7 +69,7 @@ KINDS: dict[str, Callable[[], bytes]] = {
     "order": _in_order,
     "attributes": _with_attributes,
     "animation": lambda: _sequence(gop=12),
-    "low-delay": lambda: _sequence(mode="low-delay"),
+    "low-delay": lambda: _sequence(low_delay=1),
     **{
         name: bomb.make
         for name, bomb in BOMBS.items()

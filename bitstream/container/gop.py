@@ -25,9 +25,9 @@ class GopMethod(IntEnum):
     LEARNT = 0
     """Temporal basis learnt from the frames, and sent."""
     KEY_FRAME = 1
-    """One frame, predicted from the sequence's first frame."""
+    """Cosines over time, predicted from the sequence's first frame."""
     NEXT_FRAME = 2
-    """One frame, predicted from the two before it as well."""
+    """Cosines over time, predicted from the two frames before as well."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,7 +42,7 @@ class GopField:
         Quantization step, in BSM units or those of the attribute; a single-precision number above 0. 0: nothing is
         told, the attribute is as in the first frame, or with low delay as in the frame before.
     components : int
-        Columns r of the temporal basis (d for a single frame, 0 where nothing is told).
+        Columns r of the temporal basis (d T of cosines, 0 where nothing is told).
     exponents : int32 array, shape (r,)
         Steps of a learnt basis, from 0 to `MAX_EXPONENT`; empty otherwise.
     basis : bytes
@@ -141,9 +141,8 @@ def parse_gop_body(data: bytes, longest: int, run: int = 0, widths: Sequence[int
     if number not in set(GopMethod):
         raise UnsupportedError(f"GOP method {number} is unknown to this decoder")
     method, frames = GopMethod(number), cursor.varint()
-    most = longest if method is GopMethod.LEARNT else 1
-    if not 1 <= frames <= most:
-        raise CorruptError(f"a GOP of {frames} frames where 1 to {most} are legal")
+    if not 1 <= frames <= longest:
+        raise CorruptError(f"a GOP of {frames} frames where 1 to {longest} are legal")
     coded = [(width, cursor.take(cursor.varint())) for width in widths]
     attributes = (_parse_field(part, method, frames, width) if part else still(width) for width, part in coded)
     return GopBody(method, frames, (_parse_field(cursor.rest(), method, frames, 3), *attributes))
@@ -155,7 +154,7 @@ def _parse_field(data: bytes, method: GopMethod, frames: int, width: int) -> Gop
     if not 0.0 < step < math.inf:
         raise CorruptError(f"a GOP with the step {step}")
     if method is not GopMethod.LEARNT:
-        return GopField(width, step, width, np.empty(0, np.int32), b"", cursor.rest())
+        return GopField(width, step, width * frames, np.empty(0, np.int32), b"", cursor.rest())
     components = cursor.varint()
     if components > width * frames:
         raise CorruptError(f"{components} components for {frames} frames")

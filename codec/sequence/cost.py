@@ -6,6 +6,7 @@ from bsm.bitstream.container.gop import GopBody, GopMethod
 from bsm.codec.basis.cost import solve_cost
 from bsm.codec.basis.solver.fronts import Fronts
 from bsm.codec.sequence.dictionaries import Site
+from bsm.codec.sequence.row_prediction import LEADING
 from bsm.codec.sequence.shown import BATCH
 from bsm.codec.static.work import LEVEL
 
@@ -17,12 +18,23 @@ LOOP = 40.0
 """Of a column in a row of a closed loop."""
 
 
-def gop_memory(vertices: int, body: GopBody) -> float:
-    """Bytes for decoding a GOP, besides those of one part after the other: levels, components, a few frames."""
+def gop_memory(parts: int, vertices: int, body: GopBody) -> float:
+    """Bytes for decoding a GOP, besides those of one part after the other: levels, components, a few frames.
+
+    And what low-delay frames leave to the next ones: levels and loops of all parts.
+    """
     width = sum(field.width for field in body.fields)
     shown = (16.0 * min(body.frames, BATCH) + 32.0) * width
     bases = (field.components * (40.0 * field.width * body.frames + 24.0 * field.components) for field in body.fields)
-    return vertices * (12.0 * _columns(body) + shown) + sum(bases)
+    left = 0.0
+    if body.method is not GopMethod.LEARNT:
+        left = sum(_left(parts, vertices, field.width, field.width * body.frames) for field in body.fields)
+    return vertices * (12.0 * _columns(body) + shown) + sum(bases) + left
+
+
+def _left(parts: int, vertices: int, width: int, columns: int) -> float:
+    known = 3 * width
+    return 4.0 * vertices * columns + 8.0 * parts * (known + min(columns, LEADING)) * (known + columns)
 
 
 def loop_memory(rows: int, body: GopBody) -> float:
@@ -43,8 +55,10 @@ def gop_cost(sites: tuple[Site, ...], vertices: int, body: GopBody) -> float:
 
 
 def _columns(body: GopBody) -> int:
-    """Components of all fields."""
-    return sum(field.components for field in body.fields)
+    """Components of all fields; of low-delay frames those of which nothing is told take their room as well."""
+    if body.method is GopMethod.LEARNT:
+        return sum(field.components for field in body.fields)
+    return sum(field.width * body.frames for field in body.fields)
 
 
 def _part_cost(fronts: Fronts, width: int, columns: int) -> float:

@@ -26,6 +26,7 @@ from bsm.codec.sequence.row_prediction import (
     basis_leads,
     basis_of,
     spectrum_of,
+    time_cosines,
     trajectories,
 )
 from bsm.codec.sequence.shown import shown_frames
@@ -150,23 +151,33 @@ def decode_basis(field: GopField, frames: int) -> Matrix:
 
 
 class FrameHistory:
-    """What low-delay frames of one block after another refer to; starts anew with every key frame.
+    """What low-delay frames refer to, block after block; starts anew with every key frame.
 
     Attributes
     ----------
     bank : Bank
         Adaptive state of the entropy coder.
-    levels : list of int32 arrays
-        Of the latest frame.
+    levels : list of int32 arrays, shapes (c_i, dT)
+        Of the latest T frames, which came together.
     """
 
     def __init__(self, track: Track) -> None:
         self.bank: Bank = make_level_bank()
-        self.levels = [np.zeros(matrix.shape, np.int32) for matrix in track.first]
-        self.loops = [Loop(3 * track.width, track.width) for _ in track.first]
+        self.levels: list[Levels] = []
+        self.loops: list[Loop] = []
         self._track = track
+        self._cosines = np.empty((0, 0))
         self._latest = track.start
         self._before = track.start
+
+    def expect(self, frames: int) -> None:
+        """Get ready for so many frames; where those before were not as many, what is known of their columns is left."""
+        if len(self._cosines) == frames:
+            return
+        width = self._track.width
+        self._cosines = time_cosines(frames)
+        self.levels = [np.zeros((len(matrix), width * frames), np.int32) for matrix in self._track.first]
+        self.loops = [Loop(3 * width, width * frames) for _ in self._track.first]
 
     def known(self, block: int) -> Matrix:
         """What predicts a block's next change, shape (c_i, 3d)."""
@@ -174,20 +185,27 @@ class FrameHistory:
         return np.concatenate([self._track.first[block], latest, latest - self._before[block]], axis=1)
 
     def base(self, block: int) -> Matrix:
-        """Coefficients that the change of a block is added to, shape (c_i, d)."""
-        return self._latest[block]
+        """Coefficients that the change of a block is added to, shape (c_i, dT): the latest frame in all frames."""
+        latest = self._latest[block]
+        base = np.zeros((len(latest), latest.shape[1] * len(self._cosines)))
+        base[:, : latest.shape[1]] = self._cosines[:, 0].sum() * latest
+        return base
 
     def copy(self) -> FrameHistory:
         """An independent copy of the present state."""
         twin = FrameHistory(self._track)
         twin.bank, twin.loops = copy_bank(self.bank), [loop.copy() for loop in self.loops]
-        twin.levels, twin._latest, twin._before = self.levels, self._latest, self._before
+        twin.levels, twin._cosines = self.levels, self._cosines
+        twin._latest, twin._before = self._latest, self._before
         return twin
 
     def commit(self, levels: list[Levels], coefficients: list[Matrix]) -> None:
-        """Make a frame the latest: its levels and coefficients, each of shape (c_i, d)."""
+        """Make frames the latest: their levels and coefficients, each of shape (c_i, dT)."""
         self.levels = levels
-        self._latest, self._before = coefficients, self._latest
+        shown = [spread.reshape(len(spread), len(self._cosines), -1) for spread in coefficients]
+        if len(self._cosines) > 1:
+            self._latest = [np.tensordot(spread, self._cosines[-2], (1, 0)) for spread in shown]
+        self._latest, self._before = [np.tensordot(spread, self._cosines[-1], (1, 0)) for spread in shown], self._latest
 
 
 def silent(done: int, blocks: int) -> None:
@@ -201,8 +219,8 @@ class GopEncoder:
     ----------
     rounds : int
         As of `LevelWriter`.
-    latest : float64 array, shape (n, d), optional
-        What decoders make of the latest frame that was sent by itself.
+    latest : float64 array, shape (T, n, d), optional
+        What decoders make of the latest frames that were sent without a basis.
     """
 
     def __init__(self, setting: Setting, options: SequenceOptions, track: int = 0) -> None:
@@ -231,16 +249,17 @@ class GopEncoder:
 
     @property
     def low_delay(self) -> bool:
-        """Whether every frame is sent as it comes."""
-        return self._options.mode == "low-delay"
+        """Whether frames are sent as they come."""
+        return self._options.low_delay > 0
 
     def is_key(self, number: int, vertices: int) -> bool:
-        """Whether frame `number` of a sequence of low delay is a key frame."""
-        return number % self._options.longest(vertices) == 0
+        """Whether those are key frames that begin with frame `number` of a sequence of low delay."""
+        longest, together = self._options.longest(vertices), self._options.low_delay
+        return number % (longest - longest % together) == 0
 
-    def encode_single(self, frame: Matrix, progress: Progress, *, key: bool) -> GopField:
-        """Encode a frame, shape (n, d), by itself."""
-        return self._single(frame, self._step, key, progress)
+    def encode_next(self, frames: Matrix, progress: Progress, *, key: bool) -> GopField:
+        """Encode frames, shape (T, n, d), without a basis of their own."""
+        return self._next(frames, self._step, key, progress)
 
     def encode_learnt(self, frames: Matrix, weights: Matrix, progress: Progress) -> tuple[GopField, float]:
         """Encode frames, shape (T, n, d), whose errors count by `weights`, shape (T,), by a basis learnt from them.
@@ -263,30 +282,33 @@ class GopEncoder:
         fields: list[GopField] = []
         cost = 0.0
         for frame, weight in zip(frames, weights, strict=True):
-            fields.append(self._single(frame, float(np.float32(self._step / weight)), not fields, silent))
+            fields.append(self._next(frame[None], float(np.float32(self._step / weight)), not fields, silent))
             assert self.latest is not None
-            error = float(np.square(weight * (self.latest - frame)).sum()) / self._step**2
+            error = float(np.square(weight * (self.latest[0] - frame)).sum()) / self._step**2
             cost += error + WEIGHT * 8.0 * (fields[-1].size + SINGLE)
             if cost > most * (len(fields) / len(frames) if len(fields) >= TRIED else 1.0):
                 return ()
         return tuple(fields)
 
-    def _single(self, wanted: Matrix, step: float, key: bool, progress: Progress) -> GopField:
+    def _next(self, frames: Matrix, step: float, key: bool, progress: Progress) -> GopField:
         if key:
             self._history = FrameHistory(self._track)
-        history, width = self._history, self._track.width
-        frame = np.zeros_like(wanted)
-        writer, coefficients = LevelWriter(history.bank, width, self.rounds), []
+        history, width, columns = self._history, self._track.width, self._track.width * len(frames)
+        history.expect(len(frames))
+        basis = held_cosines(width, len(frames))
+        wanted = trajectories(frames) @ basis.reshape(-1, columns)
+        field = np.zeros_like(wanted)
+        writer, coefficients = LevelWriter(history.bank, columns, self.rounds), []
         for k, part in enumerate(self._parts):
-            target = part.difference(wanted, frame) - history.base(k)
+            target = part.difference(wanted, field) - history.base(k)
             change = writer.write(history.loops[k], history.known(k), target, step, history.levels[k])
             coefficients.append(history.base(k) + change)
-            part.place(frame, coefficients[k])
+            part.place(field, coefficients[k])
             progress(k + 1, len(self._parts))
         payload = writer.finish()
         history.commit(writer.levels, coefficients)
-        self.latest = frame
-        return GopField(width, step, width, np.empty(0, np.int32), b"", payload)
+        self.latest = np.array(list(shown_frames(field, 0, basis)))
+        return GopField(width, step, columns, np.empty(0, np.int32), b"", payload)
 
     def _transformed(self, motion: Matrix, weights: Matrix, progress: Progress) -> tuple[GopField, float]:
         """Encode trajectories, shape (n, dT), whose columns count by `weights`, shape (dT,), and are weighed here."""
@@ -340,9 +362,9 @@ class GopDecoder:
         if body.method is GopMethod.LEARNT:
             self.forget()
             return self._transformed(body)
-        return iter([self._single(body)])
+        return self._next(body)
 
-    def _single(self, body: GopBody) -> Frame:
+    def _next(self, body: GopBody) -> Iterator[Frame]:
         if body.method is GopMethod.KEY_FRAME:
             self._histories = [FrameHistory(track) for track in self._tracks]
         histories, self._histories = self._histories, None  # until all has gone well
@@ -351,7 +373,8 @@ class GopDecoder:
         told = list(zip(histories, body.fields, strict=True))
         read = []
         for history, field in told:
-            levels = self.setting.empty_levels(field.width)
+            history.expect(body.frames)
+            levels = self.setting.empty_levels(field.width * body.frames)
             if field.components:
                 decode_levels(history.bank, field.levels, levels, history.levels)
             read.append(levels)
@@ -364,12 +387,16 @@ class GopDecoder:
                     own[k] = own[k] + history.loops[k].decode(history.known(k), levels[k], field.step)
             return np.hstack([own[k] for own in found])
 
-        widths = [track.width for track in self._tracks]
-        frame = self.setting.field(sum(widths), decoded)
+        columns = [track.width * body.frames for track in self._tracks]
+        field, places = self.setting.field(sum(columns), decoded), np.cumsum([0, *columns[:-1]])
         for levels, own, (history, _) in zip(read, found, told, strict=True):
             history.commit(levels, own)
         self._histories = histories
-        return tuple(_split(frame, widths))
+        batches = (
+            shown_frames(field, int(place), held_cosines(track.width, body.frames))
+            for track, place in zip(self._tracks, places, strict=True)
+        )
+        return zip(*batches, strict=True)
 
     def _transformed(self, body: GopBody) -> Iterator[Frame]:
         setting = self.setting
@@ -399,14 +426,15 @@ class GopDecoder:
         return zip(*batches, strict=True)
 
 
+def held_cosines(width: int, frames: int) -> Matrix:
+    """The basis of low-delay frames, shape (d, T, dT): each cosine by itself in one number after the other."""
+    rows = np.kron(time_cosines(frames), np.eye(width))
+    return np.ascontiguousarray(rows.reshape(frames, width, -1).transpose(1, 0, 2))
+
+
 def _nothing(field: GopField, body: GopBody) -> Matrix:
     """The basis of a field of which nothing is told."""
     return np.empty((field.width * body.frames, 0))
-
-
-def _split(matrix: Matrix, widths: Sequence[int]) -> list[Matrix]:
-    """A matrix of all fields' columns as those of each."""
-    return np.split(matrix, np.cumsum(widths)[:-1], axis=1)
 
 
 def _energy(field: Matrix, basis: Matrix) -> float:

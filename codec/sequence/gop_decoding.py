@@ -97,7 +97,7 @@ class Gops:
         if packet.index < self._course.next:
             raise CorruptError(f"frame {packet.index} comes again behind frame {self._course.next - 1}")
         body = parse_gop_body(packet.data, header.gop_frames, header.run)
-        limits.check("sequence_bytes", gop_memory(header.vertices, body))
+        limits.check("sequence_bytes", gop_memory(self._structure.scheme.blocks.count, header.vertices, body))
         last = packet.index + body.frames - 1
         if 0 < header.frames <= last:
             raise CorruptError(f"frames {packet.index} to {last} of {header.frames}")
@@ -133,7 +133,9 @@ class Gops:
     def _frames(self, decoder: GopDecoder, body: GopBody, received: int) -> Iterator[Frame]:
         """`_decoded`, if that is allowed."""
         vertices, dictionaries = self._structure.header.vertices, decoder.setting.dictionaries
-        again = dictionaries.reserve(gop_memory(vertices, body), loop_memory(dictionaries.largest, body))
+        again = dictionaries.reserve(
+            gop_memory(len(dictionaries.sites), vertices, body), loop_memory(dictionaries.largest, body)
+        )
         self._structure.allowance.spend(again + gop_cost(dictionaries.sites, vertices, body), received)
         return self._decoded(decoder, body)
 

@@ -64,7 +64,7 @@ class Coded:
     def decoded(self) -> Positions:
         """What the decoder makes of them, shape (T, n, 3), in BSM units; not kept, since it is large."""
         if self.encoder.low_delay and self.encoder.latest is not None:
-            return self.encoder.latest[None]
+            return self.encoder.latest
         setting = self.opening.setting
         decoder = GopDecoder(setting, setting.tracks[:1])
         frames = np.empty((sum(body.frames for body in self.bodies), setting.vertices, 3))
@@ -81,7 +81,8 @@ def attempted(
     weights = np.ones(len(frames)) if wish.weights is None else wish.weights
     if encoder.low_delay:
         key = encoder.is_key(number, frames.shape[1])
-        bodies = _singles((encoder.encode_single(frames[0], tell, key=key),), key=key)
+        method = GopMethod.KEY_FRAME if key else GopMethod.NEXT_FRAME
+        bodies: tuple[GopBody, ...] = (GopBody(method, len(frames), (encoder.encode_next(frames, tell, key=key),)),)
     elif wish.singly:
         bodies = _singles(encoder.encode_singles(frames, weights))
     else:
@@ -91,9 +92,9 @@ def attempted(
     return Coded(opening, encoder, bodies)
 
 
-def _singles(fields: tuple[GopField, ...], *, key: bool = True) -> tuple[GopBody, ...]:
-    """Frames that were encoded one by one, the first of them as a key frame or not."""
-    methods = (GopMethod.NEXT_FRAME if number or not key else GopMethod.KEY_FRAME for number in range(len(fields)))
+def _singles(fields: tuple[GopField, ...]) -> tuple[GopBody, ...]:
+    """Frames that were encoded one by one, the first of them as a key frame."""
+    methods = (GopMethod.NEXT_FRAME if number else GopMethod.KEY_FRAME for number in range(len(fields)))
     return tuple(GopBody(method, 1, (field,)) for method, field in zip(methods, fields, strict=True))
 
 

@@ -99,7 +99,7 @@ def _with_bounds(base: EncodeOptions, keywords: Mapping[str, Any]) -> dict[str, 
     return given
 
 
-def sequence_options(*, preset: str | None = None, low_delay: bool = False, **keywords: Any) -> SequenceOptions:
+def sequence_options(*, preset: str | None = None, low_delay: int = 0, **keywords: Any) -> SequenceOptions:
     """The options for a sequence that keywords ask for.
 
     Parameters
@@ -107,7 +107,8 @@ def sequence_options(*, preset: str | None = None, low_delay: bool = False, **ke
     preset : str, optional
         "small", "balanced", "fine" or "near-lossless": what is promised for every frame where neither a step nor a
         target is given; with `low_delay`, a step. None: "balanced".
-    low_delay : bool
+    low_delay : int
+        As of `SequenceOptions`.
     **keywords
         Fields of `SequenceOptions`; the bounds `look` and `max_error`, or at most one of `SEQUENCE_TARGETS`.
 
@@ -120,15 +121,15 @@ def sequence_options(*, preset: str | None = None, low_delay: bool = False, **ke
     name = "balanced" if preset is None else preset
     bounds = {bound: keywords.pop(bound) for bound in ("look", "max_error") if keywords.get(bound) is not None}
     given = _fields("a sequence", SequenceOptions, keywords, SEQUENCE_TARGETS, SequenceTarget)
-    mode = "low-delay" if _checked("low_delay", low_delay, bool) else "gop"
-    base = SequenceOptions(step=_named("preset", SEQUENCE_STEPS, name), mode=mode)
+    together = _checked("low_delay", low_delay, int)
+    base = SequenceOptions(step=_named("preset", SEQUENCE_STEPS, name), low_delay=together)
     if bounds:
         if given.get("target") is not None or given.get("step") is not None:
             raise OptionError(f"{' and '.join(bounds)} of a sequence cannot be combined with a target or a step")
         farthest, absolute = parse_length("max_error", bounds.get("max_error", PROMISES[name].farthest))
         look = _checked("look", bounds.get("look", math.inf), float)
         given["promise"] = Promise(farthest, look, absolute)
-    elif mode == "gop" and not {"target", "step", "promise"} & {key for key in given if given[key] is not None}:
+    elif not together and not {"target", "step", "promise"} & {key for key in given if given[key] is not None}:
         given["promise"] = PROMISES[name]
     return replace(base, **given)
 
@@ -229,4 +230,4 @@ def _names_of_meshes() -> set[str]:
 def _names_of_sequences() -> set[str]:
     from bsm.codec.sequence.options import SequenceOptions
 
-    return {*(one.name for one in fields(SequenceOptions)), *SEQUENCE_TARGETS, "low_delay"}
+    return {*(one.name for one in fields(SequenceOptions)), *SEQUENCE_TARGETS}

@@ -31,7 +31,7 @@ def test_presets(preset):
 @pytest.mark.parametrize("preset", SEQUENCE_STEPS)
 def test_presets_of_sequences(preset):
     assert sequence_options(preset=preset).promise == PROMISES[preset]
-    low_delay = sequence_options(preset=preset, low_delay=True)
+    low_delay = sequence_options(preset=preset, low_delay=1)
     assert low_delay.step == SEQUENCE_STEPS[preset] and low_delay.promise is None
     assert sequence_options(preset=preset, kg=1).promise is None
 
@@ -40,7 +40,7 @@ def test_bounds_of_sequences():
     assert sequence_options(max_error="0.2%").promise == Promise(0.002)
     assert sequence_options(max_error="3mm", look=2).promise == Promise(3.0, 2.0, absolute=True)
     assert sequence_options(preset="fine", look=2).promise == Promise(PROMISES["fine"].farthest, 2.0)
-    assert sequence_options(max_error=0.001, low_delay=True).promise == Promise(0.001)
+    assert sequence_options(max_error=0.001, low_delay=4).promise == Promise(0.001)
     for others in ({"kg": 1}, {"step": 0.01}):
         with pytest.raises(OptionError):
             sequence_options(max_error=0.01, **others)
@@ -66,9 +66,9 @@ def test_the_command_line_has_the_same_targets():
 
 
 def test_sequences():
-    options = sequence_options(kg=0.1, low_delay=True, overlap=1.2)
+    options = sequence_options(kg=0.1, low_delay=4, overlap=1.2)
     assert options.target == SequenceTarget("kg", 0.1)
-    assert (options.mode, options.overlap) == ("low-delay", 1.2)
+    assert (options.low_delay, options.overlap) == (4, 1.2)
 
 
 @pytest.mark.parametrize("name", [field.name for field in fields(EncodeOptions)])

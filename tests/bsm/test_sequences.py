@@ -181,7 +181,7 @@ def test_options_of_sequences_do_not_go_with_a_mesh(npz, tmp_path, capsys):
 def test_live_pipes():
     positions, faces = bending(9)
     encode = subprocess.Popen(
-        [sys.executable, "-m", "bsm", "encode", "-", "--format", "npy", "-o", "-", "--low-delay"],
+        [sys.executable, "-m", "bsm", "encode", "-", "--format", "npy", "-o", "-", "--low-delay", "1"],
         stdin=subprocess.PIPE,
         stdout=subprocess.PIPE,
     )

@@ -34,13 +34,15 @@ from tools.measure.made_motion import MADE
 
 DRACO_BITS = (8, 10)
 KG_GOAL = 0.15
+TOGETHER = (1, 4, 8)
+"""Frames that are sent at a time with low delay."""
 
 
 def our_point(positions: Positions, faces: Faces, options: SequenceOptions, kg: float) -> Point:
     """Ours, at most at the KG error `kg`."""
     encoder = SequenceEncoder(faces, replace(options, target=SequenceTarget("kg", kg)), len(positions))
     attempt = encoder.search(list(positions))
-    name = f"ours, {options.mode}"
+    name = f"ours, {options.low_delay} at a time" if options.low_delay else "ours"
     size = sum(map(len, attempt.chunks))
     return {"codec": name, "bytes": size, "bpvf": attempt.bpvf, **asdict(attempt.comparison)}
 
@@ -93,8 +95,10 @@ def measure(name: str, frames: Positions, faces: Faces, every: int, *, brief: bo
     for bits in DRACO_BITS:
         draco = draco_point(frames, faces, bits, every)
         ours = our_point(frames, faces, options, draco["kg"])
-        low_delay = our_point(frames, faces, replace(options, mode="low-delay"), draco["kg"])
-        points = {"draco": draco, "ours": ours, "low_delay": low_delay}
+        points = {"draco": draco, "ours": ours}
+        for together in TOGETHER:
+            as_they_come = replace(options, low_delay=together)
+            points[f"low_delay_{together}"] = our_point(frames, faces, as_they_come, draco["kg"])
         if not brief:
             points["pca"] = pca_point(frames, faces, draco["kg"])
         result["at_draco"].append(points)

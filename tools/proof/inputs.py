@@ -208,8 +208,8 @@ def _sequence(random: Random) -> bytes:
     swing = np.sin(still[:, [1, 2, 0]] * 3 / (np.ptp(still) or 1.0)) * (np.ptp(still) or 1.0)
     positions = np.array([still + speed * np.sin(0.7 * t) * swing for t in range(frames)])
     choices: dict[str, Callable[[], Any]] = {
-        "mode": lambda: "low-delay",
-        "gop": lambda: random.choice((1, 2, 3)),
+        "low_delay": lambda: random.choice((1, 2)),
+        "gop": lambda: random.choice((2, 3, 5)),
         "keep": lambda: random.choice((0.005, 0.05, 0.5)),
         "overlap": lambda: 1.3,
         "keep_order": lambda: True,

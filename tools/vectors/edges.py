@@ -154,7 +154,7 @@ EDGES: dict[str, Good] = {
         _with_map(lambda e: write_map(sorted({**e, 64: [1, 2.5, "x"], 300: -7, 1 << 33: b"\0"}.items()))),
     ),
     "good-sequence-narrow": _sequence("dictionaries of few columns", 4, keep=0.05),
-    "good-sequence-narrow-frames": _sequence("frames as they come, by few columns", 4, keep=0.1, mode="low-delay"),
+    "good-sequence-narrow-frames": _sequence("frames as they come, by few columns", 4, keep=0.1, low_delay=1),
     "good-sequence-ordered": _sequence(
         "ORDER of a sequence, and a frame rate in METADATA", 3, keep_order=True, frame_rate=12.5
     ),

@@ -39,9 +39,10 @@ def _runs(probes: str, *pieces: tuple[int, int], **options: object) -> Good:
 SEQUENCES: dict[str, Good] = {
     "good-sequence-one": _sequence("a sequence of one frame", 1),
     "good-sequence-learnt": _sequence("GOPs with learnt bases, the last one shorter", 8),
-    "good-sequence-low-delay": _sequence("frames as they come, with key frames", 7, mode="low-delay", gop=3),
+    "good-sequence-low-delay": _sequence("frames as they come, with key frames", 7, low_delay=1, gop=3),
+    "good-sequence-together": _sequence("three frames at a time, and two at the end", 11, low_delay=3, gop=6),
     "good-sequence-runs": _runs("faces that change and return", (8, 3), (6, 2), (8, 4), (5, 1), gop=3),
-    "good-sequence-runs-low-delay": _runs("the same, frame by frame", (6, 2), (5, 3), (6, 2), mode="low-delay", gop=4),
+    "good-sequence-runs-low-delay": _runs("the same, frame by frame", (6, 2), (5, 3), (6, 2), low_delay=1, gop=4),
     "good-sequence-runs-many": _runs("more meshes than are kept", *((kind, 1) for kind in (*range(3, 13), 5, 12))),
     "good-sequence-overlap": _sequence("overlapping blocks of the first frame", 3, overlap=1.3, keep=0.5),
 }

@@ -21,7 +21,10 @@ def add_sequence_flags(parser: argparse.ArgumentParser) -> None:
         "--gop", type=int, metavar="N", help="frames that are coded together, at most (default 256 to 512)"
     )
     group.add_argument(
-        "--low-delay", action="store_true", default=None, help="send each frame as it comes; --gop: every N a key frame"
+        "--low-delay",
+        type=int,
+        metavar="N",
+        help="send N frames at a time as they come (8: a quarter smaller than 1); --gop: from key frame to key frame",
     )
     group.add_argument(
         "--frame-rate",

@@ -108,7 +108,7 @@ def _staged(
     """The frames, which begin a stage with each GOP."""
     for number, frame in enumerate(frames):
         longest = chosen.longest(len(frame.positions if isinstance(frame, TriangleMesh) else frame))
-        if chosen.mode == "gop" and number and number % longest == 0:
+        if not chosen.low_delay and number and number % longest == 0:
             gops = f" of {-(-count // longest)}" if count else ""
             progress.stage(f"encoding GOP {1 + number // longest}{gops}")
         yield frame

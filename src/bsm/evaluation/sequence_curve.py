@@ -42,8 +42,8 @@ def measure_lines(frames: Positions, faces: Faces, name: str, progress: Progress
     every = max(1, len(frames) // FRAMES_OF_DRACO)
     work: list[tuple[str, Callable[[], Point]]] = []
     for step in STEPS:
-        for line, mode in (("ours", "gop"), ("ours-low-delay", "low-delay")):
-            work.append((line, partial(our_point_at, frames, faces, mode, step)))
+        for line, low_delay in (("ours", 0), ("ours-low-delay", 1)):
+            work.append((line, partial(our_point_at, frames, faces, low_delay, step)))
     work += [("draco", partial(draco_point, frames, faces, bits, every)) for bits in DRACO_BITS]
     work += [("pca", partial(pca_point, frames, faces, kg)) for kg in PCA_ERRORS]
     lines: dict[str, list[Point]] = {line: [] for line in LINES}
@@ -56,11 +56,11 @@ def measure_lines(frames: Positions, faces: Faces, name: str, progress: Progress
     return {"schema": SCHEMA, "sequence": {"name": name, **sizes}, "lines": lines}
 
 
-def our_point_at(frames: Positions, faces: Faces, mode: str, step: float) -> Point:
+def our_point_at(frames: Positions, faces: Faces, low_delay: int, step: float) -> Point:
     """Ours at one step."""
-    attempt = SequenceEncoder(faces, SequenceOptions(mode=mode), len(frames)).attempt(list(frames), step)
+    attempt = SequenceEncoder(faces, SequenceOptions(low_delay=low_delay), len(frames)).attempt(list(frames), step)
     return {
-        "codec": f"{mode}, step {step:g}",
+        "codec": f"low delay of {low_delay}, step {step:g}" if low_delay else f"groups, step {step:g}",
         "bytes": sum(map(len, attempt.chunks)),
         "bpvf": attempt.bpvf,
         **asdict(attempt.comparison),

@@ -41,9 +41,11 @@ def waving(frames: int, crumpled: bool) -> tuple[Positions, np.ndarray]:
 
 def streams() -> list[bytes]:
     return [
-        encode_sequence(*waving(6, crumpled), SequenceOptions(keep=keep, mode=mode, block_size=200, threads=1))
+        encode_sequence(
+            *waving(6, crumpled), SequenceOptions(keep=keep, low_delay=low_delay, block_size=200, threads=1)
+        )
         for keep in (1.0, 0.05, 0.005)
-        for mode in ("gop", "low-delay")
+        for low_delay in (0, 1, 4)
         for crumpled in (False, True)
     ]
 
@@ -67,9 +69,9 @@ def test_processors_agree(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("crumpled", [False, True])
 @pytest.mark.parametrize("keep", [1.0, 0.05, 0.005])
-@pytest.mark.parametrize("mode", ["gop", "low-delay"])
+@pytest.mark.parametrize("low_delay", [0, 1, 4])
 def test_a_decoder_whose_first_frame_is_a_little_off_agrees(
-    monkeypatch: pytest.MonkeyPatch, mode: str, keep: float, crumpled: bool
+    monkeypatch: pytest.MonkeyPatch, low_delay: int, keep: float, crumpled: bool
 ) -> None:
     seen: list[tuple[tuple, dict, Matrix]] = []
     real = first_frame_encoding.make_setting
@@ -79,7 +81,7 @@ def test_a_decoder_whose_first_frame_is_a_little_off_agrees(
         return real(scheme, faces, first_frame, **rest)
 
     monkeypatch.setattr(first_frame_encoding, "make_setting", spy)
-    options = SequenceOptions(keep=keep, mode=mode, block_size=200, threads=1)
+    options = SequenceOptions(keep=keep, low_delay=low_delay, block_size=200, threads=1)
     data = encode_sequence(*waving(6, crumpled), options)
     ((arguments, rest, first_frame),) = seen
     change = 1e-12 * np.random.default_rng(0).uniform(-1.0, 1.0, first_frame.shape)

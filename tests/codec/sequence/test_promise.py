@@ -62,7 +62,7 @@ def test_no_vertex_is_farther_off_than_is_said(absolute: bool) -> None:
 def test_low_delay_keeps_promises_frame_by_frame(look: float) -> None:
     positions, faces = bending(9)
     positions[5] += 0.004 * np.random.default_rng(0).standard_normal(positions[5].shape)
-    options = SequenceOptions(block_size=100, promise=Promise(0.002, look), threads=1, mode="low-delay", gop=4)
+    options = SequenceOptions(block_size=100, promise=Promise(0.002, look), threads=1, low_delay=1, gop=4)
     encoder = SequenceEncoder(faces, options, len(positions))
     given: list[int] = []
 

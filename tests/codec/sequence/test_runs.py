@@ -23,7 +23,7 @@ from bsm.codec.static.events import AttributeEvent, ConnectivityEvent, HeaderEve
 from tools.surgery import frames_of, stream_of
 from tools.vectors.meshes import torus
 
-WAYS = [{"mode": "gop", "gop": 4}, {"mode": "low-delay", "gop": 3}]
+WAYS = [{"gop": 4}, {"low_delay": 1, "gop": 3}]
 PIECES = ((10, 5), (7, 3), (10, 4), (5, 1), (7, 2))
 
 

@@ -40,7 +40,7 @@ from tests.shapes import patch, tetrahedron, together, torus
 from tools.surgery import with_header
 
 SMALL = {"block_size": 100, "step": 0.002, "gop": 8}
-WAYS: list[dict[str, str]] = [{}, {"mode": "low-delay"}]
+WAYS: list[dict[str, int]] = [{}, {"low_delay": 1}, {"low_delay": 3}]
 
 
 def options(**changes):
@@ -160,7 +160,7 @@ def test_chunks_come_as_frames_do(way):
 
     chunks = SequenceEncoder(faces, options(gop=4, **way)).chunks(source())
     seen = [len(given) for chunk in chunks if chunk[0] & 15 == 7]
-    held = 1 if "mode" in way else 4
+    held = way.get("low_delay", 4)
     assert seen == [min(held * (k + 1), 10) for k in range(len(seen))] and seen[-1] == 10
 
 
@@ -175,7 +175,7 @@ def peak_of(work):
         tracemalloc.stop()
 
 
-@pytest.mark.parametrize("way", [{}, {"mode": "low-delay"}])
+@pytest.mark.parametrize("way", [{}, {"low_delay": 1}])
 def test_memory_does_not_grow_with_the_number_of_frames(way):
     positions, faces = bending(8, 18, 10)
 
@@ -298,7 +298,7 @@ def test_a_lost_gop_costs_itself_only(how, index):
 @pytest.mark.parametrize("how", ["removed", "changed"])
 def test_a_lost_frame_costs_what_refers_to_it(how):
     positions, faces = bending(20)
-    data, _ = encoded(positions, faces, mode="low-delay")
+    data, _ = encoded(positions, faces, low_delay=1)
     events = events_of(damaged(data, 5, how), tolerant=True)
     assert sum(len(event.frames) for event in events if isinstance(event, LossEvent)) == 3  # frames 5, 6 and 7 of 8
     assert_same(frames_in(events), decode_sequence(data)[0], set(range(20)) - {5, 6, 7})
@@ -516,12 +516,12 @@ def test_long_motion_is_one_gop_or_two_whatever_costs_less(monkeypatch):
 
 
 @pytest.mark.parametrize(
-    ("vertices", "mode", "frames"),
-    [(1, "gop", 512), (5000, "gop", 512), (7500, "gop", 384), (10_000, "gop", 256), (100, "low-delay", 256)],
+    ("vertices", "low_delay", "frames"),
+    [(1, 0, 512), (5000, 0, 512), (7500, 0, 384), (10_000, 0, 256), (100, 1, 256)],
 )
-def test_gops_have_fewer_frames_of_larger_meshes(vertices, mode, frames):
-    assert SequenceOptions(mode=mode).longest(vertices) == frames
-    assert SequenceOptions(mode=mode, gop=9).longest(vertices) == 9
+def test_gops_have_fewer_frames_of_larger_meshes(vertices, low_delay, frames):
+    assert SequenceOptions(low_delay=low_delay).longest(vertices) == frames
+    assert SequenceOptions(low_delay=low_delay, gop=9).longest(vertices) == 9
 
 
 def test_frames_may_go_far_in_a_long_gop():

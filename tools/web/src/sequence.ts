@@ -14,8 +14,8 @@ import type { Course } from "./runs";
 import { blockCost, partCost, shownCost, UNCODED } from "./work";
 
 const LEARNT = 0;
-const KEY_FRAME = 1;
-const NEXT_FRAME = 2;
+const KEY_FRAMES = 1;
+const NEXT_FRAMES = 2;
 const MOST_EXPONENT = 400;
 /** The first byte of a GOP: its method, and so many times its run, counted modulo so many. */
 const [METHODS, RUNS] = [8, 32];
@@ -64,8 +64,9 @@ interface Part {
     basis: Doubles;
 }
 
-/** What low-delay frames refer to, part by part (S 7.2). */
+/** What low-delay frames refer to, part by part, and how many came last (S 7.2). */
 interface History {
+    frames: number;
     levels: Levels[];
     moments: Float64Array[];
     latest: Float64Array[];
@@ -145,7 +146,9 @@ export class Sequence {
         const { header, run, course } = this;
         if (index !== course.next) throw new CorruptError(`frame ${index} where frame ${course.next} must follow`);
         const gop = parseGop(data, run);
-        checkLimit(this.limits, "sequenceBytes", gop.components * (16 * header.vertices + 120 * gop.frames + 24 * gop.components));
+        const { components, method } = gop;
+        const left = method === LEARNT ? 0 : 4 * header.vertices * components + this.blocks.count * momentsOf(9, components) * 8;
+        checkLimit(this.limits, "sequenceBytes", components * (16 * header.vertices + 120 * gop.frames + 24 * components) + left);
         const last = index + gop.frames;
         if (run.frames > 0 && last > run.frames) throw new CorruptError(`frame ${last - 1} of ${run.frames}`);
         const frames = this.paidFor(gop, data.length);
@@ -164,7 +167,7 @@ export class Sequence {
                 0,
             );
             allowance.spend(parts + shownCost(header.vertices, gop.frames, gop.components), received);
-            return gop.method === LEARNT ? this.transformed(gop) : [this.single(gop)];
+            return gop.method === LEARNT ? this.transformed(gop) : this.following(gop);
         } catch (error) {
             allowance.show(-header.vertices * gop.frames);
             throw error;
@@ -382,33 +385,53 @@ export class Sequence {
         return columns;
     }
 
-    /** The frame of methods 1 and 2 (S 7.2). */
-    private single(gop: Gop): () => Float64Array {
+    /** Frames of methods 1 and 2 (S 7.2). */
+    private following(gop: Gop): (() => Float64Array)[] {
         const { memory, parts, first } = this;
-        if (gop.method === KEY_FRAME) {
+        const { frames, components: columns } = gop;
+        if (gop.method === KEY_FRAMES) {
             this.startModel();
-            const levels = first.map(({ length }) => ({ rows: length / 3, values: new Int32Array(length) }));
-            this.history = { levels, moments: first.map(() => emptyMoments(9, 3)), latest: first, before: first };
+            this.history = { frames: 0, levels: [], moments: [], latest: first, before: first };
         }
-        const { history } = this;
+        let { history } = this;
         if (!history) throw new CorruptError("a frame refers to one that is not there");
         memory.release(this.behindBank);
-        const levels = this.readLevels(gop.levels, parts.map((part) => part.basis.width), 3, history.levels);
-        const field = this.emptyField(3);
-        const latest = parts.map((part, k) => {
-            const [start, now, before] = [first[k], history.latest[k], history.before[k]];
+        if (history.frames !== frames) {
+            const levels = parts.map(({ basis: { width: rows } }) => ({ rows, values: new Int32Array(rows * columns) }));
+            history = { ...history, levels, moments: first.map(() => emptyMoments(9, columns)) };
+        }
+        const { moments, latest, before } = history;
+        const levels = this.readLevels(gop.levels, parts.map((part) => part.basis.width), columns, history.levels);
+        const field = this.emptyField(columns);
+        const cosines = memory.scratch(() => temporalCosines(memory, frames).view.slice());
+        let held = 0;
+        for (let t = 0; t < frames; t++) held += cosines[t * frames];
+        const told = parts.map((part, k) => {
+            const [start, now, earlier] = [first[k], latest[k], before[k]];
             const known = new Float64Array(3 * now.length);
             now.forEach((value, i) => {
                 const at = 9 * Math.floor(i / 3) + (i % 3);
-                [known[at], known[at + 3], known[at + 6]] = [start[i], value, value - before[i]];
+                [known[at], known[at + 3], known[at + 6]] = [start[i], value, value - earlier[i]];
             });
-            const difference = this.follow(known, 9, levels[k], 3, history.moments[k], gop.step).map((change, i) => now[i] + change);
-            this.place(part, field, difference);
-            return difference;
+            const differences = this.follow(known, 9, levels[k], columns, moments[k], gop.step);
+            now.forEach((value, i) => (differences[columns * Math.floor(i / 3) + (i % 3)] += held * value));
+            this.place(part, field, differences);
+            return differences;
         });
-        this.history = { levels, moments: history.moments, latest, before: history.latest };
-        return () => field.view.slice();
+        const at = (values: Float64Array, t: number): Float64Array => overTime(values, cosines, frames, t);
+        const shown = (t: number): Float64Array[] => told.map((differences) => at(differences, t));
+        this.history = { frames, levels, moments, latest: shown(frames - 1), before: frames > 1 ? shown(frames - 2) : latest };
+        return Array.from({ length: frames }, (_, t) => () => at(field.view, t));
     }
+}
+
+/** Coordinates in frame t of rows that hold x, y and z of cosine after cosine (S 7.2). */
+function overTime(values: Float64Array, cosines: Float64Array, frames: number, t: number): Float64Array {
+    const shown = new Float64Array(values.length / frames);
+    for (let row = 0, from = 0; row < shown.length; row += 3) {
+        for (let f = 0; f < frames; f++) for (let d = 0; d < 3; d++) shown[row + d] += values[from++] * cosines[t * frames + f];
+    }
+    return shown;
 }
 
 /** 2^(-e/4): powers with fractions are not the same in all browsers. */
@@ -431,7 +454,12 @@ function shaped(memory: Memory, place: Ints, rows: number): Ints | readonly [Int
 }
 
 function emptyMoments(known: number, columns: number): Float64Array {
-    return new Float64Array((known + Math.min(columns, LEADING)) * (known + columns));
+    return new Float64Array(momentsOf(known, columns));
+}
+
+/** Entries of M (S 6.1). */
+function momentsOf(known: number, columns: number): number {
+    return (known + Math.min(columns, LEADING)) * (known + columns);
 }
 
 /** The orthonormal cosines over time, a row for each frame (S 5.1). */
@@ -448,14 +476,13 @@ function parseGop(data: Uint8Array, { gopFrames: longest, run }: Header): Gop {
     const first = cursor.take(1)[0];
     const method = first % METHODS;
     if ((first - method) / METHODS !== run % RUNS) throw new CorruptError(`a GOP of another run than run ${run}`);
-    if (method > NEXT_FRAME) throw new UnsupportedError(`GOP method ${method} is unknown to this decoder`);
+    if (method > NEXT_FRAMES) throw new UnsupportedError(`GOP method ${method} is unknown to this decoder`);
     const frames = cursor.varint();
-    const most = method === LEARNT ? longest : 1;
-    if (frames < 1 || frames > most) throw new CorruptError(`a GOP of ${frames} frames where 1 to ${most} are legal`);
+    if (frames < 1 || frames > longest) throw new CorruptError(`a GOP of ${frames} frames where 1 to ${longest} are legal`);
     const bytes = cursor.take(4);
     const step = new DataView(bytes.buffer, bytes.byteOffset, 4).getFloat32(0, true);
     if (!(step > 0 && step < Infinity)) throw new CorruptError(`a GOP with the step ${step}`);
-    const components = method === LEARNT ? cursor.varint() : 3;
+    const components = method === LEARNT ? cursor.varint() : 3 * frames;
     if (components > 3 * frames) throw new CorruptError(`${components} components for ${frames} frames`);
     const exponents: number[] = [];
     let basis = new Uint8Array(0);
