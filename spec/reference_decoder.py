@@ -1053,7 +1053,7 @@ class Mesh:
         if self.splits:
             self.split(decoder, numbers, given, copies, values)
         decoder.finish()
-        require(not (self.splits and self.header["gop_frames"]), "copies or loose vertices in a sequence")  # F 9.1
+        require(not (loose and self.header["gop_frames"]), "loose vertices in a sequence")  # F 9.1
 
     def split(self, decoder, numbers, given, copies, values):
         """F 9.2 to F 9.5."""
@@ -1665,7 +1665,7 @@ def decode_sequence(runs):
         mesh, first_frame, _, arrays = opened
         own = {name: mesh.header[name] for name in ("vertices", "faces")}
         require(own.items() <= header.items(), "another mesh than the run has that is named")  # S 9.3
-        table.append([len(frames), header["vertices"], header["faces"]])
+        table.append([len(frames), sum(map(len, mesh.numbers)), header["faces"]])
         faces.append(faces_of(mesh))
         frames += decode_frames(mesh, header, packets[GOP], first_frame, len(frames))
     packets.require(not packets.fault and header["frames"] in (0, len(frames)), "frames are missing")  # S 1.2

@@ -42,15 +42,15 @@ def loop_memory(rows: int, body: GopBody) -> float:
     return 48.0 * rows * _columns(body)
 
 
-def gop_cost(sites: tuple[Site, ...], vertices: int, body: GopBody) -> float:
-    """Work of the levels, loops and fields of a GOP, and of its frames."""
+def gop_cost(sites: tuple[Site, ...], vertices: int, given: int, body: GopBody) -> float:
+    """Work of the levels, loops and fields of a GOP, and of its frames, whose user knows so many vertices as given."""
     frames = body.frames
     fields = sum(_part_cost(site.fronts, site.width, _columns(body)) for site in sites)
     work = PART * len(sites) + fields + frames * FRAME
     for field in body.fields:
         width, columns = field.width, field.components
         basis = frames * width * columns * (10.0 + 2.0 * columns) if body.method is GopMethod.LEARNT else 0.0
-        work += basis + frames * vertices * width * (SHOWN + columns / 15.0)
+        work += basis + frames * width * (given * SHOWN + vertices * columns / 15.0)
     return work
 
 

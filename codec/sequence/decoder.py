@@ -18,7 +18,7 @@ from bsm.codec.sequence.events import Event, FrameEvent, Item
 from bsm.codec.sequence.first_frame_decoding import FirstFrame
 from bsm.codec.sequence.runs_decoding import Runs
 from bsm.codec.signal.chain import AS_SPECIFIED, Trial
-from bsm.codec.static.events import ConnectivityEvent, HeaderEvent
+from bsm.codec.static.events import ConnectivityEvent
 from bsm.codec.static.preamble_decoding import DecoderSetup
 from bsm.codec.static.rules import chain_rules
 from bsm.codec.static.stages import StreamDecoder
@@ -151,15 +151,13 @@ def decode_sequence(
         decoder.receive_eof()
         while (event := decoder.next_event()) is not END_OF_STREAM:
             match event:
-                case HeaderEvent(header):
-                    vertices = header.vertices
-                case ConnectivityEvent(received):
+                case ConnectivityEvent(received, vertices=count):
                     if frames and not np.array_equal(faces, received):
                         raise MeshError(
                             f"the faces change at frame {len(frames)}: this is no array of frames; "
                             "bsm.decode_frames gives them one by one"
                         )
-                    faces = received
+                    faces, vertices = received, count
                 case FrameEvent(_, positions):
                     frames.append(positions)
     return np.array(frames).reshape(-1, vertices, 3), faces

@@ -20,21 +20,23 @@ from bsm.bitstream.public import public
 from bsm.codec.arrays import Matrix, Order, Positions
 from bsm.codec.choices import check_mapping
 from bsm.codec.geometry.attributes import Attribute
-from bsm.codec.geometry.mesh import Metadata, TriangleMesh
+from bsm.codec.geometry.mesh import Metadata
 from bsm.codec.sequence.decoder import decode_sequence
 from bsm.codec.sequence.first_frame_encoding import Opening, open_sequence
 from bsm.codec.sequence.gop import GopEncoder, silent
 from bsm.codec.sequence.gop_encoding import Coded, Wish, attempted
+from bsm.codec.sequence.joining import JoinedRun, joined_runs
 from bsm.codec.sequence.options import SequenceOptions
 from bsm.codec.sequence.row_prediction import LARGEST_LEVEL
 from bsm.codec.sequence.runs import Cutter, Frame, Run
 from bsm.codec.sequence.runs_encoding import Meshes, OpenedMesh
 from bsm.codec.sequence.targets import SequenceComparison, compare_sequences
 from bsm.codec.sequence.watch import Watch
-from bsm.codec.static.attributes.encoding import carry, place_of_first_frame, with_attributes
+from bsm.codec.static.attributes.encoding import carry, place_of, with_attributes
 from bsm.codec.static.attributes.quality import qualities
 from bsm.codec.static.draft import Draft
 from bsm.codec.static.encoder import PROMISED_SIZES
+from bsm.codec.static.joining import JoinedMesh
 from bsm.codec.static.preamble_encoding import Parts, Prepared, prepare
 from bsm.codec.static.targets import search_step
 from bsm.codec.static.ways.block_coder import Progress
@@ -78,7 +80,8 @@ class SequenceEncoder:
     Parameters
     ----------
     faces : array_like of int, shape (m, 3)
-        Vertices that no face uses are left out.
+        Vertices that no face uses are left out, and those that are at one position in all frames made one, with notes;
+        where the options keep the order, the stream gives these back.
     options : SequenceOptions
     frames : int
         Number of frames, 0 if it is not known.
@@ -205,14 +208,13 @@ class SequenceEncoder:
         number = 0
         self.run_starts, self.samples = [], 0
         cutter = Cutter(frames, self._faces, allowed=options.runs)
-        for index, run in enumerate(cutter.runs()):
-            attributes = tuple(one for one in run.mesh.attributes if one.semantic != "normal")
-            mesh = replace(run.mesh, attributes=attributes if index else self._attributes)
+        runs = joined_runs(self._dressed(cutter), options.together, keep_order=options.keep_order, allowed=options.runs)
+        for index, run in enumerate(runs):
             if not index:
-                gops = -(-self._count // options.together(len(mesh.positions)))
+                gops = -(-self._count // options.together(len(run.joined.first)))
                 tell = _Rounds(progress if gops else None, 1 + gops)
                 yield writer.start()
-            for packet in self._run(replace(run, mesh=mesh), index, shelf, options, tell):
+            for packet in self._run(run, index, shelf, options, tell):
                 yield writer.write(packet)
             number = run.first + self._done
         if not self.run_starts:
@@ -223,25 +225,28 @@ class SequenceEncoder:
         self.notes = (*self.notes, *changes)
         yield writer.end()
 
+    def _dressed(self, cutter: Cutter) -> Iterator[Run]:
+        """Runs with the attributes that each is sent with."""
+        for run in cutter.runs():
+            attributes = tuple(one for one in run.mesh.attributes if one.semantic != "normal")
+            yield replace(run, mesh=replace(run.mesh, attributes=attributes if run.first else self._attributes))
+
     def _run(
-        self, run: Run, index: int, shelf: Meshes, options: SequenceOptions, tell: Progress
+        self, run: JoinedRun, index: int, shelf: Meshes, options: SequenceOptions, tell: Progress
     ) -> Iterator[packets.Packet]:
         """The packets of a run; `_done` grows by its frames."""
         self.run_starts.append(run.first)
         self._done = 0
-        opened = shelf.again(run.mesh)
-        if opened is None:
-            prepared = self._prepared(run.mesh, options)
-        else:
-            prepared = opened.prepared
-        self.vertex_order, self.face_order = prepared.vertex_order, prepared.face_order
-        checked = _checked(run, prepared)
+        opened = shelf.again(run)
+        prepared = self._prepared(run.joined, options) if opened is None else opened.prepared
+        self.vertex_order, self.face_order = _orders(run.joined, prepared)
+        frames = (prepared.units.into(frame[prepared.coding_order]) for frame in run.frames)
         vertices = len(prepared.positions)
         longest = options.together(vertices)
-        group = _group(checked, longest, vertices)
+        group = _group(frames, longest, vertices)
         if opened is None:
             coded = self._first_gop(group, prepared, options, tell, shelf.allowance)
-            yield from self._opened(run.mesh, index, prepared, coded.opening, options)
+            yield from self._opened(run, index, prepared, coded.opening, options)
         else:
             opening = opened.coded.opening
             fresh = Coded(opening, GopEncoder(opening.setting, replace(options, step=opened.coded.encoder.step)), ())
@@ -260,26 +265,27 @@ class SequenceEncoder:
                 opening.admit(body, self._done)
                 yield packets.Gop(run.first + self._done, write_gop_body(body, index))
                 self._done += body.frames
-                self.samples += body.frames * opening.header.vertices
+                self.samples += body.frames * len(self.vertex_order)
             del group  # before the next one is read
-            group = _group(checked, longest, vertices)
+            group = _group(frames, longest, vertices)
             if len(group):
                 coded = self._later_gop(group, self._done, prepared, options, coded, tell)
-        shelf.keep(OpenedMesh(index if opened is None else opened.run, prepared, coded), run.mesh)
+        shelf.keep(OpenedMesh(index if opened is None else opened.run, prepared, coded), run)
 
-    def _prepared(self, mesh: TriangleMesh, options: SequenceOptions) -> Prepared:
-        mesh.require_sizes(*PROMISED_SIZES)
-        return prepare(mesh, Parts(options.block_size, options.overlap), keep_order=options.keep_order)
+    def _prepared(self, joined: JoinedMesh, options: SequenceOptions) -> Prepared:
+        joined.mesh.require_sizes(*PROMISED_SIZES)
+        parts = Parts(options.block_size, options.overlap)
+        return prepare(joined.mesh, parts, keep_order=options.keep_order, splits=joined.splits)
 
     def _opened(
-        self, given: TriangleMesh, index: int, prepared: Prepared, opening: Opening, options: SequenceOptions
+        self, run: JoinedRun, index: int, prepared: Prepared, opening: Opening, options: SequenceOptions
     ) -> Iterator[packets.Packet]:
         """What comes before the GOPs of a run with a mesh of its own."""
-        wanted = qualities(given.attributes, dict(options.attributes), "balanced")
-        carried = carry(place_of_first_frame(given, prepared), wanted)
-        self.notes = tuple(dict.fromkeys((*self.notes, *(one.said for one in carried))))
+        wanted = qualities(run.given.attributes, dict(options.attributes), "balanced")
+        carried = carry(place_of(run.given, run.joined, prepared), wanted)
+        self.notes = tuple(dict.fromkeys((*self.notes, *run.joined.notes, *(one.said for one in carried))))
         body = (*prepared.before_blocks, *(block.packet for block in opening.blocks))
-        draft = Draft(replace(opening.header, run=index), body, given.positions)
+        draft = Draft(replace(opening.header, run=index), body, run.given.positions)
         draft = with_attributes(draft, carried, {} if index else self._metadata)
         yield from (draft.header, *draft.body)
 
@@ -359,17 +365,12 @@ class SequenceEncoder:
         return watch.settle(settled, first or promise.first_step, finest)
 
 
-def _checked(run: Run, prepared: Prepared) -> Iterator[Matrix]:
-    """Frames in BSM units, in the order of coding."""
-    shape = run.mesh.positions.shape
-    for number, frame in enumerate(run.frames, run.first):
-        positions = np.asarray(frame, np.float64)
-        if positions.shape != shape:
-            raise MeshError(f"frame {number} has shape {positions.shape}, the first one {shape}")
-        positions = positions[prepared.coding_order]
-        if not np.isfinite(positions).all():
-            raise MeshError(f"frame {number} has a coordinate that is not finite; remove or repair it")
-        yield prepared.units.into(positions)
+def _orders(joined: JoinedMesh, prepared: Prepared) -> tuple[Order, Order]:
+    """The given vertex and the given face that each of the decoder's is."""
+    faces = joined.kept[prepared.face_order]
+    if joined.splits is not None:
+        return np.flatnonzero(joined.index >= 0), faces
+    return joined.first[prepared.vertex_order], faces
 
 
 def _group(frames: Iterator[Matrix], longest: int, vertices: int) -> Positions:

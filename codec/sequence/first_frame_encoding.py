@@ -80,7 +80,7 @@ class Opening:
             again = dictionaries.reserve(
                 gop_memory(len(dictionaries.sites), vertices, body), loop_memory(dictionaries.largest, body)
             )
-            allowance.spend(again + gop_cost(dictionaries.sites, vertices, body), received)
+            allowance.spend(again + gop_cost(dictionaries.sites, vertices, self.setting.given, body), received)
 
 
 def _received(body: GopBody) -> int:
@@ -131,6 +131,7 @@ def open_sequence(
             scheme,
             prepared.mesh.faces,
             positions,
+            given=prepared.given,
             width=width,
             threads=options.threads,
             allowance=allowance,

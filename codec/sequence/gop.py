@@ -75,12 +75,15 @@ class Setting:
     Parameters
     ----------
     vertices : int
+    given : int
+        How many the decoder's user knows: copies of them, too.
     dictionaries : Dictionaries
     tracks : tuple of Track
         Of positions, and of each attribute that moves.
     """
 
     vertices: int
+    given: int
     dictionaries: Dictionaries
     tracks: tuple[Track, ...]
 
@@ -107,12 +110,13 @@ def make_setting(
     faces: Faces,
     first_frame: Matrix,
     *,
+    given: int,
     width: int,
     threads: int | None,
     allowance: Allowance,
     moving: Sequence[Matrix] = (),
 ) -> Setting:
-    """Make the dictionaries from the decoded first frame, shape (n, 3); see `find_sites`.
+    """Make the dictionaries from the decoded first frame, shape (n, 3); see `find_sites` and `Setting`.
 
     `moving` are the values, shapes (n, d), that attributes have in it.
     """
@@ -131,7 +135,7 @@ def make_setting(
     others = (
         Track(width, own, [np.zeros_like(part) for part in own]) for width, own in zip(widths, attributes, strict=True)
     )
-    return Setting(len(first_frame), dictionaries, (Track(3, first, first), *others))
+    return Setting(len(first_frame), given, dictionaries, (Track(3, first, first), *others))
 
 
 def level_references(matrices: list[Levels], columns: int) -> list[Levels]:
@@ -388,12 +392,12 @@ class GopDecoder:
             return np.hstack([own[k] for own in found])
 
         columns = [track.width * body.frames for track in self._tracks]
-        field, places = self.setting.field(sum(columns), decoded), np.cumsum([0, *columns[:-1]])
+        placed, places = self.setting.field(sum(columns), decoded), np.cumsum([0, *columns[:-1]])
         for levels, own, (history, _) in zip(read, found, told, strict=True):
             history.commit(levels, own)
         self._histories = histories
         batches = (
-            shown_frames(field, int(place), held_cosines(track.width, body.frames))
+            shown_frames(placed, int(place), held_cosines(track.width, body.frames))
             for track, place in zip(self._tracks, places, strict=True)
         )
         return zip(*batches, strict=True)

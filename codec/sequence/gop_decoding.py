@@ -123,6 +123,7 @@ class Gops:
                 structure.scheme,
                 structure.faces,
                 self._first_frame,
+                given=structure.numbering.size(header.vertices),
                 width=header.coefficients,
                 threads=self._request.threads,
                 allowance=structure.allowance,
@@ -136,7 +137,8 @@ class Gops:
         again = dictionaries.reserve(
             gop_memory(len(dictionaries.sites), vertices, body), loop_memory(dictionaries.largest, body)
         )
-        self._structure.allowance.spend(again + gop_cost(dictionaries.sites, vertices, body), received)
+        cost = gop_cost(dictionaries.sites, vertices, decoder.setting.given, body)
+        self._structure.allowance.spend(again + cost, received)
         return self._decoded(decoder, body)
 
     def _decoded(self, decoder: GopDecoder, body: GopBody) -> Iterator[Frame]:

@@ -60,7 +60,8 @@ class SequenceOptions:
     frame_rate : float
         Frames per second, written to the metadata as `frame_rate`; 0: unknown.
     keep_order : bool
-        Store the order of vertices and faces, and the first corner of each face.
+        Store the order of vertices and faces, the first corner of each face, and which vertices were several at one
+        position.
     attributes : mapping of str to str, or pairs
         How well attributes that are the same in all frames are kept, as of a mesh.
     limits : str

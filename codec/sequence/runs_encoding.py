@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from hashlib import sha256
 
 from bsm.bitstream.limits import NAMED_LIMITS
-from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.sequence.gop_encoding import Coded
+from bsm.codec.sequence.joining import JoinedRun
 from bsm.codec.sequence.options import SequenceOptions
 from bsm.codec.sequence.runs import Shelf
 from bsm.codec.static.preamble_encoding import Prepared
@@ -37,9 +37,9 @@ class Meshes:
         self._shelf: Shelf[OpenedMesh] = Shelf(self.allowance)
         self._known: dict[bytes, int] = {}  # the run that brought a mesh, by its faces
 
-    def again(self, mesh: TriangleMesh) -> OpenedMesh | None:
+    def again(self, begun: JoinedRun) -> OpenedMesh | None:
         """What is kept of the mesh of a run that begins; None: it is to be sent."""
-        run = self._known.get(_digest(mesh), -1)
+        run = self._known.get(_digest(begun), -1)
         opened = self._shelf.take(run) if run in self._shelf else None
         if opened is None:
             self._shelf.make_room()
@@ -49,7 +49,7 @@ class Meshes:
         allowance.show(opened.coded.opening.header.vertices)  # the first GOP does, at least
         return opened
 
-    def keep(self, opened: OpenedMesh, mesh: TriangleMesh) -> None:
+    def keep(self, opened: OpenedMesh, ended: JoinedRun) -> None:
         """Take note that a run of this mesh has ended."""
         opening = opened.coded.opening
         opening.setting.dictionaries.release()
@@ -57,12 +57,13 @@ class Meshes:
         if opened.run not in self._shelf:
             self._shelf.put(opened.run, opened)
         self._shelf.leave(opened.run)
-        self._known[_digest(mesh)] = opened.run
+        self._known[_digest(ended)] = opened.run
 
 
-def _digest(mesh: TriangleMesh) -> bytes:
-    """What meshes of the same faces and attributes have in common, and no others."""
-    found = sha256(len(mesh.positions).to_bytes(8, "little") + mesh.faces.tobytes())
+def _digest(run: JoinedRun) -> bytes:
+    """What runs of the same faces, joins and attributes have in common, and no others."""
+    mesh = run.given
+    found = sha256(len(mesh.positions).to_bytes(8, "little") + mesh.faces.tobytes() + run.joined.index.tobytes())
     for one in mesh.attributes:
         found.update(repr((one.name, one.domain, one.semantic, one.values.dtype, one.values.shape)).encode())
         found.update(one.values.tobytes())

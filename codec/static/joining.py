@@ -42,28 +42,45 @@ class JoinedMesh:
 
 
 def join(mesh: TriangleMesh, *, keep: bool, exact: bool = False) -> JoinedMesh:
-    """Make vertices at one position one.
+    """Make vertices at one position one, and see what `joined` says.
+
+    Parameters
+    ----------
+    mesh : TriangleMesh
+    keep : bool
+    exact : bool
+        Positions are kept as single precision has them, to the bit: they are rounded to it, and -0.0 is not 0.0.
+    """
+    changed = 0
+    if exact:
+        mesh, changed = _single(mesh)
+    found = joined(mesh, weld(mesh.positions, mesh.faces, bits=exact)[2], keep=keep)
+    notes = (f"{changed} coordinates were rounded to single precision",) if changed else ()
+    return replace(found, notes=(*notes, *found.notes))
+
+
+def joined(mesh: TriangleMesh, index: Indices, *, keep: bool, keep_loose: bool = True) -> JoinedMesh:
+    """Make vertices one.
 
     Faces that this robs of their area are left out, unless that would leave none, or the given mesh is to be kept.
 
     Parameters
     ----------
     mesh : TriangleMesh
+    index : int32 array, shape (n,)
+        What each vertex becomes, numbered in order of first appearance.
     keep : bool
         The stream shall give every vertex and face back.
-    exact : bool
-        Positions are kept as single precision has them, to the bit: they are rounded to it, and -0.0 is not 0.0.
+    keep_loose : bool
+        Vertices that no face uses, too.
     """
     notes = []
-    if exact:
-        mesh, changed = _single(mesh)
-        notes += [f"{changed} coordinates were rounded to single precision"] if changed else []
-    positions, faces, index = weld(mesh.positions, mesh.faces, bits=exact)
+    faces = index[mesh.faces]
     collapsed = _degenerate(faces) & ~_degenerate(mesh.faces)
     if keep or collapsed.all():
         collapsed[:] = False
     kept = np.flatnonzero(~collapsed)
-    used = np.zeros(len(positions), np.bool_)
+    used = np.zeros(int(index.max(initial=-1)) + 1, np.bool_)
     used[faces[kept]] = True
     index = np.where(used[index], (np.cumsum(used) - 1)[index], -1).astype(np.int32)
     # A vertex that no face uses is no copy of one that is used, although it is there, too.
@@ -78,18 +95,22 @@ def join(mesh: TriangleMesh, *, keep: bool, exact: bool = False) -> JoinedMesh:
         rank[order] = np.arange(len(order), dtype=np.int32)
         index[given] = rank[index[given]]
         first = first[order]
-    joined = TriangleMesh(mesh.positions[first], index[mesh.faces[kept]])
     mentioned = np.zeros(len(mesh.positions), np.bool_)
     mentioned[mesh.faces] = True
     merged, loose = int(mentioned.sum()) - len(first), len(index) - int(mentioned.sum())
-    splits = Splits(index, mesh.faces, mesh.positions[~given]) if keep and (merged or loose) else None
+    splits = None
+    if keep and keep_loose and (merged or loose):
+        splits = Splits(index, mesh.faces, mesh.positions[~given])
+    elif keep and merged:
+        splits = Splits(index[given], (np.cumsum(given) - 1)[mesh.faces].astype(np.int32), np.zeros((0, 3)))
     if merged and not keep:
         notes.append(f"{merged} vertices were merged with others at the same position")
     if collapsed.any():
         notes.append(f"{int(collapsed.sum())} faces without area were left out")
-    if loose and not keep:
+    if loose and not (keep and keep_loose):
         notes.append(f"{loose} vertices that no face uses were left out")
-    return JoinedMesh(joined, index, first, kept, splits, tuple(notes))
+    mesh = TriangleMesh(mesh.positions[first], index[mesh.faces[kept]])
+    return JoinedMesh(mesh, index, first, kept, splits, tuple(notes))
 
 
 def _single(mesh: TriangleMesh) -> tuple[TriangleMesh, int]:

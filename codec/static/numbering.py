@@ -42,9 +42,12 @@ class Numbering:
             loose = np.zeros(0, np.int32)
         else:
             loose = np.flatnonzero(self.source < 0).astype(np.int32)
-        size = coded if self.source is None else len(self.source)
         changes = Changes(loose, self.loose, np.ones(len(loose), np.bool_))
-        return ConnectivityEvent(self.faces[known:], size, changes, section, sections)
+        return ConnectivityEvent(self.faces[known:], self.size(coded), changes, section, sections)
+
+    def size(self, coded: int) -> int:
+        """How many vertices the user has, where so many are coded."""
+        return coded if self.source is None else len(self.source)
 
     def of(self, vertices: Indices) -> Indices:
         """The user's numbers, shape (c,), of coded vertices, shape (k,): of all copies of each."""

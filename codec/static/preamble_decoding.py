@@ -301,7 +301,7 @@ class PreambleStage:
         source[order.vertex_order] = np.arange(len(source), dtype=np.int32)
         if splits is None:
             return Numbering(order.faces, source, arrangement=order)
-        if header.gop_frames:
-            raise CorruptError("a sequence of frames whose vertices are copies of others, or in no face")
+        if header.gop_frames and len(splits.loose):
+            raise CorruptError("a sequence of frames with vertices in no face")
         given = np.where(splits.source < 0, -1, source[splits.source])
         return Numbering(splits.faces, given, splits.loose, order, splits=True)

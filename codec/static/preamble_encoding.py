@@ -83,6 +83,8 @@ class Prepared:
         The given vertex and face that the decoder's user will know by each number.
     coding_faces : int64 array, shape (m,)
         The given face that is coded as each face.
+    given : int
+        How many vertices the decoder's user will know.
     notes : tuple of str
         What was changed.
     joined_faces : int32 array, shape (m, 3)
@@ -103,6 +105,7 @@ class Prepared:
     vertex_order: Order
     face_order: Order
     coding_faces: Order
+    given: int
     notes: tuple[str, ...]
     joined_faces: Faces
     light: bool
@@ -288,6 +291,7 @@ def prepare(
         vertex_order=kept if keep_order else coding_order,
         face_order=np.arange(len(used.faces)) if keep_order else connectivity.face_order.astype(np.int64),
         coding_faces=connectivity.face_order.astype(np.int64),
+        given=vertices if splits is None else len(splits.source),
         notes=(f"{dropped} vertices that no face uses were left out",) if dropped else (),
         joined_faces=mesh.faces,
         light=light,

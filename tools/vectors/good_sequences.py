@@ -23,6 +23,20 @@ def _sequence(probes: str, frames: int, **options: object) -> Good:
     return Good(probes, make)
 
 
+def _parting(probes: str) -> Good:
+    """Triangles with vertices of their own, which are together; from the fourth frame on two of them drift away."""
+
+    def make() -> bytes:
+        mesh = torus(6, 5)
+        frames = [torus(6, 5, phase=0.2 * t).positions[mesh.faces].reshape(-1, 3) for t in range(6)]
+        for t in range(3, 6):
+            frames[t][30:36] += 0.1 * (t - 2)
+        faces = np.arange(len(frames[0])).reshape(-1, 3)
+        return encode_sequence(frames, faces, replace(BASE, gop=3, keep_order=True))
+
+    return Good(probes, make)
+
+
 def _runs(probes: str, *pieces: tuple[int, int], **options: object) -> Good:
     """A sequence in runs: of a torus of so many times 4 vertices, so many frames."""
 
@@ -44,5 +58,6 @@ SEQUENCES: dict[str, Good] = {
     "good-sequence-runs": _runs("faces that change and return", (8, 3), (6, 2), (8, 4), (5, 1), gop=3),
     "good-sequence-runs-low-delay": _runs("the same, frame by frame", (6, 2), (5, 3), (6, 2), low_delay=1, gop=4),
     "good-sequence-runs-many": _runs("more meshes than are kept", *((kind, 1) for kind in (*range(3, 13), 5, 12))),
+    "good-sequence-splits": _parting("ORDER with copies, until some part"),
     "good-sequence-overlap": _sequence("overlapping blocks of the first frame", 3, overlap=1.3, keep=0.5),
 }

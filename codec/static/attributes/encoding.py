@@ -71,15 +71,10 @@ class Place:
 
 def place_of(given: TriangleMesh, joined: JoinedMesh, prepared: Prepared) -> Place:
     """Where values of a mesh lie that was joined and prepared."""
-    loose = np.flatnonzero(joined.index < 0) if joined.splits is not None else np.zeros(0, np.int64)
+    held = joined.splits is not None and len(joined.splits.loose)
+    loose = np.flatnonzero(joined.index < 0) if held else np.zeros(0, np.int64)
     corners = corners_of(prepared.mesh.faces, len(prepared.mesh.positions))
     return Place(given, corners, joined.kept[prepared.coding_faces], prepared.turns, loose)
-
-
-def place_of_first_frame(given: TriangleMesh, prepared: Prepared) -> Place:
-    """Where values of a mesh lie that was prepared as it was given."""
-    corners = corners_of(prepared.mesh.faces, len(prepared.mesh.positions))
-    return Place(given, corners, prepared.coding_faces, prepared.turns, np.zeros(0, np.int64))
 
 
 @dataclass(frozen=True, eq=False)

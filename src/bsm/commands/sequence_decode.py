@@ -59,7 +59,7 @@ def decode_sequence(args: DecodeJob, console: Console, chunks: Iterator[bytes]) 
         lambda: () if args.permutation else stream.attributes,
         lambda: {} if args.permutation else stream.metadata,
     )
-    count = 0
+    count = vertices = 0
     with (
         sequence_writer(
             output,
@@ -82,6 +82,7 @@ def decode_sequence(args: DecodeJob, console: Console, chunks: Iterator[bytes]) 
             else:
                 present = stream.faces
                 write(frame, present)
+            vertices = vertices or len(frame)
             count += 1
             if expected:
                 progress(count, expected)
@@ -92,11 +93,11 @@ def decode_sequence(args: DecodeJob, console: Console, chunks: Iterator[bytes]) 
         because = " with --permutation" if args.permutation else ""
         console.note(f"{args.input}: left out: {', '.join(lost)}, which {kind} does not hold{because}")
     seconds = time.perf_counter() - begin
-    facts = {"frames": count, "vertices": header.vertices, "faces": header.faces}
+    facts = {"frames": count, "vertices": vertices, "faces": header.faces}
     if stream.run_starts:
         console.note(f"{args.input}: {said_of_runs(stream.run_starts)}")
     console.note(
-        f"{args.input} -> {output}: {count} frames of {header.vertices} vertices, {header.faces} faces, {seconds:.2f} s"
+        f"{args.input} -> {output}: {count} frames of {vertices} vertices, {header.faces} faces, {seconds:.2f} s"
     )
     sizes = {"input_bytes": size_of(args.input), "output_bytes": size_of(output)}
     return {"input": args.input, "output": output, **facts, **sizes, "seconds": seconds}

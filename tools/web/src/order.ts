@@ -31,7 +31,7 @@ export function decodeOrder(memory: Memory, data: Uint8Array, faces: Ints, heade
         const arrangement = readArrangement(memory, coder, faces, vertices);
         const whole = copies + loose > 0 ? split(memory, coder, arrangement, size, copies, positions) : permuted(arrangement);
         coder.finish();
-        if (copies + loose > 0 && gopFrames > 0) throw new CorruptError("a sequence of frames whose vertices are copies of others, or in no face");
+        if (loose > 0 && gopFrames > 0) throw new CorruptError("a sequence of frames with vertices in no face");
         return whole;
     });
 }

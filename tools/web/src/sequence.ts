@@ -96,6 +96,8 @@ export class Sequence {
         private readonly limits: Limits,
         private readonly faces: Ints,
         private readonly firstFrame: Float64Array,
+        /** How many vertices the user has. */
+        private readonly given: number,
         private readonly allowance: Allowance,
     ) {
         this.run = header;
@@ -166,7 +168,7 @@ export class Sequence {
                 (sum, { block, basis }) => sum + partCost(block.size, basis.width, gop.components) + solutionCost(block, gop.components),
                 0,
             );
-            allowance.spend(parts + shownCost(header.vertices, gop.frames, gop.components), received);
+            allowance.spend(parts + shownCost(header.vertices, this.given, gop.frames, gop.components), received);
             return gop.method === LEARNT ? this.transformed(gop) : this.following(gop);
         } catch (error) {
             allowance.show(-header.vertices * gop.frames);

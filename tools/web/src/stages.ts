@@ -328,7 +328,7 @@ export class Stages {
         this.linked.release();
         const base = this.assembled.base();
         const { memory, header, limits, structure, allowance } = this;
-        return (this.sequence = new Sequence(memory, header, begun(this.course), blocks, limits, structure.faces, base, allowance));
+        return (this.sequence = new Sequence(memory, header, begun(this.course), blocks, limits, structure.faces, base, begun(this.numbering).size, allowance));
     }
 
     /** Report frames that were lost before frame `index`. */

@@ -95,7 +95,7 @@ export function partCost(rows: number, width: number, components: number): numbe
     return PART + width * components * (LEVEL + LOOP) + rows * (width * (1 + 0.1 * components) + 20 * components);
 }
 
-/** Of showing the frames of a GOP. */
-export function shownCost(vertices: number, frames: number, components: number): number {
-    return frames * components * (30 + 6 * components) + frames * (2.5e4 + vertices * (11 + 0.2 * components));
+/** Of showing the frames of a GOP to a user of so many vertices as given. */
+export function shownCost(vertices: number, given: number, frames: number, components: number): number {
+    return frames * components * (30 + 6 * components) + frames * (2.5e4 + 11 * given + 0.2 * vertices * components);
 }

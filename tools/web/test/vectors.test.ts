@@ -62,6 +62,10 @@ test("the build of sequences decodes those without attributes to the same, and s
         const { coding, attributes, gopFrames, grid } = begin.header;
         if (grid.length > 0) assert.throws(() => take(data), { name: "UnsupportedError" }, name);
         if (gopFrames === 0 || coding === 0 || attributes > 0) continue;
+        if (name.endsWith("-splits")) {
+            assert.throws(() => take(data), { name: "UnsupportedError" }, name);
+            continue;
+        }
         assert.deepEqual(take(data), meshOfEvents(eventsOf(full, data, data.length)), name);
         sequences++;
     }
