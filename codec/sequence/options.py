@@ -92,7 +92,7 @@ class SequenceOptions:
     first_step: float | None = None
     gop: int | None = None
     keep: float = 1.0
-    block_size: int = 400
+    block_size: int = 320
     overlap: float = 1.0
     frame_rate: float = 0.0
     keep_order: bool = False
