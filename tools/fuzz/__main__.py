@@ -22,7 +22,7 @@ FUZZED = ROOT / "build" / "fuzzed"
 MEMORY_MIB = 2048
 """Of a whole process, the interpreter, the sanitizer and the corpus included."""
 _OPTIONS = "-DBSM_FUZZ=ON -DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++"
-HANG_SECONDS = 30
+HANG_SECONDS = 120
 """After which libFuzzer ends a process; the second that an execution may take is watched by the worker."""
 
 
@@ -80,6 +80,8 @@ def attack(name: str, seconds: float, corpus: Path, sources: Path) -> Outcome:
     command = [
         *(sys.executable, "-m", "tools.fuzz.worker", name, str(kept)),
         *(f"-max_total_time={max(1, round(seconds))}", f"-timeout={HANG_SECONDS}", f"-rss_limit_mb={MEMORY_MIB}"),
+        # These are by the clock, which a busy machine stretches; workers count processor time.
+        f"-report_slow_units={HANG_SECONDS}",
         *(f"-artifact_prefix={findings}/", "-print_final_stats=1", "-max_len=65535", "-verbosity=1"),
     ]
     begin = time.monotonic()
