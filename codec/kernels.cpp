@@ -53,7 +53,7 @@ struct nb::detail::type_caster<Fronts>
 
 template <>
 struct nb::detail::type_caster<PredictionRules>
-    : nb::detail::TupleCaster<PredictionRules, double, double, double, int64_t, int64_t> {};
+    : nb::detail::TupleCaster<PredictionRules, double, double, double, double, int64_t, int64_t> {};
 
 BSM_STRUCT(Wanted, ConstDoubles2, ConstInts2, ConstLongs, ConstInts, ConstInts, ConstInts, ConstDoubles2, ConstDoubles)
 BSM_STRUCT(Aim, double, double, int64_t)
@@ -170,6 +170,8 @@ NB_MODULE(_kernels, m) {
     m.def("hold", &hold, "offsets"_a, "neighbours"_a, "weights"_a, "rank"_a, "vertices"_a, "own_offsets"_a,
           "own_neighbours"_a, "inner"_a, "springs"_a, "starts"_a, "outer"_a, "stiffness"_a, Unlocked());
     m.def("pull", &pull, "starts"_a, "outer"_a, "stiffness"_a, "field"_a, "pulls"_a, Unlocked());
+    m.def("learn_around", &learn_around, "known"_a, "field"_a, "moments"_a, "step"_a, "rules"_a, "mean"_a, "row"_a,
+        Unlocked());
     m.def("follow_rows", &follow_rows, "known"_a, "levels"_a, "decoded"_a, "moments"_a, "step"_a, "rules"_a, "factor"_a,
         "row"_a, "expected"_a, Unlocked());
     m.def("search_rows", &search_rows, "known"_a, "targets"_a, "prices"_a, "weight"_a, "levels"_a, "decoded"_a,

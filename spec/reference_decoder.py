@@ -1397,6 +1397,15 @@ class Loop:
     def __init__(self, known, coded):
         self.moments = np.zeros((known + min(coded, 24), known + coded))  # S 6.1
 
+    def begin(self, known, field, step):
+        """S 6.6."""
+        if len(known):
+            z = np.concatenate([known, field], axis=1)
+            z = z - z.mean(axis=0)
+            weight = 30.0 / (30.0 * len(z) * step**2 + (z**2).sum())
+            self.moments = weight * (z[:, : len(self.moments)].T @ z)
+        return self
+
     def decode(self, known, levels, step):
         k, width = known.shape[1], self.moments.shape[1]
         result, points = np.zeros((len(known), width - k)), points_of(levels)
@@ -1422,7 +1431,7 @@ class Loop:
         for a in range(len(factor)):
             g = self.moments[a].copy()
             g[:a] = 0.0
-            g[a] += 0.005
+            g[a] += 0.0025
             g[a:] -= factor[:a, a] @ factor[:a, a:]
             factor[a] = g / math.sqrt(g[a])
         return factor
@@ -1448,6 +1457,21 @@ class Part:
         columns = min(mesh.header["coefficients"], self.block.size)
         mesh.allowance.spend(mesh.header, self.block.size, columns, False)
         self.basis = key_dictionary(mesh.header, self.laplacian, columns, self.springs)  # S 3.3
+
+    def bend(self, positions):
+        """S 3.7: the known columns here, and those at the vertices around."""
+        self.around = sorted({w for _, w, _ in self.edges})
+        own = positions[self.block.vertices]
+        centre = own.mean(axis=0)
+        radius = math.sqrt(((own - centre) ** 2).sum() / len(own) + 2.0**-24)
+        y = (positions[[*self.block.vertices, *self.around]] - centre) / radius
+        columns = np.zeros((len(positions), 19))
+        columns[:, :3] = positions
+        axes = [(a, b) for a in range(3) for b in range(a, 3)]
+        squares = [0.5 * radius * y[:, a] * y[:, b] for a, b in axes]
+        cubes = [0.3 * radius * y[:, a] * y[:, b] * y[:, c] for a, b in axes for c in range(b, 3)]
+        columns[[*self.block.vertices, *self.around], 3:] = np.stack([*squares, *cubes], axis=1)
+        return self.difference(columns), columns[self.around]
 
     def extension(self, field):
         """S 3.4."""
@@ -1494,6 +1518,7 @@ def decode_frames(mesh, header, gops, first_frame, begin):
     weight = edge_weights(mesh, first_frame)
     parts = [Part(mesh, weight, core, rank) for core in mesh.cores]
     first = [part.difference(first_frame) for part in parts]  # S 3.6
+    bends = [part.bend(first_frame) for part in parts]
     frames, history = [], None
     for index, data in gops:
         require(index == begin + len(frames), "a GOP is missing or repeated")  # S 1.2
@@ -1504,8 +1529,9 @@ def decode_frames(mesh, header, gops, first_frame, begin):
         if gop.method == 0:  # S 7.1
             basis, history = temporal_basis(gop), None
             matrices = LevelModel().decode(gop.levels, shapes, [None] * len(parts))
-            for part, matrix, known in zip(parts, matrices, first):
-                part.place(field, Loop(3, gop.columns).decode(known, matrix, gop.step))
+            for part, matrix, (known, around) in zip(parts, matrices, bends):
+                loop = Loop(19, gop.columns).begin(around, field[part.around], gop.step)
+                part.place(field, loop.decode(known, matrix, gop.step))
             wide = (field @ basis.T).reshape(len(field), 3, gop.frames)
             frames += [mesh.result(wide[:, :, t]) for t in range(gop.frames)]
             continue

@@ -69,7 +69,7 @@ int64_t hold(ConstInts offsets, ConstInts neighbours, ConstDoubles weights, Cons
     return count;
 }
 
-/* What the springs of `hold` pull each row to, where `field` has a row for every vertex of the mesh. */
+/* What the springs of `hold` pull each row to, where `field` has a row for each number in `outer`. */
 void pull(ConstInts starts, ConstInts outer, ConstDoubles stiffness, ConstDoubles2 field, Doubles2 pulls) {
     for (int64_t r = 0; r < pulls.rows; r++) {
         double *sums = pulls.data + r * pulls.columns;

@@ -71,8 +71,10 @@ class Held:
     springs : float64 array, shape (n_i,)
         Sum of the stiffnesses at each row.
     starts : int32 array, shape (n_i + 1,)
+    around : int32 array, shape (k,)
+        Vertices of the mesh that it hangs on, ascending.
     outer : int32 array
-        Vertices of the mesh that row r hangs on: `outer[starts[r]:starts[r + 1]]`.
+        Which of them row r hangs on: `around[outer[starts[r]:starts[r + 1]]]`.
     stiffness : float64 array
         Of each spring.
     """
@@ -80,13 +82,17 @@ class Held:
     laplacian: Laplacian
     springs: Matrix
     starts: Indices
+    around: Indices
     outer: Indices
     stiffness: Matrix
 
-    def pulls(self, field: Matrix) -> Matrix:
-        """Sum of stiffness times what a field, shape (n, m), is at the other end, for each row: shape (n_i, m)."""
-        pulls = np.empty((len(self.springs), field.shape[1]))
-        _kernels.pull(self.starts, self.outer, self.stiffness, np.ascontiguousarray(field), pulls)
+    def pulls(self, ends: Matrix) -> Matrix:
+        """Sum of stiffness times what a field is at the other end, for each row: shape (n_i, m).
+
+        `ends`, shape (k, m), is the field `around`.
+        """
+        pulls = np.empty((len(self.springs), ends.shape[1]))
+        _kernels.pull(self.starts, self.outer, self.stiffness, np.ascontiguousarray(ends), pulls)
         return pulls
 
 
@@ -124,4 +130,6 @@ def hold(graph: Graph, weights: Matrix, rank: Indices, block: Block) -> Held:
         outer,
         stiffness,
     )
-    return Held(weighted_laplacian(block, inner), springs, starts, outer[:count].copy(), stiffness[:count].copy())
+    around, ends = np.unique(outer[:count], return_inverse=True)
+    laplacian = weighted_laplacian(block, inner)
+    return Held(laplacian, springs, starts, around, ends.astype(np.int32), stiffness[:count].copy())

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from bsm.bitstream.container.gop import GopBody, GopMethod
 from bsm.codec.basis.cost import solve_cost
-from bsm.codec.basis.solver.fronts import Fronts
 from bsm.codec.sequence.dictionaries import Site
 from bsm.codec.sequence.row_prediction import LEADING
 from bsm.codec.sequence.shown import BATCH
@@ -14,8 +13,8 @@ FRAME, SHOWN = 2.5e4, 11.0 / 3.0
 """Of a frame, and of a number of a vertex in it."""
 PART = 6e4
 """Of a part in a GOP, whatever its size."""
-LOOP = 40.0
-"""Of a column in a row of a closed loop."""
+LOOP, AROUND = 66.0, 10.0
+"""Of a column in a row of a closed loop, and of a vertex around that it begins with."""
 
 
 def gop_memory(parts: int, vertices: int, body: GopBody) -> float:
@@ -45,7 +44,7 @@ def loop_memory(rows: int, body: GopBody) -> float:
 def gop_cost(sites: tuple[Site, ...], vertices: int, given: int, body: GopBody) -> float:
     """Work of the levels, loops and fields of a GOP, and of its frames, whose user knows so many vertices as given."""
     frames = body.frames
-    fields = sum(_part_cost(site.fronts, site.width, _columns(body)) for site in sites)
+    fields = sum(_part_cost(site, _columns(body)) for site in sites)
     work = PART * len(sites) + fields + frames * FRAME
     for field in body.fields:
         width, columns = field.width, field.components
@@ -61,7 +60,7 @@ def _columns(body: GopBody) -> int:
     return sum(field.width * body.frames for field in body.fields)
 
 
-def _part_cost(fronts: Fronts, width: int, columns: int) -> float:
-    rows = len(fronts.rows)
-    loop = float(width * columns) * (LEVEL + LOOP)
-    return loop + solve_cost(fronts, columns) + rows * (width * (1.0 + 0.1 * columns) + 20.0 * columns)
+def _part_cost(site: Site, columns: int) -> float:
+    rows, width = len(site.vertices), site.width
+    loop = columns * (width * (LEVEL + LOOP) + len(site.around) * AROUND)
+    return loop + solve_cost(site.fronts, columns) + rows * (width * (1.0 + 0.1 * columns) + 20.0 * columns)

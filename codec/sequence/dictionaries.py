@@ -13,6 +13,7 @@ keeps those for which there is room, and makes the others again whenever it need
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import TypeVar
 
@@ -33,7 +34,7 @@ from bsm.codec.threads import ordered_map
 
 TETHER = 2.0**-16
 """Stiffness with which every row hangs on the mean of the pulls; it places what no spring reaches."""
-SITE_MEMORY, ROW_MEMORY = 6000.0, 224.0
+SITE_MEMORY, ROW_MEMORY = 6000.0, 352.0
 """Bytes of what is known of a part besides its factor, whatever its size and for each row."""
 UNCODED = 8e4
 """Nanoseconds by which a part is cheaper than a block that is decoded, before it has its dictionary."""
@@ -81,13 +82,14 @@ class Site:
         """Bytes for making its dictionary, that itself included."""
         return block_memory(self.held.laplacian, self.width)
 
-    def extend(self, field: Matrix) -> Matrix:
-        """Rows, shape (n_i, m), that continue what a field, shape (n, m), holds before this part."""
-        return continued(self.factor, self.held.springs, self.held.pulls(field))
+    @property
+    def around(self) -> Indices:
+        """Vertices of the mesh, shape (k_i,), of parts before, with edges to this one."""
+        return self.held.around
 
-    def settle(self, field: Matrix) -> None:
-        """Add the extension to what a field, shape (n, m), holds here."""
-        field[self.vertices] += self.extend(field)
+    def extend(self, ends: Matrix) -> Matrix:
+        """Rows, shape (n_i, m), that continue a field, of which `ends`, shape (k_i, m), is what it is around."""
+        return continued(self.factor, self.held.springs, self.held.pulls(ends))
 
     def steps(self, rules: ChainRules) -> Steps:
         """Its dictionary, that of a key block, with the price of each step."""
@@ -113,18 +115,17 @@ class Part:
         """Vertex of the mesh behind each row, shape (n_i,)."""
         return self.site.vertices
 
+    def coefficients(self, values: Matrix, ends: Matrix) -> Matrix:
+        """Coefficients, shape (c_i, m), of values here, shape (n_i, m), less what those around, (k_i, m), tell."""
+        return project(self.basis, values - self.site.extend(ends), self.basis.shape[1])
+
     def difference(self, wanted: Matrix, field: Matrix) -> Matrix:
         """Coefficients, shape (c_i, m), of what a field is wanted to be here less what the parts before let expect."""
-        return project(self.basis, wanted[self.vertices] - self.site.extend(field), self.basis.shape[1])
-
-    def lay(self, field: Matrix, difference: Matrix) -> None:
-        """Let a field be its difference from the extension here, shape (c_i, m), which `Site.settle` completes."""
-        field[self.vertices] = reconstruct(self.basis, difference)
+        return self.coefficients(wanted[self.vertices], field[self.site.around])
 
     def place(self, field: Matrix, difference: Matrix) -> None:
         """Fill this part of a field from its difference to the extension, shape (c_i, m)."""
-        self.lay(field, difference)
-        self.site.settle(field)
+        field[self.vertices] = reconstruct(self.basis, difference) + self.site.extend(field[self.site.around])
 
 
 class Dictionaries:
@@ -229,15 +230,30 @@ class Dictionaries:
         threads = 1 if all(self._parts) else self._threads
         return ordered_map(lambda index: self._used(index, use), range(len(self.sites)), threads)
 
+    def in_order(self) -> Iterator[Part]:
+        """One part after the other, each there until the next is asked for."""
+        if self._kept == len(self.sites):  # others would pile up, and nobody count them
+            yield from self.each(lambda _, part: part)
+            return
+        for index in range(len(self.sites)):
+            with self._lent(index) as part:
+                yield part
+
     def _used(self, index: int, use: Callable[[int, Part], Result]) -> Result:
+        with self._lent(index) as part:
+            return use(index, part)
+
+    @contextmanager
+    def _lent(self, index: int) -> Iterator[Part]:
         part = self._parts[index]
         if part is not None:
-            return use(index, part)
+            yield part
+            return
         with self._allowance.hold(self.sites[index].making + self._use):
             part = self._furnished(index)
             if index < self._kept:
                 self._parts[index] = part
-            return use(index, part)
+            yield part
 
     def _furnished(self, index: int) -> Part:
         """A part with its dictionary, whose work is spent when it is made first, and otherwise by who has reserved."""

@@ -19,6 +19,7 @@ from bsm.bitstream.container.gop import MAX_EXPONENT, GopBody, GopField, GopMeth
 from bsm.bitstream.entropy.range_coder import Bank, copy_bank
 from bsm.bitstream.errors import CorruptError
 from bsm.codec.arrays import Faces, Levels, Matrix
+from bsm.codec.sequence.bending import BENDING_COLUMNS, Bending
 from bsm.codec.sequence.dictionaries import Dictionaries, Part, Site, find_sites
 from bsm.codec.sequence.level_writer import ROUNDS, WEIGHT, LevelWriter
 from bsm.codec.sequence.row_prediction import (
@@ -59,12 +60,18 @@ class Track:
         Numbers d of a vertex.
     first : list of float64 arrays, shapes (c_i, d)
         The decoded first frame, each part as its difference from what the parts before let expect.
+    known : list of float64 arrays, shapes (c_i, k)
+        What predicts components of the field: differences of the first frame, and of what bends positions.
+    around : list of float64 arrays, shapes (k_i, k)
+        The same columns where a part hangs on those before.
     start : list of float64 arrays, shapes (c_i, d)
         What a key frame is added to: of positions the first frame, of attributes nothing.
     """
 
     width: int
     first: list[Matrix]
+    known: list[Matrix]
+    around: list[Matrix]
     start: list[Matrix]
 
 
@@ -96,12 +103,14 @@ class Setting:
         """Levels of all parts, each of shape (c_i, columns), to be read."""
         return [np.zeros((site.width, columns), np.int32) for site in self.sites]
 
-    def field(self, columns: int, decoded: Callable[[int], Matrix]) -> Matrix:
-        """The field, shape (n, m), of the differences that `decoded` gives of each part, shape (c_i, m)."""
+    def field(self, columns: int, decoded: Callable[[int, Matrix], Matrix]) -> Matrix:
+        """The field, shape (n, m), of differences of each part, shape (c_i, m).
+
+        `decoded` gives them for the number of a part and what the field is around it, shape (k_i, m).
+        """
         field = np.zeros((self.vertices, columns))
-        laid = self.dictionaries.each(lambda index, part: part.lay(field, decoded(index)))
-        for site, _ in zip(self.sites, laid, strict=True):
-            site.settle(field)
+        for index, part in enumerate(self.dictionaries.in_order()):
+            part.place(field, decoded(index, field[part.site.around]))
         return field
 
 
@@ -125,17 +134,25 @@ def make_setting(
     dictionaries.reserve()
     widths = [values.shape[1] for values in moving]
     allowance.keep(TRACK_MEMORY * len(first_frame) * sum(widths))
-    known = np.hstack([first_frame, *moving])
-    differences = list(dictionaries.each(lambda _, part: part.difference(known, known)))
-    ends = np.cumsum([3, *widths])[:-1]
-    first, *attributes = (
-        [np.ascontiguousarray(part) for part in parts]
-        for parts in zip(*(np.split(part, ends, axis=1) for part in differences), strict=True)
-    )
-    others = (
-        Track(width, own, [np.zeros_like(part) for part in own]) for width, own in zip(widths, attributes, strict=True)
-    )
-    return Setting(len(first_frame), given, dictionaries, (Track(3, first, first), *others))
+    columns = [BENDING_COLUMNS, *widths]
+    allowance.keep(8.0 * sum(columns) * sum(len(site.around) for site in sites))
+
+    def known(_: int, part: Part) -> tuple[list[Matrix], list[Matrix]]:
+        bending = Bending.of(first_frame[part.vertices])
+        here, around = (
+            np.hstack([bending.columns(first_frame[vertices]), *(values[vertices] for values in moving)])
+            for vertices in (part.vertices, part.site.around)
+        )
+        return _split(part.coefficients(here, around), columns), _split(around, columns)
+
+    pairs = list(dictionaries.each(known))
+    tracks = []
+    for track, width in enumerate((3, *widths)):
+        known_of, around_of = ([np.ascontiguousarray(one[track]) for one in each] for each in zip(*pairs, strict=True))
+        first = [np.ascontiguousarray(part[:, :width]) for part in known_of]
+        start = [np.zeros_like(part) for part in first] if track else first
+        tracks.append(Track(width, first, known_of, around_of, start))
+    return Setting(len(first_frame), given, dictionaries, tuple(tracks))
 
 
 def level_references(matrices: list[Levels], columns: int) -> list[Levels]:
@@ -322,9 +339,10 @@ class GopEncoder:
         wanted = motion @ projection(basis)
         field = np.zeros_like(wanted)
         writer = LevelWriter(make_level_bank(), body.components, self.rounds)
-        for part, first in zip(self._parts, self._track.first, strict=True):
+        for part, known, around in zip(self._parts, self._track.known, self._track.around, strict=True):
             target = part.difference(wanted, field)
-            part.place(field, writer.write(Loop(body.width, body.components), first, target, self._step))
+            loop = Loop(known.shape[1], body.components).begin(around, field[part.site.around], self._step)
+            part.place(field, writer.write(loop, known, target, self._step))
             progress(len(writer.levels), len(self._parts))
         left = np.vdot(motion, motion) - _energy(wanted, basis)  # of the fit, which `wanted - field` is orthogonal to
         error = float(left + _energy(wanted - field, basis)) / self._step**2
@@ -384,7 +402,7 @@ class GopDecoder:
             read.append(levels)
         found: list[list[Matrix]] = [[np.empty(0)] * len(self.setting.sites) for _ in told]
 
-        def decoded(k: int) -> Matrix:
+        def decoded(k: int, _: Matrix) -> Matrix:
             for own, levels, (history, field) in zip(found, read, told, strict=True):
                 own[k] = history.base(k)
                 if field.components:
@@ -413,15 +431,18 @@ class GopDecoder:
                 decode_levels(make_level_bank(), field.levels, levels, references)
             read.append(levels)
 
-        def decoded(k: int) -> Matrix:
-            return np.hstack(
-                [
-                    Loop(field.width, field.components).decode(track.first[k], levels[k], field.step)
-                    for track, field, levels in zip(self._tracks, body.fields, read, strict=True)
-                ]
-            )
-
         widths = [field.components for field in body.fields]
+
+        def decoded(k: int, around: Matrix) -> Matrix:
+            told = zip(self._tracks, body.fields, read, _split(around, widths), strict=True)
+            loops = (
+                Loop(track.known[k].shape[1], field.components)
+                .begin(track.around[k], ends, field.step)
+                .decode(track.known[k], levels[k], field.step)
+                for track, field, levels, ends in told
+            )
+            return np.hstack(list(loops))
+
         components, places = setting.field(sum(widths), decoded), np.cumsum([0, *widths[:-1]])
         batches = (
             shown_frames(components, int(first), basis.reshape(own.width, body.frames, own.components))
@@ -439,6 +460,11 @@ def held_cosines(width: int, frames: int) -> Matrix:
 def _nothing(field: GopField, body: GopBody) -> Matrix:
     """The basis of a field of which nothing is told."""
     return np.empty((field.width * body.frames, 0))
+
+
+def _split(matrix: Matrix, widths: Sequence[int]) -> list[Matrix]:
+    """A matrix of all fields' columns as those of each."""
+    return np.split(matrix, np.cumsum(widths)[:-1], axis=1)
 
 
 def _energy(field: Matrix, basis: Matrix) -> float:

@@ -5,7 +5,7 @@
 
 /* The constants of row_prediction.py. */
 typedef struct {
-    double forgetting, ridge, noise;
+    double forgetting, ridge, noise, around;
     int64_t dense_rows, renewal;
 } PredictionRules;
 
@@ -54,6 +54,8 @@ INLINE void learn_row(Doubles2 moments, PredictionRules rules, double step, int6
     }
 }
 
+void learn_around(ConstDoubles2 known, ConstDoubles2 field, Doubles2 moments, double step, PredictionRules rules,
+    Doubles mean, Doubles row);
 void follow_rows(ConstDoubles2 known, ConstInts2 levels, Doubles2 decoded, Doubles2 moments, double step,
     PredictionRules rules, Doubles2 factor, Doubles row, Doubles expected);
 

@@ -6,8 +6,9 @@ frequencies; in time by a temporal basis B of r columns (components), learnt fro
 small matrix per block, one row per spatial frequency, one column per component.
 
 The columns of such a row are predicted from what the decoder knows: the same row of the first frame, whose shape
-moves with every rigid motion of the block, and the columns before. The weights of this prediction are those that would
-have predicted the rows before best, so that none are sent.
+moves with every rigid motion of the block, and of what bends it (see `codec.sequence.bending`), and the columns before.
+The weights of this prediction are those that would have predicted best the rows before, and what is around the block,
+so that none are sent.
 """
 
 from __future__ import annotations
@@ -27,15 +28,17 @@ LEADING = 24
 """Columns of a row that help to predict the columns behind them."""
 FORGETTING = 0.985
 """How much the past counts, per row, in the weights of the prediction."""
-RIDGE = 0.005
-"""Regularisation of the weights; half or twice of it costs 0.1 and 0.8 % (tools.constants)."""
+RIDGE = 0.0025
+"""Regularisation of the weights."""
 NOISE = 30.0
 """Energy in squared steps that is added to that of a row before the row is weighed by the inverse of it;
 half costs 0.3 %, twice saves 0.1 % (tools.constants)."""
+AROUND = 30.0
+"""As many rows the vertices around a block count for, together, before its first row."""
 DENSE_ROWS = 16
 """First rows of a block, each with weights of its own; behind them the weights are renewed every `RENEWAL` rows."""
 RENEWAL = 8
-RULES = (FORGETTING, RIDGE, NOISE, DENSE_ROWS, RENEWAL)
+RULES = (FORGETTING, RIDGE, NOISE, AROUND, DENSE_ROWS, RENEWAL)
 LARGEST_LEVEL = (1 << 23) - 1
 OCTAVE = 4
 """Exponents of the steps of a basis are in units of 1 / OCTAVE octaves."""
@@ -101,6 +104,22 @@ class Loop:
     def __init__(self, known: int, targets: int, leading: int = LEADING) -> None:
         self._known = known
         self._moments = np.zeros((known + min(targets, leading), known + targets))
+
+    def begin(self, known: Matrix, field: Matrix, step: float) -> Loop:
+        """Learn, before the first row, from vertices around: what is known there, shape (m, k), and a field, (m, r)."""
+        if known.shape != (len(field), self._known) or field.shape[1] != self._moments.shape[1] - self._known:
+            raise ValueError(f"{known.shape} known and {field.shape} columns, of {self._moments.shape[1]}")
+        width = self._moments.shape[1]
+        _kernels.learn_around(
+            np.ascontiguousarray(known),
+            np.ascontiguousarray(field),
+            self._moments,
+            step,
+            RULES,
+            np.empty(width),
+            np.empty(width),
+        )
+        return self
 
     def search(
         self, known: Matrix, targets: Matrix, step: float, prices: Prices, weight: float

@@ -72,7 +72,7 @@ const KERNELS = [
     "cholesky_onorm", "householder", "reconstruct", "look_around", "block_normals", "smooth_all",
     "find_rings", "filter_rows", "link_corners", "order_vertices", "keep_borders", "code_grid", "code_floats", "code_light", "place_values", "code_levels",
     "local_frames", "add_heights", "add_slides", "tangent_steps", "code_matrix", "project", "code_edges", "join_corners",
-    "expect_normals", "code_scalars", "code_texcoords", "code_normals", "code_faces", "cotangents", "hold", "pull", "follow_rows",
+    "expect_normals", "code_scalars", "code_texcoords", "code_normals", "code_faces", "cotangents", "hold", "pull", "learn_around", "follow_rows",
 ];
 
 const TARGET = "--target=wasm32";
@@ -89,7 +89,7 @@ const LINK = [
 const LEAN = /connectivity|attributes|fields|codec\/blocks|fronts\.c|geometry/;
 
 /** Kernels of sequences, and of split vertices. */
-const FRAMES = ["code_matrix", "project", "cotangents", "hold", "pull", "follow_rows"];
+const FRAMES = ["code_matrix", "project", "cotangents", "hold", "pull", "learn_around", "follow_rows"];
 /** Kernels of attributes. */
 const ATTRIBUTES = ["code_edges", "join_corners", "expect_normals", "code_scalars", "code_texcoords", "code_normals", "code_faces"];
 /** Kernels of light grids. */

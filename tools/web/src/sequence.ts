@@ -32,8 +32,15 @@ const SPAN = unsignedSpan(14) + 4;
 const QUARTERS = [1, 0.8408964152537145, 0.7071067811865476, 0.5946035575013605];
 const SLOTS = (5 * 12 * 12 + 12 * 40) * SPAN;
 const LEADING = 24;
-/** Forgetting, ridge, noise, dense rows, renewal (S 6). */
-const RULES = [0.985, 0.005, 30, 16n, 8n] as const;
+/** Forgetting, ridge, noise, what is around, dense rows, renewal (S 6). */
+const RULES = [0.985, 0.0025, 30, 30, 16n, 8n] as const;
+const SQUARES = 0.5;
+const CUBES = 0.3;
+const SMALLEST_RADIUS = 2 ** -24;
+/** Axes of the squares and cubes of positions, in their order (S 3.7). */
+const PRODUCTS = [2, 3].flatMap((degree) => risingAxes(degree).map((axes) => ({ factor: degree === 2 ? SQUARES : CUBES, axes })));
+/** Columns of bends. */
+const BENDS = 3 + PRODUCTS.length;
 
 /** The data of a GOP (S 2). */
 interface Gop {
@@ -58,10 +65,18 @@ interface Part {
     springs: Float64Array;
     total: number;
     starts: Ints;
+    /** Vertices that it hangs on, ascending, and which of them each spring goes to. */
+    around: Int32Array;
     outer: Ints;
     stiffness: Doubles;
     factor: Factor;
     basis: Doubles;
+}
+
+/** What bends a part (S 3.7): differences, and values around it, of `BENDS` columns. */
+interface Bends {
+    known: Float64Array;
+    around: Float64Array;
 }
 
 /** What low-delay frames refer to, part by part, and how many came last (S 7.2). */
@@ -78,6 +93,7 @@ export class Sequence {
     /** Made when a GOP is there, whose frames pay for them (S 8.3). */
     private parts: Part[] = [];
     private first: Float64Array[] = [];
+    private bends: Bends[] = [];
     private behindFirst = 0;
     private behindParts = 0;
     private failure?: unknown;
@@ -134,7 +150,8 @@ export class Sequence {
             const rank = memory.ints(blocks.graph.size);
             for (let index = 0; index < blocks.count; index++) for (const vertex of core(blocks, index).view) rank.view[vertex] = index;
             const parts = Array.from({ length: blocks.count }, (_, index) => this.makePart(index, weights, rank, allowance));
-            this.first = parts.map((part) => this.difference(part, frame));
+            this.bends = parts.map((part) => this.bendsOf(part));
+            this.first = this.bends.map(({ known }) => known.filter((_, i) => i % BENDS < 3));
             this.parts = parts;
             this.behindParts = memory.mark();
         } catch (error) {
@@ -165,7 +182,7 @@ export class Sequence {
         try {
             this.begin();
             const parts = this.parts.reduce(
-                (sum, { block, basis }) => sum + partCost(block.size, basis.width, gop.components) + solutionCost(block, gop.components),
+                (sum, { block, around, basis }) => sum + partCost(block.size, around.length, basis.width, gop.components) + solutionCost(block, gop.components),
                 0,
             );
             allowance.spend(parts + shownCost(header.vertices, this.given, gop.frames, gop.components), received);
@@ -203,6 +220,10 @@ export class Sequence {
         memory.run(
             "hold", graph.offsets, graph.neighbours, weights, rank, vertices, offsets, neighbours, inner, held, starts, outer, stiffness,
         );
+        const ends = outer.view.subarray(0, starts.view[size]);
+        const around = Int32Array.from(new Set(ends)).sort();
+        const places = new Map(Array.from(around, (vertex, place) => [vertex, place]));
+        ends.forEach((vertex, i) => (ends[i] = places.get(vertex)!));
         const block = { ...binary, weights: inner };
         const springs = held.view.slice();
         const columns = Math.min(header.coefficients, size);
@@ -211,18 +232,38 @@ export class Sequence {
         const factor = factorize(memory, block, springs.map((spring) => spring + TETHER));
         const total = springs.reduce((sum, spring) => sum + spring, 0);
         const basis = memory.keep(() => keyDictionary(memory, header, block, springs, columns, allowance));
-        return { block, springs, total, starts, outer, stiffness, factor, basis };
+        return { block, springs, total, starts, around, outer, stiffness, factor, basis };
     }
 
-    /** P: rows that continue a field (S 3.4). */
-    private extend(part: Part, field: Doubles): Float64Array {
+    /** What bends a part (S 3.7). */
+    private bendsOf(part: Part): Bends {
+        const { firstFrame } = this;
+        const vertices = part.block.vertices.view;
+        const centre = [0, 1, 2].map((axis) => vertices.reduce((sum, vertex) => sum + firstFrame[3 * vertex + axis], 0) / vertices.length);
+        const far = vertices.reduce((sum, vertex) => sum + centre.reduce((squares, middle, axis) => squares + (firstFrame[3 * vertex + axis] - middle) ** 2, 0), 0);
+        const radius = Math.sqrt(far / vertices.length + SMALLEST_RADIUS);
+        const columns = (of: Int32Array): Float64Array => {
+            const rows = new Float64Array(of.length * BENDS);
+            of.forEach((vertex, row) => {
+                const place = [0, 1, 2].map((axis) => firstFrame[3 * vertex + axis]);
+                const own = place.map((value, axis) => (value - centre[axis]) / radius);
+                rows.set(place, row * BENDS);
+                rows.set(PRODUCTS.map(({ factor, axes }) => axes.reduce((product, axis) => product * own[axis], factor * radius)), row * BENDS + 3);
+            });
+            return rows;
+        };
+        const around = columns(part.around);
+        return { known: this.coefficients(part, columns(vertices), around, BENDS), around };
+    }
+
+    /** P: rows that continue a field of `width` columns, of which `ends` is what it is around (S 3.4). */
+    private extend(part: Part, ends: Float64Array, width: number): Float64Array {
         const { memory } = this;
         const { block, springs, total } = part;
-        const width = field.width;
         if (total === 0) return new Float64Array(block.size * width);
         return memory.scratch(() => {
             const pulls = memory.doubles(block.size * width, width);
-            memory.run("pull", part.starts, part.outer, part.stiffness, field, pulls);
+            memory.run("pull", part.starts, part.outer, part.stiffness, memory.copy(ends, width), pulls);
             const { view } = pulls;
             const mean = new Float64Array(width);
             const eachEntry = (work: (i: number, row: number, column: number) => void): void => {
@@ -236,15 +277,10 @@ export class Sequence {
         });
     }
 
-    /** D of a field that is known (S 3.5). */
-    private difference(part: Part, field: Doubles): Float64Array {
+    /** D of a field that is known here, in `rows`, and around (S 3.5). */
+    private coefficients(part: Part, rows: Float64Array, ends: Float64Array, width: number): Float64Array {
         const { memory } = this;
-        const width = field.width;
-        const rest = this.extend(part, field);
-        const values = field.view;
-        part.block.vertices.view.forEach((vertex, row) => {
-            for (let i = 0; i < width; i++) rest[row * width + i] = values[vertex * width + i] - rest[row * width + i];
-        });
+        const rest = this.extend(part, ends, width).map((value, i) => rows[i] - value);
         return memory.scratch(() => {
             const coefficients = memory.doubles(part.basis.width * width, width);
             memory.run("project", part.basis, memory.copy(rest, width), coefficients);
@@ -252,10 +288,18 @@ export class Sequence {
         });
     }
 
+    /** What a field is at the vertices around a part. */
+    private endsOf(part: Part, field: Doubles): Float64Array {
+        const { width, view } = field;
+        const ends = new Float64Array(part.around.length * width);
+        part.around.forEach((vertex, i) => ends.set(view.subarray(vertex * width, (vertex + 1) * width), i * width));
+        return ends;
+    }
+
     /** Fill a part of a field (S 3.5). */
-    private place(part: Part, field: Doubles, difference: Float64Array): void {
+    private place(part: Part, field: Doubles, ends: Float64Array, difference: Float64Array): void {
         const width = field.width;
-        const rows = this.extend(part, field);
+        const rows = this.extend(part, ends, width);
         const own = reconstruct(this.memory, part.basis, difference, width);
         const [values, vertices] = [field.view, part.block.vertices.view];
         for (let row = 0, i = 0; row < vertices.length; row++) {
@@ -330,6 +374,19 @@ export class Sequence {
         });
     }
 
+    /** What a loop begins with (S 6.6). */
+    private learntAround(known: Float64Array, field: Float64Array, columns: number, step: number): Float64Array {
+        const { memory } = this;
+        const width = BENDS + columns;
+        return memory.scratch(() => {
+            const moments = memory.copy(emptyMoments(BENDS, columns), width);
+            memory.run(
+                "learn_around", memory.copy(known, BENDS), memory.copy(field, columns), moments, step, RULES, memory.doubles(width), memory.doubles(width),
+            );
+            return moments.view.slice();
+        });
+    }
+
     private emptyField(columns: number): Doubles {
         const field = this.memory.doubles(this.header.vertices * columns, columns);
         field.view.fill(0);
@@ -338,7 +395,7 @@ export class Sequence {
 
     /** Frames of method 0 (S 7.1). */
     private transformed(gop: Gop): (() => Float64Array)[] {
-        const { parts, first } = this;
+        const { parts, bends } = this;
         const columns = gop.components;
         this.history = undefined;
         this.startModel();
@@ -348,8 +405,10 @@ export class Sequence {
         if (columns === 0) return Array.from({ length: gop.frames }, () => () => new Float64Array(3 * this.header.vertices));
         const field = this.emptyField(columns);
         parts.forEach((part, k) => {
-            const moments = emptyMoments(3, columns);
-            this.place(part, field, this.follow(first[k], 3, levels[k], columns, moments, gop.step));
+            const { known, around } = bends[k];
+            const ends = this.endsOf(part, field);
+            const moments = this.learntAround(around, ends, columns, gop.step);
+            this.place(part, field, ends, this.follow(known, BENDS, levels[k], columns, moments, gop.step));
         });
         return Array.from({ length: gop.frames }, (_, t) => () => this.frameOf(field, basis, gop.frames, t));
     }
@@ -417,7 +476,7 @@ export class Sequence {
             });
             const differences = this.follow(known, 9, levels[k], columns, moments[k], gop.step);
             now.forEach((value, i) => (differences[columns * Math.floor(i / 3) + (i % 3)] += held * value));
-            this.place(part, field, differences);
+            this.place(part, field, this.endsOf(part, field), differences);
             return differences;
         });
         const at = (values: Float64Array, t: number): Float64Array => overTime(values, cosines, frames, t);
@@ -462,6 +521,12 @@ function emptyMoments(known: number, columns: number): Float64Array {
 /** Entries of M (S 6.1). */
 function momentsOf(known: number, columns: number): number {
     return (known + Math.min(columns, LEADING)) * (known + columns);
+}
+
+/** As many axes in a row as the degree says, none below the one before. */
+function risingAxes(degree: number): number[][] {
+    if (degree === 0) return [[]];
+    return risingAxes(degree - 1).flatMap((axes) => [0, 1, 2].filter((axis) => axis >= (axes.at(-1) ?? 0)).map((axis) => [...axes, axis]));
 }
 
 /** The orthonormal cosines over time, a row for each frame (S 5.1). */
