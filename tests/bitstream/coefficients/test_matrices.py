@@ -132,6 +132,7 @@ BODIES = [
     GopBody(GopMethod.LEARNT, 4, (GopField(3, 0.5, 0, NONE, b"", b""),)),
     GopBody(GopMethod.KEY_FRAME, 1, (GopField(3, 2.0**-20, 3, NONE, b"", b"x"),)),
     GopBody(GopMethod.NEXT_FRAME, 1, (GopField(3, 1.0, 3, NONE, b"", b""),)),
+    GopBody(GopMethod.KEY_FRAME, 4, (GopField(3, 1.0, 12, NONE, b"", b"x"), GopField(2, 1.0, 8, NONE, b"", b"y"))),
     GopBody(GopMethod.LEARNT, 4, (MOVING, HEAT, still(2))),
     GopBody(
         GopMethod.NEXT_FRAME, 1, (GopField(3, 1.0, 3, NONE, b"", b"z"), still(4), GopField(2, 1, 2, NONE, b"", b"y"))
@@ -162,7 +163,7 @@ def test_known_bytes_of_a_body():
         (b"\x03\x01\x00\x00\x80\x3f\x03", UnsupportedError),
         (b"\x00\x00\x00\x00\x80\x3f\x00\x00", CorruptError),  # no frames
         (b"\x00\x05\x00\x00\x80\x3f\x00\x00", CorruptError),  # more than the header allows
-        (b"\x01\x02\x00\x00\x80\x3f", CorruptError),  # two frames where there is one
+        (b"\x01\x05\x00\x00\x80\x3f", CorruptError),  # the same without a basis
         (b"\x00\x01\x00\x00\x80\xbf\x00\x00", CorruptError),  # negative step
         (b"\x00\x01\x00\x00\xc0\x7f\x00\x00", CorruptError),  # step not a number
         (b"\x00\x01\x00\x00\x80\x7f\x00\x00", CorruptError),  # infinite step
