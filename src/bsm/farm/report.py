@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import errno
-import hashlib
 import json
 import math
 import tempfile
@@ -186,7 +185,9 @@ def _compared(work: Work, task: Task, console: Console) -> Facts:
 
 def digest_of(path: str) -> str | None:
     """SHA-256 of an output; of a folder, of all files in it; None: it is not there."""
-    found = hashlib.sha256()
+    from hashlib import sha256
+
+    found = sha256()
     try:
         for file in files_behind(path):
             for chunk in read_chunks(file):

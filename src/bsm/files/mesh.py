@@ -8,27 +8,19 @@ they are read: what claims more than it holds is refused before anything is allo
 from __future__ import annotations
 
 import codecs
+import importlib
 import os
 import re
-from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
+from types import ModuleType
 
 from bsm.bitstream.container.wire import MAGIC
 from bsm.bitstream.errors import FormatError, OptionError
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits, as_limits
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.files.formats.glb import write_glb
 from bsm.files.formats.materials import fetched
-from bsm.files.formats.npz import read_npz, write_npz
-from bsm.files.formats.obj import read_obj, write_obj
-from bsm.files.formats.off import read_off, write_off
-from bsm.files.formats.ply import read_ply, write_ply
 from bsm.files.formats.polygons import MeshFile, Polygons
-from bsm.files.formats.stl import read_stl, write_stl
-from bsm.files.formats.vtp import read_vtp, write_vtp
-from bsm.files.formats.with_openmesh import read_with_openmesh
-from bsm.files.formats.with_trimesh import import_trimesh, read_with_trimesh
 from bsm.files.formats.written import Written
 from bsm.files.motion.gltf import require_room_for_meshes
 from bsm.files.output import can_be_replaced, open_output, refuse_to_overwrite
@@ -36,29 +28,21 @@ from bsm.files.pipes import Source, as_input
 from bsm.files.remote import is_url
 from bsm.files.room import gunzipped, require_archive, require_room
 
-_READERS: dict[str, Callable[[bytes], Polygons]] = {
-    "obj": read_obj,
-    "off": read_off,
-    "ply": read_ply,
-    "stl": read_stl,
-}
-_WRITERS: dict[str, Callable[[TriangleMesh, str], Written]] = {
-    "glb": write_glb,
-    "npz": write_npz,
-    "obj": write_obj,
-    "off": write_off,
-    "ply": write_ply,
-    "stl": write_stl,
-    "vtp": write_vtp,
-}
-MESH_FORMATS = ("npz", "vtp", *_READERS)
+_PLAIN = ("obj", "off", "ply", "stl")
+"""Read whole, with nothing but what the bytes say."""
+MESH_FORMATS = ("npz", "vtp", *_PLAIN)
 """What we read and write ourselves."""
 USD_FORMATS = ("usd", "usda", "usdc", "usdz")
 """Read with usd-core."""
-WRITTEN_FORMATS = tuple(_WRITERS)
+WRITTEN_FORMATS = ("glb", "npz", "obj", "off", "ply", "stl", "vtp")
 """What we write; GLB with trimesh."""
 READERS = ("bsm", "openmesh", "trimesh")
 """Who can be asked to read a file: ourselves, or a library."""
+
+
+def _format(kind: str) -> ModuleType:
+    """The module that reads and writes a format, which nobody loads who meets no file of it."""
+    return importlib.import_module(f"bsm.files.formats.{kind}")
 
 
 def read_mesh(
@@ -113,13 +97,15 @@ def read_mesh(
     if data.startswith(MAGIC):
         raise FormatError("this is a BSM stream, not a mesh file; decode it first")
     kind = file_format or format_of_name(name) or format_of_bytes(data) or Path(name).suffix[1:].lower()
-    if (reader == "openmesh" and kind not in _READERS) or (reader == "bsm" and kind not in MESH_FORMATS):
+    if (reader == "openmesh" and kind not in _PLAIN) or (reader == "bsm" and kind not in MESH_FORMATS):
         raise OptionError(f"{reader} does not read {f'.{kind}' if kind else 'this'}; the default reader may")
     if kind in USD_FORMATS and path and reader is None:
         from bsm.files.motion.usd import read_usd_mesh
 
         return read_usd_mesh(path, limits)
     if reader == "trimesh" or kind not in MESH_FORMATS:
+        from bsm.files.formats.with_trimesh import import_trimesh, read_with_trimesh
+
         if data.startswith(b"PK\x03\x04"):
             require_archive(data, limits)
         if kind in ("glb", "gltf"):
@@ -127,14 +113,18 @@ def read_mesh(
             require_room_for_meshes(data, limits)
         return read_with_trimesh(data, path, kind, limits).checked(limits)
     if kind == "npz":
-        return read_npz(data, limits)
+        read: MeshFile = _format(kind).read_npz(data, limits)
+        return read
     if kind == "vtp":
-        return read_vtp(data, limits).checked(limits)
+        found: Polygons = _format(kind).read_vtp(data, limits)
+        return found.checked(limits)
     require_room(kind, data, limits)
-    polygons = _READERS[kind](data)
+    polygons: Polygons = getattr(_format(kind), f"read_{kind}")(data)
     metadata, notes = fetched(polygons.metadata, Path(path).parent if path else None, limits.metadata_bytes)
     ours = replace(polygons, metadata=metadata, notes=(*polygons.notes, *notes)).checked(limits)
     if reader == "openmesh":
+        from bsm.files.formats.with_openmesh import read_with_openmesh
+
         return read_with_openmesh(data, kind, ours.mesh, limits)
     return ours
 
@@ -154,7 +144,8 @@ def written_mesh(mesh: TriangleMesh, file_format: str, path: str | os.PathLike[s
     path : path
         What the file will be called: the names of those beside it begin like its own.
     """
-    return _WRITERS[file_format](mesh, Path(path).stem)
+    written: Written = getattr(_format(file_format), f"write_{file_format}")(mesh, Path(path).stem)
+    return written
 
 
 def write_mesh(path: str | os.PathLike[str], mesh: TriangleMesh, *, overwrite: bool = True) -> tuple[str, ...]:
@@ -175,7 +166,7 @@ def write_mesh(path: str | os.PathLike[str], mesh: TriangleMesh, *, overwrite: b
         If the file cannot be written.
     """
     kind = format_of_name(path)
-    if kind not in _WRITERS:
+    if kind not in WRITTEN_FORMATS:
         raise OptionError(f"{path}: the name tells no mesh format; use one of .{', .'.join(WRITTEN_FORMATS)}")
     written = written_mesh(mesh, kind, path)
     return save_written(path, written, overwrite=overwrite)
@@ -211,7 +202,7 @@ def _sibling(path: str | os.PathLike[str], name: str) -> str | None:
 def format_of_name(path: str | os.PathLike[str]) -> str | None:
     """The format that a file name's suffix tells, or None."""
     suffix = Path(path).suffix[1:].lower()
-    return suffix if suffix in _WRITERS else None
+    return suffix if suffix in WRITTEN_FORMATS else None
 
 
 def format_of_bytes(data: bytes) -> str | None:
