@@ -58,6 +58,7 @@ FIELDS: dict[str, tuple[int, Any, float, float, Any]] = {
     "offset": (10, (0, 8), -1e300, 1e300, []),
     "step": (11, (0, 4), 1e-300, 1e300, []),
     "leans": (12, "method", 0, 1, 0),
+    "moves": (13, "method", 0, 1, 0),
     "seams_of": (15, int, 0, 2**16 - 1, 0),
 }
 
@@ -120,6 +121,8 @@ class Declaration:
                     low, high = RANGES[self.kind]
                     require(offset == int(offset) and step == int(step), "offset or step is no whole number")
                     require(low <= offset and last <= high, "values out of range")
+        still = self.domain or self.origin or self.coding
+        require(not (self.moves and still), "what moves are levels of vertices")
         require(not self.leans or self.domain != 2, "values of faces that lean on positions")
         require(not self.seams_of or self.domain == 1, "seams where there are no corners")
         require(not self.seams or (self.domain == 1 and not self.seams_of), "seams that are none of its own")
@@ -130,6 +133,7 @@ def check_declarations(attributes: list[Declaration], header: dict[str, Any]) ->
     for index, one in enumerate(attributes):
         require(one.name not in {other.name for other in attributes[:index]}, "two attributes of one name")
         require(header["grid"] or not one.leans, "an attribute that leans on no grid")
+        require(header["gop_frames"] or not one.moves, "an attribute of one mesh that moves")
         if one.seams_of:
             require(one.seams_of <= index, "seams of an attribute that does not come before")
             shared = attributes[one.seams_of - 1]

@@ -27,6 +27,7 @@ from reference_attributes import FIELDS as ATTRIBUTE_FIELDS
 from reference_attributes import (
     KINDS,
     MOST_VALUES,
+    RANGES,
     SEMANTICS,
     Attribute,
     Declaration,
@@ -1250,22 +1251,40 @@ KEPT_MESHES = 8
 class Gop:
     """S 2."""
 
-    def __init__(self, data, header):
+    def __init__(self, data, header, declared):
         require(len(data) >= 1, "a GOP without method")
-        run, self.method = divmod(data[0], 8)
+        run, kind = divmod(data[0], 8)
+        counted, self.method = divmod(kind, 4)
         require(run == header["run"] % 32, "a GOP of another run")  # S 9.2
         longest = header["gop_frames"]
         if self.method > 2:
             raise UnsupportedError(f"GOP method {self.method}")  # S 2.2
         self.frames, at = payload_varint(data, 1)
         require(1 <= self.frames <= longest, "a wrong number of frames")  # S 2.3
-        require(at + 4 <= len(data), "a GOP ends inside its step")
-        self.step, at = struct.unpack("<f", data[at : at + 4])[0], at + 4
+        told, widths = {}, {number: one.components for number, one in enumerate(declared) if one.moves}
+        if counted:  # S 10.2
+            count, at = payload_varint(data, at)
+            require(count > 0, "a GOP that tells of no attribute")
+            for _ in range(count):
+                number, at = payload_varint(data, at)
+                size, at = payload_varint(data, at)
+                require(number in widths and all(before < number for before in told), "no attribute that moves")
+                require(at + size <= len(data), "a GOP ends inside a field")
+                told[number], at = Field(data[at : at + size], self.method, self.frames, widths[number]), at + size
+        self.fields = [Field(data[at:], self.method, self.frames, 3), *(told.get(number) for number in widths)]
+
+
+class Field:
+    """S 2: of positions, or of an attribute (S 10)."""
+
+    def __init__(self, data, method, frames, width):
+        self.width, self.columns, self.exponents, self.basis, at = width, width * frames, [], b"", 4
+        require(len(data) >= 4, "a GOP ends inside its step")
+        self.step = struct.unpack("<f", data[:4])[0]
         require(0.0 < self.step < math.inf, "a step that is not finite and above 0")  # S 2.1
-        self.columns, self.exponents, self.basis = 3 * self.frames, [], b""
-        if self.method == 0:
+        if method == 0:
             self.columns, at = payload_varint(data, at)
-            require(self.columns <= 3 * self.frames, "too many components")
+            require(self.columns <= width * frames, "too many components")
             for _ in range(self.columns):  # S 2.4
                 code, at = payload_varint(data, at)
                 before = self.exponents[-1] if self.exponents else 0
@@ -1307,7 +1326,7 @@ class LevelModel:
 
         for j in range(decoder.uniform(rows + 1)):
             mean = 0
-            coded = columns if lead is None else min(columns, 3 * j + lead)
+            coded = columns if lead is None else min(columns, lead[1] * j + lead[0] + 1)
             for i in range(coded):
                 above = 2 * a(j - 1, i) + a(j - 2, i) + a(j - 3, i)
                 left = 2 * a(j, i - 1) + a(j, i - 2)
@@ -1368,14 +1387,15 @@ def cosines_over_time(frames):
     return columns
 
 
-def temporal_basis(gop):
-    """S 5: 3 T rows, r columns."""
-    single = cosines_over_time(gop.frames)
-    matrices = LevelModel().decode(gop.basis, [(gop.frames, gop.columns)] * 3, [None] * 3, [1, 2, 3])
-    steps = 2.0 ** (-np.array(gop.exponents, float) / 4)
+def temporal_basis(field, frames):
+    """S 5: d T rows, r columns."""
+    single, d = cosines_over_time(frames), field.width
+    leads = [(c, d) for c in range(d)]
+    matrices = LevelModel().decode(field.basis, [(frames, field.columns)] * d, [None] * d, leads)
+    steps = 2.0 ** (-np.array(field.exponents, float) / 4)
     free = np.array([points_of(matrix) * steps for matrix in matrices]).transpose(1, 0, 2)
-    columns = right_angles(free.reshape(3 * gop.frames, gop.columns)).reshape(free.shape)
-    return np.concatenate([single @ columns[:, d] for d in range(3)])
+    columns = right_angles(free.reshape(d * frames, field.columns)).reshape(free.shape)
+    return np.concatenate([single @ columns[:, c] for c in range(d)])
 
 
 def right_angles(free):
@@ -1458,9 +1478,14 @@ class Part:
         mesh.allowance.spend(mesh.header, self.block.size, columns, False)
         self.basis = key_dictionary(mesh.header, self.laplacian, columns, self.springs)  # S 3.3
 
-    def bend(self, positions):
-        """S 3.7: the known columns here, and those at the vertices around."""
+    def known(self, field, bent):
+        """S 3.7, S 10.3: the known columns here, and those at the vertices around."""
         self.around = sorted({w for _, w, _ in self.edges})
+        columns = self.bends(field) if bent else field
+        return self.difference(columns), columns[self.around]
+
+    def bends(self, positions):
+        """S 3.7: where they are needed."""
         own = positions[self.block.vertices]
         centre = own.mean(axis=0)
         radius = math.sqrt(((own - centre) ** 2).sum() / len(own) + 2.0**-24)
@@ -1471,7 +1496,7 @@ class Part:
         squares = [0.5 * radius * y[:, a] * y[:, b] for a, b in axes]
         cubes = [0.3 * radius * y[:, a] * y[:, b] * y[:, c] for a, b in axes for c in range(b, 3)]
         columns[[*self.block.vertices, *self.around], 3:] = np.stack([*squares, *cubes], axis=1)
-        return self.difference(columns), columns[self.around]
+        return columns
 
     def extension(self, field):
         """S 3.4."""
@@ -1508,58 +1533,101 @@ def edge_weights(mesh, positions):
     return {edge: 2.0**-5 + 8 * p / (8 + p) for edge, p in positive.items()}
 
 
-def decode_frames(mesh, header, gops, first_frame, begin):
-    """S 7: all frames of a run, in the unit of the mesh, from number `begin` on."""
-    if not gops:
-        return []  # S 8.3
-    require(gops[0][0] == begin, "the first GOP is missing")  # S 1.2
-    mesh.allowance.shown += mesh.header["vertices"] * Gop(gops[0][1], header).frames
-    rank = {v: index for index, core in enumerate(mesh.cores) for v in core}
-    weight = edge_weights(mesh, first_frame)
-    parts = [Part(mesh, weight, core, rank) for core in mesh.cores]
-    first = [part.difference(first_frame) for part in parts]  # S 3.6
-    bends = [part.bend(first_frame) for part in parts]
-    frames, history = [], None
-    for index, data in gops:
-        require(index == begin + len(frames), "a GOP is missing or repeated")  # S 1.2
-        gop = Gop(data, header)
-        require(not 0 < header["frames"] < index + gop.frames, "more frames than announced")
-        shapes = [(part.basis.shape[1], gop.columns) for part in parts]
-        field = np.zeros((mesh.header["vertices"], gop.columns))
-        if gop.method == 0:  # S 7.1
-            basis, history = temporal_basis(gop), None
-            matrices = LevelModel().decode(gop.levels, shapes, [None] * len(parts))
-            for part, matrix, (known, around) in zip(parts, matrices, bends):
-                loop = Loop(19, gop.columns).begin(around, field[part.around], gop.step)
-                part.place(field, loop.decode(known, matrix, gop.step))
-            wide = (field @ basis.T).reshape(len(field), 3, gop.frames)
-            frames += [mesh.result(wide[:, :, t]) for t in range(gop.frames)]
-            continue
-        if gop.method == 1:  # S 7.2
-            history = [LevelModel(), [], [], [first, first]]
-        require(history is not None, "a frame refers to one that is not there")
-        model, loops, references, shown = history
-        if not references or references[0].shape[1] != gop.columns:  # S 7.3
+class Track:
+    """S 3.6, S 10.3: what is known of positions, or of an attribute that moves, before the first GOP."""
+
+    def __init__(self, parts, first_frame, base):
+        self.width, self.base, self.history = first_frame.shape[1], base, None
+        self.shape = first_frame.shape
+        bends = [part.known(first_frame, bent=base is None) for part in parts]
+        self.bends, self.first = bends, [known[:, : self.width] for known, _ in bends]
+        self.start = self.first if base is None else [np.zeros_like(one) for one in self.first]
+
+    def learnt(self, parts, field, frames):
+        """S 7.1: fields of all frames."""
+        if field is None:  # S 10.4
+            return [np.zeros(self.shape)] * frames
+        basis, placed = temporal_basis(field, frames), np.zeros((self.shape[0], field.columns))
+        shapes = [(part.basis.shape[1], field.columns) for part in parts]
+        matrices = LevelModel().decode(field.levels, shapes, [None] * len(parts))
+        for part, matrix, (known, around) in zip(parts, matrices, self.bends):
+            loop = Loop(known.shape[1], field.columns).begin(around, placed[part.around], field.step)
+            part.place(placed, loop.decode(known, matrix, field.step))
+        wide = (placed @ basis.T).reshape(len(placed), self.width, frames)
+        return [wide[:, :, t] for t in range(frames)]
+
+    def following(self, parts, field, gop):
+        """S 7.2: fields of frames that are told without a basis."""
+        d, columns = self.width, self.width * gop.frames
+        shapes = [(part.basis.shape[1], columns) for part in parts]
+        if gop.method == 1:
+            self.history = [LevelModel(), [], [], [self.start, self.start]]
+        require(self.history is not None, "a frame refers to one that is not there")
+        model, loops, references, shown = self.history
+        if not references or references[0].shape[1] != columns:  # S 7.3
             references = [np.zeros(shape, int) for shape in shapes]
-            loops = [Loop(9, gop.columns) for _ in parts]
-        matrices = model.decode(gop.levels, shapes, references)
-        cosines = cosines_over_time(gop.frames)
+            loops = [Loop(3 * d, columns) for _ in parts]
+        matrices = [np.zeros(shape, int) for shape in shapes]
+        if field is not None:
+            matrices = model.decode(field.levels, shapes, references)
+        cosines, placed = cosines_over_time(gop.frames), np.zeros((self.shape[0], columns))
         before, latest = shown[-2:]
         told = []
         for k, part in enumerate(parts):
-            known = np.concatenate([first[k], latest[k], latest[k] - before[k]], axis=1)
-            told.append(loops[k].decode(known, matrices[k], gop.step))
-            told[k][:, :3] += cosines[:, 0].sum() * latest[k]
-            part.place(field, told[k])
-        shown = shown[-1:] + [[over_time(cosines[t], own) for own in told] for t in range(gop.frames)]
-        history = [model, loops, matrices, shown]
-        frames += [mesh.result(over_time(cosines[t], field)) for t in range(gop.frames)]
-    return frames
+            told.append(np.zeros(shapes[k]))
+            if field is not None:
+                known = np.concatenate([self.first[k], latest[k], latest[k] - before[k]], axis=1)
+                told[k] = loops[k].decode(known, matrices[k], field.step)
+            told[k][:, :d] += cosines[:, 0].sum() * latest[k]
+            part.place(placed, told[k])
+        frames = [[over_time(cosines[t], own, d) for own in told] for t in range(gop.frames)]
+        self.history = [model, loops, matrices, shown[-1:] + frames]
+        return [over_time(cosines[t], placed, d) for t in range(gop.frames)]
+
+    def values(self, declared, change):
+        """S 10.4, S 10.5: values of a frame, in the order of coding."""
+        values, kind = self.base + change, KINDS[declared.kind]
+        with np.errstate(over="ignore"):
+            values = values.astype(kind) if declared.kind >= 6 else values
+        if not np.isfinite(values).all():
+            raise NumericError("values are not finite")
+        if declared.kind < 6:
+            values = np.clip(np.rint(values), *RANGES[declared.kind]).astype(kind)
+        return values
 
 
-def over_time(cosines, columns):
-    """S 7.2: x, y and z of a frame, of cosine after cosine."""
-    return sum(value * columns[:, 3 * f : 3 * f + 3] for f, value in enumerate(cosines))
+def decode_frames(mesh, header, gops, first_frame, begin):
+    """S 7: all frames of a run, in the unit of the mesh, from number `begin` on, and values that move (S 10)."""
+    values = [[] for _ in mesh.moving]
+    if not gops:
+        return [], values  # S 8.3
+    declared = mesh.packets[ATTRIBUTE]
+    require(gops[0][0] == begin, "the first GOP is missing")  # S 1.2
+    mesh.allowance.shown += mesh.header["vertices"] * Gop(gops[0][1], header, declared).frames
+    rank = {v: index for index, core in enumerate(mesh.cores) for v in core}
+    weight = edge_weights(mesh, first_frame)
+    parts = [Part(mesh, weight, core, rank) for core in mesh.cores]
+    tracks = [Track(parts, first_frame, None), *(Track(parts, base - base[0], base) for _, _, base in mesh.moving)]
+    frames = []
+    for index, data in gops:
+        require(index == begin + len(frames), "a GOP is missing or repeated")  # S 1.2
+        gop = Gop(data, header, declared)
+        require(not 0 < header["frames"] < index + gop.frames, "more frames than announced")
+        if gop.method == 0:
+            fields = [track.learnt(parts, field, gop.frames) for track, field in zip(tracks, gop.fields)]
+            for track in tracks:
+                track.history = None
+        else:
+            fields = [track.following(parts, field, gop) for track, field in zip(tracks, gop.fields)]
+        frames += [mesh.result(field) for field in fields[0]]
+        for track, changes, (_, one, _), own in zip(tracks[1:], fields[1:], mesh.moving, values):
+            own += [arranged_values(mesh, one, track.values(one.declared, change))[0] for change in changes]
+    return frames, values
+
+
+def over_time(cosines, columns, d):
+    """S 7.2: the numbers of a frame, of cosine after cosine."""
+    return sum(value * columns[:, d * f : d * f + d] for f, value in enumerate(cosines))
 
 
 def declared_attributes(mesh, packets):
@@ -1584,6 +1652,7 @@ def declared_attributes(mesh, packets):
 
 def decode_attributes(mesh, packets, attributes, positions, places):
     """D 3 to D 5: for each attribute its arrays, as spec/vectors/README.md tells; positions are in BSM units."""
+    mesh.moving = []
     if packets.fault and not packets[VALUES]:
         return {}  # the stream ends before them
     arrays = {}
@@ -1591,9 +1660,14 @@ def decode_attributes(mesh, packets, attributes, positions, places):
         declared = one.declared
         chunks = [(count, data) for attribute, count, data in packets[VALUES] if attribute == index]
         values = one.recomputed(positions) if declared.coding == 3 else one.read(chunks, places)
+        raw = values
         values, indices, domain = arranged_values(mesh, one, values)
         name = f"attribute {index} {SEMANTICS[declared.semantic]} {domain} {declared.name}"
         arrays[name] = np.array(values, KINDS[declared.kind]).reshape(-1, declared.components)
+        if declared.moves:
+            require(declared.rows == mesh.header["vertices"], "values of what no face uses that move")  # S 10.1
+            base = np.array(raw, KINDS[declared.kind]).reshape(-1, declared.components)
+            mesh.moving.append((name, one, base.astype(float)))
         if indices is not None:
             arrays[f"indices {index}"] = np.array(indices, np.int32).reshape(-1, 3)
     return arrays
@@ -1693,7 +1767,11 @@ def decode_sequence(runs):
         require(own.items() <= header.items(), "another mesh than the run has that is named")  # S 9.3
         table.append([len(frames), sum(map(len, mesh.numbers)), header["faces"]])
         faces.append(faces_of(mesh))
-        frames += decode_frames(mesh, header, packets[GOP], first_frame, len(frames))
+        own, values = decode_frames(mesh, header, packets[GOP], first_frame, len(frames))
+        frames += own
+        for (name, one, _), each in zip(mesh.moving, values):
+            shape = len(each), -1, one.declared.components
+            arrays = arrays | ({name: np.array(each, KINDS[one.declared.kind]).reshape(shape)} if each else {})
     packets.require(not packets.fault and header["frames"] in (0, len(frames)), "frames are missing")  # S 1.2
     if len(runs) == 1:
         return np.array(frames).reshape(len(frames), header["vertices"], 3), faces[0], arrays

@@ -62,6 +62,8 @@ class Declaration:
     """One level, of all components or of each; empty: 1."""
     leans: int = method(12, known=2)
     """1: the values are predicted from positions on a grid."""
+    moves: int = method(13, known=2)
+    """1: the values are those of the first frame of a sequence, and each GOP tells how they change."""
     seams_of: int = integer(15, 0, 2**16 - 1, default=0)
     """0: the seams follow; otherwise they are those of attribute `seams_of` - 1."""
 
@@ -118,6 +120,8 @@ def _rules(d: Declaration) -> dict[str, bool]:
         "octahedral levels that are not two of the same even number": d.coding == OCTAHEDRAL
         and not any(d.largest == (most, most) for most in d.largest[:1] if most in _OCTAHEDRAL),
         "values of faces that lean on positions": d.domain == FACE and d.leans > 0,
+        "values that move and are not levels of vertices": d.moves > 0
+        and (d.domain, d.origin, d.coding) != (VERTEX, AS_CODED, LEVELS),
         "seams where there are no corners": d.seams_of > 0 and d.domain != CORNER,
     }
 

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import math
 import struct
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from enum import IntEnum
+from types import MappingProxyType
 
 import numpy as np
 import numpy.typing as npt
@@ -17,6 +18,8 @@ from bsm.bitstream.errors import CorruptError, OptionError, UnsupportedError
 MAX_EXPONENT = 400
 METHODS, RUNS = 8, 32
 """The first byte is the method, and so many times the number of the run, counted modulo `RUNS`."""
+WITH_ATTRIBUTES = 4
+"""Added to the method where attributes are told of."""
 
 
 class GopMethod(IntEnum):
@@ -87,18 +90,23 @@ def still(width: int) -> GopField:
     return GopField(width, 0.0, 0, np.empty(0, np.int32), b"", b"")
 
 
-def write_gop_body(body: GopBody, run: int = 0) -> bytes:
-    """Method and run (a byte), T; each attribute's field behind its length, 0 where nothing is told; that of positions.
+def write_gop_body(body: GopBody, run: int = 0, numbers: Sequence[int] = ()) -> bytes:
+    """Method and run (a byte), T; how many attributes are told of, and each one's number, length and field; positions.
 
-    A field is its step (float 32), of a learnt basis r, the exponents and its coded length; all levels. Counts are
-    varints; an exponent is the zigzag of its difference to the one before.
+    `numbers`, ascending, are those of the attributes that move. A field is its step (float 32), of a learnt basis r,
+    the exponents and its coded length; all levels. Counts are varints; an exponent is the zigzag of its difference to
+    the one before.
     """
     positions, *attributes = (_write_field(field, body.method) for field in body.fields)
     if not positions:
         raise OptionError("a GOP needs positions")
-    parts = [bytes([body.method + METHODS * (run % RUNS)]), write_varint(body.frames)]
-    for data in attributes:
-        parts += [write_varint(len(data)), data]
+    told = [(number, data) for number, data in zip(numbers, attributes, strict=True) if data]
+    first = body.method + (WITH_ATTRIBUTES if told else 0) + METHODS * (run % RUNS)
+    parts = [bytes([first]), write_varint(body.frames)]
+    if told:
+        parts.append(write_varint(len(told)))
+        for number, data in told:
+            parts += [write_varint(number), write_varint(len(data)), data]
     return b"".join([*parts, positions])
 
 
@@ -116,7 +124,9 @@ def _write_field(field: GopField, method: GopMethod) -> bytes:
     return b"".join([*parts, field.levels])
 
 
-def parse_gop_body(data: bytes, longest: int, run: int = 0, widths: Sequence[int] = ()) -> GopBody:
+def parse_gop_body(
+    data: bytes, longest: int, run: int = 0, widths: Mapping[int, int] = MappingProxyType({}), *, tolerant: bool = False
+) -> GopBody:
     """Inverse of `write_gop_body`.
 
     Parameters
@@ -124,8 +134,10 @@ def parse_gop_body(data: bytes, longest: int, run: int = 0, widths: Sequence[int
     longest : int
         What the header says about the frames of a GOP.
     run : int
-    widths : sequence of int
-        Numbers of each attribute that moves.
+    widths : mapping of int to int
+        How many numbers each attribute has that moves.
+    tolerant : bool
+        Pass over attributes that are not among them, whose declaration may be lost.
 
     Raises
     ------
@@ -135,17 +147,39 @@ def parse_gop_body(data: bytes, longest: int, run: int = 0, widths: Sequence[int
         For everything else that no encoder writes.
     """
     cursor = Cursor(data)
-    of_run, number = divmod(cursor.take(1)[0], METHODS)
+    method, frames, told = _parse_beginning(cursor, longest, run)
+    fields = {number: still(width) for number, width in widths.items()}
+    before = -1
+    for _ in range(told):
+        number, part = cursor.varint(), cursor.take(cursor.varint())
+        if number <= before or not (tolerant or number in widths):
+            raise CorruptError(f"a GOP tells of attribute {number}, which does not move, or is not the next one")
+        before = number
+        if number in widths:
+            fields[number] = _parse_field(part, method, frames, widths[number])
+    return GopBody(method, frames, (_parse_field(cursor.rest(), method, frames, 3), *fields.values()))
+
+
+def frames_of_gop(data: bytes, longest: int, run: int = 0) -> int:
+    """How many frames a GOP has; errors as of `parse_gop_body`."""
+    return _parse_beginning(Cursor(data), longest, run)[1]
+
+
+def _parse_beginning(cursor: Cursor, longest: int, run: int) -> tuple[GopMethod, int, int]:
+    """Method, frames, and how many attributes are told of."""
+    of_run, kind = divmod(cursor.take(1)[0], METHODS)
     if of_run != run % RUNS:
         raise CorruptError(f"a GOP of another run than run {run}")
+    number = kind % WITH_ATTRIBUTES
     if number not in set(GopMethod):
         raise UnsupportedError(f"GOP method {number} is unknown to this decoder")
     method, frames = GopMethod(number), cursor.varint()
     if not 1 <= frames <= longest:
         raise CorruptError(f"a GOP of {frames} frames where 1 to {longest} are legal")
-    coded = [(width, cursor.take(cursor.varint())) for width in widths]
-    attributes = (_parse_field(part, method, frames, width) if part else still(width) for width, part in coded)
-    return GopBody(method, frames, (_parse_field(cursor.rest(), method, frames, 3), *attributes))
+    told = cursor.varint() if kind >= WITH_ATTRIBUTES else 0
+    if kind >= WITH_ATTRIBUTES and not told:
+        raise CorruptError("a GOP that tells of no attribute, and says that it does")
+    return method, frames, told
 
 
 def _parse_field(data: bytes, method: GopMethod, frames: int, width: int) -> GopField:

@@ -257,6 +257,8 @@ class Grammar:
                 return f"the seams of attribute {declaration.seams_of - 1}, which has none of its own"
         if declaration.leans and not header.grid:
             return "an attribute that leans on positions which are on no grid"
+        if declaration.moves and not header.gop_frames:
+            return "an attribute of one mesh that moves"
         if header.gop_frames and declaration.coding == RECOMPUTED:
             return "an attribute of a sequence that is recomputed from positions"
         return None

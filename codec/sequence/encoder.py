@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections import deque
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import islice
 from types import MappingProxyType
@@ -20,19 +21,21 @@ from bsm.bitstream.public import public
 from bsm.codec.arrays import Matrix, Order, Positions
 from bsm.codec.choices import check_mapping
 from bsm.codec.geometry.attributes import Attribute
-from bsm.codec.geometry.mesh import Metadata
+from bsm.codec.geometry.mesh import Metadata, TriangleMesh
 from bsm.codec.sequence.decoder import decode_sequence
 from bsm.codec.sequence.first_frame_encoding import Opening, open_sequence
 from bsm.codec.sequence.gop import GopEncoder, silent
 from bsm.codec.sequence.gop_encoding import Coded, Wish, attempted
 from bsm.codec.sequence.joining import JoinedRun, joined_runs
+from bsm.codec.sequence.moving_encoding import Bound, Mover, moved, with_fields
 from bsm.codec.sequence.options import SequenceOptions
 from bsm.codec.sequence.row_prediction import LARGEST_LEVEL
 from bsm.codec.sequence.runs import Cutter, Frame, Run
 from bsm.codec.sequence.runs_encoding import Meshes, OpenedMesh
 from bsm.codec.sequence.targets import SequenceComparison, compare_sequences
 from bsm.codec.sequence.watch import Watch
-from bsm.codec.static.attributes.encoding import carry, place_of, with_attributes
+from bsm.codec.static.attributes.encoding import PreparedAttribute, carry, place_of, with_attributes
+from bsm.codec.static.attributes.levels import Values
 from bsm.codec.static.attributes.quality import qualities
 from bsm.codec.static.draft import Draft
 from bsm.codec.static.encoder import PROMISED_SIZES
@@ -88,8 +91,9 @@ class SequenceEncoder:
     metadata : mapping from str to str, int, float or bytes
         What belongs to the whole sequence.
     attributes : sequence of Attribute
-        Of the mesh, the same in all frames, at the qualities that the options say; a later run has those of its first
-        frame, but for normals, which move.
+        Of the mesh, at the qualities that the options say; frames that are meshes have their own, none given or these
+        only. Numbers of vertices may change from frame to frame; of others, and of each later run, those of the first
+        frame are taken. Normals are left out of meshes, since they follow from positions.
 
     Attributes
     ----------
@@ -159,27 +163,27 @@ class SequenceEncoder:
         else:
             yield from self.search(self._of_one_run(frames), progress).chunks
 
-    def _of_one_run(self, frames: Iterable[Frame]) -> list[Matrix]:
-        """The positions of frames that share their faces; no others can be brought to a target."""
-        found: list[Matrix] = []
-        for run in Cutter(frames, self._faces, allowed=self.options.runs).runs():
-            if found:
+    def _of_one_run(self, frames: Iterable[Frame]) -> list[Frame]:
+        """Frames that share their faces; no others can be brought to a target."""
+        found = list(frames)
+        for run in Cutter(found, self._faces, allowed=self.options.runs).runs():
+            if run.first:
                 raise OptionError(
                     f"the faces change at frame {run.first}: a target is for frames that share them; "
                     "take a preset or a bound"
                 )
-            found = [np.asarray(frame, np.float64) for frame in run.frames]
+            deque(run.frames, maxlen=0)
         return found
 
-    def search(self, frames: Sequence[Matrix], progress: Progress | None = None) -> SequenceAttempt:
-        """Look for the step with which `frames`, each of shape (n, 3), meet the options' target.
+    def search(self, frames: Sequence[Frame], progress: Progress | None = None) -> SequenceAttempt:
+        """Look for the step with which `frames`, each of shape (n, 3), or meshes, meet the options' target.
 
         `TargetError` says what can be had where none does.
         """
         target = self.options.target
         if target is None:
             raise OptionError("there is no target to search for")
-        finest = max(FINEST_STEP, self._finest_step(frames))
+        finest = max(FINEST_STEP, self._finest_step([_positions(frame) for frame in frames]))
         return search_step(lambda step: self.attempt(frames, step, progress), target, self.options.step, finest)
 
     def _finest_step(self, frames: Sequence[Matrix] | Positions) -> float:
@@ -194,11 +198,11 @@ class SequenceEncoder:
             most = max(most, float(np.sort(energies)[-2 * self.options.block_size :].sum()))
         return 2.0 * float(np.sqrt(most)) / scale / LARGEST_LEVEL
 
-    def attempt(self, frames: Sequence[Matrix], step: float, progress: Progress | None = None) -> SequenceAttempt:
-        """Encode frames, each of shape (n, 3), with a given step, and see what the decoder will."""
+    def attempt(self, frames: Sequence[Frame], step: float, progress: Progress | None = None) -> SequenceAttempt:
+        """Encode frames, each of shape (n, 3), or meshes, with a given step, and see what the decoder will."""
         chunks = tuple(self._chunks(frames, replace(self.options, step=step), progress))
         decoded, faces = decode_sequence(b"".join(chunks), NAMED_LIMITS[self.options.limits](), self.options.threads)
-        original = np.array([frame[self.vertex_order] for frame in frames])
+        original = np.array([_positions(frame)[self.vertex_order] for frame in frames])
         return SequenceAttempt(chunks, decoded.size // 3, compare_sequences(original, decoded, faces))
 
     def _chunks(self, frames: Iterable[Frame], options: SequenceOptions, progress: Progress | None) -> Iterator[bytes]:
@@ -207,7 +211,7 @@ class SequenceEncoder:
         writer = Writer()
         number = 0
         self.run_starts, self.samples = [], 0
-        cutter = Cutter(frames, self._faces, allowed=options.runs)
+        cutter = Cutter(frames, self._faces, allowed=options.runs, attributes=self._attributes)
         runs = joined_runs(self._dressed(cutter), options.together, keep_order=options.keep_order, allowed=options.runs)
         for index, run in enumerate(runs):
             if not index:
@@ -229,7 +233,8 @@ class SequenceEncoder:
         """Runs with the attributes that each is sent with."""
         for run in cutter.runs():
             attributes = tuple(one for one in run.mesh.attributes if one.semantic != "normal")
-            yield replace(run, mesh=replace(run.mesh, attributes=attributes if run.first else self._attributes))
+            own = attributes if run.first or not self._attributes else self._attributes
+            yield replace(run, mesh=replace(run.mesh, attributes=own))
 
     def _run(
         self, run: JoinedRun, index: int, shelf: Meshes, options: SequenceOptions, tell: Progress
@@ -240,17 +245,20 @@ class SequenceEncoder:
         opened = shelf.again(run)
         prepared = self._prepared(run.joined, options) if opened is None else opened.prepared
         self.vertex_order, self.face_order = _orders(run.joined, prepared)
-        frames = (prepared.units.into(frame[prepared.coding_order]) for frame in run.frames)
-        vertices = len(prepared.positions)
-        longest = options.together(vertices)
-        group = _group(frames, longest, vertices)
+        frames = (frame[prepared.coding_order] for frame in run.frames)
+        longest = options.together(len(prepared.positions))
+        group = _group(frames, longest, prepared, run.moving)
         if opened is None:
-            coded = self._first_gop(group, prepared, options, tell, shelf.allowance)
-            yield from self._opened(run, index, prepared, coded.opening, options)
+            more = len(group) == longest and run.first + longest != self._count
+            carried, movers = self._carried(run, prepared, options, group, more=more)
+            moving = [mover.start for mover in movers]
+            coded = self._first_gop(group.positions, prepared, options, tell, shelf.allowance, moving)
+            yield from self._opened(run, index, prepared, coded.opening, carried)
         else:
+            movers = opened.movers
             opening = opened.coded.opening
             fresh = Coded(opening, GopEncoder(opening.setting, replace(options, step=opened.coded.encoder.step)), ())
-            coded = self._later_gop(group, 0, prepared, options, fresh, tell)
+            coded = self._later_gop(group.positions, 0, prepared, options, fresh, tell)
             yield Header(
                 vertices=opening.header.vertices,
                 faces=opening.header.faces,
@@ -260,30 +268,62 @@ class SequenceEncoder:
                 again=opened.run + 1,
             )
         opening = coded.opening
+        for track, mover in enumerate(movers, 1):
+            mover.begin(coded.encoder, opening.setting, track)
+        numbers = [mover.number for mover in movers]
+        still = {name: values[0] for name, values in group.moving.items() if name not in {one.name for one in movers}}
         while len(group):
-            for body in coded.bodies:
+            for body in with_fields(coded.bodies, movers, group.moving):
                 opening.admit(body, self._done)
-                yield packets.Gop(run.first + self._done, write_gop_body(body, index))
+                yield packets.Gop(run.first + self._done, write_gop_body(body, index, numbers))
                 self._done += body.frames
                 self.samples += body.frames * len(self.vertex_order)
             del group  # before the next one is read
-            group = _group(frames, longest, vertices)
+            group = _group(frames, longest, prepared, run.moving)
             if len(group):
-                coded = self._later_gop(group, self._done, prepared, options, coded, tell)
-        shelf.keep(OpenedMesh(index if opened is None else opened.run, prepared, coded), run)
+                coded = self._later_gop(group.positions, self._done, prepared, options, coded, tell)
+                _require_same(still, group)
+        self.notes = tuple(dict.fromkeys((*self.notes, *(mover.said for mover in movers))))
+        shelf.keep(OpenedMesh(index if opened is None else opened.run, prepared, coded, movers), run)
 
     def _prepared(self, joined: JoinedMesh, options: SequenceOptions) -> Prepared:
         joined.mesh.require_sizes(*PROMISED_SIZES)
         parts = Parts(options.block_size, options.overlap)
         return prepare(joined.mesh, parts, keep_order=options.keep_order, splits=joined.splits)
 
+    def _carried(
+        self, run: JoinedRun, prepared: Prepared, options: SequenceOptions, group: Group, *, more: bool
+    ) -> tuple[tuple[PreparedAttribute, ...], tuple[Mover, ...]]:
+        """The attributes of a run with a mesh of its own, and what encodes those that move, or may if `more` comes."""
+        given, asked = run.given, dict(options.attributes)
+        move = {one.name for one in given.attributes if one.name in group.moving and group.moves(one.name)}
+        may = move | (set(group.moving) if more else set())
+        bounds = {
+            one.name: Bound(quality, one) for one, quality in qualities(given.attributes, asked, "balanced", moving=may)
+        }
+        wanted = []
+        for one, quality in qualities(given.attributes, asked, "balanced", moving=move):
+            if one.name in move:
+                bounds[one.name] = bounds[one.name].over(group.moving[one.name])
+                quality = bounds[one.name].of_first
+            elif one.name not in may or (quality.way == "exact" and one.values.dtype.kind == "f"):
+                del bounds[one.name]
+            wanted.append((one, quality))
+        carried = carry(place_of(given, run.joined, prepared), wanted)
+        carried = tuple(moved(one) if one.declaration.name in bounds else one for one in carried)
+        movers = tuple(
+            Mover(number, one, group.moving[one.declaration.name][0], bounds[one.declaration.name])
+            for number, one in enumerate(carried)
+            if one.declaration.moves
+        )
+        return carried, movers
+
     def _opened(
-        self, run: JoinedRun, index: int, prepared: Prepared, opening: Opening, options: SequenceOptions
+        self, run: JoinedRun, index: int, prepared: Prepared, opening: Opening, carried: tuple[PreparedAttribute, ...]
     ) -> Iterator[packets.Packet]:
         """What comes before the GOPs of a run with a mesh of its own."""
-        wanted = qualities(run.given.attributes, dict(options.attributes), "balanced")
-        carried = carry(place_of(run.given, run.joined, prepared), wanted)
-        self.notes = tuple(dict.fromkeys((*self.notes, *run.joined.notes, *(one.said for one in carried))))
+        said = (one.said for one in carried if not one.declaration.moves)
+        self.notes = tuple(dict.fromkeys((*self.notes, *run.joined.notes, *said)))
         body = (*prepared.before_blocks, *(block.packet for block in opening.blocks))
         draft = Draft(replace(opening.header, run=index), body, run.given.positions)
         draft = with_attributes(draft, carried, {} if index else self._metadata)
@@ -296,6 +336,7 @@ class SequenceEncoder:
         options: SequenceOptions,
         tell: Progress,
         before: Allowance,
+        moving: Sequence[Matrix],
     ) -> Coded:
         """The first frame and the first GOP, with the step that keeps the options' promise in both, if there is one.
 
@@ -309,7 +350,7 @@ class SequenceEncoder:
             nonlocal opened, opened_for
             if opened is None or not NEAR[0] <= wish.step / opened_for <= NEAR[1]:
                 opened_for = wish.step
-                opened = open_sequence(prepared, replace(options, step=wish.step), self._count, tell, before)
+                opened = open_sequence(prepared, replace(options, step=wish.step), self._count, tell, before, moving)
             encoder = GopEncoder(opened.setting, options)
             return attempted(opened, encoder, wish, frames, 0, tell)
 
@@ -373,10 +414,58 @@ def _orders(joined: JoinedMesh, prepared: Prepared) -> tuple[Order, Order]:
     return joined.first[prepared.vertex_order], faces
 
 
-def _group(frames: Iterator[Matrix], longest: int, vertices: int) -> Positions:
-    """The next frames, shape (T, n, 3), as many as a GOP may have; none behind the last."""
+@dataclass(frozen=True, eq=False)
+class Group:
+    """The frames of a GOP, in the order of coding.
+
+    Parameters
+    ----------
+    positions : float64 array, shape (T, n, 3)
+        In BSM units.
+    moving : dict of str to array, shape (T, n, d)
+        Values of the attributes that can move.
+    """
+
+    positions: Positions
+    moving: dict[str, Values]
+
+    def __len__(self) -> int:
+        return len(self.positions)
+
+    def moves(self, name: str) -> bool:
+        """Whether the frames differ in an attribute."""
+        values = self.moving[name]
+        return bool((values != values[:1]).any())
+
+
+def _positions(frame: Frame) -> Matrix:
+    return np.asarray(frame.positions if isinstance(frame, TriangleMesh) else frame, np.float64)
+
+
+def _group(frames: Iterator[Matrix], longest: int, prepared: Prepared, moving: Sequence[Attribute]) -> Group:
+    """The next frames, as many as a GOP may have; none behind the last."""
+    widths = [one.components for one in moving]
+    ends = np.cumsum([3, *widths])[:-1]
+    found: list[list[Values]] = [[] for _ in moving]
+
+    def positions() -> Iterator[Matrix]:
+        for frame in islice(frames, longest):
+            first, *others = np.split(frame, ends, axis=1) if moving else [frame]
+            for own, one, values in zip(found, moving, others, strict=True):
+                own.append(values.astype(one.values.dtype))
+            yield prepared.units.into(first)
+
     # Not a list first, which would hold them twice.
-    return np.fromiter(islice(frames, longest), np.dtype((np.float64, (vertices, 3))))
+    kind = np.dtype((np.float64, (len(prepared.positions), 3)))
+    group: Positions = np.fromiter(positions(), kind)
+    return Group(group, {one.name: np.array(own) for one, own in zip(moving, found, strict=True)})
+
+
+def _require_same(still: Mapping[str, Values], group: Group) -> None:
+    """Raise `OptionError` if an attribute that was sent as one that does not move moves now."""
+    for name, values in still.items():
+        if (group.moving[name] != values).any():
+            raise OptionError(f"{name!r} moves, and floats that do cannot be exact; ask for a bound")
 
 
 class _Rounds:

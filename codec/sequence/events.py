@@ -9,6 +9,7 @@ from typing import TypeAlias
 from bsm.bitstream.container.reader import Signal
 from bsm.bitstream.public import public
 from bsm.codec.arrays import Faces, Positions
+from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.static.events import AttributeEvent, ConnectivityEvent, EndEvent, HeaderEvent, LossEvent
 
 
@@ -25,6 +26,8 @@ class FrameEvent:
         In the mesh's unit.
     faces : int32 array, shape (m, 3)
         Its faces; another array only where they may have changed.
+    attributes : tuple of Attribute
+        Its attributes, as far as they have come: those that move with the values of this frame.
 
     Examples
     --------
@@ -41,6 +44,7 @@ class FrameEvent:
     index: int
     positions: Positions
     faces: Faces
+    attributes: tuple[Attribute, ...] = ()
 
     def __repr__(self) -> str:
         return f"FrameEvent(frame {self.index}, {len(self.positions)} vertices)"

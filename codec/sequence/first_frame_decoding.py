@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import deque
+from collections.abc import Iterator
 
 from bsm.bitstream.container import packets
 from bsm.bitstream.container.wire import FrameType
@@ -11,6 +12,7 @@ from bsm.codec.blocks.blend import Blend
 from bsm.codec.sequence.course import Course, DecoderRequest
 from bsm.codec.sequence.events import Item
 from bsm.codec.sequence.gop_decoding import Gops
+from bsm.codec.sequence.moving import MovingAttribute
 from bsm.codec.static.attributes.decoding import AttributeDecoders, without_positions
 from bsm.codec.static.events import AttributeEvent, LossEvent, unreadable
 from bsm.codec.static.preamble_decoding import Structure
@@ -46,7 +48,8 @@ class FirstFrame:
                 return self
         if self._next < count:
             raise CorruptError(f"the first frame ends after {self._next} of {count} blocks")
-        gops = Gops(self._structure, self._blend.all_positions(), self._request, self._course)
+        moving = tuple(self._moving())
+        gops = Gops(self._structure, self._blend.all_positions(), moving, self._request, self._course)
         return gops.accept(arrival, queue)
 
     def _values(self, packet: packets.Values) -> AttributeEvent | LossEvent:
@@ -58,6 +61,14 @@ class FirstFrame:
             return LossEvent(None, error)
         self._request.attributes[:] = self._carried.attributes(None)
         return event
+
+    def _moving(self) -> Iterator[MovingAttribute]:
+        for number, declaration, first, rows in self._carried.moving():
+            if declaration.rows != self._structure.header.vertices:
+                raise CorruptError(f"attribute {declaration.name!r} moves, and what no face uses has values of it")
+            if first is None and not self._request.tolerant:
+                raise CorruptError(f"attribute {declaration.name!r} moves, and not all of its first values have come")
+            yield MovingAttribute(number, declaration, first, rows)
 
     def _add(self, packet: packets.Block) -> None:
         """Decode the next block."""

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 
 from bsm.bitstream.container.gop import GopBody
 from bsm.bitstream.container.header import Header
 from bsm.bitstream.errors import OptionError
 from bsm.bitstream.limits import NAMED_LIMITS
+from bsm.codec.arrays import Matrix
 from bsm.codec.sequence.cost import gop_cost, gop_memory, loop_memory
 from bsm.codec.sequence.gop import Setting, make_setting
 from bsm.codec.sequence.options import SequenceOptions
@@ -62,7 +64,13 @@ class Opening:
     limits: str
 
     def has_room(self, body: GopBody) -> bool:
-        """Whether decoders have the memory for a GOP."""
+        """Whether decoders have the memory for a GOP, with attributes that move about as positions do."""
+        (positions,) = body.fields
+        others = (
+            replace(positions, width=track.width, components=-(-positions.components * track.width // 3))
+            for track in self.setting.tracks[1:]
+        )
+        body = replace(body, fields=(positions, *others))
         dictionaries = self.setting.dictionaries
         beside = loop_memory(dictionaries.largest, body)
         return dictionaries.fits(
@@ -89,11 +97,17 @@ def _received(body: GopBody) -> int:
 
 
 def open_sequence(
-    prepared: Prepared, options: SequenceOptions, frames: int, progress: Progress, before: Allowance
+    prepared: Prepared,
+    options: SequenceOptions,
+    frames: int,
+    progress: Progress,
+    before: Allowance,
+    moving: Sequence[Matrix] = (),
 ) -> Opening:
     """Code the first frame, which all others of a run build upon; `frames` as for `SequenceEncoder`.
 
-    What decoders may still do follows from `before`.
+    What decoders may still do follows from `before`; `moving` is what GOPs build upon of attributes that move,
+    shapes (n, d), in the order of coding.
 
     Raises
     ------
@@ -135,5 +149,6 @@ def open_sequence(
             width=width,
             threads=options.threads,
             allowance=allowance,
+            moving=moving,
         )
     return Opening(header, blocks, setting, allowance, options.limits)

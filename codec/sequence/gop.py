@@ -127,7 +127,7 @@ def make_setting(
 ) -> Setting:
     """Make the dictionaries from the decoded first frame, shape (n, 3); see `find_sites` and `Setting`.
 
-    `moving` are the values, shapes (n, d), that attributes have in it.
+    `moving` are values of attributes, shapes (n, d), in it, less those of vertex 0.
     """
     sites = find_sites(scheme.blocks, faces, first_frame, width=width, threads=threads, allowance=allowance)
     dictionaries = Dictionaries(sites, scheme.rules, allowance, threads)
@@ -234,7 +234,7 @@ def silent(done: int, blocks: int) -> None:
 
 
 class GopEncoder:
-    """Encodes a track of one GOP after the other; the twin of `GopDecoder`.
+    """Encodes a track of one GOP after the other, at first that of positions; the twin of `GopDecoder`.
 
     Attributes
     ----------
@@ -244,8 +244,8 @@ class GopEncoder:
         What decoders make of the latest frames that were sent without a basis.
     """
 
-    def __init__(self, setting: Setting, options: SequenceOptions, track: int = 0) -> None:
-        self._track = setting.tracks[track]
+    def __init__(self, setting: Setting, options: SequenceOptions) -> None:
+        self._track = setting.tracks[0]
         self._parts: tuple[Part, ...] = tuple(setting.dictionaries.each(lambda _, part: part))
         self._options = options
         self.step = options.step
@@ -267,6 +267,22 @@ class GopEncoder:
         twin = copy(self)
         twin._history = self._history.copy()
         return twin
+
+    def beside(self, track: Track) -> GopEncoder:
+        """One of another track, by the same dictionaries, that begins anew."""
+        twin = copy(self)
+        twin._track, twin._history = track, FrameHistory(track)
+        twin.latest, twin.rounds = None, ROUNDS
+        return twin
+
+    def stay(self, frames: int, *, key: bool) -> None:
+        """Take note that nothing is told of so many frames, which then are the first one, or that before."""
+        if key:
+            self._history = FrameHistory(self._track)
+        history = self._history
+        history.expect(frames)
+        levels = [np.zeros_like(levels) for levels in history.levels]
+        history.commit(levels, [history.base(k) for k in range(len(levels))])
 
     @property
     def low_delay(self) -> bool:
@@ -439,6 +455,8 @@ class GopDecoder:
                 Loop(track.known[k].shape[1], field.components)
                 .begin(track.around[k], ends, field.step)
                 .decode(track.known[k], levels[k], field.step)
+                if field.components
+                else np.empty((len(levels[k]), 0))
                 for track, field, levels, ends in told
             )
             return np.hstack(list(loops))

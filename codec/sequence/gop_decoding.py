@@ -13,10 +13,12 @@ from bsm.bitstream.container.reader import Signal
 from bsm.bitstream.container.wire import FrameType
 from bsm.bitstream.errors import BsmError, CorruptError
 from bsm.codec.arrays import Matrix
+from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.sequence.cost import gop_cost, gop_memory, loop_memory
 from bsm.codec.sequence.course import Course, DecoderRequest
 from bsm.codec.sequence.events import FrameEvent, Item
 from bsm.codec.sequence.gop import Frame, GopDecoder, make_setting
+from bsm.codec.sequence.moving import MovingAttribute
 from bsm.codec.static.events import HeaderEvent, unreadable
 from bsm.codec.static.preamble_decoding import Structure
 from bsm.codec.static.stages import Arrival, Ended, Stage, misplaced
@@ -27,10 +29,18 @@ Result = TypeVar("Result")
 class Gops:
     """The first frame of a run is known, shape (n, 3), in BSM units; GOPs come, also of later runs of its mesh."""
 
-    def __init__(self, structure: Structure, first_frame: Matrix, request: DecoderRequest, course: Course) -> None:
+    def __init__(
+        self,
+        structure: Structure,
+        first_frame: Matrix,
+        moving: tuple[MovingAttribute, ...],
+        request: DecoderRequest,
+        course: Course,
+    ) -> None:
         self.header = structure.header
         self._structure = structure
         self._first_frame = first_frame
+        self._moving = moving
         self._request = request
         self._course = course
         self._attributes = tuple(request.attributes)
@@ -96,7 +106,9 @@ class Gops:
         header, limits = self.header, self._structure.allowance.limits
         if packet.index < self._course.next:
             raise CorruptError(f"frame {packet.index} comes again behind frame {self._course.next - 1}")
-        body = parse_gop_body(packet.data, header.gop_frames, header.run)
+        widths = {one.number: one.width for one in self._moving}
+        tolerant = self._request.tolerant
+        body = parse_gop_body(packet.data, header.gop_frames, header.run, widths, tolerant=tolerant)
         limits.check("sequence_bytes", gop_memory(self._structure.scheme.blocks.count, header.vertices, body))
         last = packet.index + body.frames - 1
         if 0 < header.frames <= last:
@@ -127,6 +139,7 @@ class Gops:
                 width=header.coefficients,
                 threads=self._request.threads,
                 allowance=structure.allowance,
+                moving=[one.start for one in self._moving],
             )
             self._decoder = GopDecoder(setting)
         return self._decoder
@@ -156,9 +169,18 @@ class Gops:
 
     def _events(self, first: int, frames: Iterator[Frame]) -> Iterator[FrameEvent]:
         numbering, units = self._structure.numbering, self._structure.units
-        for index, (positions, *_) in enumerate(frames, first):
+        for index, (positions, *changes) in enumerate(frames, first):
             if index >= self._request.start:
-                yield FrameEvent(index, numbering.arranged(units.back(positions)), numbering.faces)
+                yield FrameEvent(
+                    index, numbering.arranged(units.back(positions)), numbering.faces, self._shown(changes)
+                )
+
+    def _shown(self, changes: list[Matrix]) -> tuple[Attribute, ...]:
+        """The attributes of a frame in which those that move differ so much from the first, shapes (n, d)."""
+        moved = {one.declaration.name: (one, change) for one, change in zip(self._moving, changes, strict=True)}
+        return tuple(
+            moved[one.name][0].shown(one, moved[one.name][1]) if one.name in moved else one for one in self._attributes
+        )
 
     def _lose(self, error: BsmError) -> None:
         """Take note that frames are lost; how many is known when the next ones come."""

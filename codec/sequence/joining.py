@@ -12,6 +12,7 @@ import numpy.typing as npt
 
 from bsm.bitstream.errors import MeshError
 from bsm.codec.arrays import Indices, Matrix, Order
+from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.welding import first_of, group_rows
 from bsm.codec.sequence.runs import Run
@@ -27,16 +28,19 @@ class JoinedRun:
     given : TriangleMesh
         The first frame.
     joined : JoinedMesh
-    frames : iterator of float64 arrays, shape (k, 3)
-        The vertices of `joined.mesh` in all of them; to be used up before the next run is asked for.
+    frames : iterator of float64 arrays, shape (k, 3 + d)
+        The vertices of `joined.mesh` in all of them, as those of `Run`; to be used up before the next run is asked for.
     first : int
         The number of the first frame.
+    moving : tuple of Attribute
+        As of `Run`; vertices that differ in one are not the same.
     """
 
     given: TriangleMesh
     joined: JoinedMesh
     frames: Iterator[Matrix]
     first: int
+    moving: tuple[Attribute, ...]
 
 
 def joined_runs(
@@ -66,7 +70,7 @@ def joined_runs(
         frames = _Frames(run)
         while (frame := next(frames, None)) is not None:
             first = frames.number - 1
-            mesh = replace(run.mesh, positions=frame)
+            mesh = replace(run.mesh, positions=frame[:, :3])
             beginning = _Beginning(frame)
             while beginning.merges and len(beginning) < together(beginning.vertices):
                 if (frame := next(frames, None)) is None:
@@ -74,16 +78,16 @@ def joined_runs(
                 beginning.add(frame)
             one = joined(mesh, beginning.index, keep=keep_order, keep_loose=False)
             later = frames.while_together(one, may_part=keep_order or allowed)
-            yield JoinedRun(mesh, one, chain(beginning.taken(one.first), later), first)
+            yield JoinedRun(mesh, one, chain(beginning.taken(one.first), later), first, run.moving)
 
 
 class _Frames:
-    """The checked frames of a run, shape (n, 3); `number` is that of the next one."""
+    """The checked frames of a run, shape (n, 3 + d); `number` is that of the next one."""
 
     def __init__(self, run: Run) -> None:
         self.number = run.first
         self._frames = iter(run.frames)
-        self._shape = run.mesh.positions.shape
+        self._shape = len(run.mesh.positions), 3 + sum(one.components for one in run.moving)
         self._ahead: Matrix | None = None
 
     def __iter__(self) -> _Frames:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Generic, TypeAlias, TypeVar
 
@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from bsm.bitstream.errors import MeshError
-from bsm.codec.geometry.attributes import has
+from bsm.codec.geometry.attributes import Attribute, has
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.static.work import Allowance
 
@@ -30,15 +30,19 @@ class Run:
     ----------
     mesh : TriangleMesh
         The first frame.
-    frames : iterator of array_like, shape (n, 3)
-        All of them, the first one too; to be used up before the next run is asked for.
+    frames : iterator of array_like, shape (n, 3 + d)
+        All of them, the first one too; to be used up before the next run is asked for. Behind positions the numbers of
+        each attribute that can move.
     first : int
         The number of the first frame.
+    moving : tuple of Attribute
+        Those that can move, as the first frame has them.
     """
 
     mesh: TriangleMesh
     frames: Iterator[npt.ArrayLike]
     first: int
+    moving: tuple[Attribute, ...] = ()
 
 
 class Cutter:
@@ -51,18 +55,28 @@ class Cutter:
         Of frames that are arrays.
     allowed : bool
         Whether faces may change.
+    attributes : sequence of Attribute
+        Only those of these names can move; none: all of them.
 
     Attributes
     ----------
     changed : dict of str to int
-        Attributes but normals that are not in all frames what they are in the first one of their run, by name, with
-        the first such frame.
+        Attributes but normals that cannot move, and are not in all frames what they are in the first one of their run,
+        by name, with the first such frame.
     """
 
-    def __init__(self, frames: Iterable[Frame], faces: npt.ArrayLike, *, allowed: bool) -> None:
+    def __init__(
+        self,
+        frames: Iterable[Frame],
+        faces: npt.ArrayLike,
+        *,
+        allowed: bool,
+        attributes: Sequence[Attribute] = (),
+    ) -> None:
         self._frames = iter(frames)
         self._faces = faces
         self._allowed = allowed
+        self._names = {one.name for one in attributes}
         self._ahead: Frame | None = next(self._frames, None)
         self._number = 0
         self.changed: dict[str, int] = {}
@@ -79,12 +93,13 @@ class Cutter:
             mesh = (
                 ahead if isinstance(ahead, TriangleMesh) else TriangleMesh(np.asarray(ahead), np.asarray(self._faces))
             )
-            yield Run(mesh, self._of(mesh), self._number)
+            moving = tuple(one for one in mesh.attributes if can_move(one) and one.name in (self._names or {one.name}))
+            yield Run(mesh, self._of(mesh, moving), self._number, moving)
 
-    def _of(self, mesh: TriangleMesh) -> Iterator[npt.ArrayLike]:
+    def _of(self, mesh: TriangleMesh, moving: tuple[Attribute, ...]) -> Iterator[npt.ArrayLike]:
         while (ahead := self._ahead) is not None:
             if not isinstance(ahead, TriangleMesh):
-                positions: npt.ArrayLike = ahead
+                frame: npt.ArrayLike = ahead
             elif difference := other_faces(mesh, ahead):
                 if not self._allowed:
                     raise MeshError(
@@ -93,13 +108,36 @@ class Cutter:
                     )
                 return
             else:
-                positions = ahead.positions
-                for one in mesh.attributes if ahead is not mesh else ():
-                    if one.semantic != "normal" and not has(ahead.attributes, one):
-                        self.changed.setdefault(one.name, self._number)
+                frame = self._frame(mesh, moving, ahead)
             self._number += 1
-            yield positions
+            yield frame
             self._ahead = next(self._frames, None)  # no sooner, since frames may come live
+
+    def _frame(self, first: TriangleMesh, moving: tuple[Attribute, ...], mesh: TriangleMesh) -> npt.ArrayLike:
+        """A frame of the run that begins with `first`."""
+        columns = [mesh.positions]
+        for one in first.attributes:
+            now = moved_to(one, mesh.attributes) if one in moving else None
+            if one in moving:
+                columns.append((now or one).values.astype(np.float64))
+            if one.semantic != "normal" and now is None and not has(mesh.attributes, one):
+                self.changed.setdefault(one.name, self._number)
+        return np.hstack(columns) if moving else mesh.positions
+
+
+def can_move(attribute: Attribute) -> bool:
+    """Whether GOPs can tell how an attribute changes: colours and numbers of vertices."""
+    return attribute.domain == "vertex" and attribute.semantic in ("color", "generic")
+
+
+def moved_to(attribute: Attribute, others: Iterable[Attribute]) -> Attribute | None:
+    """The same attribute in another frame; None: there it is none, or another kind of one."""
+    same = (other for other in others if _kind(other) == _kind(attribute))
+    return next(same, None)
+
+
+def _kind(one: Attribute) -> tuple[object, ...]:
+    return one.name, one.domain, one.semantic, one.values.dtype, one.values.shape
 
 
 def other_faces(mesh: TriangleMesh, other: TriangleMesh) -> str:

@@ -124,10 +124,15 @@ def test_the_first_frame_with_other_faces_is_named(tmp_path, capsys):
 
 def test_colours_that_change_are_not_dropped_in_silence(tmp_path, capsys):
     positions, faces = bending(3)
-    for name, shades in (("once", (0, 9, 0)), ("on", (0, 9, 18))):
+    for name, domain, shades in (
+        ("once", "face", (0, 9, 0)),
+        ("on", "face", (0, 9, 18)),
+        ("move", "vertex", (0, 9, 0)),
+    ):
         (tmp_path / name).mkdir()
         for number, shade in enumerate(shades):
-            color = Attribute("color", np.full((len(positions[0]), 3), shade, np.uint8), "vertex", "color")
+            size = len(faces if domain == "face" else positions[0])
+            color = Attribute("color", np.full((size, 3), shade, np.uint8), domain, "color")
             write_mesh(str(tmp_path / name / f"{number}.ply"), TriangleMesh(positions[number], faces, [color]))
     stream = tmp_path / "x.bsm"
     assert bsm("encode", tmp_path / "once", "-o", stream, "--set", "step=0.01") != 0
@@ -136,6 +141,12 @@ def test_colours_that_change_are_not_dropped_in_silence(tmp_path, capsys):
     assert "color changes at frame 1, but stays as before" in capsys.readouterr().err
     assert bsm("encode", tmp_path / "on", "-o", stream, "--set", "step=0.01", "--force") == 0
     assert "left out, for they move or change: color" in capsys.readouterr().err
+    assert bsm("encode", tmp_path / "move", "-o", stream, "--set", "step=0.01", "--force") == 0
+    assert "color: per vertex, moves, exact in every frame" in capsys.readouterr().err
+    assert bsm("decode", stream, "-o", f"{tmp_path / 'back'}/", "--format", "ply") == 0
+    for number, shade in enumerate((0, 9, 0)):
+        (color,) = read_mesh(tmp_path / "back" / f"0000{number}.ply").mesh.attributes
+        assert (color.values == shade).all()
     np.savez(tmp_path / "x.npz", positions=positions, faces=faces, colors=np.zeros((3, len(positions[0]), 3), np.uint8))
     assert bsm("encode", tmp_path / "x.npz", "-o", stream, "--set", "step=0.01", "--force") == 0
     assert "left out: colors" in capsys.readouterr().err

@@ -235,7 +235,7 @@ def attribute_values(data: bytes) -> None:
 
 def gops(data: bytes) -> None:
     """The data of a GOP, and the levels in it."""
-    body = parse_gop_body(data[1:], 64, widths=(1, 4)[: data[0] % 3] if data else ())
+    body = parse_gop_body(data[1:], 64, widths={0: 1, 2: 4}, tolerant=data[:1] > b"\x7f")
     for field in body.fields:
         if body.method is GopMethod.LEARNT:
             levels = np.zeros((field.width, body.frames, field.components), np.int32)

@@ -23,6 +23,7 @@ import numpy as np
 
 from bsm.bitstream.container.reader import END_OF_STREAM
 from bsm.bitstream.errors import BsmError
+from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.sequence.decoder import SequenceDecoder
 from bsm.codec.sequence.events import FrameEvent
 from bsm.codec.static.decoder import decode
@@ -81,6 +82,7 @@ def _decode_sequence(data: bytes) -> tuple[np.ndarray, np.ndarray, Arrays]:
     frames: list[np.ndarray] = []
     faces: list[np.ndarray] = []
     runs: list[tuple[int, int, int]] = []
+    shown: list[tuple[Attribute, ...]] = []
     with SequenceDecoder() as decoder:
         decoder.receive_data(data)
         decoder.receive_eof()
@@ -88,9 +90,14 @@ def _decode_sequence(data: bytes) -> tuple[np.ndarray, np.ndarray, Arrays]:
             if isinstance(event, ConnectivityEvent):
                 runs.append((len(frames), event.vertices, len(event.faces)))
                 faces.append(event.faces)
+                shown.clear()
             elif isinstance(event, FrameEvent):
                 frames.append(event.positions)
+                shown.append(event.attributes)
         arrays = arrays_of(decoder.attributes)
+    for name, *frame in zip(arrays_of(shown[0]) if shown else (), *(arrays_of(each).values() for each in shown)):
+        if any(values is not frame[0] for values in frame):
+            arrays[name] = np.array(frame)
     if len(runs) == 1:
         return np.array(frames).reshape(-1, runs[0][1], 3), faces[0], arrays
     return np.concatenate(frames), np.concatenate(faces), arrays | {"runs": np.array(runs, np.int32)}

@@ -197,6 +197,10 @@ BAD_ATTRIBUTES: dict[str, Bad] = {
     ),
     "bad-attribute-origin": _declared("faces that are given by something else", 3, origin=1),
     "bad-attribute-faces-lean": _declared("values of faces that lean", 3, leans=1),
+    "bad-attribute-moves-mesh": _declared("an attribute of one mesh that moves", 0, moves=1),
+    "bad-sequence-moves-corners": Bad(
+        "values of corners that move", "corrupt", lambda: with_declaration(_sequence(), 0, domain=1, moves=1)
+    ),
     "bad-attribute-leans-blocks": _declared("an attribute that leans on blocks", 0, make=_blocks, leans=1),
     "bad-attribute-seams-of-itself": _declared("seams of the attribute itself", 0, seams_of=1),
     "bad-attribute-seams-of-vertices": _declared("seams of an attribute without any", 3, seams_of=3, domain=1),

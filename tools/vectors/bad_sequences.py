@@ -8,7 +8,7 @@ from functools import cache
 
 from bsm.bitstream.container.header import HEADER_DEFAULTS, HEADER_FIELDS
 from bsm.bitstream.container.maps import write_map
-from bsm.bitstream.container.wire import FrameType, write_varint
+from bsm.bitstream.container.wire import Cursor, FrameType, write_varint
 from tools.surgery import Frames, frames_of, header_entries, stream_of, with_header
 from tools.vectors.bad import Bad
 from tools.vectors.good_sequences import SEQUENCES
@@ -108,6 +108,44 @@ def _with_connectivity(frames: Frames) -> Frames:
     return [*frames[:place], next(one for one in frames if one[0] == FrameType.CONNECTIVITY), *frames[place:]]
 
 
+_FIELD = struct.pack("<fBB", 1.0, 0, 0)
+"""Of no components."""
+
+
+def _told(*fields: tuple[int, bytes]) -> Edit:
+    """A GOP that tells of other attributes: number and field of each."""
+
+    def edit(data: bytes) -> bytes:
+        told = b"".join(write_varint(number) + write_varint(len(field)) + field for number, field in fields)
+        return data[:2] + write_varint(len(fields)) + told + _positions_of(data)
+
+    return edit
+
+
+def _positions_of(data: bytes) -> bytes:
+    """The field of positions of a GOP of fewer than 128 frames."""
+    return _fields_of(data)[1]
+
+
+def _fields_of(data: bytes) -> tuple[list[tuple[int, bytes]], bytes]:
+    cursor = Cursor(data[2:])
+    fields = [(cursor.varint(), cursor.take(cursor.varint())) for _ in range(cursor.varint())]
+    return fields, cursor.rest()
+
+
+def _far(data: bytes) -> bytes:
+    """The velocity of a later GOP, which differs in its first frame, too, with a step as large as can be."""
+    later = [payload for kind, payload in frames_of(_base("moving")) if kind == FrameType.GOP][1]
+    fields, _ = _fields_of(later[1:])
+    large = struct.pack("<f", float.fromhex("0x1.fffffep+127"))
+    return _told(*((number, large + field[4:] if number == 2 else field) for number, field in fields))(data)
+
+
+def _without_values(frames: Frames) -> Frames:
+    last = [i for i, (kind, _) in enumerate(frames) if kind == FrameType.VALUES][-1]
+    return frames[:last] + frames[last + 1 :]
+
+
 BAD_SEQUENCES: dict[str, Bad] = {
     "unsupported-sequence-method": Bad("a GOP of method 3", "unsupported", _gop(lambda d: b"\x03" + d[1:])),
     "unsupported-sequence-smoothing": Bad(
@@ -135,6 +173,28 @@ BAD_SEQUENCES: dict[str, Bad] = {
     "bad-sequence-exponent-negative": Bad("an exponent below 0", "corrupt", _gop(lambda d: d[:7] + b"\x01" + d[9:])),
     "bad-sequence-levels-short": Bad("levels that end too early", "truncated", _gop(lambda d: d[:-9])),
     "bad-sequence-levels-long": Bad("bytes behind the levels", "corrupt", _gop(lambda d: d + b"\x55" * 9)),
+    "bad-sequence-moving-count": Bad(
+        "a GOP that tells of no attribute, and says that it does", "corrupt", _gop(_told(), base="moving")
+    ),
+    "bad-sequence-moving-still": Bad(
+        "a GOP that tells of an attribute that does not move", "corrupt", _gop(_told((1, b"x")), base="moving")
+    ),
+    "bad-sequence-moving-twice": Bad(
+        "a GOP that tells of an attribute twice", "corrupt", _gop(_told((3, _FIELD), (3, _FIELD)), base="moving")
+    ),
+    "bad-sequence-moving-short": Bad(
+        "a field that ends in its step", "corrupt", _gop(_told((3, _FIELD[:3])), base="moving")
+    ),
+    "bad-sequence-moving-step": Bad(
+        "a field with a step of 0", "corrupt", _gop(_told((3, bytes(4) + _FIELD[4:])), base="moving")
+    ),
+    "bad-sequence-moving-components": Bad(
+        "a field of more components than d T", "corrupt", _gop(_told((3, _FIELD[:4] + b"\x05")), base="moving")
+    ),
+    "bad-sequence-moving-far": Bad("values beyond the range of single precision", "numeric", _gop(_far, base="moving")),
+    "bad-sequence-moving-late": Bad(
+        "first values of an attribute that moves are missing", "corrupt", _frames(_without_values, base="moving")
+    ),
     "bad-sequence-next-first": Bad(
         "a frame that refers to one before the first", "corrupt", _frames(_without(0), base="low-delay")
     ),

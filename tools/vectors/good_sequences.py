@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.sequence.encoder import SequenceEncoder, encode_sequence
 from bsm.codec.sequence.options import SequenceOptions
 from tools.vectors.good import Good
@@ -50,6 +51,27 @@ def _runs(probes: str, *pieces: tuple[int, int], **options: object) -> Good:
     return Good(probes, make)
 
 
+def _moving(probes: str, *kinds: int, **options: object) -> Good:
+    """Frames of tori of so many times 4 vertices, with a colour, a velocity, and what stands still at times."""
+
+    def make() -> bytes:
+        frames = []
+        for t, kind in enumerate(kinds):
+            mesh = torus(kind, 4, phase=0.2 * t)
+            x, y, z = mesh.positions.T
+            worn = (
+                Attribute("color", (128 + 120 * np.sin(mesh.positions + 0.3 * t)).astype(np.uint8), "vertex", "color"),
+                Attribute("part", np.arange(len(mesh.positions)) // 10),
+                Attribute("velocity", np.stack([np.cos(0.2 * t) * x, y * z], axis=1).astype(np.float32)),
+                Attribute("heat", np.round(300.0 + x * (t if t < 4 else 0), 3)),
+            )
+            frames.append(replace(mesh, positions=mesh.positions * (1 + 0.02 * t), attributes=worn))
+        chosen = SequenceOptions(**{**vars(BASE), "runs": True, **options})
+        return b"".join(SequenceEncoder(frames[0].faces, chosen, len(frames)).chunks(frames))
+
+    return Good(probes, make)
+
+
 SEQUENCES: dict[str, Good] = {
     "good-sequence-one": _sequence("a sequence of one frame", 1),
     "good-sequence-learnt": _sequence("GOPs with learnt bases, the last one shorter", 8),
@@ -59,5 +81,10 @@ SEQUENCES: dict[str, Good] = {
     "good-sequence-runs-low-delay": _runs("the same, frame by frame", (6, 2), (5, 3), (6, 2), low_delay=1, gop=4),
     "good-sequence-runs-many": _runs("more meshes than are kept", *((kind, 1) for kind in (*range(3, 13), 5, 12))),
     "good-sequence-splits": _parting("ORDER with copies, until some part"),
+    "good-sequence-moving": _moving("attributes that move, one of them in the first GOP only", *[9] * 8, gop=4),
+    "good-sequence-moving-ordered": _moving("the same, with an order of vertices", *[8] * 3, keep_order=True),
+    "good-sequence-moving-low-delay": _moving("the same, frame by frame", *[8] * 7, low_delay=1, gop=5),
+    "good-sequence-moving-runs": _moving("the same, and a mesh that returns", 6, 6, 5, 5, 6, 6, 6, gop=2),
+    "good-sequence-moving-together": _moving("the same, a few frames at a time", *[8] * 7, low_delay=3),
     "good-sequence-overlap": _sequence("overlapping blocks of the first frame", 3, overlap=1.3, keep=0.5),
 }

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from typing import Any, Protocol
 
@@ -16,10 +16,10 @@ from bsm.bitstream.container.reader import Signal
 from bsm.bitstream.errors import BsmError, CorruptError
 from bsm.bitstream.fields.corners import Corners, corners_of
 from bsm.bitstream.once import cached_property
-from bsm.codec.arrays import Faces, Levels
+from bsm.codec.arrays import Faces, Levels, Order
 from bsm.codec.geometry.attributes import Attribute, Semantic
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.codec.static.attributes.levels import KINDS, restored
+from bsm.codec.static.attributes.levels import KINDS, Values, restored
 from bsm.codec.static.attributes.pieces import PieceDecoder, from_pieces
 from bsm.codec.static.attributes.solid import Solid
 from bsm.codec.static.attributes.surface import (
@@ -239,6 +239,11 @@ class AttributeDecoder:
             arrangement.indices,
         )
 
+    @property
+    def first(self) -> Values | None:
+        """Its values in the order of coding, shape (k, c); None where it is not whole."""
+        return self._values if self.complete else None
+
     @cached_property
     def arrangement(self) -> Arrangement:
         """How it is given to the user."""
@@ -275,6 +280,12 @@ class AttributeDecoders:
             return valued.decode(packet, places() if valued.declaration.leans else None)
         except BsmError as error:
             raise type(error)(f"attribute {valued.declaration.name!r}: {error.message}") from error
+
+    def moving(self) -> Iterator[tuple[int, Declaration, Values | None, Order]]:
+        """Those that move: the values in the first frame, and which of them each of the user's vertices has."""
+        for number, one in self._valued.items():
+            if one.declaration.moves:
+                yield number, one.declaration, one.first, one.arrangement.rows
 
     def attributes(self, solid: Solid | None) -> tuple[Attribute, ...]:
         """Attributes that are whole; `solid` for those that are recomputed."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
@@ -28,6 +28,8 @@ NORMAL_BITS: dict[Grade, int] = {"small": 8, "balanced": 10, "fine": 12}
 COLOR_BITS: dict[Grade, int] = {"small": 8, "balanced": 8, "fine": 16}
 TEXCOORD_BITS: dict[Grade, int] = {"small": 12, "balanced": 12, "fine": 14}
 GENERIC_BITS: dict[Grade, int] = {"small": 16, "balanced": 16, "fine": 20}
+MOVING = {"color": 2.0, "generic": 0.5}
+"""Percent of its range that an attribute which changes from frame to frame may be off."""
 
 
 @dataclass(frozen=True)
@@ -93,9 +95,13 @@ def checked_qualities(asked: Mapping[str, str] | tuple[tuple[str, str], ...]) ->
 
 
 def qualities(
-    attributes: Sequence[Attribute], asked: Mapping[str, str], grade: Grade, normals: str = "keep"
+    attributes: Sequence[Attribute],
+    asked: Mapping[str, str],
+    grade: Grade,
+    normals: str = "keep",
+    moving: Collection[str] = (),
 ) -> list[tuple[Attribute, Quality]]:
-    """Attributes, and what is asked of each, but for those that are left out.
+    """Attributes, and what is asked of each, but for those that are left out; `moving` change from frame to frame.
 
     Raises
     ------
@@ -113,7 +119,9 @@ def qualities(
         floats = one.values.dtype.kind == "f" and one.components == 3
         if normals == "recompute" and one.semantic == "normal" and floats:
             return Quality("recompute")
-        return parse_quality(asked["*"]) if "*" in asked else default_quality(one, grade)
+        if "*" in asked:
+            return parse_quality(asked["*"])
+        return Quality("share", MOVING[one.semantic]) if one.name in moving else default_quality(one, grade)
 
     return [(one, wanted) for one in attributes if (wanted := quality(one)).way != "none"]
 

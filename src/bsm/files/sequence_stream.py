@@ -70,6 +70,7 @@ class SequenceStream:
         self.faces: Faces
         self.run_starts: list[int] = []
         self._note = note
+        self._present: tuple[Attribute, ...] | None = None
         decoder = SequenceDecoder(limits, tolerant=note is not None, start=start)
         self._decoder = decoder
         self._events = events(decoder, chunks)
@@ -83,8 +84,8 @@ class SequenceStream:
 
     @property
     def attributes(self) -> tuple[Attribute, ...]:
-        """Attributes that are the same in all frames, once the first frame is known."""
-        return self._decoder.attributes
+        """Those of the frame that was given last; before the first one, as far as they have come."""
+        return self._decoder.attributes if self._present is None else self._present
 
     @property
     def metadata(self) -> Metadata:
@@ -114,7 +115,8 @@ class SequenceStream:
         given = False
         for event in self._events:
             match event:
-                case FrameEvent(index, positions, faces):
+                case FrameEvent(index, positions, faces, attributes):
+                    self._present = attributes
                     if faces is not self.faces and not np.array_equal(faces, self.faces):
                         if given:
                             self.run_starts.append(index)

@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from bsm.bitstream.container import packets
-from bsm.bitstream.container.gop import parse_gop_body
+from bsm.bitstream.container.gop import frames_of_gop
 from bsm.bitstream.container.layout import write_attribute, write_metadata
 from bsm.bitstream.container.reader import END_OF_STREAM, NEED_DATA, Reader, read_packets
 from bsm.bitstream.container.wire import MAGIC
@@ -195,7 +195,7 @@ def inspect_stream(chunks: Iterator[bytes], limits: Limits = DEFAULT_LIMITS) -> 
             coefficients.append(packet.coefficients)
         if isinstance(packet, packets.Gop) and reader.last_frame is not None:
             assert present is not None
-            frames = parse_gop_body(packet.data, present.gop_frames, present.run).frames
+            frames = frames_of_gop(packet.data, present.gop_frames, present.run)
             runs[-1] = replace(runs[-1], frames=runs[-1].frames + frames)
             gops.append(GopInfo(packet.index, frames, reader.last_frame.offset, reader.last_frame.length))
     assert header is not None and reader.last_frame is not None

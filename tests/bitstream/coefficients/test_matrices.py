@@ -11,6 +11,7 @@ from bsm.bitstream.container.gop import (
     GopBody,
     GopField,
     GopMethod,
+    frames_of_gop,
     parse_gop_body,
     still,
     write_gop_body,
@@ -142,8 +143,10 @@ BODIES = [
 
 @pytest.mark.parametrize("body", BODIES)
 def test_bodies(body):
-    widths = [field.width for field in body.fields[1:]]
-    parsed = parse_gop_body(write_gop_body(body, 37), 4, 37, widths)
+    widths = {3 * number + 2: field.width for number, field in enumerate(body.fields[1:])}
+    data = write_gop_body(body, 37, list(widths))
+    assert frames_of_gop(data, 4, 37) == body.frames
+    parsed = parse_gop_body(data, 4, 37, widths)
     assert (parsed.method, parsed.frames) == (body.method, body.frames)
     for one, other in zip(parsed.fields, body.fields, strict=True):
         assert (one.width, one.step, one.components) == (other.width, other.step, other.components)

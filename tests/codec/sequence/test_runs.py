@@ -359,11 +359,11 @@ def test_unwelded_frames_of_many_components_and_flat_ones():
     assert count == len(frames) and encoder.run_starts == [0, 2, 4, 6]
 
 
-def test_attributes_that_change_in_a_run_are_told() -> None:
+def test_attributes_of_faces_that_change_in_a_run_are_told() -> None:
     frames = meshes((10, 4))
-    heats = [np.float32(t // 2) + np.zeros(len(frames[0].positions), np.float32) for t in range(4)]
-    hot = [replace(one, attributes=(Attribute("heat", heat),)) for one, heat in zip(frames, heats, strict=True)]
-    steady = [replace(one, attributes=(Attribute("heat", heats[0]),)) for one in frames]
+    heats = [np.float32(t // 2) + np.zeros(len(frames[0].faces), np.float32) for t in range(4)]
+    hot = [replace(one, attributes=(Attribute("heat", heat, "face"),)) for one, heat in zip(frames, heats, strict=True)]
+    steady = [replace(one, attributes=(Attribute("heat", heats[0], "face"),)) for one in frames]
     options = SequenceOptions(step=0.003, block_size=30, threads=1, runs=True)
     for given, said in ((hot, ["heat changes at frame 2, but stays as before"]), (steady, [])):
         encoder = SequenceEncoder(frames[0].faces, options, 4, attributes=given[0].attributes)

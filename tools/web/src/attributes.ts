@@ -1,9 +1,9 @@
 /** Attributes: seams, values, and how the user is given them (specification, D, A). */
 import { begun } from "./begun";
 import { Cursor } from "./packets";
-import { BITS, CORNER, FACE, isByVertex, LEVELS, OCTAHEDRAL, RECOMPUTED, scaleOf, TEXCOORD, VERTEX, wordsOf, type Declaration } from "./declaration";
+import { BITS, CORNER, FACE, isByVertex, LEVELS, OCTAHEDRAL, RANGES, RECOMPUTED, scaleOf, TEXCOORD, VERTEX, wordsOf, type Declaration } from "./declaration";
 import { Coder, makeBank } from "./entropy";
-import { CorruptError } from "./errors";
+import { CorruptError, NumericError } from "./errors";
 import { makeLearners, makeModel } from "./fields";
 import { decodeChunk, linkCorners, zeros } from "./grid";
 import type { Header } from "./header";
@@ -11,6 +11,8 @@ import type { Argument, Ints, Memory } from "./kernels";
 import type { Allowance } from "./chain";
 import { checkLimit, type Limits } from "./limits";
 import type { Numbering } from "./numbering";
+import { areFinite } from "./numbers";
+import type { Moving } from "./sequence";
 import { DECLARED, layerCost, seamsCost, valuesCost, valuesMemory } from "./work";
 
 const SEAM = 1;
@@ -115,7 +117,7 @@ export class Attributes {
         cursor.finish();
         restore(declaration, rows, pieces, one.values);
         one.coded += count;
-        return one.coded === declaration.rows ? this.given(one, numbering) : undefined;
+        return isWhole(one) ? this.given(one, numbering) : undefined;
     }
 
     /** Attributes that follow from positions. */
@@ -131,6 +133,37 @@ export class Attributes {
             one.surface = undefined;
             return [given];
         });
+    }
+
+    /** Those that move; of one that is not whole nothing is known. */
+    moving(): Moving[] {
+        return [...this.valued].flatMap(([number, one]) => {
+            const { components: width, rows, moves } = one.declaration;
+            if (moves && rows !== this.header.vertices) throw new CorruptError("an attribute that moves has values of what no face uses");
+            const start = new Float64Array(rows * width);
+            if (isWhole(one)) start.forEach((_, i) => (start[i] = one.values[i] - one.values[i % width]));
+            return moves ? [{ number, width, start }] : [];
+        });
+    }
+
+    /** Whether all that is needed of those that move has come. */
+    get canMove(): boolean {
+        return [...this.valued.values()].every((one) => !one.declaration.moves || isWhole(one));
+    }
+
+    /** One that moves, in a frame that differs from the first one by `change` (S 10.4, S 10.5); nothing if it is not whole. */
+    moved(number: number, change: Float64Array, { source }: Numbering): Attribute[] {
+        const one = this.valued.get(number);
+        if (!one || !isWhole(one)) return [];
+        const { declaration } = one;
+        const [low, high] = RANGES[declaration.kind] ?? [];
+        const values = change.map((difference, i) => {
+            const value = one.values[i] + difference;
+            if (declaration.kind === FLOAT32) return Math.fround(value);
+            return low === undefined ? value : Math.min(Math.max(roundEven(value), low), high);
+        });
+        if (!areFinite(values)) throw new NumericError(`values of "${declaration.name}" are not finite`);
+        return [{ ...shapeOf(declaration), domain: "vertex", values: source ? taken(values, source, declaration.components) : values }];
     }
 
     /** Check the number of rows of all attributes (D 1.2). */
@@ -289,12 +322,8 @@ export class Attributes {
         const { components } = declaration;
         const { corners, source, faces, isSplit } = numbering;
         const rows = values.length / components;
-        const shape = { name: declaration.name, semantic: SEMANTICS[declaration.semantic], kind: KINDS[declaration.kind], components };
-        const chosen = (from: Int32Array): Float64Array => {
-            const taken = new Float64Array(components * from.length);
-            from.forEach((row, i) => taken.set(values.subarray(components * row, components * row + components), components * i));
-            return taken;
-        };
+        const shape = shapeOf(declaration);
+        const chosen = (from: Int32Array): Float64Array => taken(values, from, components);
         if (declaration.domain === FACE) {
             const from = Int32Array.from({ length: rows }, (_, face) => (corners ? Math.floor(corners[3 * face] / 3) : face));
             return { ...shape, domain: "face", values: chosen(from) };
@@ -310,6 +339,26 @@ export class Attributes {
         }
         return { ...shape, domain: "vertex", values: chosen(source.map((vertex, i) => (vertex < 0 ? loose++ : found[i]))) };
     }
+}
+
+function shapeOf({ name, semantic, kind, components }: Declaration): Pick<Attribute, "name" | "semantic" | "kind" | "components"> {
+    return { name, semantic: SEMANTICS[semantic], kind: KINDS[kind], components };
+}
+
+function taken(values: Float64Array, rows: Int32Array, components: number): Float64Array {
+    const found = new Float64Array(components * rows.length);
+    rows.forEach((row, i) => found.set(values.subarray(components * row, components * row + components), components * i));
+    return found;
+}
+
+function isWhole({ declaration, coded }: Valued): boolean {
+    return coded === declaration.rows;
+}
+
+/** The nearest whole number, of two the even one. */
+function roundEven(value: number): number {
+    const near = Math.round(value);
+    return near - value === 0.5 && near % 2 !== 0 ? near - 1 : near;
 }
 
 /** How many values there are for vertices that no face uses. */

@@ -108,6 +108,7 @@ export const DECLARATION_FIELDS = {
     offset: { key: 10, type: "floats", low: -1e+300, high: 1e+300, default: [], lengths: [0, 8] },
     step: { key: 11, type: "floats", low: 1e-300, high: 1e+300, default: [], lengths: [0, 4] },
     leans: { key: 12, type: "method", low: 0, high: 1, default: 0 },
+    moves: { key: 13, type: "method", low: 0, high: 1, default: 0 },
     seamsOf: { key: 15, type: "int", low: 0, high: 65535, default: 0 },
 } satisfies Record<string, Field>;
 

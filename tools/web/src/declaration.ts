@@ -10,7 +10,8 @@ const FLOAT32 = 6;
 const FLOAT64 = 7;
 const MOST_LEVEL = 2 ** 32 - 1;
 const LARGEST_SINGLE = 2 ** 128 - 2 ** 104;
-const RANGES = [[0, 2 ** 8 - 1], [-(2 ** 7), 2 ** 7 - 1], [0, 2 ** 16 - 1], [-(2 ** 15), 2 ** 15 - 1], [0, 2 ** 32 - 1], [-(2 ** 31), 2 ** 31 - 1]];
+/** Of whole numbers, kind by kind. */
+export const RANGES: (readonly number[] | undefined)[] = [[0, 2 ** 8 - 1], [-(2 ** 7), 2 ** 7 - 1], [0, 2 ** 16 - 1], [-(2 ** 15), 2 ** 15 - 1], [0, 2 ** 32 - 1], [-(2 ** 31), 2 ** 31 - 1]];
 
 /** An attribute, but for its values; the names are those of the specification. */
 export interface Declaration {
@@ -26,6 +27,7 @@ export interface Declaration {
     offset: number[];
     step: number[];
     leans: number;
+    moves: number;
     seamsOf: number;
 }
 
@@ -81,6 +83,7 @@ function contradiction(d: Declaration): string | undefined {
         ["other than a step for all or for each number", d.step.length > 1 && d.step.length !== words],
         ["octahedral levels that are not two of the same even number", d.coding === OCTAHEDRAL && !even],
         ["values of faces that lean on positions", d.domain === FACE && d.leans > 0],
+        ["values that move and are not levels of vertices", d.moves > 0 && (d.domain !== VERTEX || d.origin > 0 || d.coding !== LEVELS)],
         ["seams where there are no corners", d.seamsOf > 0 && d.domain !== CORNER],
     ];
     return rules.find(([, broken]) => broken)?.[0];
@@ -97,7 +100,7 @@ function rangeProblem(d: Declaration): string | undefined {
             const most = d.kind === FLOAT32 ? LARGEST_SINGLE : 1e308;
             return Math.abs(first) <= most && Math.abs(last) <= most;
         }
-        const [low, high] = RANGES[d.kind];
+        const [low, high] = RANGES[d.kind] ?? [];
         return Number.isInteger(first) && Number.isInteger(steps[i]) && first >= low && last <= high;
     });
     return legal ? undefined : "values outside of their range";

@@ -3,7 +3,7 @@ import { begun } from "./begun";
 import type { Attribute } from "./attributes";
 import { Allowance } from "./chain";
 import { BsmError, CorruptError, errorLike } from "./errors";
-import type { Event, Mesh, Wishes } from "./events";
+import type { Event, FrameEvent, Mesh, Wishes } from "./events";
 import type { Header } from "./header";
 import type { SharedBlock } from "./helper";
 import type { Kernels, Memory } from "./kernels";
@@ -79,7 +79,7 @@ export class Decoder {
         for (;;) {
             const item = this.nextItem();
             if (typeof item === "string") return item;
-            if ("make" in item) return { type: "frame", index: item.frame, positions: this.guarded((stages) => stages.framed(item)) };
+            if ("make" in item) return this.guarded((stages) => stages.framed(item));
             if (!this.wishes.whole) return "type" in item ? item : this.guarded((stages) => stages.changed(item), item.index);
             if (!("type" in item)) this.guarded((stages) => stages.add(item), item.index);
             else if (item.type === "end") return { ...item, positions: this.guarded((stages) => stages.atEnd()) };
@@ -106,7 +106,7 @@ export class Decoder {
             if (typeof item === "string") continue;
             if ("type" in item) {
                 if (item.type === "attribute" && !kept.first) kept.attributes.push(item);
-            } else if ("make" in item) kept.first ??= this.meshOf(this.guarded((stages) => stages.framed(item)));
+            } else if ("make" in item) kept.first ??= this.firstOf(this.guarded((stages) => stages.framed(item)));
             else begun(this.stages).add(item);
         }
         return kept.first ?? this.meshOf(this.guarded((stages) => stages.whole()));
@@ -114,6 +114,11 @@ export class Decoder {
 
     private meshOf(positions: Float64Array): Mesh {
         return { positions, faces: begun(this.stages).numbers.faces, attributes: this.kept.attributes };
+    }
+
+    private firstOf({ positions, attributes: moved }: FrameEvent): Mesh {
+        const mesh = this.meshOf(positions);
+        return { ...mesh, attributes: mesh.attributes.map((one) => moved.find(({ name }) => name === one.name) ?? one) };
     }
 
     private nextItem(): Exclude<Item, AwaitedBlock> | Signal | typeof NEED_BLOCK {

@@ -88,9 +88,10 @@ export interface Mesh {
     attributes: Attribute[];
 }
 
-/** A frame of a sequence: its number from 0, and its positions, shape (n, 3). */
+/** A frame of a sequence: its number from 0, positions, shape (n, 3), and the attributes that move, as they are in it. */
 export interface FrameEvent<Positions = Float64Array> {
     type: "frame";
     index: number;
     positions: Positions;
+    attributes: Attribute[];
 }

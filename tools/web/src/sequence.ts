@@ -16,6 +16,8 @@ import { blockCost, partCost, shownCost, UNCODED } from "./work";
 const LEARNT = 0;
 const KEY_FRAMES = 1;
 const NEXT_FRAMES = 2;
+/** Added to the method of a GOP that tells of attributes, too (S 10.2). */
+const WITH_ATTRIBUTES = 4;
 const MOST_EXPONENT = 400;
 /** The first byte of a GOP: its method, and so many times its run, counted modulo so many. */
 const [METHODS, RUNS] = [8, 32];
@@ -42,15 +44,39 @@ const PRODUCTS = [2, 3].flatMap((degree) => risingAxes(degree).map((axes) => ({ 
 /** Columns of bends. */
 const BENDS = 3 + PRODUCTS.length;
 
-/** The data of a GOP (S 2). */
-interface Gop {
-    method: number;
-    frames: number;
+/** What a GOP tells of positions, or of an attribute that moves (S 2); a step of 0: nothing (S 10.4). */
+interface Field {
+    width: number;
     step: number;
     components: number;
     exponents: number[];
     basis: Uint8Array;
     levels: Uint8Array;
+}
+
+/** The data of a GOP: the fields of positions and of all attributes that move. */
+interface Gop {
+    method: number;
+    frames: number;
+    fields: Field[];
+}
+
+/** An attribute that moves: its number, numbers of a vertex, and what the first frame has beyond vertex 0 (S 10.3). */
+export interface Moving {
+    number: number;
+    width: number;
+    start: Float64Array;
+}
+
+/** The fields of a frame: of positions, in BSM units, and what attributes differ from the first frame by. */
+export type Fields = Float64Array[];
+
+/** What GOPs build upon: the first frame, and what key frames are added to, part by part (S 7.2, S 10.3). */
+interface Track {
+    width: number;
+    bends: Bends[];
+    first: Float64Array[];
+    start: Float64Array[];
 }
 
 /** Rows and columns of levels; kept outside of the kernels' memory. */
@@ -73,14 +99,16 @@ interface Part {
     basis: Doubles;
 }
 
-/** What bends a part (S 3.7): differences, and values around it, of `BENDS` columns. */
+/** What is known of a part (S 3.7, S 10.3): differences, and values around it, of so many columns. */
 interface Bends {
+    count: number;
     known: Float64Array;
     around: Float64Array;
 }
 
 /** What low-delay frames refer to, part by part, and how many came last (S 7.2). */
 interface History {
+    bank: Bank;
     frames: number;
     levels: Levels[];
     moments: Float64Array[];
@@ -92,14 +120,13 @@ interface History {
 export class Sequence {
     /** Made when a GOP is there, whose frames pay for them (S 8.3). */
     private parts: Part[] = [];
-    private first: Float64Array[] = [];
-    private bends: Bends[] = [];
+    private tracks: Track[] = [];
     private behindFirst = 0;
     private behindParts = 0;
     private failure?: unknown;
-    private bank!: Bank;
-    private behindBank = 0;
-    private history?: History;
+    private behindBanks = 0;
+    /** Of each track. */
+    private histories?: History[];
     /** That of the run: of the first, or of one that has its mesh again. */
     private run: Header;
 
@@ -114,7 +141,9 @@ export class Sequence {
         private readonly firstFrame: Float64Array,
         /** How many vertices the user has. */
         private readonly given: number,
+        readonly moving: Moving[],
         private readonly allowance: Allowance,
+        private readonly tolerant: boolean,
     ) {
         this.run = header;
     }
@@ -135,7 +164,7 @@ export class Sequence {
 
     /** No frame refers to one that has come. */
     forget(): void {
-        this.history = undefined;
+        this.histories = undefined;
     }
 
     /** Make the parts; what is wrong with them is so for every GOP. */
@@ -150,8 +179,12 @@ export class Sequence {
             const rank = memory.ints(blocks.graph.size);
             for (let index = 0; index < blocks.count; index++) for (const vertex of core(blocks, index).view) rank.view[vertex] = index;
             const parts = Array.from({ length: blocks.count }, (_, index) => this.makePart(index, weights, rank, allowance));
-            this.bends = parts.map((part) => this.bendsOf(part));
-            this.first = this.bends.map(({ known }) => known.filter((_, i) => i % BENDS < 3));
+            const fields = [{ width: 3, start: this.firstFrame }, ...this.moving];
+            this.tracks = fields.map(({ width, start }, k) => {
+                const bends = parts.map((part) => (k === 0 ? this.bendsOf(part) : this.knownOf(part, start, width)));
+                const first = bends.map(({ known, count }) => known.filter((_, i) => i % count < width));
+                return { width, bends, first, start: k === 0 ? first : first.map(({ length }) => new Float64Array(length)) };
+            });
             this.parts = parts;
             this.behindParts = memory.mark();
         } catch (error) {
@@ -161,13 +194,16 @@ export class Sequence {
     }
 
     /** Frames of the GOP from frame `index` on, each made when it is called; valid until the next GOP. */
-    decode(index: number, data: Uint8Array): (() => Float64Array)[] {
+    decode(index: number, data: Uint8Array): (() => Fields)[] {
         const { header, run, course } = this;
         if (index !== course.next) throw new CorruptError(`frame ${index} where frame ${course.next} must follow`);
-        const gop = parseGop(data, run);
-        const { components, method } = gop;
-        const left = method === LEARNT ? 0 : 4 * header.vertices * components + this.blocks.count * momentsOf(9, components) * 8;
-        checkLimit(this.limits, "sequenceBytes", components * (16 * header.vertices + 120 * gop.frames + 24 * components) + left);
+        const gop = parseGop(data, run, this.moving, this.tolerant);
+        const bytes = gop.fields.map(({ width, components }) => {
+            const columns = width * gop.frames;
+            const left = gop.method === LEARNT ? 0 : 4 * header.vertices * columns + this.blocks.count * momentsOf(3 * width, columns) * 8;
+            return components * (16 * header.vertices + 40 * columns + 24 * components) + left;
+        });
+        checkLimit(this.limits, "sequenceBytes", total(bytes));
         const last = index + gop.frames;
         if (run.frames > 0 && last > run.frames) throw new CorruptError(`frame ${last - 1} of ${run.frames}`);
         const frames = this.paidFor(gop, data.length);
@@ -176,16 +212,17 @@ export class Sequence {
     }
 
     /** The frames of a GOP, if its frames and bytes pay for them. */
-    private paidFor(gop: Gop, received: number): (() => Float64Array)[] {
+    private paidFor(gop: Gop, received: number): (() => Fields)[] {
         const { header, allowance } = this;
+        const columns = total(gop.fields.map(({ components }) => components));
         allowance.show(header.vertices * gop.frames);
         try {
             this.begin();
             const parts = this.parts.reduce(
-                (sum, { block, around, basis }) => sum + partCost(block.size, around.length, basis.width, gop.components) + solutionCost(block, gop.components),
+                (sum, { block, around, basis }) => sum + partCost(block.size, around.length, basis.width, columns) + solutionCost(block, columns),
                 0,
             );
-            allowance.spend(parts + shownCost(header.vertices, this.given, gop.frames, gop.components), received);
+            allowance.spend(parts + shownCost(header.vertices, this.given, gop.frames, gop.fields), received);
             return gop.method === LEARNT ? this.transformed(gop) : this.following(gop);
         } catch (error) {
             allowance.show(-header.vertices * gop.frames);
@@ -253,7 +290,13 @@ export class Sequence {
             return rows;
         };
         const around = columns(part.around);
-        return { known: this.coefficients(part, columns(vertices), around, BENDS), around };
+        return { count: BENDS, known: this.coefficients(part, columns(vertices), around, BENDS), around };
+    }
+
+    /** What is known of an attribute that moves. */
+    private knownOf(part: Part, start: Float64Array, count: number): Bends {
+        const around = rowsOf(start, count, part.around);
+        return { count, known: this.coefficients(part, rowsOf(start, count, part.block.vertices.view), around, count), around };
     }
 
     /** P: rows that continue a field of `width` columns, of which `ends` is what it is around (S 3.4). */
@@ -290,10 +333,7 @@ export class Sequence {
 
     /** What a field is at the vertices around a part. */
     private endsOf(part: Part, field: Doubles): Float64Array {
-        const { width, view } = field;
-        const ends = new Float64Array(part.around.length * width);
-        part.around.forEach((vertex, i) => ends.set(view.subarray(vertex * width, (vertex + 1) * width), i * width));
-        return ends;
+        return rowsOf(field.view, field.width, part.around);
     }
 
     /** Fill a part of a field (S 3.5). */
@@ -307,18 +347,11 @@ export class Sequence {
         }
     }
 
-    /** A model that has learnt nothing (S 4.1); what lies behind the parts is given back. */
-    private startModel(): void {
-        this.memory.release(this.behindParts);
-        this.bank = makeLevelBank(this.memory);
-        this.behindBank = this.memory.mark();
-    }
-
     /**
-     * Matrices of levels of so many rows, one behind the other; `references` has one for each, or none: the one before;
+     * Matrices of levels of so many rows, one behind the other, by a model; `references` has one for each, or none: the one before;
      * of a basis of `width` of them, fewer columns are coded of the first rows (S 4.2).
      */
-    private readLevels(data: Uint8Array, rows: number[], columns: number, references?: Levels[], width?: number): Levels[] {
+    private readLevels(bank: Bank, data: Uint8Array, rows: number[], columns: number, references?: Levels[], width?: number): Levels[] {
         const { memory } = this;
         return memory.scratch(() => {
             const coder = new Coder(memory, data);
@@ -331,7 +364,7 @@ export class Sequence {
                     const [levels, known] = [memory.ints(count * columns, columns), memory.ints(reference.values.length, columns)];
                     levels.view.fill(0);
                     known.view.set(reference.values);
-                    memory.call("code_matrix", coder.parts, this.bank, shaped(memory, levels, count), shaped(memory, known, reference.rows), 0n, lead, stair, slow);
+                    memory.call("code_matrix", coder.parts, bank, shaped(memory, levels, count), shaped(memory, known, reference.rows), 0n, lead, stair, slow);
                     return levels.view.slice();
                 });
                 if (coder.overran) break;
@@ -375,13 +408,13 @@ export class Sequence {
     }
 
     /** What a loop begins with (S 6.6). */
-    private learntAround(known: Float64Array, field: Float64Array, columns: number, step: number): Float64Array {
+    private learntAround({ count, around }: Bends, field: Float64Array, columns: number, step: number): Float64Array {
         const { memory } = this;
-        const width = BENDS + columns;
+        const width = count + columns;
         return memory.scratch(() => {
-            const moments = memory.copy(emptyMoments(BENDS, columns), width);
+            const moments = memory.copy(emptyMoments(count, columns), width);
             memory.run(
-                "learn_around", memory.copy(known, BENDS), memory.copy(field, columns), moments, step, RULES, memory.doubles(width), memory.doubles(width),
+                "learn_around", memory.copy(around, count), memory.copy(field, columns), moments, step, RULES, memory.doubles(width), memory.doubles(width),
             );
             return moments.view.slice();
         });
@@ -394,48 +427,54 @@ export class Sequence {
     }
 
     /** Frames of method 0 (S 7.1). */
-    private transformed(gop: Gop): (() => Float64Array)[] {
-        const { parts, bends } = this;
-        const columns = gop.components;
-        this.history = undefined;
-        this.startModel();
-        const basis = this.learntBasis(gop);
-        this.startModel();
-        const levels = this.readLevels(gop.levels, parts.map((part) => part.basis.width), columns);
-        if (columns === 0) return Array.from({ length: gop.frames }, () => () => new Float64Array(3 * this.header.vertices));
-        const field = this.emptyField(columns);
+    private transformed({ frames, fields }: Gop): (() => Fields)[] {
+        const { memory, header } = this;
+        this.histories = undefined;
+        memory.release(this.behindParts);
+        const made = fields.map((field, k) => (field.step > 0 ? this.components(field, this.tracks[k], frames) : undefined));
+        return Array.from({ length: frames }, (_, t) => () => made.map((one, k) => one?.(t) ?? new Float64Array(fields[k].width * header.vertices)));
+    }
+
+    /** What gives a field of each frame: components over a temporal basis. */
+    private components(field: Field, { bends }: Track, frames: number): ((t: number) => Float64Array) | undefined {
+        const { memory, parts } = this;
+        const { width, components, step } = field;
+        const basis = memory.scratch(() => this.learntBasis(field, frames));
+        const rows = parts.map((part) => part.basis.width);
+        const levels = memory.scratch(() => this.readLevels(makeLevelBank(memory), field.levels, rows, components));
+        if (components === 0) return undefined;
+        const placed = this.emptyField(components);
         parts.forEach((part, k) => {
-            const { known, around } = bends[k];
-            const ends = this.endsOf(part, field);
-            const moments = this.learntAround(around, ends, columns, gop.step);
-            this.place(part, field, ends, this.follow(known, BENDS, levels[k], columns, moments, gop.step));
+            const { known, count } = bends[k];
+            const ends = this.endsOf(part, placed);
+            const moments = this.learntAround(bends[k], ends, components, step);
+            this.place(part, placed, ends, this.follow(known, count, levels[k], components, moments, step));
         });
-        return Array.from({ length: gop.frames }, (_, t) => () => this.frameOf(field, basis, gop.frames, t));
+        return (t) => this.frameOf(placed, basis, width, frames, t);
     }
 
     /** Frame t of components over a temporal basis. */
-    private frameOf(field: Doubles, basis: Float64Array, frames: number, t: number): Float64Array {
+    private frameOf(field: Doubles, basis: Float64Array, width: number, frames: number, t: number): Float64Array {
         const { memory, header } = this;
         const columns = field.width;
         return memory.scratch(() => {
-            const weights = memory.doubles(3 * columns, 3);
-            for (let d = 0; d < 3; d++) {
-                for (let i = 0, from = (d * frames + t) * columns; i < columns; i++) weights.view[3 * i + d] = basis[from + i];
+            const weights = memory.doubles(width * columns, width);
+            for (let d = 0; d < width; d++) {
+                for (let i = 0, from = (d * frames + t) * columns; i < columns; i++) weights.view[width * i + d] = basis[from + i];
             }
-            const positions = memory.doubles(3 * header.vertices, 3);
-            memory.run("reconstruct", field, weights, positions);
-            return positions.view.slice();
+            const values = memory.doubles(width * header.vertices, width);
+            memory.run("reconstruct", field, weights, values);
+            return values.view.slice();
         });
     }
 
-    /** B, 3 T rows (S 5.2). */
-    private learntBasis({ frames, components, exponents, basis }: Gop): Float64Array {
+    /** B, d T rows (S 5.2). */
+    private learntBasis({ width, components, exponents, basis }: Field, frames: number): Float64Array {
         const steps = exponents.map(fineness);
-        const matrices = this.readLevels(basis, [frames, frames, frames], components, undefined, 3);
-        const columns = new Float64Array(3 * frames * components);
-        if (components === 0) return columns;
+        const matrices = this.readLevels(makeLevelBank(this.memory), basis, Array<number>(width).fill(frames), components, undefined, width);
+        const columns = new Float64Array(width * frames * components);
         const points = matrices.map(({ values }) => this.points(values));
-        const place = (d: number, i: number): number => 3 * i - 2 * (i % components) + d * components;
+        const place = (d: number, i: number): number => width * i - (width - 1) * (i % components) + d * components;
         points.forEach((own, d) => own.forEach((point, i) => (columns[place(d, i)] = 0.5 * point * steps[i % components])));
         const turned = columnsOf(this.memory, columns, components);
         const cosines = temporalCosines(this.memory, frames);
@@ -447,50 +486,55 @@ export class Sequence {
     }
 
     /** Frames of methods 1 and 2 (S 7.2). */
-    private following(gop: Gop): (() => Float64Array)[] {
-        const { memory, parts, first } = this;
-        const { frames, components: columns } = gop;
-        if (gop.method === KEY_FRAMES) {
-            this.startModel();
-            this.history = { frames: 0, levels: [], moments: [], latest: first, before: first };
+    private following({ method, frames, fields }: Gop): (() => Fields)[] {
+        const { memory, tracks } = this;
+        if (method === KEY_FRAMES) {
+            memory.release(this.behindParts);
+            this.histories = tracks.map(({ start }) => ({ bank: makeLevelBank(memory), frames: 0, levels: [], moments: [], latest: start, before: start }));
+            this.behindBanks = memory.mark();
         }
-        let { history } = this;
-        if (!history) throw new CorruptError("a frame refers to one that is not there");
-        memory.release(this.behindBank);
-        if (history.frames !== frames) {
-            const levels = parts.map(({ basis: { width: rows } }) => ({ rows, values: new Int32Array(rows * columns) }));
-            history = { ...history, levels, moments: first.map(() => emptyMoments(9, columns)) };
-        }
-        const { moments, latest, before } = history;
-        const levels = this.readLevels(gop.levels, parts.map((part) => part.basis.width), columns, history.levels);
-        const field = this.emptyField(columns);
+        const { histories } = this;
+        if (!histories) throw new CorruptError("a frame refers to one that is not there");
+        memory.release(this.behindBanks);
         const cosines = memory.scratch(() => temporalCosines(memory, frames).view.slice());
+        const placed = fields.map((field, k) => this.told(field, tracks[k], histories[k], frames, cosines));
+        return Array.from({ length: frames }, (_, t) => () => placed.map((field, k) => overTime(field.view, fields[k].width, cosines, frames, t)));
+    }
+
+    /** The field of frames that come without a basis; they become the latest ones. */
+    private told({ width, step, levels: data }: Field, { first }: Track, history: History, frames: number, cosines: Float64Array): Doubles {
+        const { parts } = this;
+        const columns = width * frames;
+        const empty = (): Levels[] => parts.map(({ basis: { width: rows } }) => ({ rows, values: new Int32Array(rows * columns) }));
+        if (history.frames !== frames) Object.assign(history, { frames, levels: empty(), moments: first.map(() => emptyMoments(3 * width, columns)) });
+        const { bank, moments, latest, before } = history;
+        const levels = step > 0 ? this.readLevels(bank, data, parts.map((part) => part.basis.width), columns, history.levels) : empty();
+        const field = this.emptyField(columns);
         let held = 0;
         for (let t = 0; t < frames; t++) held += cosines[t * frames];
         const told = parts.map((part, k) => {
             const [start, now, earlier] = [first[k], latest[k], before[k]];
             const known = new Float64Array(3 * now.length);
             now.forEach((value, i) => {
-                const at = 9 * Math.floor(i / 3) + (i % 3);
-                [known[at], known[at + 3], known[at + 6]] = [start[i], value, value - earlier[i]];
+                const at = 3 * i - 2 * (i % width);
+                [known[at], known[at + width], known[at + 2 * width]] = [start[i], value, value - earlier[i]];
             });
-            const differences = this.follow(known, 9, levels[k], columns, moments[k], gop.step);
-            now.forEach((value, i) => (differences[columns * Math.floor(i / 3) + (i % 3)] += held * value));
+            const differences = step > 0 ? this.follow(known, 3 * width, levels[k], columns, moments[k], step) : new Float64Array(frames * now.length);
+            now.forEach((value, i) => (differences[columns * Math.floor(i / width) + (i % width)] += held * value));
             this.place(part, field, this.endsOf(part, field), differences);
             return differences;
         });
-        const at = (values: Float64Array, t: number): Float64Array => overTime(values, cosines, frames, t);
-        const shown = (t: number): Float64Array[] => told.map((differences) => at(differences, t));
-        this.history = { frames, levels, moments, latest: shown(frames - 1), before: frames > 1 ? shown(frames - 2) : latest };
-        return Array.from({ length: frames }, (_, t) => () => at(field.view, t));
+        const shown = (t: number): Float64Array[] => told.map((differences) => overTime(differences, width, cosines, frames, t));
+        Object.assign(history, { levels, latest: shown(frames - 1), before: frames > 1 ? shown(frames - 2) : latest });
+        return field;
     }
 }
 
-/** Coordinates in frame t of rows that hold x, y and z of cosine after cosine (S 7.2). */
-function overTime(values: Float64Array, cosines: Float64Array, frames: number, t: number): Float64Array {
+/** The numbers in frame t of rows that hold those of cosine after cosine (S 7.2). */
+function overTime(values: Float64Array, width: number, cosines: Float64Array, frames: number, t: number): Float64Array {
     const shown = new Float64Array(values.length / frames);
-    for (let row = 0, from = 0; row < shown.length; row += 3) {
-        for (let f = 0; f < frames; f++) for (let d = 0; d < 3; d++) shown[row + d] += values[from++] * cosines[t * frames + f];
+    for (let row = 0, from = 0; row < shown.length; row += width) {
+        for (let f = 0; f < frames; f++) for (let d = 0; d < width; d++) shown[row + d] += values[from++] * cosines[t * frames + f];
     }
     return shown;
 }
@@ -537,20 +581,41 @@ function temporalCosines(memory: Memory, frames: number): Doubles {
     return cosines;
 }
 
-/** The data of a GOP of a run (S 2, S 9.2). */
-function parseGop(data: Uint8Array, { gopFrames: longest, run }: Header): Gop {
+/** The data of a GOP of a run (S 2, S 9.2, S 10.2). */
+function parseGop(data: Uint8Array, { gopFrames: longest, run }: Header, moving: Moving[], tolerant: boolean): Gop {
     const cursor = new Cursor(data);
     const first = cursor.take(1)[0];
-    const method = first % METHODS;
-    if ((first - method) / METHODS !== run % RUNS) throw new CorruptError(`a GOP of another run than run ${run}`);
+    const kind = first % METHODS;
+    if ((first - kind) / METHODS !== run % RUNS) throw new CorruptError(`a GOP of another run than run ${run}`);
+    const method = kind % WITH_ATTRIBUTES;
     if (method > NEXT_FRAMES) throw new UnsupportedError(`GOP method ${method} is unknown to this decoder`);
     const frames = cursor.varint();
     if (frames < 1 || frames > longest) throw new CorruptError(`a GOP of ${frames} frames where 1 to ${longest} are legal`);
+    const told = new Map<number, Field>();
+    if (kind >= WITH_ATTRIBUTES) {
+        const count = cursor.varint();
+        if (count === 0) throw new CorruptError("a GOP that tells of no attribute, and says that it does");
+        for (let k = 0, before = -1; k < count; k++) {
+            const number = cursor.varint();
+            const part = cursor.take(cursor.varint());
+            const one = moving.find((own) => own.number === number);
+            if (number <= before || !(one || tolerant)) throw new CorruptError(`a GOP tells of attribute ${number}, which does not move, or is not the next one`);
+            before = number;
+            if (one) told.set(number, parseField(part, method, frames, one.width));
+        }
+    }
+    const none = new Uint8Array(0);
+    const others = moving.map(({ number, width }) => told.get(number) ?? { width, step: 0, components: method === LEARNT ? 0 : width * frames, exponents: [], basis: none, levels: none });
+    return { method, frames, fields: [parseField(cursor.rest(), method, frames, 3), ...others] };
+}
+
+function parseField(data: Uint8Array, method: number, frames: number, width: number): Field {
+    const cursor = new Cursor(data);
     const bytes = cursor.take(4);
     const step = new DataView(bytes.buffer, bytes.byteOffset, 4).getFloat32(0, true);
     if (!(step > 0 && step < Infinity)) throw new CorruptError(`a GOP with the step ${step}`);
-    const components = method === LEARNT ? cursor.varint() : 3 * frames;
-    if (components > 3 * frames) throw new CorruptError(`${components} components for ${frames} frames`);
+    const components = method === LEARNT ? cursor.varint() : width * frames;
+    if (components > width * frames) throw new CorruptError(`${components} components for ${frames} frames`);
     const exponents: number[] = [];
     let basis = new Uint8Array(0);
     if (method === LEARNT) {
@@ -561,5 +626,16 @@ function parseGop(data: Uint8Array, { gopFrames: longest, run }: Header): Gop {
         }
         basis = cursor.take(cursor.varint()).slice();
     }
-    return { method, frames, step, components, exponents, basis, levels: cursor.rest() };
+    return { width, step, components, exponents, basis, levels: cursor.rest() };
+}
+
+/** Some rows of a field. */
+function rowsOf(values: Float64Array, width: number, rows: Int32Array): Float64Array {
+    const found = new Float64Array(rows.length * width);
+    rows.forEach((row, i) => found.set(values.subarray(row * width, (row + 1) * width), i * width));
+    return found;
+}
+
+function total(numbers: number[]): number {
+    return numbers.reduce((sum, number) => sum + number, 0);
 }

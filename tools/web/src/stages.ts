@@ -6,7 +6,7 @@ import type { Blocks } from "./blocks";
 import type { Allowance, DecodedBlock } from "./chain";
 import type { Declaration } from "./declaration";
 import { BsmError, CorruptError, UnsupportedError } from "./errors";
-import type { BlockEvent, Event, Wishes } from "./events";
+import type { BlockEvent, Event, FrameEvent, Wishes } from "./events";
 import { gridKernel, Refinement } from "./fields";
 import { Grid, lightKernel } from "./grid";
 import { EXACT, type Header } from "./header";
@@ -17,7 +17,7 @@ import { Numbering } from "./numbering";
 import { decodeOrder } from "./order";
 import { type Damaged, type Packet } from "./reader";
 import type { Course } from "./runs";
-import { Sequence } from "./sequence";
+import { Sequence, type Fields, type Moving } from "./sequence";
 import { Structure, type Chains } from "./structure";
 import { chunkCost, exactCost, GRID_COST, layerCost, LIGHT_COST, orderCost, type GridCost } from "./work";
 
@@ -30,7 +30,8 @@ const BEFORE_LEVELS: readonly string[] = ["connectivity", "partition", "order", 
 /** A frame that is made when it is its turn. */
 export interface ComingFrame {
     frame: number;
-    make: () => Float64Array;
+    make: () => Fields;
+    moving: Moving[];
 }
 
 /** A block that a helper decodes. */
@@ -114,9 +115,11 @@ export class Stages {
         return { type: "block", index: block.index, ...this.numbers.spread(this.assembled.changes(block)) };
     }
 
-    /** A frame's positions in the unit of the mesh. */
-    framed(frame: ComingFrame): Float64Array {
-        return this.numbers.arranged(inMeshUnits(frame.make(), this.header));
+    /** A frame: positions in the unit of the mesh, and the attributes that move. */
+    framed({ frame, make, moving }: ComingFrame): FrameEvent {
+        const [positions, ...changes] = make();
+        const attributes = moving.flatMap(({ number }, k) => begun(this.attributes).moved(number, changes[k], this.numbers));
+        return { type: "frame", index: frame, positions: this.numbers.arranged(inMeshUnits(positions, this.header)), attributes };
     }
 
     /** Where the vertices of the user are. */
@@ -308,7 +311,7 @@ export class Stages {
         const sequence = this.begunSequence();
         this.tellLostFrames(index);
         try {
-            sequence.decode(index, data).forEach((make, t) => this.queue.push({ frame: index + t, make }));
+            sequence.decode(index, data).forEach((make, t) => this.queue.push({ frame: index + t, make, moving: sequence.moving }));
         } catch (error) {
             if (!this.wishes.tolerant || !(error instanceof BsmError)) throw error;
             this.loseFrames(sequence, error.located({ offset: this.position() }));
@@ -327,8 +330,11 @@ export class Stages {
         this.expect(this.header.blocks);
         this.linked.release();
         const base = this.assembled.base();
-        const { memory, header, limits, structure, allowance } = this;
-        return (this.sequence = new Sequence(memory, header, begun(this.course), blocks, limits, structure.faces, base, begun(this.numbering).size, allowance));
+        const { memory, header, limits, structure, allowance, attributes, course } = this;
+        const tolerant = this.wishes.tolerant ?? false;
+        if (!tolerant && attributes && !attributes.canMove) throw new CorruptError("first values of an attribute that moves are missing");
+        const moving = attributes?.moving() ?? [];
+        return (this.sequence = new Sequence(memory, header, begun(course), blocks, limits, structure.faces, base, begun(this.numbering).size, moving, allowance, tolerant));
     }
 
     /** Report frames that were lost before frame `index`. */

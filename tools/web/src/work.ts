@@ -95,7 +95,8 @@ export function partCost(rows: number, around: number, width: number, components
     return PART + components * (width * (LEVEL + LOOP) + around * AROUND) + rows * (width * (1 + 0.1 * components) + 20 * components);
 }
 
-/** Of showing the frames of a GOP to a user of so many vertices as given. */
-export function shownCost(vertices: number, given: number, frames: number, components: number): number {
-    return frames * components * (30 + 6 * components) + frames * (2.5e4 + 11 * given + 0.2 * vertices * components);
+/** Of showing the frames of a GOP, of fields of so many numbers and components, to a user of so many vertices as given. */
+export function shownCost(vertices: number, given: number, frames: number, fields: { width: number; components: number }[]): number {
+    const each = fields.map(({ width, components }) => width * (components * (10 + 2 * components) + (11 / 3) * given + (vertices * components) / 15));
+    return each.reduce((sum, cost) => sum + frames * cost, frames * 2.5e4);
 }

@@ -46,8 +46,10 @@ export function meshOfEvents(events: Iterable<Event>): Mesh {
     let positions: Float64Array = new Float64Array(0);
     let faces = new Int32Array(0);
     const frames: Float64Array[] = [];
-    const attributes: Attribute[] = [];
+    let attributes: Attribute[] = [];
+    const moved: Attribute[] = [];
     for (const event of events) {
+        if (event.type === "header") attributes.length = moved.length = 0;
         if (event.type === "connectivity") {
             faces = Int32Array.from([...faces, ...event.faces]);
             const before = positions;
@@ -57,9 +59,17 @@ export function meshOfEvents(events: Iterable<Event>): Mesh {
         }
         if (event.type === "attribute") attributes.push(event);
         if (event.type === "end" && event.positions) positions = event.positions;
-        if (event.type === "frame") frames.push(event.positions);
+        if (event.type === "frame") {
+            frames.push(event.positions);
+            moved.push(...event.attributes);
+        }
         if (event.type === "block" || event.type === "refinement") event.vertices.forEach((v, i) => positions.set(event.positions.subarray(3 * i, 3 * i + 3), 3 * v));
     }
+    // Of an attribute that moves, the values in all frames of the last run, one behind the other.
+    attributes = attributes.map((one) => {
+        const own = moved.filter(({ name }) => name === one.name);
+        return own.length ? { ...one, values: Float64Array.from(own.flatMap(({ values }) => [...values])) } : one;
+    });
     return { positions: frames.length ? Float64Array.from(frames.flatMap((frame) => [...frame])) : positions, faces, attributes };
 }
 

@@ -7,6 +7,7 @@ import os
 import re
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
+from dataclasses import replace
 from itertools import chain, count
 from pathlib import Path
 
@@ -14,10 +15,9 @@ import numpy as np
 
 from bsm.bitstream.errors import FormatError, MeshError, OptionError
 from bsm.bitstream.limits import Limits
-from bsm.codec.arrays import Positions
 from bsm.codec.geometry.attributes import has
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.codec.sequence.runs import other_faces
+from bsm.codec.sequence.runs import can_move, moved_to, other_faces
 from bsm.files.about import about
 from bsm.files.mesh import WRITTEN_FORMATS, format_of_name, read_mesh, save_written, written_mesh
 from bsm.files.motion.frames import Frames
@@ -130,12 +130,13 @@ def read_files(
         moving = [one.name for one in first.attributes if one.semantic == "normal"]
         kept = tuple(one for one in first.attributes if one.semantic != "normal")
         notes = [f"left out, for they move: {', '.join(moving)}"] if moving else []
-        notes += [f"{', '.join(one.name for one in kept)}: as the first frame of each run has them"] if kept else []
-        meshes = chain([first], (read(number) for number in range(1, len(names))))
-        return Frames(first.faces, len(names), iter(()), kept, tuple(notes), metadata=first.metadata, meshes=meshes)
+        if same := [one.name for one in kept if not can_move(one)]:
+            notes.append(f"{', '.join(same)}: as the first frame of each run has them")
+        every = chain([first], (read(number) for number in range(1, len(names))))
+        return Frames(first.faces, len(names), iter(()), kept, tuple(notes), metadata=first.metadata, meshes=every)
 
-    def frames() -> Iterator[Positions]:
-        yield first.positions
+    def meshes() -> Iterator[TriangleMesh]:
+        yield replace(first, attributes=kept)
         for number, name in enumerate(names[1:], 1):
             mesh = read(number)
             if difference := other_faces(first, mesh):
@@ -144,21 +145,29 @@ def read_files(
                     f"faces than {names[0]}: {difference}; if their faces change, --set runs=yes; to work on each by "
                     "itself, name the files and write to a folder, -o FOLDER/"
                 )
+            own = []
             for one in kept:
-                if not has(mesh.attributes, one):
+                now = moved_to(one, mesh.attributes) if can_move(one) else one if has(mesh.attributes, one) else None
+                if now is None:
                     raise MeshError(
                         f"{one.name} is another at {name} (frame {number}), and what it was again in the last frame; "
-                        "attributes of a sequence do not change: --set runs=yes keeps them as the first frame has them"
+                        "only colours and numbers of vertices may change: --set runs=yes keeps others as the first "
+                        "frame has them"
                     )
-            yield mesh.positions
+                own.append(now)
+            yield replace(mesh, attributes=tuple(own))
 
     last = read(len(names) - 1) if first.attributes and len(names) > 1 else first
-    kept = tuple(one for one in first.attributes if one.semantic != "normal" and has(last.attributes, one))
-    moving = [one.name for one in first.attributes if one not in kept]
-    notes = [f"left out, for they move or change: {', '.join(moving)}"] if moving else []
-    if kept and len(names) > 1:
-        notes.append(f"{', '.join(one.name for one in kept)}: as the first frame has them")
-    return Frames(first.faces, len(names), frames(), kept, tuple(notes), metadata=first.metadata)
+    can = [one for one in first.attributes if can_move(one) and moved_to(one, last.attributes)]
+    still = [one for one in first.attributes if one.semantic != "normal" and has(last.attributes, one)]
+    kept = tuple(one for one in first.attributes if one in can or one in still)
+    left = [one.name for one in first.attributes if one not in kept]
+    notes = [f"left out, for they move or change: {', '.join(left)}"] if left else []
+    if len(names) > 1 and (same := [one.name for one in kept if one not in can]):
+        notes.append(f"{', '.join(same)}: as the first frame has them")
+    frames = (mesh.positions for mesh in meshes())
+    given = meshes() if can else None
+    return Frames(first.faces, len(names), frames, kept, tuple(notes), metadata=first.metadata, meshes=given)
 
 
 # --------------------------------------------------------------------------------------------------------- the way back

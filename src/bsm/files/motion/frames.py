@@ -28,9 +28,9 @@ class Frames:
     frames : iterator of float64 arrays, shape (n, 3)
         Can be used once.
     meshes : iterator of TriangleMesh, optional
-        Instead of them, where faces may change.
+        Instead of them, where faces or attributes may change.
     attributes : tuple of Attribute
-        Those of the first frame that the last has, too; no normals, which move.
+        Those of the first frame, as far as all frames have the same or `meshes` have others; no normals, which move.
     notes : tuple of str
         What was left out.
     frame_rate : float

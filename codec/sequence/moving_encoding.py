@@ -1,0 +1,218 @@
+"""Attributes that move, each value in each frame as near as is asked; the twin of `codec.sequence.moving`."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from bsm.bitstream.container.gop import GopBody, GopField, GopMethod, still
+from bsm.bitstream.errors import OptionError, TargetError
+from bsm.codec.arrays import Matrix
+from bsm.codec.geometry.attributes import Attribute
+from bsm.codec.sequence.gop import GopDecoder, GopEncoder, Setting, silent
+from bsm.codec.sequence.moving import beyond_one, changed
+from bsm.codec.static.attributes.encoding import PreparedAttribute
+from bsm.codec.static.attributes.levels import Values, restored
+from bsm.codec.static.attributes.quality import Quality
+
+TRIES, ENOUGH = 16, 3
+"""Attempts at a step for a GOP: at most, and once the bound is kept."""
+SPARE = 0.8
+"""Share of a bound that an attempt may leave unused without another one."""
+AIM, RANGE = 0.93, (0.3, 3.0)
+"""Share of the bound that another attempt aims at, and how far its step goes from the one before at once."""
+FIRST_STEP = 0.7
+"""That of the first attempt, in bounds."""
+MARGIN = 1e-6
+"""By which integers keep away from halves, which processors may round either way."""
+FIRST_FRAME = 0.5
+"""Bound of the first frame, as a part of that of the others."""
+LARGEST = 1e100
+
+
+@dataclass(frozen=True, eq=False)
+class Bound:
+    """How far values may be off.
+
+    Parameters
+    ----------
+    quality : Quality
+        What is asked.
+    attribute : Attribute
+    amount : float, optional
+        In the attribute's own unit; None: not known before frames differ, since it depends on their range.
+    """
+
+    quality: Quality
+    attribute: Attribute
+    amount: float | None = None
+
+    def over(self, values: Values) -> Bound:
+        """The bound of values, shape (..., d), that are all that is known where frames differ first.
+
+        Raises
+        ------
+        OptionError
+            If what is asked makes no sense for values that move.
+        """
+        name = self.attribute.name
+        rows = values.reshape(-1, values.shape[-1])
+        low, high = rows.min(axis=0).astype(np.float64), rows.max(axis=0).astype(np.float64)
+        extent = float((high - low).max())
+        if not max(-low.min(), high.max()) < LARGEST:
+            raise OptionError(f"{name!r} moves, and values beyond {LARGEST:g} cannot")
+        whole = values.dtype.kind != "f"
+        way, amount = self.quality.way, self.quality.amount
+        if way in ("angle", "recompute") or (way == "exact" and not whole):
+            raise OptionError(
+                f"{name!r} moves, and cannot be kept {self.quality}: ask for a bound, 0.01 or 1%, or for bits"
+            )
+        if way == "exact":
+            bound = 0.0
+        elif way == "bits":
+            unit = not whole and self.attribute.semantic == "color" and low.min() >= 0.0 and high.max() <= 1.0
+            step = (1.0 if unit else extent) / (2 ** int(amount) - 1)
+            bound = float(-(-step // 1) // 2) if whole else step / 2.0
+        else:
+            bound = amount if way == "bound" else amount / 100.0 * extent
+        return replace(self, amount=float(int(bound)) if whole else bound)
+
+    @property
+    def of_first(self) -> Quality:
+        """What is asked of the first frame, which all others are told from."""
+        assert self.amount is not None
+        amount = FIRST_FRAME * self.amount
+        return Quality("bound", amount) if amount > 0.0 else Quality("exact")
+
+    def reach(self, values: Values) -> float:
+        """The bound of values before they are rounded to their kind."""
+        assert self.amount is not None
+        return self.amount if values.dtype.kind == "f" else self.amount + 0.5 - MARGIN
+
+
+def moved(one: PreparedAttribute) -> PreparedAttribute:
+    """An attribute as one that moves."""
+    return replace(one, declaration=replace(one.declaration, moves=1))
+
+
+class Mover:
+    """Encodes what GOPs of a run tell of one attribute.
+
+    Parameters
+    ----------
+    number : int
+        Of the attribute in its stream.
+    carried : PreparedAttribute
+        Of the first frame.
+    given : array, shape (n, d)
+        Its values there as they are given.
+    bound : Bound
+    """
+
+    def __init__(self, number: int, carried: PreparedAttribute, given: Values, bound: Bound) -> None:
+        self.number = number
+        self.name, self.bound = carried.declaration.name, bound
+        self.first: Values = restored(carried.declaration, carried.levels)
+        self._carried = carried
+        self._given = given
+        self._encoder: GopEncoder | None = None
+        self._step: float | None = None
+        self._latest: Values = self.first
+
+    @property
+    def start(self) -> Matrix:
+        """As of `MovingAttribute`."""
+        return beyond_one(self.first)
+
+    @property
+    def said(self) -> str:
+        """What has become of it."""
+        if self.bound.amount is None:
+            return self._carried.said
+        within = f"within {self.bound.amount:.3g}" if self.bound.amount else "exact"
+        return f"{self.name}: per vertex, moves, {within} in every frame"
+
+    def begin(self, positions: GopEncoder, setting: Setting, number: int) -> None:
+        """Begin a run, in which this attribute has the track of this number; `positions` has its dictionaries."""
+        self._setting, self._track = setting, setting.tracks[number]
+        self._encoder = positions.beside(self._track)
+
+    def told(self, bodies: Sequence[GopBody], values: Values) -> list[GopField]:
+        """What each GOP tells, of all their values, shape (T, n, d).
+
+        Raises
+        ------
+        TargetError
+            If no step keeps the bound.
+        """
+        if self.bound.amount is None and (values != self._given).any():
+            known = np.concatenate([self._given[None], values])
+            self.bound = self.bound.over(known)
+        ends = np.cumsum([body.frames for body in bodies])
+        return [self._field(body, values[end - body.frames : end]) for body, end in zip(bodies, ends, strict=True)]
+
+    def _field(self, body: GopBody, values: Values) -> GopField:
+        assert self._encoder is not None
+        before = self._latest if body.method is GopMethod.NEXT_FRAME else self.first
+        if self.bound.amount is None or _off(values, before, np.zeros(1)) <= self.bound.amount:
+            self._encoder.stay(body.frames, key=body.method is not GopMethod.NEXT_FRAME)
+            self._latest = before
+            return still(values.shape[2])
+        reach = self.bound.reach(values)
+        step = self._step or FIRST_STEP * reach
+        kept: tuple[GopEncoder, GopField, Values] | None = None
+        for tries in range(TRIES):
+            twin = self._encoder.copy()
+            twin.step = step
+            field, changes = self._attempt(twin, body, values)
+            off = max(_off(own, self.first, change) for own, change in zip(values, changes, strict=True))
+            if off <= reach and (kept is None or twin.step > kept[0].step):
+                kept = twin, field, changed(self.first, changes[-1])
+            if kept is not None and (off >= SPARE * reach or tries >= ENOUGH):
+                break
+            step *= float(np.clip(AIM * reach / max(off, 1e-300), *RANGE))
+        if kept is None:
+            raise self._refusal("ask for less")
+        self._encoder, field, self._latest = kept
+        self._step = self._encoder.step
+        return field
+
+    def _refusal(self, why: str) -> TargetError:
+        return TargetError(f"{self.name!r} moves, and cannot be kept within {self.bound.amount:g}: {why}")
+
+    def _attempt(self, encoder: GopEncoder, body: GopBody, values: Values) -> tuple[GopField, list[Matrix]]:
+        """What is told with a step, and what a decoder makes of it: the changes of each frame, shape (n, d)."""
+        wanted = values.astype(np.float64) - self.first
+        try:
+            if body.method is not GopMethod.LEARNT:
+                key = body.method is GopMethod.KEY_FRAME
+                field = encoder.encode_next(wanted, silent, key=key)
+                assert encoder.latest is not None
+                return field, list(encoder.latest)
+            field, _ = encoder.encode_learnt(wanted, np.ones(len(wanted)), silent)
+        except OptionError as error:
+            raise self._refusal(f"{error}") from error
+        decoder = GopDecoder(self._setting, [self._track])
+        return field, [change for (change,) in decoder.decode(replace(body, fields=(field,)))]
+
+
+def _off(values: Values, first: Values, change: Matrix) -> float:
+    """How far values, of one frame or more, are off: integers before, floats when they are rounded to their kind."""
+    now = first.astype(np.float64) + change
+    if values.dtype.kind == "f":
+        now = now.astype(values.dtype).astype(np.float64)
+    off = float(np.abs(values.astype(np.float64) - now).max(initial=0.0))
+    return off if math.isfinite(off) else math.inf
+
+
+def with_fields(
+    bodies: Sequence[GopBody], movers: Sequence[Mover], values: Mapping[str, Values]
+) -> tuple[GopBody, ...]:
+    """GOPs that tell of positions, and now of attributes, too."""
+    told = [mover.told(bodies, values[mover.name]) for mover in movers]
+    return tuple(
+        replace(body, fields=(*body.fields, *(fields[number] for fields in told))) for number, body in enumerate(bodies)
+    )

@@ -1,0 +1,236 @@
+"""Attributes that move: every value in every frame is as near as is asked, whatever the way of the frames."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from bsm.bitstream.container import packets
+from bsm.bitstream.container.reader import END_OF_STREAM, Reader, read_packets
+from bsm.bitstream.errors import CorruptError, MeshError, OptionError
+from bsm.codec.geometry.attributes import Attribute
+from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.sequence.decoder import SequenceDecoder
+from bsm.codec.sequence.encoder import SequenceEncoder
+from bsm.codec.sequence.events import FrameEvent
+from bsm.codec.sequence.options import SequenceOptions
+from tests.shapes import torus
+
+MESH = torus(24, 12)
+
+
+def worn(t: int, mesh: TriangleMesh = MESH) -> TriangleMesh:
+    positions = mesh.positions * [1, 1, 1 + 0.1 * np.sin(0.5 * t)]
+    color = (128 + 120 * np.sin(2 * mesh.positions + 0.4 * t)).astype(np.uint8)
+    velocity = np.stack([np.cos(0.3 * t) * mesh.positions[:, 0], mesh.positions[:, 1]], axis=1)
+    attributes = (
+        Attribute("color", color, "vertex", "color"),
+        Attribute("part", np.arange(len(mesh.positions)) // 40),
+        Attribute("heat", 300.0 + np.sin(2 * mesh.positions[:, 0] + 0.2 * t)),
+        Attribute("velocity", velocity.astype(np.float32)),
+    )
+    return TriangleMesh(positions, mesh.faces, attributes)
+
+
+FRAMES = [worn(t) for t in range(9)]
+
+
+def extent(name: str) -> float:
+    """The range of an attribute's values in all frames."""
+    values = np.concatenate([one.values for frame in FRAMES for one in frame.attributes if one.name == name])
+    return float(np.ptp(values.astype(float), axis=0).max())
+
+
+def encoded(frames: Sequence[TriangleMesh], **options: object) -> tuple[bytes, SequenceEncoder]:
+    chosen = SequenceOptions(**{"step": 0.01, "threads": 1, "block_size": 100, **options})
+    encoder = SequenceEncoder(frames[0].faces, chosen, len(frames))
+    return b"".join(encoder.chunks(frames)), encoder
+
+
+def decoded(data: bytes, **options: object) -> list[FrameEvent]:
+    found = []
+    with SequenceDecoder(threads=1, **options) as decoder:
+        decoder.receive_data(data)
+        decoder.receive_eof()
+        while (event := decoder.next_event()) is not END_OF_STREAM:
+            found += [event] if isinstance(event, FrameEvent) else []
+    return found
+
+
+def errors(frames: Sequence[TriangleMesh], encoder: SequenceEncoder, found: Sequence[FrameEvent]) -> dict[str, float]:
+    """How far any value is off, by attribute."""
+    assert len(frames) == len(found)
+    worst: dict[str, float] = {}
+    for given, event in zip(frames, found, strict=True):
+        own = {one.name: one for one in event.attributes}
+        assert set(own) == {one.name for one in given.attributes}
+        for one in given.attributes:
+            back = own[one.name]
+            assert (back.values.dtype, back.domain, back.semantic) == (one.values.dtype, one.domain, one.semantic)
+            wanted = one.values[encoder.vertex_order].astype(float)
+            worst[one.name] = max(worst.get(one.name, 0.0), float(np.abs(back.values - wanted).max()))
+    return worst
+
+
+@pytest.mark.parametrize(
+    "options",
+    [{}, {"gop": 4}, {"low_delay": 1, "gop": 5}, {"low_delay": 3}, {"keep_order": True}, {"gop": 1}, {"runs": True}],
+    ids=str,
+)
+def test_values_keep_their_bounds(options: dict[str, object]) -> None:
+    data, encoder = encoded(FRAMES, **options)
+    off = errors(FRAMES, encoder, decoded(data))
+    assert off["part"] == 0.0
+    assert off["color"] <= 0.02 * extent("color")
+    assert max(off[name] / extent(name) for name in ("heat", "velocity")) <= 0.005
+    assert any(note.startswith("color: per vertex, moves, within") for note in encoder.notes)
+
+
+def test_values_are_as_near_as_is_asked() -> None:
+    asked = {"color": "exact", "heat": "0.001", "velocity": "10bits"}
+    data, encoder = encoded(FRAMES, attributes=asked)
+    off = errors(FRAMES, encoder, decoded(data))
+    assert off["color"] == 0.0 and off["heat"] <= 0.001 and off["velocity"] <= extent("velocity") / 1023 / 2
+    assert len(data) > len(encoded(FRAMES)[0])
+
+
+def test_frames_are_as_without_attributes() -> None:
+    bare = [replace(frame, attributes=()) for frame in FRAMES]
+    with_them, without = decoded(encoded(FRAMES)[0]), decoded(encoded(bare)[0])
+    for one, other in zip(with_them, without, strict=True):
+        np.testing.assert_array_equal(one.positions, other.positions)
+
+
+def test_what_stays_costs_next_to_nothing() -> None:
+    still = [replace(frame, attributes=FRAMES[0].attributes) for frame in FRAMES]
+    bare = [replace(frame, attributes=()) for frame in FRAMES]
+    for options in ({}, {"gop": 3}, {"low_delay": 1}):
+        few, many = (encoded(still[:count], **options)[0] for count in (4, 9))
+        less, more = (encoded(bare[:count], **options)[0] for count in (4, 9))
+        assert abs((len(many) - len(more)) - (len(few) - len(less))) <= 8
+        assert errors(still, *reversed_pair(still, **options))["color"] == 0.0
+
+
+def reversed_pair(frames: Sequence[TriangleMesh], **options: object) -> tuple[SequenceEncoder, list[FrameEvent]]:
+    data, encoder = encoded(frames, **options)
+    return encoder, decoded(data)
+
+
+@pytest.mark.parametrize("options", [{"gop": 3}, {"low_delay": 1}], ids=str)
+def test_an_attribute_may_begin_to_move_later_and_stop(options: dict[str, object]) -> None:
+    frames = [replace(worn(t), attributes=worn(0 if t < 4 else min(t, 6)).attributes) for t in range(10)]
+    data, encoder = encoded(frames, **options)
+    off = errors(frames, encoder, decoded(data))
+    assert off["color"] <= 0.02 * extent("color") and off["heat"] <= 0.005 * extent("heat")
+
+
+def test_frames_can_be_had_from_any_on() -> None:
+    for options in ({"gop": 3}, {"low_delay": 1, "gop": 4}):
+        data, _ = encoded(FRAMES, **options)
+        every, some = decoded(data), decoded(data, start=5)
+        assert [event.index for event in some] == [5, 6, 7, 8]
+        for one, other in zip(every[5:], some, strict=True):
+            for own, same in zip(one.attributes, other.attributes, strict=True):
+                np.testing.assert_array_equal(own.values, same.values)
+
+
+def frames_without(data: bytes, kind: type, which: int = 0) -> bytes:
+    """The stream with a broken byte in a frame."""
+    reader = Reader()
+    places = [
+        reader.last_frame.offset + reader.last_frame.length // 2
+        for packet in read_packets([data], reader)
+        if isinstance(packet, kind) and reader.last_frame is not None
+    ]
+    return data[: places[which]] + bytes([data[places[which]] ^ 1]) + data[places[which] + 1 :]
+
+
+@pytest.mark.parametrize("kind", [packets.Values, packets.Attribute])
+def test_a_lost_attribute_costs_only_itself(kind: type) -> None:
+    data, _ = encoded(FRAMES, gop=4)
+    broken = frames_without(data, kind)
+    whole, found = decoded(data), decoded(broken, tolerant=True)
+    assert len(found) == len(whole)
+    for one, other in zip(whole, found, strict=True):
+        np.testing.assert_array_equal(one.positions, other.positions)
+        own = {each.name: each.values for each in one.attributes}
+        assert set(own) - {each.name for each in other.attributes} == {"color"}
+        for each in other.attributes:
+            np.testing.assert_array_equal(each.values, own[each.name])
+    with pytest.raises(CorruptError):
+        decoded(broken)
+
+
+def test_a_lost_gop_costs_its_frames() -> None:
+    data, _ = encoded(FRAMES, gop=3)
+    found, whole = decoded(frames_without(data, packets.Gop, 1), tolerant=True), decoded(data)
+    assert 6 <= len(found) < 9
+    for event in found:
+        for one, other in zip(event.attributes, whole[event.index].attributes, strict=True):
+            np.testing.assert_array_equal(one.values, other.values)
+
+
+def test_runs_have_attributes_that_move() -> None:
+    other = torus(18, 10)
+    frames = [worn(0), worn(1), *(worn(t, other) for t in (2, 3)), *(worn(t) for t in (4, 5, 6))]
+    data, encoder = encoded(frames, runs=True)
+    found = decoded(data)
+    assert encoder.run_starts == [0, 2, 4] and len(found) == 7
+    for given, event in zip(frames, found, strict=True):
+        color, own = given.attributes[0].values, event.attributes[0].values
+        assert np.abs(np.sort(color, axis=0).astype(int) - np.sort(own, axis=0)).max() <= 0.02 * extent("color")
+    declared = [packet for packet in read_packets([data], Reader()) if isinstance(packet, packets.Attribute)]
+    assert len(declared) == 8  # the first mesh returns
+
+
+def test_a_mesh_of_one_face_and_a_mesh_of_many_components() -> None:
+    corner = TriangleMesh(np.eye(3), np.array([[0, 1, 2]]))
+    far = np.concatenate([corner.positions + 3 * k for k in range(20)])
+    many = TriangleMesh(far, (np.arange(60).reshape(-1, 3)).astype(np.int32))
+    for mesh in (corner, many):
+        frames = [
+            replace(mesh, attributes=(Attribute("heat", t * np.arange(len(mesh.positions), dtype=np.float32)),))
+            for t in range(4)
+        ]
+        data, encoder = encoded(frames)
+        assert errors(frames, encoder, decoded(data))["heat"] <= 0.005 * 3 * len(mesh.positions)
+
+
+def test_vertices_at_one_place_of_different_colours_stay_two() -> None:
+    corners = MESH.positions[MESH.faces].reshape(-1, 3)
+    soup = TriangleMesh(corners, np.arange(len(corners), dtype=np.int32).reshape(-1, 3))
+    shades = [np.repeat(np.arange(len(MESH.faces)) + t, 3).astype(np.uint16) for t in range(3)]
+    frames = [replace(soup, attributes=(Attribute("shade", shade, "vertex", "color"),)) for shade in shades]
+    data, encoder = encoded(frames, attributes={"shade": "exact"}, keep_order=True)
+    assert errors(frames, encoder, decoded(data))["shade"] == 0.0
+
+
+def test_extremes_of_a_kind() -> None:
+    high = np.iinfo(np.uint32).max
+    values = [np.where(np.arange(len(MESH.positions)) % 2 == t % 2, high, 0).astype(np.uint32) for t in range(3)]
+    frames = [replace(MESH, attributes=(Attribute("ends", value),)) for value in values]
+    data, encoder = encoded(frames)
+    assert errors(frames, encoder, decoded(data))["ends"] <= 0.005 * high
+
+
+def test_what_cannot_be_promised_is_refused() -> None:
+    with pytest.raises(OptionError, match="cannot be kept exact: ask for a bound"):
+        encoded(FRAMES, attributes={"heat": "exact"})
+    late = [replace(worn(t), attributes=worn(max(0, t - 4)).attributes) for t in range(9)]
+    with pytest.raises(OptionError, match="floats that do cannot be exact"):
+        encoded(late, gop=3, attributes={"heat": "exact"})
+    vast = [replace(MESH, attributes=(Attribute("vast", np.full(len(MESH.positions), 1e200 * t)),)) for t in range(3)]
+    with pytest.raises(OptionError, match="beyond 1e\\+100 cannot"):
+        encoded(vast)
+    with pytest.raises(MeshError, match="not finite"):
+        Attribute("heat", np.array([np.nan, 1.0]))
+
+
+def test_targets_take_attributes_along() -> None:
+    from bsm.codec.sequence.targets import SequenceTarget
+
+    data, encoder = encoded(FRAMES, target=SequenceTarget("kg", 1.0))
+    assert errors(FRAMES, encoder, decoded(data))["color"] <= 0.02 * extent("color")
