@@ -276,7 +276,8 @@ def encode_frames(
     Parameters
     ----------
     meshes : iterable of meshes, pairs of arrays, or paths
-        A frame each, as `encode` takes a mesh. Attributes are those of the first frame with other faces than before.
+        A frame each, as `encode` takes a mesh. Colours and numbers of vertices may change from frame to frame; other
+        attributes are those of the first frame with other faces than before.
     options : SequenceOptions, optional
         Instead of keywords.
     metadata : mapping from str to str, int, float or bytes, optional
@@ -363,7 +364,7 @@ def decode_frames(
     with SequenceDecoder(limits, threads) as decoder:
         for event in events(decoder, read_chunks(stream)):
             if isinstance(event, FrameEvent):
-                yield TriangleMesh(event.positions, event.faces, decoder.attributes, decoder.metadata)
+                yield TriangleMesh(event.positions, event.faces, event.attributes, decoder.metadata)
 
 
 def decode_sequence(

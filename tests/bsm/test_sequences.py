@@ -6,6 +6,7 @@ import sys
 import numpy as np
 import pytest
 
+from bsm.api import decode_frames
 from bsm.bitstream.errors import CorruptError, FormatError, MeshError, OptionError, TruncatedError
 from bsm.cli import main
 from bsm.codec.geometry.attributes import Attribute
@@ -147,9 +148,58 @@ def test_colours_that_change_are_not_dropped_in_silence(tmp_path, capsys):
     for number, shade in enumerate((0, 9, 0)):
         (color,) = read_mesh(tmp_path / "back" / f"0000{number}.ply").mesh.attributes
         assert (color.values == shade).all()
-    np.savez(tmp_path / "x.npz", positions=positions, faces=faces, colors=np.zeros((3, len(positions[0]), 3), np.uint8))
+    np.savez(tmp_path / "x.npz", positions=positions, faces=faces, colors=np.zeros((3, len(positions[0]), 5), np.uint8))
     assert bsm("encode", tmp_path / "x.npz", "-o", stream, "--set", "step=0.01", "--force") == 0
     assert "left out: colors" in capsys.readouterr().err
+
+
+def test_arrays_that_change_go_from_npz_to_npz_and_to_forms_that_hold_them(tmp_path, capsys):
+    positions, faces = bending(5)
+    times = np.arange(5)[:, None]
+    arrays = {
+        "vertex/heat": 300 + np.sin(3 * positions[0][:, 0] + 0.5 * times),
+        "color": (120 + 100 * np.sin(positions + times[:, :, None])).astype(np.uint8),
+        "part": np.arange(len(faces)) // 50,
+        "height": positions[0][:, 2].astype(np.float32),
+        "junk": np.arange(3),
+    }
+    np.savez(tmp_path / "x.npz", positions=positions, faces=faces, **arrays)
+    stream, back = tmp_path / "x.bsm", tmp_path / "back.npz"
+    wanted = ("--keep-order", "--attribute", "heat=0.002", "--attribute", "color=exact", "--attribute", "height=exact")
+    assert bsm("encode", tmp_path / "x.npz", "-o", stream, *wanted) == 0
+    said = capsys.readouterr().err
+    assert "left out: junk" in said and "heat: per vertex, moves, within 0.002 in every frame" in said
+    assert bsm("decode", stream, "-o", back) == 0
+    with np.load(back) as found:
+        assert set(found) == {"positions", "faces", "vertex/heat", "vertex/color", "face/part", "vertex/height"}
+        np.testing.assert_array_equal(found["vertex/color"], arrays["color"])
+        np.testing.assert_array_equal(found["face/part"][:, 0], arrays["part"])
+        np.testing.assert_array_equal(found["vertex/height"][:, 0], arrays["height"])
+        assert found["vertex/heat"].shape == (5, len(positions[0]), 1)
+        assert np.abs(found["vertex/heat"][:, :, 0] - arrays["vertex/heat"]).max() <= 0.002
+        again = {name: found[name] for name in found}
+    np.savez(tmp_path / "again.npz", **again)
+    assert bsm("encode", tmp_path / "again.npz", "-o", tmp_path / "again.bsm", "--set", "step=0.01") == 0
+    assert bsm("decode", stream, "-o", f"{tmp_path / 'ply'}/", "--format", "ply") == 0
+    colors = {one.name: one.values for one in read_mesh(tmp_path / "ply" / "00003.ply").mesh.attributes}
+    np.testing.assert_array_equal(colors["color"], arrays["color"][3])
+    capsys.readouterr()
+    assert bsm("decode", stream, "-o", tmp_path / "back.pc2") == 0
+    assert "how color changes" in capsys.readouterr().err
+    assert bsm("info", stream) == 0
+    assert "uint8 per vertex, color" in capsys.readouterr().out
+    last = {one.name: one.values for one in list(decode_frames(stream))[4].attributes}
+    np.testing.assert_array_equal(last["color"], arrays["color"][4])
+
+
+def test_a_field_that_is_not_finite_is_refused_with_its_frame(tmp_path, capsys):
+    positions, faces = bending(3)
+    heat = np.zeros((3, len(positions[0])))
+    heat[2, 7] = np.nan
+    np.savez(tmp_path / "x.npz", positions=positions, faces=faces, heat=heat)
+    assert bsm("encode", tmp_path / "x.npz", "-o", tmp_path / "x.bsm") != 0
+    assert "frame 2: a value of the attribute 'heat' is not finite" in capsys.readouterr().err
+    assert not (tmp_path / "x.bsm").exists()
 
 
 def test_permutation_restores_the_order(npz, tmp_path, capsys):

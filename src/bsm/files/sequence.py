@@ -140,7 +140,8 @@ def sequence_writer(
     count : int
         Number of frames, if known; an npz whose length is not known is put together in memory, and PC2 and MDD need it.
     told : Told, optional
-        What belongs to all frames; npz, npy and caches hold none of it, the mesh beside a cache does.
+        What belongs to all frames, asked for with each where it changes; npy holds none of it, npz attributes, caches
+        the mesh of the first frame beside them.
     """
     told = told or Told()
     if is_numbered(path) or kind not in ONE_FILE or (kind == "glb" and _is_folder(path)):
@@ -159,11 +160,11 @@ def sequence_writer(
         return
     if kind in CACHES:
         with _cache_writer(path, kind, faces, count, overwrite, told) as write:
-            yield _of_one_mesh(write, kind)
+            yield _of_one_mesh(write, kind, told)
         return
     with open_output(path, overwrite=overwrite) as file:
         if kind == "npz":
-            with open_npz_sequence(file, faces, count) as write:
+            with open_npz_sequence(file, faces, count, told.attributes) as write:
                 yield _of_one_mesh(write, kind)
         elif kind == "npy":
             write_npy(file, faces)
@@ -172,19 +173,19 @@ def sequence_writer(
             from bsm.files.motion.gltf_written import write_gltf
 
             with write_gltf(file, path, faces, told) as write:
-                yield _of_one_mesh(write, kind)
+                yield _of_one_mesh(write, kind, told)
         else:
             from bsm.files.motion.usd import write_usd
 
             with write_usd(file, kind, faces, told) as write_changing:
                 yield write_changing
             return
-        if kind in ("npz", "npy"):
+        if kind == "npy":
             told.loses([one.name for one in told.attributes()])
 
 
-def _of_one_mesh(write: Callable[[Positions], None], kind: str) -> FrameWriter:
-    """A writer of a form that has one set of faces."""
+def _of_one_mesh(write: Callable[[Positions], None], kind: str, told: Told | None = None) -> FrameWriter:
+    """A writer of a form that has one set of faces, and, where it is `told`, attributes of the first frame alone."""
     numbers = count_from(0)
 
     def take(frame: Positions, faces: Faces | None = None) -> None:
@@ -195,6 +196,8 @@ def _of_one_mesh(write: Callable[[Positions], None], kind: str) -> FrameWriter:
                 "numbered files (%04d.obj) or to USD, or frames of the same faces, --frames A:B"
             )
         write(frame)
+        if told is not None:
+            told.loses(f"how {one.name} changes" for one in told.moved())
 
     return take
 

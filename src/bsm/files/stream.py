@@ -248,7 +248,7 @@ def _attribute_info(packet: packets.Attribute, size: int) -> AttributeInfo:
         ("uint8", "int8", "uint16", "int16", "uint32", "int32", "float32", "float64")[declared.kind],
         declared.components,
         declared.rows,
-        ("levels", "octahedral", "bits", "recomputed")[declared.coding],
+        "moving levels" if declared.moves else ("levels", "octahedral", "bits", "recomputed")[declared.coding],
         len(packet.seams),
         size,
     )

@@ -14,18 +14,20 @@ import json
 import lzma
 import math
 import os
+import shutil
+import tempfile
 import zipfile
 import zlib
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
-from typing import Any, BinaryIO, TypeAlias, get_args
+from contextlib import closing, contextmanager
+from typing import IO, Any, BinaryIO, TypeAlias, get_args
 
 import numpy as np
 
 from bsm.bitstream.errors import BsmError, CorruptError, FormatError, LimitError, MeshError
 from bsm.bitstream.limits import Limits
 from bsm.codec.arrays import Faces, Positions
-from bsm.codec.geometry.attributes import MOST_COMPONENTS, Domain
+from bsm.codec.geometry.attributes import MOST_COMPONENTS, Attribute, Domain
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
 from bsm.files.formats.columns import Column, meaning_of
 from bsm.files.formats.npy import Array, read_header, size_of
@@ -113,8 +115,8 @@ class NpzArray:
         except ValueError as error:  # of the shape (0, 2**62)
             raise CorruptError(f"the array {self._name} has no legal shape: {error}") from error
 
-    def frames(self) -> Iterator[Positions]:
-        """The first index' parts one after the other, as float64, without ever holding all of them."""
+    def frames(self) -> Iterator[Array]:
+        """The first index' parts one after the other, without ever holding all of them."""
         if self._fortran:
             raise MeshError(f"the array {self._name} is in Fortran's order; save it with numpy.ascontiguousarray")
         size = size_of(self.shape[1:], self._kind)
@@ -122,7 +124,7 @@ class NpzArray:
             data = self._read(size)
             if len(data) < size:
                 raise CorruptError(f"the array {self._name} ends early, in frame {number} of {self.shape[0]}")
-            yield np.frombuffer(data, self._kind).reshape(self.shape[1:]).astype(np.float64)
+            yield np.frombuffer(data, self._kind).reshape(self.shape[1:])
 
     def _read(self, size: int) -> bytes:
         try:
@@ -140,7 +142,8 @@ def npz_shape(archive: Archive) -> tuple[int, ...]:
 def npz_frames(archive: Archive) -> Iterator[Positions]:
     """The frames of a sequence, shape (n, 3), read as they are asked for; errors as those of `NpzArray`."""
     with NpzArray(archive, "positions") as positions:
-        yield from positions.frames()
+        for frame in positions.frames():
+            yield frame.astype(np.float64)
 
 
 def read_arrays(archive: Archive, *names: str) -> tuple[Array, ...]:
@@ -197,7 +200,7 @@ def _read_npz(archive: zipfile.ZipFile, compressed: int, limits: Limits) -> Mesh
             if name == "metadata" and values.dtype == np.uint8:
                 metadata = _parse_metadata(values.tobytes())
                 continue
-            column = _column(archive, name, values, mesh, f"{name}/indices" in names)
+            column = column_of(archive, name, values, mesh, f"{name}/indices" in names)
         except (MeshError, FormatError):  # no numbers
             column = None
         columns += [column] if column else []
@@ -215,8 +218,8 @@ def shape_of(archive: Archive, name: str) -> tuple[tuple[int, ...], int]:
         return array.shape, array.size
 
 
-def _column(archive: Archive, name: str, values: Array, mesh: TriangleMesh, indexed: bool) -> Column | None:
-    """An array as the attribute that its name or its shape tells; None: it is of nothing here."""
+def column_of(archive: Archive, name: str, values: Array, mesh: TriangleMesh, indexed: bool) -> Column | None:
+    """An array as the column that its name or its shape tells; None: it is of nothing here."""
     domain, _, rest = name.partition("/")
     vertices, faces = len(mesh.positions), len(mesh.faces)
     if domain not in get_args(Domain) or not rest:
@@ -278,11 +281,13 @@ def write_npz(mesh: TriangleMesh, stem: str) -> Written:
 
 
 @contextmanager
-def open_npz_sequence(file: BinaryIO, faces: Faces, count: int) -> Iterator[Callable[[Positions], None]]:
-    """Write an npz of `positions`, shape (T, n, 3), and `faces`; yields what takes frame after frame.
+def open_npz_sequence(
+    file: BinaryIO, faces: Faces, count: int, attributes: Callable[[], tuple[Attribute, ...]] = tuple
+) -> Iterator[Callable[[Positions], None]]:
+    """Write an npz of `positions`, shape (T, n, 3), `faces` and attributes; yields what takes frame after frame.
 
-    With `count` > 0 frames, as many must come, and none is kept in memory; with 0, all are. Nothing is deflated:
-    positions would be 5 % smaller, and take longer than decoding does.
+    With `count` > 0 frames, as many must come, and none is kept in memory; with 0, all are. `attributes` are asked for
+    with each frame; what of them is another array than before has shape (T, n, c).
     """
     kept: list[Positions] = []
     taken = 0
@@ -292,20 +297,77 @@ def open_npz_sequence(file: BinaryIO, faces: Faces, count: int) -> Iterator[Call
         if taken == 0:
             header = {"descr": "<f8", "fortran_order": False, "shape": (count, *frame.shape)}
             np.lib.format.write_array_header_1_0(entry, header)
-        entry.write(np.ascontiguousarray(frame, "<f8").data)
+        entry.write(np.ascontiguousarray(frame, "<f8").tobytes())
         taken += 1
 
-    with zipfile.ZipFile(file, "w") as archive:
+    with zipfile.ZipFile(file, "w", zipfile.ZIP_DEFLATED) as archive, closing(_Worn(attributes)) as worn:
         with archive.open("faces.npy", "w") as entry:
             np.lib.format.write_array(entry, faces)
         known = count > 0
         if not known:
-            yield kept.append
+            yield worn.beside(kept.append)
             count = len(kept)
-        with archive.open("positions.npy", "w", force_zip64=True) as entry:
+        stored = zipfile.ZipInfo("positions.npy")  # deflated, they are 5 % smaller, and take longer than decoding does
+        with archive.open(stored, "w", force_zip64=True) as entry:
             for frame in kept:
                 write(frame)
             if known:
-                yield write
+                yield worn.beside(write)
             if taken != count:
                 raise CorruptError(f"{taken} of {count} frames came")
+        worn.finish(archive, count)
+
+
+class _Worn:
+    """Attributes of frames: those that change wait in files until all frames are there."""
+
+    def __init__(self, attributes: Callable[[], tuple[Attribute, ...]]) -> None:
+        self._attributes = attributes
+        self._first: tuple[Attribute, ...] = ()
+        self._moved: dict[str, IO[bytes]] = {}
+        self._frames = 0
+
+    def beside(self, write: Callable[[Positions], None]) -> Callable[[Positions], None]:
+        """What writes a frame, and takes note of its attributes."""
+
+        def take(frame: Positions) -> None:
+            write(frame)
+            self._take()
+
+        return take
+
+    def _take(self) -> None:
+        now = self._attributes()
+        self._first = now if self._frames == 0 else self._first
+        for first, one in zip(self._first, now, strict=True):
+            if one is not first and one.name not in self._moved:
+                self._moved[one.name] = tempfile.TemporaryFile()  # noqa: SIM115
+                for _ in range(self._frames):
+                    self._moved[one.name].write(first.values.tobytes())
+            if one.name in self._moved:
+                self._moved[one.name].write(one.values.tobytes())
+        self._frames += 1
+
+    def finish(self, archive: zipfile.ZipFile, count: int) -> None:
+        """Write them all."""
+        for one in self._first:
+            with archive.open(f"{one.domain}/{one.name}.npy", "w", force_zip64=True) as entry:
+                if one.name in self._moved:
+                    header = {
+                        "descr": one.values.dtype.str,
+                        "fortran_order": False,
+                        "shape": (count, *one.values.shape),
+                    }
+                    np.lib.format.write_array_header_1_0(entry, header)
+                    self._moved[one.name].seek(0)
+                    shutil.copyfileobj(self._moved[one.name], entry)
+                else:
+                    np.lib.format.write_array(entry, one.values)
+            if one.indices is not None:
+                with archive.open(f"corner/{one.name}/indices.npy", "w") as entry:
+                    np.lib.format.write_array(entry, one.indices)
+
+    def close(self) -> None:
+        """Give up the files."""
+        for file in self._moved.values():
+            file.close()

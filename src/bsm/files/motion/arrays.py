@@ -1,4 +1,5 @@
-"""Sequences as arrays: an npz with `positions` of shape (T, n, 3) and `faces`; and, for live pipes, npy arrays.
+"""Sequences as arrays: an npz with `positions` of shape (T, n, 3), `faces` and attributes, of shape (T, n) or (T, n, c)
+where they change; and, for live pipes, npy arrays.
 
 Those follow each other: the faces, then the positions of each frame as it comes.
 """
@@ -10,15 +11,28 @@ import math
 import os
 from collections.abc import Iterator
 from contextlib import ExitStack, closing
+from dataclasses import dataclass
 
 import numpy as np
 
 from bsm.bitstream.errors import FormatError, MeshError
 from bsm.bitstream.limits import Limits
-from bsm.codec.arrays import Positions
+from bsm.codec.arrays import Faces, Positions
+from bsm.codec.geometry.attributes import MOST_COMPONENTS, Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.files.about import about
+from bsm.files.formats.columns import Column, attributes_of, meaning_of
 from bsm.files.formats.npy import read_npy
-from bsm.files.formats.npz import MOST_NAMED, npz_frames, npz_shape, opened_archive, read_arrays, shape_of
+from bsm.files.formats.npz import (
+    MOST_NAMED,
+    NpzArray,
+    column_of,
+    npz_frames,
+    npz_shape,
+    opened_archive,
+    read_arrays,
+    shape_of,
+)
 from bsm.files.motion.frames import Frames
 from bsm.files.pipes import Input
 from bsm.files.room import AS_NUMBERS, require_inflated
@@ -40,11 +54,73 @@ def read_archive(given: Input, limits: Limits) -> Frames | None:
     require_inflated(AS_NUMBERS * 3 * shape[1] + max(size, AS_NUMBERS * math.prod(of_faces)), compressed, limits)
     (faces,) = read_arrays(archive, "faces")
     mesh = TriangleMesh(next(npz_frames(archive)), faces)
-    with opened_archive(archive) as opened:
-        others = [name.removesuffix(".npy") for name in opened.namelist() if name not in ("positions.npy", "faces.npy")]
-    others[MOST_NAMED:] = [f"{len(others) - MOST_NAMED} other arrays"] if len(others) > MOST_NAMED else []
-    notes = (f"left out: {', '.join(others)}",) if others else ()
-    return Frames(mesh.faces, shape[0], npz_frames(archive), notes=notes)
+    worn = _Worn.of(archive, shape[0], mesh, compressed, limits)
+    left = [
+        *worn.left[:MOST_NAMED],
+        *([f"{len(worn.left) - MOST_NAMED} others"] if len(worn.left) > MOST_NAMED else []),
+    ]
+    notes = (f"left out: {', '.join(left)}",) if left else ()
+    if not worn.moving:
+        return Frames(mesh.faces, shape[0], npz_frames(archive), worn.still, notes)
+    first = next(worn.meshes(archive, mesh.faces))
+    return Frames(
+        mesh.faces, shape[0], npz_frames(archive), first.attributes, notes, meshes=worn.meshes(archive, mesh.faces)
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class _Worn:
+    """The attributes of an npz: those of all frames, and the arrays, by name, that have values for each frame."""
+
+    still: tuple[Attribute, ...]
+    moving: dict[str, str]
+    left: list[str]
+
+    @staticmethod
+    def of(archive: str | io.BytesIO, frames: int, mesh: TriangleMesh, compressed: int, limits: Limits) -> _Worn:
+        """What beside positions and faces can be attributes; shapes are looked at before numbers are read."""
+        columns: list[Column] = []
+        moving: dict[str, str] = {}
+        left: list[str] = []
+        inflated = 0
+        with opened_archive(archive) as opened:
+            every = [name.removesuffix(".npy") for name in opened.namelist()]
+            for number, name in enumerate(every):
+                if name in ("positions", "faces") or (name.endswith("/indices") and name.rpartition("/")[0] in every):
+                    continue
+                column = None
+                try:
+                    shape, size = shape_of(opened, name)
+                    if shape[:2] == (frames, len(mesh.positions)) and math.prod(shape[2:]) <= MOST_COMPONENTS:
+                        moving[name.removeprefix("vertex/")] = name
+                        continue
+                    inflated += size
+                    if number <= 2 * limits.attributes and name != "metadata":
+                        require_inflated(inflated, compressed, limits)
+                        (values,) = read_arrays(opened, name)
+                        column = column_of(opened, name, values, mesh, f"{name}/indices" in every)
+                except (MeshError, FormatError):  # no numbers
+                    pass
+                columns += [column] if column else []
+                left += [] if column else [name]
+        corners = np.arange(3 * len(mesh.faces)).reshape(-1, 3)
+        attributes, refused = attributes_of(
+            columns, len(mesh.positions), len(mesh.faces), corners, np.arange(len(mesh.faces))
+        )
+        return _Worn(attributes, moving, [*left, *refused])
+
+    def meshes(self, archive: str | io.BytesIO, faces: Faces) -> Iterator[TriangleMesh]:
+        """One frame after the other, with its attributes."""
+        with ExitStack() as stack:
+            arrays = [stack.enter_context(NpzArray(archive, name)).frames() for name in self.moving.values()]
+            for number, (positions, *values) in enumerate(zip(npz_frames(archive), *arrays, strict=True)):
+                with about(f"frame {number}"):
+                    own = (
+                        Attribute(name, one.astype(one.dtype.newbyteorder("=")), semantic=meaning_of(name))
+                        for name, one in zip(self.moving, values, strict=True)
+                    )
+                    mesh = TriangleMesh(positions, faces, (*self.still, *own))
+                yield mesh
 
 
 def read_pipe(given: Input, limits: Limits) -> Frames:

@@ -27,6 +27,7 @@ class Told:
     attributes: Callable[[], tuple[Attribute, ...]] = tuple
     metadata: Callable[[], Metadata] = dict
     left_out: list[str] = field(default_factory=list)
+    _begun: dict[str, Attribute] = field(default_factory=dict)
 
     @property
     def frame_rate(self) -> float:
@@ -37,6 +38,11 @@ class Told:
     def mesh(self, positions: Positions, faces: Faces, *, with_metadata: bool = True) -> TriangleMesh:
         """The mesh of a frame, with everything."""
         return TriangleMesh(positions, faces, self.attributes(), self.metadata() if with_metadata else {})
+
+    def moved(self) -> tuple[Attribute, ...]:
+        """Attributes that are others now than they were when this was asked first."""
+        now = self.attributes()
+        return tuple(one for one in now if self._begun.setdefault(one.name, one) is not one)
 
     def loses(self, names: Iterable[str]) -> None:
         """Take note of what cannot be held."""

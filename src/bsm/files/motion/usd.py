@@ -361,6 +361,7 @@ def write_usd(file: BinaryIO, kind: str, faces: Faces, told: Told) -> Iterator[C
         materials: dict[int, Any] = {}
         still: TriangleMesh | None = None  # the first mesh, as long as its faces are those of all frames
         taken = 0
+        keyed: set[str] = set()  # attributes that have times
 
         def write(frame: Positions, other: Faces | None = None) -> None:
             nonlocal mesh, materials, taken, still
@@ -372,6 +373,11 @@ def write_usd(file: BinaryIO, kind: str, faces: Faces, told: Told) -> Iterator[C
                     _set_mesh(pxr, mesh, materials, still, 0)
                 _set_mesh(pxr, mesh, materials, told.mesh(frame, other), taken)
                 still = None
+            for one in told.moved():
+                if still is not None and one.name not in keyed:
+                    _written(pxr, mesh, next(own for own in still.attributes if own.name == one.name), taken - 1)
+                keyed.add(one.name)
+                _written(pxr, mesh, one, taken)
             if not single_suffices(frame):
                 raise MeshError(f"frame {taken} needs double precision, which points of USD do not have; write npz")
             points = np.ascontiguousarray(frame, np.float32)
