@@ -9,6 +9,7 @@ attributes  what attributes take, against Draco's
 borders     how far parts gape that are encoded apart
 boundary    errors inside blocks and at their boundaries
 sequences   moving meshes, against Draco frame by frame and principal components
+fields      colours and fields that change in moving meshes, against zstd and Draco frame by frame
 denoise     the scoreboard of denoising; `tables` writes it into docs/measured.md
 figures     the tables of docs/measured.md
 assets      a picture of whole assets before and after
@@ -29,6 +30,7 @@ COMMANDS = {
     "borders": "borders:main",
     "boundary": "boundary:main",
     "sequences": "sequences:main",
+    "fields": "fields:main",
     "denoise": "denoise:main",
     "tables": "tables:main",
     "figures": "figures.command:main",
