@@ -1540,7 +1540,7 @@ class Track:
         self.width, self.base, self.history = first_frame.shape[1], base, None
         self.shape = first_frame.shape
         bends = [part.known(first_frame, bent=base is None) for part in parts]
-        self.bends, self.first = bends, [known[:, : self.width] for known, _ in bends]
+        self.bends, self.first = bends, [np.vstack((around, known))[:, : self.width] for known, around in bends]
         self.start = self.first if base is None else [np.zeros_like(one) for one in self.first]
 
     def learnt(self, parts, field, frames):
@@ -1561,12 +1561,11 @@ class Track:
         d, columns = self.width, self.width * gop.frames
         shapes = [(part.basis.shape[1], columns) for part in parts]
         if gop.method == 1:
-            self.history = [LevelModel(), [], [], [self.start, self.start]]
+            self.history = [LevelModel(), [], [self.start, self.start]]
         require(self.history is not None, "a frame refers to one that is not there")
-        model, loops, references, shown = self.history
+        model, references, shown = self.history
         if not references or references[0].shape[1] != columns:  # S 7.3
             references = [np.zeros(shape, int) for shape in shapes]
-            loops = [Loop(3 * d, columns) for _ in parts]
         matrices = [np.zeros(shape, int) for shape in shapes]
         if field is not None:
             matrices = model.decode(field.levels, shapes, references)
@@ -1574,14 +1573,18 @@ class Track:
         before, latest = shown[-2:]
         told = []
         for k, part in enumerate(parts):
-            told.append(np.zeros(shapes[k]))
+            ends, count = placed[part.around], len(part.around)
+            base = np.zeros((count + shapes[k][0], columns))
+            base[:, :d] = cosines[:, 0].sum() * latest[k]
+            own = base[count:]
             if field is not None:
                 known = np.concatenate([self.first[k], latest[k], latest[k] - before[k]], axis=1)
-                told[k] = loops[k].decode(known, matrices[k], field.step)
-            told[k][:, :d] += cosines[:, 0].sum() * latest[k]
-            part.place(placed, told[k])
+                loop = Loop(3 * d, columns).begin(known[:count], ends - base[:count], field.step)
+                own = own + loop.decode(known[count:], matrices[k], field.step)
+            told.append(np.vstack((ends, own)))
+            part.place(placed, own)
         frames = [[over_time(cosines[t], own, d) for own in told] for t in range(gop.frames)]
-        self.history = [model, loops, matrices, shown[-1:] + frames]
+        self.history = [model, matrices, shown[-1:] + frames]
         return [over_time(cosines[t], placed, d) for t in range(gop.frames)]
 
     def values(self, declared, change):

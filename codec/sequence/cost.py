@@ -5,7 +5,6 @@ from __future__ import annotations
 from bsm.bitstream.container.gop import GopBody, GopMethod
 from bsm.codec.basis.cost import solve_cost
 from bsm.codec.sequence.dictionaries import Site
-from bsm.codec.sequence.row_prediction import LEADING
 from bsm.codec.sequence.shown import BATCH
 from bsm.codec.static.work import LEVEL
 
@@ -17,23 +16,19 @@ LOOP, AROUND = 66.0, 10.0
 """Of a column in a row of a closed loop, and of a vertex around that it begins with."""
 
 
-def gop_memory(parts: int, vertices: int, body: GopBody) -> float:
+def gop_memory(vertices: int, body: GopBody, sites: tuple[Site, ...] = ()) -> float:
     """Bytes for decoding a GOP, besides those of one part after the other: levels, components, a few frames.
 
-    And what low-delay frames leave to the next ones: levels and loops of all parts.
+    And what low-delay frames leave to the next ones: levels, and what is around parts, once these are known.
     """
     width = sum(field.width for field in body.fields)
     shown = (16.0 * min(body.frames, BATCH) + 32.0) * width
     bases = (field.components * (40.0 * field.width * body.frames + 24.0 * field.components) for field in body.fields)
     left = 0.0
     if body.method is not GopMethod.LEARNT:
-        left = sum(_left(parts, vertices, field.width, field.width * body.frames) for field in body.fields)
+        ends = 8.0 * (body.frames + 4.0) * sum(len(site.around) for site in sites)
+        left = width * (4.0 * body.frames * vertices + ends)
     return vertices * (12.0 * _columns(body) + shown) + sum(bases) + left
-
-
-def _left(parts: int, vertices: int, width: int, columns: int) -> float:
-    known = 3 * width
-    return 4.0 * vertices * columns + 8.0 * parts * (known + min(columns, LEADING)) * (known + columns)
 
 
 def loop_memory(rows: int, body: GopBody) -> float:

@@ -73,9 +73,7 @@ class Opening:
         body = replace(body, fields=(positions, *others))
         dictionaries = self.setting.dictionaries
         beside = loop_memory(dictionaries.largest, body)
-        return dictionaries.fits(
-            gop_memory(len(self.setting.sites), self.setting.vertices, body), beside, _received(body)
-        )
+        return dictionaries.fits(gop_memory(self.setting.vertices, body, self.setting.sites), beside, _received(body))
 
     def admit(self, body: GopBody, number: int) -> None:
         """Do the sums of decoders for a GOP from frame `number` on, or raise `OptionError` if they would refuse it."""
@@ -84,9 +82,9 @@ class Opening:
         allowance.keep(0.0, received)
         allowance.show(vertices * (body.frames if number else body.frames - 1))
         with as_of_decoders(self.limits):
-            allowance.limits.check("sequence_bytes", gop_memory(len(dictionaries.sites), vertices, body))
+            allowance.limits.check("sequence_bytes", gop_memory(vertices, body))
             again = dictionaries.reserve(
-                gop_memory(len(dictionaries.sites), vertices, body), loop_memory(dictionaries.largest, body)
+                gop_memory(vertices, body, dictionaries.sites), loop_memory(dictionaries.largest, body)
             )
             allowance.spend(again + gop_cost(dictionaries.sites, vertices, self.setting.given, body), received)
 

@@ -58,13 +58,13 @@ class Track:
     ----------
     width : int
         Numbers d of a vertex.
-    first : list of float64 arrays, shapes (c_i, d)
-        The decoded first frame, each part as its difference from what the parts before let expect.
+    first : list of float64 arrays, shapes (k_i + c_i, d)
+        The decoded first frame: where each part hangs on those before, and its difference from what these let expect.
     known : list of float64 arrays, shapes (c_i, k)
         What predicts components of the field: differences of the first frame, and of what bends positions.
     around : list of float64 arrays, shapes (k_i, k)
         The same columns where a part hangs on those before.
-    start : list of float64 arrays, shapes (c_i, d)
+    start : list of float64 arrays, shapes (k_i + c_i, d)
         What a key frame is added to: of positions the first frame, of attributes nothing.
     """
 
@@ -149,7 +149,7 @@ def make_setting(
     tracks = []
     for track, width in enumerate((3, *widths)):
         known_of, around_of = ([np.ascontiguousarray(one[track]) for one in each] for each in zip(*pairs, strict=True))
-        first = [np.ascontiguousarray(part[:, :width]) for part in known_of]
+        first = [np.vstack((ends, part))[:, :width] for ends, part in zip(around_of, known_of, strict=True)]
         start = [np.zeros_like(part) for part in first] if track else first
         tracks.append(Track(width, first, known_of, around_of, start))
     return Setting(len(first_frame), given, dictionaries, tuple(tracks))
@@ -185,28 +185,36 @@ class FrameHistory:
     def __init__(self, track: Track) -> None:
         self.bank: Bank = make_level_bank()
         self.levels: list[Levels] = []
-        self.loops: list[Loop] = []
         self._track = track
         self._cosines = np.empty((0, 0))
         self._latest = track.start
         self._before = track.start
 
     def expect(self, frames: int) -> None:
-        """Get ready for so many frames; where those before were not as many, what is known of their columns is left."""
+        """Get ready for so many frames; where those before were not as many, their levels are nothing like these."""
         if len(self._cosines) == frames:
             return
-        width = self._track.width
         self._cosines = time_cosines(frames)
-        self.levels = [np.zeros((len(matrix), width * frames), np.int32) for matrix in self._track.first]
-        self.loops = [Loop(3 * width, width * frames) for _ in self._track.first]
+        self.levels = [np.zeros((len(matrix), self._track.width * frames), np.int32) for matrix in self._track.known]
 
-    def known(self, block: int) -> Matrix:
-        """What predicts a block's next change, shape (c_i, 3d)."""
-        latest = self._latest[block]
-        return np.concatenate([self._track.first[block], latest, latest - self._before[block]], axis=1)
+    def begin(self, block: int, ends: Matrix, step: float) -> tuple[Loop, Matrix, Matrix]:
+        """What a block's change follows from, where the frames are `ends`, shape (k_i, dT), around it.
+
+        Returns
+        -------
+        loop : Loop
+            Has learnt how they have changed there.
+        known : float64 array, shape (c_i, 3d)
+        base : float64 array, shape (c_i, dT)
+            What the change is added to.
+        """
+        first, latest, base, count = self._track.first[block], self._latest[block], self.base(block), len(ends)
+        known = np.hstack((first, latest, latest - self._before[block]))
+        loop = Loop(known.shape[1], ends.shape[1]).begin(known[:count], ends - base[:count], step)
+        return loop, known[count:], base[count:]
 
     def base(self, block: int) -> Matrix:
-        """Coefficients that the change of a block is added to, shape (c_i, dT): the latest frame in all frames."""
+        """The latest frame in all frames, around a block and its coefficients, shape (k_i + c_i, dT)."""
         latest = self._latest[block]
         base = np.zeros((len(latest), latest.shape[1] * len(self._cosines)))
         base[:, : latest.shape[1]] = self._cosines[:, 0].sum() * latest
@@ -215,15 +223,14 @@ class FrameHistory:
     def copy(self) -> FrameHistory:
         """An independent copy of the present state."""
         twin = FrameHistory(self._track)
-        twin.bank, twin.loops = copy_bank(self.bank), [loop.copy() for loop in self.loops]
-        twin.levels, twin._cosines = self.levels, self._cosines
+        twin.bank, twin.levels, twin._cosines = copy_bank(self.bank), self.levels, self._cosines
         twin._latest, twin._before = self._latest, self._before
         return twin
 
-    def commit(self, levels: list[Levels], coefficients: list[Matrix]) -> None:
-        """Make frames the latest: their levels and coefficients, each of shape (c_i, dT)."""
+    def commit(self, levels: list[Levels], told: list[Matrix]) -> None:
+        """Make frames the latest: their levels, shapes (c_i, dT), and what they are as of `base`."""
         self.levels = levels
-        shown = [spread.reshape(len(spread), len(self._cosines), -1) for spread in coefficients]
+        shown = [spread.reshape(len(spread), len(self._cosines), self._track.width) for spread in told]
         if len(self._cosines) > 1:
             self._latest = [np.tensordot(spread, self._cosines[-2], (1, 0)) for spread in shown]
         self._latest, self._before = [np.tensordot(spread, self._cosines[-1], (1, 0)) for spread in shown], self._latest
@@ -335,15 +342,16 @@ class GopEncoder:
         basis = held_cosines(width, len(frames))
         wanted = trajectories(frames) @ basis.reshape(-1, columns)
         field = np.zeros_like(wanted)
-        writer, coefficients = LevelWriter(history.bank, columns, self.rounds), []
+        writer, told = LevelWriter(history.bank, columns, self.rounds), []
         for k, part in enumerate(self._parts):
-            target = part.difference(wanted, field) - history.base(k)
-            change = writer.write(history.loops[k], history.known(k), target, step, history.levels[k])
-            coefficients.append(history.base(k) + change)
-            part.place(field, coefficients[k])
+            ends = field[part.site.around]
+            loop, known, base = history.begin(k, ends, step)
+            change = writer.write(loop, known, part.difference(wanted, field) - base, step, history.levels[k])
+            told.append(np.vstack((ends, base + change)))
+            part.place(field, base + change)
             progress(k + 1, len(self._parts))
         payload = writer.finish()
-        history.commit(writer.levels, coefficients)
+        history.commit(writer.levels, told)
         self.latest = np.array(list(shown_frames(field, 0, basis)))
         return GopField(width, step, columns, np.empty(0, np.int32), b"", payload)
 
@@ -418,14 +426,16 @@ class GopDecoder:
             read.append(levels)
         found: list[list[Matrix]] = [[np.empty(0)] * len(self.setting.sites) for _ in told]
 
-        def decoded(k: int, _: Matrix) -> Matrix:
-            for own, levels, (history, field) in zip(found, read, told, strict=True):
+        columns = [track.width * body.frames for track in self._tracks]
+
+        def decoded(k: int, around: Matrix) -> Matrix:
+            for own, levels, ends, (history, field) in zip(found, read, _split(around, columns), told, strict=True):
                 own[k] = history.base(k)
                 if field.components:
-                    own[k] = own[k] + history.loops[k].decode(history.known(k), levels[k], field.step)
-            return np.hstack([own[k] for own in found])
+                    loop, known, base = history.begin(k, ends, field.step)
+                    own[k] = np.vstack((ends, base + loop.decode(known, levels[k], field.step)))
+            return np.hstack([own[k][len(around) :] for own in found])
 
-        columns = [track.width * body.frames for track in self._tracks]
         placed, places = self.setting.field(sum(columns), decoded), np.cumsum([0, *columns[:-1]])
         for levels, own, (history, _) in zip(read, found, told, strict=True):
             history.commit(levels, own)

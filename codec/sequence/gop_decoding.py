@@ -109,7 +109,7 @@ class Gops:
         widths = {one.number: one.width for one in self._moving}
         tolerant = self._request.tolerant
         body = parse_gop_body(packet.data, header.gop_frames, header.run, widths, tolerant=tolerant)
-        limits.check("sequence_bytes", gop_memory(self._structure.scheme.blocks.count, header.vertices, body))
+        limits.check("sequence_bytes", gop_memory(header.vertices, body))
         last = packet.index + body.frames - 1
         if 0 < header.frames <= last:
             raise CorruptError(f"frames {packet.index} to {last} of {header.frames}")
@@ -148,7 +148,7 @@ class Gops:
         """`_decoded`, if that is allowed."""
         vertices, dictionaries = self._structure.header.vertices, decoder.setting.dictionaries
         again = dictionaries.reserve(
-            gop_memory(len(dictionaries.sites), vertices, body), loop_memory(dictionaries.largest, body)
+            gop_memory(vertices, body, dictionaries.sites), loop_memory(dictionaries.largest, body)
         )
         cost = gop_cost(dictionaries.sites, vertices, decoder.setting.given, body)
         self._structure.allowance.spend(again + cost, received)

@@ -87,7 +87,7 @@ def basis_of(levels: Levels, exponents: npt.NDArray[np.int32]) -> Matrix:
 
 
 class Loop:
-    """Predicts the rows of one block after the other, or of one block frame after frame, in closed loop.
+    """Predicts the rows of a block in closed loop.
 
     Levels are on two grids in turn (see `bitstream.coefficients.trellis`), row after row.
 

@@ -33,7 +33,7 @@ def _parting(probes: str) -> Good:
         for t in range(3, 6):
             frames[t][30:36] += 0.1 * (t - 2)
         faces = np.arange(len(frames[0])).reshape(-1, 3)
-        return encode_sequence(frames, faces, replace(BASE, gop=3, keep_order=True))
+        return encode_sequence(frames, faces, replace(BASE, step=1 / 64, gop=3, keep_order=True))
 
     return Good(probes, make)
 

@@ -71,7 +71,7 @@ export interface Moving {
 /** The fields of a frame: of positions, in BSM units, and what attributes differ from the first frame by. */
 export type Fields = Float64Array[];
 
-/** What GOPs build upon: the first frame, and what key frames are added to, part by part (S 7.2, S 10.3). */
+/** What GOPs build upon: the first frame, and what key frames are added to, around each part and of it (S 7.2, S 10.3). */
 interface Track {
     width: number;
     bends: Bends[];
@@ -106,12 +106,11 @@ interface Bends {
     around: Float64Array;
 }
 
-/** What low-delay frames refer to, part by part, and how many came last (S 7.2). */
+/** What low-delay frames refer to, around each part and of it, and how many came last (S 7.2). */
 interface History {
     bank: Bank;
     frames: number;
     levels: Levels[];
-    moments: Float64Array[];
     latest: Float64Array[];
     before: Float64Array[];
 }
@@ -182,7 +181,7 @@ export class Sequence {
             const fields = [{ width: 3, start: this.firstFrame }, ...this.moving];
             this.tracks = fields.map(({ width, start }, k) => {
                 const bends = parts.map((part) => (k === 0 ? this.bendsOf(part) : this.knownOf(part, start, width)));
-                const first = bends.map(({ known, count }) => known.filter((_, i) => i % count < width));
+                const first = bends.map(({ known, around, count }) => joined(around, known).filter((_, i) => i % count < width));
                 return { width, bends, first, start: k === 0 ? first : first.map(({ length }) => new Float64Array(length)) };
             });
             this.parts = parts;
@@ -200,7 +199,7 @@ export class Sequence {
         const gop = parseGop(data, run, this.moving, this.tolerant);
         const bytes = gop.fields.map(({ width, components }) => {
             const columns = width * gop.frames;
-            const left = gop.method === LEARNT ? 0 : 4 * header.vertices * columns + this.blocks.count * momentsOf(3 * width, columns) * 8;
+            const left = gop.method === LEARNT ? 0 : 4 * header.vertices * columns;
             return components * (16 * header.vertices + 40 * columns + 24 * components) + left;
         });
         checkLimit(this.limits, "sequenceBytes", total(bytes));
@@ -386,7 +385,7 @@ export class Sequence {
         });
     }
 
-    /** What a closed loop makes of levels (S 6); `moments` is updated. */
+    /** What a closed loop makes of levels (S 6). */
     private follow(known: Float64Array, count: number, levels: Levels, columns: number, moments: Float64Array, step: number): Float64Array {
         const { memory } = this;
         const width = count + columns;
@@ -400,7 +399,6 @@ export class Sequence {
                 "follow_rows", memory.copy(known, count), given, decoded, state, step, RULES, factor,
                 memory.doubles(width), memory.doubles(width),
             );
-            moments.set(state.view);
             const values = decoded.view.slice();
             if (areFinite(values)) return values;
             throw new NumericError("the levels reconstruct to coefficients that are not finite");
@@ -408,7 +406,7 @@ export class Sequence {
     }
 
     /** What a loop begins with (S 6.6). */
-    private learntAround({ count, around }: Bends, field: Float64Array, columns: number, step: number): Float64Array {
+    private learntAround({ count, around }: Pick<Bends, "count" | "around">, field: Float64Array, columns: number, step: number): Float64Array {
         const { memory } = this;
         const width = count + columns;
         return memory.scratch(() => {
@@ -490,7 +488,7 @@ export class Sequence {
         const { memory, tracks } = this;
         if (method === KEY_FRAMES) {
             memory.release(this.behindParts);
-            this.histories = tracks.map(({ start }) => ({ bank: makeLevelBank(memory), frames: 0, levels: [], moments: [], latest: start, before: start }));
+            this.histories = tracks.map(({ start }) => ({ bank: makeLevelBank(memory), frames: 0, levels: [], latest: start, before: start }));
             this.behindBanks = memory.mark();
         }
         const { histories } = this;
@@ -506,8 +504,8 @@ export class Sequence {
         const { parts } = this;
         const columns = width * frames;
         const empty = (): Levels[] => parts.map(({ basis: { width: rows } }) => ({ rows, values: new Int32Array(rows * columns) }));
-        if (history.frames !== frames) Object.assign(history, { frames, levels: empty(), moments: first.map(() => emptyMoments(3 * width, columns)) });
-        const { bank, moments, latest, before } = history;
+        if (history.frames !== frames) Object.assign(history, { frames, levels: empty() });
+        const { bank, latest, before } = history;
         const levels = step > 0 ? this.readLevels(bank, data, parts.map((part) => part.basis.width), columns, history.levels) : empty();
         const field = this.emptyField(columns);
         let held = 0;
@@ -519,15 +517,31 @@ export class Sequence {
                 const at = 3 * i - 2 * (i % width);
                 [known[at], known[at + width], known[at + 2 * width]] = [start[i], value, value - earlier[i]];
             });
-            const differences = step > 0 ? this.follow(known, 3 * width, levels[k], columns, moments[k], step) : new Float64Array(frames * now.length);
-            now.forEach((value, i) => (differences[columns * Math.floor(i / width) + (i % width)] += held * value));
-            this.place(part, field, this.endsOf(part, field), differences);
-            return differences;
+            const [ends, behind] = [this.endsOf(part, field), part.around.length * width];
+            const base = new Float64Array(frames * now.length);
+            now.forEach((value, i) => (base[columns * Math.floor(i / width) + (i % width)] = held * value));
+            let differences = base.slice(frames * behind);
+            if (step > 0) {
+                const around = { count: 3 * width, around: known.slice(0, 3 * behind) };
+                const moments = this.learntAround(around, ends.map((value, i) => value - base[i]), columns, step);
+                const change = this.follow(known.slice(3 * behind), 3 * width, levels[k], columns, moments, step);
+                differences = differences.map((value, i) => value + change[i]);
+            }
+            this.place(part, field, ends, differences);
+            return joined(ends, differences);
         });
         const shown = (t: number): Float64Array[] => told.map((differences) => overTime(differences, width, cosines, frames, t));
         Object.assign(history, { levels, latest: shown(frames - 1), before: frames > 1 ? shown(frames - 2) : latest });
         return field;
     }
+}
+
+/** Rows, and behind them others. */
+function joined(before: Float64Array, behind: Float64Array): Float64Array {
+    const rows = new Float64Array(before.length + behind.length);
+    rows.set(before);
+    rows.set(behind, before.length);
+    return rows;
 }
 
 /** The numbers in frame t of rows that hold those of cosine after cosine (S 7.2). */
@@ -559,12 +573,7 @@ function shaped(memory: Memory, place: Ints, rows: number): Ints | readonly [Int
 }
 
 function emptyMoments(known: number, columns: number): Float64Array {
-    return new Float64Array(momentsOf(known, columns));
-}
-
-/** Entries of M (S 6.1). */
-function momentsOf(known: number, columns: number): number {
-    return (known + Math.min(columns, LEADING)) * (known + columns);
+    return new Float64Array((known + Math.min(columns, LEADING)) * (known + columns));
 }
 
 /** As many axes in a row as the degree says, none below the one before. */
