@@ -314,7 +314,7 @@ class GopEncoder:
         cost : float
             Squared steps of all weighed errors, and what the bits are worth.
         """
-        field, error = self._transformed(trajectories(frames), np.tile(weights, self._track.width), progress)
+        field, error = self._transformed(frames, np.tile(weights, self._track.width), progress)
         return field, error + WEIGHT * 8.0 * (field.size + SINGLE)
 
     def encode_singles(self, frames: Matrix, weights: Matrix, most: float = math.inf) -> tuple[GopField, ...]:
@@ -355,12 +355,15 @@ class GopEncoder:
         self.latest = np.array(list(shown_frames(field, 0, basis)))
         return GopField(width, step, columns, np.empty(0, np.int32), b"", payload)
 
-    def _transformed(self, motion: Matrix, weights: Matrix, progress: Progress) -> tuple[GopField, float]:
-        """Encode trajectories, shape (n, dT), whose columns count by `weights`, shape (dT,), and are weighed here."""
+    def _transformed(self, frames: Matrix, weights: Matrix, progress: Progress) -> tuple[GopField, float]:
+        """Encode frames, shape (T, n, d), the columns of whose trajectories count by `weights`, shape (dT,)."""
+        motion = trajectories(frames)
         motion *= weights
         body = self._learnt(motion, weights)
-        basis = decode_basis(body, motion.shape[1] // body.width) * weights[:, None]
+        basis = decode_basis(body, len(frames)) * weights[:, None]
         wanted = motion @ projection(basis)
+        energy = np.vdot(motion, motion)
+        del motion  # as large as the frames
         field = np.zeros_like(wanted)
         writer = LevelWriter(make_level_bank(), body.components, self.rounds)
         for part, known, around in zip(self._parts, self._track.known, self._track.around, strict=True):
@@ -368,7 +371,7 @@ class GopEncoder:
             loop = Loop(known.shape[1], body.components).begin(around, field[part.site.around], self._step)
             part.place(field, writer.write(loop, known, target, self._step))
             progress(len(writer.levels), len(self._parts))
-        left = np.vdot(motion, motion) - _energy(wanted, basis)  # of the fit, which `wanted - field` is orthogonal to
+        left = energy - _energy(wanted, basis)  # of the fit, which `wanted - field` is orthogonal to
         error = float(left + _energy(wanted - field, basis)) / self._step**2
         return replace(body, levels=writer.finish()), error
 

@@ -24,7 +24,7 @@ MORE = 6
 """If all is well there, so many of those that may be the worst are drawn as well."""
 DEVIATIONS = 5.0
 """An attempt is taken once all frames are drawn that may look worse than the bound, by so many standard deviations."""
-KEPT = 1 << 27
+KEPT = 1 << 26
 """Bytes of pictures of originals that are kept from attempt to attempt."""
 SLACK, SLACK_OF_ONE = 0.04, 0.15
 """Part of a bound that may be left, in a GOP and in a frame by itself, which must be quick."""

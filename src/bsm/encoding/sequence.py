@@ -10,6 +10,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 import numpy as np
+import numpy.typing as npt
 
 from bsm import options
 from bsm.batch import Facts, came_to, size_of
@@ -114,13 +115,34 @@ def _staged(
         yield frame
 
 
+@dataclass(frozen=True, eq=False)
+class Kept:
+    """A frame in half its memory: in single precision within its box, which is finer than any error that is told."""
+
+    middle: Positions
+    size: float
+    offsets: npt.NDArray[np.float32]
+
+    @classmethod
+    def of(cls, positions: Positions) -> Kept:
+        """Keep positions, shape (n, 3); of such as are not finite anything, since the encoder refuses them."""
+        with np.errstate(all="ignore"):
+            low, high = positions.min(axis=0), positions.max(axis=0)
+            middle, size = low / 2 + high / 2, float((high / 2 - low / 2).max()) or 1.0
+            return cls(middle, size, ((positions - middle) / size).astype(np.float32))
+
+    def rows(self, order: np.ndarray) -> Positions:
+        """The positions of some vertices, shape (n, 3)."""
+        return np.asarray(self.offsets[order].astype(np.float64) * self.size + self.middle)
+
+
 @dataclass
 class Echo:
     """Hears what a decoder makes of a stream while it is written, and holds only the frames that are not out yet."""
 
     frames: int = 0
     loops: Loops = field(default_factory=Loops)
-    _waiting: deque[Positions] = field(default_factory=deque)
+    _waiting: deque[Kept] = field(default_factory=deque)
     _squares: float = 0.0
     _extent: float = 0.0
 
@@ -138,7 +160,7 @@ class Echo:
             self.frames += 1
             self.loops.take(positions)
             if kept:
-                self._waiting.append(positions)
+                self._waiting.append(Kept.of(positions))
             yield frame
 
     def compare(self, chunk: bytes, order: np.ndarray) -> None:
@@ -149,7 +171,7 @@ class Echo:
         self._decoder.receive_data(chunk)
         while not isinstance(event := self._decoder.next_event(), Signal):
             if isinstance(event, FrameEvent):
-                frame = self._waiting.popleft()[order]
+                frame = self._waiting.popleft().rows(order)
                 self._squares += float(np.square(event.positions - frame).sum())
                 self._extent += float(np.square(frame - frame.mean(axis=0)).sum())
 
