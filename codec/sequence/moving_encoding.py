@@ -24,8 +24,10 @@ SPARE = 0.8
 """Share of a bound that an attempt may leave unused without another one."""
 AIM, RANGE = 0.93, (0.3, 3.0)
 """Share of the bound that another attempt aims at, and how far its step goes from the one before at once."""
-FIRST_STEP = 0.7
-"""That of the first attempt, in bounds."""
+FIRST_STEP, FIRST_STEP_RMS = 0.7, 2.0
+"""That of the first attempt, in bounds of every value and on average."""
+OUTLIER = 10.0
+"""How many times as far as all are on average a single value may be off."""
 MARGIN = 1e-6
 """By which integers keep away from halves, which processors may round either way."""
 FIRST_FRAME = 0.5
@@ -68,7 +70,7 @@ class Bound:
         way, amount = self.quality.way, self.quality.amount
         if way in ("angle", "recompute") or (way == "exact" and not whole):
             raise OptionError(
-                f"{name!r} moves, and cannot be kept {self.quality}: ask for a bound, 0.01 or 1%, or for bits"
+                f"{name!r} moves, and cannot be kept {self.quality}: ask for a bound, 0.01, 1% or 1%rms, or for bits"
             )
         if way == "exact":
             bound = 0.0
@@ -78,19 +80,47 @@ class Bound:
             bound = float(-(-step // 1) // 2) if whole else step / 2.0
         else:
             bound = amount if way == "bound" else amount / 100.0 * extent
-        return replace(self, amount=float(int(bound)) if whole else bound)
+        return replace(self, amount=float(int(bound)) if whole and way != "rms" else bound)
 
     @property
     def of_first(self) -> Quality:
         """What is asked of the first frame, which all others are told from."""
         assert self.amount is not None
-        amount = FIRST_FRAME * self.amount
+        amount = self.amount if self._is_rms else FIRST_FRAME * self.amount
         return Quality("bound", amount) if amount > 0.0 else Quality("exact")
 
-    def reach(self, values: Values) -> float:
-        """The bound of values before they are rounded to their kind."""
+    @property
+    def reach(self) -> float:
+        """The bound of what `off` tells."""
         assert self.amount is not None
-        return self.amount if values.dtype.kind == "f" else self.amount + 0.5 - MARGIN
+        whole = self.attribute.values.dtype.kind != "f" and not self._is_rms
+        return self.amount + 0.5 - MARGIN if whole else self.amount
+
+    @property
+    def first_step(self) -> float:
+        """A step to try first."""
+        return self.reach * (FIRST_STEP_RMS if self._is_rms else FIRST_STEP)
+
+    def off(self, values: Values, first: Values, change: Matrix) -> float:
+        """How far the values of a frame are off: floats when they are rounded, integers before, but for their mean."""
+        wide = values.astype(np.float64)
+        if self._is_rms:
+            apart = changed(first, change) - wide
+            return max(math.sqrt(float(np.square(apart).mean())), float(np.abs(apart).max()) / OUTLIER)
+        now = first.astype(np.float64) + change
+        if values.dtype.kind == "f":
+            now = now.astype(values.dtype).astype(np.float64)
+        off = float(np.abs(wide - now).max(initial=0.0))
+        return off if math.isfinite(off) else math.inf
+
+    @property
+    def _is_rms(self) -> bool:
+        return self.quality.way == "rms"
+
+    def __str__(self) -> str:
+        if not self.amount:
+            return "exact"
+        return f"within {self.amount:.3g}{' on average' if self._is_rms else ''}"
 
 
 def moved(one: PreparedAttribute) -> PreparedAttribute:
@@ -132,8 +162,7 @@ class Mover:
         """What has become of it."""
         if self.bound.amount is None:
             return self._carried.said
-        within = f"within {self.bound.amount:.3g}" if self.bound.amount else "exact"
-        return f"{self.name}: per vertex, moves, {within} in every frame"
+        return f"{self.name}: per vertex, moves, {self.bound} in every frame"
 
     def begin(self, positions: GopEncoder, setting: Setting, number: int) -> None:
         """Begin a run, in which this attribute has the track of this number; `positions` has its dictionaries."""
@@ -157,18 +186,22 @@ class Mover:
     def _field(self, body: GopBody, values: Values) -> GopField:
         assert self._encoder is not None
         before = self._latest if body.method is GopMethod.NEXT_FRAME else self.first
-        if self.bound.amount is None or _off(values, before, np.zeros(1)) <= self.bound.amount:
+        nothing = np.zeros(before.shape)
+        if (
+            self.bound.amount is None
+            or max(self.bound.off(own, before, nothing) for own in values) <= self.bound.amount
+        ):
             self._encoder.stay(body.frames, key=body.method is not GopMethod.NEXT_FRAME)
             self._latest = before
             return still(values.shape[2])
-        reach = self.bound.reach(values)
-        step = self._step or FIRST_STEP * reach
+        reach = self.bound.reach
+        step = self._step or self.bound.first_step
         kept: tuple[GopEncoder, GopField, Values] | None = None
         for tries in range(TRIES):
             twin = self._encoder.copy()
             twin.step = step
             field, changes = self._attempt(twin, body, values)
-            off = max(_off(own, self.first, change) for own, change in zip(values, changes, strict=True))
+            off = max(self.bound.off(own, self.first, change) for own, change in zip(values, changes, strict=True))
             if off <= reach and (kept is None or twin.step > kept[0].step):
                 kept = twin, field, changed(self.first, changes[-1])
             if kept is not None and (off >= SPARE * reach or tries >= ENOUGH):
@@ -181,7 +214,7 @@ class Mover:
         return field
 
     def _refusal(self, why: str) -> TargetError:
-        return TargetError(f"{self.name!r} moves, and cannot be kept within {self.bound.amount:g}: {why}")
+        return TargetError(f"{self.name!r} moves, and cannot be kept {self.bound}: {why}")
 
     def _attempt(self, encoder: GopEncoder, body: GopBody, values: Values) -> tuple[GopField, list[Matrix]]:
         """What is told with a step, and what a decoder makes of it: the changes of each frame, shape (n, d)."""
@@ -197,15 +230,6 @@ class Mover:
             raise self._refusal(f"{error}") from error
         decoder = GopDecoder(self._setting, [self._track])
         return field, [change for (change,) in decoder.decode(replace(body, fields=(field,)))]
-
-
-def _off(values: Values, first: Values, change: Matrix) -> float:
-    """How far values, of one frame or more, are off: integers before, floats when they are rounded to their kind."""
-    now = first.astype(np.float64) + change
-    if values.dtype.kind == "f":
-        now = now.astype(values.dtype).astype(np.float64)
-    off = float(np.abs(values.astype(np.float64) - now).max(initial=0.0))
-    return off if math.isfinite(off) else math.inf
 
 
 def with_fields(

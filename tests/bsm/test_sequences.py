@@ -143,7 +143,7 @@ def test_colours_that_change_are_not_dropped_in_silence(tmp_path, capsys):
     assert bsm("encode", tmp_path / "on", "-o", stream, "--set", "step=0.01", "--force") == 0
     assert "left out, for they move or change: color" in capsys.readouterr().err
     assert bsm("encode", tmp_path / "move", "-o", stream, "--set", "step=0.01", "--force") == 0
-    assert "color: per vertex, moves, exact in every frame" in capsys.readouterr().err
+    assert "color: per vertex, moves, within 0.09 on average in every frame" in capsys.readouterr().err
     assert bsm("decode", stream, "-o", f"{tmp_path / 'back'}/", "--format", "ply") == 0
     for number, shade in enumerate((0, 9, 0)):
         (color,) = read_mesh(tmp_path / "back" / f"0000{number}.ply").mesh.attributes
@@ -371,7 +371,11 @@ def test_attributes_that_stay_go_along(tmp_path, capsys):
         again = found.attributes[0]
         assert np.abs(again.values[again.indices].reshape(-1, 2) - corners).max() < 2e-4
     assert main(["decode", str(tmp_path / "run.bsm"), "-o", str(tmp_path / "out.npz")]) == 0
-    assert "left out: texcoord" in capsys.readouterr().err
+    with np.load(tmp_path / "out.npz") as arrays:
+        assert (
+            np.abs(arrays["corner/texcoord"][arrays["corner/texcoord/indices"]].reshape(-1, 2) - corners).max() < 2e-4
+        )
+    capsys.readouterr()
     assert main(["encode", str(tmp_path / "ply"), "-o", str(tmp_path / "ply.bsm"), "--attribute", "color=5bits"]) == 0
     assert "heat" in capsys.readouterr().err
     assert result(capsys, "info", tmp_path / "ply.bsm")["attributes"][0]["name"] == "color"

@@ -10,7 +10,7 @@ from typing import Literal
 from bsm.bitstream.errors import ArgumentError, OptionError
 from bsm.codec.geometry.attributes import Attribute
 
-Way = Literal["exact", "bits", "bound", "share", "angle", "recompute", "none"]
+Way = Literal["exact", "bits", "bound", "share", "rms", "angle", "recompute", "none"]
 Grade = Literal["small", "balanced", "fine"]
 
 MOST_BITS = 24
@@ -21,6 +21,7 @@ _FORMS: tuple[tuple[str, Way], ...] = (
     (r"(\d+) ?bits?", "bits"),
     (r"([\d.eE+-]+) ?deg(?:rees)?", "angle"),
     (r"([\d.eE+-]+) ?%", "share"),
+    (r"([\d.eE+-]+) ?% ?rms", "rms"),
     (r"([\d.eE+-]+)", "bound"),
 )
 _PLAIN: tuple[Way, ...] = ("exact", "recompute", "none")
@@ -28,8 +29,8 @@ NORMAL_BITS: dict[Grade, int] = {"small": 8, "balanced": 10, "fine": 12}
 COLOR_BITS: dict[Grade, int] = {"small": 8, "balanced": 8, "fine": 16}
 TEXCOORD_BITS: dict[Grade, int] = {"small": 12, "balanced": 12, "fine": 14}
 GENERIC_BITS: dict[Grade, int] = {"small": 16, "balanced": 16, "fine": 20}
-MOVING = {"color": 2.0, "generic": 0.5}
-"""Percent of its range that an attribute which changes from frame to frame may be off."""
+MOVING = {"color": 1.0, "generic": 0.25}
+"""Percent of its range that an attribute which changes from frame to frame may be off, see "rms" of `Quality`."""
 
 
 @dataclass(frozen=True)
@@ -40,8 +41,9 @@ class Quality:
     ----------
     way : str
         "exact"; "bits": so many of each number; "bound": no number is farther off; "share": the same in percent of the
-        largest range; "angle": no normal is more degrees off; "recompute": normals are made from the decoded mesh;
-        "none": it is left out.
+        largest range; "rms": where values change from frame to frame, so many percent is the root mean square of each
+        frame, and none is ten times as far off; elsewhere it is "share"; "angle": no normal is more degrees off;
+        "recompute": normals are made from the decoded mesh; "none": it is left out.
     amount : float
         Of bits, of the attribute's own unit, percent, or degrees.
     """
@@ -50,18 +52,18 @@ class Quality:
     amount: float = 0.0
 
     def __post_init__(self) -> None:
-        if self.way in ("bound", "share", "angle") and not 0.0 < self.amount < float("inf"):
+        if self.way in ("bound", "share", "rms", "angle") and not 0.0 < self.amount < float("inf"):
             raise OptionError(f"the quality of an attribute must be above 0, not {self.amount:g}")
         if self.way == "bits" and not 1 <= self.amount <= 32:
             raise OptionError(f"an attribute can have 1 to 32 bits, not {self.amount:g}")
 
     def __str__(self) -> str:
-        unit = {"bits": " bits", "share": " %", "angle": " degrees"}.get(self.way, "")
+        unit = {"bits": " bits", "share": " %", "rms": " % rms", "angle": " degrees"}.get(self.way, "")
         return self.way if self.way in _PLAIN else f"{self.amount:g}{unit}"
 
 
 def parse_quality(text: str) -> Quality:
-    """The quality that a user means: "exact", "12bits", "0.01", "1%", "2deg", "recompute" or "none".
+    """The quality that a user means: "exact", "12bits", "0.01", "1%", "1%rms", "2deg", "recompute" or "none".
 
     Raises
     ------
@@ -79,7 +81,8 @@ def parse_quality(text: str) -> Quality:
             except ValueError:
                 break
     raise OptionError(
-        f"the quality of an attribute is exact, 12bits, 0.01 (a bound), 1%, 2deg, recompute or none, not {text!r}"
+        "the quality of an attribute is exact, 12bits, 0.01 (a bound), 1%, 1%rms, 2deg, recompute or none, "
+        f"not {text!r}"
     )
 
 
@@ -121,9 +124,14 @@ def qualities(
             return Quality("recompute")
         if "*" in asked:
             return parse_quality(asked["*"])
-        return Quality("share", MOVING[one.semantic]) if one.name in moving else default_quality(one, grade)
+        return Quality("rms", MOVING[one.semantic]) if one.name in moving else default_quality(one, grade)
 
-    return [(one, wanted) for one in attributes if (wanted := quality(one)).way != "none"]
+    def meant(one: Attribute) -> Quality:
+        asked_for = quality(one)
+        still = asked_for.way == "rms" and one.name not in moving
+        return Quality("share", asked_for.amount) if still else asked_for
+
+    return [(one, wanted) for one in attributes if (wanted := meant(one)).way != "none"]
 
 
 def default_quality(attribute: Attribute, grade: Grade) -> Quality:

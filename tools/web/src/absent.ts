@@ -37,6 +37,10 @@ export function dressed(): never {
     return absent("attributes");
 }
 
+export function numbersOf(): never {
+    return absent("attributes");
+}
+
 export class TolerantReader {
     constructor() {
         absent("damaged streams");

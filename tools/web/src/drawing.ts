@@ -7,7 +7,7 @@ import { spread, type DrawnAttribute, type Dress, type Piece } from "./dress";
 import { checkLimit, DEFAULT_LIMITS, type Limits } from "./limits";
 import { inverse } from "./numbering";
 import { upTo } from "./numbers";
-import { dressed } from "./parting";
+import { dressed, numbersOf } from "./parting";
 
 export type { DrawnAttribute, Piece };
 
@@ -57,12 +57,13 @@ export interface WholePicture {
     run: number;
 }
 
-/** A frame of a sequence: positions of the drawn vertices, and their normals times 32767. */
+/** A frame of a sequence: positions of the drawn vertices, their normals times 32767, and what changes from frame to frame. */
 export interface FramePicture {
     type: "frame";
     index: number;
     positions: Float32Array;
     normals: Int16Array;
+    attributes: DrawnAttribute[];
 }
 
 export type Picture = HeaderEvent | MetadataEvent | BegunPicture | GrownPicture | WholePicture | FramePicture | LossEvent | AttributePicture | EndEvent;
@@ -284,18 +285,23 @@ export class Drawing {
         this.origin.fill(0);
     }
 
-    private addFrame({ index, positions: points }: FrameEvent): void {
-        this.kept += 18 * (points.length / 3);
+    private addFrame({ index, positions: points, attributes: moved }: FrameEvent): void {
+        this.kept += 18 * (points.length / 3) + moved.reduce((sum, { values }) => sum + 4 * values.length, 0);
         checkLimit(this.limits, "keptBytes", this.kept);
         if (!this.shape) {
             this.take(points);
             this.finish();
         }
-        const { vertices } = begun(this.shape);
+        const { vertices, attributes: drawn } = begun(this.shape);
         const positions = spread(points, 3, vertices);
         const normals = spread(normalsOf(this.faces, this.origin, points), 3, vertices);
         const small = Int16Array.from(normals, (value) => Math.round(value * MOST_NORMAL));
-        this.show({ type: "frame", index, positions, normals: small }, [positions.buffer, small.buffer]);
+        const attributes = moved.flatMap((one) => {
+            const same = drawn.find(({ source }) => source === one.name);
+            return same ? [{ ...same, values: numbersOf(one, vertices) }] : [];
+        });
+        const buffers = [positions, small, ...attributes.map(({ values }) => values)].map(({ buffer }) => buffer);
+        this.show({ type: "frame", index, positions, normals: small, attributes }, buffers);
     }
 
     /** The mesh is whole: part its vertices where its attributes do, and sort its faces by parts and materials. */

@@ -11,6 +11,8 @@ export interface Piece {
 /** Numbers of the drawn vertices under one name. */
 export interface DrawnAttribute {
     name: string;
+    /** The attribute that they are. */
+    source: string;
     components: number;
     values: Float32Array;
 }

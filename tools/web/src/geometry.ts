@@ -1,7 +1,7 @@
 /** A geometry of three.js that is made of pictures, while they come. */
 import { begun } from "./begun";
 import { Box3, BufferAttribute, BufferGeometry, Sphere, Vector3 } from "three";
-import type { AttributePicture, BegunPicture, FramePicture, GrownPicture, Header, LossEvent, Metadata, Picture, Piece, Shape } from "./index";
+import type { AttributePicture, BegunPicture, DrawnAttribute, FramePicture, GrownPicture, Header, LossEvent, Metadata, Picture, Piece, Shape } from "./index";
 
 /** What happens to a geometry while it is filled. */
 export interface Progress {
@@ -19,6 +19,7 @@ export interface Progress {
 interface Frame {
     positions: Float32Array;
     normals: Int16Array;
+    attributes: DrawnAttribute[];
     shape: Shape;
 }
 
@@ -100,7 +101,7 @@ export class BSMGeometry extends BufferGeometry {
 
     /** Take the positions of a frame that is there. */
     showFrame(index: number): void {
-        const { positions, normals, shape } = this.frames[index];
+        const { positions, normals, attributes, shape } = this.frames[index];
         if (index === this.shown) return;
         this.shown = index;
         if (shape !== this.worn) this.take(shape);
@@ -112,6 +113,11 @@ export class BSMGeometry extends BufferGeometry {
         if (!(normal.array instanceof Int16Array)) this.setAttribute("normal", (normal = new BufferAttribute(normals, 3, true)));
         normal.array = normals;
         normal.needsUpdate = true;
+        for (const { name, values } of attributes) {
+            const attribute = this.getAttribute(name) as BufferAttribute;
+            attribute.array = values;
+            attribute.needsUpdate = true;
+        }
     }
 
     /** Numbers of the stream's vertices, `width` for each, as those of the drawn ones. */
@@ -192,8 +198,8 @@ export class BSMGeometry extends BufferGeometry {
         this.boundingSphere = new Sphere(new Vector3(...center), radius);
     }
 
-    private keep({ index, positions, normals }: FramePicture): void {
-        this.frames.push({ positions, normals, shape: begun(this.coming) });
+    private keep({ index, positions, normals, attributes }: FramePicture): void {
+        this.frames.push({ positions, normals, attributes, shape: begun(this.coming) });
         if (index === 0) this.showFrame(0);
         this.progress.onFrame?.(index, this);
     }

@@ -26,7 +26,7 @@ export function dressed(faces: Int32Array, whole: Int32Array, carried: Attribute
         const base = one.semantic === "generic" ? one.name : BASES[one.semantic];
         const count = used.get(base) ?? 0;
         used.set(base, count + 1);
-        return [{ name: count ? `${base}${count}` : base, components: one.components, values: numbersOf(one, rows[i]) }];
+        return [{ name: count ? `${base}${count}` : base, source: one.name, components: one.components, values: numbersOf(one, rows[i]) }];
     });
     return { index, vertices, pieces, attributes, own: normal && numbersOf(normal, rows[drawn.indexOf(normal)]) };
 }
@@ -87,7 +87,7 @@ function parted(faces: Int32Array, chosen: Int32Array, attributes: Attribute[], 
 }
 
 /** Numbers of the drawn vertices; integers of colours are shares of their range. */
-function numbersOf({ semantic, kind, components, values }: Attribute, rows?: Int32Array): Float32Array {
+export function numbersOf({ semantic, kind, components, values }: Attribute, rows?: Int32Array): Float32Array {
     const most = semantic === "color" ? { uint8: 255, uint16: 65535 }[kind as string] ?? 1 : 1;
     const numbers = spread(values, components, rows);
     if (most > 1) for (let i = 0; i < numbers.length; i++) numbers[i] /= most;
