@@ -48,8 +48,7 @@ class SequenceOptions:
     step : float
         Quantization step, relative to the bounding box's diagonal of the first frame.
     first_step : float, optional
-        That of the first frame, which all others are predicted from; None: 0.4 of `step`, and 0.28 of it with low
-        delay.
+        That of the first frame, which all others are predicted from; None: 0.3 of `step`.
     gop : int, optional
         Frames of a GOP at most, or between key frames: what a loss costs at most, and what the encoder holds. None:
         between key frames 256; of a GOP 512 up to 5,000 vertices, 256 from 10,000 on, and in between evenly.

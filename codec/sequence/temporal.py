@@ -10,9 +10,9 @@ import numpy.typing as npt
 from bsm.codec.arrays import Matrix
 from bsm.codec.sequence.row_prediction import OCTAVE
 
-WORTH = 0.5
-"""A component is kept if its energy is above WORTH * dT * step^2: below, it costs more than it brings. Half of
-it costs 0.6 %, twice saves 0.3 % (tools.constants)."""
+WORTH = 0.4
+"""A component is kept if its energy is above WORTH * dT * step^2: below, it costs more than it brings. 0.35 and 0.5
+cost 0.3 % more, 0.8 costs 1 %."""
 PRECISION = 1.0
 """Error of a column of the basis, times the root of the energy that it multiplies, in steps. A bit of the basis and one
 of the components are worth the same from 1 to 1.4; the finer, the less the error changes from frame to frame."""

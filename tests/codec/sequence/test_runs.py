@@ -202,13 +202,13 @@ def test_a_mesh_with_other_colours_is_another():
 
 
 def damaged(data, number):
-    """The stream with a byte of a frame changed."""
+    """The stream with a byte of a frame changed, and not of how long it is, which may lead to the end of any other."""
     reader = Reader()
     reader.receive_data(data)
     while reader.last_frame is None or reader.last_frame.number < number:
         reader.next_packet()
-    span = reader.last_frame
-    return data[: span.offset + 1] + bytes([data[span.offset + 1] ^ 0x55]) + data[span.offset + 2 :]
+    last = reader.last_frame.offset + reader.last_frame.length - 1
+    return data[:last] + bytes([data[last] ^ 0x55]) + data[last + 1 :]
 
 
 @pytest.mark.parametrize("way", WAYS)
