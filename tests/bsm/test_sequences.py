@@ -58,7 +58,7 @@ def test_info_and_verify(npz, tmp_path, capsys):
     info = result(capsys, "info", stream)
     assert info["frames"] == FRAMES and info["metadata"]["frame_rate"] == 25
     lengths = [gop["frames"] for gop in info["gops"]]
-    assert max(lengths) == 4 and sum(lengths) == FRAMES
+    assert max(lengths) <= 4 and sum(lengths) == FRAMES
     assert [gop["first"] for gop in info["gops"]] == np.cumsum([0, *lengths[:-1]]).tolist()
     assert all(stream.read_bytes()[gop["offset"]] & 15 == 7 for gop in info["gops"])
     assert info["bpvf_total"] == pytest.approx(encoded["bpvf_total"])
