@@ -42,9 +42,8 @@ class SequenceOptions:
     Parameters
     ----------
     low_delay : int
-        Send so many frames at a time as soon as they are there: 1 is every frame as it comes, 4 take some 15 % fewer
-        bytes and 8 a quarter. 0: long groups of frames, each by a temporal transform or frame by frame, whatever costs
-        less.
+        Send so many frames at a time as soon as they are there: 1 is every frame as it comes, 8 take a quarter fewer
+        bytes. 0: long groups of frames, each by a temporal transform or frame by frame, whatever costs less.
     step : float
         Quantization step, relative to the bounding box's diagonal of the first frame.
     first_step : float, optional
