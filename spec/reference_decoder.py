@@ -1451,7 +1451,7 @@ class Loop:
         for a in range(len(factor)):
             g = self.moments[a].copy()
             g[:a] = 0.0
-            g[a] += 0.0025
+            g[a] += 0.004
             g[a:] -= factor[:a, a] @ factor[:a, a:]
             factor[a] = g / math.sqrt(g[a])
         return factor

@@ -28,7 +28,7 @@ LEADING = 24
 """Columns of a row that help to predict the columns behind them."""
 FORGETTING = 0.985
 """How much the past counts, per row, in the weights of the prediction."""
-RIDGE = 0.0025
+RIDGE = 0.004
 """Regularisation of the weights."""
 NOISE = 30.0
 """Energy in squared steps that is added to that of a row before the row is weighed by the inverse of it;

@@ -35,7 +35,7 @@ const QUARTERS = [1, 0.8408964152537145, 0.7071067811865476, 0.5946035575013605]
 const SLOTS = (5 * 12 * 12 + 12 * 40) * SPAN;
 const LEADING = 24;
 /** Forgetting, ridge, noise, what is around, dense rows, renewal (S 6). */
-const RULES = [0.985, 0.0025, 30, 30, 16n, 8n] as const;
+const RULES = [0.985, 0.004, 30, 30, 16n, 8n] as const;
 const SQUARES = 0.5;
 const CUBES = 0.3;
 const SMALLEST_RADIUS = 2 ** -24;
