@@ -15,6 +15,7 @@ import numpy as np
 import pytest
 
 from bsm.codec.denoise.noise.gaussian import gaussian_along_normals
+from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.evaluation.sample import knot
 from bsm.files.mesh import write_mesh
@@ -96,6 +97,11 @@ def folder(request, tmp_path_factory):
     (folder / "capture").mkdir()
     for number, shape in enumerate((mesh, mesh, knot(300))):
         write_mesh(folder / f"capture/{number}.ply", shape)
+    (folder / "painted").mkdir()
+    for number, frame in enumerate(frames):
+        shades = np.full((len(frame), 3), 40 * number, np.uint8)
+        shape = TriangleMesh(frame, mesh.faces, [Attribute("color", shades, semantic="color")])
+        write_mesh(folder / f"painted/{number}.ply", shape)
     programs = {
         "bsm": f'exec "{sys.executable}" -m bsm "$@"',
         "python": f'exec "{sys.executable}" "$@"',

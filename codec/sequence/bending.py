@@ -42,7 +42,7 @@ class Bending:
 
     @classmethod
     def of(cls, positions: Matrix) -> Bending:
-        """That of a part with the positions, shape (n_i, 3), in its first frame, in BSM units."""
+        """How a part bends that has the positions, shape (n_i, 3), in its first frame, in BSM units."""
         centre = positions.mean(axis=0)
         return cls(centre, float(np.sqrt(np.square(positions - centre).sum() / len(positions) + SMALLEST)))
 

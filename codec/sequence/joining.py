@@ -101,7 +101,7 @@ class _Frames:
         return positions
 
     def while_together(self, one: JoinedMesh, *, may_part: bool) -> Iterator[Matrix]:
-        """The vertices of `one.mesh`, until some of those that it joins part."""
+        """The vertices of `one.mesh`, shape (k, 3), frame by frame until some of those that it joins part."""
         used = np.flatnonzero(one.index >= 0)
         merged = len(used) > len(one.first)
         for positions in self:
@@ -156,13 +156,13 @@ class _Beginning:
         return self.vertices < len(self.index)
 
     def add(self, frame: Matrix) -> None:
-        """Take note of another frame."""
+        """Take note of another frame, shape (n, 3)."""
         if (frame != frame[first_of(self.index)][self.index]).any():
             self.index = group_rows(np.column_stack([self.index, frame]))
         self._note(frame)
 
     def taken(self, vertices: Order) -> Iterator[Matrix]:
-        """Those vertices in all frames, which are given up."""
+        """Some vertices, shape (k,), in all frames, each of shape (k, 3); the frames are given up."""
         while self._frames:
             frame, index = self._frames.popleft()
             yield frame[index[vertices]]

@@ -102,7 +102,7 @@ class Bound:
         return self.reach * (FIRST_STEP_RMS if self._is_rms else FIRST_STEP)
 
     def off(self, values: Values, first: Values, change: Matrix) -> float:
-        """How far the values of a frame are off: floats when they are rounded, integers before, but for their mean."""
+        """How far values, shape (k, c), are off: floats when they are rounded, integers before, but for their mean."""
         wide = values.astype(np.float64)
         if self._is_rms:
             apart = changed(first, change) - wide
@@ -154,7 +154,7 @@ class Mover:
 
     @property
     def start(self) -> Matrix:
-        """As of `MovingAttribute`."""
+        """What `MovingAttribute` says of it, shape (k, c)."""
         return beyond_one(self.first)
 
     @property
@@ -235,7 +235,7 @@ class Mover:
 def with_fields(
     bodies: Sequence[GopBody], movers: Sequence[Mover], values: Mapping[str, Values]
 ) -> tuple[GopBody, ...]:
-    """GOPs that tell of positions, and now of attributes, too."""
+    """GOPs that tell of positions, and now of attributes, too: `values` are of all frames, shape (T, k, c)."""
     told = [mover.told(bodies, values[mover.name]) for mover in movers]
     return tuple(
         replace(body, fields=(*body.fields, *(fields[number] for fields in told))) for number, body in enumerate(bodies)

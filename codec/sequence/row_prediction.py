@@ -45,7 +45,7 @@ OCTAVE = 4
 
 
 def basis_leads(width: int) -> list[Lead]:
-    """Of the levels of a basis of fields of so many numbers, one after the other: column i has i that are not free."""
+    """Leads of the levels of a basis, one for each of so many numbers: column i has i levels that are not free."""
     return [(coordinate + 1, width) for coordinate in range(width)]
 
 

@@ -131,7 +131,7 @@ def can_move(attribute: Attribute) -> bool:
 
 
 def moved_to(attribute: Attribute, others: Iterable[Attribute]) -> Attribute | None:
-    """The same attribute in another frame; None: there it is none, or another kind of one."""
+    """What an attribute is in another frame; None: there it is none, or another kind of one."""
     same = (other for other in others if _kind(other) == _kind(attribute))
     return next(same, None)
 

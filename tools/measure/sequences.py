@@ -97,7 +97,7 @@ def measure(name: str, frames: Positions, faces: Faces, every: int, *, brief: bo
         ours = our_point(frames, faces, options, draco["kg"])
         points = {"draco": draco, "ours": ours}
         for together in TOGETHER:
-            as_they_come = replace(options, low_delay=together)
+            as_they_come = replace(options, low_delay=together, gop=max(len(frames), together))
             points[f"low_delay_{together}"] = our_point(frames, faces, as_they_come, draco["kg"])
         if not brief:
             points["pca"] = pca_point(frames, faces, draco["kg"])

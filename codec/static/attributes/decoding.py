@@ -282,7 +282,7 @@ class AttributeDecoders:
             raise type(error)(f"attribute {valued.declaration.name!r}: {error.message}") from error
 
     def moving(self) -> Iterator[tuple[int, Declaration, Values | None, Order]]:
-        """Those that move: the values in the first frame, and which of them each of the user's vertices has."""
+        """Attributes that move: first values, shape (k, c), and which of them each vertex of the user has."""
         for number, one in self._valued.items():
             if one.declaration.moves:
                 yield number, one.declaration, one.first, one.arrangement.rows

@@ -84,7 +84,7 @@ class SequenceStream:
 
     @property
     def attributes(self) -> tuple[Attribute, ...]:
-        """Those of the frame that was given last; before the first one, as far as they have come."""
+        """What the frame that was given last carries; before the first one, as far as they have come."""
         return self._decoder.attributes if self._present is None else self._present
 
     @property
