@@ -1777,7 +1777,7 @@ def decode_sequence(runs):
             arrays = arrays | ({name: np.array(each, KINDS[one.declared.kind]).reshape(shape)} if each else {})
     packets.require(not packets.fault and header["frames"] in (0, len(frames)), "frames are missing")  # S 1.2
     if len(runs) == 1:
-        return np.array(frames).reshape(len(frames), header["vertices"], 3), faces[0], arrays
+        return np.array(frames).reshape(len(frames), table[0][1], 3), faces[0], arrays
     return np.concatenate(frames), np.concatenate(faces), arrays | {"runs": np.array(table, np.int32)}
 
 

@@ -17,7 +17,7 @@ from bsm.codec.static.decoder import Decoder, decode
 from bsm.codec.static.events import AttributeEvent, BlockEvent, ConnectivityEvent, LossEvent, RefinementEvent
 from tools.proof.tally import Decoded, Outcome
 from tools.surgery import first_entries
-from tools.vectors.store import Arrays, arrays_of
+from tools.vectors.store import Arrays, arrays_of, arrays_of_frames
 
 GOP_FRAMES = 23
 """Header key that only sequences store."""
@@ -57,6 +57,7 @@ def _by_events(
     positions: list[np.ndarray] = []
     frames: list[np.ndarray] = []
     values: dict[str, Attribute] = {}
+    shown: list[tuple[Attribute, ...]] = []
     runs: list[tuple[int, int, np.ndarray]] = []
     with kind(limits, threads, tolerant=tolerant) as decoder:
         for piece in (*pieces, b""):
@@ -69,6 +70,7 @@ def _by_events(
                     case ConnectivityEvent():
                         if event.section == 0 and kind is SequenceDecoder:  # a run, with a mesh of its own
                             faces, vertices, positions = np.zeros((0, 3), np.int32), 0, []
+                            shown.clear()
                             runs.append((len(frames), event.vertices, event.faces))
                         faces = np.concatenate([faces, event.faces])
                         more = np.full((event.vertices - vertices, 3), np.nan)
@@ -78,6 +80,7 @@ def _by_events(
                         positions[0][event.vertices] = event.positions
                     case FrameEvent():
                         frames.append(event.positions)
+                        shown.append(event.attributes)
                     case AttributeEvent():
                         rows = vertices if event.domain == "vertex" else len(faces)
                         if event.indices is not None:
@@ -86,8 +89,8 @@ def _by_events(
                     case LossEvent():
                         losses += 1
         if len(runs) > 1 and isinstance(decoder, SequenceDecoder):
-            return _of_runs(frames, runs, arrays_of([] if losses else decoder.attributes)), losses
-        arrays = arrays_of([] if losses else _completed(decoder, values))
+            return _of_runs(frames, runs, {} if losses else arrays_of_frames(decoder.attributes, shown)), losses
+        arrays = {} if losses else arrays_of_frames(_completed(decoder, values), shown)
     if kind is SequenceDecoder:
         return (np.array(frames).reshape(len(frames), vertices, 3), faces, arrays), losses
     return (positions[0] if positions else np.zeros((0, 3)), faces, arrays), losses

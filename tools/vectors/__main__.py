@@ -29,7 +29,7 @@ from bsm.codec.sequence.events import FrameEvent
 from bsm.codec.static.decoder import decode
 from bsm.codec.static.events import ConnectivityEvent
 from tools.vectors.example import example
-from tools.vectors.store import Arrays, Vector, arrays_of, read_manifest, write_vectors
+from tools.vectors.store import Arrays, Vector, arrays_of, arrays_of_frames, read_manifest, write_vectors
 
 EXIT_CODES = {"format": 3, "corrupt": 4, "truncated": 12, "unsupported": 5, "limit": 6, "numeric": 7}
 SECONDS = 120
@@ -94,10 +94,7 @@ def _decode_sequence(data: bytes) -> tuple[np.ndarray, np.ndarray, Arrays]:
             elif isinstance(event, FrameEvent):
                 frames.append(event.positions)
                 shown.append(event.attributes)
-        arrays = arrays_of(decoder.attributes)
-    for name, *frame in zip(arrays_of(shown[0]) if shown else (), *(arrays_of(each).values() for each in shown)):
-        if any(values is not frame[0] for values in frame):
-            arrays[name] = np.array(frame)
+        arrays = arrays_of_frames(decoder.attributes, shown)
     if len(runs) == 1:
         return np.array(frames).reshape(-1, runs[0][1], 3), faces[0], arrays
     return np.concatenate(frames), np.concatenate(faces), arrays | {"runs": np.array(runs, np.int32)}

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import io
 import json
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -84,6 +84,15 @@ def arrays_of(attributes: Iterable[Attribute]) -> Arrays:
         arrays[f"attribute {index} {one.semantic} {one.domain} {one.name}"] = one.values
         if one.indices is not None:
             arrays[f"indices {index}"] = one.indices
+    return arrays
+
+
+def arrays_of_frames(attributes: Sequence[Attribute], shown: Sequence[Sequence[Attribute]]) -> Arrays:
+    """The same of a run of frames that have `shown` them, an array of all frames of each that moves."""
+    arrays = arrays_of(attributes)
+    for name, *frames in zip(arrays_of(shown[0]) if shown else (), *(arrays_of(each).values() for each in shown)):
+        if any(values is not frames[0] for values in frames):
+            arrays[name] = np.array(frames)
     return arrays
 
 
