@@ -18,6 +18,8 @@ from bsm.codec.arrays import Matrix
 
 TOGETHER = 32
 """Reflections that are made at once: fewer take longer, more take more memory."""
+LEAST = 1e-9
+"""Of a column's length on the diagonal, at least: below 0 it would be another reflection."""
 
 
 def free_of(columns: Matrix) -> Matrix:
@@ -29,9 +31,11 @@ def free_of(columns: Matrix) -> Matrix:
         return columns.copy()
     packed, factors = np.linalg.qr(columns, mode="raw")  # vectors are 1 on the diagonal, where lengths stand instead
     lengths = np.diagonal(packed)
-    free = np.tril(packed.T, -1) * (-lengths * factors)
-    np.fill_diagonal(free, lengths * (1.0 - factors))
-    return np.asarray(free * np.where(np.diagonal(free) < 0.0, -1.0, 1.0))
+    # Of a diagonal that rounding has made 0 the length tells the sign: where it is reflected, it is the other one.
+    negative = np.where(factors > 0.0, lengths > 0.0, lengths < 0.0)
+    free = np.tril(packed.T, -1) * (-lengths * factors) * np.where(negative, -1.0, 1.0)
+    np.fill_diagonal(free, np.maximum(np.abs(lengths * (1.0 - factors)), LEAST * np.abs(lengths)))
+    return np.asarray(free)
 
 
 def columns_of(free: Matrix) -> Matrix:

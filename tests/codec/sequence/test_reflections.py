@@ -53,3 +53,11 @@ def test_rounding_leaves_columns_at_right_angles_and_near():
     products = found.T @ found
     np.testing.assert_allclose(products, np.diag(np.diagonal(products)), atol=1e-11)
     assert np.linalg.norm(found - columns_of(free)) < 2.0 * np.linalg.norm(rounded - free)
+
+
+@pytest.mark.parametrize("least", [-1e-20, -0.0, 0.0, 1e-20])
+def test_what_rounding_leaves_of_a_diagonal_turns_no_column(least):
+    basis = np.array([[least, 0.6], [1.0, 0.3], [0.0, 0.8], [0.0, 0.0]])
+    found = columns_of(free_of(basis))
+    found /= np.linalg.norm(found, axis=0)
+    np.testing.assert_allclose(found @ (found.T @ basis), basis, atol=1e-8)
