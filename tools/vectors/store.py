@@ -88,7 +88,7 @@ def arrays_of(attributes: Iterable[Attribute]) -> Arrays:
 
 
 def arrays_of_frames(attributes: Sequence[Attribute], shown: Sequence[Sequence[Attribute]]) -> Arrays:
-    """The same of a run of frames that have `shown` them, an array of all frames of each that moves."""
+    """Attributes of a run as such arrays, of all frames that have `shown` them where they move."""
     arrays = arrays_of(attributes)
     for name, *frames in zip(arrays_of(shown[0]) if shown else (), *(arrays_of(each).values() for each in shown)):
         if any(values is not frames[0] for values in frames):
