@@ -50,8 +50,11 @@ def basis_leads(width: int) -> list[Lead]:
 
 
 def trajectories(frames: Matrix) -> Matrix:
-    """Frames, shape (T, n, d), as a matrix of shape (n, dT)."""
-    return np.ascontiguousarray(frames.transpose(1, 2, 0).reshape(frames.shape[1], -1))
+    """Frames, shape (T, n, d), as a matrix of its own, shape (n, dT)."""
+    frame_last = frames.transpose(1, 2, 0)
+    matrix = np.empty(frame_last.shape)  # of a single frame, reshaping would give the frame itself
+    matrix[...] = frame_last
+    return matrix.reshape(len(matrix), -1)
 
 
 def time_cosines(frames: int) -> Matrix:

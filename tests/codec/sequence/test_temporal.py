@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
+import pytest
 
-from bsm.codec.sequence.row_prediction import OCTAVE
+from bsm.codec.sequence.row_prediction import OCTAVE, trajectories
 from bsm.codec.sequence.temporal import FINEST_EXPONENT, PRECISION, WORTH, learn_basis, projection
 
 ROWS, COLUMNS, STEP = 400, 24, 0.01
@@ -45,3 +46,12 @@ def test_projection_finds_the_components_even_if_a_basis_is_not_quite_orthonorma
     basis = np.linalg.qr(random.normal(size=(COLUMNS, 5)))[0] + 0.01 * random.normal(size=(COLUMNS, 5))
     components = random.normal(size=(7, 5))
     np.testing.assert_allclose(components @ basis.T @ projection(basis), components, atol=1e-12)
+
+
+@pytest.mark.parametrize("frames", [1, 2])
+def test_trajectories_are_no_view_of_frames(frames: int) -> None:
+    given = np.arange(12.0 * frames).reshape(frames, 4, 3)
+    found = trajectories(given)
+    found *= 2.0
+    np.testing.assert_array_equal(given, np.arange(12.0 * frames).reshape(frames, 4, 3))
+    np.testing.assert_array_equal(found.reshape(4, 3, frames).transpose(2, 0, 1), 2.0 * given)
