@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from itertools import islice
 from types import MappingProxyType
 
 import numpy as np
@@ -18,24 +17,22 @@ from bsm.bitstream.container.writer import Writer
 from bsm.bitstream.errors import ArgumentError, MeshError, OptionError
 from bsm.bitstream.limits import NAMED_LIMITS
 from bsm.bitstream.public import public
-from bsm.codec.arrays import Matrix, Order, Positions
+from bsm.codec.arrays import Matrix, Order
 from bsm.codec.choices import check_mapping
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
 from bsm.codec.sequence.decoder import decode_sequence
-from bsm.codec.sequence.first_frame_encoding import Opening, open_sequence
+from bsm.codec.sequence.first_frame_encoding import Opening
 from bsm.codec.sequence.gop import GopEncoder, silent
-from bsm.codec.sequence.gop_encoding import Coded, Wish, attempted
+from bsm.codec.sequence.gop_encoding import Coded, Gops, finest_step
+from bsm.codec.sequence.groups import Group, next_group, require_same
 from bsm.codec.sequence.joining import JoinedRun, joined_runs
 from bsm.codec.sequence.moving_encoding import Bound, Mover, moved, with_fields
 from bsm.codec.sequence.options import SequenceOptions
-from bsm.codec.sequence.row_prediction import LARGEST_LEVEL
 from bsm.codec.sequence.runs import Cutter, Frame, Run
 from bsm.codec.sequence.runs_encoding import Meshes, OpenedMesh
 from bsm.codec.sequence.targets import SequenceComparison, compare_sequences
-from bsm.codec.sequence.watch import Watch
 from bsm.codec.static.attributes.encoding import PreparedAttribute, carry, place_of, with_attributes
-from bsm.codec.static.attributes.levels import Values
 from bsm.codec.static.attributes.quality import qualities
 from bsm.codec.static.draft import Draft
 from bsm.codec.static.encoder import PROMISED_SIZES
@@ -43,13 +40,6 @@ from bsm.codec.static.joining import JoinedMesh
 from bsm.codec.static.preamble_encoding import Parts, Prepared, prepare
 from bsm.codec.static.targets import search_step
 from bsm.codec.static.ways.block_coder import Progress
-from bsm.codec.static.work import Allowance
-
-FINEST_STEP = 2e-5
-"""Below, a search for a target does not look."""
-
-NEAR = 0.8, 1.15
-"""A first frame will do for steps so many times that for which it was coded."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -183,20 +173,8 @@ class SequenceEncoder:
         target = self.options.target
         if target is None:
             raise OptionError("there is no target to search for")
-        finest = max(FINEST_STEP, self._finest_step([_positions(frame) for frame in frames]))
+        finest = finest_step([_positions(frame) for frame in frames], self.options)
         return search_step(lambda step: self.attempt(frames, step, progress), target, self.options.step, finest)
-
-    def _finest_step(self, frames: Sequence[Matrix] | Positions) -> float:
-        """A step whose levels can be coded however the motion falls into one component."""
-        scale = float(np.linalg.norm(np.ptp(frames[0], axis=0))) or 1.0
-        middle, longest = frames[0].mean(axis=0), self.options.longest(len(frames[0]))
-        most = 0.0
-        for first in range(0, len(frames), longest):
-            energies = np.zeros(len(frames[0]))
-            for frame in frames[first : first + longest]:
-                energies += np.square(frame - middle).sum(axis=1)
-            most = max(most, float(np.sort(energies)[-2 * self.options.block_size :].sum()))
-        return 2.0 * float(np.sqrt(most)) / scale / LARGEST_LEVEL
 
     def attempt(self, frames: Sequence[Frame], step: float, progress: Progress | None = None) -> SequenceAttempt:
         """Encode frames, each of shape (n, 3), or meshes, with a given step, and see what the decoder will."""
@@ -247,18 +225,19 @@ class SequenceEncoder:
         self.vertex_order, self.face_order = _orders(run.joined, prepared)
         frames = (frame[prepared.coding_order] for frame in run.frames)
         longest = options.together(len(prepared.positions))
-        group = _group(frames, longest, prepared, run.moving)
+        group = next_group(frames, longest, prepared, run.moving)
+        gops = Gops(prepared, options, self._count, tell)
         if opened is None:
             more = len(group) == longest and run.first + longest != self._count
             carried, movers = self._carried(run, prepared, options, group, more=more)
             moving = [mover.start for mover in movers]
-            coded = self._first_gop(group.positions, prepared, options, tell, shelf.allowance, moving)
+            coded = gops.first(group.positions, shelf.allowance, moving)
             yield from self._opened(run, index, prepared, coded.opening, carried)
         else:
             movers = opened.movers
             opening = opened.coded.opening
             fresh = Coded(opening, GopEncoder(opening.setting, replace(options, step=opened.coded.encoder.step)), ())
-            coded = self._later_gop(group.positions, 0, prepared, options, fresh, tell)
+            coded = gops.next(group.positions, 0, fresh)
             yield Header(
                 vertices=opening.header.vertices,
                 faces=opening.header.faces,
@@ -279,10 +258,10 @@ class SequenceEncoder:
                 self._done += body.frames
                 self.samples += body.frames * len(self.vertex_order)
             del group  # before the next one is read
-            group = _group(frames, longest, prepared, run.moving)
+            group = next_group(frames, longest, prepared, run.moving)
             if len(group):
-                coded = self._later_gop(group.positions, self._done, prepared, options, coded, tell)
-                _require_same(still, group)
+                coded = gops.next(group.positions, self._done, coded)
+                require_same(still, group)
         self.notes = tuple(dict.fromkeys((*self.notes, *(mover.said for mover in movers))))
         shelf.keep(OpenedMesh(index if opened is None else opened.run, prepared, coded, movers), run)
 
@@ -329,82 +308,6 @@ class SequenceEncoder:
         draft = with_attributes(draft, carried, {} if index else self._metadata)
         yield from (draft.header, *draft.body)
 
-    def _first_gop(
-        self,
-        frames: Positions,
-        prepared: Prepared,
-        options: SequenceOptions,
-        tell: Progress,
-        before: Allowance,
-        moving: Sequence[Matrix],
-    ) -> Coded:
-        """The first frame and the first GOP, with the step that keeps the options' promise in both, if there is one.
-
-        What decoders may still do follows from `before`, of the runs so far.
-        """
-
-        opened: Opening | None = None
-        opened_for = 0.0
-
-        def attempt(wish: Wish, tell: Progress = silent) -> Coded:
-            nonlocal opened, opened_for
-            if opened is None or not NEAR[0] <= wish.step / opened_for <= NEAR[1]:
-                opened_for = wish.step
-                opened = open_sequence(prepared, replace(options, step=wish.step), self._count, tell, before, moving)
-            encoder = GopEncoder(opened.setting, options)
-            return attempted(opened, encoder, wish, frames, 0, tell)
-
-        if options.promise is None:
-            return attempt(Wish(options.step), tell)
-        coded = self._kept(attempt, frames, prepared, options, None)
-        for _ in range(2):
-            tell(len(coded.opening.blocks), len(coded.opening.blocks))
-        return coded
-
-    def _later_gop(
-        self,
-        frames: Positions,
-        number: int,
-        prepared: Prepared,
-        options: SequenceOptions,
-        before: Coded,
-        tell: Progress,
-    ) -> Coded:
-        """The GOP behind another, with the step that keeps the options' promise in it, if there is one."""
-        opening = before.opening
-
-        def attempt(wish: Wish, tell: Progress = silent) -> Coded:
-            return attempted(opening, before.encoder.copy(), wish, frames, number, tell)
-
-        if options.promise is None:
-            return attempt(Wish(before.encoder.step), tell)
-        coded = self._kept(attempt, frames, prepared, options, before.encoder.step)
-        tell(len(opening.blocks), len(opening.blocks))
-        return coded
-
-    def _kept(
-        self,
-        attempt: Callable[[Wish], Coded],
-        frames: Positions,
-        prepared: Prepared,
-        options: SequenceOptions,
-        first: float | None,
-    ) -> Coded:
-        promise = options.promise
-        assert promise is not None
-        watch = Watch(frames, prepared.mesh.faces, promise, prepared.units.scale, options.threads)
-        finest = max(FINEST_STEP, self._finest_step(frames))
-        singly: bool | None = None
-        cut: bool | None = None
-
-        def settled(step: float, weights: Matrix | None, rounds: int) -> Coded:
-            nonlocal singly, cut
-            coded = attempt(Wish(step, weights, singly, cut, rounds))
-            singly, cut = coded.singly, coded.cut  # as the first attempt was, so are the others
-            return coded
-
-        return watch.settle(settled, first or promise.first_step, finest)
-
 
 def _orders(joined: JoinedMesh, prepared: Prepared) -> tuple[Order, Order]:
     """The given vertex and the given face that each of the decoder's is."""
@@ -414,58 +317,8 @@ def _orders(joined: JoinedMesh, prepared: Prepared) -> tuple[Order, Order]:
     return joined.first[prepared.vertex_order], faces
 
 
-@dataclass(frozen=True, eq=False)
-class Group:
-    """The frames of a GOP, in the order of coding.
-
-    Parameters
-    ----------
-    positions : float64 array, shape (T, n, 3)
-        In BSM units.
-    moving : dict of str to array, shape (T, n, d)
-        Values of the attributes that can move.
-    """
-
-    positions: Positions
-    moving: dict[str, Values]
-
-    def __len__(self) -> int:
-        return len(self.positions)
-
-    def moves(self, name: str) -> bool:
-        """Whether the frames differ in an attribute."""
-        values = self.moving[name]
-        return bool((values != values[:1]).any())
-
-
 def _positions(frame: Frame) -> Matrix:
     return np.asarray(frame.positions if isinstance(frame, TriangleMesh) else frame, np.float64)
-
-
-def _group(frames: Iterator[Matrix], longest: int, prepared: Prepared, moving: Sequence[Attribute]) -> Group:
-    """The next frames, as many as a GOP may have; none behind the last."""
-    widths = [one.components for one in moving]
-    ends = np.cumsum([3, *widths])[:-1]
-    found: list[list[Values]] = [[] for _ in moving]
-
-    def positions() -> Iterator[Matrix]:
-        for frame in islice(frames, longest):
-            first, *others = np.split(frame, ends, axis=1) if moving else [frame]
-            for own, one, values in zip(found, moving, others, strict=True):
-                own.append(values.astype(one.values.dtype))
-            yield prepared.units.into(first)
-
-    # Not a list first, which would hold them twice.
-    kind = np.dtype((np.float64, (len(prepared.positions), 3)))
-    group: Positions = np.fromiter(positions(), kind)
-    return Group(group, {one.name: np.array(own) for one, own in zip(moving, found, strict=True)})
-
-
-def _require_same(still: Mapping[str, Values], group: Group) -> None:
-    """Raise `OptionError` if an attribute that was sent as one that does not move moves now."""
-    for name, values in still.items():
-        if (group.moving[name] != values).any():
-            raise OptionError(f"{name!r} moves, and floats that do cannot be exact; ask for a bound")
 
 
 class _Rounds:

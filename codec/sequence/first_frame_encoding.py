@@ -11,8 +11,8 @@ from bsm.bitstream.errors import OptionError
 from bsm.bitstream.limits import NAMED_LIMITS
 from bsm.codec.arrays import Matrix
 from bsm.codec.sequence.cost import gop_cost, gop_memory, loop_memory
-from bsm.codec.sequence.gop import Setting, make_setting
 from bsm.codec.sequence.options import SequenceOptions
+from bsm.codec.sequence.tracks import Setting, make_setting
 from bsm.codec.signal.chain import ChainRules
 from bsm.codec.signal.quantize import smallest_step
 from bsm.codec.static.admission import admit, as_of_decoders

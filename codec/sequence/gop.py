@@ -1,4 +1,4 @@
-"""GOPs: what every one of them builds upon, and the coders of their frames, one for each direction.
+"""GOPs: the coders of their frames, one for each direction.
 
 A frame has one field or more: positions, in BSM units throughout, and attributes that move, in their own, as what they
 differ from the first frame by.
@@ -7,34 +7,31 @@ differ from the first frame by.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from copy import copy
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
 from bsm.bitstream.coefficients.matrices import decode_levels, make_level_bank
 from bsm.bitstream.container.gop import MAX_EXPONENT, GopBody, GopField, GopMethod
-from bsm.bitstream.entropy.range_coder import Bank, copy_bank
 from bsm.bitstream.errors import CorruptError
-from bsm.codec.arrays import Faces, Levels, Matrix
-from bsm.codec.sequence.bending import BENDING_COLUMNS, Bending
-from bsm.codec.sequence.dictionaries import Dictionaries, Part, Site, find_sites
+from bsm.codec.arrays import Levels, Matrix
+from bsm.codec.sequence.dictionaries import Part
+from bsm.codec.sequence.history import FrameHistory, held_cosines
 from bsm.codec.sequence.level_writer import ROUNDS, WEIGHT, LevelWriter
 from bsm.codec.sequence.row_prediction import (
     Loop,
     basis_leads,
     basis_of,
     spectrum_of,
-    time_cosines,
     trajectories,
 )
 from bsm.codec.sequence.shown import shown_frames
 from bsm.codec.sequence.temporal import learn_basis, projection
-from bsm.codec.static.rules import Scheme
+from bsm.codec.sequence.tracks import Setting, Track, split_columns
 from bsm.codec.static.ways.block_coder import Progress
-from bsm.codec.static.work import Allowance
 
 if TYPE_CHECKING:
     from bsm.codec.sequence.options import SequenceOptions
@@ -46,113 +43,6 @@ SINGLE = 14
 """Bytes of the GOP of a single frame besides its levels, about."""
 TRIED = 8
 """Frames that are coded one by one before that is given up as dearer than a basis."""
-TRACK_MEMORY = 40.0
-"""Bytes of a number of a vertex in the first frame of an attribute that moves."""
-
-
-@dataclass(frozen=True, eq=False)
-class Track:
-    """What every GOP knows of one field before its first frame.
-
-    Parameters
-    ----------
-    width : int
-        Numbers d of a vertex.
-    first : list of float64 arrays, shapes (k_i + c_i, d)
-        The decoded first frame: where each part hangs on those before, and its difference from what these let expect.
-    known : list of float64 arrays, shapes (c_i, k)
-        What predicts components of the field: differences of the first frame, and of what bends positions.
-    around : list of float64 arrays, shapes (k_i, k)
-        The same columns where a part hangs on those before.
-    start : list of float64 arrays, shapes (k_i + c_i, d)
-        What a key frame is added to: of positions the first frame, of attributes nothing.
-    """
-
-    width: int
-    first: list[Matrix]
-    known: list[Matrix]
-    around: list[Matrix]
-    start: list[Matrix]
-
-
-@dataclass(frozen=True, eq=False)
-class Setting:
-    """What every GOP of a sequence is coded with.
-
-    Parameters
-    ----------
-    vertices : int
-    given : int
-        How many the decoder's user knows: copies of them, too.
-    dictionaries : Dictionaries
-    tracks : tuple of Track
-        Of positions, and of each attribute that moves.
-    """
-
-    vertices: int
-    given: int
-    dictionaries: Dictionaries
-    tracks: tuple[Track, ...]
-
-    @property
-    def sites(self) -> tuple[Site, ...]:
-        """The parts of the mesh."""
-        return self.dictionaries.sites
-
-    def empty_levels(self, columns: int) -> list[Levels]:
-        """Levels of all parts, each of shape (c_i, columns), to be read."""
-        return [np.zeros((site.width, columns), np.int32) for site in self.sites]
-
-    def field(self, columns: int, decoded: Callable[[int, Matrix], Matrix]) -> Matrix:
-        """The field, shape (n, m), of differences of each part, shape (c_i, m).
-
-        `decoded` gives them for the number of a part and what the field is around it, shape (k_i, m).
-        """
-        field = np.zeros((self.vertices, columns))
-        for index, part in enumerate(self.dictionaries.in_order()):
-            part.place(field, decoded(index, field[part.site.around]))
-        return field
-
-
-def make_setting(
-    scheme: Scheme,
-    faces: Faces,
-    first_frame: Matrix,
-    *,
-    given: int,
-    width: int,
-    threads: int | None,
-    allowance: Allowance,
-    moving: Sequence[Matrix] = (),
-) -> Setting:
-    """Make the dictionaries from the decoded first frame, shape (n, 3); see `find_sites` and `Setting`.
-
-    `moving` are values of attributes, shapes (n, d), in it, less those of vertex 0.
-    """
-    sites = find_sites(scheme.blocks, faces, first_frame, width=width, threads=threads, allowance=allowance)
-    dictionaries = Dictionaries(sites, scheme.rules, allowance, threads)
-    dictionaries.reserve()
-    widths = [values.shape[1] for values in moving]
-    allowance.keep(TRACK_MEMORY * len(first_frame) * sum(widths))
-    columns = [BENDING_COLUMNS, *widths]
-    allowance.keep(8.0 * sum(columns) * sum(len(site.around) for site in sites))
-
-    def known(_: int, part: Part) -> tuple[list[Matrix], list[Matrix]]:
-        bending = Bending.of(first_frame[part.vertices])
-        here, around = (
-            np.hstack([bending.columns(first_frame[vertices]), *(values[vertices] for values in moving)])
-            for vertices in (part.vertices, part.site.around)
-        )
-        return _split(part.coefficients(here, around), columns), _split(around, columns)
-
-    pairs = list(dictionaries.each(known))
-    tracks = []
-    for track, width in enumerate((3, *widths)):
-        known_of, around_of = ([np.ascontiguousarray(one[track]) for one in each] for each in zip(*pairs, strict=True))
-        first = [np.vstack((ends, part))[:, :width] for ends, part in zip(around_of, known_of, strict=True)]
-        start = [np.zeros_like(part) for part in first] if track else first
-        tracks.append(Track(width, first, known_of, around_of, start))
-    return Setting(len(first_frame), given, dictionaries, tuple(tracks))
 
 
 def level_references(matrices: list[Levels], columns: int) -> list[Levels]:
@@ -169,71 +59,6 @@ def decode_basis(field: GopField, frames: int) -> Matrix:
     references = level_references(list(levels), field.components)
     decode_levels(make_level_bank(), field.basis, list(levels), references, basis_leads(field.width))
     return basis_of(levels, field.exponents)
-
-
-class FrameHistory:
-    """What low-delay frames refer to, block after block; starts anew with every key frame.
-
-    Attributes
-    ----------
-    bank : Bank
-        Adaptive state of the entropy coder.
-    levels : list of int32 arrays, shapes (c_i, dT)
-        Of the latest T frames, which came together.
-    """
-
-    def __init__(self, track: Track) -> None:
-        self.bank: Bank = make_level_bank()
-        self.levels: list[Levels] = []
-        self._track = track
-        self._cosines = np.empty((0, 0))
-        self._latest = track.start
-        self._before = track.start
-
-    def expect(self, frames: int) -> None:
-        """Get ready for so many frames; where those before were not as many, their levels are nothing like these."""
-        if len(self._cosines) == frames:
-            return
-        self._cosines = time_cosines(frames)
-        self.levels = [np.zeros((len(matrix), self._track.width * frames), np.int32) for matrix in self._track.known]
-
-    def begin(self, block: int, ends: Matrix, step: float) -> tuple[Loop, Matrix, Matrix]:
-        """What a block's change follows from, where the frames are `ends`, shape (k_i, dT), around it.
-
-        Returns
-        -------
-        loop : Loop
-            Has learnt how they have changed there.
-        known : float64 array, shape (c_i, 3d)
-        base : float64 array, shape (c_i, dT)
-            What the change is added to.
-        """
-        first, latest, base, count = self._track.first[block], self._latest[block], self.base(block), len(ends)
-        known = np.hstack((first, latest, latest - self._before[block]))
-        loop = Loop(known.shape[1], ends.shape[1]).begin(known[:count], ends - base[:count], step)
-        return loop, known[count:], base[count:]
-
-    def base(self, block: int) -> Matrix:
-        """The latest frame in all frames, around a block and its coefficients, shape (k_i + c_i, dT)."""
-        latest = self._latest[block]
-        base = np.zeros((len(latest), latest.shape[1] * len(self._cosines)))
-        base[:, : latest.shape[1]] = self._cosines[:, 0].sum() * latest
-        return base
-
-    def copy(self) -> FrameHistory:
-        """An independent copy of the present state."""
-        twin = FrameHistory(self._track)
-        twin.bank, twin.levels, twin._cosines = copy_bank(self.bank), self.levels, self._cosines
-        twin._latest, twin._before = self._latest, self._before
-        return twin
-
-    def commit(self, levels: list[Levels], told: list[Matrix]) -> None:
-        """Make frames the latest: their levels, shapes (c_i, dT), and what they are as of `base`."""
-        self.levels = levels
-        shown = [spread.reshape(len(spread), len(self._cosines), self._track.width) for spread in told]
-        if len(self._cosines) > 1:
-            self._latest = [np.tensordot(spread, self._cosines[-2], (1, 0)) for spread in shown]
-        self._latest, self._before = [np.tensordot(spread, self._cosines[-1], (1, 0)) for spread in shown], self._latest
 
 
 def silent(done: int, blocks: int) -> None:
@@ -432,7 +257,9 @@ class GopDecoder:
         columns = [track.width * body.frames for track in self._tracks]
 
         def decoded(k: int, around: Matrix) -> Matrix:
-            for own, levels, ends, (history, field) in zip(found, read, _split(around, columns), told, strict=True):
+            for own, levels, ends, (history, field) in zip(
+                found, read, split_columns(around, columns), told, strict=True
+            ):
                 own[k] = history.base(k)
                 if field.components:
                     loop, known, base = history.begin(k, ends, field.step)
@@ -463,7 +290,7 @@ class GopDecoder:
         widths = [field.components for field in body.fields]
 
         def decoded(k: int, around: Matrix) -> Matrix:
-            told = zip(self._tracks, body.fields, read, _split(around, widths), strict=True)
+            told = zip(self._tracks, body.fields, read, split_columns(around, widths), strict=True)
             loops = (
                 Loop(track.known[k].shape[1], field.components)
                 .begin(track.around[k], ends, field.step)
@@ -482,20 +309,9 @@ class GopDecoder:
         return zip(*batches, strict=True)
 
 
-def held_cosines(width: int, frames: int) -> Matrix:
-    """The basis of low-delay frames, shape (d, T, dT): each cosine by itself in one number after the other."""
-    rows = np.kron(time_cosines(frames), np.eye(width))
-    return np.ascontiguousarray(rows.reshape(frames, width, -1).transpose(1, 0, 2))
-
-
 def _nothing(field: GopField, body: GopBody) -> Matrix:
     """The basis of a field of which nothing is told."""
     return np.empty((field.width * body.frames, 0))
-
-
-def _split(matrix: Matrix, widths: Sequence[int]) -> list[Matrix]:
-    """A matrix of all fields' columns as those of each."""
-    return np.split(matrix, np.cumsum(widths)[:-1], axis=1)
 
 
 def _energy(field: Matrix, basis: Matrix) -> float:

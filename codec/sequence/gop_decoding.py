@@ -17,8 +17,9 @@ from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.sequence.cost import gop_cost, gop_memory, loop_memory
 from bsm.codec.sequence.course import Course, DecoderRequest
 from bsm.codec.sequence.events import FrameEvent, Item
-from bsm.codec.sequence.gop import Frame, GopDecoder, make_setting
+from bsm.codec.sequence.gop import Frame, GopDecoder
 from bsm.codec.sequence.moving import MovingAttribute
+from bsm.codec.sequence.tracks import make_setting
 from bsm.codec.static.events import HeaderEvent, unreadable
 from bsm.codec.static.preamble_decoding import Structure
 from bsm.codec.static.stages import Arrival, Ended, Stage, misplaced

@@ -3,19 +3,32 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from bsm.bitstream.container.gop import GopBody, GopField, GopMethod
 from bsm.codec.arrays import Matrix, Positions
-from bsm.codec.sequence.first_frame_encoding import Opening
+from bsm.codec.sequence.first_frame_encoding import Opening, open_sequence
 from bsm.codec.sequence.gop import GopDecoder, GopEncoder, silent
 from bsm.codec.sequence.level_writer import ROUNDS
+from bsm.codec.sequence.options import SequenceOptions
+from bsm.codec.sequence.promise import Promise
+from bsm.codec.sequence.row_prediction import LARGEST_LEVEL
+from bsm.codec.sequence.watch import Watch
+from bsm.codec.static.preamble_encoding import Prepared
 from bsm.codec.static.ways.block_coder import Progress
+from bsm.codec.static.work import Allowance
 
 HARDLY_CUT = 256
 """So many frames are one GOP: in no sequence seen did two cost less."""
+
+FINEST_STEP = 2e-5
+"""Below, a search does not look."""
+
+NEAR = 0.8, 1.15
+"""A first frame will do for steps so many times that for which it was coded."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -71,6 +84,92 @@ class Coded:
         for number, (frame,) in enumerate(frame for body in self.bodies for frame in decoder.decode(body)):
             frames[number] = frame
         return frames
+
+
+class Gops:
+    """GOPs of a run, each with the step that keeps the options' promise in it, if there is one.
+
+    Parameters
+    ----------
+    prepared : Prepared
+    options : SequenceOptions
+    count : int
+        Frames of the sequence, 0 if that is not known.
+    tell : callable
+        Is told of blocks.
+    """
+
+    def __init__(self, prepared: Prepared, options: SequenceOptions, count: int, tell: Progress) -> None:
+        self._prepared, self._options = prepared, options
+        self._count, self._tell = count, tell
+
+    def first(self, frames: Positions, before: Allowance, moving: Sequence[Matrix]) -> Coded:
+        """The first frame, with `moving` as of `make_setting`, and the first GOP, of frames, shape (T, n, 3).
+
+        What decoders may still do follows from `before`, of the runs so far.
+        """
+        opened: Opening | None = None
+        opened_for = 0.0
+        options = self._options
+
+        def attempt(wish: Wish, tell: Progress = silent) -> Coded:
+            nonlocal opened, opened_for
+            if opened is None or not NEAR[0] <= wish.step / opened_for <= NEAR[1]:
+                opened_for = wish.step
+                fitting = replace(options, step=wish.step)
+                opened = open_sequence(self._prepared, fitting, self._count, tell, before, moving)
+            encoder = GopEncoder(opened.setting, options)
+            return attempted(opened, encoder, wish, frames, 0, tell)
+
+        if options.promise is None:
+            return attempt(Wish(options.step), self._tell)
+        coded = self._settled(attempt, frames, options.promise, None)
+        for _ in range(2):
+            self._tell(len(coded.opening.blocks), len(coded.opening.blocks))
+        return coded
+
+    def next(self, frames: Positions, number: int, before: Coded) -> Coded:
+        """The GOP behind another, of frames, shape (T, n, 3), of which the first has this number."""
+        opening = before.opening
+
+        def attempt(wish: Wish, tell: Progress = silent) -> Coded:
+            return attempted(opening, before.encoder.copy(), wish, frames, number, tell)
+
+        if self._options.promise is None:
+            return attempt(Wish(before.encoder.step), self._tell)
+        coded = self._settled(attempt, frames, self._options.promise, before.encoder.step)
+        self._tell(len(opening.blocks), len(opening.blocks))
+        return coded
+
+    def _settled(
+        self, attempt: Callable[[Wish], Coded], frames: Positions, promise: Promise, first: float | None
+    ) -> Coded:
+        """What keeps the promise; the step to try first is the promise's own, if none is given."""
+        prepared, options = self._prepared, self._options
+        watch = Watch(frames, prepared.mesh.faces, promise, prepared.units.scale, options.threads)
+        singly: bool | None = None
+        cut: bool | None = None
+
+        def settled(step: float, weights: Matrix | None, rounds: int) -> Coded:
+            nonlocal singly, cut
+            coded = attempt(Wish(step, weights, singly, cut, rounds))
+            singly, cut = coded.singly, coded.cut  # as the first attempt was, so are the others
+            return coded
+
+        return watch.settle(settled, first or promise.first_step, finest_step(frames, options))
+
+
+def finest_step(frames: Sequence[Matrix] | Positions, options: SequenceOptions) -> float:
+    """The finest step to try, whose levels can be coded however the motion falls into one component."""
+    scale = float(np.linalg.norm(np.ptp(frames[0], axis=0))) or 1.0
+    middle, longest = frames[0].mean(axis=0), options.longest(len(frames[0]))
+    most = 0.0
+    for first in range(0, len(frames), longest):
+        energies = np.zeros(len(frames[0]))
+        for frame in frames[first : first + longest]:
+            energies += np.square(frame - middle).sum(axis=1)
+        most = max(most, float(np.sort(energies)[-2 * options.block_size :].sum()))
+    return max(FINEST_STEP, 2.0 * float(np.sqrt(most)) / scale / LARGEST_LEVEL)
 
 
 def attempted(

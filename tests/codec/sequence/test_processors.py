@@ -16,8 +16,9 @@ from bsm.bitstream.container.reader import Reader, Signal
 from bsm.codec.arrays import Matrix, Positions
 from bsm.codec.sequence import first_frame_encoding
 from bsm.codec.sequence.encoder import encode_sequence
-from bsm.codec.sequence.gop import GopDecoder, Setting
+from bsm.codec.sequence.gop import GopDecoder
 from bsm.codec.sequence.options import SequenceOptions
+from bsm.codec.sequence.tracks import Setting
 from tests.shapes import torus
 
 ROOT = Path(__file__).parents[3]

@@ -1,0 +1,82 @@
+"""What low-delay frames refer to."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from bsm.bitstream.coefficients.matrices import make_level_bank
+from bsm.bitstream.entropy.range_coder import Bank, copy_bank
+from bsm.codec.arrays import Levels, Matrix
+from bsm.codec.sequence.row_prediction import Loop, time_cosines
+from bsm.codec.sequence.tracks import Track
+
+
+class FrameHistory:
+    """What low-delay frames refer to, block after block; starts anew with every key frame.
+
+    Attributes
+    ----------
+    bank : Bank
+        Adaptive state of the entropy coder.
+    levels : list of int32 arrays, shapes (c_i, dT)
+        Of the latest T frames, which came together.
+    """
+
+    def __init__(self, track: Track) -> None:
+        self.bank: Bank = make_level_bank()
+        self.levels: list[Levels] = []
+        self._track = track
+        self._cosines = np.empty((0, 0))
+        self._latest = track.start
+        self._before = track.start
+
+    def expect(self, frames: int) -> None:
+        """Get ready for so many frames; where those before were not as many, their levels are nothing like these."""
+        if len(self._cosines) == frames:
+            return
+        self._cosines = time_cosines(frames)
+        self.levels = [np.zeros((len(matrix), self._track.width * frames), np.int32) for matrix in self._track.known]
+
+    def begin(self, block: int, ends: Matrix, step: float) -> tuple[Loop, Matrix, Matrix]:
+        """What a block's change follows from, where the frames are `ends`, shape (k_i, dT), around it.
+
+        Returns
+        -------
+        loop : Loop
+            Has learnt how they have changed there.
+        known : float64 array, shape (c_i, 3d)
+        base : float64 array, shape (c_i, dT)
+            What the change is added to.
+        """
+        first, latest, base, count = self._track.first[block], self._latest[block], self.base(block), len(ends)
+        known = np.hstack((first, latest, latest - self._before[block]))
+        loop = Loop(known.shape[1], ends.shape[1]).begin(known[:count], ends - base[:count], step)
+        return loop, known[count:], base[count:]
+
+    def base(self, block: int) -> Matrix:
+        """The latest frame in all frames, around a block and its coefficients, shape (k_i + c_i, dT)."""
+        latest = self._latest[block]
+        base = np.zeros((len(latest), latest.shape[1] * len(self._cosines)))
+        base[:, : latest.shape[1]] = self._cosines[:, 0].sum() * latest
+        return base
+
+    def copy(self) -> FrameHistory:
+        """An independent copy of the present state."""
+        twin = FrameHistory(self._track)
+        twin.bank, twin.levels, twin._cosines = copy_bank(self.bank), self.levels, self._cosines
+        twin._latest, twin._before = self._latest, self._before
+        return twin
+
+    def commit(self, levels: list[Levels], told: list[Matrix]) -> None:
+        """Make frames the latest: their levels, shapes (c_i, dT), and what they are as of `base`."""
+        self.levels = levels
+        shown = [spread.reshape(len(spread), len(self._cosines), self._track.width) for spread in told]
+        if len(self._cosines) > 1:
+            self._latest = [np.tensordot(spread, self._cosines[-2], (1, 0)) for spread in shown]
+        self._latest, self._before = [np.tensordot(spread, self._cosines[-1], (1, 0)) for spread in shown], self._latest
+
+
+def held_cosines(width: int, frames: int) -> Matrix:
+    """The basis of low-delay frames, shape (d, T, dT): each cosine by itself in one number after the other."""
+    rows = np.kron(time_cosines(frames), np.eye(width))
+    return np.ascontiguousarray(rows.reshape(frames, width, -1).transpose(1, 0, 2))

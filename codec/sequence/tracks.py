@@ -1,0 +1,127 @@
+"""What every GOP builds upon: the dictionaries, and of each of its fields what is known before its first frame."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from bsm.codec.arrays import Faces, Levels, Matrix
+from bsm.codec.sequence.bending import BENDING_COLUMNS, Bending
+from bsm.codec.sequence.dictionaries import Dictionaries, Part, Site, find_sites
+from bsm.codec.static.rules import Scheme
+from bsm.codec.static.work import Allowance
+
+TRACK_MEMORY = 40.0
+"""Bytes of a number of a vertex in the first frame of an attribute that moves."""
+
+
+@dataclass(frozen=True, eq=False)
+class Track:
+    """What every GOP knows of one field before its first frame.
+
+    Parameters
+    ----------
+    width : int
+        Numbers d of a vertex.
+    first : list of float64 arrays, shapes (k_i + c_i, d)
+        The decoded first frame: where each part hangs on those before, and its difference from what these let expect.
+    known : list of float64 arrays, shapes (c_i, k)
+        What predicts components of the field: differences of the first frame, and of what bends positions.
+    around : list of float64 arrays, shapes (k_i, k)
+        The same columns where a part hangs on those before.
+    start : list of float64 arrays, shapes (k_i + c_i, d)
+        What a key frame is added to: of positions the first frame, of attributes nothing.
+    """
+
+    width: int
+    first: list[Matrix]
+    known: list[Matrix]
+    around: list[Matrix]
+    start: list[Matrix]
+
+
+@dataclass(frozen=True, eq=False)
+class Setting:
+    """What every GOP of a sequence is coded with.
+
+    Parameters
+    ----------
+    vertices : int
+    given : int
+        How many the decoder's user knows: copies of them, too.
+    dictionaries : Dictionaries
+    tracks : tuple of Track
+        Of positions, and of each attribute that moves.
+    """
+
+    vertices: int
+    given: int
+    dictionaries: Dictionaries
+    tracks: tuple[Track, ...]
+
+    @property
+    def sites(self) -> tuple[Site, ...]:
+        """The parts of the mesh."""
+        return self.dictionaries.sites
+
+    def empty_levels(self, columns: int) -> list[Levels]:
+        """Levels of all parts, each of shape (c_i, columns), to be read."""
+        return [np.zeros((site.width, columns), np.int32) for site in self.sites]
+
+    def field(self, columns: int, decoded: Callable[[int, Matrix], Matrix]) -> Matrix:
+        """The field, shape (n, m), of differences of each part, shape (c_i, m).
+
+        `decoded` gives them for the number of a part and what the field is around it, shape (k_i, m).
+        """
+        field = np.zeros((self.vertices, columns))
+        for index, part in enumerate(self.dictionaries.in_order()):
+            part.place(field, decoded(index, field[part.site.around]))
+        return field
+
+
+def make_setting(
+    scheme: Scheme,
+    faces: Faces,
+    first_frame: Matrix,
+    *,
+    given: int,
+    width: int,
+    threads: int | None,
+    allowance: Allowance,
+    moving: Sequence[Matrix] = (),
+) -> Setting:
+    """Make the dictionaries from the decoded first frame, shape (n, 3); see `find_sites` and `Setting`.
+
+    `moving` are values of attributes, shapes (n, d), in it, less those of vertex 0.
+    """
+    sites = find_sites(scheme.blocks, faces, first_frame, width=width, threads=threads, allowance=allowance)
+    dictionaries = Dictionaries(sites, scheme.rules, allowance, threads)
+    dictionaries.reserve()
+    widths = [values.shape[1] for values in moving]
+    allowance.keep(TRACK_MEMORY * len(first_frame) * sum(widths))
+    columns = [BENDING_COLUMNS, *widths]
+    allowance.keep(8.0 * sum(columns) * sum(len(site.around) for site in sites))
+
+    def known(_: int, part: Part) -> tuple[list[Matrix], list[Matrix]]:
+        bending = Bending.of(first_frame[part.vertices])
+        here, around = (
+            np.hstack([bending.columns(first_frame[vertices]), *(values[vertices] for values in moving)])
+            for vertices in (part.vertices, part.site.around)
+        )
+        return split_columns(part.coefficients(here, around), columns), split_columns(around, columns)
+
+    pairs = list(dictionaries.each(known))
+    tracks = []
+    for track, width in enumerate((3, *widths)):
+        known_of, around_of = ([np.ascontiguousarray(one[track]) for one in each] for each in zip(*pairs, strict=True))
+        first = [np.vstack((ends, part))[:, :width] for ends, part in zip(around_of, known_of, strict=True)]
+        start = [np.zeros_like(part) for part in first] if track else first
+        tracks.append(Track(width, first, known_of, around_of, start))
+    return Setting(len(first_frame), given, dictionaries, tuple(tracks))
+
+
+def split_columns(matrix: Matrix, widths: Sequence[int]) -> list[Matrix]:
+    """A matrix of all fields' columns as those of each."""
+    return np.split(matrix, np.cumsum(widths)[:-1], axis=1)
